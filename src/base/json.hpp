@@ -1,0 +1,77 @@
+// A JSON document as a tree in which everything knows its place: the line and column of every key and value, the
+// order of members, double keys. Our file formats need that for their errors and for saving what was not changed
+// byte for byte. Built over RapidJSON's event reader; no type of that library shows here.
+//
+//     Result<Json> file = parse_json(text, "arena.world.json");
+//     const Json* seed = file.value().find("seed");
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace vagus {
+
+constexpr int kJsonDepthMax = 100;
+constexpr size_t kJsonBytesMax = 64u << 20;
+
+struct Place {
+    int line = 0;    // from 1; 0: no place
+    int column = 0;  // from 1, in code points
+    friend bool operator==(const Place&, const Place&) = default;
+};
+
+enum class JsonKind { Null, Bool, Int, Float, String, Array, Object };
+
+struct JsonMember;
+
+struct Json {
+    JsonKind kind = JsonKind::Null;
+    Place at;
+    bool boolean = false;
+    int64_t integer = 0;   // Int: digits only, fits 64 bits
+    double number = 0;     // Int and Float
+    std::string text;      // String: its characters; numbers: as written in the file
+    std::string raw;       // String: as written in the file, quotes included; else empty
+    std::vector<Json> items;          // Array
+    std::vector<JsonMember> members;  // Object, in the order of the file, double keys kept
+
+    bool is_number() const { return kind == JsonKind::Int || kind == JsonKind::Float; }
+    // The first member of that key, or nullptr.
+    const Json* find(std::string_view key) const;
+};
+
+struct JsonMember {
+    std::string key;
+    std::string raw_key;  // as written, quotes included
+    Place at;             // of the key
+    Json value;
+};
+
+// "an object", "a whole number": for sentences.
+std::string_view name_of(JsonKind kind);
+
+struct JsonError {
+    Place at;
+    std::string what;  // without the place
+};
+
+// The first thing that keeps the text from being one JSON value (RFC 8259; UTF-8 without byte order mark; depth and
+// size limited; numbers out of range of a double and half surrogates refused).
+std::variant<Json, JsonError> read_json(std::string_view text);
+
+// The same as a Result; the Error reads "FILE:LINE:COL: sentence".
+Result<Json> parse_json(std::string_view text, std::string_view file);
+
+// The saved form of docs/formats.md: the object and the objects directly in it one member a line, the rest on one line
+// where it fits 100 characters. Numbers and strings as they were written.
+std::string format_json(const Json& value);
+
+// A string as JSON, quotes included: `"`, `\` and characters below U+0020 escaped, all else as it is.
+std::string json_quote(std::string_view text);
+
+}  // namespace vagus

@@ -1,0 +1,50 @@
+// The map of the program: one verb for each thing that Vagus does. What a verb takes and how it
+// runs stands in the file of its name; the list is verbs.def.
+#include <CLI/CLI.hpp>
+#include <csignal>
+
+#include "cli/output.hpp"
+#include "cli/usage.hpp"
+#include "cli/verbs.hpp"
+
+namespace {
+
+void describe(CLI::App& app) {
+    app.name("vagus");
+    app.set_version_flag("--version", "vagus " VAGUS_VERSION, "the version, and nothing else");
+    app.set_help_flag("-h,--help", "this text; `vagus VERB --help` says more about a verb");
+    app.require_subcommand(0, 1);
+    app.footer(
+        "Example:\n"
+        "  vagus sim examples/arena.world.json --watch\n"
+        "\n"
+        "Exit codes: 0 done, 1 the work failed, 2 the command line or a file it names is wrong.");
+}
+
+// CLI11 answers --help and wrong command lines by exceptions; they end here.
+int parse_and_run(CLI::App& app, int argc, const char* const* argv, const int& exit_code) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& answer) {
+        return app.exit(answer);
+    } catch (const CLI::ParseError& error) {
+        std::fputs(vagus::cli::usage_error(app, error).c_str(), stderr);
+        return vagus::cli::kExitUsage;
+    }
+    if (!app.get_subcommands().empty()) return exit_code;
+    std::fputs(vagus::cli::no_verb_error().c_str(), stderr);
+    return vagus::cli::kExitUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves is an ordinary failure of a write
+    CLI::App app("Vagus programs robots that are made of many microcontrollers.");
+    describe(app);
+    int exit_code = vagus::cli::kExitDone;
+#define VERB(name) vagus::cli::add_##name(app, exit_code);
+#include "cli/verbs.def"
+#undef VERB
+    return parse_and_run(app, argc, argv, exit_code);
+}

@@ -1,0 +1,32 @@
+#include "cli/nearest.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vagus::cli {
+namespace {
+
+const std::vector<std::string> kVerbs = {"compile", "exec", "switch", "node", "net", "sim"};
+
+TEST(Nearest, OneChangeIsForgivenInShortWords) {
+    EXPECT_EQ(nearest("exce", kVerbs), "exec");  // two neighbours swapped
+    EXPECT_EQ(nearest("noe", kVerbs),
+              "node");  // one letter missing; "net" would need one too, later in the list
+    EXPECT_EQ(nearest("siim", kVerbs), "sim");  // one letter too many
+}
+
+TEST(Nearest, ABeginningCountsAsOneChange) {
+    EXPECT_EQ(nearest("comp", kVerbs), "compile");
+}
+
+TEST(Nearest, NoGuessIsBetterThanAWrongOne) {
+    EXPECT_EQ(nearest("frobnicate", kVerbs), "");
+    EXPECT_EQ(nearest("", kVerbs), "");
+}
+
+TEST(Nearest, WordsBeyondTheLimitAreNotCompared) {
+    EXPECT_EQ(nearest(std::string(64, 'a'), {std::string(64, 'a')}), std::string(64, 'a'));
+    EXPECT_EQ(nearest(std::string(65, 'a'), {std::string(65, 'a')}), "");
+}
+
+}  // namespace
+}  // namespace vagus::cli

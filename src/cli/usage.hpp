@@ -1,0 +1,19 @@
+// Wrong command lines: one sentence that says what is wrong, one that says how to go on.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace vagus::cli {
+
+// For a person, with a final newline. `app` is the whole program after a failed parse.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error);
+
+// The command line names no verb.
+std::string no_verb_error();
+
+}  // namespace vagus::cli

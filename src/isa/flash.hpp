@@ -3,6 +3,9 @@
 //
 //     VAGUS_FLASH_TABLE(int16_t, kSine, 129) = { 0, 403, … };
 //     int16_t s = flash_read(&kSine[i]);
+//
+//     VAGUS_FLASH_TEXT(kFull, "memory is full");
+//     char c = flash_read(kFull + i);                 // '\0' at its end
 #pragma once
 
 #include <stdint.h>
@@ -10,13 +13,16 @@
 #if defined(__AVR__)
 #include <avr/pgmspace.h>
 #define VAGUS_FLASH_TABLE(type, name, size) const type name[size] PROGMEM
+#define VAGUS_FLASH_TEXT(name, text) const char name[] PROGMEM = text
 #else
 #define VAGUS_FLASH_TABLE(type, name, size) const type name[size]
+#define VAGUS_FLASH_TEXT(name, text) const char name[] = text
 #endif
 
 namespace vagus {
 
 #if defined(__AVR__)
+inline char flash_read(const char* at) { return static_cast<char>(pgm_read_byte(at)); }
 inline uint8_t flash_read(const uint8_t* at) { return pgm_read_byte(at); }
 inline int16_t flash_read(const int16_t* at) { return static_cast<int16_t>(pgm_read_word(at)); }
 inline uint16_t flash_read(const uint16_t* at) { return pgm_read_word(at); }

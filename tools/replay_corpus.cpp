@@ -1,5 +1,6 @@
-// Runs a fuzz target on every file of the folders and files given, once each: so that what fuzzing found stays
-// an ordinary test, also where libFuzzer is not installed. Fails if a given path is missing or holds no file.
+// Runs a fuzz target on every file of the folders and files given, once each: so that what fuzzing
+// found stays an ordinary test, also where libFuzzer is not installed. Fails if a given path is
+// missing or holds no file.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

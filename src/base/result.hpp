@@ -1,6 +1,6 @@
-// The two ways a function can end when the world does not cooperate: a value, or an Error that says why not.
-// Bugs are asserts, never Errors. Errors that a user sees name the thing, the place, what was expected, what was
-// found and how to mend it, all in `what`.
+// The two ways a function can end when the world does not cooperate: a value, or an Error that says
+// why not. Bugs are asserts, never Errors. Errors that a user sees name the thing, the place, what
+// was expected, what was found and how to mend it, all in `what`.
 #pragma once
 
 #include <cassert>
@@ -60,10 +60,11 @@ public:
 
 }  // namespace vagus
 
-// The value of `expression`, or return its Error from the function around. The only macro that alters control flow.
-#define TRY(expression)                                       \
-    __extension__({                                           \
-        auto&& try_result = (expression);                     \
-        if (!try_result.ok()) return try_result.error();      \
-        std::move(try_result.value());                        \
+// The value of `expression`, or return its Error from the function around. The only macro that
+// alters control flow.
+#define TRY(expression)                                  \
+    __extension__({                                      \
+        auto&& try_result = (expression);                \
+        if (!try_result.ok()) return try_result.error(); \
+        std::move(try_result.value());                   \
     })

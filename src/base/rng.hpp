@@ -1,4 +1,5 @@
-// A seeded generator with the same sequence on every machine. Everything random in Vagus comes from one of these.
+// A seeded generator with the same sequence on every machine. Everything random in Vagus comes from
+// one of these.
 #pragma once
 
 #include <cstdint>

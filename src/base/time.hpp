@@ -1,5 +1,5 @@
-// Time as Vagus counts it: whole microseconds since the start of a run (or of the process, at the rim).
-// Nothing below `net` asks for the time; it is handed in.
+// Time as Vagus counts it: whole microseconds since the start of a run (or of the process, at the
+// rim). Nothing below `net` asks for the time; it is handed in.
 #pragma once
 
 #include <chrono>
@@ -7,6 +7,7 @@
 namespace vagus {
 
 using Duration = std::chrono::microseconds;
-using Time = Duration;  // since the start; a point and a length never meet in one formula without a name saying which
+using Time = Duration;  // since the start; a point and a length never meet in one formula without a
+                        // name saying which
 
 }  // namespace vagus

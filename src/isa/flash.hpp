@@ -1,5 +1,6 @@
-// Constant tables that must not fill a microcontroller's RAM. On an AVR, flash is an address space of its own and
-// is read by special instructions; everywhere else this is a plain array. The only file that knows <avr/pgmspace.h>.
+// Constant tables that must not fill a microcontroller's RAM. On an AVR, flash is an address space
+// of its own and is read by special instructions; everywhere else this is a plain array. The only
+// file that knows <avr/pgmspace.h>.
 //
 //     VAGUS_FLASH_TABLE(int16_t, kSine, 129) = { 0, 403, … };
 //     int16_t s = flash_read(&kSine[i]);
@@ -22,10 +23,18 @@
 namespace vagus {
 
 #if defined(__AVR__)
-inline char flash_read(const char* at) { return static_cast<char>(pgm_read_byte(at)); }
-inline uint8_t flash_read(const uint8_t* at) { return pgm_read_byte(at); }
-inline int16_t flash_read(const int16_t* at) { return static_cast<int16_t>(pgm_read_word(at)); }
-inline uint16_t flash_read(const uint16_t* at) { return pgm_read_word(at); }
+inline char flash_read(const char* at) {
+    return static_cast<char>(pgm_read_byte(at));
+}
+inline uint8_t flash_read(const uint8_t* at) {
+    return pgm_read_byte(at);
+}
+inline int16_t flash_read(const int16_t* at) {
+    return static_cast<int16_t>(pgm_read_word(at));
+}
+inline uint16_t flash_read(const uint16_t* at) {
+    return pgm_read_word(at);
+}
 #else
 template <typename T>
 inline T flash_read(const T* at) {

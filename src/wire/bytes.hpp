@@ -1,5 +1,5 @@
-// Reading and writing little-endian fields in a buffer of known size. Errors are sticky: after the first one a reader
-// yields zeros and a writer writes nothing, so one check at the end is enough.
+// Reading and writing little-endian fields in a buffer of known size. Errors are sticky: after the
+// first one a reader yields zeros and a writer writes nothing, so one check at the end is enough.
 #pragma once
 
 #include <stdint.h>
@@ -55,7 +55,8 @@ private:
 
 class Writer {
 public:
-    Writer(uint8_t* bytes, uint16_t capacity) : begin_(bytes), size_(0), capacity_(capacity), failed_(false) {}
+    Writer(uint8_t* bytes, uint16_t capacity)
+        : begin_(bytes), size_(0), capacity_(capacity), failed_(false) {}
 
     void u8(uint8_t value) {
         if (!room(1)) return;

@@ -7,7 +7,9 @@ namespace wire {
 
 namespace {
 
-uint16_t word_at(const uint8_t* bytes) { return static_cast<uint16_t>(bytes[0] | (bytes[1] << 8)); }
+uint16_t word_at(const uint8_t* bytes) {
+    return static_cast<uint16_t>(bytes[0] | (bytes[1] << 8));
+}
 
 void put_word(uint8_t* bytes, uint16_t value) {
     bytes[0] = static_cast<uint8_t>(value & 0xff);

@@ -5,8 +5,8 @@
 //     offset 4  u16 type     message id
 //     offset 6  payload
 //
-// FrameReader turns a stream of bytes, in pieces of any size, into frames. A frame that announces more than
-// kPayloadMax bytes is read and thrown away, and counted; the stream stays aligned.
+// FrameReader turns a stream of bytes, in pieces of any size, into frames. A frame that announces
+// more than kPayloadMax bytes is read and thrown away, and counted; the stream stays aligned.
 //
 //     FrameReader reader;
 //     while (size > 0) {
@@ -36,14 +36,16 @@ struct Frame {
     }
 };
 
-// Writes header and payload to `bytes`, which has room for kFrameMax; gives the number of bytes written.
+// Writes header and payload to `bytes`, which has room for kFrameMax; gives the number of bytes
+// written.
 uint16_t encode(const Frame& frame, uint8_t* bytes);
 
 class FrameReader {
 public:
     FrameReader() : have_(0), skip_(0), complete_(false), dropped_(0) {}
 
-    // Takes up to the end of the current frame from `bytes`; gives how many bytes were used (at least 1 if size > 0).
+    // Takes up to the end of the current frame from `bytes`; gives how many bytes were used (at
+    // least 1 if size > 0).
     uint16_t feed(const uint8_t* bytes, uint16_t size);
     // True after a feed() that ended a frame of legal size.
     bool complete() const { return complete_; }

@@ -1,12 +1,13 @@
-// The layouts of messages.hpp, each written once. A stream has the same verbs whether it reads or writes.
-// Included by messages.hpp only.
+// The layouts of messages.hpp, each written once. A stream has the same verbs whether it reads or
+// writes. Included by messages.hpp only.
 
 namespace vagus {
 namespace wire {
 
 class DecodeStream {
 public:
-    DecodeStream(const uint8_t* bytes, uint16_t size) : reader_(bytes, size), end_(bytes + size), too_long_(false) {}
+    DecodeStream(const uint8_t* bytes, uint16_t size)
+        : reader_(bytes, size), end_(bytes + size), too_long_(false) {}
 
     void u8(uint8_t& value) { value = reader_.u8(); }
     void u16(uint16_t& value) { value = reader_.u16(); }
@@ -71,14 +72,14 @@ private:
 };
 
 // `Message` is const when writing; that is all that tells the two apart here.
-#define VAGUS_LAYOUT(name)                                                        \
-    template <typename Stream>                                                    \
-    void layout_fields(Stream& s, name& m);                                       \
-    template <typename Stream>                                                    \
-    void layout(Stream& s, const name& m) {                                       \
+#define VAGUS_LAYOUT(name)                                                       \
+    template <typename Stream>                                                   \
+    void layout_fields(Stream& s, name& m);                                      \
+    template <typename Stream>                                                   \
+    void layout(Stream& s, const name& m) {                                      \
         layout_fields(s, const_cast<name&>(m)); /* an EncodeStream only reads */ \
-    }                                                                             \
-    template <typename Stream>                                                    \
+    }                                                                            \
+    template <typename Stream>                                                   \
     void layout_fields(Stream& s, name& m)
 
 VAGUS_LAYOUT(Description) {
@@ -125,8 +126,12 @@ VAGUS_LAYOUT(ArrayAccessOutOfBounds) {
     s.u16(m.size);
     s.u16(m.index);
 }
-VAGUS_LAYOUT(DivisionByZero) { s.u16(m.pc); }
-VAGUS_LAYOUT(EventExecutionKilled) { s.u16(m.pc); }
+VAGUS_LAYOUT(DivisionByZero) {
+    s.u16(m.pc);
+}
+VAGUS_LAYOUT(EventExecutionKilled) {
+    s.u16(m.pc);
+}
 VAGUS_LAYOUT(NodeSpecificError) {
     s.u16(m.pc);
     s.text(m.text);
@@ -139,17 +144,27 @@ VAGUS_LAYOUT(BreakpointSetResult) {
     s.u16(m.pc);
     s.u16(m.success);
 }
-VAGUS_LAYOUT(NodePresent) { s.u16(m.version); }
+VAGUS_LAYOUT(NodePresent) {
+    s.u16(m.version);
+}
 VAGUS_LAYOUT(DeviceInfo) {
     s.u8(m.info);
     s.text(m.value);
 }
-VAGUS_LAYOUT(ChangedVariables) { s.bytes(m.areas); }
-VAGUS_LAYOUT(GetDescription) { s.u16(m.version); }
-VAGUS_LAYOUT(ListNodes) { s.u16(m.version); }
+VAGUS_LAYOUT(ChangedVariables) {
+    s.bytes(m.areas);
+}
+VAGUS_LAYOUT(GetDescription) {
+    s.u16(m.version);
+}
+VAGUS_LAYOUT(ListNodes) {
+    s.u16(m.version);
+}
 
 #define VAGUS_COMMAND_LAYOUT(name) \
-    VAGUS_LAYOUT(name) { s.u16(m.dest); }
+    VAGUS_LAYOUT(name) {           \
+        s.u16(m.dest);             \
+    }
 VAGUS_COMMAND_LAYOUT(Reset)
 VAGUS_COMMAND_LAYOUT(Run)
 VAGUS_COMMAND_LAYOUT(Pause)
@@ -223,7 +238,9 @@ VAGUS_LAYOUT(BootloaderDescription) {
     s.u16(m.first_page);
     s.u16(m.page_count);
 }
-VAGUS_LAYOUT(BootloaderPageDataRead) { s.bytes(m.bytes); }
+VAGUS_LAYOUT(BootloaderPageDataRead) {
+    s.bytes(m.bytes);
+}
 VAGUS_LAYOUT(BootloaderAck) {
     s.u16(m.error);
     if (s.at_end()) {

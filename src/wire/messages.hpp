@@ -1,5 +1,6 @@
-// The fields of every protocol message, and one layout() for each: reading and writing walk the same list, so they
-// cannot drift apart (docs/spec/aseba-wire-and-vm.md, sections 2.2 to 2.4 and 2.9).
+// The fields of every protocol message, and one layout() for each: reading and writing walk the
+// same list, so they cannot drift apart (docs/spec/aseba-wire-and-vm.md, sections 2.2 to 2.4
+// and 2.9).
 //
 //     wire::GetVariables ask{.dest = 3, .start = 0, .length = 10};
 //     wire::Frame frame;
@@ -76,7 +77,8 @@ struct Variables : Typed<MessageType::Variables> {
     Words values;
 };
 struct ArrayAccessOutOfBounds : Typed<MessageType::ArrayAccessOutOfBounds> {
-    uint16_t pc, size, index;  // deque natives of foreign nodes send only the pc (D3): then size and index are 0
+    uint16_t pc, size,
+        index;  // deque natives of foreign nodes send only the pc (D3): then size and index are 0
 };
 struct DivisionByZero : Typed<MessageType::DivisionByZero> {
     uint16_t pc;
@@ -182,13 +184,15 @@ struct BootloaderAck : Typed<MessageType::BootloaderAck> {
     uint16_t error, address;  // the address only with error 2
 };
 
-// Fills `message` from a frame that we do not trust. ArrayAccessOutOfBounds may be short, see there.
+// Fills `message` from a frame that we do not trust. ArrayAccessOutOfBounds may be short, see
+// there.
 template <typename Message>
 [[gnu::warn_unused_result]] Error decode_message(const Frame& frame, Message& message);
 
 // Fills `frame`. Fails only if the fields do not fit a frame.
 template <typename Message>
-[[gnu::warn_unused_result]] Error encode_message(const Message& message, uint16_t source, Frame& frame);
+[[gnu::warn_unused_result]] Error encode_message(const Message& message, uint16_t source,
+                                                 Frame& frame);
 
 // The name of a message type as in messages.def, or nullptr for user events and unknown types.
 const char* message_name(uint16_t type);

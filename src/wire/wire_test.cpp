@@ -44,8 +44,9 @@ TEST(Messages, EncodesTheHandshakeOfDump1) {
 }
 
 TEST(Messages, DecodesTheDescriptionOfDump1) {
-    const Frame frame = frame_of({0x18, 0, 1, 0, 0, 0x90, 9, 't', 'h', 'y', 'm', 'i', 'o', '-', 'I', 'I',
-                                  5, 0, 0xfe, 5, 0x20, 0, 0x4a, 2, 0x1e, 0, 0x11, 0, 0x34, 0});
+    const Frame frame =
+        frame_of({0x18, 0, 1, 0,    0, 0x90, 9, 't',  'h', 'y',  'm', 'i',  'o', '-',  'I',
+                  'I',  5, 0, 0xfe, 5, 0x20, 0, 0x4a, 2,   0x1e, 0,   0x11, 0,   0x34, 0});
     Description description;
     ASSERT_EQ(decode_message(frame, description), Error::None);
     EXPECT_EQ(std::string(description.name.bytes, description.name.size), "thymio-II");
@@ -67,7 +68,8 @@ TEST(Messages, AcceptsTheShortFaultOfDequesOfDump8) {
 TEST(Messages, NamesWhatIsWrongWithAPayload) {
     ExecutionStateChanged state;
     EXPECT_EQ(decode_message(frame_of({3, 0, 1, 0, 0x0a, 0x90, 5, 0, 3}), state), Error::Truncated);
-    EXPECT_EQ(decode_message(frame_of({5, 0, 1, 0, 0x0a, 0x90, 5, 0, 3, 0, 9}), state), Error::TrailingBytes);
+    EXPECT_EQ(decode_message(frame_of({5, 0, 1, 0, 0x0a, 0x90, 5, 0, 3, 0, 9}), state),
+              Error::TrailingBytes);
     EXPECT_EQ(decode_message(frame_of({0, 0, 1, 0, 3, 0xa0}), state), Error::WrongType);
 }
 
@@ -117,7 +119,8 @@ TEST(FrameReader, ThrowsAwayAFrameOneByteTooLongAndStaysAligned) {
     FrameReader reader;
     int frames = 0;
     for (size_t at = 0; at < stream.size();) {
-        at += reader.feed(stream.data() + at, static_cast<uint16_t>(std::min<size_t>(100, stream.size() - at)));
+        at += reader.feed(stream.data() + at,
+                          static_cast<uint16_t>(std::min<size_t>(100, stream.size() - at)));
         if (!reader.complete()) continue;
         ++frames;
         EXPECT_EQ(reader.frame().source, 7);

@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+"""The rules of the house that a machine can check. Prints FILE:LINE: sentence for each breach; exit 1 if there is one.
+
+    tools/tidy.py            check the checkout around this file
+    tools/tidy.py --self     check that each rule still catches its example
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+# An arrow means "may include" (docs/ARCHITECTURE.md). Nothing else may.
+BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "vm", "base", "isa", "wire"]
+MAY_INCLUDE = {
+    "base": [],
+    "isa": [],
+    "wire": [],
+    "vm": ["isa", "wire"],
+    "node": ["vm", "isa", "wire"],
+    "hub": ["wire", "base"],
+    "plan": ["base"],
+    "aesl": ["isa", "base"],
+    "run": ["plan", "base"],
+    "toolbox": ["run", "plan", "wire", "base"],
+    "sim": ["hub", "node", "vm", "isa", "wire", "base"],
+    "debug": ["aesl", "wire", "base"],
+    "net": ["hub", "wire", "base"],
+    "session": BELOW_SESSION,
+    "serve": ["session", "net", "base"],
+    "cli": ["serve", "session"] + BELOW_SESSION,
+}
+# Modules that compile for a microcontroller: these headers and no others.
+FREESTANDING = ["isa", "vm", "wire", "node"]
+FREESTANDING_HEADERS = {"stdint.h", "stddef.h", "string.h"}
+FLASH_HEADER = "src/isa/flash.hpp"
+
+# The rim: only here may the program talk to the operating system.
+SYSTEM_HEADERS = re.compile(r"^(sys/|netinet/|arpa/|linux/|unistd\.h|termios\.h|fcntl\.h|poll\.h|pty\.h|signal\.h|boost/)")
+MAY_CALL_SYSTEM = ("src/net/", "src/cli/", "src/serve/", "src/run/real_time.cpp", "src/base/file.cpp",
+                   "src/toolbox/load.cpp")
+# Libraries that stay behind one door.
+ONE_DOOR = [
+    (re.compile(r"^rapidjson/"), ("src/base/json",), "JSON is read through base/json"),
+    (re.compile(r"^boost/"), ("src/net/", "src/serve/"), "sockets stand in net and serve only"),
+    (re.compile(r"^CLI/"), ("src/cli/",), "the command line is known in cli only"),
+    (re.compile(r"^box2d/"), ("src/sim/",), "physics is known in sim only"),
+    (re.compile(r"^pugixml"), ("src/aesl/project",), "XML is read in aesl/project only"),
+    (re.compile(r"^iostream$"), ("src/cli/",), "libraries give values; only cli prints"),
+]
+CLOCKS = re.compile(r"\b(steady_clock|system_clock|high_resolution_clock|gettimeofday|clock_gettime)\b")
+MAY_TELL_TIME = ("src/net/", "src/run/real_time.cpp", "src/serve/", "src/cli/")
+
+LINES_MAX = 600
+COLUMNS_MAX = 100
+FUNCTION_LINES_MAX = 60
+# Functions that may be longer, each with its reason.
+LONG_FUNCTIONS = {
+    "src/vm/": "the instruction loop is one picture",
+}
+SLEEPS = re.compile(r"\b(sleep_for|sleep_until|usleep|nanosleep)\s*\(|(?<![\w.:])sleep\s*\(")
+UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
+SUFFIXES = {".hpp", ".cpp", ".inl", ".h"}
+
+
+class Checker:
+    def __init__(self, path, text):
+        self.path = path
+        self.lines = text.split("\n")
+        self.breaches = []
+
+    def say(self, line, sentence):
+        self.breaches.append(f"{self.path}:{line}: {sentence}")
+
+    def module(self):
+        parts = self.path.split("/")
+        return parts[1] if parts[0] == "src" and len(parts) > 2 else None
+
+    def is_test(self):
+        return self.path.endswith("_test.cpp") or self.path.startswith(("tests/", "bench/", "fuzz/"))
+
+    def run(self):
+        self.check_size()
+        for number, line in enumerate(self.lines, 1):
+            self.check_line(number, line)
+            include = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+            if include:
+                self.check_include(number, include.group(1), '"' in line)
+        if self.path.endswith(".hpp") and "#pragma once" not in self.lines:
+            self.say(1, "a header begins with its sentence and #pragma once")
+        if self.module() and not self.path.endswith(".inl") and not self.is_test():
+            self.check_functions()
+        return self.breaches
+
+    def check_size(self):
+        if len(self.lines) > LINES_MAX + 1:
+            self.say(len(self.lines), f"{len(self.lines) - 1} lines; a file stops at {LINES_MAX}: split it by idea")
+
+    def check_line(self, number, line):
+        if len(line) > COLUMNS_MAX and "http" not in line:
+            self.say(number, f"{len(line)} columns; a line stops at {COLUMNS_MAX}")
+        if "\t" in line and self.module():
+            self.say(number, "a tab; indent with spaces (in strings write \\t)")
+        if UNFINISHED.search(line):
+            self.say(number, "unfinished work: finish it, or put it into an issue")
+        if SLEEPS.search(line) and not self.path.startswith("src/net/"):
+            self.say(number, "a sleep: wait for the condition, or be told the time")
+        if CLOCKS.search(line) and self.module() and not self.is_test() and not self.path.startswith(MAY_TELL_TIME):
+            self.say(number, "a clock below the rim: be told the time")
+
+    def check_include(self, number, name, quoted):
+        module = self.module()
+        if module is None:
+            return
+        first = name.split("/")[0]
+        if first in MAY_INCLUDE and quoted:
+            self.check_arrow(number, module, first)
+            return
+        if quoted and "/" not in name:
+            self.say(number, f'write the whole path: "{module}/{name}"')
+        if module in FREESTANDING and not self.is_test() and not self.is_peer(name):
+            if name not in FREESTANDING_HEADERS and not (self.path == FLASH_HEADER and name == "avr/pgmspace.h"):
+                self.say(number, f"<{name}> in {module}, which must build for a microcontroller: only "
+                                 + ", ".join(sorted(FREESTANDING_HEADERS)))
+        if SYSTEM_HEADERS.match(name) and not self.is_test() and not self.path.startswith(MAY_CALL_SYSTEM):
+            self.say(number, f"<{name}>: the operating system is reached at the rim only (net, cli, base/file.cpp)")
+        for pattern, doors, sentence in ONE_DOOR:
+            if pattern.match(name) and not self.is_test() and not self.path.startswith(doors):
+                self.say(number, f"<{name}>: {sentence}")
+
+    @staticmethod
+    def is_peer(name):
+        return name.startswith("gtest/")
+
+    def check_arrow(self, number, module, other):
+        if other == module or self.is_test():
+            return
+        if other not in MAY_INCLUDE.get(module, []):
+            self.say(number, f"{module} may not include {other} (docs/ARCHITECTURE.md, layers)")
+
+    def check_functions(self):
+        """A function's body starts at a line that ends in `{` and is not a type or namespace, at depth 0 of its scope."""
+        start = None
+        for number, line in enumerate(self.lines, 1):
+            if start is None and re.match(r"^( {0,4})\S.*\)\s*(const|noexcept|override|final|\s)*\{$", line):
+                indent = len(line) - len(line.lstrip())
+                if not re.match(r"\s*(if|for|while|switch|namespace|class|struct|enum|union)\b", line):
+                    start = (number, indent)
+            elif start is not None and line.startswith(" " * start[1] + "}"):
+                length = number - start[0] + 1
+                allowed = any(self.path.startswith(prefix) for prefix in LONG_FUNCTIONS)
+                if length > FUNCTION_LINES_MAX and not allowed:
+                    self.say(start[0], f"a function of {length} lines; it stops at {FUNCTION_LINES_MAX}")
+                start = None
+
+
+def check_module_known(root):
+    for folder in sorted((root / "src").iterdir()):
+        if folder.is_dir() and folder.name not in MAY_INCLUDE:
+            yield f"src/{folder.name}:1: a module that MAY_INCLUDE in tools/tidy.py does not know: say what it may include"
+
+
+def check_words(root):
+    """Pages and comments speak of the project alone: no path of one machine."""
+    for path in sorted(root.glob("docs/**/*.md")) + sorted(root.glob("*.md")):
+        for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
+            if re.search(r"(^|[\s`(])(/work/|/root/|/home/(?!vagus))|\.\./shared", line):
+                yield f"{path.relative_to(root)}:{number}: a path of one machine"
+
+
+def check_tree(root):
+    breaches = []
+    for top in ("src", "tests", "bench", "fuzz", "firmware", "tools", "examples"):
+        for path in sorted((root / top).rglob("*")):
+            if path.suffix in SUFFIXES and "build" not in path.parts:
+                name = str(path.relative_to(root))
+                breaches += Checker(name, path.read_text(encoding="utf-8")).run()
+    return breaches + list(check_module_known(root)) + list(check_words(root))
+
+
+EXAMPLES = [  # path, text, what must be said of it
+    ("src/vm/a.cpp", '#include "node/node.hpp"\n', "vm may not include node"),
+    ("src/hub/a.cpp", '#include "net/socket.hpp"\n', "hub may not include net"),
+    ("src/vm/a.cpp", "#include <vector>\n", "must build for a microcontroller"),
+    ("src/sim/a.cpp", "#include <unistd.h>\n", "the rim only"),
+    ("src/debug/a.cpp", "#include <rapidjson/reader.h>\n", "base/json"),
+    ("src/hub/a.hpp", "// A header.\n", "#pragma once"),
+    ("src/hub/a.cpp", "x" * 101 + "\n", "101 columns"),
+    ("src/hub/a.cpp", "\n" * 602, "602 lines"),
+    ("src/hub/a.cpp", "auto t = std::chrono::steady_clock::now();\n", "a clock below the rim"),
+    ("src/hub/a_test.cpp", "std::this_thread::sleep_for(1s);\n", "a sleep"),
+    ("src/hub/a.cpp", "// TO" + "DO: later\n", "unfinished"),
+    ("src/hub/a.cpp", "void f(int a) {\n" + "    g();\n" * 60 + "}\n", "a function of 62 lines"),
+    ("src/hub/a.cpp", '#include "hub.hpp"\n', "write the whole path"),
+]
+
+
+def check_self():
+    failed = 0
+    for path, text, sentence in EXAMPLES:
+        found = Checker(path, text).run()
+        if not any(sentence in breach for breach in found):
+            print(f"the rule for «{sentence}» no longer catches its example; found {found}")
+            failed += 1
+    allowed = Checker("src/hub/a.cpp", '#include "wire/frame.hpp"\n#include <vector>\n').run()
+    if allowed:
+        print(f"what is allowed was refused: {allowed}")
+        failed += 1
+    return failed
+
+
+def main():
+    if sys.argv[1:] == ["--self"]:
+        return 1 if check_self() else 0
+    breaches = check_tree(ROOT)
+    for breach in breaches:
+        print(breach)
+    return 1 if breaches else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

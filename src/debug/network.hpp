@@ -1,0 +1,178 @@
+// A network of nodes as a host sees it: who is there, what they are, what they do; programs,
+// breakpoints, variables and events on them (wire spec, sections 2.6 to 2.9). No sockets and no
+// clock: it is handed frames and the time, and gives frames to send and events to read. One thread.
+//
+//     Network network;
+//     network.set_common(project.common);
+//     for (;;) {                                              // the caller's loop, around a link
+//         for (const wire::Frame& frame : arrived) network.receive(now, frame);
+//         network.tick(now);                                  // at the latest at
+//         network.next_tick() for (const wire::Frame& frame : network.take_frames()) send(frame);
+//         for (const Event& event : network.take_events()) show(event);
+//     }
+//
+//     const Result<NodeId> robot = network.find("thymio-II");       // after its NodeDescribed
+//     const aesl::Compilation done = network.compile(robot.value(), source, {});
+//     const Result<RequestId> load = network.load(robot.value(), done.program);
+//     // … until RequestDone{load} comes: the program is there and runs, breakpoints set.
+//
+// What is asked is sent with the next take_frames(). A request fails after kAnswerWithin without an
+// answer, and when its node disconnects. Everything that a hostile bus can make grow has a limit
+// below.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aesl/compile.hpp"
+#include "aesl/target.hpp"
+#include "base/result.hpp"
+#include "base/time.hpp"
+#include "debug/event.hpp"
+#include "wire/frame.hpp"
+
+namespace vagus::debug {
+
+constexpr Duration kListEvery = std::chrono::milliseconds(1000);   // ListNodes (2.6, 1)
+constexpr Duration kSilenceMax = std::chrono::milliseconds(3000);  // then disconnected (2.6, 5)
+constexpr Duration kDescriptionRetry =
+    std::chrono::milliseconds(1000);  // no progress for so long: ask again
+constexpr int kDescriptionTriesMax =
+    5;  // in a row without progress; fork fragments: then the whole
+constexpr Duration kAnswerWithin = std::chrono::milliseconds(3000);  // for requests
+constexpr Duration kWatchEvery = std::chrono::milliseconds(100);  // polling while someone watches
+
+constexpr size_t kNodesMax = 1024;
+constexpr size_t kDescriptionItemsMax = 4096;  // of each list: more than 12-bit addresses can reach
+constexpr size_t kDescriptionBytesMax = 256 * 1024;      // names and texts of one node
+constexpr size_t kDescriptionBytesTotalMax = 64u << 20;  // of all nodes
+constexpr size_t kRequestsMax = 64;                      // waiting for one node
+constexpr size_t kWatchesMax = 256;                      // on one node
+constexpr size_t kBreakpointsMax = 16;                   // the table of a node (2.3)
+constexpr size_t kEventsMax = 65536;       // not taken yet; then the newest are dropped and counted
+constexpr size_t kFramesMax = 16384;       // not taken yet; the same
+constexpr uint32_t kLineStepsMax = 10000;  // instructions of one step by line
+
+// Kept by the host and set anew on the node after each load and reconnection.
+struct Breakpoint {
+    int line = 0;
+    std::string condition;  // empty: always
+    uint16_t pc = 0;
+    bool on_node = false;  // the node said so
+    uint32_t hits = 0;     // stops here with a true condition
+};
+
+// One node, for reading.
+struct NodeView {
+    NodeId id = 0;
+    std::string name;  // empty until described
+    uint16_t protocol = 0;
+    bool connected = false;
+    bool described = false;
+    ProgramState state = ProgramState::Unknown;
+    CodePlace at;                          // as the node told last
+    aesl::Target target;                   // empty until described
+    std::optional<aesl::Program> program;  // what this host loaded or was told that the node has
+    std::vector<Breakpoint> breakpoints;
+};
+
+// Words of a variable, `first` counted from its beginning.
+struct VariableRange {
+    std::string name;
+    uint16_t address = 0;  // of the first word that is meant
+    uint16_t first = 0;
+    uint16_t count = 1;
+};
+
+class Network {
+public:
+    Network();
+    ~Network();
+    Network(Network&&) noexcept;
+    Network& operator=(Network&&) noexcept;
+
+    // ---- the bus ----
+    void receive(Time now, const wire::Frame& frame);
+    void tick(Time now);
+    // When tick() has something to do again, at the latest.
+    Time next_tick() const;
+    std::vector<wire::Frame> take_frames();
+    std::vector<Event> take_events();
+    // Frames and events thrown away because nobody took them.
+    uint64_t dropped() const;
+
+    // ---- nodes ----
+    // Ascending; disconnected ones too, but not those that said good-bye.
+    std::vector<NodeId> nodes() const;
+    // Borrowed until the next call that is not const; nullptr if there is no such node.
+    const NodeView* node(NodeId id) const;
+    // A described node by its number or name. The Error names the nodes there are, near names
+    // first.
+    Result<NodeId> find(std::string_view name_or_id) const;
+    // Asks all nodes who is there now, not only at the next second.
+    void list_nodes();
+
+    // ---- names ----
+    // Names and numbers of events and constants that all nodes share; for compile(), emit() and
+    // UserEvent.
+    void set_common(aesl::CommonDefinitions common);
+    const aesl::CommonDefinitions& common() const;
+
+    // ---- programs ----
+    // For the node's own description. An empty program with errors if it does not compile.
+    aesl::Compilation compile(NodeId id, std::string_view source,
+                              const aesl::Options& options) const;
+    // Sends the program in fragments, waits for the node's word after each, sets breakpoints anew,
+    // runs it.
+    Result<RequestId> load(NodeId id, const aesl::Program& program);
+    // The node has this program already, as another host or its flash loaded it: gives names,
+    // lines, breakpoints.
+    Status adopt(NodeId id, const aesl::Program& program);
+    // Continues; leaves a breakpoint at which the node stands (Step, then Run: 2.8).
+    Result<RequestId> run(NodeId id);
+    Result<RequestId> pause(NodeId id);
+    Result<RequestId> stop(NodeId id);
+    Result<RequestId> reset(NodeId id);
+    // To another line or the end of the event; one instruction if the program is not known.
+    Result<RequestId> step(NodeId id);
+    // Asks for the state and the place.
+    Result<RequestId> query(NodeId id);
+    // The node keeps its program for its next start. Nodes need not answer; the note says what the
+    // node told.
+    Result<RequestId> save(NodeId id);
+
+    // ---- breakpoints ----
+    // At a line with code. `condition`: an expression over the node's variables and the constants
+    // in the grammar of AESL (debug/condition.hpp), evaluated here when the node stops; false lets
+    // it go on. Empty: always.
+    Result<RequestId> set_breakpoint(NodeId id, int line, std::string_view condition);
+    Status clear_breakpoint(NodeId id, int line);
+    Status clear_breakpoints(NodeId id);
+
+    // ---- variables ----
+    // "NAME", "NAME[3]" or "NAME[2:5]" (first and last). The Error suggests near names.
+    Result<VariableRange> variable(NodeId id, std::string_view text) const;
+    // Answered by VariablesArrived before RequestDone.
+    Result<RequestId> get(NodeId id, const VariableRange& range);
+    // Writes and waits for the node's sign of life behind it. At most range.count values.
+    Result<RequestId> set(NodeId id, const VariableRange& range, std::span<const int16_t> values);
+    // VariableChanged now and whenever it differs, polled every `every`.
+    Status watch(NodeId id, const VariableRange& range, Duration every = kWatchEvery);
+    void unwatch(NodeId id, std::string_view name);
+
+    // ---- events ----
+    // By name, or by number if there is no such name. The count of arguments is checked where it is
+    // known.
+    Status emit(std::string_view event, std::span<const int16_t> arguments);
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vagus::debug

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/nearest.hpp"
+#include "base/nearest.hpp"
 
 namespace vagus::cli {
 namespace {

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-namespace vagus::cli {
+namespace vagus {
 
 // The word of `known` with the fewest changes (insert, delete, replace, swap of neighbours) from
 // `typed`, the first of equals; a word that `typed` begins counts as one change. Empty if all need
 // more than a third of their length, at least one: then a guess would only mislead.
 std::string nearest(std::string_view typed, const std::vector<std::string>& known);
 
-}  // namespace vagus::cli
+}  // namespace vagus

@@ -1,8 +1,8 @@
-#include "cli/nearest.hpp"
+#include "base/nearest.hpp"
 
 #include <algorithm>
 
-namespace vagus::cli {
+namespace vagus {
 namespace {
 
 constexpr size_t kWordMax = 64;  // longer words are not compared: the table is quadratic
@@ -42,4 +42,4 @@ std::string nearest(std::string_view typed, const std::vector<std::string>& know
     return best;
 }
 
-}  // namespace vagus::cli
+}  // namespace vagus

@@ -1,8 +1,8 @@
-#include "cli/nearest.hpp"
+#include "base/nearest.hpp"
 
 #include <gtest/gtest.h>
 
-namespace vagus::cli {
+namespace vagus {
 namespace {
 
 const std::vector<std::string> kVerbs = {"compile", "exec", "switch", "node", "net", "sim"};
@@ -29,4 +29,4 @@ TEST(Nearest, WordsBeyondTheLimitAreNotCompared) {
 }
 
 }  // namespace
-}  // namespace vagus::cli
+}  // namespace vagus

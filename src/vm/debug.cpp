@@ -1,0 +1,152 @@
+// The commands of hosts: program, inspect, run, stop (docs/spec/aseba-wire-and-vm.md, section 2.3).
+#include "vm/internal.hpp"
+
+namespace vagus {
+namespace vm {
+
+using wire::MessageType;
+
+namespace {
+
+constexpr uint16_t kFirstCommand = static_cast<uint16_t>(MessageType::SetBytecode);
+constexpr uint16_t kCommandCount = 15;
+
+// The fewest payload words with which each command makes sense, destination included.
+VAGUS_FLASH_TABLE(uint8_t, kWordsMin, kCommandCount) = {2, 1, 1, 1, 1, 1, 1, 2,
+                                                        2, 1, 3, 2, 1, 1, 1};
+
+// Forgets what every `when` saw, instruction by instruction (the original starts too late: section
+// 8, D2).
+void clear_when_memories(const Config& config) {
+    uint16_t* const end = config.bytecode + config.bytecode_size;
+    uint16_t* at = config.bytecode + count_inside(config.bytecode_size, 0, config.bytecode[0]);
+    while (at < end) {
+        if (isa::opcode_of(*at) == isa::Opcode::Branch)
+            *at &= static_cast<uint16_t>(~isa::kBranchWasTrue);
+        const uint8_t words = words_of(*at);
+        at += words ? words : 1;
+    }
+}
+
+void reset(Vm& vm) {
+    vm.flags = wire::kFlagStep;
+    clear_when_memories(*vm.config);
+    vm.config->host->notify(vm, Notice::Reset);
+    if (!start_event(vm, isa::kInitEvent)) report_state(vm);
+}
+
+uint16_t find_breakpoint(const Vm& vm, uint16_t pc) {
+    uint16_t i = 0;
+    while (i < vm.breakpoint_count && vm.config->breakpoints[i] != pc) ++i;
+    return i;
+}
+
+// A set: what is there already succeeds and takes no further slot (D17).
+void set_breakpoint(Vm& vm, uint16_t pc) {
+    const uint16_t slot = find_breakpoint(vm, pc);
+    const bool success = slot < kBreakpointsMax && pc < vm.config->bytecode_size;
+    if (success) {
+        vm.config->breakpoints[slot] = pc;
+        if (slot == vm.breakpoint_count) ++vm.breakpoint_count;
+    }
+    const Message message = {static_cast<uint16_t>(MessageType::BreakpointSetResult),
+                             2,
+                             {pc, success},
+                             0,
+                             nullptr,
+                             nullptr};
+    vm.config->host->send(vm, message);
+}
+
+void clear_breakpoint(Vm& vm, uint16_t pc) {
+    const uint16_t slot = find_breakpoint(vm, pc);
+    if (slot == vm.breakpoint_count) return;
+    vm.config->breakpoints[slot] = vm.config->breakpoints[--vm.breakpoint_count];
+}
+
+// In as many messages as needed (D22); at least one, so that whoever asks gets an answer.
+void send_variables(Vm& vm, uint16_t start, uint16_t count) {
+    count = count_inside(vm.config->variables_size, start, count);
+    do {
+        const uint16_t part =
+            count < wire::kVariablesReplyWordsMax ? count : wire::kVariablesReplyWordsMax;
+        const Message message = {static_cast<uint16_t>(MessageType::Variables),
+                                 1,
+                                 {start},
+                                 part,
+                                 vm.config->variables + start,
+                                 nullptr};
+        vm.config->host->send(vm, message);
+        start = static_cast<uint16_t>(start + part);
+        count = static_cast<uint16_t>(count - part);
+    } while (count > 0);
+}
+
+}  // namespace
+
+void receive(Vm& vm, uint16_t type, const uint16_t* words, uint16_t count) {
+    const uint16_t command = static_cast<uint16_t>(type - kFirstCommand);
+    if (command >= kCommandCount || count < flash_read(&kWordsMin[command])) return;
+    const Config& config = *vm.config;
+    if (words[0] != config.id) return;
+    const uint16_t rest = static_cast<uint16_t>(count - 2);
+    switch (static_cast<MessageType>(type)) {
+        case MessageType::SetBytecode:
+            store(config.bytecode, config.bytecode_size, words[1], words + 2, rest);
+            reset(vm);
+            break;
+        case MessageType::Reset:
+            reset(vm);
+            break;
+        case MessageType::Run:
+            vm.flags &= static_cast<uint16_t>(~wire::kFlagStep);
+            report_state(vm);
+            config.host->notify(vm, Notice::Run);
+            break;
+        case MessageType::Pause:
+            vm.flags |= wire::kFlagStep;
+            report_state(vm);
+            break;
+        case MessageType::Step:
+            if (!is_active(vm)) break;
+            execute(vm);
+            report_state(vm);
+            break;
+        case MessageType::Stop:
+            vm.flags = wire::kFlagStep;
+            report_state(vm);
+            break;
+        case MessageType::GetExecutionState:
+            report_state(vm);
+            break;
+        case MessageType::BreakpointSet:
+            set_breakpoint(vm, words[1]);
+            break;
+        case MessageType::BreakpointClear:
+            clear_breakpoint(vm, words[1]);
+            break;
+        case MessageType::BreakpointClearAll:
+            vm.breakpoint_count = 0;
+            break;
+        case MessageType::GetVariables:
+            send_variables(vm, words[1], words[2]);
+            break;
+        case MessageType::SetVariables:
+            store_variables(vm, words[1], words + 2, rest);
+            break;
+        case MessageType::WriteBytecode:
+            config.host->notify(vm, Notice::WriteBytecode);
+            break;
+        case MessageType::Reboot:
+            config.host->notify(vm, Notice::Reboot);
+            break;
+        case MessageType::SuspendToRam:
+            config.host->notify(vm, Notice::Sleep);
+            break;
+        default:
+            break;
+    }
+}
+
+}  // namespace vm
+}  // namespace vagus

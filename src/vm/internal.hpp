@@ -1,0 +1,32 @@
+// What the files of the machine share among themselves. Nobody else includes this.
+#pragma once
+
+#include "isa/isa.hpp"
+#include "vm/vm.hpp"
+
+namespace vagus {
+namespace vm {
+
+// Sends a protocol message of `lead_count` words, of which the first is the program counter.
+void report(Vm& vm, wire::MessageType type, uint8_t lead_count, uint16_t second, uint16_t third);
+void report_state(Vm& vm);
+
+// How many of the `count` words from `start` are inside a memory of `size` words.
+uint16_t count_inside(uint16_t size, uint16_t start, uint16_t count);
+
+// Writes what is inside of `words` to memory[start …], drops the rest.
+void store(uint16_t* memory, uint16_t size, uint16_t start, const uint16_t* words, uint16_t count);
+void store_variables(const Vm& vm, uint16_t start, const uint16_t* words, uint16_t count);
+
+// Words of an instruction; 0 for the undefined opcode.
+uint8_t words_of(uint16_t instruction);
+
+// Executes the instruction at pc. The machine must be active.
+void execute(Vm& vm);
+
+// `a` op `b`. Raises a fault and gives 0 for a division by zero. `code` must be a BinaryOperator.
+int16_t binary(Vm& vm, uint8_t code, int16_t a, int16_t b);
+int16_t unary(uint8_t code, int16_t a);
+
+}  // namespace vm
+}  // namespace vagus

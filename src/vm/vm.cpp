@@ -1,0 +1,154 @@
+// The machine as a whole: fresh start, events, the run loop, faults, and what natives need.
+// Instructions are in execute.cpp, commands in debug.cpp.
+#include "vm/vm.hpp"
+
+#include <string.h>
+
+#include "vm/internal.hpp"
+
+namespace vagus {
+namespace vm {
+
+using wire::MessageType;
+
+namespace {
+VAGUS_FLASH_TEXT(kBadAddress, "bad address");
+}
+
+void init(Vm& vm, const Config& config) {
+    vm.config = &config;
+    vm.flags = 0;
+    vm.pc = 0;
+    vm.depth = 0;
+    vm.breakpoint_count = 0;
+    config.bytecode[0] = 0;
+    memset(config.variables, 0, config.variables_size * sizeof(int16_t));
+}
+
+// ---- Messages ----
+
+void report(Vm& vm, MessageType type, uint8_t lead_count, uint16_t second, uint16_t third) {
+    const Message message = {
+        static_cast<uint16_t>(type), lead_count, {vm.pc, second, third}, 0, nullptr, nullptr};
+    vm.config->host->send(vm, message);
+}
+
+void report_state(Vm& vm) {
+    report(vm, MessageType::ExecutionStateChanged, 2, vm.flags, 0);
+}
+
+uint16_t count_inside(uint16_t size, uint16_t start, uint16_t count) {
+    if (start >= size) return 0;
+    const uint16_t room = static_cast<uint16_t>(size - start);
+    return count < room ? count : room;
+}
+
+void store(uint16_t* memory, uint16_t size, uint16_t start, const uint16_t* words, uint16_t count) {
+    for (count = count_inside(size, start, count); count > 0; --count) memory[start++] = *words++;
+}
+
+void store_variables(const Vm& vm, uint16_t start, const uint16_t* words, uint16_t count) {
+    store(reinterpret_cast<uint16_t*>(vm.config->variables), vm.config->variables_size, start,
+          words, count);
+}
+
+// ---- Events ----
+
+uint16_t event_address(const Vm& vm, uint16_t event) {
+    const uint16_t* const code = vm.config->bytecode;
+    const uint16_t* const end = code + count_inside(vm.config->bytecode_size, 0, code[0]);
+    for (const uint16_t* entry = code + 2; entry < end; entry += 2) {
+        if (entry[-1] == event) return *entry;
+    }
+    return 0;
+}
+
+bool start_event(Vm& vm, uint16_t event) {
+    const uint16_t address = event_address(vm, event);
+    if (address == 0) return false;
+    if (is_active(vm)) report(vm, MessageType::EventExecutionKilled, 1, 0, 0);
+    vm.pc = address;
+    vm.depth = 0;
+    vm.flags |= wire::kFlagActive;
+    if (vm.flags & wire::kFlagStep) report_state(vm);
+    return true;
+}
+
+void receive_event(Vm& vm, uint16_t source, uint16_t type, const uint16_t* arguments,
+                   uint16_t count) {
+    if (is_paused_in_event(vm)) return;
+    const uint16_t capacity = vm.config->arguments_capacity;
+    store_variables(vm, kSourceAddress, &source, 1);
+    store_variables(vm, kArgumentsAddress, arguments, count < capacity ? count : capacity);
+    start_event(vm, type);
+}
+
+void local_event(Vm& vm, uint16_t index) {
+    if (!is_paused_in_event(vm))
+        start_event(vm, static_cast<uint16_t>(isa::kLocalEventFirst - index));
+}
+
+// ---- The run loop (section 3.7) ----
+
+static bool at_breakpoint(const Vm& vm) {
+    for (uint16_t i = 0; i < vm.breakpoint_count; ++i) {
+        if (vm.config->breakpoints[i] == vm.pc) return true;
+    }
+    return false;
+}
+
+uint16_t run(Vm& vm, uint16_t limit) {
+    uint16_t done = 0;
+    if ((vm.flags & (wire::kFlagActive | wire::kFlagStep)) != wire::kFlagActive) return 0;
+    vm.flags |= wire::kFlagRunning;
+    while (done < limit && is_active(vm)) {
+        if (at_breakpoint(vm)) {
+            vm.flags |= wire::kFlagStep;
+            report_state(vm);
+            return done;
+        }
+        execute(vm);
+        ++done;
+    }
+    vm.flags &= static_cast<uint16_t>(~wire::kFlagRunning);
+    return done;
+}
+
+// ---- Natives and faults (sections 3.8 and 4.1) ----
+
+uint16_t pop(Vm& vm) {
+    if (vm.depth == 0) {
+        if (is_active(vm)) raise_node_error(vm, kBadAddress);
+        return 0;
+    }
+    return static_cast<uint16_t>(vm.config->stack[--vm.depth]);
+}
+
+int16_t* memory(Vm& vm, uint16_t address, uint16_t size) {
+    if (!is_active(vm)) return nullptr;
+    const uint16_t variables_size = vm.config->variables_size;
+    if (address <= variables_size && size <= variables_size - address)
+        return vm.config->variables + address;
+    raise_node_error(vm, kBadAddress);
+    return nullptr;
+}
+
+void raise_division_by_zero(Vm& vm) {
+    vm.flags = wire::kFlagStep;
+    report(vm, MessageType::DivisionByZero, 1, 0, 0);
+}
+
+void raise_out_of_bounds(Vm& vm, uint16_t size, uint16_t index) {
+    vm.flags = wire::kFlagStep;
+    report(vm, MessageType::ArrayAccessOutOfBounds, 3, size, index);
+}
+
+void raise_node_error(Vm& vm, const char* text) {
+    vm.flags = wire::kFlagStep;
+    const Message message = {
+        static_cast<uint16_t>(MessageType::NodeSpecificError), 1, {vm.pc}, 0, nullptr, text};
+    vm.config->host->send(vm, message);
+}
+
+}  // namespace vm
+}  // namespace vagus

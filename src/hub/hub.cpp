@@ -1,0 +1,149 @@
+#include "hub/hub.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <utility>
+
+namespace vagus::hub {
+
+namespace {
+
+void put_word(uint8_t* bytes, uint16_t value) {
+    bytes[0] = static_cast<uint8_t>(value & 0xff);
+    bytes[1] = static_cast<uint8_t>(value >> 8);
+}
+
+// Hosts have no id of their own, commands and requests come from hosts.
+bool comes_from_a_node(const wire::Frame& frame) {
+    return frame.source != wire::kHostId && frame.source != wire::kInvalidId && frame.type < 0xa000;
+}
+
+constexpr uint16_t kDisconnected = static_cast<uint16_t>(wire::MessageType::Disconnected);
+
+}  // namespace
+
+void Hub::receive(LinkId from, const wire::Frame& frame) {
+    Link& link = get(from);
+    ++link.frames_received;
+    const std::optional<Remap>& remap = link.options.remap;
+    if (remap && frame.source == remap->target) {
+        wire::Frame renamed = frame;
+        renamed.source = remap->local;
+        note_node(link, renamed);
+        send_to_others(link, renamed);
+        return;
+    }
+    note_node(link, frame);
+    send_to_others(link, frame);
+}
+
+void Hub::send_to_others(const Link& from, const wire::Frame& frame) {
+    std::array<uint8_t, wire::kFrameMax> bytes;
+    const std::span<const uint8_t> encoded(bytes.data(), wire::encode(frame, bytes.data()));
+    const bool command = wire::is_command(frame.type);
+    for (const auto& link : links_) {
+        if (link.get() == &from && !link->options.echo) continue;
+        const std::optional<Remap>& remap = link->options.remap;
+        if (command && remap) {
+            // A command without a destination matches none: first_word() is then kInvalidId.
+            if (frame.size < 2 || frame.first_word() != remap->local) continue;
+            put_word(bytes.data() + wire::kHeaderSize, remap->target);
+        }
+        link->queue.push(encoded);
+        ++link->frames_queued;
+        if (command && remap) put_word(bytes.data() + wire::kHeaderSize, remap->local);
+    }
+}
+
+Result<LinkId> Hub::add(LinkOptions options) {
+    if (links_.size() >= kLinksMax) {
+        return Error{Code::Limit, options.name + ": the switch has " + std::to_string(kLinksMax) +
+                                      " links already, which is its limit; close one first"};
+    }
+    auto link = std::make_unique<Link>();
+    link->id = LinkId{++last_number_};
+    link->options = std::move(options);
+    links_.push_back(std::move(link));
+    return links_.back()->id;
+}
+
+void Hub::remove(LinkId link) {
+    const auto at = std::find_if(links_.begin(), links_.end(),
+                                 [link](const auto& each) { return each->id == link; });
+    assert(at != links_.end());
+    const std::unique_ptr<Link> gone = std::move(*at);
+    links_.erase(at);
+    for (const uint16_t node : gone->nodes) {
+        if (heard_elsewhere(node)) continue;
+        wire::Frame farewell;
+        farewell.source = node;
+        farewell.type = kDisconnected;
+        farewell.size = 0;
+        send_to_others(*gone, farewell);
+    }
+}
+
+void Hub::note_node(Link& link, const wire::Frame& frame) {
+    if (frame.source == link.last_node && frame.type != kDisconnected) return;
+    if (!comes_from_a_node(frame)) return;
+    if (frame.type == kDisconnected) {
+        link.nodes.erase(frame.source);
+        link.last_node = wire::kHostId;
+        return;
+    }
+    if (link.nodes.size() >= kNodesPerLinkMax && !link.nodes.contains(frame.source)) return;
+    link.nodes.insert(frame.source);
+    link.last_node = frame.source;
+}
+
+bool Hub::heard_elsewhere(uint16_t node) const {
+    return std::any_of(links_.begin(), links_.end(),
+                       [node](const auto& link) { return link->nodes.contains(node); });
+}
+
+bool Hub::take(LinkId link, wire::Frame& frame) {
+    return get(link).queue.pop(frame);
+}
+
+std::span<const uint8_t> Hub::output(LinkId link) const {
+    return get(link).queue.bytes();
+}
+
+void Hub::sent(LinkId link, size_t bytes) {
+    get(link).queue.sent(bytes);
+}
+
+LinkStats Hub::stats(LinkId link) const {
+    const Link& of = get(link);
+    return {of.frames_received, of.frames_queued, of.queue.dropped()};
+}
+
+const std::string& Hub::name(LinkId link) const {
+    return get(link).options.name;
+}
+
+std::vector<LinkId> Hub::links() const {
+    std::vector<LinkId> ids;
+    for (const auto& link : links_) ids.push_back(link->id);
+    return ids;
+}
+
+std::vector<uint16_t> Hub::nodes(LinkId link) const {
+    const std::set<uint16_t>& nodes = get(link).nodes;
+    return {nodes.begin(), nodes.end()};
+}
+
+Hub::Link* Hub::find(LinkId link) const {
+    const auto at = std::lower_bound(links_.begin(), links_.end(), link,
+                                     [](const auto& each, LinkId id) { return each->id < id; });
+    return at != links_.end() && (*at)->id == link ? at->get() : nullptr;
+}
+
+Hub::Link& Hub::get(LinkId link) const {
+    Link* found = find(link);
+    assert(found != nullptr);
+    return *found;
+}
+
+}  // namespace vagus::hub

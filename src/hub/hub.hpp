@@ -1,0 +1,111 @@
+// The switch as a value: frames come in from links, and go out to other links by the rules of
+// section 1.5 of docs/spec/aseba-wire-and-vm.md. No sockets, no clock, no threads: `net` moves the
+// bytes of real connections, and the simulator and sessions use the same hub in one thread on
+// virtual time.
+//
+//     hub::Hub hub;
+//     const hub::LinkId robot = hub.add({.name = "robot"}).value();
+//     const hub::LinkId host = hub.add({.name = "host"}).value();
+//     hub.receive(robot, frame);                    // every other link gets it, by the rules
+//     wire::Frame out;
+//     while (hub.take(host, out)) show(out);
+//
+// Everything is forwarded as it came, also types and payloads that we do not know (decision D10),
+// except that a remapped link sees its node under another id. Nothing a link does blocks or slows
+// another: each has a bounded queue, and what is dropped is counted (output_queue.hpp). The order
+// in which links are served is that of their adding.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "hub/output_queue.hpp"
+#include "wire/frame.hpp"
+
+namespace vagus::hub {
+
+constexpr size_t kLinksMax = 1024;
+// Node ids that one link may be remembered for. A foreign network has fewer; a peer that makes up
+// more is ignored.
+constexpr size_t kNodesPerLinkMax = 256;
+
+// Never used twice in the life of a hub.
+struct LinkId {
+    uint32_t number = 0;
+    auto operator<=>(const LinkId&) const = default;
+};
+
+// The node `target` behind this link is known to all others as `local` (remapLocal, remapTarget).
+struct Remap {
+    uint16_t local;
+    uint16_t target;
+    bool operator==(const Remap&) const = default;
+};
+
+struct LinkOptions {
+    std::string name;  // for messages to people: "tcp:127.0.0.1:33333", "robot 1"
+    std::optional<Remap> remap = std::nullopt;
+    bool echo = false;  // the link gets its own frames back (asebaswitch -l)
+};
+
+struct LinkStats {
+    uint64_t frames_received = 0;
+    uint64_t frames_queued = 0;  // for this link, dropped ones included
+    Dropped dropped;
+};
+
+class Hub {
+public:
+    // Fails with Code::Limit when there are kLinksMax links.
+    Result<LinkId> add(LinkOptions options);
+    // Takes the link and what waits for it away. Every other link is told `Disconnected`
+    // (section 2.2) for each node that was heard on it and on no other link.
+    void remove(LinkId link);
+    bool has(LinkId link) const { return find(link) != nullptr; }
+
+    // Routes a frame that came in on `from`.
+    void receive(LinkId from, const wire::Frame& frame);
+
+    // What waits for a link: whole frames for those who live in this process …
+    bool take(LinkId link, wire::Frame& frame);
+    // … or bytes for those who write to a stream: `output` is borrowed until the hub is used again,
+    // `sent` says how many of its bytes have left.
+    std::span<const uint8_t> output(LinkId link) const;
+    void sent(LinkId link, size_t bytes);
+
+    LinkStats stats(LinkId link) const;
+    const std::string& name(LinkId link) const;
+    // In the order of their adding.
+    std::vector<LinkId> links() const;
+    // Nodes heard on a link, under the ids that the others know them by, in ascending order.
+    std::vector<uint16_t> nodes(LinkId link) const;
+
+private:
+    struct Link {
+        LinkId id;
+        LinkOptions options;
+        OutputQueue queue;
+        uint64_t frames_received = 0;
+        uint64_t frames_queued = 0;
+        std::set<uint16_t> nodes;
+        uint16_t last_node = wire::kHostId;  // spares the set a search while one node speaks on
+    };
+
+    Link* find(LinkId link) const;
+    Link& get(LinkId link) const;
+    void note_node(Link& link, const wire::Frame& frame);
+    void send_to_others(const Link& from, const wire::Frame& frame);
+    bool heard_elsewhere(uint16_t node) const;
+
+    std::vector<std::unique_ptr<Link>> links_;  // by ascending id
+    uint32_t last_number_ = 0;
+};
+
+}  // namespace vagus::hub

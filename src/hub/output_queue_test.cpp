@@ -1,0 +1,154 @@
+#include "hub/output_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace vagus::hub {
+namespace {
+
+constexpr uint16_t kEvent = 7;
+constexpr uint16_t kReply = 0x9005;
+
+std::vector<uint8_t> frame(uint16_t type, uint16_t number, uint16_t payload = 2) {
+    wire::Frame frame{};
+    frame.source = number;
+    frame.type = type;
+    frame.size = payload;
+    std::vector<uint8_t> bytes(wire::kFrameMax);
+    bytes.resize(wire::encode(frame, bytes.data()));
+    return bytes;
+}
+
+std::vector<uint16_t> sources(OutputQueue& queue) {
+    std::vector<uint16_t> found;
+    wire::Frame out;
+    while (queue.pop(out)) found.push_back(out.source);
+    return found;
+}
+
+void fill(OutputQueue& queue, uint16_t type) {
+    for (size_t i = 0; i < kQueueFramesMax; ++i) queue.push(frame(type, static_cast<uint16_t>(i)));
+}
+
+TEST(OutputQueue, GivesTheBytesInTheOrderTheyCame) {
+    OutputQueue queue;
+    queue.push(frame(kEvent, 1, 0));
+    queue.push(frame(kReply, 2, 1));
+    const std::vector<uint8_t> expected{0, 0, 1, 0, 7, 0, 1, 0, 2, 0, 5, 0x90, 0};
+    EXPECT_EQ(std::vector<uint8_t>(queue.bytes().begin(), queue.bytes().end()), expected);
+    EXPECT_EQ(queue.frames(), 2u);
+}
+
+TEST(OutputQueue, AFrameOfWhichAPartHasLeftStillCounts) {
+    OutputQueue queue;
+    queue.push(frame(kEvent, 1));  // 8 bytes
+    queue.push(frame(kEvent, 2));
+    queue.sent(3);
+    EXPECT_EQ(queue.frames(), 2u);
+    queue.sent(5);
+    EXPECT_EQ(queue.frames(), 1u);
+    queue.sent(8);
+    EXPECT_EQ(queue.frames(), 0u);
+    EXPECT_TRUE(queue.empty());
+}
+
+TEST(OutputQueue, OneFrameAboveTheLimitDropsTheOldestEventsInOnePass) {
+    OutputQueue queue;
+    fill(queue, kEvent);
+    EXPECT_EQ(queue.frames(), kQueueFramesMax);
+    EXPECT_EQ(queue.dropped(), (Dropped{0, 0}));
+    queue.push(frame(kEvent, 0xabc));
+    EXPECT_EQ(queue.dropped(), (Dropped{kDropFramesAtOnce, 0}));
+    const std::vector<uint16_t> left = sources(queue);
+    EXPECT_EQ(left.size(), kQueueFramesMax - kDropFramesAtOnce + 1);
+    EXPECT_EQ(left.front(), kDropFramesAtOnce);
+    EXPECT_EQ(left.back(), 0xabc);
+}
+
+TEST(OutputQueue, OneByteAboveTheLimitDropsToo) {
+    OutputQueue queue;
+    size_t bytes = 0;
+    for (; bytes + wire::kFrameMax <= kQueueBytesMax; bytes += wire::kFrameMax) {
+        queue.push(frame(kEvent, 1, wire::kPayloadMax));
+    }
+    const size_t rest = kQueueBytesMax - bytes;  // 262144 % 522 = 100
+    ASSERT_EQ(rest, 100u);
+    queue.push(frame(kEvent, 2, static_cast<uint16_t>(rest - wire::kHeaderSize)));
+    EXPECT_EQ(queue.dropped(), (Dropped{0, 0}));
+    EXPECT_EQ(queue.bytes().size(), kQueueBytesMax);
+    queue.push(frame(kEvent, 3, 0));
+    EXPECT_EQ(queue.dropped(), (Dropped{63, 0}));  // 63 * 522 >= 32768 > 62 * 522
+}
+
+TEST(OutputQueue, CommandsAndRepliesOutliveEventsAndKeepTheirOrder) {
+    OutputQueue queue;
+    for (size_t i = 0; i < kQueueFramesMax; ++i) {
+        queue.push(frame(i % 64 == 0 ? kReply : kEvent, static_cast<uint16_t>(i / 64)));
+    }
+    for (int i = 0; i < 3; ++i) queue.push(frame(kReply, static_cast<uint16_t>(1000 + i)));
+    EXPECT_EQ(queue.dropped(), (Dropped{kDropFramesAtOnce, 0}));
+    std::vector<uint16_t> replies;
+    wire::Frame out;
+    while (queue.pop(out)) {
+        if (out.type == kReply) replies.push_back(out.source);
+    }
+    std::vector<uint16_t> expected;
+    for (uint16_t i = 0; i < kQueueFramesMax / 64; ++i) expected.push_back(i);
+    expected.insert(expected.end(), {1000, 1001, 1002});
+    EXPECT_EQ(replies, expected);
+}
+
+TEST(OutputQueue, WithoutEventsToDropTheNewcomerGoes) {
+    OutputQueue queue;
+    fill(queue, kReply);
+    queue.push(frame(kReply, 0xabc));
+    queue.push(frame(kEvent, 0xabd));
+    EXPECT_EQ(queue.dropped(), (Dropped{1, 1}));
+    EXPECT_EQ(sources(queue).size(), kQueueFramesMax);
+}
+
+TEST(OutputQueue, AReplyTakesThePlaceOfTheLastEventButAnEventDoesNot) {
+    OutputQueue queue;
+    queue.push(frame(kEvent, 1));
+    for (size_t i = 1; i < kQueueFramesMax; ++i) queue.push(frame(kReply, 2));
+    queue.push(frame(kEvent, 3));
+    EXPECT_EQ(queue.dropped(), (Dropped{1, 0}));
+    queue.push(frame(kReply, 4));
+    EXPECT_EQ(queue.dropped(), (Dropped{2, 0}));
+    EXPECT_EQ(queue.frames(), kQueueFramesMax);
+    queue.push(frame(kReply, 5));
+    EXPECT_EQ(queue.dropped(), (Dropped{2, 1}));
+}
+
+TEST(OutputQueue, TheFrameThatIsHalfwayOutIsNeverDropped) {
+    OutputQueue queue;
+    fill(queue, kEvent);
+    queue.sent(3);
+    queue.push(frame(kEvent, 0xabc));
+    ASSERT_EQ(queue.dropped(), (Dropped{kDropFramesAtOnce, 0}));
+    // The five last bytes of frame 0, then the first that was not dropped.
+    const auto bytes = queue.bytes();
+    const std::vector<uint8_t> begin(bytes.begin(), bytes.begin() + 9);
+    EXPECT_EQ(begin, (std::vector<uint8_t>{0, 7, 0, 0, 0, 2, 0, 1, 0x08}));  // 1 + 2048 = 0x801
+}
+
+TEST(OutputQueue, ManyRoundsOfFillingAndPartialSendingLoseNothing) {
+    OutputQueue queue;
+    std::vector<uint8_t> in, out;
+    for (uint16_t round = 0; round < 5000; ++round) {
+        const auto bytes = frame(kEvent, round, static_cast<uint16_t>(round % 517));
+        in.insert(in.end(), bytes.begin(), bytes.end());
+        queue.push(bytes);
+        const size_t part = std::min<size_t>(queue.bytes().size(), 1 + (round * 7919u) % 600);
+        out.insert(out.end(), queue.bytes().begin(),
+                   queue.bytes().begin() + static_cast<long>(part));
+        queue.sent(part);
+    }
+    out.insert(out.end(), queue.bytes().begin(), queue.bytes().end());
+    EXPECT_EQ(queue.dropped(), (Dropped{0, 0}));
+    EXPECT_TRUE(in == out);
+}
+
+}  // namespace
+}  // namespace vagus::hub

@@ -1,0 +1,143 @@
+// What a world is made of, as plain values with defaults: the content of a `NAME.world.json`
+// (docs/formats.md). Lengths are metres, angles radians counter-clockwise, masses kilograms; the
+// origin is the lower left corner.
+//
+//     WorldDefinition world;
+//     world.width = 2;
+//     world.objects.push_back({.id = "post", .kind = ObjectKind::Cylinder, .at = {1, 1}, .radius =
+//     0.05}); world.robots.push_back({.name = "thymio", .at = {0.5, 0.5}});
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/time.hpp"
+
+namespace vagus::sim {
+
+constexpr size_t kRobotsMax = 1000;
+constexpr size_t kObjectsMax = 10000;
+constexpr size_t kTimelineMax = 10000;
+constexpr double kWorldSizeMax = 100;  // metres, each side
+constexpr double kWorldSizeMin = 0.2;
+constexpr double kObjectSizeMin = 0.001;  // metres: a side, a radius
+constexpr double kMassMax = 1000;         // kilograms
+constexpr double kAngleMax = 1000;        // radians, either sign
+constexpr double kTimelineEndMax = 1e6;   // seconds
+constexpr size_t kImageSideMax = 8192;    // pixels of a ground image
+
+struct Point {
+    double x = 0;
+    double y = 0;
+    bool operator==(const Point&) const = default;
+};
+
+struct Pose {
+    Point at;
+    double angle = 0;
+    bool operator==(const Pose&) const = default;
+};
+
+// Red, green, blue from 0 to 1.
+struct Colour {
+    double r = 0;
+    double g = 0;
+    double b = 0;
+    bool operator==(const Colour&) const = default;
+};
+
+enum class ObjectKind {
+    Wall,      // a rectangle that never moves
+    Box,       // a rectangle; moves if it has a mass
+    Cylinder,  // a disc; moves if it has a mass
+    Patch,  // a colour on the ground, rectangle or disc: felt by ground sensors, never in the way
+    Light,  // a lamp above the ground: felt as ambient light, never in the way
+    Infrared,  // a beacon above the ground, never in the way
+};
+
+struct ObjectDefinition {
+    std::string id;  // empty, or unlike that of any other object
+    ObjectKind kind = ObjectKind::Wall;
+    Point at;  // the middle
+    double angle = 0;
+    double width = 0;   // rectangles: along x before turning
+    double length = 0;  // rectangles: along y before turning
+    double radius = 0;  // discs: above 0 means a disc
+    double height = 0.1;
+    double mass = 0;  // 0: fixed
+    Colour colour = {0.9, 0.9, 0.9};
+    bool operator==(const ObjectDefinition&) const = default;
+};
+
+enum class RobotType { Thymio2, Epuck };
+
+struct RobotDefinition {
+    std::string name;
+    RobotType type = RobotType::Thymio2;
+    Point at;
+    double angle = 0;
+    uint16_t node = 1;   // id of its (first) node on the bus
+    uint16_t port = 0;   // a TCP port of its own beside the common bus; 0: none
+    std::string script;  // an .aesl that whoever opens the world loads over the bus; empty: none
+    Colour paint = {0.95, 0.95, 0.95};
+    bool operator==(const RobotDefinition&) const = default;
+};
+
+// What the timeline does at an instant of the run.
+struct AddObject {
+    ObjectDefinition object;
+    bool operator==(const AddObject&) const = default;
+};
+struct RemoveObject {
+    std::string id;
+    bool operator==(const RemoveObject&) const = default;
+};
+struct MoveObject {
+    std::string id;  // of an object or the name of a robot
+    Pose to;
+    bool operator==(const MoveObject&) const = default;
+};
+struct PressButton {
+    std::string robot;
+    std::string button;
+    bool pressed = true;
+    bool operator==(const PressButton&) const = default;
+};
+struct SwitchLight {
+    std::string id;
+    bool on = true;
+    bool operator==(const SwitchLight&) const = default;
+};
+using Action = std::variant<AddObject, RemoveObject, MoveObject, PressButton, SwitchLight>;
+
+struct TimelineEntry {
+    Time at{};
+    Action action;
+    bool operator==(const TimelineEntry&) const = default;
+};
+
+struct WorldDefinition {
+    std::string name;
+    std::string help;
+    uint64_t seed = 1;
+    double width = 1;
+    double height = 1;
+    bool open = false;  // no walls around
+    Colour ground = {1, 1, 1};
+    std::string
+        ground_image;  // a PNG, path from the folder of the world file; empty: `ground` everywhere
+    std::vector<ObjectDefinition> objects;
+    std::vector<RobotDefinition> robots;
+    std::vector<TimelineEntry> timeline;  // by ascending time
+    bool operator==(const WorldDefinition&) const = default;
+};
+
+// "wall", "thymio2": as in the file.
+std::string_view name_of(ObjectKind kind);
+std::string_view name_of(RobotType type);
+
+}  // namespace vagus::sim

@@ -1,0 +1,179 @@
+// A 2D world seen from above, with robots in it, each robot a set of Aseba nodes on one bus. It is
+// told the time and never asks for it, opens no socket and starts no thread: the same file, seed
+// and calls give the same bytes.
+//
+//     Result<World> loaded = World::load(text, "arena.world.json");
+//     World& world = loaded.value();
+//     const hub::LinkId host = world.bus().add({.name = "host"}).value();   // talk to the robots
+//     as any host does world.step(std::chrono::milliseconds(30));                           // at
+//     any speed for (const Happening& happening : world.happenings()) write(trace_line(happening));
+//     for (const RobotView& robot : world.robots()) draw(robot.outline, robot.pose);
+//
+// Time runs in milliseconds for the nodes and in steps of kPhysicsStep for the bodies. At one
+// instant: the timeline, then deliveries of the bus, then the nodes by ascending id, then the
+// bodies (architecture, decision 2).
+//
+// The world does not know: files, sockets, projects. Whoever opens it loads the robots' scripts
+// over the bus, gives the bus its listeners, and puts names to the numbers of events.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/result.hpp"
+#include "base/time.hpp"
+#include "hub/hub.hpp"
+#include "sim/definitions.hpp"
+
+namespace vagus::sim {
+
+constexpr Duration kNodeStep = std::chrono::milliseconds(1);
+constexpr Duration kPhysicsStep = std::chrono::milliseconds(10);
+constexpr Duration kPoseEvery = std::chrono::milliseconds(100);  // `pose` lines of the trace
+constexpr uint16_t kInstructionsPerMillisecond = 1000;           // of one node
+constexpr size_t kHappeningsMax = 100000;  // in one step(); what is beyond is counted, not kept
+
+// Handles. Never used twice in the life of a world, not even over reset(); 0 is nothing.
+struct RobotId {
+    uint32_t number = 0;
+    auto operator<=>(const RobotId&) const = default;
+};
+struct ObjectId {
+    uint32_t number = 0;
+    auto operator<=>(const ObjectId&) const = default;
+};
+
+struct WorldOptions {
+    std::optional<uint64_t> seed;  // instead of that of the file
+    std::string folder = ".";      // where paths of the file start
+    std::string sd_folder;         // the card of every robot that has a slot; empty: no card
+};
+
+// ---- What there is to draw. Everything in metres and radians. ----
+
+// A light of a robot: where it sits (in the frame of the robot: x ahead, y to the left) and what it
+// shows now. Black is off.
+struct Lamp {
+    std::string_view name;  // "leds.top", "leds.circle.3"
+    Point at;
+    Colour colour;
+};
+
+// One look of a distance sensor.
+struct Look {
+    Point from;
+    Point to;  // where it ends: on what was hit, or at the end of its range
+    bool hit = false;
+};
+
+struct RobotView {
+    RobotId id;
+    std::string_view name;  // views and spans here: valid until the world is changed or stepped
+    RobotType type = RobotType::Thymio2;
+    uint16_t node = 0;
+    Pose pose;
+    Colour paint;
+    std::span<const Point>
+        outline;  // a convex polygon in the frame of the robot, counter-clockwise
+};
+
+struct ObjectView {
+    ObjectId id;
+    const ObjectDefinition* definition = nullptr;  // as it was added; borrowed as above
+    Pose pose;                                     // where it is now
+    bool on = true;                                // lights and beacons
+};
+
+// ---- What happened in a step ----
+
+// A node sent a user event.
+struct Emitted {
+    std::vector<int16_t> arguments;
+    uint16_t event = 0;
+};
+// A script did what it must not, and stands still.
+struct Fault {
+    std::string what;  // "division by zero at 12"
+    uint16_t pc = 0;
+};
+// Where a robot is, every kPoseEvery.
+struct PoseNote {
+    Pose pose;
+};
+// A robot has begun to touch something.
+struct Contact {
+    std::string with;  // name of a robot, id of an object, or "border"; "" for an object without id
+};
+struct Happening {
+    Time at{};
+    RobotId robot;
+    uint16_t node = 0;  // Emitted and Fault: the node concerned
+    std::variant<Emitted, Fault, PoseNote, Contact> what;
+};
+
+class World {
+public:
+    // From the text of a world file; `file` is for the sentences of errors. Reads the ground image,
+    // if there is one.
+    static Result<World> load(std::string_view text, std::string_view file,
+                              WorldOptions options = {});
+    static Result<World> create(WorldDefinition definition, WorldOptions options = {});
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+    ~World();
+
+    // Lets `span` pass. Whole kNodeStep are simulated; the rest is kept for the next call.
+    void step(Duration span);
+    Time now() const;
+    // Everything as at the start, time 0; the links of the bus stay, scripts and variables are
+    // gone.
+    void reset();
+    // What the last step() saw, by time. `lost` are those beyond kHappeningsMax.
+    std::span<const Happening> happenings() const;
+    uint64_t happenings_lost() const;
+
+    // ---- The bus ----
+    // All robots are on it. Add links for hosts, for sockets (net), for tests; frames for the
+    // robots go through it.
+    hub::Hub& bus();
+    // The private switch behind the robot's `port`: that robot alone is on it. nullptr if it has no
+    // port.
+    hub::Hub* private_bus(RobotId robot);
+
+    // ---- Looking ----
+    const WorldDefinition& definition() const;  // as it was loaded
+    std::vector<RobotView> robots() const;      // in the order of the file
+    std::vector<ObjectView> objects() const;    // in the order of their adding
+    std::vector<Lamp> lamps(RobotId robot) const;
+    std::vector<Look> looks(RobotId robot) const;  // distance sensors as they stand now
+    Colour ground_at(Point at) const;
+    std::optional<RobotId> find_robot(std::string_view name) const;
+    std::optional<ObjectId> find_object(std::string_view id) const;
+    // The variables of the robot's first node: for tests and views that do not go over the bus.
+    std::span<const int16_t> variables(RobotId robot) const;
+
+    // ---- Acting, as a hand from above. Fails with NotFound, Limit, or BadInput. ----
+    Result<ObjectId> add(const ObjectDefinition& object);
+    Status remove(ObjectId object);
+    Status move(ObjectId object, const Pose& to);
+    Status move(RobotId robot, const Pose& to);
+    Status switch_light(ObjectId light, bool on);
+    // Buttons by name ("forward", "center" …); on an e-puck there are none.
+    Status press(RobotId robot, std::string_view button);
+    Status release(RobotId robot, std::string_view button);
+    // A knock on the body.
+    Status tap(RobotId robot);
+
+private:
+    struct Insides;
+    explicit World(std::unique_ptr<Insides> insides);
+    std::unique_ptr<Insides> insides_;
+};
+
+}  // namespace vagus::sim

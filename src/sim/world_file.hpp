@@ -1,0 +1,22 @@
+// Reads a world file: text in, a WorldDefinition out, or an Error that says
+// "arena.world.json:12:14: objects[3].mass: expected a number from 0 to 1000, found -1; …".
+// Everything that docs/formats.md says about the file is checked here and nowhere else: keys,
+// kinds, ranges, double ids, and that the timeline speaks of what exists. `robots[].script` and
+// `ground.image` stay as they are written; they are paths from the folder of the world file.
+#pragma once
+
+#include <string_view>
+
+#include "base/result.hpp"
+#include "sim/definitions.hpp"
+
+namespace vagus::sim {
+
+// `file` is for the sentences of errors.
+Result<WorldDefinition> read_world(std::string_view text, std::string_view file);
+
+// The checks that need no file: sizes, numbers of things, names that differ. World::create() makes
+// them, too.
+Status check_world(const WorldDefinition& world);
+
+}  // namespace vagus::sim

@@ -49,13 +49,8 @@ void set_breakpoint(Vm& vm, uint16_t pc) {
         vm.config->breakpoints[slot] = pc;
         if (slot == vm.breakpoint_count) ++vm.breakpoint_count;
     }
-    const Message message = {static_cast<uint16_t>(MessageType::BreakpointSetResult),
-                             2,
-                             {pc, success},
-                             0,
-                             nullptr,
-                             nullptr};
-    vm.config->host->send(vm, message);
+    const uint16_t answer[] = {pc, success};
+    report(vm, MessageType::BreakpointSetResult, answer, 2);
 }
 
 void clear_breakpoint(Vm& vm, uint16_t pc) {
@@ -70,13 +65,7 @@ void send_variables(Vm& vm, uint16_t start, uint16_t count) {
     do {
         const uint16_t part =
             count < wire::kVariablesReplyWordsMax ? count : wire::kVariablesReplyWordsMax;
-        const Message message = {static_cast<uint16_t>(MessageType::Variables),
-                                 1,
-                                 {start},
-                                 part,
-                                 vm.config->variables + start,
-                                 nullptr};
-        vm.config->host->send(vm, message);
+        vm.config->host->send_variables(vm, start, part);
         start = static_cast<uint16_t>(start + part);
         count = static_cast<uint16_t>(count - part);
     } while (count > 0);

@@ -29,8 +29,7 @@ void emit(Vm& vm, uint16_t event, uint16_t address, uint16_t count) {
     if (count > wire::kArgumentsMax) return raise_node_error(vm, kBadInstruction);
     const int16_t* const words = memory(vm, address, count);
     if (!words) return;
-    const Message message = {event, 0, {}, count, words, nullptr};
-    vm.config->host->send(vm, message);
+    vm.config->host->send(vm, event, reinterpret_cast<const uint16_t*>(words), count);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 namespace vagus {
 namespace vm {
 
-// Sends a protocol message of `lead_count` words, of which the first is the program counter.
-void report(Vm& vm, wire::MessageType type, uint8_t lead_count, uint16_t second, uint16_t third);
+// Sends a protocol message.
+void report(Vm& vm, wire::MessageType type, const uint16_t* words, uint16_t count);
 void report_state(Vm& vm);
 
 // How many of the `count` words from `start` are inside a memory of `size` words.
@@ -16,7 +16,7 @@ uint16_t count_inside(uint16_t size, uint16_t start, uint16_t count);
 
 // Writes what is inside of `words` to memory[start …], drops the rest.
 void store(uint16_t* memory, uint16_t size, uint16_t start, const uint16_t* words, uint16_t count);
-void store_variables(const Vm& vm, uint16_t start, const uint16_t* words, uint16_t count);
+void store_variables(Vm& vm, uint16_t start, const uint16_t* words, uint16_t count);
 
 // Words of an instruction; 0 for the undefined opcode.
 uint8_t words_of(uint16_t instruction);

@@ -27,14 +27,13 @@ void init(Vm& vm, const Config& config) {
 
 // ---- Messages ----
 
-void report(Vm& vm, MessageType type, uint8_t lead_count, uint16_t second, uint16_t third) {
-    const Message message = {
-        static_cast<uint16_t>(type), lead_count, {vm.pc, second, third}, 0, nullptr, nullptr};
-    vm.config->host->send(vm, message);
+void report(Vm& vm, MessageType type, const uint16_t* words, uint16_t count) {
+    vm.config->host->send(vm, static_cast<uint16_t>(type), words, count);
 }
 
 void report_state(Vm& vm) {
-    report(vm, MessageType::ExecutionStateChanged, 2, vm.flags, 0);
+    const uint16_t words[] = {vm.pc, vm.flags};
+    report(vm, MessageType::ExecutionStateChanged, words, 2);
 }
 
 uint16_t count_inside(uint16_t size, uint16_t start, uint16_t count) {
@@ -47,7 +46,7 @@ void store(uint16_t* memory, uint16_t size, uint16_t start, const uint16_t* word
     for (count = count_inside(size, start, count); count > 0; --count) memory[start++] = *words++;
 }
 
-void store_variables(const Vm& vm, uint16_t start, const uint16_t* words, uint16_t count) {
+void store_variables(Vm& vm, uint16_t start, const uint16_t* words, uint16_t count) {
     store(reinterpret_cast<uint16_t*>(vm.config->variables), vm.config->variables_size, start,
           words, count);
 }
@@ -66,7 +65,7 @@ uint16_t event_address(const Vm& vm, uint16_t event) {
 bool start_event(Vm& vm, uint16_t event) {
     const uint16_t address = event_address(vm, event);
     if (address == 0) return false;
-    if (is_active(vm)) report(vm, MessageType::EventExecutionKilled, 1, 0, 0);
+    if (is_active(vm)) report(vm, MessageType::EventExecutionKilled, &vm.pc, 1);
     vm.pc = address;
     vm.depth = 0;
     vm.flags |= wire::kFlagActive;
@@ -135,19 +134,18 @@ int16_t* memory(Vm& vm, uint16_t address, uint16_t size) {
 
 void raise_division_by_zero(Vm& vm) {
     vm.flags = wire::kFlagStep;
-    report(vm, MessageType::DivisionByZero, 1, 0, 0);
+    report(vm, MessageType::DivisionByZero, &vm.pc, 1);
 }
 
 void raise_out_of_bounds(Vm& vm, uint16_t size, uint16_t index) {
+    const uint16_t words[] = {vm.pc, size, index};
     vm.flags = wire::kFlagStep;
-    report(vm, MessageType::ArrayAccessOutOfBounds, 3, size, index);
+    report(vm, MessageType::ArrayAccessOutOfBounds, words, 3);
 }
 
 void raise_node_error(Vm& vm, const char* text) {
     vm.flags = wire::kFlagStep;
-    const Message message = {
-        static_cast<uint16_t>(MessageType::NodeSpecificError), 1, {vm.pc}, 0, nullptr, text};
-    vm.config->host->send(vm, message);
+    vm.config->host->send_error(vm, text);
 }
 
 }  // namespace vm

@@ -32,25 +32,10 @@ namespace vm {
 struct Vm;
 
 constexpr uint16_t kBreakpointsMax = 16;
-constexpr uint16_t kLeadMax = 3;
 
 // Where a user event leaves its traces in the variables (section 3.10).
 constexpr uint16_t kSourceAddress = 1;
 constexpr uint16_t kArgumentsAddress = 2;
-
-// A message from the machine to the bus. Its payload is, in this order: `lead_count` words of
-// `lead`; `word_count` words at `words`, which lie in the variables and so need no copy; and, for
-// NodeSpecificError only, `text` as a string (one byte for its length, then its bytes). Borrowed
-// for the call.
-struct Message {
-    uint16_t type;  // a wire::MessageType, or the number of a user event
-    uint16_t lead_count;
-    uint16_t lead[kLeadMax];
-    uint16_t word_count;
-    const int16_t* words;
-    const char* text;  // ends with '\0'; on an AVR it is in flash, read it by flash_read(); nullptr
-                       // for none
-};
 
 // What the machine tells its surroundings, so that they can do their part.
 enum class Notice : uint8_t {
@@ -61,10 +46,19 @@ enum class Notice : uint8_t {
     Sleep,          // SuspendToRam
 };
 
-// What the surroundings do for the machine. All three must be there; none may call receive,
-// receive_event, local_event, start_event or run of the same machine.
+// What the surroundings do for the machine. All five must be there; none may call receive,
+// receive_event, local_event, start_event or run of the same machine. Pointers are borrowed for the
+// call.
 struct Host {
-    void (*send)(Vm& vm, const Message& message);
+    // Sends a message of `count` words. `type` is a wire::MessageType, or the number of a user
+    // event.
+    void (*send)(Vm& vm, uint16_t type, const uint16_t* words, uint16_t count);
+    // Sends Variables: `start`, then the `count` variables from there (at most
+    // wire::kVariablesReplyWordsMax).
+    void (*send_variables)(Vm& vm, uint16_t start, uint16_t count);
+    // Sends NodeSpecificError: vm.pc, then `text`, which ends with '\0' and is in flash on an AVR:
+    // see flash_read().
+    void (*send_error)(Vm& vm, const char* text);
     // Calls native `id`, which pops its arguments: see "For natives" below. Raises a fault for an
     // id that it lacks.
     void (*native)(Vm& vm, uint16_t id);

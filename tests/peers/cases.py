@@ -5,6 +5,7 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from harness import (ROOT, Bus, Display, Program, free_port, listening, playground, run_vagus, vagus)
 
 COUNTER = """<!DOCTYPE aseba-source>

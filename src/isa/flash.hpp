@@ -35,6 +35,13 @@ inline int16_t flash_read(const int16_t* at) {
 inline uint16_t flash_read(const uint16_t* at) {
     return pgm_read_word(at);
 }
+// Pointers, and the structs of tables.
+template <typename T>
+inline T flash_read(const T* at) {
+    T value;
+    memcpy_P(&value, at, sizeof value);
+    return value;
+}
 #else
 template <typename T>
 inline T flash_read(const T* at) {

@@ -1,0 +1,83 @@
+// A node on the bus: the machine of vm.hpp, and around it everything else that a node answers: who
+// is there, what it is called, which variables, events and natives it has
+// (docs/spec/aseba-wire-and-vm.md, sections 2 and 3.6). Freestanding C++14: no heap, no library, no
+// globals.
+//
+//     const vm::Config kConfig = {3, 1500, 600, 32, 32, bytecode, variables, stack, breakpoints,
+//                                 &node::kMachineHost, &the_node};
+//     node::init(the_node, kConfig, kDescription, kBoard, nullptr);
+//     for (;;) {                                    // the loop of section 3.6
+//         while (bus.read(frame)) node::receive(the_node, frame);
+//         if (sensor.ready()) node::local_event(the_node, kProx);
+//         if (node::run(the_node, 1000) == 0) sleep_until_interrupt();
+//     }
+//
+// There is no queue: the newest event kills the one that is running, and says so. A node that is to
+// finish one event before it looks at the next calls local_event() only when vm::is_active() is
+// false.
+//
+// It does not know: time, sockets, pins, flash memory. It asks its Board.
+#pragma once
+
+#include <stdint.h>
+
+#include "node/description.hpp"
+#include "vm/vm.hpp"
+#include "wire/frame.hpp"
+
+namespace vagus {
+namespace node {
+
+// What the surroundings do for a node. Both must be there; neither may call receive, local_event,
+// start or run of the same node.
+struct Board {
+    // A frame for the bus. Borrowed for the call; with nobody connected it is thrown away.
+    void (*transmit)(Node& node, const wire::Frame& frame);
+    // See vm::Notice. A board that cannot keep bytecode, restart or sleep does nothing.
+    void (*notify)(Node& node, vm::Notice notice);
+};
+
+struct Node {
+    vm::Vm vm;
+    const Description* description;  // in flash on an AVR
+    const Board* board;
+    void* owner;            // for the board and its natives; the node does not touch it
+    uint16_t random_state;  // of math.rand (section 4.4)
+};
+
+// The `host` of the Config of a node's machine; its `owner` must be the Node.
+extern const vm::Host kMachineHost;
+
+// Makes a fresh node: idle, without a program, all variables 0. What it keeps a pointer to must
+// live as long as it. The node's id is variable 0 by convention (section 3.10): who wants it there
+// writes it.
+void init(Node& node, const vm::Config& config, const Description& description, const Board& board,
+          void* owner);
+
+// A frame has come from the bus: answers it, obeys it, or ignores it. Never runs the script.
+void receive(Node& node, const wire::Frame& frame);
+
+// The same for a board that has the payload as words already; `count` words, an odd last byte does
+// not count.
+void receive_words(Node& node, uint16_t source, uint16_t type, const uint16_t* words,
+                   uint16_t count);
+
+// The node's local event `index` has happened. Ignored while the script is paused inside an event.
+void local_event(Node& node, uint16_t index);
+
+// Starts a program that lies in the bytecode already, in running mode: what a robot does when it is
+// switched on and finds a program in its flash (section 3.1).
+void start_program(Node& node);
+
+// Goes on with the running event for at most `limit` instructions; gives how many were executed.
+uint16_t run(Node& node, uint16_t limit);
+
+// The host has gone: its breakpoints go with it (section 1.4), all else stays.
+void host_left(Node& node);
+
+// Sends `text` as a NodeSpecificError without stopping the script: a report, for instance of
+// WriteBytecode. In flash on an AVR.
+void report(Node& node, const char* text);
+
+}  // namespace node
+}  // namespace vagus

@@ -41,7 +41,7 @@ MAY_CALL_SYSTEM = ("src/net/", "src/cli/", "src/serve/", "src/run/real_time.cpp"
                    "src/toolbox/load.cpp")
 # Libraries that stay behind one door.
 ONE_DOOR = [
-    (re.compile(r"^rapidjson/"), ("src/base/json",), "JSON is read through base/json"),
+    (re.compile(r"^(rapidjson|nlohmann)/"), ("src/base/json", "src/serve/"), "JSON is read through base/json"),
     (re.compile(r"^boost/"), ("src/net/", "src/serve/"), "sockets stand in net and serve only"),
     (re.compile(r"^CLI/"), ("src/cli/",), "the command line is known in cli only"),
     (re.compile(r"^box2d/"), ("src/sim/",), "physics is known in sim only"),
@@ -183,7 +183,7 @@ EXAMPLES = [  # path, text, what must be said of it
     ("src/hub/a.cpp", '#include "net/socket.hpp"\n', "hub may not include net"),
     ("src/vm/a.cpp", "#include <vector>\n", "must build for a microcontroller"),
     ("src/sim/a.cpp", "#include <unistd.h>\n", "the rim only"),
-    ("src/debug/a.cpp", "#include <rapidjson/reader.h>\n", "base/json"),
+    ("src/debug/a.cpp", "#include <nlohmann/json.hpp>\n", "base/json"),
     ("src/hub/a.hpp", "// A header.\n", "#pragma once"),
     ("src/hub/a.cpp", "x" * 101 + "\n", "101 columns"),
     ("src/hub/a.cpp", "\n" * 602, "602 lines"),

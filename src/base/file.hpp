@@ -13,7 +13,8 @@ constexpr size_t kFileBytesMax = 256u << 20;
 // The whole file. The Error names the file and the system's reason. "-" is standard input.
 Result<std::string> read_file(const std::string& path);
 
-// Writes beside the file and renames over it, so that a crash leaves the old file or the new one, never half of it.
+// Writes beside the file and renames over it, so that a crash leaves the old file or the new one,
+// never half of it.
 Status write_file(const std::string& path, std::string_view content);
 
 }  // namespace vagus

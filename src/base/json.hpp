@@ -1,6 +1,7 @@
-// A JSON document as a tree in which everything knows its place: the line and column of every key and value, the
-// order of members, double keys. Our file formats need that for their errors and for saving what was not changed
-// byte for byte. Built over RapidJSON's event reader; no type of that library shows here.
+// A JSON document as a tree in which everything knows its place: the line and column of every key
+// and value, the order of members, double keys. Our file formats need that for their errors and for
+// saving what was not changed byte for byte. Built over nlohmann's event reader; no type of that
+// library shows here.
 //
 //     Result<Json> file = parse_json(text, "arena.world.json");
 //     const Json* seed = file.value().find("seed");
@@ -9,7 +10,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/result.hpp"
@@ -18,6 +19,8 @@ namespace vagus {
 
 constexpr int kJsonDepthMax = 100;
 constexpr size_t kJsonBytesMax = 64u << 20;
+constexpr size_t kJsonValuesMax =
+    1'000'000;  // a short text could otherwise become a tree a hundred times its size
 
 struct Place {
     int line = 0;    // from 1; 0: no place
@@ -33,10 +36,10 @@ struct Json {
     JsonKind kind = JsonKind::Null;
     Place at;
     bool boolean = false;
-    int64_t integer = 0;   // Int: digits only, fits 64 bits
-    double number = 0;     // Int and Float
-    std::string text;      // String: its characters; numbers: as written in the file
-    std::string raw;       // String: as written in the file, quotes included; else empty
+    int64_t integer = 0;              // Int: digits only, fits 64 bits
+    double number = 0;                // Int and Float
+    std::string text;                 // String: its characters; numbers: as written in the file
+    std::string raw;                  // String: as written in the file, quotes included; else empty
     std::vector<Json> items;          // Array
     std::vector<JsonMember> members;  // Object, in the order of the file, double keys kept
 
@@ -55,23 +58,37 @@ struct JsonMember {
 // "an object", "a whole number": for sentences.
 std::string_view name_of(JsonKind kind);
 
+// Values made by a program, without a place: what a writer builds before format_json().
+Json json_string(std::string_view text);
+Json json_integer(int64_t value);
+Json json_array(std::vector<Json> items);
+JsonMember json_member(std::string_view key, Json value);
+Json json_object(std::vector<JsonMember> members);
+
 struct JsonError {
     Place at;
     std::string what;  // without the place
 };
 
-// The first thing that keeps the text from being one JSON value (RFC 8259; UTF-8 without byte order mark; depth and
-// size limited; numbers out of range of a double and half surrogates refused).
+// The first thing that keeps the text from being one JSON value (RFC 8259; UTF-8 without byte order
+// mark; depth, size and number of values limited; numbers out of range of a double and half
+// surrogates refused).
 std::variant<Json, JsonError> read_json(std::string_view text);
+
+// "FILE:LINE:COL: sentence": how every error in a text file begins.
+std::string at_place(std::string_view file, Place at, std::string_view sentence);
 
 // The same as a Result; the Error reads "FILE:LINE:COL: sentence".
 Result<Json> parse_json(std::string_view text, std::string_view file);
 
-// The saved form of docs/formats.md: the object and the objects directly in it one member a line, the rest on one line
-// where it fits 100 characters. Numbers and strings as they were written.
+// The saved form of docs/formats.md: the object and the objects directly in it one member a line,
+// the rest on one line where it fits 100 characters. Numbers and strings as they were written
+// (`raw`, `text`); a string without `raw` is quoted anew, a number without `text` is written from
+// its value. A newline at the end.
 std::string format_json(const Json& value);
 
-// A string as JSON, quotes included: `"`, `\` and characters below U+0020 escaped, all else as it is.
+// A string as JSON, quotes included: `"`, `\` and characters below U+0020 escaped, all else as it
+// is.
 std::string json_quote(std::string_view text);
 
 }  // namespace vagus

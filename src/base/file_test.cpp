@@ -1,0 +1,77 @@
+#include "base/file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace vagus {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own for each test, gone at its end.
+class FileTest : public testing::Test {
+protected:
+    FileTest() {
+        std::string name = (fs::temp_directory_path() / "vagus-file-XXXXXX").string();
+        folder_ = mkdtemp(name.data());
+    }
+    ~FileTest() override { fs::remove_all(folder_); }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    fs::path folder_;
+};
+
+TEST_F(FileTest, ReadsWhatWasWritten) {
+    const std::string content("a\0b\r\n", 5);
+    ASSERT_TRUE(write_file(path("x"), content).ok());
+    EXPECT_EQ(read_file(path("x")).value(), content);
+}
+
+TEST_F(FileTest, ReplacesTheFileAndLeavesNothingBeside) {
+    ASSERT_TRUE(write_file(path("x"), "long old content").ok());
+    ASSERT_TRUE(write_file(path("x"), "new").ok());
+    EXPECT_EQ(read_file(path("x")).value(), "new");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(FileTest, KeepsTheRightsOfTheFile) {
+    ASSERT_TRUE(write_file(path("x"), "#!/bin/sh").ok());
+    fs::permissions(path("x"), fs::perms(0750));
+    ASSERT_TRUE(write_file(path("x"), "#!/bin/bash").ok());
+    EXPECT_EQ(fs::status(path("x")).permissions(), fs::perms(0750));
+}
+
+TEST_F(FileTest, WritesThroughASymbolicLink) {
+    ASSERT_TRUE(write_file(path("real"), "old").ok());
+    fs::create_symlink("real", path("link"));
+    ASSERT_TRUE(write_file(path("link"), "new").ok());
+    EXPECT_TRUE(fs::is_symlink(path("link")));
+    EXPECT_EQ(read_file(path("real")).value(), "new");
+}
+
+TEST_F(FileTest, NamesTheFileAndTheReason) {
+    const auto missing = read_file(path("nothing.aesl"));
+    ASSERT_FALSE(missing.ok());
+    EXPECT_EQ(missing.error().code, Code::NotFound);
+    EXPECT_EQ(missing.error().what,
+              path("nothing.aesl") + ": cannot be read: No such file or directory");
+    EXPECT_FALSE(read_file(folder_.string()).ok()) << "a folder is no file";
+    EXPECT_FALSE(write_file(path("no/such/folder"), "x").ok());
+}
+
+TEST_F(FileTest, RefusesOneByteAboveTheLimit) {
+    // A file with a hole: long, yet it takes no room.
+    ASSERT_TRUE(write_file(path("big"), "x").ok());
+    fs::resize_file(path("big"), kFileBytesMax + 1);
+    const auto read = read_file(path("big"));
+    ASSERT_FALSE(read.ok());
+    EXPECT_EQ(read.error().code, Code::Limit);
+}
+
+}  // namespace
+}  // namespace vagus

@@ -1,0 +1,175 @@
+// Writing JSON in the saved form of docs/formats.md, so that our files diff well.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/json.hpp"
+#include "base/text.hpp"
+
+namespace vagus {
+namespace {
+
+constexpr size_t kLineMax = 100;  // characters, with indentation, key and comma
+
+std::string number_text(const Json& json) {
+    if (!json.text.empty()) return json.text;
+    if (json.kind == JsonKind::Int) return std::to_string(json.integer);
+    return fmt::format("{}", json.number);  // the shortest that reads back as the same number
+}
+
+std::string scalar_text(const Json& json) {
+    switch (json.kind) {
+        case JsonKind::Null:
+            return "null";
+        case JsonKind::Bool:
+            return json.boolean ? "true" : "false";
+        case JsonKind::Int:
+        case JsonKind::Float:
+            return number_text(json);
+        case JsonKind::String:
+            return json.raw.empty() ? json_quote(json.text) : json.raw;
+        case JsonKind::Array:
+        case JsonKind::Object:
+            break;
+    }
+    return "";
+}
+
+std::string key_text(const JsonMember& member) {
+    return (member.raw_key.empty() ? json_quote(member.key) : member.raw_key) + ": ";
+}
+
+bool is_empty(const Json& json) {
+    return json.items.empty() && json.members.empty();
+}
+
+// `{ "a": 1, "b": [2, 3] }`
+std::string one_line(const Json& json) {
+    std::string line;
+    if (json.kind == JsonKind::Array) {
+        for (const Json& item : json.items) line += (line.empty() ? "" : ", ") + one_line(item);
+        return "[" + line + "]";
+    }
+    if (json.kind == JsonKind::Object) {
+        for (const JsonMember& member : json.members)
+            line += (line.empty() ? "" : ", ") + key_text(member) + one_line(member.value);
+        return line.empty() ? "{}" : "{ " + line + " }";
+    }
+    return scalar_text(json);
+}
+
+// Cheap answer for big values, so that deep trees are not written once a level: every value takes a
+// character, and a character takes at most four bytes.
+bool surely_too_long(const Json& json, size_t& room) {
+    const size_t least = 1 + std::max(json.raw.size(), json.text.size()) / 4;
+    if (room < least) return true;
+    room -= least;
+    for (const Json& item : json.items)
+        if (surely_too_long(item, room)) return true;
+    for (const JsonMember& member : json.members)
+        if (surely_too_long(member.value, room)) return true;
+    return false;
+}
+
+class Formatter {
+public:
+    // Writes `json` behind `prefix` (indentation and key), with `suffix` (a comma or nothing) at
+    // its end.
+    void write(const Json& json, size_t depth, const std::string& prefix, std::string_view suffix) {
+        const bool is_open = json.kind == JsonKind::Object && depth <= 1 && !is_root_array_;
+        if (is_empty(json) || (!is_open && fits(json, prefix, suffix))) {
+            out_ += prefix + one_line(json) + std::string(suffix) + "\n";
+            return;
+        }
+        const bool is_array = json.kind == JsonKind::Array;
+        out_ += prefix + (is_array ? "[\n" : "{\n");
+        write_parts(json, depth + 1);
+        out_ += std::string(depth * 2, ' ') + (is_array ? "]" : "}") + std::string(suffix) + "\n";
+    }
+
+    std::string take(const Json& root) {
+        is_root_array_ = root.kind == JsonKind::Array;
+        write(root, 0, "", "");
+        return std::move(out_);
+    }
+
+private:
+    static bool fits(const Json& json, const std::string& prefix, std::string_view suffix) {
+        size_t room = kLineMax;
+        if (surely_too_long(json, room)) return false;
+        return count_code_points(prefix + one_line(json)) + suffix.size() <= kLineMax;
+    }
+
+    void write_parts(const Json& json, size_t depth) {
+        const std::string indent(depth * 2, ' ');
+        for (size_t i = 0; i < json.items.size(); ++i)
+            write(json.items[i], depth, indent, i + 1 < json.items.size() ? "," : "");
+        for (size_t i = 0; i < json.members.size(); ++i)
+            write(json.members[i].value, depth, indent + key_text(json.members[i]),
+                  i + 1 < json.members.size() ? "," : "");
+    }
+
+    std::string out_;
+    bool is_root_array_ = false;
+};
+
+}  // namespace
+
+Json json_string(std::string_view text) {
+    Json json;
+    json.kind = JsonKind::String;
+    json.text = text;
+    return json;
+}
+
+Json json_integer(int64_t value) {
+    Json json;
+    json.kind = JsonKind::Int;
+    json.integer = value;
+    json.number = static_cast<double>(value);
+    return json;
+}
+
+Json json_array(std::vector<Json> items) {
+    Json json;
+    json.kind = JsonKind::Array;
+    json.items = std::move(items);
+    return json;
+}
+
+JsonMember json_member(std::string_view key, Json value) {
+    JsonMember member;
+    member.key = key;
+    member.value = std::move(value);
+    return member;
+}
+
+Json json_object(std::vector<JsonMember> members) {
+    Json json;
+    json.kind = JsonKind::Object;
+    json.members = std::move(members);
+    return json;
+}
+
+std::string format_json(const Json& value) {
+    return Formatter().take(value);
+}
+
+std::string json_quote(std::string_view text) {
+    constexpr std::string_view kEscaped = "\"\\\b\f\n\r\t";
+    constexpr std::string_view kLetters = "\"\\bfnrt";
+    std::string quoted = "\"";
+    for (const char byte : text) {
+        const size_t escape = kEscaped.find(byte);
+        if (escape != kEscaped.npos) {
+            quoted += {'\\', kLetters[escape]};
+        } else if (static_cast<unsigned char>(byte) < 0x20) {
+            quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
+        } else {
+            quoted += byte;
+        }
+    }
+    return quoted + '"';
+}
+
+}  // namespace vagus

@@ -1,0 +1,140 @@
+// UTF-8, splitting and suggestions: see text.hpp.
+#include "base/text.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace vagus {
+namespace {
+
+constexpr size_t kNearestStepsMax = 2;
+// Names longer than this get no suggestion: the work grows with the square of the length.
+constexpr size_t kNearestLengthMax = 256;
+
+bool is_continuation(char byte) {
+    return (static_cast<uint8_t>(byte) & 0xc0u) == 0x80u;
+}
+
+// Bytes of the sequence that `lead` begins, 0 if it begins none.
+size_t sequence_length(uint8_t lead) {
+    if (lead < 0x80) return 1;
+    if (lead >= 0xc2 && lead <= 0xdf) return 2;
+    if (lead >= 0xe0 && lead <= 0xef) return 3;
+    if (lead >= 0xf0 && lead <= 0xf4) return 4;
+    return 0;
+}
+
+bool is_allowed(char32_t value, size_t bytes) {
+    if (value >= 0xd800 && value <= 0xdfff) return false;
+    if (value > 0x10ffff) return false;
+    constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};  // below it the form is overlong
+    return value >= kSmallest[bytes];
+}
+
+std::u32string decode(std::string_view text) {
+    std::u32string decoded;
+    while (!text.empty()) {
+        const CodePoint point = first_code_point(text);
+        decoded.push_back(point.bytes == 0 ? U'\ufffd' : point.value);
+        text.remove_prefix(std::max<size_t>(point.bytes, 1));
+    }
+    return decoded;
+}
+
+// Levenshtein's distance, one row of the table at a time.
+size_t edit_distance(const std::u32string& from, const std::u32string& to) {
+    std::vector<size_t> row(to.size() + 1);
+    for (size_t column = 0; column <= to.size(); ++column) row[column] = column;
+    for (size_t line = 1; line <= from.size(); ++line) {
+        size_t diagonal = row[0];
+        row[0] = line;
+        for (size_t column = 1; column <= to.size(); ++column) {
+            const size_t replaced = diagonal + (from[line - 1] == to[column - 1] ? 0 : 1);
+            diagonal = row[column];
+            row[column] = std::min({replaced, row[column] + 1, row[column - 1] + 1});
+        }
+    }
+    return row[to.size()];
+}
+
+}  // namespace
+
+CodePoint first_code_point(std::string_view text) {
+    if (text.empty()) return {};
+    const auto lead = static_cast<uint8_t>(text[0]);
+    const size_t bytes = sequence_length(lead);
+    if (bytes == 0 || text.size() < bytes) return {};
+    if (bytes == 1) return {lead, 1};
+    char32_t value = lead & (0xffu >> (bytes + 1));
+    for (size_t i = 1; i < bytes; ++i) {
+        if (!is_continuation(text[i])) return {};
+        value = (value << 6) | (static_cast<uint8_t>(text[i]) & 0x3fu);
+    }
+    return is_allowed(value, bytes) ? CodePoint{value, bytes} : CodePoint{};
+}
+
+std::string to_utf8(char32_t code_point) {
+    const auto byte = [](char32_t bits) { return static_cast<char>(static_cast<uint8_t>(bits)); };
+    const auto tail = [&](int shift) { return byte(0x80u | ((code_point >> shift) & 0x3fu)); };
+    if (code_point < 0x80) return {byte(code_point)};
+    if (code_point < 0x800) return {byte(0xc0u | (code_point >> 6)), tail(0)};
+    if (code_point < 0x10000) return {byte(0xe0u | (code_point >> 12)), tail(6), tail(0)};
+    return {byte(0xf0u | (code_point >> 18)), tail(12), tail(6), tail(0)};
+}
+
+std::optional<size_t> malformed_utf8_at(std::string_view text) {
+    size_t offset = 0;
+    while (offset < text.size()) {
+        const CodePoint point = first_code_point(text.substr(offset));
+        if (point.bytes == 0) return offset;
+        offset += point.bytes;
+    }
+    return std::nullopt;
+}
+
+size_t count_code_points(std::string_view text) {
+    return static_cast<size_t>(
+        std::count_if(text.begin(), text.end(), [](char byte) { return !is_continuation(byte); }));
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    size_t start = 0;
+    for (size_t end = text.find(separator); end != text.npos; end = text.find(separator, start)) {
+        parts.push_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    parts.push_back(text.substr(start));
+    return parts;
+}
+
+std::optional<std::string> nearest_name(std::string_view word,
+                                        const std::vector<std::string_view>& known) {
+    const std::u32string wanted = decode(word);
+    if (wanted.size() > kNearestLengthMax) return std::nullopt;
+    size_t best_steps = kNearestStepsMax + 1;
+    std::optional<std::string_view> best;
+    for (const std::string_view name : known) {
+        const std::u32string candidate = decode(name);
+        if (candidate.size() > wanted.size() + kNearestStepsMax) continue;
+        const size_t steps = edit_distance(wanted, candidate);
+        // Bytes of UTF-8 compare in the order of their code points.
+        const bool better = steps < best_steps || (steps == best_steps && best && name < *best);
+        if (steps == 0 || steps > kNearestStepsMax || !better) continue;
+        best_steps = steps;
+        best = name;
+    }
+    if (!best) return std::nullopt;
+    return std::string(*best);
+}
+
+std::string list_of(const std::vector<std::string_view>& words) {
+    std::string list;
+    for (size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) list += i + 1 == words.size() ? " and " : ", ";
+        list += words[i];
+    }
+    return list;
+}
+
+}  // namespace vagus

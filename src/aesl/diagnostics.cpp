@@ -1,0 +1,79 @@
+#include "aesl/diagnostics.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "aesl/limits.hpp"
+
+namespace vagus::aesl {
+namespace {
+
+constexpr CatalogueEntry kCatalogue[] = {
+#define DIAGNOSTIC(name, code, number, wording) {#name, code, number, wording},
+#include "aesl/diagnostics.def"
+#undef DIAGNOSTIC
+};
+
+// Puts the words in the places {0}, {1}, … of the wording.
+std::string fill(std::string_view wording, std::initializer_list<std::string_view> words) {
+    std::string sentence;
+    for (size_t i = 0; i < wording.size(); ++i) {
+        const bool is_place = wording[i] == '{' && i + 2 < wording.size() && wording[i + 2] == '}';
+        if (!is_place) {
+            sentence += wording[i];
+            continue;
+        }
+        const auto index = static_cast<size_t>(wording[i + 1] - '0');
+        if (index < words.size()) sentence += words.begin()[index];
+        i += 2;
+    }
+    return sentence;
+}
+
+bool stands_before(const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
+}
+
+}  // namespace
+
+std::span<const CatalogueEntry> catalogue() { return kCatalogue; }
+
+std::string catalogue_page() {
+    std::string page =
+        "# Errors and warnings of the AESL compiler\n\n"
+        "Made from `src/aesl/diagnostics.def` by `aesl_catalogue`; a test compares the two.\n\n"
+        "| code | no | situation | sentence |\n| --- | ---: | --- | --- |\n";
+    for (const CatalogueEntry& entry : kCatalogue) {
+        const std::string number = entry.is_warning() ? "" : std::to_string(entry.number);
+        page += "| `" + std::string(entry.code) + "` | " + number + " | " +
+                std::string(entry.name) + " | " + std::string(entry.wording) + " |\n";
+    }
+    return page;
+}
+
+void Diagnostics::report(Diag what, Mark mark, std::initializer_list<std::string_view> words) {
+    const CatalogueEntry& entry = kCatalogue[static_cast<size_t>(what)];
+    if (!entry.is_warning()) ++errors_found_;
+    std::vector<Diagnostic>& list = entry.is_warning() ? warnings_ : errors_;
+    if (list.size() >= (entry.is_warning() ? kWarningsMax : kErrorsMax)) return;
+    list.push_back({std::string(entry.code), entry.number, mark.at, mark.end,
+                    fill(entry.wording, words)});
+}
+
+bool Diagnostics::full() const { return errors_.size() >= kErrorsMax; }
+
+std::vector<Diagnostic> Diagnostics::take_errors() {
+    if (!errors_.empty()) std::stable_sort(errors_.begin() + 1, errors_.end(), stands_before);
+    return std::move(errors_);
+}
+
+std::vector<Diagnostic> Diagnostics::take_warnings() {
+    std::stable_sort(warnings_.begin(), warnings_.end(), stands_before);
+    return std::move(warnings_);
+}
+
+std::string words_of(int64_t count) {
+    return std::to_string(count) + (count == 1 ? " word" : " words");
+}
+
+}  // namespace vagus::aesl

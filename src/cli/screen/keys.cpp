@@ -1,0 +1,60 @@
+#include "cli/screen/keys.hpp"
+
+namespace vagus::cli {
+namespace {
+
+constexpr char kEscape = '\x1b';
+
+std::optional<Key> plain_key(char byte) {
+    switch (byte) {
+        case ' ':
+        case 'p': return Key::Pause;
+        case 'r':
+        case 'R': return Key::Reset;
+        case '+':
+        case '=': return Key::Faster;
+        case '-': return Key::Slower;
+        case '\t': return Key::NextRobot;
+        case 'b': return Key::Button;
+        case 't': return Key::Tap;
+        case 'q':
+        case 'Q':
+        case '\x03': return Key::Quit;
+        case '\x0c': return Key::Redraw;
+        default: return std::nullopt;
+    }
+}
+
+// Bytes of the sequence at the front, 0 if its end is not there yet. ESC [ … letter, ESC O letter, ESC letter.
+size_t sequence_length(std::string_view bytes) {
+    if (bytes.size() < 2) return 0;
+    if (bytes[1] == 'O') return bytes.size() < 3 ? 0 : 3;
+    if (bytes[1] != '[') return bytes[1] == kEscape ? 1 : 2;
+    for (size_t i = 2; i < bytes.size(); i++) {
+        if (bytes[i] >= 0x40 && bytes[i] <= 0x7e) return i + 1;
+    }
+    return 0;
+}
+
+}  // namespace
+
+std::vector<Key> keys_of(std::string_view bytes, std::string& rest) {
+    std::vector<Key> keys;
+    rest += bytes;
+    std::string_view left = rest;
+    while (!left.empty()) {
+        if (left[0] != kEscape) {
+            if (const auto key = plain_key(left[0])) keys.push_back(*key);
+            left.remove_prefix(1);
+            continue;
+        }
+        const size_t length = sequence_length(left);
+        if (length == 0) break;
+        if (left.substr(0, length) == "\x1b[Z") keys.push_back(Key::LastRobot);
+        left.remove_prefix(length);
+    }
+    rest = left.size() > kSequenceMax ? "" : std::string(left);
+    return keys;
+}
+
+}  // namespace vagus::cli

@@ -1,0 +1,206 @@
+#include "cli/screen/panel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace vagus::cli {
+namespace {
+
+constexpr Rgb kHead{120, 170, 255};
+constexpr Rgb kDim{140, 140, 150};
+constexpr Rgb kGood{110, 200, 120};
+constexpr Rgb kBad{255, 100, 90};
+constexpr Rgb kFresh{255, 210, 90};
+constexpr Rgb kBar{90, 190, 200};
+constexpr Duration kFlash = std::chrono::milliseconds(300);  // an event is shown bright for so long
+constexpr int kSpare = 2;  // rows that a list leaves for the next one at least
+
+// Writes lines from the top until the area is full.
+class Page {
+public:
+    Page(Grid& grid, Area area) : grid_(grid), area_(area) {}
+
+    bool full() const { return row_ >= area_.rows; }
+    int rows_left() const { return area_.rows - row_; }
+    int columns() const { return area_.columns; }
+    // Appends to the current line.
+    void add(std::string_view words, const Ink& ink) {
+        if (full()) return;
+        column_ = grid_.text(area_.column + column_, area_.row + row_, area_.column + area_.columns,
+                             words, ink) -
+                  area_.column;
+    }
+    void add_right(std::string_view words, const Ink& ink) {
+        const int start = area_.columns - text_width(words);
+        if (start <= column_) return;
+        column_ = start;
+        add(words, ink);
+    }
+    void jump(int column) { column_ = std::max(column_, std::min(column, area_.columns)); }
+    int column() const { return column_; }
+    void next() {
+        row_++;
+        column_ = 0;
+    }
+
+private:
+    Grid& grid_;
+    Area area_;
+    int row_ = 0;
+    int column_ = 0;
+};
+
+std::string fixed(double value, int decimals) {
+    const auto scale = static_cast<int64_t>(std::pow(10, decimals));
+    const int64_t whole = std::llround(std::abs(value) * static_cast<double>(scale));
+    std::string digits = std::to_string(whole % scale);
+    digits.insert(0, static_cast<size_t>(decimals) - digits.size(), '0');
+    const bool minus = value < 0 && whole != 0;
+    return (minus ? "-" : "") + std::to_string(whole / scale) + "." + digits;
+}
+
+std::string words_of(const std::vector<int16_t>& values) {
+    std::string text;
+    for (const int16_t value : values) text += (text.empty() ? "" : " ") + std::to_string(value);
+    return text;
+}
+
+std::string shortened(const std::string& text, int columns, Charset charset) {
+    if (text_width(text) <= columns || columns < 2) return text;
+    // Words here are figures and spaces, or names: cut at a character, never inside one.
+    size_t end = 0;
+    int width = 0;
+    while (end < text.size() && width < columns - 1) {
+        do end++;
+        while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u);
+        width = text_width(std::string_view(text).substr(0, end));
+    }
+    return text.substr(0, end) + (charset == Charset::Ascii ? "~" : "…");
+}
+
+// A bar of one cell, eight heights.
+std::string_view bar(int value, int full, Charset charset) {
+    static constexpr std::array<std::string_view, 9> kBlocks = {" ", "▁", "▂", "▃", "▄",
+                                                                "▅", "▆", "▇", "█"};
+    static constexpr std::array<std::string_view, 9> kLetters = {"_", ".", ".", ":", ":",
+                                                                 "+", "+", "#", "#"};
+    const double part = full > 0 ? std::clamp(1.0 * value / full, 0.0, 1.0) : 0;
+    const auto index = static_cast<size_t>(std::ceil(part * 8));
+    if (charset == Charset::Ascii) return kLetters.at(index);
+    return index == 0 ? "▁" : kBlocks.at(index);
+}
+
+void heading(Page& page, std::string_view words, Charset charset) {
+    if (page.rows_left() < 2) return;
+    const std::string rule = charset == Charset::Ascii ? "-" : "─";
+    page.add(rule + rule + " ", {kDim, {}, false});
+    page.add(words, {kHead, {}, true});
+    page.add(" ", {});
+    while (page.column() < page.columns()) page.add(rule, {kDim, {}, false});
+    page.next();
+}
+
+void add_robot(Page& page, const View& view) {
+    const PanelView& panel = view.panel;
+    page.add(panel.node_name, {kHead, {}, true});
+    page.add("  node " + std::to_string(panel.node_id), {kDim, {}, false});
+    page.add_right(panel.state, {panel.wrong ? kBad : kGood, {}, true});
+    page.next();
+    if (view.selected >= view.robots.size()) return;
+    const RobotView& robot = view.robots[view.selected];
+    const double degrees = robot.angle * 180 / std::numbers::pi;
+    const int64_t turned = (std::llround(degrees) % 360 + 360) % 360;
+    page.add("at " + fixed(robot.at.x, 2) + ", " + fixed(robot.at.y, 2) + " m  heading " +
+                 std::to_string(turned) + "°",
+             {});
+    page.next();
+}
+
+void add_sensors(Page& page, const PanelView& panel, Charset charset) {
+    size_t label = 0;
+    for (const BarsView& bars : panel.bars) label = std::max(label, bars.label.size());
+    for (const WheelView& wheel : panel.wheels) label = std::max(label, wheel.label.size());
+    for (const BarsView& bars : panel.bars) {
+        page.add(bars.label, {kDim, {}, false});
+        page.jump(static_cast<int>(label) + 1);
+        for (const int value : bars.values) {
+            page.add(bar(value, bars.full, charset), {kBar, {}, false});
+        }
+        std::string figures;
+        for (const int value : bars.values) figures += " " + std::to_string(value);
+        page.add(shortened(figures, page.columns() - page.column(), charset), {});
+        page.next();
+    }
+    for (const WheelView& wheel : panel.wheels) {
+        page.add(wheel.label, {kDim, {}, false});
+        page.jump(static_cast<int>(label) + 1);
+        page.add("told " + std::to_string(wheel.target), {});
+        page.jump(static_cast<int>(label) + 11);
+        page.add(" does " + std::to_string(wheel.speed), {});
+        page.next();
+    }
+}
+
+void add_variables(Page& page, const PanelView& panel, Charset charset, int rows) {
+    heading(page, "variables", charset);
+    if (panel.variables.empty()) {
+        page.add("the script has none", {kDim, {}, false});
+        page.next();
+        return;
+    }
+    size_t shown = panel.variables.size();
+    if (static_cast<int>(shown) > rows) shown = static_cast<size_t>(std::max(rows - 1, 0));
+    for (size_t i = 0; i < shown; i++) {
+        const VariableView& variable = panel.variables[i];
+        page.add(shortened(variable.name, page.columns() * 2 / 3, charset), {});
+        page.add(" ", {});
+        const int room = page.columns() - page.column();
+        const Ink ink{variable.fresh ? Colour(kFresh) : Colour(), {}, variable.fresh};
+        page.add_right(shortened(words_of(variable.values), room - 1, charset), ink);
+        page.next();
+    }
+    if (shown < panel.variables.size()) {
+        page.add("and " + std::to_string(panel.variables.size() - shown) + " more",
+                 {kDim, {}, false});
+        page.next();
+    }
+}
+
+void add_events(Page& page, const View& view, Charset charset) {
+    heading(page, "events", charset);
+    if (view.panel.events.empty()) {
+        page.add("none yet: emit shows here", {kDim, {}, false});
+        page.next();
+        return;
+    }
+    for (const EventView& event : view.panel.events) {
+        if (page.full()) return;
+        const bool bright = view.now - event.last < kFlash;
+        page.add(shortened(event.name, page.columns() / 2, charset),
+                 {bright ? Colour(kFresh) : Colour(), {}, bright});
+        page.add(" ", {});
+        const std::string count =
+            (charset == Charset::Ascii ? " x" : " ×") + std::to_string(event.count);
+        const int room = page.columns() - page.column() - text_width(count);
+        page.add(shortened(words_of(event.args), room, charset), {});
+        page.add_right(count, {kDim, {}, false});
+        page.next();
+    }
+}
+
+}  // namespace
+
+void draw_panel(Grid& grid, Area area, const View& view, const Look& look) {
+    Page page(grid, area);
+    add_robot(page, view);
+    add_sensors(page, view.panel, look.charset);
+    const int events = std::max<int>(1, static_cast<int>(view.panel.events.size())) + 1;
+    const int left = page.rows_left() - 1;  // under the heading
+    const int rows = std::max(left - std::min(events, std::max(left / 3, kSpare)), 1);
+    add_variables(page, view.panel, look.charset, rows);
+    add_events(page, view, look.charset);
+}
+
+}  // namespace vagus::cli

@@ -1,0 +1,122 @@
+// Everything that the terminal view shows at one moment, as plain values. cli/sim fills it from a session; draw()
+// (screen.hpp) turns it into cells. Nothing here knows a robot, a socket or a terminal.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/time.hpp"
+
+namespace vagus::cli {
+
+struct Rgb {
+    uint8_t r = 0;
+    uint8_t g = 0;
+    uint8_t b = 0;
+    friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+// Metres, origin lower left, y up, as in world files.
+struct Point {
+    double x = 0;
+    double y = 0;
+};
+
+struct Outline {
+    std::vector<Point> corners;  // of a convex polygon; empty: a circle
+    Point centre;
+    double radius = 0;  // of the circle
+};
+
+enum class ShapeKind { Patch, Solid, Light };
+
+struct ShapeView {
+    ShapeKind kind = ShapeKind::Solid;
+    Outline outline;
+    Rgb colour;
+};
+
+struct RayView {
+    Point from;
+    Point to;
+    bool hit = false;  // it sees something
+};
+
+struct RobotView {
+    std::string name;
+    Point at;
+    double angle = 0;  // radians, counter-clockwise, 0 along x
+    Outline outline;
+    Rgb paint;
+    std::optional<Rgb> led;  // the light on its top, if it is on
+    std::vector<RayView> rays;
+    std::vector<Point> trail;  // where it was, oldest first
+};
+
+// The pixels of the floor, first row at the top. Empty: `ground` everywhere.
+struct GroundImage {
+    int columns = 0;
+    int rows = 0;
+    std::vector<Rgb> pixels;
+};
+
+// One line of sensors: "prox ▁▃▇▁▁ 0 1503 4210 0 0".
+struct BarsView {
+    std::string label;
+    std::vector<int> values;
+    int full = 1;  // the value of a full bar
+};
+
+// A wheel: what it was told and what it does.
+struct WheelView {
+    std::string label;
+    int target = 0;
+    int speed = 0;
+    int full = 500;
+};
+
+struct VariableView {
+    std::string name;
+    std::vector<int16_t> values;
+    bool fresh = false;  // changed a moment ago
+};
+
+struct EventView {
+    std::string name;
+    uint64_t count = 0;
+    std::vector<int16_t> args;  // of the last one
+    Time last{};
+};
+
+struct PanelView {
+    std::string node_name;
+    uint16_t node_id = 0;
+    std::string state;   // "running", "paused", "no script" …
+    bool wrong = false;  // the state is a fault
+    std::vector<BarsView> bars;
+    std::vector<WheelView> wheels;
+    std::vector<VariableView> variables;
+    std::vector<EventView> events;  // the latest first
+};
+
+struct View {
+    std::string title;
+    double width = 1;
+    double height = 1;
+    Rgb ground{200, 200, 200};
+    GroundImage image;
+    std::vector<ShapeView> shapes;  // painted in this order
+    std::vector<RobotView> robots;
+    size_t selected = 0;  // the robot that the panel is about
+    PanelView panel;
+    Time now{};
+    std::string speed;  // "x1", "x0.5", "max"
+    bool paused = false;
+    std::string listening;              // "tcp:127.0.0.1:33333", empty if nobody can connect
+    std::string notice;                 // one line: what was loaded last
+    std::vector<std::string> problems;  // errors of the script, with source line and caret
+};
+
+}  // namespace vagus::cli

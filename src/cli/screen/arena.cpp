@@ -21,7 +21,9 @@ Rgb blend(Rgb under, Rgb over, double part) {
     return {mix(under.r, over.r), mix(under.g, over.g), mix(under.b, over.b)};
 }
 
-double luminance(Rgb c) { return 0.3 * c.r + 0.59 * c.g + 0.11 * c.b; }
+double luminance(Rgb c) {
+    return 0.3 * c.r + 0.59 * c.g + 0.11 * c.b;
+}
 
 Rgb ground_at(const View& view, Point at) {
     const GroundImage& image = view.image;
@@ -67,7 +69,8 @@ Outline nose(const RobotView& robot) {
         return Point{robot.at.x + distance * std::cos(robot.angle + turn),
                      robot.at.y + distance * std::sin(robot.angle + turn)};
     };
-    return {{at(reach, 0), at(0.75 * reach, 0.6), at(0.45 * reach, 0), at(0.75 * reach, -0.6)}, {}, 0};
+    return {
+        {at(reach, 0), at(0.75 * reach, 0.6), at(0.45 * reach, 0), at(0.75 * reach, -0.6)}, {}, 0};
 }
 
 void paint_robot(Canvas& canvas, const RobotView& robot, bool selected) {
@@ -81,8 +84,10 @@ void paint_robot(Canvas& canvas, const RobotView& robot, bool selected) {
 
 // The nearest of eight arrows.
 char32_t arrow(double angle, Charset charset) {
-    static constexpr std::array<char32_t, 8> kArrows = {U'→', U'↗', U'↑', U'↖', U'←', U'↙', U'↓', U'↘'};
-    static constexpr std::array<char32_t, 8> kLetters = {U'>', U'/', U'^', U'\\', U'<', U'/', U'v', U'\\'};
+    static constexpr std::array<char32_t, 8> kArrows = {U'→', U'↗', U'↑', U'↖',
+                                                        U'←', U'↙', U'↓', U'↘'};
+    static constexpr std::array<char32_t, 8> kLetters = {U'>', U'/', U'^', U'\\',
+                                                         U'<', U'/', U'v', U'\\'};
     const auto eighth = static_cast<int>(std::lround(angle / (std::numbers::pi / 4)));
     const auto index = static_cast<size_t>(((eighth % 8) + 8) % 8);
     return charset == Charset::Ascii ? kLetters[index] : kArrows[index];

@@ -8,6 +8,7 @@ namespace vagus::cli {
 namespace {
 
 constexpr int kQuadrants = 4;  // upper left, upper right, lower left, lower right
+constexpr int kThinThing = 2;  // samples of the 8 in a quadrant that make it solid: walls are thin
 constexpr double kEdgeContrast = 60;  // below this a cell counts as plain, and dots may stand on it
 
 // The block for each set of quadrants, bit 0 the upper left.
@@ -90,7 +91,8 @@ double cost_of(const Quarters& quarters, unsigned set) {
     return cost;
 }
 
-// The two colours and the block that lose least. Quadrants beyond the world stay as the terminal is.
+// The two colours and the block that lose least. Quadrants beyond the world stay as the terminal
+// is.
 Cell coloured_block(const Quarters& quarters) {
     unsigned empty = 0;
     for (unsigned i = 0; i < kQuadrants; i++) {
@@ -114,7 +116,7 @@ Cell coloured_block(const Quarters& quarters) {
 Cell plain_block(const Quarters& quarters) {
     unsigned set = 0;
     for (unsigned i = 0; i < kQuadrants; i++) {
-        if (quarters.things[i] * 2 > 8) set |= 1u << i;
+        if (quarters.things[i] >= kThinThing) set |= 1u << i;
     }
     if (set == 0 && quarters.marks * 2 > quarters.seen) return {U'░', {}};
     return {kBlocks[set], {}};
@@ -124,11 +126,21 @@ Cell letter(const Quarters& quarters, bool coloured) {
     Cell cell;
     switch (quarters.most) {
         case Stuff::Nothing:
-        case Stuff::Floor: cell.glyph = U' '; break;
-        case Stuff::Mark: cell.glyph = U':'; break;
-        case Stuff::Solid: cell.glyph = U'#'; break;
-        case Stuff::Robot: cell.glyph = U'o'; break;
-        case Stuff::Lamp: cell.glyph = U'*'; break;
+        case Stuff::Floor:
+            cell.glyph = U' ';
+            break;
+        case Stuff::Mark:
+            cell.glyph = U':';
+            break;
+        case Stuff::Solid:
+            cell.glyph = U'#';
+            break;
+        case Stuff::Robot:
+            cell.glyph = U'o';
+            break;
+        case Stuff::Lamp:
+            cell.glyph = U'*';
+            break;
     }
     if (!coloured) return cell;
     cell.ink.back = sum(quarters, 15u).colour();
@@ -179,12 +191,13 @@ uint8_t braille_bit(int across, int down) {
 }  // namespace
 
 Canvas::Canvas(Area area, double width, double height)
-    : area_(area), width_(width), height_(height),
+    : area_(area),
+      width_(width),
+      height_(height),
       scale_(std::max(width / (area.columns * kAcross), height / (area.rows * kDown))),
       left_((area.columns * kAcross - width / scale_) / 2),
       top_((area.rows * kDown - height / scale_) / 2),
-      samples_(static_cast<size_t>(area.columns * kAcross) *
-                   static_cast<size_t>(area.rows * kDown),
+      samples_(static_cast<size_t>(area.columns * kAcross) * static_cast<size_t>(area.rows * kDown),
                Paint{{}, Stuff::Nothing}),
       dots_(static_cast<size_t>(area.columns) * static_cast<size_t>(area.rows)) {}
 
@@ -201,8 +214,8 @@ void Canvas::shape(const Outline& outline, const Paint& paint) {
     const auto across = [&](double x) { return x / scale_ + left_; };
     const auto down = [&](double y) { return (height_ - y) / scale_ + top_; };
     const int from_x = static_cast<int>(std::clamp(across(box.low.x), 0.0, 1.0 * samples_across()));
-    const int to_x = static_cast<int>(
-        std::clamp(across(box.high.x) + 1, 0.0, 1.0 * samples_across()));
+    const int to_x =
+        static_cast<int>(std::clamp(across(box.high.x) + 1, 0.0, 1.0 * samples_across()));
     const int from_y = static_cast<int>(std::clamp(down(box.high.y), 0.0, 1.0 * samples_down()));
     const int to_y = static_cast<int>(std::clamp(down(box.low.y) + 1, 0.0, 1.0 * samples_down()));
     for (int y = from_y; y < to_y; y++) {
@@ -258,6 +271,11 @@ Cell Canvas::cell(int column, int row, const Look& look) const {
             if (paint.stuff >= Stuff::Solid) quarters.things_all++;
         }
     }
+    if (quarters.things_all >= 2 * kThinThing) {
+        for (const Stuff flat : {Stuff::Nothing, Stuff::Floor, Stuff::Mark}) {
+            count.at(static_cast<size_t>(flat)) = 0;
+        }
+    }
     const auto most = std::max_element(count.begin(), count.end()) - count.begin();
     quarters.most = static_cast<Stuff>(most);
     const bool coloured = look.depth != ColourDepth::None;
@@ -266,8 +284,8 @@ Cell Canvas::cell(int column, int row, const Look& look) const {
                                                : plain_block(quarters);
     const Dots& dots = dots_[static_cast<size_t>(row) * static_cast<size_t>(area_.columns) +
                              static_cast<size_t>(column)];
-    const bool plain = quarters.things_all == 0 &&
-                       (!coloured || quarters.contrast() < kEdgeContrast);
+    const bool plain =
+        quarters.things_all == 0 && (!coloured || quarters.contrast() < kEdgeContrast);
     if (dots.bits == 0 || !plain) return cell;
     cell.glyph = look.charset == Charset::Ascii ? U'.' : U'\u2800' + dots.bits;
     cell.ink.fore = dots.colour;

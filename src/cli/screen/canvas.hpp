@@ -1,5 +1,6 @@
-// A small picture for a rectangle of character cells: shapes are painted in metres, then each cell becomes the block
-// character with the two colours that come nearest. Lines are dots of their own (braille), above the picture.
+// A small picture for a rectangle of character cells: shapes are painted in metres, then each cell
+// becomes the block character with the two colours that come nearest. Lines are dots of their own
+// (braille), above the picture.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +35,8 @@ struct Area {
 
 class Canvas {
 public:
-    // Shows `width` by `height` metres in the middle of the area, as large as they fit; a cell is twice as high as wide.
+    // Shows `width` by `height` metres in the middle of the area, as large as they fit; a cell is
+    // twice as high as wide.
     Canvas(Area area, double width, double height);
 
     // Colours the floor by the place, in metres.
@@ -62,7 +64,8 @@ public:
     void draw(Grid& grid, const Look& look) const;
 
 private:
-    static constexpr int kAcross = 4;  // samples in a cell: squares, as a cell is twice as high as wide
+    static constexpr int kAcross =
+        4;  // samples in a cell: squares, as a cell is twice as high as wide
     static constexpr int kDown = 8;
 
     struct Dots {
@@ -86,8 +89,8 @@ private:
     Area area_;
     double width_;
     double height_;
-    double scale_;   // metres a sample
-    double left_;    // samples of margin
+    double scale_;  // metres a sample
+    double left_;   // samples of margin
     double top_;
     std::vector<Paint> samples_;
     std::vector<Dots> dots_;

@@ -10,7 +10,9 @@ struct Decoded {
     size_t bytes;
 };
 
-bool is_tail(char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u; }
+bool is_tail(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
+}
 
 Decoded decode(std::string_view text) {
     const auto lead = static_cast<unsigned char>(text[0]);
@@ -44,18 +46,22 @@ void encode(char32_t glyph, std::string& out) {
     }
 }
 
-// Columns of a character, by the blocks that terminals agree on: 0 marks that combine, 2 East Asian and pictures.
+// Columns of a character, by the blocks that terminals agree on: 0 marks that combine, 2 East Asian
+// and pictures.
 int glyph_width(char32_t glyph) {
     if ((glyph >= 0x300 && glyph <= 0x36f) || (glyph >= 0x200b && glyph <= 0x200f)) return 0;
     if (glyph == 0xfeff || (glyph >= 0xfe00 && glyph <= 0xfe0f)) return 0;
-    const bool wide = (glyph >= 0x1100 && glyph <= 0x115f) || (glyph >= 0x2e80 && glyph <= 0xa4cf) ||
-                      (glyph >= 0xac00 && glyph <= 0xd7a3) || (glyph >= 0xf900 && glyph <= 0xfaff) ||
-                      (glyph >= 0xff00 && glyph <= 0xff60) || (glyph >= 0x1f300 && glyph <= 0x1faff);
+    const bool wide =
+        (glyph >= 0x1100 && glyph <= 0x115f) || (glyph >= 0x2e80 && glyph <= 0xa4cf) ||
+        (glyph >= 0xac00 && glyph <= 0xd7a3) || (glyph >= 0xf900 && glyph <= 0xfaff) ||
+        (glyph >= 0xff00 && glyph <= 0xff60) || (glyph >= 0x1f300 && glyph <= 0x1faff);
     return wide ? 2 : 1;
 }
 
 // One part of the 6 x 6 x 6 cube of 256-colour terminals.
-int cube_step(int value) { return value < 48 ? 0 : value < 115 ? 1 : (value - 35) / 40; }
+int cube_step(int value) {
+    return value < 48 ? 0 : value < 115 ? 1 : (value - 35) / 40;
+}
 
 int indexed(Rgb colour) {
     const int highest = std::max({colour.r, colour.g, colour.b});
@@ -72,10 +78,10 @@ int indexed(Rgb colour) {
 // 0 to 15 by the nearest of the colours that most terminals give them.
 int basic(Rgb colour) {
     static constexpr Rgb kPalette[16] = {
-        {0, 0, 0},       {170, 0, 0},    {0, 170, 0},    {170, 85, 0},
-        {0, 0, 170},     {170, 0, 170},  {0, 170, 170},  {170, 170, 170},
-        {85, 85, 85},    {255, 85, 85},  {85, 255, 85},  {255, 255, 85},
-        {85, 85, 255},   {255, 85, 255}, {85, 255, 255}, {255, 255, 255}};
+        {0, 0, 0},     {170, 0, 0},    {0, 170, 0},    {170, 85, 0},
+        {0, 0, 170},   {170, 0, 170},  {0, 170, 170},  {170, 170, 170},
+        {85, 85, 85},  {255, 85, 85},  {85, 255, 85},  {255, 255, 85},
+        {85, 85, 255}, {255, 85, 255}, {85, 255, 255}, {255, 255, 255}};
     int best = 0;
     int best_distance = 1 << 30;
     for (int i = 0; i < 16; i++) {

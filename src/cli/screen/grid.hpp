@@ -45,7 +45,8 @@ public:
     const Cell& at(int column, int row) const;
     // Outside of the page nothing happens.
     void put(int column, int row, const Cell& cell);
-    // UTF-8, cut at `column_end`; control characters and broken bytes become '?'. Gives the column behind the text.
+    // UTF-8, cut at `column_end`; control characters and broken bytes become '?'. Gives the column
+    // behind the text.
     int text(int column, int row, int column_end, std::string_view words, const Ink& ink);
     void fill(int column, int row, int columns, int rows, const Cell& cell);
     // The glyphs of a row as UTF-8, without spaces at the end: for tests.
@@ -61,7 +62,8 @@ int text_width(std::string_view words);
 
 enum class ColourDepth { None, Basic, Indexed, True };  // nothing, 16, 256, 24 bits
 
-// What to send to a terminal that shows `before` (nullptr: anything) so that it shows `after`. Only what changed.
+// What to send to a terminal that shows `before` (nullptr: anything) so that it shows `after`. Only
+// what changed.
 std::string repaint(const Grid* before, const Grid& after, ColourDepth depth);
 
 }  // namespace vagus::cli

@@ -8,24 +8,35 @@ constexpr char kEscape = '\x1b';
 std::optional<Key> plain_key(char byte) {
     switch (byte) {
         case ' ':
-        case 'p': return Key::Pause;
+        case 'p':
+            return Key::Pause;
         case 'r':
-        case 'R': return Key::Reset;
+        case 'R':
+            return Key::Reset;
         case '+':
-        case '=': return Key::Faster;
-        case '-': return Key::Slower;
-        case '\t': return Key::NextRobot;
-        case 'b': return Key::Button;
-        case 't': return Key::Tap;
+        case '=':
+            return Key::Faster;
+        case '-':
+            return Key::Slower;
+        case '\t':
+            return Key::NextRobot;
+        case 'b':
+            return Key::Button;
+        case 't':
+            return Key::Tap;
         case 'q':
         case 'Q':
-        case '\x03': return Key::Quit;
-        case '\x0c': return Key::Redraw;
-        default: return std::nullopt;
+        case '\x03':
+            return Key::Quit;
+        case '\x0c':
+            return Key::Redraw;
+        default:
+            return std::nullopt;
     }
 }
 
-// Bytes of the sequence at the front, 0 if its end is not there yet. ESC [ … letter, ESC O letter, ESC letter.
+// Bytes of the sequence at the front, 0 if its end is not there yet. ESC [ … letter, ESC O letter,
+// ESC letter.
 size_t sequence_length(std::string_view bytes) {
     if (bytes.size() < 2) return 0;
     if (bytes[1] == 'O') return bytes.size() < 3 ? 0 : 3;

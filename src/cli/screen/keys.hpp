@@ -10,8 +10,9 @@ namespace vagus::cli {
 
 enum class Key { Pause, Reset, Faster, Slower, NextRobot, LastRobot, Button, Tap, Quit, Redraw };
 
-// Keys in the order typed; sequences that mean nothing here are dropped. An escape sequence may be cut between two
-// reads: `rest` keeps its beginning (at most kSequenceMax bytes, then it is dropped). Escape alone is no key.
+// Keys in the order typed; sequences that mean nothing here are dropped. An escape sequence may be
+// cut between two reads: `rest` keeps its beginning (at most kSequenceMax bytes, then it is
+// dropped). Escape alone is no key.
 constexpr size_t kSequenceMax = 16;
 std::vector<Key> keys_of(std::string_view bytes, std::string& rest);
 

@@ -102,7 +102,7 @@ void heading(Page& page, std::string_view words, Charset charset) {
     page.next();
 }
 
-void add_robot(Page& page, const View& view) {
+void add_robot(Page& page, const View& view, Charset charset) {
     const PanelView& panel = view.panel;
     page.add(panel.node_name, {kHead, {}, true});
     page.add("  node " + std::to_string(panel.node_id), {kDim, {}, false});
@@ -111,9 +111,10 @@ void add_robot(Page& page, const View& view) {
     if (view.selected >= view.robots.size()) return;
     const RobotView& robot = view.robots[view.selected];
     const double degrees = robot.angle * 180 / std::numbers::pi;
+    const std::string degree = charset == Charset::Ascii ? " deg" : "°";
     const int64_t turned = (std::llround(degrees) % 360 + 360) % 360;
-    page.add("at " + fixed(robot.at.x, 2) + ", " + fixed(robot.at.y, 2) + " m  heading " +
-                 std::to_string(turned) + "°",
+    page.add("at " + fixed(robot.at.x, 2) + ", " + fixed(robot.at.y, 2) + " m  " +
+                 std::to_string(turned) + degree,
              {});
     page.next();
 }
@@ -194,7 +195,7 @@ void add_events(Page& page, const View& view, Charset charset) {
 
 void draw_panel(Grid& grid, Area area, const View& view, const Look& look) {
     Page page(grid, area);
-    add_robot(page, view);
+    add_robot(page, view, look.charset);
     add_sensors(page, view.panel, look.charset);
     const int events = std::max<int>(1, static_cast<int>(view.panel.events.size())) + 1;
     const int left = page.rows_left() - 1;  // under the heading

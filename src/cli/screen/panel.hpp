@@ -1,5 +1,5 @@
-// The column of figures beside the arena: the selected robot, its sensors and wheels, the variables of its script, the
-// events on the bus.
+// The column of figures beside the arena: the selected robot, its sensors and wheels, the variables
+// of its script, the events on the bus.
 #pragma once
 
 #include "cli/screen/canvas.hpp"

@@ -11,8 +11,11 @@ namespace vagus::cli {
 namespace {
 
 constexpr int kPanelMin = 27;
+constexpr double kPanelShare = 0.36;  // of the columns, where the arena would take more
 constexpr int kPanelMax = 60;
+constexpr int kNoticeMin = 10;  // columns that make it worth showing
 constexpr int kProblemRowsMax = 10;
+constexpr std::string_view kIndent = "  ";  // of a sentence's further rows
 constexpr Rgb kBarBack{38, 50, 82};
 constexpr Rgb kBarFore{225, 230, 240};
 constexpr Rgb kKey{255, 210, 90};
@@ -23,8 +26,8 @@ struct KeyHelp {
     const char* key;
     const char* does;
 };
-constexpr KeyHelp kKeys[] = {{"space", "pause"}, {"r", "reset"},  {"+ -", "speed"}, {"tab", "robot"},
-                             {"b", "button"},    {"t", "tap"},    {"q", "quit"}};
+constexpr KeyHelp kKeys[] = {{"space", "pause"}, {"q", "quit"},   {"r", "reset"}, {"+ -", "speed"},
+                             {"tab", "robot"},   {"b", "button"}, {"t", "tap"}};
 
 Grid too_small(Size size) {
     Grid grid(size);
@@ -45,69 +48,89 @@ std::string clock_text(Time now) {
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " s";
 }
 
-Ink bar_ink(Rgb fore, bool bold) { return {fore, kBarBack, bold}; }
+Ink bar_ink(Rgb fore, bool bold) {
+    return {fore, kBarBack, bold};
+}
 
 void draw_state(Grid& grid, int row, const View& view) {
     const Size size = grid.size();
     grid.fill(0, row, size.columns, 1, {U' ', bar_ink(kBarFore, false)});
     int column = grid.text(1, row, size.columns, view.title, bar_ink(kBarFore, true));
-    column = grid.text(column + 2, row, size.columns, clock_text(view.now), bar_ink(kBarFore, false));
+    column =
+        grid.text(column + 2, row, size.columns, clock_text(view.now), bar_ink(kBarFore, false));
     column = view.paused
                  ? grid.text(column + 2, row, size.columns, "paused", bar_ink(kPaused, true))
                  : grid.text(column + 2, row, size.columns, view.speed, bar_ink(kBarFore, false));
     const int left = size.columns - 1 - text_width(view.listening);
-    if (!view.listening.empty() && left > column + 1) {
-        grid.text(left, row, size.columns, view.listening, bar_ink(kBarFore, false));
+    const bool shown = !view.listening.empty() && left > column + 1;
+    if (shown) grid.text(left, row, size.columns, view.listening, bar_ink(kBarFore, false));
+    const int room = (shown ? left : size.columns) - 2 - (column + 2);
+    if (room >= kNoticeMin) {
+        grid.text(column + 2, row, column + 2 + room, view.notice, bar_ink(kKey, false));
     }
 }
 
+// The keys that fit whole, the needed ones first.
 void draw_keys(Grid& grid, int row, const View& view) {
     const Size size = grid.size();
     int column = 1;
     for (const KeyHelp& help : kKeys) {
         const bool resumes = view.paused && std::string_view(help.does) == "pause";
+        const std::string_view does = resumes ? "go on" : help.does;
+        const int width = text_width(help.key) + 1 + text_width(does);
+        if (column + width > size.columns) return;
         column = grid.text(column, row, size.columns, help.key, {kKey, {}, true});
-        column = grid.text(column + 1, row, size.columns, resumes ? "go on" : help.does, {}) + 2;
+        column = grid.text(column + 1, row, size.columns, does, {}) + 2;
     }
-    const int left = std::max(column + 1, size.columns - 1 - text_width(view.notice));
-    grid.text(left, row, size.columns, view.notice, {});
 }
 
-int problem_rows(const View& view, Size size) {
-    if (view.problems.empty()) return 0;
-    const int rows = static_cast<int>(std::min<size_t>(view.problems.size(), kProblemRowsMax));
-    return std::min(rows + 1, size.rows / 2);
+// Sentences are broken at spaces, so that nothing of them is lost on a narrow screen; lines of the
+// script and the carets under them are only cut.
+std::vector<std::string> broken(const std::vector<std::string>& lines, int columns) {
+    std::vector<std::string> rows;
+    for (std::string line : lines) {
+        const bool sentence = !line.starts_with(" ");
+        while (sentence && text_width(line) > columns) {
+            const size_t end = line.rfind(' ', static_cast<size_t>(columns));
+            if (end == std::string::npos || end <= kIndent.size()) break;
+            rows.push_back(line.substr(0, end));
+            line = std::string(kIndent) + line.substr(end + 1);
+        }
+        rows.push_back(line);
+    }
+    return rows;
 }
 
 // The mistakes in the script, above the keys. The program that was loaded before runs on.
-void draw_problems(Grid& grid, int row, int rows, const View& view) {
-    const Size size = grid.size();
-    const Cell bare{};
-    grid.fill(0, row, size.columns, rows, bare);
-    grid.fill(0, row, size.columns, 1, {U' ', {Rgb{255, 255, 255}, Rgb{150, 30, 30}, true}});
-    grid.text(1, row, size.columns, "the script has mistakes; what was loaded before runs on",
-              {Rgb{255, 255, 255}, Rgb{150, 30, 30}, true});
-    for (int i = 1; i < rows; i++) {
-        const std::string& line = view.problems[static_cast<size_t>(i - 1)];
-        const bool sentence = !line.starts_with(" ");
-        grid.text(1, row + i, size.columns, line,
-                  {sentence ? Colour(kError) : Colour(), {}, sentence});
+void draw_problems(Grid& grid, int row, const std::vector<std::string>& rows) {
+    const int columns = grid.size().columns;
+    const Ink head{Rgb{255, 255, 255}, Rgb{150, 30, 30}, true};
+    grid.fill(0, row, columns, 1, {U' ', head});
+    grid.text(1, row, columns, "the script has mistakes; what was loaded before runs on", head);
+    for (const std::string& line : rows) {
+        const bool sentence = !line.starts_with("   ");
+        row++;
+        grid.text(1, row, columns, line, {sentence ? Colour(kError) : Colour(), {}, sentence});
     }
 }
 
 struct Layout {
     Area arena;
     Area panel;
-    int problems = 0;  // rows
+    std::vector<std::string> problems;  // rows of text
 };
 
 // The arena takes the height and as many columns as its form needs; the panel takes the rest.
 Layout layout(const View& view, Size size) {
     Layout layout;
-    layout.problems = problem_rows(view, size);
-    const int rows = size.rows - 2 - layout.problems;
+    layout.problems = broken(view.problems, size.columns - 2);
+    const auto most_rows = static_cast<size_t>(std::min(kProblemRowsMax, size.rows / 2));
+    if (layout.problems.size() > most_rows) layout.problems.resize(most_rows);
+    const int under = layout.problems.empty() ? 0 : static_cast<int>(layout.problems.size()) + 1;
+    const int rows = size.rows - 2 - under;
     const double wanted = std::ceil(2.0 * rows * view.width / std::max(view.height, 1e-9));
-    const int most = size.columns - kPanelMin - 1;
+    const int reserved = std::max(kPanelMin, static_cast<int>(kPanelShare * size.columns));
+    const int most = size.columns - reserved - 1;
     const int columns = static_cast<int>(std::clamp(wanted, 1.0, 1.0 * most));
     const int panel = std::min(size.columns - columns - 1, kPanelMax);
     layout.arena = {0, 1, size.columns - panel - 1, rows};
@@ -142,9 +165,7 @@ Grid draw(const View& view, Size size, const Look& look) {
     draw_state(grid, 0, view);
     draw_arena(grid, parts.arena, view, look);
     draw_panel(grid, parts.panel, view, look);
-    if (parts.problems > 0) {
-        draw_problems(grid, page.rows - 1 - parts.problems, parts.problems, view);
-    }
+    if (!parts.problems.empty()) draw_problems(grid, 1 + parts.arena.rows, parts.problems);
     draw_keys(grid, page.rows - 1, view);
     return grid;
 }

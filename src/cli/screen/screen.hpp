@@ -14,8 +14,9 @@ constexpr Size kSizeMin{60, 16};  // below this the page only says that it needs
 
 Grid draw(const View& view, Size size, const Look& look);
 
-// How a terminal can draw, by the variables of its environment. NO_COLOR (not empty) means no colour. Where no locale
-// is set at all, as in a bare container, the terminal is taken to understand UTF-8, as nearly all do.
+// How a terminal can draw, by the variables of its environment. NO_COLOR (not empty) means no
+// colour. Where no locale is set at all, as in a bare container, the terminal is taken to
+// understand UTF-8, as nearly all do.
 struct Environment {
     std::string term;       // TERM
     std::string colorterm;  // COLORTERM

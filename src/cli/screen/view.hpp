@@ -1,5 +1,6 @@
-// Everything that the terminal view shows at one moment, as plain values. cli/sim fills it from a session; draw()
-// (screen.hpp) turns it into cells. Nothing here knows a robot, a socket or a terminal.
+// Everything that the terminal view shows at one moment, as plain values. cli/sim fills it from a
+// session; draw() (screen.hpp) turns it into cells. Nothing here knows a robot, a socket or a
+// terminal.
 #pragma once
 
 #include <cstdint>

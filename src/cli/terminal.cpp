@@ -1,0 +1,191 @@
+#include "cli/terminal.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+
+namespace vagus::cli {
+namespace {
+
+// Alternate screen, hidden cursor, no line wrap; and all of it back.
+constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J";
+constexpr std::string_view kLeave = "\x1b[0m\x1b[?7h\x1b[?25h\x1b[?1049l";
+// A whole page appears at once on terminals that know this mode; others ignore it.
+constexpr std::string_view kBegin = "\x1b[?2026h";
+constexpr std::string_view kEnd = "\x1b[?2026l";
+constexpr int kWriteWaitMs =
+    1000;  // a terminal that takes nothing for so long (Ctrl-S) loses a page
+
+// Signal handlers reach these. They change only in open(), close and the handlers, all of one
+// thread.
+termios g_before;                        // the terminal as it was found
+volatile sig_atomic_t g_taken = 0;       // the terminal is ours at this moment
+volatile sig_atomic_t g_lost = 0;        // the page on it is gone
+volatile sig_atomic_t g_end_signal = 0;  // the first that asked for the end
+
+// Only calls that are allowed in a signal handler.
+void give_back() {
+    if (g_taken == 0) return;
+    g_taken = 0;
+    [[maybe_unused]] const auto written = ::write(STDOUT_FILENO, kLeave.data(), kLeave.size());
+    ::tcsetattr(STDIN_FILENO, TCSANOW, &g_before);
+}
+
+void take() {
+    termios raw = g_before;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ECHO | ICANON);
+    raw.c_iflag &= ~static_cast<tcflag_t>(IXON | ICRNL);
+    raw.c_cc[VMIN] = 0;
+    raw.c_cc[VTIME] = 0;
+    ::tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+    [[maybe_unused]] const auto written = ::write(STDOUT_FILENO, kEnter.data(), kEnter.size());
+    g_taken = 1;
+    g_lost = 1;
+}
+
+void die_by(int signal_number) {
+    ::signal(signal_number, SIG_DFL);
+    sigset_t set;
+    ::sigemptyset(&set);
+    ::sigaddset(&set, signal_number);
+    ::sigprocmask(SIG_UNBLOCK, &set, nullptr);
+    ::raise(signal_number);
+}
+
+void on_crash(int signal_number) {
+    give_back();
+    die_by(signal_number);
+}
+
+void on_stop(int signal_number) {
+    const int before = errno;
+    give_back();
+    die_by(signal_number);  // returns when the process is continued
+    errno = before;
+}
+
+void on_continue(int) {
+    const int before = errno;
+    struct sigaction stop = {};
+    stop.sa_handler = on_stop;
+    ::sigaction(SIGTSTP, &stop, nullptr);
+    // In the background a change of the terminal would stop us again.
+    if (g_taken == 0 && ::tcgetpgrp(STDIN_FILENO) == ::getpgrp()) take();
+    errno = before;
+}
+
+void on_end(int signal_number) {
+    if (g_end_signal != 0) on_crash(signal_number);
+    g_end_signal = signal_number;
+}
+
+void catch_signal(int signal_number, void (*handler)(int)) {
+    struct sigaction action = {};
+    action.sa_handler = handler;
+    ::sigaction(signal_number, &action, nullptr);
+}
+
+constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGQUIT};
+
+std::string environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+}
+
+}  // namespace
+
+Result<Terminal> Terminal::open() {
+    if (::isatty(STDOUT_FILENO) != 1 || ::tcgetattr(STDIN_FILENO, &g_before) != 0) {
+        return Error{Code::Unavailable, "no terminal to draw on: give --headless for plain lines"};
+    }
+    for (const int crash : kCrashes) catch_signal(crash, on_crash);
+    catch_signal(SIGTSTP, on_stop);
+    catch_signal(SIGCONT, on_continue);
+    take();
+    g_lost = 0;
+    return Terminal();
+}
+
+Terminal::Terminal(Terminal&& other) noexcept : open_(other.open_) {
+    other.open_ = false;
+}
+
+Terminal::~Terminal() {
+    if (!open_) return;
+    give_back();
+    for (const int crash : kCrashes) ::signal(crash, SIG_DFL);
+    ::signal(SIGTSTP, SIG_DFL);
+    ::signal(SIGCONT, SIG_DFL);
+}
+
+Size Terminal::size() const {
+    winsize window = {};
+    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_col == 0) return {};
+    return {window.ws_col, window.ws_row};
+}
+
+bool Terminal::write(std::string_view bytes) {
+    if (bytes.empty() || g_taken == 0) return true;  // in the background the screen is not ours
+    const std::string page = std::string(kBegin) + std::string(bytes) + std::string(kEnd);
+    std::string_view left = page;
+    while (!left.empty()) {
+        const auto count = ::write(STDOUT_FILENO, left.data(), left.size());
+        if (count > 0) {
+            left.remove_prefix(static_cast<size_t>(count));
+            continue;
+        }
+        if (errno == EINTR) continue;
+        if (errno != EAGAIN) return false;
+        pollfd ready{STDOUT_FILENO, POLLOUT, 0};
+        if (::poll(&ready, 1, kWriteWaitMs) == 0) {
+            g_lost = 1;
+            return true;
+        }
+    }
+    return true;
+}
+
+std::string Terminal::read() {
+    if (g_taken == 0) return {};
+    std::string bytes(4096, '\0');
+    pollfd ready{STDIN_FILENO, POLLIN, 0};
+    if (::poll(&ready, 1, 0) <= 0) return {};
+    const auto count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+    bytes.resize(count > 0 ? static_cast<size_t>(count) : 0);
+    return bytes;
+}
+
+bool Terminal::take_lost() {
+    const bool lost = g_lost != 0;
+    g_lost = 0;
+    return lost;
+}
+
+void watch_for_end() {
+    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) catch_signal(signal_number, on_end);
+}
+
+bool end_asked() {
+    return g_end_signal != 0;
+}
+
+int end_as_asked(int exit_code) {
+    if (g_end_signal != 0) die_by(g_end_signal);
+    return exit_code;
+}
+
+Look look_of_environment() {
+    std::string locale;
+    for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+        if (locale.empty()) locale = environment(name);
+    }
+    return look_for(
+        {environment("TERM"), environment("COLORTERM"), environment("NO_COLOR"), locale});
+}
+
+}  // namespace vagus::cli

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
+
 namespace vagus::cli {
 namespace {
 
@@ -10,40 +12,11 @@ struct Decoded {
     size_t bytes;
 };
 
-bool is_tail(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
-}
-
 Decoded decode(std::string_view text) {
-    const auto lead = static_cast<unsigned char>(text[0]);
-    if (lead < 0x80) return {lead < 0x20 || lead == 0x7f ? U'?' : lead, 1};
-    const size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-    if (lead < 0xc2 || lead > 0xf4 || text.size() < bytes) return {U'?', 1};
-    char32_t glyph = lead & (0xffu >> (bytes + 1));
-    for (size_t i = 1; i < bytes; i++) {
-        if (!is_tail(text[i])) return {U'?', 1};
-        glyph = (glyph << 6) | (static_cast<unsigned char>(text[i]) & 0x3fu);
-    }
-    return {glyph < 0xa0 ? U'?' : glyph, bytes};
-}
-
-void encode(char32_t glyph, std::string& out) {
-    const auto add = [&out](char32_t byte) { out += static_cast<char>(byte); };
-    if (glyph < 0x80) {
-        add(glyph);
-    } else if (glyph < 0x800) {
-        add(0xc0 | (glyph >> 6));
-        add(0x80 | (glyph & 0x3f));
-    } else if (glyph < 0x10000) {
-        add(0xe0 | (glyph >> 12));
-        add(0x80 | ((glyph >> 6) & 0x3f));
-        add(0x80 | (glyph & 0x3f));
-    } else {
-        add(0xf0 | (glyph >> 18));
-        add(0x80 | ((glyph >> 12) & 0x3f));
-        add(0x80 | ((glyph >> 6) & 0x3f));
-        add(0x80 | (glyph & 0x3f));
-    }
+    const CodePoint point = first_code_point(text);
+    if (point.bytes == 0) return {U'?', 1};
+    const bool control = point.value < 0x20 || (point.value >= 0x7f && point.value < 0xa0);
+    return {control ? U'?' : point.value, point.bytes};
 }
 
 // Columns of a character, by the blocks that terminals agree on: 0 marks that combine, 2 East Asian
@@ -159,7 +132,7 @@ void Grid::fill(int column, int row, int columns, int rows, const Cell& cell) {
 std::string Grid::row_text(int row) const {
     std::string text;
     for (int column = 0; column < size_.columns; column++) {
-        if (const char32_t glyph = at(column, row).glyph; glyph != 0) encode(glyph, text);
+        if (const char32_t glyph = at(column, row).glyph; glyph != 0) text += to_utf8(glyph);
     }
     text.erase(text.find_last_not_of(' ') + 1);
     return text;
@@ -192,7 +165,7 @@ std::string repaint(const Grid* before, const Grid& after, ColourDepth depth) {
             }
             if (ink != cell.ink) add_ink(cell.ink, depth, out);
             ink = cell.ink;
-            encode(cell.glyph, out);
+            out += to_utf8(cell.glyph);
             cursor = column + glyph_width(cell.glyph);
         }
     }

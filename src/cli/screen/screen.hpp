@@ -18,10 +18,10 @@ Grid draw(const View& view, Size size, const Look& look);
 // colour. Where no locale is set at all, as in a bare container, the terminal is taken to
 // understand UTF-8, as nearly all do.
 struct Environment {
-    std::string term;       // TERM
-    std::string colorterm;  // COLORTERM
-    std::string no_color;   // NO_COLOR
-    std::string locale;     // the first of LC_ALL, LC_CTYPE, LANG that is not empty
+    std::string term{};       // TERM
+    std::string colorterm{};  // COLORTERM
+    std::string no_color{};   // NO_COLOR
+    std::string locale{};     // the first of LC_ALL, LC_CTYPE, LANG that is not empty
 };
 Look look_for(const Environment& environment);
 

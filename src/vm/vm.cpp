@@ -55,9 +55,10 @@ void store_variables(Vm& vm, uint16_t start, const uint16_t* words, uint16_t cou
 
 uint16_t event_address(const Vm& vm, uint16_t event) {
     const uint16_t* const code = vm.config->bytecode;
-    const uint16_t* const end = code + count_inside(vm.config->bytecode_size, 0, code[0]);
-    for (const uint16_t* entry = code + 2; entry < end; entry += 2) {
-        if (entry[-1] == event) return *entry;
+    const uint16_t last = static_cast<uint16_t>(vm.config->bytecode_size - 1);
+    const uint16_t* const end = code + (code[0] < last ? code[0] : last);
+    for (const uint16_t* entry = code + 1; entry < end; entry += 2) {
+        if (entry[0] == event) return entry[1];
     }
     return 0;
 }

@@ -67,8 +67,8 @@ struct Host {
 
 // What never changes while the machine runs. Sizes are in words; the memories must not overlap.
 struct Config {
-    uint16_t id;  // of the node: commands to other nodes are ignored
-    uint16_t bytecode_size;
+    uint16_t id;             // of the node: commands to other nodes are ignored
+    uint16_t bytecode_size;  // at least 1
     uint16_t variables_size;
     uint16_t stack_size;
     uint16_t arguments_capacity;  // size of the third described variable, usually 32

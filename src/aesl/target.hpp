@@ -13,22 +13,26 @@ namespace vagus::aesl {
 struct NamedVariable {
     std::string name;
     uint16_t size = 1;  // words
+    friend bool operator==(const NamedVariable&, const NamedVariable&) = default;
 };
 
 struct LocalEvent {
     std::string name;
     std::string doc;
+    friend bool operator==(const LocalEvent&, const LocalEvent&) = default;
 };
 
 struct NativeParameter {
     std::string name;
     int16_t size = 1;  // > 0 words; < 0 number of a template; 0 any size
+    friend bool operator==(const NativeParameter&, const NativeParameter&) = default;
 };
 
 struct NativeFunction {
     std::string name;
     std::string doc;
     std::vector<NativeParameter> parameters;
+    friend bool operator==(const NativeFunction&, const NativeFunction&) = default;
 };
 
 // One node. Variables lie from address 0 in this order; the k-th local event has id 0xfffe - k; the k-th native id k.
@@ -41,6 +45,7 @@ struct Target {
     std::vector<NamedVariable> variables;
     std::vector<LocalEvent> local_events;
     std::vector<NativeFunction> natives;
+    friend bool operator==(const Target&, const Target&) = default;
 };
 
 struct GlobalEvent {

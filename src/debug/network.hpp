@@ -89,6 +89,14 @@ struct VariableRange {
     uint16_t count = 1;
 };
 
+// Everyday bad input.
+struct Counts {
+    uint64_t dropped = 0;    // frames and events thrown away because nobody took them
+    uint64_t malformed = 0;  // frames that are not what their type says
+};
+
+class Peer;  // one node, inside
+
 class Network {
 public:
     Network();
@@ -103,8 +111,7 @@ public:
     Time next_tick() const;
     std::vector<wire::Frame> take_frames();
     std::vector<Event> take_events();
-    // Frames and events thrown away because nobody took them.
-    uint64_t dropped() const;
+    Counts counts() const;
 
     // ---- nodes ----
     // Ascending; disconnected ones too, but not those that said good-bye.
@@ -171,6 +178,8 @@ public:
     Status emit(std::string_view event, std::span<const int16_t> arguments);
 
 private:
+    Result<Peer*> usable(NodeId id) const;
+
     class Impl;
     std::unique_ptr<Impl> impl_;
 };

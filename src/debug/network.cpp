@@ -1,0 +1,369 @@
+#include "debug/network.hpp"
+
+#include <map>
+#include <set>
+
+#include "debug/names.hpp"
+#include "debug/peer.hpp"
+
+namespace vagus::debug {
+
+const char* name_of(ProgramState state) {
+    switch (state) {
+        case ProgramState::Unknown:
+            return "unknown";
+        case ProgramState::Running:
+            return "running";
+        case ProgramState::Paused:
+            return "paused";
+        case ProgramState::Stopped:
+            return "stopped";
+    }
+    return "";
+}
+
+const char* name_of(FaultKind kind) {
+    switch (kind) {
+        case FaultKind::ArrayAccess:
+            return "array_access";
+        case FaultKind::DivisionByZero:
+            return "division_by_zero";
+        case FaultKind::Killed:
+            return "killed";
+        case FaultKind::NodeSpecific:
+            return "node_specific";
+    }
+    return "";
+}
+
+// Who is there: discovery as in section 2.6 of the wire spec. What a node says is for its Peer.
+class Network::Impl {
+public:
+    void receive(Time now, const wire::Frame& frame);
+    void tick(Time now);
+    Time next_tick() const;
+    void list_nodes();
+    Peer* peer(NodeId id);
+    std::vector<const NodeView*> views() const;
+    Error unknown(NodeId id) const;
+
+    Outbox out;
+    aesl::CommonDefinitions common;
+    std::map<NodeId, std::unique_ptr<Peer>> peers;
+    uint64_t malformed = 0;
+
+private:
+    void receive_event(const wire::Frame& frame);
+    void receive_command(const wire::Frame& frame);
+    void receive_node(const wire::Frame& frame);
+    // The node of that id, made if there is room; nullptr if its protocol is not ours.
+    Peer* meet(NodeId id, uint16_t protocol);
+    void forget(NodeId id);
+    bool anybody_connected() const;
+
+    std::set<NodeId> mismatched_;  // told already
+    // Of nodes that said good-bye: they get them back when they return under the same name.
+    struct Farewell {
+        std::string name;
+        std::vector<Breakpoint> breakpoints;
+    };
+    std::map<NodeId, Farewell> farewells_;
+    Time next_list_{};
+    size_t description_bytes_ = 0;
+    bool told_too_many_ = false;
+};
+
+void Network::Impl::receive(Time now, const wire::Frame& frame) {
+    out.now = std::max(out.now, now);
+    if (wire::is_user_event(frame.type)) return receive_event(frame);
+    if (wire::is_command(frame.type)) return receive_command(frame);
+    if (frame.source != wire::kHostId && frame.source != wire::kInvalidId) receive_node(frame);
+}
+
+void Network::Impl::receive_event(const wire::Frame& frame) {
+    if (Peer* known = peer(frame.source)) known->seen();
+    UserEvent event;
+    event.number = frame.type;
+    if (frame.type < common.events.size()) event.name = common.events[frame.type].name;
+    for (uint16_t at = 0; at + 1 < frame.size; at = static_cast<uint16_t>(at + 2)) {
+        const int word = frame.payload[at] | (frame.payload[at + 1] << 8);
+        event.arguments.push_back(static_cast<int16_t>(word));
+    }
+    out.tell(frame.source, std::move(event));
+}
+
+void Network::Impl::receive_command(const wire::Frame& frame) {
+    if (Peer* to = peer(frame.first_word())) to->foreign_command(frame);
+}
+
+void Network::Impl::receive_node(const wire::Frame& frame) {
+    Peer* from = peer(frame.source);
+    if (frame.type == static_cast<uint16_t>(wire::MessageType::NodePresent)) {
+        wire::NodePresent present;
+        if (wire::decode_message(frame, present) != wire::Error::None) {
+            malformed++;
+        } else if (Peer* met = meet(frame.source, present.version)) {
+            met->seen();
+        }
+        return;
+    }
+    if (frame.type == static_cast<uint16_t>(wire::MessageType::Disconnected)) {
+        return forget(frame.source);
+    }
+    if (frame.type == static_cast<uint16_t>(wire::MessageType::Description)) {
+        wire::Description header;
+        if (wire::decode_message(frame, header) != wire::Error::None) {
+            malformed++;
+            return;
+        }
+        from = meet(frame.source, header.protocol_version);
+    }
+    if (from == nullptr) return;  // all else from unknown sources is ignored (2.6, 3)
+    const bool was_described = from->view().described;
+    const size_t before = from->description_bytes();
+    from->seen();
+    if (!from->receive(frame)) malformed++;
+    description_bytes_ += from->description_bytes() - before;  // may be less: a header begins anew
+    if (description_bytes_ > kDescriptionBytesTotalMax) {
+        description_bytes_ -= from->description_bytes();
+        from->refuse_description();
+        description_bytes_ += from->description_bytes();
+    }
+    if (was_described || !from->view().described) return;
+    const auto known = farewells_.find(frame.source);
+    if (known == farewells_.end()) return;
+    if (known->second.name == from->view().name) {
+        from->control().restore_breakpoints(known->second.breakpoints);
+    }
+    farewells_.erase(known);
+}
+
+Peer* Network::Impl::meet(NodeId id, uint16_t protocol) {
+    if (protocol < wire::kProtocolVersionMin || protocol > wire::kProtocolVersionMax) {
+        if (mismatched_.size() < kNodesMax && mismatched_.insert(id).second) {
+            out.tell(id, ProtocolMismatch{protocol});
+        }
+        return nullptr;
+    }
+    mismatched_.erase(id);
+    if (Peer* known = peer(id)) return known;
+    if (peers.size() < kNodesMax) {
+        return (peers[id] = std::make_unique<Peer>(id, protocol, out, common)).get();
+    }
+    if (!std::exchange(told_too_many_, true)) out.tell(id, TooManyNodes{});
+    return nullptr;
+}
+
+void Network::Impl::forget(NodeId id) {
+    Peer* peer_left = peer(id);
+    if (peer_left == nullptr) return;
+    peer_left->leave("has left the network");
+    const NodeView& view = peer_left->view();
+    if (!view.breakpoints.empty() && farewells_.size() < kNodesMax) {
+        farewells_[id] = {view.name, view.breakpoints};
+    }
+    description_bytes_ -= peer_left->description_bytes();
+    peers.erase(id);
+    out.tell(id, NodeDisconnected{.forgotten = true});
+}
+
+void Network::Impl::tick(Time now) {
+    out.now = std::max(out.now, now);
+    if (out.now >= next_list_) list_nodes();
+    for (const auto& [id, known] : peers) {
+        const size_t before = known->description_bytes();
+        known->tick();
+        description_bytes_ += known->description_bytes() - before;
+    }
+}
+
+void Network::Impl::list_nodes() {
+    next_list_ = out.now + kListEvery;
+    wire::ListNodes list{};
+    list.version = wire::kProtocolVersion;
+    out.send(list);
+    if (anybody_connected()) return;
+    wire::GetDescription old{};  // nodes of version 4 know nothing newer (2.6, 6)
+    old.version = wire::kProtocolVersion;
+    out.send(old);
+}
+
+bool Network::Impl::anybody_connected() const {
+    for (const auto& [id, known] : peers) {
+        if (known->view().connected) return true;
+    }
+    return false;
+}
+
+Time Network::Impl::next_tick() const {
+    Time next = next_list_;
+    for (const auto& [id, known] : peers) next = std::min(next, known->next_tick());
+    return next;
+}
+
+Peer* Network::Impl::peer(NodeId id) {
+    const auto found = peers.find(id);
+    return found == peers.end() ? nullptr : found->second.get();
+}
+
+std::vector<const NodeView*> Network::Impl::views() const {
+    std::vector<const NodeView*> all;
+    for (const auto& [id, known] : peers) all.push_back(&known->view());
+    return all;
+}
+
+Error Network::Impl::unknown(NodeId id) const {
+    const auto found = find_node(views(), std::to_string(id));
+    if (!found.ok()) return found.error();
+    return {Code::NotFound, "there is no node " + std::to_string(id)};
+}
+
+// ---- the public face: finds the node, then its Peer or Control does the work ----
+
+Network::Network() : impl_(std::make_unique<Impl>()) {}
+Network::~Network() = default;
+Network::Network(Network&&) noexcept = default;
+Network& Network::operator=(Network&&) noexcept = default;
+
+void Network::receive(Time now, const wire::Frame& frame) {
+    impl_->receive(now, frame);
+}
+void Network::tick(Time now) {
+    impl_->tick(now);
+}
+Time Network::next_tick() const {
+    return impl_->next_tick();
+}
+std::vector<wire::Frame> Network::take_frames() {
+    return impl_->out.take_frames();
+}
+std::vector<Event> Network::take_events() {
+    return impl_->out.take_events();
+}
+Counts Network::counts() const {
+    return {.dropped = impl_->out.dropped(), .malformed = impl_->malformed};
+}
+
+std::vector<NodeId> Network::nodes() const {
+    std::vector<NodeId> ids;
+    for (const auto& [id, known] : impl_->peers) ids.push_back(id);
+    return ids;
+}
+
+const NodeView* Network::node(NodeId id) const {
+    const Peer* known = impl_->peer(id);
+    return known == nullptr ? nullptr : &known->view();
+}
+
+Result<NodeId> Network::find(std::string_view name_or_id) const {
+    return find_node(impl_->views(), name_or_id);
+}
+
+void Network::list_nodes() {
+    impl_->list_nodes();
+}
+
+void Network::set_common(aesl::CommonDefinitions common) {
+    impl_->common = std::move(common);
+}
+
+const aesl::CommonDefinitions& Network::common() const {
+    return impl_->common;
+}
+
+// The Peer of a node that can be worked with, or an Error from the function around.
+Result<Peer*> Network::usable(NodeId id) const {
+    (void)TRY(find_node(impl_->views(), std::to_string(id)));
+    return impl_->peer(id);
+}
+
+Result<RequestId> Network::load(NodeId id, const aesl::Program& program) {
+    return TRY(usable(id))->control().load(program);
+}
+
+Status Network::adopt(NodeId id, const aesl::Program& program) {
+    TRY(usable(id))->control().adopt(program);
+    return Status::done();
+}
+
+Result<RequestId> Network::run(NodeId id) {
+    return TRY(usable(id))->control().ask(Control::Kind::Run);
+}
+Result<RequestId> Network::pause(NodeId id) {
+    return TRY(usable(id))->control().ask(Control::Kind::Pause);
+}
+Result<RequestId> Network::stop(NodeId id) {
+    return TRY(usable(id))->control().ask(Control::Kind::Stop);
+}
+Result<RequestId> Network::reset(NodeId id) {
+    return TRY(usable(id))->control().ask(Control::Kind::Reset);
+}
+Result<RequestId> Network::step(NodeId id) {
+    return TRY(usable(id))->control().ask(Control::Kind::Step);
+}
+Result<RequestId> Network::query(NodeId id) {
+    return TRY(usable(id))->control().ask(Control::Kind::Query);
+}
+Result<RequestId> Network::save(NodeId id) {
+    return TRY(usable(id))->control().ask(Control::Kind::Save);
+}
+
+Result<RequestId> Network::set_breakpoint(NodeId id, int line, std::string_view condition) {
+    return TRY(usable(id))->control().set_breakpoint(line, condition, impl_->common.constants);
+}
+Status Network::clear_breakpoint(NodeId id, int line) {
+    return TRY(usable(id))->control().clear_breakpoint(line);
+}
+Status Network::clear_breakpoints(NodeId id) {
+    TRY(usable(id))->control().clear_breakpoints();
+    return Status::done();
+}
+
+Result<VariableRange> Network::variable(NodeId id, std::string_view text) const {
+    return find_range(TRY(usable(id))->view(), text);
+}
+
+Result<RequestId> Network::get(NodeId id, const VariableRange& range) {
+    return TRY(usable(id))->get(range);
+}
+
+Result<RequestId> Network::set(NodeId id, const VariableRange& range,
+                               std::span<const int16_t> values) {
+    if (values.empty() || values.size() > range.count) {
+        return Error{Code::BadInput, range.name + " takes 1 to " + std::to_string(range.count) +
+                                         " values here, found " + std::to_string(values.size())};
+    }
+    return TRY(usable(id))->set(range, values);
+}
+
+Status Network::watch(NodeId id, const VariableRange& range, Duration every) {
+    return TRY(usable(id))->watch(range, every);
+}
+
+void Network::unwatch(NodeId id, std::string_view name) {
+    if (Peer* known = impl_->peer(id)) known->unwatch(name);
+}
+
+Status Network::emit(std::string_view event, std::span<const int16_t> arguments) {
+    const EventShape shape = TRY(find_event(impl_->common, event));
+    if (shape.size && *shape.size != arguments.size()) {
+        return Error{Code::BadInput, "event \"" + std::string(event) + "\" takes " +
+                                         std::to_string(*shape.size) + " arguments, found " +
+                                         std::to_string(arguments.size())};
+    }
+    if (arguments.size() > wire::kArgumentsMax) {
+        return Error{Code::Limit, "an event has at most " + std::to_string(wire::kArgumentsMax) +
+                                      " arguments, found " + std::to_string(arguments.size())};
+    }
+    wire::Frame frame{};
+    frame.source = wire::kHostId;
+    frame.type = shape.number;
+    for (const int16_t word : arguments) {
+        frame.payload[frame.size++] = static_cast<uint8_t>(word & 0xff);
+        frame.payload[frame.size++] = static_cast<uint8_t>((word >> 8) & 0xff);
+    }
+    impl_->out.send_frame(frame);
+    return Status::done();
+}
+
+}  // namespace vagus::debug

@@ -1,4 +1,5 @@
-// Programs on a node: loading, running, stepping, breakpoints, faults. Dumps of the wire spec, 2.10.
+// Programs on a node: loading, running, stepping, breakpoints, faults.
+// Dumps of the wire spec, 2.10.
 #include "debug/scripted_bus.hpp"
 
 namespace vagus::debug {

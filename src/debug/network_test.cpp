@@ -1,4 +1,5 @@
-// Discovery and descriptions (wire spec, 2.6 and 2.9). Frames are dumps of section 2.10 or made by hand from 2.2.
+// Discovery and descriptions (wire spec, 2.6 and 2.9).
+// Frames are dumps of section 2.10 or made by hand from 2.2.
 #include "debug/network.hpp"
 
 #include "debug/scripted_bus.hpp"

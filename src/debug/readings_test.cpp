@@ -1,4 +1,5 @@
-// Variables: reading in pieces, replies in chunks, writing, watching (wire spec, 1.3, 2.3 and 2.10).
+// Variables: reading in pieces, replies in chunks, writing, watching
+// (wire spec, 1.3, 2.3 and 2.10).
 #include "debug/scripted_bus.hpp"
 
 namespace vagus::debug {

@@ -1,4 +1,5 @@
-// For tests: a Network on scripted time whose frames are written and read as the hex dumps of the wire spec (2.10).
+// For tests: a Network on scripted time whose frames
+// are written and read as the hex dumps of the wire spec (2.10).
 #pragma once
 
 #include <gtest/gtest.h>
@@ -52,7 +53,8 @@ public:
         collect();
     }
 
-    // Frames since the last call, one string each; without ListNodes and GetDescription, which only keep time.
+    // Frames since the last call, one string each; without ListNodes and GetDescription, which
+    // only keep time.
     std::vector<std::string> sent() {
         std::vector<std::string> dumps;
         for (const wire::Frame& frame : network.take_frames()) {
@@ -82,7 +84,8 @@ public:
         network.take_frames();
     }
 
-    // Node `id`, named "robot": 32 words of program, 3 variables on 34 words of 800, one event "tick".
+    // Node `id`, named "robot": 3000 words of program, 3 variables on 34 words of 800, one event
+    // "tick".
     // Ends described and, as freshly started nodes are, running with pc 0.
     void meet_robot(NodeId id) {
         wire::NodePresent present{};

@@ -1,0 +1,184 @@
+// One simulated world with its bus and the scripts of its robots, on one clock. Scripts go to the
+// robots as from any host: the session is a host of its own on the bus, waits for the robots'
+// descriptions, compiles, and sends the bytecode. It is told how much time passes and opens no
+// socket; whoever has sockets adds links to world().bus().
+//
+//     Result<SimSession> opened = open_sim("arena.world.json", {});
+//     SimSession& session = opened.value();
+//     Status loaded = session.load("explore.aesl", text);      // again after each change of the file
+//     session.step(std::chrono::milliseconds(40));
+//     for (const Note& note : session.take_notes()) show(note.text);
+//     for (const RobotState& robot : session.robots()) show(robot.node_name, robot.state);
+//
+// What mistakes a script has is known once the robots have described themselves, some milliseconds of
+// simulated time after the start: settled() tells when.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aesl/compile.hpp"
+#include "base/result.hpp"
+#include "debug/network.hpp"
+#include "session/script_file.hpp"
+#include "sim/world.hpp"
+
+namespace vagus::session {
+
+constexpr size_t kScriptFilesMax = sim::kRobotsMax + 1;  // one for each robot, and one for all
+constexpr size_t kEventNamesMax = 256;  // different events that are counted; further ones only pass
+constexpr size_t kNotesMax = 10000;     // not taken yet; then the newest are dropped
+
+struct SimOptions {
+    sim::WorldOptions world;
+    aesl::Options compile;
+    bool traced = false;  // keep lines for take_trace()
+};
+
+enum class NoteKind {
+    Loaded,    // a script runs
+    Mistakes,  // a script does not compile, or its file is no project; what ran before runs on
+    Warnings,  // it compiles, with remarks
+    Event,     // someone sent a user event
+    Fault,     // a script was stopped by what it did
+    Trouble,   // a script could not be sent
+};
+
+struct Note {
+    Time at{};
+    NoteKind kind = NoteKind::Event;
+    std::string
+        text;  // Mistakes and Warnings: several lines, each with its newline; else one sentence
+};
+
+struct EventCount {
+    std::string name;
+    uint64_t count = 0;
+    std::vector<int16_t> arguments;  // of the last one
+    Time last{};
+};
+
+// One robot as its script and its node tell.
+struct RobotState {
+    sim::RobotId id;
+    uint16_t node = 0;
+    std::string node_name;  // empty until it described itself
+    debug::ProgramState state = debug::ProgramState::Unknown;
+    bool has_script = false;
+    std::string fault;  // the sentence, until the next program or reset
+};
+
+class SimSession {
+public:
+    SimSession(sim::World world, SimOptions options);
+
+    // Takes over the scripts of a file for all robots they are for, and those of the same path that came
+    // before are forgotten. A plain script is for every robot. The Error is that of the file as such (no
+    // XML, no node of that name in the world); mistakes in scripts come as notes.
+    Status load(const std::string& path, std::string_view text);
+    // For one robot only, as the world file says: the script for its node, or the only one.
+    Status load_for(sim::RobotId robot, const std::string& path, std::string_view text);
+    // A file that was loaded before has another text now. What is wrong with it comes as a note; what
+    // ran before runs on then.
+    void reload(const std::string& path, std::string_view text);
+    // The files that were loaded.
+    std::vector<std::string> script_paths() const;
+
+    // Lets `span` pass: whole milliseconds, the rest is kept.
+    void step(Duration span);
+    Time now() const { return world_.now(); }
+    // Time 0 again, and the same scripts are sent again.
+    void reset();
+    // Everything that was loaded runs on its robot, or has mistakes.
+    bool settled() const;
+
+    // ---- looking ----
+    const sim::World& world() const { return world_; }
+    sim::World& world() { return world_; }
+    std::vector<RobotState> robots() const;
+    // The script's own variables with their values now, in order of address; empty without a script.
+    std::vector<std::pair<std::string, std::span<const int16_t>>> script_variables(
+        sim::RobotId robot) const;
+    // A variable of the node's description, "prox.horizontal"; empty if there is none.
+    std::span<const int16_t> node_variable(sim::RobotId robot, std::string_view name) const;
+    // The latest first.
+    std::vector<EventCount> events() const;
+    // Lines for people: the mistakes of the scripts as they stand now.
+    std::vector<std::string> mistakes() const;
+
+    std::vector<Note> take_notes();
+    std::string take_trace();
+
+private:
+    // A script on its way to a robot, or there.
+    enum class Stage { Waiting, Sent, Runs, Failed };
+    struct Assignment {
+        std::string path;
+        aesl::Script script;
+        aesl::CommonDefinitions common;
+        Stage stage = Stage::Waiting;
+        aesl::Program program;  // the last that compiled
+        debug::RequestId request;
+        std::vector<std::string> mistakes;  // of the text as it is now; `program` may be older
+    };
+    struct Robot {
+        sim::RobotId id;
+        std::string name;
+        uint16_t node = 0;
+        std::optional<Assignment> script;
+        std::string fault;
+    };
+    struct WaitingFile {
+        ScriptFile file;
+        std::optional<sim::RobotId> only;
+    };
+
+    void exchange();
+    void note(NoteKind kind, std::string text);
+    void hear(const debug::Event& event);
+    void hear_user_event(const debug::Event& event, const debug::UserEvent& sent);
+    void hear_fault(Robot& robot, const debug::Fault& fault);
+    void hear_done(Robot& robot, const debug::RequestDone& done);
+    void trace_happenings();
+    Status keep(ScriptFile file, std::optional<sim::RobotId> only);
+    bool all_described() const;
+    void place_files();
+    void place(const WaitingFile& waiting);
+    size_t place_project(const ScriptFile& file);
+    bool place_for(Robot& robot, const ScriptFile& file);
+    void give(Robot& robot, const ScriptFile& file, const aesl::Script& script);
+    void refuse_file(const std::string& path, const std::string& sentence);
+    const aesl::CommonDefinitions& names_without(const std::string& path) const;
+    bool agree_on_names(const std::string& path, const aesl::CommonDefinitions& common);
+    void compile(Robot& robot);
+    void send(Robot& robot);
+    Robot* robot_of(debug::NodeId node);
+    const Robot* robot_of(sim::RobotId id) const;
+    std::string label(const Robot& robot) const;
+
+    sim::World world_;
+    SimOptions options_;
+    debug::Network network_;
+    hub::LinkId link_;  // ours on the bus
+    Time clock_{};      // of the network: goes on over reset()
+    Duration rest_{};   // of step()
+    std::vector<Robot> robots_;
+    std::vector<WaitingFile> waiting_;
+    std::vector<std::pair<std::string, std::optional<sim::RobotId>>> sources_;  // as loaded
+    std::map<std::string, std::string> file_mistakes_;  // by path: what keeps a whole file out
+    std::map<std::string, aesl::CommonDefinitions>
+        names_;  // by path: events of the scripts that run
+    std::map<std::string, EventCount> events_;
+    std::vector<Note> notes_;
+    std::string trace_;
+};
+
+// Opens a world file and loads the scripts that it names for its robots, from the file's folder.
+Result<SimSession> open_sim(const std::string& path, SimOptions options);
+
+}  // namespace vagus::session

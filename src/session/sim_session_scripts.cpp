@@ -1,0 +1,209 @@
+// How scripts find their robots: files wait until all robots have described themselves, then each
+// script is compiled for its robot and sent.
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "session/diagnostic_text.hpp"
+#include "session/sim_session.hpp"
+
+namespace vagus::session {
+
+Status SimSession::load(const std::string& path, std::string_view text) {
+    return keep(TRY(read_script_file(text, path)), std::nullopt);
+}
+
+Status SimSession::load_for(sim::RobotId robot, const std::string& path, std::string_view text) {
+    return keep(TRY(read_script_file(text, path)), robot);
+}
+
+void SimSession::reload(const std::string& path, std::string_view text) {
+    const auto file = read_script_file(text, path);
+    if (!file.ok()) return refuse_file(path, file.error().what);
+    for (const auto& [known, only] : std::vector(sources_)) {
+        if (known != path) continue;
+        const Status kept = keep(file.value(), only);
+        if (!kept.ok()) refuse_file(path, kept.error().what);
+    }
+}
+
+Status SimSession::keep(ScriptFile file, std::optional<sim::RobotId> only) {
+    std::erase_if(waiting_, [&](const WaitingFile& other) {
+        return other.file.path == file.path && other.only == only;
+    });
+    if (waiting_.size() >= kScriptFilesMax) {
+        return Error{Code::Limit, "more than " + std::to_string(kScriptFilesMax) +
+                                      " script files wait for their robots"};
+    }
+    const std::pair source{file.path, only};
+    if (std::find(sources_.begin(), sources_.end(), source) == sources_.end()) {
+        sources_.push_back(source);
+    }
+    waiting_.push_back({std::move(file), only});
+    if (all_described()) place_files();
+    return Status::done();
+}
+
+bool SimSession::all_described() const {
+    return std::all_of(robots_.begin(), robots_.end(), [this](const Robot& robot) {
+        const debug::NodeView* node = network_.node(robot.node);
+        return node != nullptr && node->described;
+    });
+}
+
+void SimSession::place_files() {
+    const std::vector<WaitingFile> files = std::exchange(waiting_, {});
+    for (const WaitingFile& waiting : files) place(waiting);
+}
+
+void SimSession::place(const WaitingFile& waiting) {
+    const ScriptFile& file = waiting.file;
+    file_mistakes_.erase(file.path);
+    if (!file.plain && !agree_on_names(file.path, file.project.common)) return;
+    size_t placed = 0;
+    if (waiting.only) {
+        const auto robot = std::find_if(robots_.begin(), robots_.end(), [&](const Robot& other) {
+            return other.id == *waiting.only;
+        });
+        placed = robot != robots_.end() && place_for(*robot, file) ? 1 : 0;
+    } else if (file.plain) {
+        for (Robot& robot : robots_) give(robot, file, file.project.scripts.front());
+        placed = robots_.size();
+    } else {
+        placed = place_project(file);
+    }
+    if (placed > 0) return;
+    std::vector<std::string> wanted;
+    for (const aesl::Script& script : file.project.scripts) {
+        wanted.push_back("\"" + script.node + "\" (node " + std::to_string(script.node_id) + ")");
+    }
+    std::vector<std::string> there;
+    for (const Robot& robot : robots_) {
+        const debug::NodeView* node = network_.node(robot.node);
+        there.push_back("\"" + node->name + "\" (node " + std::to_string(robot.node) + ")");
+    }
+    const auto list = [](const std::vector<std::string>& words) {
+        return words.empty() ? "none" : list_of({words.begin(), words.end()});
+    };
+    refuse_file(file.path,
+                file.path +
+                    ": error: no script in it is for a robot of this world; it has scripts for " +
+                    list(wanted) + ", the world has " + list(there) +
+                    "; give the script's node the name of a robot's node");
+}
+
+// Robots whose name and number both fit come first, so that none takes the script of another.
+size_t SimSession::place_project(const ScriptFile& file) {
+    std::vector<bool> used(file.project.scripts.size());
+    std::vector<bool> served(robots_.size());
+    for (const bool exact : {true, false}) {
+        for (size_t i = 0; i < robots_.size(); i++) {
+            Robot& robot = robots_[i];
+            if (served[i]) continue;
+            const std::string& name = network_.node(robot.node)->name;
+            std::vector<bool> marks = used;
+            const int index = aesl::script_for(file.project, name, robot.node, marks);
+            if (index < 0) continue;
+            const aesl::Script& script = file.project.scripts[static_cast<size_t>(index)];
+            if (exact != (script.node_id == robot.node) || used[static_cast<size_t>(index)])
+                continue;
+            used = marks;
+            give(robot, file, script);
+            served[i] = true;
+        }
+    }
+    return static_cast<size_t>(std::count(served.begin(), served.end(), true));
+}
+
+// For a robot of its own: the script for its node, or the only one of the file.
+bool SimSession::place_for(Robot& robot, const ScriptFile& file) {
+    std::vector<bool> used(file.project.scripts.size());
+    const std::string& name = network_.node(robot.node)->name;
+    int index = aesl::script_for(file.project, name, robot.node, used);
+    if (index < 0 && file.project.scripts.size() == 1) index = 0;
+    if (index < 0) return false;
+    give(robot, file, file.project.scripts[static_cast<size_t>(index)]);
+    return true;
+}
+
+void SimSession::refuse_file(const std::string& path, const std::string& sentence) {
+    file_mistakes_[path] = sentence;
+    note(NoteKind::Mistakes, sentence + "\n");
+}
+
+// The longest list of events among the other files: all agree as far as they go.
+const aesl::CommonDefinitions& SimSession::names_without(const std::string& path) const {
+    static const aesl::CommonDefinitions kNone;
+    const aesl::CommonDefinitions* longest = &kNone;
+    for (const auto& [other, common] : names_) {
+        if (other != path && common.events.size() > longest->events.size()) longest = &common;
+    }
+    return *longest;
+}
+
+bool SimSession::agree_on_names(const std::string& path, const aesl::CommonDefinitions& common) {
+    for (const auto& [other, names] : names_) {
+        if (other == path) continue;
+        const size_t both = std::min(names.events.size(), common.events.size());
+        for (size_t i = 0; i < both; i++) {
+            if (names.events[i].name == common.events[i].name) continue;
+            refuse_file(path, path + ": error: event " + std::to_string(i) + " is \"" +
+                                  common.events[i].name + "\" here and \"" + names.events[i].name +
+                                  "\" in " + other +
+                                  "; robots on one bus share the numbers of events: declare the "
+                                  "same events in the same order in both");
+            return false;
+        }
+    }
+    names_[path] = common;
+    const aesl::CommonDefinitions& others = names_without(path);
+    network_.set_common(others.events.size() > common.events.size() ? others : common);
+    return true;
+}
+
+void SimSession::give(Robot& robot, const ScriptFile& file, const aesl::Script& script) {
+    aesl::Program before;
+    if (robot.script && robot.script->path == file.path) before = robot.script->program;
+    robot.script = Assignment{
+        file.path, script, file.project.common, Stage::Waiting, std::move(before), {}, {}};
+    if (file.plain) {
+        const auto& target = network_.node(robot.node)->target;
+        robot.script->common = with_emitted(names_without(file.path), script.source, target);
+        if (!agree_on_names(file.path, robot.script->common)) return;
+    }
+    compile(robot);
+}
+
+void SimSession::compile(Robot& robot) {
+    Assignment& script = *robot.script;
+    const aesl::Compilation done = aesl::compile(
+        script.script.source, network_.node(robot.node)->target, script.common, options_.compile);
+    const SourceText text{script.path, script.script.source, script.script.first_line};
+    std::string report;
+    const std::vector<std::string> lines = diagnostic_report(text, done);
+    for (const std::string& line : lines) report += line + "\n";
+    if (!done.ok()) {
+        script.mistakes = lines;
+        script.stage = Stage::Failed;
+        note(NoteKind::Mistakes, report);
+        return;
+    }
+    script.mistakes.clear();
+    if (!report.empty()) note(NoteKind::Warnings, report);
+    script.program = done.program;
+    send(robot);
+}
+
+void SimSession::send(Robot& robot) {
+    Assignment& script = *robot.script;
+    if (script.program.bytecode.empty()) return;
+    const auto request = network_.load(robot.node, script.program);
+    if (!request.ok()) {
+        script.stage = Stage::Failed;
+        note(NoteKind::Trouble, script.path + ": " + request.error().what);
+        return;
+    }
+    script.request = request.value();
+    script.stage = Stage::Sent;
+}
+
+}  // namespace vagus::session

@@ -104,8 +104,7 @@ size_t SimSession::place_project(const ScriptFile& file) {
             const int index = aesl::script_for(file.project, name, robot.node, marks);
             if (index < 0) continue;
             const aesl::Script& script = file.project.scripts[static_cast<size_t>(index)];
-            if (exact != (script.node_id == robot.node) || used[static_cast<size_t>(index)])
-                continue;
+            if (exact && script.node_id != robot.node) continue;
             used = marks;
             give(robot, file, script);
             served[i] = true;

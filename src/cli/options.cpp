@@ -1,0 +1,49 @@
+#include "cli/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "base/nearest.hpp"
+#include "base/text.hpp"
+
+namespace vagus::cli {
+namespace {
+
+aesl::Dialect dialect_of(const std::string& word) {
+    if (word == "modern") return aesl::Dialect::Modern;
+    return word == "2007" ? aesl::Dialect::Year2007 : aesl::Dialect::Auto;
+}
+
+}  // namespace
+
+void takes_one_of(CLI::Option& option, std::vector<std::string> words) {
+    std::string kinds;
+    for (const std::string& word : words) kinds += (kinds.empty() ? "" : "|") + word;
+    option.type_name(kinds);
+    option.check(CLI::Validator(
+        [words](std::string& given) -> std::string {
+            if (std::find(words.begin(), words.end(), given) != words.end()) return "";
+            const std::string guess = nearest(given, words);
+            return "expected " + list_of({words.begin(), words.end()}) + ", found \"" + given +
+                   "\"" + (guess.empty() ? "" : "; did you mean " + guess + "?");
+        },
+        ""));
+}
+
+void takes_file(CLI::Option& option, std::vector<std::string> endings) {
+    std::string kinds = "FILE";
+    for (const std::string& ending : endings) kinds += (kinds == "FILE" ? "(" : "|") + ending;
+    option.type_name(endings.empty() ? kinds : kinds + ")");
+}
+
+void add_dialect_options(CLI::App& verb, aesl::Options& options) {
+    CLI::Option* dialect = verb.add_option_function<std::string>(
+        "--dialect", [&options](const std::string& word) { options.dialect = dialect_of(word); },
+        "the language of the script; auto looks at the text");
+    takes_one_of(*dialect, {"auto", "modern", "2007"});
+    verb.add_option("--ontimer", options.ontimer,
+                    "the local event that `ontimer` means in scripts of 2007")
+        ->type_name("EVENT");
+}
+
+}  // namespace vagus::cli

@@ -9,6 +9,23 @@ namespace vm {
 using isa::BinaryOperator;
 using isa::UnaryOperator;
 
+namespace {
+
+// The three ways in which two numbers can compare, and for each comparison, in the order of their
+// codes, those for which it holds. A table is smaller than six comparisons.
+constexpr uint8_t kLess = 1;
+constexpr uint8_t kSame = 2;
+constexpr uint8_t kMore = 4;
+VAGUS_FLASH_TABLE(uint8_t, kHoldsFor, 6) = {kSame,         kLess | kMore, kMore,
+                                            kSame | kMore, kLess,         kLess | kSame};
+
+int16_t compare(uint8_t code, int16_t a, int16_t b) {
+    const uint8_t is = a < b ? kLess : a == b ? kSame : kMore;
+    return (flash_read(&kHoldsFor[code - static_cast<uint8_t>(BinaryOperator::Equal)]) & is) != 0;
+}
+
+}  // namespace
+
 int16_t binary(Vm& vm, uint8_t code, int16_t a, int16_t b) {
     // Counts are taken modulo 32, on every processor: 1 << 16 is 0, 1 << 32 is 1.
     const uint8_t count = static_cast<uint8_t>(b & 31);
@@ -44,17 +61,12 @@ int16_t binary(Vm& vm, uint8_t code, int16_t a, int16_t b) {
         case BinaryOperator::BitAnd:
             return a & b;
         case BinaryOperator::Equal:
-            return a == b;
         case BinaryOperator::NotEqual:
-            return a != b;
         case BinaryOperator::Bigger:
-            return a > b;
         case BinaryOperator::BiggerEqual:
-            return a >= b;
         case BinaryOperator::Smaller:
-            return a < b;
         case BinaryOperator::SmallerEqual:
-            return a <= b;
+            return compare(code, a, b);
         case BinaryOperator::Or:
             return a || b;
         case BinaryOperator::And:

@@ -35,12 +35,6 @@ void reset(Vm& vm) {
     if (!start_event(vm, isa::kInitEvent)) report_state(vm);
 }
 
-uint16_t find_breakpoint(const Vm& vm, uint16_t pc) {
-    uint16_t i = 0;
-    while (i < vm.breakpoint_count && vm.config->breakpoints[i] != pc) ++i;
-    return i;
-}
-
 // A set: what is there already succeeds and takes no further slot (D17).
 void set_breakpoint(Vm& vm, uint16_t pc) {
     const uint16_t slot = find_breakpoint(vm, pc);
@@ -63,8 +57,8 @@ void clear_breakpoint(Vm& vm, uint16_t pc) {
 void send_variables(Vm& vm, uint16_t start, uint16_t count) {
     count = count_inside(vm.config->variables_size, start, count);
     do {
-        const uint16_t part =
-            count < wire::kVariablesReplyWordsMax ? count : wire::kVariablesReplyWordsMax;
+        uint16_t part = count;
+        if (part > wire::kVariablesReplyWordsMax) part = wire::kVariablesReplyWordsMax;
         vm.config->host->send_variables(vm, start, part);
         start = static_cast<uint16_t>(start + part);
         count = static_cast<uint16_t>(count - part);
@@ -73,68 +67,61 @@ void send_variables(Vm& vm, uint16_t start, uint16_t count) {
 
 }  // namespace
 
+// The commands that are more than an answer end in a notice; all others return.
 void receive(Vm& vm, uint16_t type, const uint16_t* words, uint16_t count) {
     const uint16_t command = static_cast<uint16_t>(type - kFirstCommand);
     if (command >= kCommandCount || count < flash_read(&kWordsMin[command])) return;
     const Config& config = *vm.config;
     if (words[0] != config.id) return;
-    const uint16_t rest = static_cast<uint16_t>(count - 2);
+    count = static_cast<uint16_t>(count - 2);
+    Notice notice;
     switch (static_cast<MessageType>(type)) {
         case MessageType::SetBytecode:
-            store(config.bytecode, config.bytecode_size, words[1], words + 2, rest);
-            reset(vm);
-            break;
+            store(config.bytecode, config.bytecode_size, words[1], words + 2, count);
+            return reset(vm);
         case MessageType::Reset:
-            reset(vm);
-            break;
+            return reset(vm);
         case MessageType::Run:
             vm.flags &= static_cast<uint16_t>(~wire::kFlagStep);
             report_state(vm);
-            config.host->notify(vm, Notice::Run);
+            notice = Notice::Run;
             break;
         case MessageType::Pause:
             vm.flags |= wire::kFlagStep;
-            report_state(vm);
-            break;
+            return report_state(vm);
         case MessageType::Step:
-            if (!is_active(vm)) break;
+            if (!is_active(vm)) return;
             execute(vm);
-            report_state(vm);
-            break;
+            return report_state(vm);
         case MessageType::Stop:
             vm.flags = wire::kFlagStep;
-            report_state(vm);
-            break;
+            return report_state(vm);
         case MessageType::GetExecutionState:
-            report_state(vm);
-            break;
+            return report_state(vm);
         case MessageType::BreakpointSet:
-            set_breakpoint(vm, words[1]);
-            break;
+            return set_breakpoint(vm, words[1]);
         case MessageType::BreakpointClear:
-            clear_breakpoint(vm, words[1]);
-            break;
+            return clear_breakpoint(vm, words[1]);
         case MessageType::BreakpointClearAll:
             vm.breakpoint_count = 0;
-            break;
+            return;
         case MessageType::GetVariables:
-            send_variables(vm, words[1], words[2]);
-            break;
+            return send_variables(vm, words[1], words[2]);
         case MessageType::SetVariables:
-            store_variables(vm, words[1], words + 2, rest);
-            break;
+            return store_variables(vm, words[1], words + 2, count);
         case MessageType::WriteBytecode:
-            config.host->notify(vm, Notice::WriteBytecode);
+            notice = Notice::WriteBytecode;
             break;
         case MessageType::Reboot:
-            config.host->notify(vm, Notice::Reboot);
+            notice = Notice::Reboot;
             break;
         case MessageType::SuspendToRam:
-            config.host->notify(vm, Notice::Sleep);
+            notice = Notice::Sleep;
             break;
         default:
-            break;
+            return;
     }
+    config.host->notify(vm, notice);
 }
 
 }  // namespace vm

@@ -9,8 +9,10 @@ namespace {
 
 using isa::Opcode;
 
+VAGUS_FLASH_TEXT(kBadPc, "pc outside bytecode");
 VAGUS_FLASH_TEXT(kBadInstruction, "bad instruction");
-VAGUS_FLASH_TEXT(kBadStack, "stack overflow");
+VAGUS_FLASH_TEXT(kStackFull, "stack full");
+VAGUS_FLASH_TEXT(kEventTooLong, "event too long");
 
 // Bits 1..0 words of the instruction, 3..2 words popped, 4 words pushed. The last entry is the
 // undefined opcode.
@@ -24,14 +26,6 @@ uint8_t shape_of(uint16_t instruction) {
     return flash_read(&kShapes[instruction >> 12]);
 }
 
-// Sends `count` variables from `address` as a user event.
-void emit(Vm& vm, uint16_t event, uint16_t address, uint16_t count) {
-    if (count > wire::kArgumentsMax) return raise_node_error(vm, kBadInstruction);
-    const int16_t* const words = memory(vm, address, count);
-    if (!words) return;
-    vm.config->host->send(vm, event, reinterpret_cast<const uint16_t*>(words), count);
-}
-
 }  // namespace
 
 uint8_t words_of(uint16_t instruction) {
@@ -42,20 +36,20 @@ void execute(Vm& vm) {
     const Config& config = *vm.config;
     uint16_t* const code = config.bytecode + vm.pc;
     const uint16_t left = static_cast<uint16_t>(config.bytecode_size - vm.pc);
-    if (vm.pc >= config.bytecode_size) return raise_node_error(vm, kBadInstruction);
+    if (vm.pc >= config.bytecode_size) return raise_node_error(vm, kBadPc);
     const uint16_t word = *code;
     const uint8_t shape = shape_of(word);
     const uint8_t words = shape & 3;
-    const uint8_t pushed = static_cast<uint8_t>(shape >> 4);
-    if (words == 0 || words > left) return raise_node_error(vm, kBadInstruction);
-    const uint16_t below = static_cast<uint16_t>(vm.depth - ((shape >> 2) & 3));
-    if (below > vm.depth || below + pushed > config.stack_size)
-        return raise_node_error(vm, kBadStack);
+    if (words > left) return raise_node_error(vm, kBadPc);
+    if (words == 0) return raise_node_error(vm, kBadInstruction);
+    const uint8_t popped = (shape >> 2) & 3;
+    const int8_t growth = static_cast<int8_t>((shape >> 4) - popped);
+    if (vm.depth < popped) return raise_node_error(vm, kStackEmpty);
+    if (vm.depth + growth > config.stack_size) return raise_node_error(vm, kStackFull);
 
     const Opcode opcode = isa::opcode_of(word);
     const uint16_t argument = isa::argument_of(word);
-    const uint8_t low = static_cast<uint8_t>(word);
-    int16_t* const stack = config.stack + below;
+    int16_t* const stack = config.stack + vm.depth - popped;
     uint16_t next = static_cast<uint16_t>(vm.pc + words);
     uint16_t index = 0;
     switch (opcode) {
@@ -70,14 +64,14 @@ void execute(Vm& vm) {
             break;
         case Opcode::LoadInd:
         case Opcode::StoreInd:
-            index = static_cast<uint16_t>(config.stack[vm.depth - 1]);
+            index = static_cast<uint16_t>(stack[popped - 1]);
             if (index >= code[1]) return raise_out_of_bounds(vm, code[1], index);
             // fall through
         case Opcode::Load:
         case Opcode::Store: {
             int16_t* const place = memory(vm, argument, static_cast<uint16_t>(index + 1));
             if (!place) return;
-            if (pushed) {
+            if (growth >= 0) {
                 stack[0] = place[index];
             } else {
                 place[index] = stack[0];
@@ -85,32 +79,39 @@ void execute(Vm& vm) {
             break;
         }
         case Opcode::Unary:
-            if (low >= isa::kUnaryOperatorCount) return raise_node_error(vm, kBadInstruction);
-            stack[0] = unary(low, stack[0]);
+            if (isa::operator_of(word) >= isa::kUnaryOperatorCount)
+                return raise_node_error(vm, kBadInstruction);
+            stack[0] = unary(isa::operator_of(word), stack[0]);
             break;
         case Opcode::Binary:
         case Opcode::Branch: {
-            if (low >= isa::kBinaryOperatorCount) return raise_node_error(vm, kBadInstruction);
-            const int16_t result = binary(vm, low, stack[0], stack[1]);
+            if (isa::operator_of(word) >= isa::kBinaryOperatorCount)
+                return raise_node_error(vm, kBadInstruction);
+            const int16_t result = binary(vm, isa::operator_of(word), stack[0], stack[1]);
             if (opcode == Opcode::Binary) {
                 stack[0] = result;
                 break;
             }
-            const uint16_t seen = word & (isa::kBranchIsWhen | isa::kBranchWasTrue);
-            if (!result || seen == (isa::kBranchIsWhen | isa::kBranchWasTrue)) {
+            // A `when` that was true before is not taken again.
+            if (!result || (~word & (isa::kBranchIsWhen | isa::kBranchWasTrue)) == 0) {
                 next = static_cast<uint16_t>(vm.pc + code[1]);
             }
-            *code = static_cast<uint16_t>(word & ~isa::kBranchWasTrue);
-            if (result) *code = word | isa::kBranchWasTrue;
+            // The memory is kept for `if` and `while` too, as the original does (3.5).
+            *code = static_cast<uint16_t>(result ? word | isa::kBranchWasTrue
+                                                 : word & ~isa::kBranchWasTrue);
             break;
         }
         case Opcode::Jump:
             next = static_cast<uint16_t>(vm.pc + isa::signed_argument_of(word));
             break;
-        case Opcode::Emit:
-            emit(vm, argument, code[1], code[2]);
-            if (!is_active(vm)) return;
+        case Opcode::Emit: {
+            const uint16_t count = code[2];
+            if (count > wire::kArgumentsMax) return raise_node_error(vm, kEventTooLong);
+            const int16_t* const arguments = memory(vm, code[1], count);
+            if (!arguments) return;
+            config.host->send(vm, argument, reinterpret_cast<const uint16_t*>(arguments), count);
             break;
+        }
         case Opcode::Native:
             config.host->native(vm, argument);
             break;
@@ -123,7 +124,7 @@ void execute(Vm& vm) {
             break;
     }
     vm.pc = next;
-    if (opcode != Opcode::Native) vm.depth = static_cast<uint16_t>(below + pushed);
+    vm.depth = static_cast<uint16_t>(vm.depth + growth);
 }
 
 }  // namespace vm

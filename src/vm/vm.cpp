@@ -11,6 +11,8 @@ namespace vm {
 
 using wire::MessageType;
 
+VAGUS_FLASH_TEXT(kStackEmpty, "stack empty");
+
 namespace {
 VAGUS_FLASH_TEXT(kBadAddress, "bad address");
 }
@@ -27,8 +29,9 @@ void init(Vm& vm, const Config& config) {
 
 // ---- Messages ----
 
-void report(Vm& vm, MessageType type, const uint16_t* words, uint16_t count) {
-    vm.config->host->send(vm, static_cast<uint16_t>(type), words, count);
+void report_low(Vm& vm, uint8_t type, const uint16_t* words, uint8_t count) {
+    constexpr uint16_t kNodeMessages = 0x9000;
+    vm.config->host->send(vm, kNodeMessages | type, words, count);
 }
 
 void report_state(Vm& vm) {
@@ -43,7 +46,7 @@ uint16_t count_inside(uint16_t size, uint16_t start, uint16_t count) {
 }
 
 void store(uint16_t* memory, uint16_t size, uint16_t start, const uint16_t* words, uint16_t count) {
-    for (count = count_inside(size, start, count); count > 0; --count) memory[start++] = *words++;
+    for (; count > 0 && start < size; --count) memory[start++] = *words++;
 }
 
 void store_variables(Vm& vm, uint16_t start, const uint16_t* words, uint16_t count) {
@@ -90,11 +93,10 @@ void local_event(Vm& vm, uint16_t index) {
 
 // ---- The run loop (section 3.7) ----
 
-static bool at_breakpoint(const Vm& vm) {
-    for (uint16_t i = 0; i < vm.breakpoint_count; ++i) {
-        if (vm.config->breakpoints[i] == vm.pc) return true;
-    }
-    return false;
+uint16_t find_breakpoint(const Vm& vm, uint16_t pc) {
+    uint16_t slot = 0;
+    while (slot < vm.breakpoint_count && vm.config->breakpoints[slot] != pc) ++slot;
+    return slot;
 }
 
 uint16_t run(Vm& vm, uint16_t limit) {
@@ -102,7 +104,7 @@ uint16_t run(Vm& vm, uint16_t limit) {
     if ((vm.flags & (wire::kFlagActive | wire::kFlagStep)) != wire::kFlagActive) return 0;
     vm.flags |= wire::kFlagRunning;
     while (done < limit && is_active(vm)) {
-        if (at_breakpoint(vm)) {
+        if (find_breakpoint(vm, vm.pc) < vm.breakpoint_count) {
             vm.flags |= wire::kFlagStep;
             report_state(vm);
             return done;
@@ -118,7 +120,7 @@ uint16_t run(Vm& vm, uint16_t limit) {
 
 uint16_t pop(Vm& vm) {
     if (vm.depth == 0) {
-        if (is_active(vm)) raise_node_error(vm, kBadAddress);
+        if (is_active(vm)) raise_node_error(vm, kStackEmpty);
         return 0;
     }
     return static_cast<uint16_t>(vm.config->stack[--vm.depth]);

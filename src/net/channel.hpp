@@ -1,0 +1,52 @@
+// The two ways frames leave the process: as a stream of bytes (TCP, serial) and as CAN frames. A
+// channel moves what is ready between its descriptor and its link, and never blocks.
+// Used by network.cpp only.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "base/result.hpp"
+#include "hub/hub.hpp"
+#include "net/target.hpp"
+
+namespace vagus::net {
+
+enum class Flow {
+    Moved,    // go on when the descriptor is ready again
+    Blocked,  // the descriptor takes no more now
+    Retry,    // it takes no more now and cannot say when it will (CAN): try again a little later
+    Ended,    // the other side is gone, or does not speak the protocol
+};
+
+struct Transfer {
+    Flow flow = Flow::Moved;
+    size_t bytes = 0;
+    std::string why = {};  // Ended: a part of a sentence, "the peer closed the connection"
+};
+
+class Channel {
+public:
+    virtual ~Channel() = default;
+    virtual int descriptor() const = 0;  // owned by the channel
+    // Reads once and hands all whole frames to the hub.
+    virtual Transfer read(hub::Hub& hub, hub::LinkId link) = 0;
+    // Writes what the hub has for the link, as far as it goes.
+    virtual Transfer write(hub::Hub& hub, hub::LinkId link) = 0;
+    // Something taken from the hub still waits in the channel.
+    virtual bool has_unwritten() const { return false; }
+};
+
+// The channel owns the descriptor from here on; it must be non-blocking.
+enum class StreamKind { Socket, Terminal };
+std::unique_ptr<Channel> make_stream_channel(int descriptor, StreamKind kind);
+// A raw CAN socket, or in tests a SOCK_SEQPACKET of `struct can_frame`.
+std::unique_ptr<Channel> make_can_channel(int descriptor);
+
+// Opens the line raw, 8N1, locked, DTR set (section 1.3).
+Result<std::unique_ptr<Channel>> open_serial(const SerialPlace& place);
+// Opens a raw CAN socket (section 1.7). Code::Refused if the kernel has no CAN.
+Result<std::unique_ptr<Channel>> open_can(const CanPlace& place);
+
+}  // namespace vagus::net

@@ -1,0 +1,281 @@
+#include "net/loop.hpp"
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+namespace vagus::net {
+
+namespace {
+
+// Handlers run in one poll() before its caller gets a turn.
+constexpr int kHandlersAtOnce = 256;
+// What was read is written out at the latest after so many bytes, and the caller has a turn after
+// so many: queues are several times that long.
+constexpr size_t kFlushAfterBytes = 32 * 1024;
+constexpr size_t kReturnAfterBytes = 64 * 1024;
+// How often the last words of a peer are read when writing to it has failed.
+constexpr int kLastReadsMax = 64;
+constexpr Duration kRetryWrites = 1ms;
+
+}  // namespace
+
+Network::Loop::Connection::Connection(asio::io_context& io, std::unique_ptr<Channel> its_channel)
+    : channel(std::move(its_channel)), waiter(io) {
+    waiter.assign(channel->descriptor());
+}
+
+Network::Loop::Connection::~Connection() {
+    waiter.release();
+}
+
+Network::Loop::Loop()
+    : io_(1),  // one thread
+      stay_(io_.get_executor()),
+      start_(std::chrono::steady_clock::now()),
+      signals_(io_),
+      retry_writes_(io_) {}
+
+Network::Loop::~Loop() {
+    for (auto& [number, connection] : connections_) connection.hub->remove(connection.link);
+}
+
+Time Network::Loop::now() const {
+    return std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - start_);
+}
+
+std::vector<Event> Network::Loop::poll(Time deadline) {
+    received_ = 0;
+    wait_inputs();
+    flush();
+    while (events_.empty() && received_ == 0) {
+        if (run_some(deadline) == 0 && now() >= deadline) break;
+    }
+    return std::exchange(events_, {});
+}
+
+// Waits for one handler, then runs those that are ready too, then writes what came of it.
+size_t Network::Loop::run_some(Time deadline) {
+    resume_paused();
+    Time until = deadline;
+    for (const auto& [number, connection] : connections_) {
+        if (connection.read_paused) until = std::min(until, now() + kPacePeriod);
+    }
+    size_t ran = until > now() ? io_.run_one_until(start_ + until) : 0;
+    for (int i = 0; i < kHandlersAtOnce && received_ < kReturnAfterBytes; ++i) {
+        const size_t more = io_.poll_one();
+        ran += more;
+        if (more == 0) break;
+    }
+    flush();
+    return ran;
+}
+
+Result<Done> Network::Loop::open_link(PlaceId place, hub::Hub& hub, hub::LinkOptions options,
+                                      std::unique_ptr<Channel> channel) {
+    const std::string name = options.name;
+    const hub::LinkId link = TRY(hub.add(std::move(options)));
+    const uint32_t number = ++last_number_;
+    Connection& connection =
+        connections_.try_emplace(number, io_, std::move(channel)).first->second;
+    connection.place = place;
+    connection.hub = &hub;
+    connection.link = link;
+    connection.name = name;
+    events_.push_back({EventKind::Opened, place, link, 0, name});
+    wait_readable(number, connection);
+    return Done{};
+}
+
+void Network::Loop::wait_readable(uint32_t number, Connection& connection) {
+    connection.read_paused = false;
+    connection.waiter.async_wait(asio::posix::stream_descriptor::wait_read,
+                                 [this, number](const SystemError& error) {
+                                     if (error != asio::error::operation_aborted) {
+                                         on_readable(number);
+                                     }
+                                 });
+}
+
+void Network::Loop::on_readable(uint32_t number) {
+    const auto at = connections_.find(number);
+    if (at == connections_.end()) return;
+    Connection& connection = at->second;
+    const Transfer done = connection.channel->read(*connection.hub, connection.link);
+    received_ += done.bytes;
+    unflushed_ += done.bytes;
+    if (unflushed_ >= kFlushAfterBytes) flush();
+    if (done.flow == Flow::Ended) {
+        drop(number, done.why);
+        return;
+    }
+    // The flush may have found that this peer is gone.
+    if (!connections_.contains(number)) return;
+    pause_if_ahead(connection, done.bytes);
+    if (!connection.read_paused) wait_readable(number, connection);
+}
+
+void Network::Loop::flush() {
+    unflushed_ = 0;
+    for (auto at = connections_.begin(); at != connections_.end();) {
+        auto& [number, connection] = *at++;  // the connection may be erased below
+        const bool waiting =
+            !connection.hub->output(connection.link).empty() || connection.channel->has_unwritten();
+        if (waiting && !connection.write_blocked) write(number, connection);
+    }
+}
+
+void Network::Loop::write(uint32_t number, Connection& connection) {
+    const Transfer done = connection.channel->write(*connection.hub, connection.link);
+    connection.pace.took(done.bytes);
+    switch (done.flow) {
+        case Flow::Moved:
+            break;
+        case Flow::Blocked:
+            wait_writable(number, connection);
+            break;
+        case Flow::Retry:
+            retry_writes_soon();
+            break;
+        case Flow::Ended:
+            read_last_words(connection);
+            drop(number, done.why);
+            break;
+    }
+}
+
+// The peer may have sent something before it went.
+void Network::Loop::read_last_words(Connection& connection) {
+    for (int i = 0; i < kLastReadsMax; ++i) {
+        const Transfer done = connection.channel->read(*connection.hub, connection.link);
+        received_ += done.bytes;
+        if (done.bytes == 0) return;
+    }
+}
+
+void Network::Loop::wait_writable(uint32_t number, Connection& connection) {
+    connection.write_blocked = true;
+    connection.waiter.async_wait(asio::posix::stream_descriptor::wait_write,
+                                 [this, number](const SystemError& error) {
+                                     const auto at = connections_.find(number);
+                                     if (error || at == connections_.end()) return;
+                                     at->second.write_blocked = false;
+                                     write(number, at->second);
+                                 });
+}
+
+void Network::Loop::retry_writes_soon() {
+    if (retrying_writes_) return;
+    retrying_writes_ = true;
+    retry_writes_.expires_after(kRetryWrites);
+    // The flush at the end of each turn does the work.
+    retry_writes_.async_wait([this](const SystemError&) { retrying_writes_ = false; });
+}
+
+void Network::Loop::drop(uint32_t number, const std::string& why) {
+    const auto at = connections_.find(number);
+    if (at == connections_.end()) return;
+    Connection& connection = at->second;
+    const PlaceId place = connection.place;
+    events_.push_back({EventKind::Closed, place, connection.link, 0, connection.name + ": " + why});
+    connection.hub->remove(connection.link);
+    connections_.erase(at);
+    on_lost(place);
+}
+
+void Network::Loop::close(hub::Hub& hub, hub::LinkId link) {
+    for (auto at = connections_.begin(); at != connections_.end(); ++at) {
+        if (at->second.hub != &hub || at->second.link != link) continue;
+        hub.remove(link);
+        connections_.erase(at);
+        return;
+    }
+}
+
+// ---- pacing (pace.hpp) ----
+
+void Network::Loop::pause_if_ahead(Connection& connection, size_t bytes) {
+    connection.read_paused = bytes >= kBulkBytes && somebody_to_wait_for(connection);
+}
+
+bool Network::Loop::somebody_to_wait_for(const Connection& sender) {
+    bool found = false;
+    for (auto& [number, other] : connections_) {
+        if (other.hub != sender.hub || &other == &sender) continue;
+        const size_t waiting = other.hub->output(other.link).size();
+        found = other.pace.worth_waiting_for(now(), waiting) || found;
+    }
+    return found;
+}
+
+void Network::Loop::resume_paused() {
+    for (auto& [number, connection] : connections_) {
+        if (connection.read_paused && !somebody_to_wait_for(connection)) {
+            wait_readable(number, connection);
+        }
+    }
+}
+
+bool Network::Loop::has_unwritten() const {
+    for (const auto& [number, connection] : connections_) {
+        if (!connection.hub->output(connection.link).empty()) return true;
+        if (connection.channel->has_unwritten()) return true;
+    }
+    return false;
+}
+
+// ---- signals and inputs ----
+
+Status Network::Loop::watch_signals() {
+    SystemError error;
+    signals_.add(SIGINT, error);
+    if (!error) signals_.add(SIGTERM, error);
+    if (error) return Error{Code::Unavailable, "signals cannot be watched: " + error.message()};
+    wait_signal();
+    return Status::done();
+}
+
+void Network::Loop::wait_signal() {
+    signals_.async_wait([this](const SystemError& error, int number) {
+        if (error) return;
+        events_.push_back({EventKind::Signal, {}, {}, number, strsignal(number)});
+        wait_signal();
+    });
+}
+
+Status Network::Loop::watch_input(int descriptor) {
+    const auto at = inputs_.try_emplace(descriptor, asio::posix::stream_descriptor(io_)).first;
+    const int copy = ::dup(descriptor);  // the waiter closes its own
+    SystemError error;
+    if (copy < 0) {
+        error = SystemError(errno, boost::system::system_category());
+    } else {
+        at->second.waiter.assign(copy, error);
+    }
+    if (!error) return Status::done();
+    inputs_.erase(at);
+    if (copy >= 0) ::close(copy);
+    return Error{Code::Unavailable, "descriptor " + std::to_string(descriptor) +
+                                        " cannot be watched: " + error.message()};
+}
+
+void Network::Loop::unwatch_input(int descriptor) {
+    inputs_.erase(descriptor);
+}
+
+void Network::Loop::wait_inputs() {
+    for (auto& [descriptor, input] : inputs_) {
+        if (input.waiting) continue;
+        input.waiting = true;
+        input.waiter.async_wait(asio::posix::stream_descriptor::wait_read,
+                                [this, number = descriptor](const SystemError& error) {
+                                    const auto at = inputs_.find(number);
+                                    if (error || at == inputs_.end()) return;
+                                    at->second.waiting = false;
+                                    events_.push_back({EventKind::Readable, {}, {}, number, ""});
+                                });
+    }
+}
+
+}  // namespace vagus::net

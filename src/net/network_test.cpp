@@ -415,6 +415,8 @@ TEST(Client, SendsWaitsAndSaysWhenThePeerHasGone) {
     net.step();
     net.network.close(net.hub, net.hub.links()[1]);
     EXPECT_EQ(client->receive(client->now() + kPatience).value().value().type, 6);
+    // The hub says that node 1, which spoke on that connection, cannot be reached any more.
+    EXPECT_EQ(client->receive(client->now() + kPatience).value().value().type, 0x9004);
     const auto gone = client->receive(client->now() + kPatience);
     ASSERT_FALSE(gone.ok());
     EXPECT_EQ(gone.error().code, Code::Unavailable);

@@ -36,7 +36,7 @@ public:
         code.push_back(isa::instruction(isa::Opcode::Native, id_));
         code.push_back(0);
         std::copy(code.begin(), code.end(), test.bytecode.begin());
-        start_program(test.node);
+        vm::start_event(test.node.vm, isa::kInitEvent);
         node::run(test.node, 1000);
         left_on_stack = test.node.vm.depth;
         return test.take();

@@ -133,8 +133,12 @@ void local_event(Node& node, uint16_t index) {
     vm::local_event(node.vm, index);
 }
 
+// The commands Reset and Run: so the program starts as after its upload, whatever its `when`s remembered when it was
+// saved.
 void start_program(Node& node) {
-    vm::start_event(node.vm, isa::kInitEvent);
+    const uint16_t id = node.vm.config->id;
+    vm::receive(node.vm, static_cast<uint16_t>(wire::MessageType::Reset), &id, 1);
+    vm::receive(node.vm, static_cast<uint16_t>(wire::MessageType::Run), &id, 1);
 }
 
 uint16_t run(Node& node, uint16_t limit) {

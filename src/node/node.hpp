@@ -66,7 +66,7 @@ void receive_words(Node& node, uint16_t source, uint16_t type, const uint16_t* w
 void local_event(Node& node, uint16_t index);
 
 // Starts a program that lies in the bytecode already, in running mode: what a robot does when it is
-// switched on and finds a program in its flash (section 3.1).
+// switched on and finds a program in its flash (section 3.1). The bus is told of the new state.
 void start_program(Node& node);
 
 // Goes on with the running event for at most `limit` instructions; gives how many were executed.

@@ -204,7 +204,17 @@ TEST(Node, StartProgramRunsInitInRunningMode) {
     start_program(test.node);
     EXPECT_EQ(run(test.node, 1000), 3);
     EXPECT_EQ(test.variables[100], 9);
-    EXPECT_EQ(test.take(), "");
+    EXPECT_EQ(test.take(), "04 00 01 00 0a 90 03 00 03 00\n04 00 01 00 0a 90 03 00 01 00");
+}
+
+TEST(Node, StartProgramForgetsWhatWhensRemembered) {
+    TestNode test;
+    // init: push 1, push 0, when 1 != 0 (seen before the program was saved): 9 -> 100
+    const uint16_t program[] = {3, 0xffff, 3, 0x1001, 0x1000, 0xa30b, 4, 0x1009, 0x4064, 0};
+    std::copy(std::begin(program), std::end(program), test.bytecode.begin());
+    start_program(test.node);
+    run(test.node, 1000);
+    EXPECT_EQ(test.variables[100], 9);
 }
 
 TEST(Node, NativeThatDoesNotExistIsAFault) {

@@ -82,7 +82,7 @@ Outcome ours(const Call& call) {
     const auto code = code_of(call);
     std::copy(code.begin(), code.end(), test.bytecode.begin());
     std::copy(call.memory.begin(), call.memory.end(), test.variables.begin());
-    vagus::node::start_program(test.node);
+    vagus::vm::start_event(test.node.vm, vagus::isa::kInitEvent);
     vagus::node::run(test.node, 1000);
     Outcome outcome;
     outcome.memory.assign(test.variables.begin(), test.variables.begin() + kMemory);
@@ -188,7 +188,7 @@ TEST(RandBesidePeer, HasTheSameSequence) {
     const auto code = code_of({.id = kRand, .addresses = {100}, .sizes = {1}});
     std::copy(code.begin(), code.end(), test.bytecode.begin());
     for (int i = 0; i < 70'000; ++i) {
-        vagus::node::start_program(test.node);
+        vagus::vm::start_event(test.node.vm, vagus::isa::kInitEvent);
         vagus::node::run(test.node, 1000);
         ASSERT_EQ(static_cast<uint16_t>(test.variables[100]), AsebaGetRandom()) << i;
     }

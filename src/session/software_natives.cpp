@@ -54,7 +54,7 @@ size_t words_pushed(const Parameters& parameters) {
 
 }  // namespace
 
-Result<node::NativeFunction> code_of_native(const aesl::NativeFunction& native) {
+Result<const node::Native*> code_of_native(const aesl::NativeFunction& native) {
     const node::Native* found = find_native(native.name);
     if (found == nullptr) {
         return Error{Code::NotFound,
@@ -66,7 +66,7 @@ Result<node::NativeFunction> code_of_native(const aesl::NativeFunction& native) 
                                            found->parameters + found->parameter_count);
     const size_t expected = words_pushed(own);
     const size_t declared = words_pushed(native.parameters);
-    if (expected == declared) return found->function;
+    if (expected == declared) return found;
     return Error{Code::BadInput, "native " + native.name + " takes " + std::to_string(expected) +
                                      " words from the stack (addresses and sizes), but its "
                                      "parameters here make " +

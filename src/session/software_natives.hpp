@@ -10,8 +10,8 @@
 
 namespace vagus::session {
 
-// The code for a native of that name. Fails if there is none, or if it takes another number of words from the stack
+// The native of that name that has code here (not null). Fails if there is none, or if it takes another number of words from the stack
 // than the parameters say: then it would read its arguments from the wrong places.
-Result<node::NativeFunction> code_of_native(const aesl::NativeFunction& native);
+Result<const node::Native*> code_of_native(const aesl::NativeFunction& native);
 
 }  // namespace vagus::session

@@ -80,7 +80,7 @@ Status SoftwareNode::describe() {
         event_list_.push_back({event.name.c_str(), event.doc.c_str()});
     }
     for (const auto& native : target_.natives) {
-        const node::NativeFunction code = TRY(code_of_native(native));
+        const node::Native* code = TRY(code_of_native(native));
         std::vector<node::Parameter> parameters;
         for (const auto& parameter : native.parameters) {
             parameters.push_back({parameter.size, parameter.name.c_str()});
@@ -89,7 +89,7 @@ Status SoftwareNode::describe() {
         parameter_lists_.push_back(std::move(parameters));
         native_list_.push_back({native.name.c_str(), native.doc.c_str(),
                                 parameter_lists_.back().data(),
-                                static_cast<uint16_t>(native.parameters.size()), code});
+                                static_cast<uint16_t>(native.parameters.size()), code->function});
     }
     description_ = {.name = target_.name.c_str(),
                     .protocol_version = target_.protocol_version,

@@ -29,8 +29,8 @@ public:
     // has gone, or takes nothing for kSendWithin.
     Status send(const wire::Frame& frame);
 
-    // The next frame; none if the deadline passes first. When the peer goes, `Disconnected` comes for
-    // each node that was heard; after that, and after all that it sent, receive() fails.
+    // The next frame; none if the deadline passes first. When the peer goes, `Disconnected` comes
+    // for each node that was heard; after that, and after all that it sent, receive() fails.
     Result<std::optional<wire::Frame>> receive(Time deadline);
 
     Time now() const;

@@ -178,7 +178,8 @@ void Network::Loop::drop(uint32_t number, const std::string& why) {
     if (at == connections_.end()) return;
     Connection& connection = at->second;
     const PlaceId place = connection.place;
-    events_.push_back({EventKind::Closed, place, connection.link, 0, connection.name + ": " + why});
+    events_.push_back({EventKind::Closed, place, connection.link, 0, connection.name + ": " + why,
+                       connection.hub->stats(connection.link)});
     connection.hub->remove(connection.link);
     connections_.erase(at);
     on_lost(place);

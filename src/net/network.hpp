@@ -63,10 +63,11 @@ enum class EventKind {
 
 struct Event {
     EventKind kind;
-    PlaceId place;     // Opened, Closed, Failed
-    hub::LinkId link;  // Opened, Closed
-    int number = 0;    // Readable: the descriptor. Signal: its number
-    std::string what;  // a name (Opened) or a sentence for a person that names the peer
+    PlaceId place;              // Opened, Closed, Failed
+    hub::LinkId link;           // Opened, Closed
+    int number = 0;             // Readable: the descriptor. Signal: its number
+    std::string what;           // a name (Opened) or a sentence for a person that names the peer
+    hub::LinkStats stats = {};  // Closed: what the link did
 };
 
 // How many clients a listener keeps. With One a new client replaces the one that is there, as at

@@ -5,7 +5,7 @@
 //
 //     Result<SimSession> opened = open_sim("arena.world.json", {});
 //     SimSession& session = opened.value();
-//     Status loaded = session.load("explore.aesl", text);      // again after each change of the file
+//     session.load("explore.aesl", text);
 //     session.step(std::chrono::milliseconds(40));
 //     for (const Note& note : session.take_notes()) show(note.text);
 //     for (const RobotState& robot : session.robots()) show(robot.node_name, robot.state);
@@ -77,14 +77,13 @@ class SimSession {
 public:
     SimSession(sim::World world, SimOptions options);
 
-    // Takes over the scripts of a file for all robots they are for, and those of the same path that came
-    // before are forgotten. A plain script is for every robot. The Error is that of the file as such (no
-    // XML, no node of that name in the world); mistakes in scripts come as notes.
-    Status load(const std::string& path, std::string_view text);
+    // Takes over the scripts of a file for all robots they are for; those of the same path that came
+    // before are forgotten. A plain script is for every robot. Whatever is wrong, with the file or a
+    // script, comes as a note and stays among the mistakes() until a better text comes.
+    void load(const std::string& path, std::string_view text);
     // For one robot only, as the world file says: the script for its node, or the only one.
-    Status load_for(sim::RobotId robot, const std::string& path, std::string_view text);
-    // A file that was loaded before has another text now. What is wrong with it comes as a note; what
-    // ran before runs on then.
+    void load_for(sim::RobotId robot, const std::string& path, std::string_view text);
+    // A file that was loaded before has another text now. With mistakes, what ran before runs on.
     void reload(const std::string& path, std::string_view text);
     // The files that were loaded.
     std::vector<std::string> script_paths() const;
@@ -145,7 +144,7 @@ private:
     void hear_fault(Robot& robot, const debug::Fault& fault);
     void hear_done(Robot& robot, const debug::RequestDone& done);
     void trace_happenings();
-    Status keep(ScriptFile file, std::optional<sim::RobotId> only);
+    void take(const std::string& path, std::optional<sim::RobotId> only, std::string_view text);
     bool all_described() const;
     void place_files();
     void place(const WaitingFile& waiting);

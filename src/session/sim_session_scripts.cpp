@@ -8,39 +8,38 @@
 
 namespace vagus::session {
 
-Status SimSession::load(const std::string& path, std::string_view text) {
-    return keep(TRY(read_script_file(text, path)), std::nullopt);
+void SimSession::load(const std::string& path, std::string_view text) {
+    take(path, std::nullopt, text);
 }
 
-Status SimSession::load_for(sim::RobotId robot, const std::string& path, std::string_view text) {
-    return keep(TRY(read_script_file(text, path)), robot);
+void SimSession::load_for(sim::RobotId robot, const std::string& path, std::string_view text) {
+    take(path, robot, text);
+}
+
+void SimSession::take(const std::string& path, std::optional<sim::RobotId> only,
+                      std::string_view text) {
+    const std::pair source{path, only};
+    if (std::find(sources_.begin(), sources_.end(), source) == sources_.end()) {
+        if (sources_.size() >= kScriptFilesMax) {
+            return refuse_file(path, path + ": error: more than " +
+                                         std::to_string(kScriptFilesMax) +
+                                         " script files in one world; join some of them");
+        }
+        sources_.push_back(source);
+    }
+    auto file = read_script_file(text, path);
+    if (!file.ok()) return refuse_file(path, file.error().what);
+    std::erase_if(waiting_, [&](const WaitingFile& other) {
+        return other.file.path == path && other.only == only;
+    });
+    waiting_.push_back({std::move(file.value()), only});
+    if (all_described()) place_files();
 }
 
 void SimSession::reload(const std::string& path, std::string_view text) {
-    const auto file = read_script_file(text, path);
-    if (!file.ok()) return refuse_file(path, file.error().what);
     for (const auto& [known, only] : std::vector(sources_)) {
-        if (known != path) continue;
-        const Status kept = keep(file.value(), only);
-        if (!kept.ok()) refuse_file(path, kept.error().what);
+        if (known == path) take(path, only, text);
     }
-}
-
-Status SimSession::keep(ScriptFile file, std::optional<sim::RobotId> only) {
-    std::erase_if(waiting_, [&](const WaitingFile& other) {
-        return other.file.path == file.path && other.only == only;
-    });
-    if (waiting_.size() >= kScriptFilesMax) {
-        return Error{Code::Limit, "more than " + std::to_string(kScriptFilesMax) +
-                                      " script files wait for their robots"};
-    }
-    const std::pair source{file.path, only};
-    if (std::find(sources_.begin(), sources_.end(), source) == sources_.end()) {
-        sources_.push_back(source);
-    }
-    waiting_.push_back({std::move(file), only});
-    if (all_described()) place_files();
-    return Status::done();
 }
 
 bool SimSession::all_described() const {

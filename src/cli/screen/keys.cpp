@@ -21,7 +21,7 @@ std::optional<Key> plain_key(char byte) {
         case '\t':
             return Key::NextRobot;
         case 'b':
-            return Key::Button;
+            return Key::Centre;
         case 't':
             return Key::Tap;
         case 'q':
@@ -47,6 +47,24 @@ size_t sequence_length(std::string_view bytes) {
     return 0;
 }
 
+// Arrows come as ESC [ letter or ESC O letter, by the mode of the terminal.
+std::optional<Key> sequence_key(std::string_view sequence) {
+    if (sequence == "\x1b[Z") return Key::LastRobot;
+    if (sequence.size() != 3) return std::nullopt;
+    switch (sequence[2]) {
+        case 'A':
+            return Key::Forward;
+        case 'B':
+            return Key::Backward;
+        case 'C':
+            return Key::Right;
+        case 'D':
+            return Key::Left;
+        default:
+            return std::nullopt;
+    }
+}
+
 }  // namespace
 
 std::vector<Key> keys_of(std::string_view bytes, std::string& rest) {
@@ -61,7 +79,7 @@ std::vector<Key> keys_of(std::string_view bytes, std::string& rest) {
         }
         const size_t length = sequence_length(left);
         if (length == 0) break;
-        if (left.substr(0, length) == "\x1b[Z") keys.push_back(Key::LastRobot);
+        if (const auto key = sequence_key(left.substr(0, length))) keys.push_back(*key);
         left.remove_prefix(length);
     }
     rest = left.size() > kSequenceMax ? "" : std::string(left);

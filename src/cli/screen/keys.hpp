@@ -8,7 +8,22 @@
 
 namespace vagus::cli {
 
-enum class Key { Pause, Reset, Faster, Slower, NextRobot, LastRobot, Button, Tap, Quit, Redraw };
+enum class Key {
+    Pause,
+    Reset,
+    Faster,
+    Slower,
+    NextRobot,
+    LastRobot,
+    Centre,  // a button of the robot, as the next four
+    Forward,
+    Backward,
+    Left,
+    Right,
+    Tap,
+    Quit,
+    Redraw
+};
 
 // Keys in the order typed; sequences that mean nothing here are dropped. An escape sequence may be
 // cut between two reads: `rest` keeps its beginning (at most kSequenceMax bytes, then it is

@@ -12,19 +12,25 @@ TEST(Keys, EachKeyOfTheHelpIsUnderstood) {
     std::string rest;
     EXPECT_THAT(keys_of(" qr+-\tbt", rest),
                 ElementsAre(Key::Pause, Key::Quit, Key::Reset, Key::Faster, Key::Slower,
-                            Key::NextRobot, Key::Button, Key::Tap));
+                            Key::NextRobot, Key::Centre, Key::Tap));
     EXPECT_EQ(rest, "");
 }
 
-// The letters inside of an arrow key's sequence are no keys.
+TEST(Keys, ArrowsComeInTwoForms) {
+    std::string rest;
+    EXPECT_THAT(keys_of("\x1b[A\x1b[B\x1bOC\x1bOD\x1b[Z", rest),
+                ElementsAre(Key::Forward, Key::Backward, Key::Right, Key::Left, Key::LastRobot));
+}
+
+// F5 and Alt-b end in characters that would be keys by themselves.
 TEST(Keys, SequencesOfOtherKeysAreDropped) {
     std::string rest;
-    EXPECT_THAT(keys_of("\x1b[A\x1bOP\x1b[15~\x1b"
+    EXPECT_THAT(keys_of("\x1b[15~\x1b"
                         "b"
+                        "\x1b[1;5t"
                         "t",
                         rest),
                 ElementsAre(Key::Tap));
-    EXPECT_THAT(keys_of("\x1b[Z", rest), ElementsAre(Key::LastRobot));
 }
 
 TEST(Keys, ASequenceMayComeInTwoReads) {

@@ -26,8 +26,9 @@ struct KeyHelp {
     const char* key;
     const char* does;
 };
-constexpr KeyHelp kKeys[] = {{"space", "pause"}, {"q", "quit"},   {"r", "reset"}, {"+ -", "speed"},
-                             {"tab", "robot"},   {"b", "button"}, {"t", "tap"}};
+constexpr KeyHelp kKeys[] = {{"space", "pause"}, {"q", "quit"},        {"r", "reset"},
+                             {"+ -", "speed"},   {"tab", "robot"},     {"t", "tap"},
+                             {"b", "button"},    {"arrows", "buttons"}};
 
 Grid too_small(Size size) {
     Grid grid(size);
@@ -101,12 +102,13 @@ std::vector<std::string> broken(const std::vector<std::string>& lines, int colum
     return rows;
 }
 
-// The mistakes in the script, above the keys. The program that was loaded before runs on.
-void draw_problems(Grid& grid, int row, const std::vector<std::string>& rows) {
+// What is wrong with the scripts, above the keys.
+void draw_problems(Grid& grid, int row, const std::string& title,
+                   const std::vector<std::string>& rows) {
     const int columns = grid.size().columns;
     const Ink head{Rgb{255, 255, 255}, Rgb{150, 30, 30}, true};
     grid.fill(0, row, columns, 1, {U' ', head});
-    grid.text(1, row, columns, "the script has mistakes; what was loaded before runs on", head);
+    grid.text(1, row, columns, title, head);
     for (const std::string& line : rows) {
         const bool sentence = !line.starts_with("   ");
         row++;
@@ -165,7 +167,8 @@ Grid draw(const View& view, Size size, const Look& look) {
     draw_state(grid, 0, view);
     draw_arena(grid, parts.arena, view, look);
     draw_panel(grid, parts.panel, view, look);
-    if (!parts.problems.empty()) draw_problems(grid, 1 + parts.arena.rows, parts.problems);
+    if (!parts.problems.empty())
+        draw_problems(grid, 1 + parts.arena.rows, view.problems_title, parts.problems);
     draw_keys(grid, page.rows - 1, view);
     return grid;
 }

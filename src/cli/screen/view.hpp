@@ -115,9 +115,12 @@ struct View {
     Time now{};
     std::string speed;  // "x1", "x0.5", "max"
     bool paused = false;
-    std::string listening;              // "tcp:127.0.0.1:33333", empty if nobody can connect
-    std::string notice;                 // one line: what was loaded last
-    std::vector<std::string> problems;  // errors of the script, with source line and caret
+    std::string listening;  // "tcp:127.0.0.1:33333", empty if nobody can connect
+    std::string notice;     // one line: what was loaded last
+    // What is wrong with the scripts: sentences, and lines that begin with three spaces, which are
+    // source text and the marks under it.
+    std::string problems_title;
+    std::vector<std::string> problems;
 };
 
 }  // namespace vagus::cli

@@ -77,7 +77,8 @@ class Checker:
         return parts[1] if parts[0] == "src" and len(parts) > 2 else None
 
     def is_test(self):
-        return self.path.endswith("_test.cpp") or self.path.startswith(("tests/", "bench/", "fuzz/"))
+        return (self.path.endswith("_test.cpp") or "/test_" in self.path  # x_test.cpp, and what tests share: test_x.hpp
+                or self.path.startswith(("tests/", "bench/", "fuzz/")))
 
     def run(self):
         self.check_size()

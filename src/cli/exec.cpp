@@ -1,5 +1,6 @@
 // `vagus exec`: compiles a script and runs it on one machine, without a network.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -43,7 +44,8 @@ Result<aesl::Script> choose_script(const session::ScriptFile& file, const aesl::
 
 Result<Input> read_input(const ExecOptions& options) {
     Input input;
-    input.node = TRY(aesl::parse_node_file(TRY(read_file(options.node)), options.node));
+    const std::string node = TRY(read_file(options.node));
+    input.node = TRY(aesl::parse_node_file(node, options.node));
     const std::string text = TRY(read_file(options.script));
     const session::ScriptFile file = TRY(session::read_script_file(text, options.script));
     input.script = TRY(choose_script(file, input.node.target));
@@ -58,29 +60,31 @@ Result<Input> read_input(const ExecOptions& options) {
 void show_diagnostics(const ExecOptions& options, const aesl::Script& script,
                       const aesl::Compilation& done) {
     const session::SourceText text{options.script, script.source, script.first_line};
+    std::string lines;
     for (const aesl::Diagnostic& error : done.errors) {
-        show(session::diagnostic_line(text, error, session::Severity::Error));
+        lines += session::diagnostic_line(text, error, session::Severity::Error) + "\n";
     }
     for (const aesl::Diagnostic& warning : done.warnings) {
-        show(session::diagnostic_line(text, warning, session::Severity::Warning));
+        lines += session::diagnostic_line(text, warning, session::Severity::Warning) + "\n";
     }
+    std::fputs(lines.c_str(), stderr);
 }
 
 int exec(const ExecOptions& options) {
     const Result<Input> read = read_input(options);
     if (!read.ok()) return complain(read.error(), kExitUsage);
     const Input& input = read.value();
-    const aesl::Compilation done = aesl::compile(input.script.source, input.node.target,
-                                                 input.node.common, options.compiler);
+    const aesl::Compilation done =
+        aesl::compile(input.script.source, input.node.target, input.node.common, options.compiler);
     show_diagnostics(options, input.script, done);
     if (!done.ok()) {
-        print(session::format_compile_error(done.errors.front()));
+        (void)print(session::format_compile_error(done.errors.front()));
         return kExitFailed;
     }
-    const Result<session::Execution> execution = session::execute(
-        done.program, input.node, input.stimuli, options.steps_per_event);
+    const Result<session::Execution> execution =
+        session::execute(done.program, input.node, input.stimuli, options.steps_per_event);
     if (!execution.ok()) return complain(execution.error(), kExitUsage);
-    print(session::format_execution(execution.value()));
+    (void)print(session::format_execution(execution.value()));
     return kExitDone;
 }
 
@@ -94,14 +98,17 @@ void add_exec(CLI::App& app, int& exit_code) {
         "Example:\n"
         "  vagus exec counter.aesl --node node.json --stimuli events.json");
     auto options = std::make_shared<ExecOptions>();  // owners: the options below, the callback
-    CLI::Option* script = verb->add_option("FILE", options->script, "the script, or a project (XML)");
+    CLI::Option* script =
+        verb->add_option("FILE", options->script, "the script, or a project (XML)");
     script->required();
     takes_file(*script, {".aesl"});
-    CLI::Option* node = verb->add_option("--node", options->node, "the node it runs on (node file)");
+    CLI::Option* node =
+        verb->add_option("--node", options->node, "the node it runs on (node file)");
     node->required();
     takes_file(*node, {".json"});
-    CLI::Option* stimuli = verb->add_option(
-        "--stimuli", options->stimuli, "events and values to apply in order, after the start (JSON)");
+    CLI::Option* stimuli =
+        verb->add_option("--stimuli", options->stimuli,
+                         "events and values to apply in order, after the start (JSON)");
     takes_file(*stimuli, {".json"});
     verb->add_option("--max-steps", options->steps_per_event,
                      "instructions after which an event is stopped")

@@ -1,0 +1,147 @@
+// `vagus node`: one software node on the network.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "aesl/node_file.hpp"
+#include "base/file.hpp"
+#include "cli/options.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+#include "net/network.hpp"
+#include "session/live_node.hpp"
+#include "session/standard_target.hpp"
+
+namespace vagus::cli {
+
+namespace {
+
+constexpr uint16_t kLastNodeId = wire::kInvalidId - 1;
+
+struct NodeOptions {
+    uint16_t id = 1;
+    std::string name;
+    std::string description;
+    std::string flash;
+    std::string listen;
+    std::string connect;
+};
+
+Result<aesl::Target> target_of(const NodeOptions& options) {
+    aesl::Target target = session::standard_target("dummynode-" + std::to_string(options.id - 1));
+    if (!options.description.empty()) {
+        const std::string text = TRY(read_file(options.description));
+        target = TRY(aesl::parse_node_file(text, options.description)).target;
+    }
+    if (!options.name.empty()) target.name = options.name;
+    return target;
+}
+
+// A hub with two sides: the node, and whoever is connected.
+class NodeProgram {
+public:
+    Status open(const NodeOptions& options);
+    void run();
+
+private:
+    Status open_network(const NodeOptions& options);
+    void answer();
+    // False if it is time to end.
+    bool notice(const net::Event& event);
+
+    hub::Hub hub_;
+    net::Network network_;  // behind the hub: it goes first
+    hub::LinkId own_;
+    std::unique_ptr<session::LiveNode> node_;
+};
+
+Status NodeProgram::open(const NodeOptions& options) {
+    own_ = TRY(hub_.add({.name = "node"}));
+    session::LiveNodeOptions live{.id = options.id, .flash = options.flash};
+    live.transmit = [this](const wire::Frame& frame) { hub_.receive(own_, frame); };
+    aesl::Target target = TRY(target_of(options));
+    node_ = TRY(session::LiveNode::make(std::move(target), std::move(live)));
+    TRY(network_.watch_signals());
+    return open_network(options);
+}
+
+Status NodeProgram::open_network(const NodeOptions& options) {
+    if (!options.connect.empty()) {
+        const net::Target target = TRY(net::parse_target(options.connect));
+        TRY(network_.connect(hub_, target, {.retry = net::Retry::Forever}));
+        return Status::done();
+    }
+    const net::Target target = TRY(net::parse_target(options.listen));
+    const net::Listening listening =
+        TRY(network_.listen(hub_, target, {.clients = net::Clients::One}));
+    (void)print("listening " + net::to_string(listening.target) + "\n");
+    return Status::done();
+}
+
+void NodeProgram::run() {
+    Time next = node_->step(network_.now());
+    for (;;) {
+        for (const net::Event& event : network_.poll(next)) {
+            if (!notice(event)) return;
+        }
+        answer();
+        next = node_->step(network_.now());
+    }
+}
+
+void NodeProgram::answer() {
+    wire::Frame frame;
+    while (hub_.take(own_, frame)) node_->receive(frame);
+}
+
+bool NodeProgram::notice(const net::Event& event) {
+    if (event.kind == net::EventKind::Closed) node_->host_left();
+    if (event.kind == net::EventKind::Failed) complain(event.what);
+    return event.kind != net::EventKind::Signal;
+}
+
+int run_node(const NodeOptions& options) {
+    NodeProgram program;
+    const Status opened = program.open(options);
+    if (!opened.ok()) return complain(opened.error(), kExitUsage);
+    program.run();
+    return kExitDone;
+}
+
+void add_options(CLI::App& verb, NodeOptions& options) {
+    verb.add_option("--id", options.id, "its number on the bus")
+        ->check(CLI::Range(uint16_t{1}, kLastNodeId))
+        ->type_name("N")
+        ->capture_default_str();
+    verb.add_option("--name", options.name, "its name (that of the node file, or dummynode-N)")
+        ->type_name("NAME");
+    takes_file(*verb.add_option("--describe", options.description,
+                                "its variables, events and natives (node file)"),
+               {".json"});
+    takes_file(*verb.add_option("--flash", options.flash,
+                                "keeps the program that a host saves, and runs it after a restart"),
+               {".abo"});
+    CLI::Option* listen =
+        verb.add_option("--listen", options.listen, "waits here for a host, one at a time");
+    listen->type_name("TARGET")->capture_default_str();
+    verb.add_option("--connect", options.connect,
+                    "connects to this switch, again when it comes back")
+        ->type_name("TARGET")
+        ->excludes(listen);
+}
+
+}  // namespace
+
+void add_node(CLI::App& app, int& exit_code) {
+    CLI::App* verb = app.add_subcommand("node", "a software node on the network");
+    verb->footer(
+        "Examples:\n"
+        "  vagus node --id 3 --name rover --listen tcp:127.0.0.1:0\n"
+        "  vagus node --describe node.json --flash rover.abo --connect tcp:127.0.0.1:33333");
+    auto options = std::make_shared<NodeOptions>();  // owners: the options below, the callback
+    options->listen = "tcp:127.0.0.1:" + std::to_string(wire::kDefaultPort);
+    add_options(*verb, *options);
+    verb->callback([options, &exit_code] { exit_code = run_node(*options); });
+}
+
+}  // namespace vagus::cli

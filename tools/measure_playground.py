@@ -19,7 +19,6 @@ import subprocess
 import sys
 import tempfile
 import time
-import zlib
 
 THYMIO = {"prox": (42, 7), "ambiant": (51, 2), "reflected": (53, 2), "delta": (55, 2), "speed": (59, 2),
           "pwm": (61, 2), "acc": (63, 3), "temperature": (66, 1), "mic": (69, 2)}
@@ -66,14 +65,14 @@ class Node:
 class Playground:
     """A running asebaplayground with `robots` (dicts: type, x, y, angle in radians) and further XML elements."""
 
-    def __init__(self, robots, elements, size=(400, 400), texture=None):
+    def __init__(self, robots, elements, size=(400, 400), floor=0.9):
         self.folder = tempfile.mkdtemp()
-        ground = ' groundTexture="%s"' % texture if texture else ""
         lines = ['<!DOCTYPE aseba-playground>', '<aseba-playground>',
                  '<color name="white" r="1" g="1" b="1"/>', '<color name="wall" r="0.9" g="0.9" b="0.9"/>',
+                 '<color name="floor" r="%g" g="%g" b="%g"/>' % (floor, floor, floor),
                  '<color name="grey" r="0.5" g="0.5" b="0.5"/>', '<color name="black" r="0" g="0" b="0"/>',
                  '<color name="red" r="1" g="0" b="0"/>',
-                 '<world w="%g" h="%g" color="wall"%s/>' % (size[0], size[1], ground)]
+                 '<world w="%g" h="%g" color="floor"/>' % size]
         lines += elements
         for index, robot in enumerate(robots):
             lines.append('<robot type="%s" x="%.6f" y="%.6f" angle="%.6f" port="%d" name="r%d" nodeId="1"/>' % (
@@ -187,6 +186,114 @@ def turned(distance):
     elements = ['<wall x="%.4f" y="%.4f" l1="1" l2="44" h="20" color="wall"/>' % (x + distance + 0.5, y) for x, y in places]
     with Playground(robots, elements, arena(len(angles))) as playground:
         return [{"angle": a, "distance": distance, "prox": row["prox"][0]} for a, row in zip(angles, playground.sample(THYMIO))]
+
+
+def measure_colour():
+    """Thymio, wall 12 cm ahead in several colours; and a cylinder instead of a wall."""
+    names = ["white", "wall", "grey", "black", "red"]
+    places = cells(len(names) + 1)
+    elements = ['<wall x="%g" y="%g" l1="1" l2="44" h="20" color="%s"/>' % (x + 12.5, y, name)
+                for (x, y), name in zip(places, names)]
+    x, y = places[-1]
+    elements.append('<cylinder x="%g" y="%g" r="2" h="20" mass="-1" color="wall"/>' % (x + 14, y))
+    with Playground([{"x": x, "y": y} for x, y in places], elements, arena(len(places))) as playground:
+        return [{"colour": name, "prox": row["prox"][0]}
+                for name, row in zip(names + ["cylinder"], playground.sample(THYMIO))]
+
+
+def measure_ground():
+    """Thymio on grey floors: both ground sensors for reflectances 0 to 1, one arena for each."""
+    rows = []
+    for level in [i / 10 for i in range(11)]:
+        with Playground([{"x": 50, "y": 50}], [], (100, 100), level) as playground:
+            row = playground.sample(THYMIO, 40)[0]
+            rows.append({"level": level, **{k: row[k][0] for k in ("ambiant", "reflected", "delta")},
+                         "noise": row["reflected"][1]})
+    return rows
+
+
+def measure_motor():
+    """Thymio: motor.*.speed after a step of the targets, every answer with its time; and a turn on the spot."""
+    result = {}
+    with Playground([{"x": 100, "y": 100}, {"x": 200, "y": 200}, {"x": 300, "y": 100}],
+                    ['<wall x="214" y="200" l1="1" l2="10" h="20" color="wall"/>'], (400, 400)) as playground:
+        time.sleep(0.5)
+        for name, node, targets in (("step_500", 0, (500, 500)), ("step_minus_200", 0, (-200, -200)),
+                                    ("step_1000", 0, (1000, 100)), ("stop", 0, (0, 0))):
+            robot = playground.nodes[node]
+            robot.set(57, *targets)
+            start = time.monotonic()
+            rows = []
+            while time.monotonic() - start < 1:
+                left, right = robot.get(59, 2)
+                rows.append([round(time.monotonic() - start, 3), left, right])
+                time.sleep(0.015)
+            result[name] = rows
+        robot = playground.nodes[1]
+        for speed in (100, 250, 400):
+            robot.set(57, speed, -speed)
+            start = time.monotonic()
+            seen = []
+            while time.monotonic() - start < 30:
+                seen.append((time.monotonic() - start, robot.get(44, 1)[0]))
+                time.sleep(0.02)
+            result["turn_%d_passes_s" % speed] = passes(seen)
+    return result
+
+
+def passes(seen):
+    """Times at which the wall was straight ahead: middles of the stretches in which the front sensor saw it."""
+    middles, stretch = [], []
+    for at, value in seen:
+        if value > 0:
+            stretch.append(at)
+        elif stretch:
+            middles.append(round((stretch[0] + stretch[-1]) / 2, 3))
+            stretch = []
+    return middles
+
+
+def measure_touch():
+    """Thymio pushed against a wall ahead, behind and at its side: readings when it can go no further."""
+    places = cells(2)
+    elements = ['<wall x="%g" y="%g" l1="1" l2="44" h="20" color="wall"/>' % (places[0][0] + 15, places[0][1]),
+                '<wall x="%g" y="%g" l1="1" l2="44" h="20" color="wall"/>' % (places[1][0] - 15, places[1][1])]
+    with Playground([{"x": x, "y": y} for x, y in places], elements, arena(2)) as playground:
+        time.sleep(0.5)
+        playground.nodes[0].set(57, 200, 200)
+        playground.nodes[1].set(57, -200, -200)
+        rows = playground.sample(THYMIO, settle=4)
+        return [{"way": way, "prox": row["prox"][0], "speed": row["speed"][0]} for way, row in zip(("ahead", "back"), rows)]
+
+
+def measure_epuck():
+    """E-puck, a wall ahead: near face 4 to 16 cm from its middle; and turned before a wall at 6 cm."""
+    rows = wall_curve("e-puck", {"prox": EPUCK["prox"]}, [3.8 + 0.4 * i for i in range(32)])
+    rows += wall_curve("e-puck", {"prox": EPUCK["prox"]}, [3.8 + 0.4 * i for i in range(32)], math.radians(17))
+    angles = [10 * i for i in range(36)]
+    places = cells(len(angles))
+    robots = [{"type": "e-puck", "x": x, "y": y, "angle": math.radians(a)} for (x, y), a in zip(places, angles)]
+    elements = ['<wall x="%g" y="%g" l1="1" l2="44" h="20" color="wall"/>' % (x + 6.5, y) for x, y in places]
+    with Playground(robots, elements, arena(len(angles))) as playground:
+        rows += [{"angle": a, "distance": 6, "prox": row["prox"][0], "noise": row["prox"][1]}
+                 for a, row in zip(angles, playground.sample({"prox": EPUCK["prox"]}))]
+    return rows
+
+
+def measure_camera():
+    """E-puck's camera: a red cylinder 15 cm away in directions -40 to 40 degrees, and a red wall 10 to 50 cm ahead."""
+    angles = [-40 + 5 * i for i in range(17)]
+    distances = [10, 20, 30, 40, 50]
+    places = cells(len(angles) + len(distances), side=130)
+    elements, robots = [], [{"type": "e-puck", "x": x, "y": y} for x, y in places]
+    for (x, y), angle in zip(places, angles):
+        elements.append('<cylinder x="%.4f" y="%.4f" r="1" h="20" mass="-1" color="red"/>' % (
+            x + 15 * math.cos(math.radians(angle)), y + 15 * math.sin(math.radians(angle))))
+    for (x, y), distance in zip(places[len(angles):], distances):
+        elements.append('<wall x="%g" y="%g" l1="1" l2="80" h="20" color="red"/>' % (x + distance + 0.5, y))
+    with Playground(robots, elements, (1500, 700)) as playground:
+        rows = playground.sample({k: EPUCK[k] for k in ("red", "green")}, 3)
+        return [{"at": at, "red": row["red"][0], "green": row["green"][0]} for at, row in zip(angles + distances, rows)]
 
 
 if __name__ == "__main__":

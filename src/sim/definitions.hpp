@@ -10,6 +10,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -97,8 +99,9 @@ struct RemoveObject {
     bool operator==(const RemoveObject&) const = default;
 };
 struct MoveObject {
-    std::string id;  // of an object or the name of a robot
-    Pose to;
+    std::string id;  // of an object, or the name of a robot
+    Point at;
+    std::optional<double> angle;  // empty: as it stands
     bool operator==(const MoveObject&) const = default;
 };
 struct PressButton {
@@ -139,5 +142,7 @@ struct WorldDefinition {
 // "wall", "thymio2": as in the file.
 std::string_view name_of(ObjectKind kind);
 std::string_view name_of(RobotType type);
+// The names of the buttons of a robot, in the order of its variables.
+std::span<const std::string_view> buttons_of(RobotType type);
 
 }  // namespace vagus::sim

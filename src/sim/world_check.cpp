@@ -1,0 +1,280 @@
+#include "sim/world_check.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+namespace vagus::sim {
+namespace {
+
+using Found = std::optional<Problem>;
+
+std::string text_of(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return text;
+}
+
+struct Range {
+    double low;
+    double high;
+    const char* unit;  // "m"
+};
+
+Found check_range(const std::string& element, double value, Range range, const char* mend) {
+    if (value >= range.low && value <= range.high) return std::nullopt;
+    return Problem{element, "expected a number from " + text_of(range.low) + " to " +
+                                text_of(range.high) + " (" + range.unit + "), found " +
+                                text_of(value) + "; " + mend};
+}
+
+Found check_count(const std::string& element, size_t count, size_t max) {
+    if (count <= max) return std::nullopt;
+    return Problem{element, "expected at most " + std::to_string(max) + " of them, found " +
+                                std::to_string(count) + "; take some away"};
+}
+
+Found check_colour(const std::string& element, const Colour& colour) {
+    for (const double part : {colour.r, colour.g, colour.b}) {
+        if (auto found = check_range(element, part, {0, 1, "red, green, blue"},
+                                     "divide by 255 if the colour is in bytes"))
+            return found;
+    }
+    return std::nullopt;
+}
+
+Found check_point(const std::string& element, const Point& point, double low, double high) {
+    for (const double part : {point.x, point.y}) {
+        if (auto found = check_range(element, part, {low, high, "m"}, "lengths are in metres"))
+            return found;
+    }
+    return std::nullopt;
+}
+
+Found check_angle(const std::string& element, double angle) {
+    return check_range(element, angle, {-kAngleMax, kAngleMax, "rad"}, "angles are in radians");
+}
+
+bool is_rectangle(const ObjectDefinition& object) { return object.radius == 0; }
+
+bool is_bare(const ObjectDefinition& object) {
+    return object.width == 0 && object.length == 0 && object.radius == 0;
+}
+
+// Which of size and radius an object of this kind has.
+Found check_shape(const ObjectDefinition& object, const std::string& element) {
+    const std::string kind(name_of(object.kind));
+    const bool point_like =
+        object.kind == ObjectKind::Light || object.kind == ObjectKind::Infrared;
+    if (point_like && is_bare(object)) return std::nullopt;
+    if (object.radius != 0 && (object.width != 0 || object.length != 0))
+        return Problem{element, "has a size and a radius; keep one of them"};
+    const bool needs_disc = object.kind == ObjectKind::Cylinder || point_like;
+    if (needs_disc && is_rectangle(object))
+        return Problem{element, "a " + kind + " needs a radius; write \"radius\": 0.05"};
+    const bool needs_rectangle = object.kind == ObjectKind::Wall || object.kind == ObjectKind::Box;
+    if (needs_rectangle && (!is_rectangle(object) || is_bare(object)))
+        return Problem{element, "a " + kind + " needs a size; write \"size\": [0.2, 0.1]"};
+    if (is_bare(object))
+        return Problem{element, "a " + kind + " needs a size or a radius; write \"radius\": 0.05"};
+    return std::nullopt;
+}
+
+Found check_lengths(const ObjectDefinition& object, const std::string& element) {
+    const Range range = {kObjectSizeMin, kWorldSizeMax, "m"};
+    const char* mend = "lengths are in metres";
+    if (is_bare(object)) return std::nullopt;
+    if (!is_rectangle(object)) return check_range(element + ".radius", object.radius, range, mend);
+    if (auto found = check_range(element + ".size", object.width, range, mend)) return found;
+    return check_range(element + ".size", object.length, range, mend);
+}
+
+Found check_mass(const ObjectDefinition& object, const std::string& element) {
+    const bool movable = object.kind == ObjectKind::Box || object.kind == ObjectKind::Cylinder;
+    if (object.mass != 0 && !movable) {
+        return Problem{element + ".mass", "a " + std::string(name_of(object.kind)) +
+                                              " cannot be moved; leave mass out, or make it a box"};
+    }
+    return check_range(element + ".mass", object.mass, {0, kMassMax, "kg"},
+                       "write 0 for what never moves");
+}
+
+Found check_button(const PressButton& press, const WorldDefinition& world,
+                   const std::string& element) {
+    for (const RobotDefinition& robot : world.robots) {
+        if (robot.name != press.robot) continue;
+        std::string all;
+        for (const std::string_view button : buttons_of(robot.type)) {
+            if (button == press.button) return std::nullopt;
+            all += (all.empty() ? "" : ", ") + std::string(button);
+        }
+        if (all.empty()) all = "none";
+        return Problem{element + ".button", "robot " + robot.name + " has no button \"" +
+                                                press.button + "\"; it has: " + all};
+    }
+    return Problem{element + ".robot", "there is no robot \"" + press.robot +
+                                           "\" in this world; use the name of one in \"robots\""};
+}
+
+// The ids that exist while the timeline goes by.
+class Timeline {
+public:
+    explicit Timeline(const WorldDefinition& world) : world_(world) {
+        for (const ObjectDefinition& object : world.objects)
+            if (!object.id.empty()) ids_[object.id] = object.kind;
+        for (const RobotDefinition& robot : world.robots) robots_.insert(robot.name);
+    }
+
+    Found check(const TimelineEntry& entry, const std::string& element) {
+        const double seconds = std::chrono::duration<double>(entry.at).count();
+        if (auto found = check_range(element + ".t", seconds, {0, kTimelineEndMax, "s"},
+                                     "times count from the start of the run"))
+            return found;
+        element_ = &element;
+        return std::visit([this](const auto& action) { return apply(action); }, entry.action);
+    }
+
+private:
+    Found apply(const AddObject& add) {
+        if (auto found = find_problem(add.object, *element_ + ".object")) return found;
+        if (add.object.id.empty()) return std::nullopt;
+        if (ids_.contains(add.object.id) || robots_.contains(add.object.id)) {
+            return Problem{*element_ + ".object.id",
+                           "\"" + add.object.id + "\" exists already; choose another id"};
+        }
+        ids_[add.object.id] = add.object.kind;
+        return std::nullopt;
+    }
+    Found apply(const RemoveObject& remove) {
+        if (auto found = known(remove.id)) return found;
+        ids_.erase(remove.id);
+        return std::nullopt;
+    }
+    Found apply(const MoveObject& move) {
+        if (auto found = check_point(*element_ + ".at", move.at, -kWorldSizeMax, 2 * kWorldSizeMax))
+            return found;
+        if (move.angle) {
+            if (auto found = check_angle(*element_ + ".angle", *move.angle)) return found;
+        }
+        return robots_.contains(move.id) ? std::nullopt : known(move.id);
+    }
+    Found apply(const PressButton& press) { return check_button(press, world_, *element_); }
+    Found apply(const SwitchLight& light) {
+        if (auto found = known(light.id)) return found;
+        const ObjectKind kind = ids_[light.id];
+        if (kind == ObjectKind::Light || kind == ObjectKind::Infrared) return std::nullopt;
+        return Problem{*element_ + ".id", "\"" + light.id + "\" is a " + std::string(name_of(kind)) +
+                                              "; only a light or an infrared can be switched"};
+    }
+    Found known(const std::string& id) const {
+        if (ids_.contains(id)) return std::nullopt;
+        return Problem{*element_ + ".id",
+                       "there is no object \"" + id +
+                           "\" at that time; give the object that id, or correct this one"};
+    }
+
+    const WorldDefinition& world_;
+    std::map<std::string, ObjectKind> ids_;
+    std::set<std::string> robots_;
+    const std::string* element_ = nullptr;
+};
+
+Found check_objects(const WorldDefinition& world) {
+    if (auto found = check_count("objects", world.objects.size(), kObjectsMax)) return found;
+    std::set<std::string> ids;
+    for (size_t i = 0; i < world.objects.size(); ++i) {
+        const ObjectDefinition& object = world.objects[i];
+        const std::string element = "objects[" + std::to_string(i) + "]";
+        if (auto found = find_problem(object, element)) return found;
+        if (!object.id.empty() && !ids.insert(object.id).second) {
+            return Problem{element + ".id",
+                           "\"" + object.id + "\" is the id of an earlier object; choose another"};
+        }
+    }
+    return std::nullopt;
+}
+
+Found check_robot(const RobotDefinition& robot, const std::string& element,
+                  const WorldDefinition& world) {
+    if (robot.name.empty())
+        return Problem{element + ".name", "is empty; give the robot a name"};
+    for (const ObjectDefinition& object : world.objects) {
+        if (object.id == robot.name)
+            return Problem{element + ".name", "\"" + robot.name + "\" is the id of an object, too; "
+                                                                  "choose another"};
+    }
+    const double margin = kWorldSizeMax;
+    if (auto found = check_point(element + ".at", robot.at, -margin, 2 * margin)) return found;
+    if (auto found = check_angle(element + ".angle", robot.angle)) return found;
+    if (auto found = check_colour(element + ".paint", robot.paint)) return found;
+    return check_range(element + ".node", robot.node, {1, 65534, "node id"},
+                       "0 is the host, 65535 is nobody");
+}
+
+Found check_robots(const WorldDefinition& world) {
+    if (auto found = check_count("robots", world.robots.size(), kRobotsMax)) return found;
+    std::set<std::string> names;
+    std::set<uint16_t> nodes;
+    std::set<uint16_t> ports;
+    for (size_t i = 0; i < world.robots.size(); ++i) {
+        const RobotDefinition& robot = world.robots[i];
+        const std::string element = "robots[" + std::to_string(i) + "]";
+        if (auto found = check_robot(robot, element, world)) return found;
+        if (!names.insert(robot.name).second)
+            return Problem{element + ".name", "\"" + robot.name + "\" is taken; choose another"};
+        if (!nodes.insert(robot.node).second) {
+            return Problem{element + ".node", std::to_string(robot.node) +
+                                                  " is the node of an earlier robot; all robots "
+                                                  "are on one bus, choose another"};
+        }
+        if (robot.port != 0 && !ports.insert(robot.port).second)
+            return Problem{element + ".port", std::to_string(robot.port) + " is the port of an "
+                                                                           "earlier robot; choose "
+                                                                           "another"};
+    }
+    return std::nullopt;
+}
+
+Found check_timeline(const WorldDefinition& world) {
+    if (auto found = check_count("timeline", world.timeline.size(), kTimelineMax)) return found;
+    Timeline timeline(world);
+    for (size_t i = 0; i < world.timeline.size(); ++i) {
+        const std::string element = "timeline[" + std::to_string(i) + "]";
+        if (auto found = timeline.check(world.timeline[i], element)) return found;
+        if (i > 0 && world.timeline[i].at < world.timeline[i - 1].at) {
+            return Problem{element + ".t",
+                           "is before the entry above it; put the entries in the order of time"};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Problem> find_problem(const ObjectDefinition& object, const std::string& element) {
+    if (auto found = check_point(element + ".at", object.at, -kWorldSizeMax, 2 * kWorldSizeMax))
+        return found;
+    if (auto found = check_angle(element + ".angle", object.angle)) return found;
+    if (auto found = check_shape(object, element)) return found;
+    if (auto found = check_lengths(object, element)) return found;
+    if (auto found = check_range(element + ".height", object.height,
+                                 {kObjectSizeMin, kWorldSizeMax, "m"}, "lengths are in metres"))
+        return found;
+    if (auto found = check_mass(object, element)) return found;
+    return check_colour(element + ".colour", object.colour);
+}
+
+std::optional<Problem> find_problem(const WorldDefinition& world) {
+    for (const double side : {world.width, world.height}) {
+        if (auto found = check_range("size", side, {kWorldSizeMin, kWorldSizeMax, "m"},
+                                     "sizes are in metres"))
+            return found;
+    }
+    if (auto found = check_colour("ground.colour", world.ground)) return found;
+    if (auto found = check_objects(world)) return found;
+    if (auto found = check_robots(world)) return found;
+    return check_timeline(world);
+}
+
+}  // namespace vagus::sim

@@ -56,7 +56,9 @@ Found check_angle(const std::string& element, double angle) {
     return check_range(element, angle, {-kAngleMax, kAngleMax, "rad"}, "angles are in radians");
 }
 
-bool is_rectangle(const ObjectDefinition& object) { return object.radius == 0; }
+bool is_rectangle(const ObjectDefinition& object) {
+    return object.radius == 0;
+}
 
 bool is_bare(const ObjectDefinition& object) {
     return object.width == 0 && object.length == 0 && object.radius == 0;
@@ -65,8 +67,7 @@ bool is_bare(const ObjectDefinition& object) {
 // Which of size and radius an object of this kind has.
 Found check_shape(const ObjectDefinition& object, const std::string& element) {
     const std::string kind(name_of(object.kind));
-    const bool point_like =
-        object.kind == ObjectKind::Light || object.kind == ObjectKind::Infrared;
+    const bool point_like = object.kind == ObjectKind::Light || object.kind == ObjectKind::Infrared;
     if (point_like && is_bare(object)) return std::nullopt;
     if (object.radius != 0 && (object.width != 0 || object.length != 0))
         return Problem{element, "has a size and a radius; keep one of them"};
@@ -164,7 +165,8 @@ private:
         if (auto found = known(light.id)) return found;
         const ObjectKind kind = ids_[light.id];
         if (kind == ObjectKind::Light || kind == ObjectKind::Infrared) return std::nullopt;
-        return Problem{*element_ + ".id", "\"" + light.id + "\" is a " + std::string(name_of(kind)) +
+        return Problem{*element_ + ".id", "\"" + light.id + "\" is a " +
+                                              std::string(name_of(kind)) +
                                               "; only a light or an infrared can be switched"};
     }
     Found known(const std::string& id) const {
@@ -197,12 +199,12 @@ Found check_objects(const WorldDefinition& world) {
 
 Found check_robot(const RobotDefinition& robot, const std::string& element,
                   const WorldDefinition& world) {
-    if (robot.name.empty())
-        return Problem{element + ".name", "is empty; give the robot a name"};
+    if (robot.name.empty()) return Problem{element + ".name", "is empty; give the robot a name"};
     for (const ObjectDefinition& object : world.objects) {
         if (object.id == robot.name)
-            return Problem{element + ".name", "\"" + robot.name + "\" is the id of an object, too; "
-                                                                  "choose another"};
+            return Problem{element + ".name", "\"" + robot.name +
+                                                  "\" is the id of an object, too; "
+                                                  "choose another"};
     }
     const double margin = kWorldSizeMax;
     if (auto found = check_point(element + ".at", robot.at, -margin, 2 * margin)) return found;
@@ -229,9 +231,10 @@ Found check_robots(const WorldDefinition& world) {
                                                   "are on one bus, choose another"};
         }
         if (robot.port != 0 && !ports.insert(robot.port).second)
-            return Problem{element + ".port", std::to_string(robot.port) + " is the port of an "
-                                                                           "earlier robot; choose "
-                                                                           "another"};
+            return Problem{element + ".port", std::to_string(robot.port) +
+                                                  " is the port of an "
+                                                  "earlier robot; choose "
+                                                  "another"};
     }
     return std::nullopt;
 }

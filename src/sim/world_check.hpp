@@ -11,7 +11,8 @@ namespace vagus::sim {
 // What is wrong, and with which element: "objects[3].mass", for a sentence or to look its place up.
 struct Problem {
     std::string element;
-    std::string what;  // "expected a number from 0 to 1000 (kg), found -1; write 0 for what never moves"
+    std::string
+        what;  // "expected a number from 0 to 1000 (kg), found -1; write 0 for what never moves"
 };
 
 // The first problem in the order of the file.

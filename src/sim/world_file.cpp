@@ -2,364 +2,199 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
 #include "base/json.hpp"
-#include "base/nearest.hpp"
+#include "base/json_object.hpp"
 #include "sim/world_check.hpp"
 
 namespace vagus::sim {
 namespace {
 
-// Walks the JSON tree into the definitions. Remembers its first failure and then reads zeros, so
-// that the functions below say only what the format is.
-class FileReader {
-public:
-    explicit FileReader(std::string_view file) : file_(file) {}
-
-    WorldDefinition world(const Json& json);
-    const std::optional<Error>& error() const { return error_; }
-
-    void fail(Place at, const std::string& element, const std::string& what) {
-        if (error_) return;
-        error_ = Error{Code::BadInput, std::string(file_) + ":" + std::to_string(at.line) + ":" +
-                                           std::to_string(at.column) + ": " +
-                                           (element.empty() ? "" : element + ": ") + what};
-    }
-
-private:
-    // An element: where it is in the tree, and what it is called in sentences.
-    struct Element {
-        const Json& json;
-        std::string name;
-    };
-    // Members of an object, after the check of its keys.
-    using Keys = std::vector<std::string>;
-
-    bool is(const Element& element, JsonKind kind) {
-        if (error_) return false;
-        if (element.json.kind == kind) return true;
-        wrong(element, std::string(name_of(kind)));
-        return false;
-    }
-    void wrong(const Element& element, const std::string& expected) {
-        const Json& json = element.json;
-        const std::string found =
-            json.is_number() ? json.text : std::string(name_of(json.kind));
-        fail(json.at, element.name, "expected " + expected + ", found " + found);
-    }
-
-    bool open(const Element& element, const Keys& required, const Keys& optional);
-    void check_keys(const Element& element, const Keys& known);
-    static std::string below(const Element& element, const std::string& key) {
-        return element.name.empty() ? key : element.name + "." + key;
-    }
-    // The member of that key, read by `read` into `into`; leaves `into` alone if there is none.
-    template <typename T>
-    void member(const Element& element, const char* key, T (FileReader::*read)(const Element&),
-                T& into) {
-        if (error_) return;
-        const Json* json = element.json.find(key);
-        if (json != nullptr) into = (this->*read)(Element{*json, below(element, key)});
-    }
-    template <typename T>
-    std::vector<T> list(const Element& element, size_t max, T (FileReader::*read)(const Element&));
-
-    double number(const Element& element);
-    bool boolean(const Element& element);
-    std::string string(const Element& element);
-    uint64_t seed(const Element& element);
-    uint16_t word(const Element& element);
-    Point point(const Element& element);
-    Colour colour(const Element& element);
-    std::vector<double> numbers(const Element& element, size_t count, const char* example);
-    Time seconds(const Element& element);
-
-    ObjectKind object_kind(const Element& element);
-    RobotType robot_type(const Element& element);
-    ObjectDefinition object(const Element& element);
-    RobotDefinition robot(const Element& element);
-    TimelineEntry entry(const Element& element);
-    Action action(const Element& element, const std::string& verb);
-    void ground(const Element& element, WorldDefinition& world);
-    std::vector<ObjectDefinition> object_list(const Element& element) {
-        return list(element, kObjectsMax, &FileReader::object);
-    }
-    std::vector<RobotDefinition> robot_list(const Element& element) {
-        std::vector<RobotDefinition> robots = list(element, kRobotsMax, &FileReader::robot);
-        uint16_t number = 0;
-        for (size_t i = 0; i < robots.size(); ++i) {
-            ++number;
-            if (element.json.items[i].find("node") == nullptr) robots[i].node = number;
-        }
-        return robots;
-    }
-    std::vector<TimelineEntry> timeline(const Element& element) {
-        return list(element, kTimelineMax, &FileReader::entry);
-    }
-
-    std::string_view file_;
-    std::optional<Error> error_;
-};
-
-WorldDefinition FileReader::world(const Json& json) {
-    WorldDefinition world;
-    const Element top{json, ""};
-    if (!open(top, {"format", "size"},
-              {"name", "help", "seed", "open", "ground", "objects", "robots", "timeline"}))
-        return world;
-    std::string format;
-    member(top, "format", &FileReader::string, format);
-    if (format != "vagus-world/1") {
-        fail(json.find("format")->at, "format",
-             "expected \"vagus-world/1\", found \"" + format + "\"; this program reads no other");
-    }
-    member(top, "name", &FileReader::string, world.name);
-    member(top, "help", &FileReader::string, world.help);
-    member(top, "seed", &FileReader::seed, world.seed);
-    Point size;
-    member(top, "size", &FileReader::point, size);
-    world.width = size.x;
-    world.height = size.y;
-    member(top, "open", &FileReader::boolean, world.open);
-    if (const Json* ground_json = json.find("ground"); ground_json != nullptr)
-        ground({*ground_json, "ground"}, world);
-    member(top, "objects", &FileReader::object_list, world.objects);
-    member(top, "robots", &FileReader::robot_list, world.robots);
-    member(top, "timeline", &FileReader::timeline, world.timeline);
-    return world;
+std::string numbered(std::string_view list, size_t index) {
+    return std::string(list) + "[" + std::to_string(index) + "]";
 }
 
-bool FileReader::open(const Element& element, const Keys& required, const Keys& optional) {
-    if (!is(element, JsonKind::Object)) return false;
-    Keys known = required;
-    known.insert(known.end(), optional.begin(), optional.end());
-    check_keys(element, known);
-    for (const std::string& key : required) {
-        if (element.json.find(key) == nullptr)
-            fail(element.json.at, element.name, "\"" + key + "\" is missing; add it");
-    }
-    return !error_;
-}
+// ---- Values that JsonObject does not know. Each leaves its complaint and gives a harmless value. ----
 
-void FileReader::check_keys(const Element& element, const Keys& known) {
-    std::vector<std::string_view> seen;
-    for (const JsonMember& each : element.json.members) {
-        if (std::find(known.begin(), known.end(), each.key) == known.end()) {
-            const std::string guess = nearest(each.key, known);
-            fail(each.at, below(element, each.key),
-                 guess.empty() ? "there is no such key here; take it out, or see docs/formats.md"
-                               : "there is no such key here; did you mean \"" + guess + "\"?");
-        } else if (std::find(seen.begin(), seen.end(), each.key) != seen.end()) {
-            fail(each.at, below(element, each.key), "stands twice; keep one of them");
-        }
-        if (error_) return;
-        seen.push_back(each.key);
-    }
-}
-
-template <typename T>
-std::vector<T> FileReader::list(const Element& element, size_t max,
-                                T (FileReader::*read)(const Element&)) {
-    std::vector<T> values;
-    if (!is(element, JsonKind::Array)) return values;
-    if (element.json.items.size() > max) {
-        fail(element.json.at, element.name,
-             "expected at most " + std::to_string(max) + " of them, found " +
-                 std::to_string(element.json.items.size()) + "; take some away");
-    }
-    for (size_t i = 0; i < element.json.items.size() && !error_; ++i) {
-        values.push_back(
-            (this->*read)({element.json.items[i], element.name + "[" + std::to_string(i) + "]"}));
-    }
-    return values;
-}
-
-double FileReader::number(const Element& element) {
-    if (error_) return 0;
-    if (!element.json.is_number()) wrong(element, "a number");
-    return element.json.number;
-}
-
-bool FileReader::boolean(const Element& element) {
-    return is(element, JsonKind::Bool) && element.json.boolean;
-}
-
-std::string FileReader::string(const Element& element) {
-    return is(element, JsonKind::String) ? element.json.text : "";
-}
-
-// All 64 bits: the tree holds whole numbers up to 2^63 - 1, so larger ones are read from their text.
-uint64_t FileReader::seed(const Element& element) {
-    if (error_) return 0;
-    const std::string& text = element.json.text;
-    const bool digits = element.json.is_number() && !text.empty() && text.size() <= 20 &&
-                        text.find_first_not_of("0123456789") == std::string::npos;
-    if (digits && (text.size() < 20 || text <= "18446744073709551615")) return std::stoull(text);
-    wrong(element, "a whole number from 0 to 18446744073709551615");
-    return 0;
-}
-
-uint16_t FileReader::word(const Element& element) {
-    if (error_) return 0;
-    const Json& json = element.json;
-    if (json.kind == JsonKind::Int && json.integer >= 0 && json.integer <= 65535)
-        return static_cast<uint16_t>(json.integer);
-    wrong(element, "a whole number from 0 to 65535");
-    return 0;
-}
-
-std::vector<double> FileReader::numbers(const Element& element, size_t count,
-                                        const char* example) {
-    std::vector<double> values(count, 0.0);
-    if (!is(element, JsonKind::Array)) return values;
-    if (element.json.items.size() != count) {
-        fail(element.json.at, element.name,
-             "expected " + std::to_string(count) + " numbers, found " +
-                 std::to_string(element.json.items.size()) + "; write them as " + example);
-        return values;
-    }
-    for (size_t i = 0; i < count; ++i)
-        values[i] = number({element.json.items[i], element.name + "[" + std::to_string(i) + "]"});
-    return values;
-}
-
-Point FileReader::point(const Element& element) {
-    const std::vector<double> values = numbers(element, 2, "[0.5, 1]");
-    return {values[0], values[1]};
-}
-
-Colour FileReader::colour(const Element& element) {
-    const std::vector<double> values = numbers(element, 3, "[1, 0.5, 0]");
-    return {values[0], values[1], values[2]};
-}
-
-Time FileReader::seconds(const Element& element) {
-    const double value = number(element);
-    if (value >= 0 && value <= kTimelineEndMax)
-        return Time(static_cast<Time::rep>(std::floor(value * 1e6 + 0.5)));
-    if (!error_) wrong(element, "seconds from 0 to 1000000");
+// An array of exactly `count` numbers. Ranges are checked later, by world_check.
+std::vector<double> read_numbers(JsonObject& in, std::string_view key, size_t count,
+                                 const std::string& example) {
+    std::vector<double> values;
+    const Json* list = in.find(key, JsonKind::Array, Need::Optional);
+    if (list == nullptr) return values;
+    for (const Json& item : list->items)
+        if (item.is_number() && values.size() < count) values.push_back(item.number);
+    if (values.size() == count && list->items.size() == count) return values;
+    in.complain(list->at, in.name() + "." + std::string(key) + ": expected " +
+                              std::to_string(count) + " numbers; write them as " + example);
     return {};
 }
 
-ObjectKind FileReader::object_kind(const Element& element) {
-    const std::string text = string(element);
-    std::string all;
-    for (const ObjectKind kind : {ObjectKind::Wall, ObjectKind::Box, ObjectKind::Cylinder,
-                                  ObjectKind::Patch, ObjectKind::Light, ObjectKind::Infrared}) {
-        if (text == name_of(kind)) return kind;
-        all += (all.empty() ? "" : ", ") + std::string(name_of(kind));
-    }
-    fail(element.json.at, element.name, "expected one of " + all + ", found \"" + text + "\"");
-    return ObjectKind::Wall;
+void read_point(JsonObject& in, std::string_view key, Need need, Point& into) {
+    if (need == Need::Required && in.find(key, need) == nullptr) return;
+    const std::vector<double> values = read_numbers(in, key, 2, "[0.5, 1]");
+    if (!values.empty()) into = {values[0], values[1]};
 }
 
-RobotType FileReader::robot_type(const Element& element) {
-    const std::string text = string(element);
-    for (const RobotType type : {RobotType::Thymio2, RobotType::Epuck})
-        if (text == name_of(type)) return type;
-    fail(element.json.at, element.name,
-         "expected one of thymio2, epuck, found \"" + text + "\"");
-    return RobotType::Thymio2;
+void read_colour(JsonObject& in, std::string_view key, Colour& into) {
+    const std::vector<double> values = read_numbers(in, key, 3, "[1, 0.5, 0]");
+    if (!values.empty()) into = {values[0], values[1], values[2]};
 }
 
-ObjectDefinition FileReader::object(const Element& element) {
+void read_number(JsonObject& in, std::string_view key, double& into) {
+    into = in.number(key, {.fallback = into});
+}
+
+constexpr ObjectKind kObjectKinds[] = {ObjectKind::Wall,  ObjectKind::Box,   ObjectKind::Cylinder,
+                                       ObjectKind::Patch, ObjectKind::Light, ObjectKind::Infrared};
+constexpr RobotType kRobotTypes[] = {RobotType::Thymio2, RobotType::Epuck};
+
+// One of an enumeration by its name.
+template <typename Enum, size_t kCount>
+Enum read_word(JsonObject& in, std::string_view key, const Enum (&all)[kCount]) {
+    std::vector<std::string_view> words;
+    for (const Enum each : all) words.push_back(name_of(each));
+    const std::string word = in.word(key, words, Need::Required, words.front());
+    return all[std::find(words.begin(), words.end(), word) - words.begin()];
+}
+
+// ---- The elements of the file ----
+
+ObjectDefinition read_object(const Json& json, const std::string& name, Complaints& complaints) {
+    JsonObject in(json, name, complaints);
     ObjectDefinition object;
-    if (!open(element, {"kind", "at"},
-              {"id", "angle", "size", "radius", "height", "mass", "colour"}))
-        return object;
-    member(element, "id", &FileReader::string, object.id);
-    member(element, "kind", &FileReader::object_kind, object.kind);
-    member(element, "at", &FileReader::point, object.at);
-    member(element, "angle", &FileReader::number, object.angle);
+    object.id = in.text("id", Need::Optional);
+    object.kind = read_word(in, "kind", kObjectKinds);
+    read_point(in, "at", Need::Required, object.at);
+    read_number(in, "angle", object.angle);
     Point size;
-    member(element, "size", &FileReader::point, size);
+    read_point(in, "size", Need::Optional, size);
     object.width = size.x;
     object.length = size.y;
-    member(element, "radius", &FileReader::number, object.radius);
-    member(element, "height", &FileReader::number, object.height);
-    member(element, "mass", &FileReader::number, object.mass);
-    member(element, "colour", &FileReader::colour, object.colour);
+    read_number(in, "radius", object.radius);
+    read_number(in, "height", object.height);
+    read_number(in, "mass", object.mass);
+    read_colour(in, "colour", object.colour);
+    in.finish();
     return object;
 }
 
-RobotDefinition FileReader::robot(const Element& element) {
+RobotDefinition read_robot(const Json& json, const std::string& name, int64_t node,
+                           Complaints& complaints) {
+    JsonObject in(json, name, complaints);
     RobotDefinition robot;
-    if (!open(element, {"name", "type", "at"}, {"angle", "node", "port", "script", "paint"}))
-        return robot;
-    member(element, "name", &FileReader::string, robot.name);
-    member(element, "type", &FileReader::robot_type, robot.type);
-    member(element, "at", &FileReader::point, robot.at);
-    member(element, "angle", &FileReader::number, robot.angle);
-    member(element, "node", &FileReader::word, robot.node);
-    member(element, "port", &FileReader::word, robot.port);
-    member(element, "script", &FileReader::string, robot.script);
-    member(element, "paint", &FileReader::colour, robot.paint);
+    robot.name = in.text("name", Need::Required);
+    robot.type = read_word(in, "type", kRobotTypes);
+    read_point(in, "at", Need::Required, robot.at);
+    read_number(in, "angle", robot.angle);
+    robot.node =
+        static_cast<uint16_t>(in.integer("node", {.low = 1, .high = 65534, .fallback = node}));
+    robot.port = static_cast<uint16_t>(in.integer("port", {.low = 0, .high = 65535}));
+    robot.script = in.text("script", Need::Optional);
+    read_colour(in, "paint", robot.paint);
+    in.finish();
     return robot;
 }
 
-TimelineEntry FileReader::entry(const Element& element) {
-    TimelineEntry entry;
-    if (!is(element, JsonKind::Object)) return entry;
-    std::string verb;
-    if (element.json.find("t") == nullptr || element.json.find("do") == nullptr)
-        fail(element.json.at, element.name, "an entry needs \"t\" and \"do\"; add what is missing");
-    member(element, "do", &FileReader::string, verb);
-    entry.action = action(element, verb);
-    member(element, "t", &FileReader::seconds, entry.at);
-    return entry;
-}
-
-Action FileReader::action(const Element& element, const std::string& verb) {
+Action read_action(JsonObject& in, const std::string& verb, Complaints& complaints) {
     if (verb == "add") {
         AddObject add;
-        if (open(element, {"t", "do", "object"}, {}))
-            member(element, "object", &FileReader::object, add.object);
+        const Json* object = in.find("object", JsonKind::Object, Need::Required);
+        if (object != nullptr) add.object = read_object(*object, in.name() + ".object", complaints);
         return add;
     }
     if (verb == "move") {
-        MoveObject move;
-        if (!open(element, {"t", "do", "id", "at"}, {"angle"})) return move;
-        member(element, "id", &FileReader::string, move.id);
-        member(element, "at", &FileReader::point, move.at);
-        double angle = 0;
-        member(element, "angle", &FileReader::number, angle);
-        if (element.json.find("angle") != nullptr) move.angle = angle;
+        MoveObject move{.id = in.text("id", Need::Required), .at = {}, .angle = {}};
+        read_point(in, "at", Need::Required, move.at);
+        if (in.find("angle", Need::Optional) != nullptr) move.angle = in.number("angle", {});
         return move;
     }
     if (verb == "press" || verb == "release") {
-        PressButton press{.robot = "", .button = "", .pressed = verb == "press"};
-        if (!open(element, {"t", "do", "robot", "button"}, {})) return press;
-        member(element, "robot", &FileReader::string, press.robot);
-        member(element, "button", &FileReader::string, press.button);
-        return press;
+        return PressButton{.robot = in.text("robot", Need::Required),
+                           .button = in.text("button", Need::Required),
+                           .pressed = verb == "press"};
     }
     if (verb == "light") {
-        SwitchLight light;
-        if (!open(element, {"t", "do", "id", "on"}, {})) return light;
-        member(element, "id", &FileReader::string, light.id);
-        member(element, "on", &FileReader::boolean, light.on);
-        return light;
+        std::string id = in.text("id", Need::Required);
+        const bool given = in.find("on", JsonKind::Bool, Need::Required) != nullptr;
+        return SwitchLight{.id = std::move(id), .on = given && in.boolean("on", true)};
     }
-    RemoveObject remove;
-    if (verb != "remove" && !error_) {
-        fail(element.json.find("do")->at, below(element, "do"),
-             "expected one of add, remove, move, press, release, light, found \"" + verb + "\"");
-    }
-    if (open(element, {"t", "do", "id"}, {})) member(element, "id", &FileReader::string, remove.id);
-    return remove;
+    return RemoveObject{in.text("id", Need::Required)};
 }
 
-void FileReader::ground(const Element& element, WorldDefinition& world) {
-    if (!open(element, {}, {"colour", "image"})) return;
-    const bool both =
-        element.json.find("colour") != nullptr && element.json.find("image") != nullptr;
-    if (both)
-        fail(element.json.at, element.name, "has a colour and an image; keep one of them");
-    member(element, "colour", &FileReader::colour, world.ground);
-    member(element, "image", &FileReader::string, world.ground_image);
+TimelineEntry read_entry(const Json& json, const std::string& name, Complaints& complaints) {
+    JsonObject in(json, name, complaints);
+    TimelineEntry entry;
+    const double seconds =
+        in.number("t", {.low = 0, .high = kTimelineEndMax, .need = Need::Required});
+    entry.at = Time(static_cast<Time::rep>(std::floor(seconds * 1e6 + 0.5)));
+    const std::string verb =
+        in.word("do", {"add", "remove", "move", "press", "release", "light"}, Need::Required);
+    if (verb.empty()) return entry;  // complained of; its other keys mean nothing
+    entry.action = read_action(in, verb, complaints);
+    in.finish();
+    return entry;
+}
+
+void read_ground(const Json& json, WorldDefinition& world, Complaints& complaints) {
+    JsonObject in(json, "ground", complaints);
+    read_colour(in, "colour", world.ground);
+    world.ground_image = in.text("image", Need::Optional);
+    if (json.find("colour") != nullptr && json.find("image") != nullptr)
+        in.complain(json.at, "ground: has a colour and an image; keep one of them");
+    in.finish();
+}
+
+// The items of a list, at most `max`.
+const std::vector<Json>& read_list(JsonObject& in, std::string_view key, size_t max) {
+    static const std::vector<Json> kNothing;
+    const std::vector<Json>& items = in.items(key, Need::Optional);
+    if (items.size() <= max) return items;
+    in.complain(in.find(key, Need::Optional)->at,
+                std::string(key) + ": expected at most " + std::to_string(max) +
+                    " of them, found " + std::to_string(items.size()) + "; take some away");
+    return kNothing;
+}
+
+void read_format(JsonObject& in) {
+    const std::string format = in.text("format", Need::Required);
+    const Json* json = in.find("format", Need::Optional);
+    if (json == nullptr || json->kind != JsonKind::String || format == "vagus-world/1") return;
+    in.complain(json->at, "format: expected \"vagus-world/1\", found \"" + format +
+                              "\"; this program reads no other");
+}
+
+WorldDefinition read_all(const Json& json, Complaints& complaints) {
+    JsonObject in(json, "the world", complaints);
+    WorldDefinition world;
+    read_format(in);
+    world.name = in.text("name", Need::Optional);
+    world.help = in.text("help", Need::Optional);
+    world.seed = static_cast<uint64_t>(in.integer("seed", {.low = 0, .fallback = 1}));
+    Point size = {world.width, world.height};
+    read_point(in, "size", Need::Required, size);
+    world.width = size.x;
+    world.height = size.y;
+    world.open = in.boolean("open", false);
+    if (const Json* ground = in.find("ground", JsonKind::Object, Need::Optional))
+        read_ground(*ground, world, complaints);
+    for (const Json& item : read_list(in, "objects", kObjectsMax)) {
+        world.objects.push_back(
+            read_object(item, numbered("objects", world.objects.size()), complaints));
+    }
+    for (const Json& item : read_list(in, "robots", kRobotsMax)) {
+        const size_t index = world.robots.size();
+        world.robots.push_back(read_robot(item, numbered("robots", index),
+                                          static_cast<int64_t>(index) + 1, complaints));
+    }
+    for (const Json& item : read_list(in, "timeline", kTimelineMax)) {
+        world.timeline.push_back(
+            read_entry(item, numbered("timeline", world.timeline.size()), complaints));
+    }
+    in.finish();
+    return world;
 }
 
 // The place of an element of the tree by its name, "objects[3].mass"; of its nearest parent if it is
@@ -387,13 +222,15 @@ Place place_of(const Json& top, std::string_view name) {
 
 Result<WorldDefinition> read_world(std::string_view text, std::string_view file) {
     const Json json = TRY(parse_json(text, file));
-    FileReader reader(file);
-    WorldDefinition world = reader.world(json);
-    if (!reader.error()) {
-        if (const auto problem = find_problem(world))
-            reader.fail(place_of(json, problem->element), problem->element, problem->what);
+    Complaints complaints;
+    WorldDefinition world = read_all(json, complaints);
+    if (complaints.empty()) {
+        if (const auto problem = find_problem(world)) {
+            complaints.push_back(
+                {place_of(json, problem->element), problem->element + ": " + problem->what});
+        }
     }
-    if (reader.error()) return *reader.error();
+    if (!complaints.empty()) return first_complaint(complaints, file);
     return world;
 }
 

@@ -1,0 +1,157 @@
+#include "sim/thymio2/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/trig.hpp"
+
+namespace vagus::sim::thymio2 {
+namespace {
+
+// Measured on asebaplayground and fitted by tools/measure_playground_fit.py: docs/sensors.md.
+constexpr double kReadingMax = 4510;
+constexpr double kReadingWidth = 0.0854;  // m: at this distance half of the largest reading
+constexpr double kHorizontalNoise = 2.7;
+constexpr double kGroundNoise = 10;
+constexpr double kEyeHeight = 0.03;  // m
+constexpr double kAmbientMax = 1023;
+
+constexpr RobotBody kBody = {.mass = 0.27, .inertia = 5.5e-4, .grip = 0.047, .height = 0.053};
+constexpr WheelsDefinition kWheels = {.base = 0.094, .response = 0.01, .speed_max = 0.2};
+
+constexpr std::array<Point, 8> kOutline = {{{-0.030, -0.056},
+                                            {0.045, -0.056},
+                                            {0.063, -0.050},
+                                            {0.080, -0.016},
+                                            {0.080, 0.016},
+                                            {0.063, 0.050},
+                                            {0.045, 0.056},
+                                            {-0.030, 0.056}}};
+
+// A sensor looks along three rays: its direction, and 15 degrees to both sides of it. Its directions
+// are 40, 20, 0, -20, -40 degrees ahead, and straight behind.
+constexpr size_t kRaysPerSensor = 3;
+constexpr double kSideWeight = 0.8;  // of what a side ray reads, beside the middle one
+
+struct Direction {
+    double cosine, sine;
+};
+constexpr Direction k0 = {1, 0};
+constexpr Direction k15 = {0.96592582628906831, 0.25881904510252074};
+constexpr Direction k20 = {0.93969262078590843, 0.34202014332566871};
+constexpr Direction k40 = {0.76604444311897801, 0.64278760968653925};
+
+constexpr Direction turned(Direction a, Direction by) {
+    return {a.cosine * by.cosine - a.sine * by.sine, a.sine * by.cosine + a.cosine * by.sine};
+}
+constexpr Direction mirrored(Direction a) {
+    return {a.cosine, -a.sine};
+}
+
+constexpr std::array<Ray, kRaysPerSensor> fan(Point from, Direction middle) {
+    const Direction left = turned(middle, k15);
+    const Direction right = turned(middle, mirrored(k15));
+    return {{{from, {middle.cosine, middle.sine}, kRange},
+             {from, {left.cosine, left.sine}, kRange},
+             {from, {right.cosine, right.sine}, kRange}}};
+}
+
+constexpr std::array<Ray, kHorizontalCount * kRaysPerSensor> all_rays() {
+    const std::array<std::array<Ray, kRaysPerSensor>, kHorizontalCount> fans = {
+        fan({0.0588, 0.0512}, k40),
+        fan({0.0742, 0.0256}, k20),
+        fan({0.0795, 0}, k0),
+        fan({0.0742, -0.0256}, mirrored(k20)),
+        fan({0.0588, -0.0512}, mirrored(k40)),
+        fan({-0.0297, 0.0271}, {-1, 0}),
+        fan({-0.0297, -0.0271}, {-1, 0})};
+    std::array<Ray, kHorizontalCount * kRaysPerSensor> rays{};
+    for (size_t i = 0; i < rays.size(); ++i) rays[i] = fans[i / kRaysPerSensor][i % kRaysPerSensor];
+    return rays;
+}
+constexpr auto kRays = all_rays();
+
+constexpr std::array<Point, kGroundCount> kGroundPlaces = {{{0.072, 0.012}, {0.072, -0.012}}};
+
+// Readings over grounds of brightness 0, 0.1 … 1.
+constexpr std::array<double, 11> kGroundTable = {75,  98,  150, 253, 423, 617,
+                                                 773, 865, 909, 929, 938};
+
+int16_t rounded(double value) {
+    return static_cast<int16_t>(std::floor(value + 0.5));
+}
+
+}  // namespace
+
+std::span<const Point> outline() {
+    return kOutline;
+}
+
+std::span<const Ray> horizontal_rays() {
+    return kRays;
+}
+
+std::span<const Point> ground_places() {
+    return kGroundPlaces;
+}
+
+double horizontal_reading(double distance) {
+    if (distance >= kRange) return 0;
+    constexpr double kSquare = kReadingWidth * kReadingWidth;
+    return kReadingMax * kSquare / (kSquare + distance * distance);
+}
+
+double ground_reading(double brightness) {
+    const double place = std::clamp(brightness, 0.0, 1.0) * 10;
+    const auto k = std::min<size_t>(static_cast<size_t>(place), 9);
+    return kGroundTable[k] +
+           (place - static_cast<double>(k)) * (kGroundTable[k + 1] - kGroundTable[k]);
+}
+
+Body::Body(Arena& arena, const Pose& pose)
+    : id_(arena.add_robot({.corners = kOutline, .radius = 0}, pose, kBody)), wheels_(kWheels) {}
+
+void Body::drive(Arena& arena, int16_t left, int16_t right) {
+    arena.drive(id_, wheels_.step(left * kSpeedUnit, right * kSpeedUnit));
+}
+
+int16_t Body::left_speed() const {
+    return rounded(wheels_.left() / kSpeedUnit);
+}
+
+int16_t Body::right_speed() const {
+    return rounded(wheels_.right() / kSpeedUnit);
+}
+
+Horizontal Body::look(const Arena& arena, Noise& noise) const {
+    static const RayFan kFan(kRays);
+    std::array<double, kRays.size()> distances;
+    arena.look(id_, kFan, kEyeHeight, distances);
+    Horizontal seen;
+    for (size_t i = 0; i < kHorizontalCount; ++i) {
+        const double* const fan = &distances[i * kRaysPerSensor];
+        const double side = std::min(fan[1], fan[2]);
+        const double reading =
+            std::max(horizontal_reading(fan[0]), kSideWeight * horizontal_reading(side));
+        if (reading > 0) seen.values[i] = rounded(reading + kHorizontalNoise * noise.next());
+    }
+    return seen;
+}
+
+GroundReadings Body::look_down(const Pose& pose, const Ground& ground, Noise& noise) const {
+    const double cosine = trig::cos(pose.angle);
+    const double sine = trig::sin(pose.angle);
+    GroundReadings seen;
+    for (size_t i = 0; i < kGroundCount; ++i) {
+        const Point& place = kGroundPlaces[i];
+        const Point at = {pose.at.x + cosine * place.x - sine * place.y,
+                          pose.at.y + sine * place.x + cosine * place.y};
+        const double reading =
+            ground_reading(brightness(ground.colour_at(at))) + kGroundNoise * noise.next();
+        seen.reflected[i] = rounded(std::clamp(reading, 0.0, 1023.0));
+        seen.ambient[i] = rounded(kAmbientMax * ground.light_at(at));
+    }
+    return seen;
+}
+
+}  // namespace vagus::sim::thymio2

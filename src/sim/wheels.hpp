@@ -28,7 +28,6 @@ public:
     }
     double left() const { return left_; }
     double right() const { return right_; }
-    void halt() { left_ = right_ = 0; }
 
 private:
     static double share(double x) { return x * (6 + x) / (x * (4 + x) + 6); }

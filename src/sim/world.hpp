@@ -30,13 +30,13 @@
 #include "base/time.hpp"
 #include "hub/hub.hpp"
 #include "sim/definitions.hpp"
+#include "sim/drawing.hpp"
 
 namespace vagus::sim {
 
 constexpr Duration kNodeStep = std::chrono::milliseconds(1);
 constexpr Duration kPhysicsStep = std::chrono::milliseconds(10);
 constexpr Duration kPoseEvery = std::chrono::milliseconds(100);  // `pose` lines of the trace
-constexpr uint16_t kInstructionsPerMillisecond = 1000;           // of one node
 constexpr size_t kHappeningsMax = 100000;  // in one step(); what is beyond is counted, not kept
 
 // Handles. Never used twice in the life of a world, not even over reset(); 0 is nothing.
@@ -56,21 +56,6 @@ struct WorldOptions {
 };
 
 // ---- What there is to draw. Everything in metres and radians. ----
-
-// A light of a robot: where it sits (in the frame of the robot: x ahead, y to the left) and what it
-// shows now. Black is off.
-struct Lamp {
-    std::string_view name;  // "leds.top", "leds.circle.3"
-    Point at;
-    Colour colour;
-};
-
-// One look of a distance sensor.
-struct Look {
-    Point from;
-    Point to;  // where it ends: on what was hit, or at the end of its range
-    bool hit = false;
-};
 
 struct RobotView {
     RobotId id;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/trig.hpp"
+#include "sim/fan.hpp"
 
 namespace vagus::sim::thymio2 {
 namespace {
@@ -28,48 +29,19 @@ constexpr std::array<Point, 8> kOutline = {{{-0.030, -0.056},
                                             {0.045, 0.056},
                                             {-0.030, 0.056}}};
 
-// A sensor looks along three rays: its direction, and 15 degrees to both sides of it. Its directions
-// are 40, 20, 0, -20, -40 degrees ahead, and straight behind.
-constexpr size_t kRaysPerSensor = 3;
-constexpr double kSideWeight = 0.8;  // of what a side ray reads, beside the middle one
-
-struct Direction {
-    double cosine, sine;
-};
+// 40, 20, 0, -20, -40 degrees ahead, and straight behind.
 constexpr Direction k0 = {1, 0};
-constexpr Direction k15 = {0.96592582628906831, 0.25881904510252074};
 constexpr Direction k20 = {0.93969262078590843, 0.34202014332566871};
 constexpr Direction k40 = {0.76604444311897801, 0.64278760968653925};
-
-constexpr Direction turned(Direction a, Direction by) {
-    return {a.cosine * by.cosine - a.sine * by.sine, a.sine * by.cosine + a.cosine * by.sine};
-}
-constexpr Direction mirrored(Direction a) {
-    return {a.cosine, -a.sine};
-}
-
-constexpr std::array<Ray, kRaysPerSensor> fan(Point from, Direction middle) {
-    const Direction left = turned(middle, k15);
-    const Direction right = turned(middle, mirrored(k15));
-    return {{{from, {middle.cosine, middle.sine}, kRange},
-             {from, {left.cosine, left.sine}, kRange},
-             {from, {right.cosine, right.sine}, kRange}}};
-}
-
-constexpr std::array<Ray, kHorizontalCount * kRaysPerSensor> all_rays() {
-    const std::array<std::array<Ray, kRaysPerSensor>, kHorizontalCount> fans = {
-        fan({0.0588, 0.0512}, k40),
-        fan({0.0742, 0.0256}, k20),
-        fan({0.0795, 0}, k0),
-        fan({0.0742, -0.0256}, mirrored(k20)),
-        fan({0.0588, -0.0512}, mirrored(k40)),
-        fan({-0.0297, 0.0271}, {-1, 0}),
-        fan({-0.0297, -0.0271}, {-1, 0})};
-    std::array<Ray, kHorizontalCount * kRaysPerSensor> rays{};
-    for (size_t i = 0; i < rays.size(); ++i) rays[i] = fans[i / kRaysPerSensor][i % kRaysPerSensor];
-    return rays;
-}
-constexpr auto kRays = all_rays();
+constexpr Direction k180 = {-1, 0};
+constexpr std::array<SensorPlace, kHorizontalCount> kPlaces = {{{{0.0588, 0.0512}, k40},
+                                                                {{0.0742, 0.0256}, k20},
+                                                                {{0.0795, 0}, k0},
+                                                                {{0.0742, -0.0256}, mirrored(k20)},
+                                                                {{0.0588, -0.0512}, mirrored(k40)},
+                                                                {{-0.0297, 0.0271}, k180},
+                                                                {{-0.0297, -0.0271}, k180}}};
+constexpr auto kRays = rays_of(kPlaces, kRange);
 
 constexpr std::array<Point, kGroundCount> kGroundPlaces = {{{0.072, 0.012}, {0.072, -0.012}}};
 
@@ -85,14 +57,6 @@ int16_t rounded(double value) {
 
 std::span<const Point> outline() {
     return kOutline;
-}
-
-std::span<const Ray> horizontal_rays() {
-    return kRays;
-}
-
-std::span<const Point> ground_places() {
-    return kGroundPlaces;
 }
 
 double horizontal_reading(double distance) {
@@ -123,10 +87,24 @@ int16_t Body::right_speed() const {
     return rounded(wheels_.right() / kSpeedUnit);
 }
 
-Horizontal Body::look(const Arena& arena, Noise& noise) const {
+namespace {
+
+const RayFan& fan_of_all() {
     static const RayFan kFan(kRays);
+    return kFan;
+}
+
+}  // namespace
+
+std::vector<Look> Body::looks(const Arena& arena) const {
     std::array<double, kRays.size()> distances;
-    arena.look(id_, kFan, kEyeHeight, distances);
+    arena.look(id_, fan_of_all(), kEyeHeight, distances);
+    return middle_looks(kRays, distances, arena.pose(id_));
+}
+
+Horizontal Body::look(const Arena& arena, Noise& noise) const {
+    std::array<double, kRays.size()> distances;
+    arena.look(id_, fan_of_all(), kEyeHeight, distances);
     Horizontal seen;
     for (size_t i = 0; i < kHorizontalCount; ++i) {
         const double* const fan = &distances[i * kRaysPerSensor];

@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "sim/arena.hpp"
+#include "sim/drawing.hpp"
 #include "sim/ground.hpp"
 #include "sim/noise.hpp"
 #include "sim/wheels.hpp"
@@ -19,8 +21,6 @@ constexpr double kSpeedUnit = 0.166 / 500;  // m/s: 500 is 16.6 cm/s (docs/spec,
 constexpr double kRange = 0.14;             // m
 
 std::span<const Point> outline();
-std::span<const Ray> horizontal_rays();  // three a sensor, the middle one first
-std::span<const Point> ground_places();
 
 // The reading of a horizontal sensor whose middle ray is free for `distance` metres, without noise.
 double horizontal_reading(double distance);
@@ -45,8 +45,9 @@ public:
     // Speeds of the wheels, in the unit of motor.*.target.
     int16_t left_speed() const;
     int16_t right_speed() const;
-    void halt() { wheels_.halt(); }
 
+    // The middle rays as they end now, for drawing.
+    std::vector<Look> looks(const Arena& arena) const;
     Horizontal look(const Arena& arena, Noise& noise) const;
     GroundReadings look_down(const Pose& pose, const Ground& ground, Noise& noise) const;
 

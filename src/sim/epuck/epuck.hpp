@@ -1,0 +1,52 @@
+// The node of a simulated e-puck as in the playground: its variables, local events and natives around
+// an epuck::Body.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "sim/epuck/body.hpp"
+#include "sim/robot.hpp"
+
+namespace vagus::sim::epuck {
+
+// Addresses are offsets in here; the memory itself is that of the machine.
+struct Layout {
+#define VARIABLE(field, name, words) int16_t field[words];
+#include "sim/epuck/variables.def"
+#undef VARIABLE
+};
+
+// The energy of one e-puck and of all of them together.
+struct Energy {
+    EnergyPool* pool;  // that of the world, which outlives its robots
+    uint16_t own = 10;
+};
+
+class Epuck : public Robot {
+public:
+    // `seed` is that of its noise; `pool` must outlive it.
+    Epuck(Arena& arena, const RobotDefinition& definition, EnergyPool& pool, uint64_t seed);
+
+    Machine& machine() override { return machine_; }
+    BodyId body() const override { return body_.id(); }
+    std::span<const Point> outline() const override { return epuck::outline(); }
+    void sense(const Surroundings& around) override;
+    void drive(Arena& arena) override;
+    std::vector<Lamp> lamps() const override;
+    std::vector<Look> looks(const Arena& arena) const override;
+    Colour colour() const override;
+
+private:
+    void see(const Surroundings& around);
+
+    Energy energy_;
+    std::string name_;
+    node::Description description_;  // differs from robot to robot by its name
+    Machine machine_;
+    Body body_;
+    Noise noise_;
+    Colour paint_;
+};
+
+}  // namespace vagus::sim::epuck

@@ -1,0 +1,80 @@
+#include "sim/machine.hpp"
+
+#include <algorithm>
+
+namespace vagus::sim {
+
+const node::Board Machine::kBoard = {Machine::transmit, Machine::notify};
+
+Machine::Machine(const MachineDefinition& definition)
+    : definition_(definition),
+      bytecode_(definition.bytecode_size),
+      stack_(definition.stack_size),
+      variables_(definition.variables_size),
+      breakpoints_(vm::kBreakpointsMax),
+      config_{definition.id,
+              definition.bytecode_size,
+              definition.variables_size,
+              definition.stack_size,
+              definition.arguments_size,
+              bytecode_.data(),
+              variables_.data(),
+              stack_.data(),
+              breakpoints_.data(),
+              &node::kMachineHost,
+              &node_} {
+    restart();
+}
+
+void Machine::restart() {
+    std::fill(bytecode_.begin(), bytecode_.end(), uint16_t{0});
+    node::init(node_, config_, *definition_.description, kBoard, this);
+    pending_.clear();
+    sent_.clear();
+    used_ = 0;
+}
+
+void Machine::transmit(node::Node& node, const wire::Frame& frame) {
+    static_cast<Machine*>(node.owner)->sent_.push_back(frame);
+}
+
+void Machine::receive(const wire::Frame& frame) {
+    --frames_left_;
+    node::receive(node_, frame);
+    if (!wire::is_user_event(frame.type)) return;
+    used_ = 0;
+    run();
+}
+
+void Machine::raise(uint8_t event) {
+    if (std::find(pending_.begin(), pending_.end(), event) == pending_.end() &&
+        pending_.size() < kPendingEventsMax)
+        pending_.push_back(event);
+}
+
+// Starts the oldest local event if it may start now.
+bool Machine::start_pending() {
+    if (pending_.empty() || budget_ == 0) return false;
+    if (vm::is_active(node_.vm) && used_ < kInstructionsPerMillisecond) return false;
+    const uint8_t event = pending_.front();
+    pending_.erase(pending_.begin());
+    node::local_event(node_, event);
+    used_ = 0;
+    return true;
+}
+
+void Machine::run() {
+    while (!vm::is_paused_in_event(node_.vm)) {
+        if (start_pending()) continue;
+        if (!vm::is_active(node_.vm) || budget_ == 0) return;
+        uint32_t limit = budget_;
+        if (!pending_.empty()) limit = std::min(limit, kInstructionsPerMillisecond - used_);
+        const uint16_t done = node::run(node_, static_cast<uint16_t>(limit));
+        budget_ = static_cast<uint16_t>(budget_ - done);
+        used_ += done;
+        if (done == 0) return;
+    }
+    pending_.clear();  // paused inside an event: others are dropped (docs/spec, 3.6)
+}
+
+}  // namespace vagus::sim

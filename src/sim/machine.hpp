@@ -1,0 +1,89 @@
+// One node of a robot in simulated time: its memories, and the rule by which it shares a millisecond
+// between frames, local events and its script. Frames that it sends are collected; the world carries
+// them away.
+//
+// A script executes at most kInstructionsPerMillisecond. The newest event kills the one that runs, as
+// on the original, but a local event waits until the running handler has ended or has had
+// kInstructionsPerMillisecond: so two handlers that are due at one instant both run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "node/node.hpp"
+#include "wire/frame.hpp"
+
+namespace vagus::sim {
+
+constexpr uint16_t kInstructionsPerMillisecond = 1000;
+constexpr uint16_t kFramesPerMillisecond = 16;  // that a node looks at
+constexpr size_t kPendingEventsMax = 32;        // local events of one node, none of them twice
+
+struct MachineDefinition {
+    const node::Description* description = nullptr;  // must outlive the machine
+    uint16_t id = 0;
+    uint16_t bytecode_size = 0;  // words, all three
+    uint16_t stack_size = 0;
+    uint16_t variables_size = 0;
+    uint16_t arguments_size = 32;
+    void* robot = nullptr;  // for natives, see Machine::robot_of()
+};
+
+// Not copied nor moved: the node inside knows where its memories are.
+class Machine {
+public:
+    explicit Machine(const MachineDefinition& definition);
+    Machine(const Machine&) = delete;
+    Machine& operator=(const Machine&) = delete;
+
+    // As switched on: no program, all variables 0, nothing waiting.
+    void restart();
+
+    // A new millisecond: the script may go on.
+    void begin_millisecond() {
+        budget_ = kInstructionsPerMillisecond;
+        frames_left_ = kFramesPerMillisecond;
+    }
+    // It would look at another frame in this millisecond.
+    bool wants_frame() const { return frames_left_ > 0 && budget_ > 0; }
+    // Obeys the frame; a user event runs at once.
+    void receive(const wire::Frame& frame);
+    // The local event has happened: it runs in this run() or a later one.
+    void raise(uint8_t event);
+    void run();
+
+    uint16_t id() const { return config_.id; }
+    int16_t& variable(uint16_t address) { return variables_[address]; }
+    int16_t variable(uint16_t address) const { return variables_[address]; }
+    const std::vector<int16_t>& variables() const { return variables_; }
+    // Frames sent since it was last cleared, by whoever carries them away.
+    std::vector<wire::Frame>& sent() { return sent_; }
+    const vm::Vm& vm() const { return node_.vm; }
+
+    // For natives: what stands as `robot` in the definition of the machine that the node belongs to.
+    static void* robot_of(const node::Node& node) {
+        return static_cast<const Machine*>(node.owner)->definition_.robot;
+    }
+
+private:
+    static void transmit(node::Node& node, const wire::Frame& frame);
+    static void notify(node::Node&, vm::Notice) {}
+    bool start_pending();
+    static const node::Board kBoard;
+
+    MachineDefinition definition_;
+    std::vector<uint16_t> bytecode_;
+    std::vector<int16_t> stack_;
+    std::vector<int16_t> variables_;
+    std::vector<uint16_t> breakpoints_;
+    vm::Config config_;
+    node::Node node_;
+    std::vector<uint8_t> pending_;  // local events, oldest first
+    std::vector<wire::Frame> sent_;
+    uint16_t budget_ = 0;
+    uint16_t frames_left_ = 0;
+    uint32_t used_ = 0;  // instructions of the handler that runs
+};
+
+}  // namespace vagus::sim

@@ -1,0 +1,38 @@
+// Reads PNG with libpng's simple interface; nothing of that library shows elsewhere.
+#include <png.h>
+
+#include <cstring>
+
+#include "sim/ground.hpp"
+
+namespace vagus::sim {
+namespace {
+
+Error wrong(const std::string& file, const std::string& why) {
+    return {Code::BadInput, file + ": is no PNG image that can be used: " + why +
+                                "; save it anew as a PNG of at most " +
+                                std::to_string(kImageSideMax) + " pixels a side"};
+}
+
+}  // namespace
+
+Result<Picture> read_png(std::string_view bytes, const std::string& file) {
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
+        return wrong(file, image.message);
+    if (image.width > kImageSideMax || image.height > kImageSideMax) {
+        const std::string size = std::to_string(image.width) + " x " + std::to_string(image.height);
+        png_image_free(&image);
+        return wrong(file, "it has " + size + " pixels");
+    }
+    image.format = PNG_FORMAT_RGB;
+    Picture picture{image.width, image.height, std::vector<uint8_t>(PNG_IMAGE_SIZE(image))};
+    const png_color white = {255, 255, 255};
+    if (png_image_finish_read(&image, &white, picture.pixels.data(), 0, nullptr) == 0)
+        return wrong(file, image.message);
+    return picture;
+}
+
+}  // namespace vagus::sim

@@ -1,0 +1,88 @@
+// The node of a simulated Thymio II: its variables, local events and natives around a thymio2::Body.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "sim/robot.hpp"
+#include "sim/sd_card.hpp"
+#include "sim/thymio2/body.hpp"
+
+namespace vagus::sim::thymio2 {
+
+// Addresses are offsets in here; the memory itself is that of the machine.
+struct Layout {
+#define VARIABLE(field, name, words) int16_t field[words];
+#include "sim/thymio2/variables.def"
+#undef VARIABLE
+};
+
+// Numbers of the local events.
+namespace event {
+enum Number : uint8_t {
+#define EVENT(enumerator, name, doc) enumerator,
+#include "sim/thymio2/events.def"
+#undef EVENT
+};
+}  // namespace event
+
+// Groups of lights that one native sets: where each begins in the list of all intensities.
+enum class Lamps : uint8_t {
+    Top = 0,
+    BottomRight = 3,
+    BottomLeft = 6,
+    Circle = 9,
+    Buttons = 17,
+    ProxH = 21,
+    ProxV = 29,
+    Rc = 31,
+    Sound = 32,
+    Temperature = 33,
+    End = 35
+};
+constexpr int16_t kLampMax = 32;
+
+// What the natives change beside variables.
+struct Devices {
+    SdCard card;
+    std::array<int16_t, static_cast<size_t>(Lamps::End)> lamps{};  // 0 to kLampMax
+};
+
+extern const node::Description kDescription;
+
+class Thymio2 : public Robot {
+public:
+    // `seed` is that of its noise.
+    Thymio2(Arena& arena, const RobotDefinition& definition, const std::string& sd_folder,
+            uint64_t seed);
+
+    Machine& machine() override { return machine_; }
+    BodyId body() const override { return body_.id(); }
+    std::span<const Point> outline() const override { return thymio2::outline(); }
+    void sense(const Surroundings& around) override;
+    void drive(Arena& arena) override;
+    void knock() override;
+    void set_button(std::string_view button, bool pressed) override;
+    std::vector<Lamp> lamps() const override;
+    std::vector<Look> looks(const Arena& arena) const override;
+    Colour colour() const override { return paint_; }
+
+private:
+    void sense_distances(const Surroundings& around);
+    void run_timers(Time now);
+    void write(size_t offset, std::span<const int16_t> values);
+
+    struct Timer {
+        int16_t period = 0;
+        Time next{};
+    };
+
+    Devices devices_;
+    Machine machine_;
+    Body body_;
+    Noise noise_;
+    Colour paint_;
+    std::array<Timer, 2> timers_;
+};
+
+}  // namespace vagus::sim::thymio2

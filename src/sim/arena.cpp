@@ -2,6 +2,7 @@
 
 #include <box2d/box2d.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -90,7 +91,8 @@ struct Arena::Insides {
     TouchList touches;
     Sight sight;
     std::vector<Body> bodies;
-    std::vector<uint32_t> active;  // robots and loose objects, ascending
+    std::vector<uint32_t> free_slots;  // of bodies that were removed
+    std::vector<uint32_t> active;      // robots and loose objects, ascending
     bool sight_current = false;
 };
 
@@ -119,10 +121,17 @@ void Arena::Insides::build_border(const ArenaSize& size) {
 }
 
 BodyId Arena::Insides::add(b2Body* body, Kind kind) {
-    const auto index = static_cast<uint32_t>(bodies.size());
+    uint32_t index = static_cast<uint32_t>(bodies.size());
+    if (free_slots.empty()) {
+        bodies.emplace_back();
+    } else {
+        index = free_slots.back();
+        free_slots.pop_back();
+    }
     body->GetUserData().pointer = index;
-    bodies.push_back({.body = body, .kind = kind, .drive = {}, .turn_step_max = 0});
-    if (kind != Kind::Fixed) active.push_back(index);
+    bodies[index] = {.body = body, .kind = kind, .drive = {}, .turn_step_max = 0};
+    if (kind != Kind::Fixed)
+        active.insert(std::lower_bound(active.begin(), active.end(), index), index);
     return {index};
 }
 
@@ -205,6 +214,7 @@ void Arena::remove(BodyId id) {
     insides_->sight.remove(id.index);
     std::erase(insides_->active, id.index);
     body = {};
+    insides_->free_slots.push_back(id.index);
     insides_->sight_current = false;
 }
 

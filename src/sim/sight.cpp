@@ -26,7 +26,7 @@ uint32_t Sight::form_of(const Outline& outline) {
     }
     // Robots of one type share theirs, so that the forms of hundreds stay in the cache. Only the
     // latest is compared: robots are added in a row.
-    if (!forms_.empty() && forms_.back().bound == form.bound &&
+    if (!forms_.empty() && forms_.back().users > 0 && forms_.back().bound == form.bound &&
         forms_.back().edges.size() == count &&
         std::equal(form.edges.begin(), form.edges.end(), forms_.back().edges.begin(),
                    [](const Edge& a, const Edge& b) {
@@ -34,8 +34,14 @@ uint32_t Sight::form_of(const Outline& outline) {
                    })) {
         return static_cast<uint32_t>(forms_.size() - 1);
     }
-    forms_.push_back(std::move(form));
-    return static_cast<uint32_t>(forms_.size() - 1);
+    if (free_forms_.empty()) {
+        forms_.push_back(std::move(form));
+        return static_cast<uint32_t>(forms_.size() - 1);
+    }
+    const uint32_t index = free_forms_.back();
+    free_forms_.pop_back();
+    forms_[index] = std::move(form);
+    return index;
 }
 
 void Sight::add(uint32_t index, const Outline& outline, double height, Mobility mobility) {
@@ -43,7 +49,8 @@ void Sight::add(uint32_t index, const Outline& outline, double height, Mobility 
         seen_.resize(index + 1);
         stands_.resize(index + 1);
     }
-    seen_[index] = {form_of(outline), height, mobility, true};
+    seen_[index] = {form_of(outline), height, mobility};
+    ++forms_[seen_[index].form].users;
     std::vector<uint32_t>& list = mobility == Mobility::Fixed ? fixed_ : moving_;
     list.push_back(index);
     if (mobility == Mobility::Fixed) fixed_current_ = false;
@@ -55,7 +62,8 @@ void Sight::remove(uint32_t index) {
     std::vector<uint32_t>& list = seen_[index].mobility == Mobility::Fixed ? fixed_ : moving_;
     std::erase(list, index);
     if (seen_[index].mobility == Mobility::Fixed) fixed_current_ = false;
-    seen_[index].present = false;
+    const uint32_t form = seen_[index].form;
+    if (--forms_[form].users == 0) free_forms_.push_back(form);
 }
 
 Box Sight::box_of(uint32_t index) const {

@@ -51,12 +51,12 @@ private:
     struct Form {
         std::vector<Edge> edges;  // empty: a disc
         double bound = 0;         // radius around the origin of the body that holds all of it
+        uint32_t users = 0;       // bodies that look like this; 0: free for another
     };
     struct Seen {
         uint32_t form = 0;
         double height = 0;
         Mobility mobility = Mobility::Fixed;
-        bool present = false;
     };
     // A ray, in whatever frame.
     struct Beam {
@@ -76,6 +76,7 @@ private:
 
     ArenaSize size_;
     std::vector<Form> forms_;
+    std::vector<uint32_t> free_forms_;
     std::vector<Seen> seen_;  // by index of the body, as stands_
     std::vector<Stand> stands_;
     std::vector<uint32_t> fixed_;   // by number in the grid

@@ -1,0 +1,456 @@
+#include "sim/world.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/file.hpp"
+#include "sim/inhabitants.hpp"
+#include "sim/world_check.hpp"
+#include "sim/world_file.hpp"
+#include "wire/messages.hpp"
+
+namespace vagus::sim {
+
+// One robot's places on the bus.
+struct Berth {
+    hub::LinkId link;                       // on the bus of all
+    std::unique_ptr<hub::Hub> private_bus;  // behind its own port, if it has one
+    hub::LinkId private_link;
+};
+
+struct World::Insides {
+    Insides(WorldDefinition its_definition, Picture its_picture, WorldOptions its_options)
+        : definition(std::move(its_definition)),
+          picture(std::move(its_picture)),
+          options(std::move(its_options)) {}
+
+    Status join_bus();
+    void populate();
+    void millisecond();
+    void run_timeline();
+    void act(const Action& action);
+    void deliver(size_t robot);
+    void collect(size_t robot);
+    void note_frame(size_t robot, const wire::Frame& frame);
+    void move_bodies();
+    void note_touches();
+    void note(size_t robot, decltype(Happening::what) what, uint16_t node = 0);
+    Status set_button(RobotId id, std::string_view button, bool pressed);
+    Robot& robot(size_t index) { return *inhabitants->robots()[index]; }
+
+    WorldDefinition definition;
+    Picture picture;
+    WorldOptions options;
+    std::unique_ptr<Inhabitants> inhabitants;
+    hub::Hub bus;
+    std::vector<Berth> berths;    // by index of the robot
+    std::vector<size_t> by_node;  // indices of robots by ascending node id
+    size_t timeline_next = 0;
+    Time now{};
+    Duration rest{};  // asked for, but less than a step
+    std::vector<Happening> happenings;
+    uint64_t happenings_lost = 0;
+};
+
+Result<World> World::load(std::string_view text, std::string_view file, WorldOptions options) {
+    return create(TRY(read_world(text, file)), std::move(options));
+}
+
+Result<World> World::create(WorldDefinition definition, WorldOptions options) {
+    const Status checked = check_world(definition);
+    if (!checked.ok()) return checked.error();
+    Picture picture;
+    if (!definition.ground_image.empty()) {
+        const std::string path = options.folder + "/" + definition.ground_image;
+        const std::string bytes = TRY(read_file(path));
+        picture = TRY(read_png(bytes, path));
+    }
+    auto insides =
+        std::make_unique<Insides>(std::move(definition), std::move(picture), std::move(options));
+    const Status joined = insides->join_bus();
+    if (!joined.ok()) return joined.error();
+    insides->populate();
+    return World(std::move(insides));
+}
+
+World::World(std::unique_ptr<Insides> insides) : insides_(std::move(insides)) {}
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+Status World::Insides::join_bus() {
+    for (const RobotDefinition& robot : definition.robots) {
+        Berth berth;
+        berth.link = TRY(bus.add({.name = robot.name}));
+        if (robot.port != 0) {
+            berth.private_bus = std::make_unique<hub::Hub>();
+            berth.private_link = TRY(berth.private_bus->add({.name = robot.name}));
+        }
+        by_node.push_back(berths.size());
+        berths.push_back(std::move(berth));
+    }
+    std::sort(by_node.begin(), by_node.end(), [this](size_t a, size_t b) {
+        return definition.robots[a].node < definition.robots[b].node;
+    });
+    return Status::done();
+}
+
+void World::Insides::populate() {
+    const uint32_t next_object = inhabitants ? inhabitants->next_object() : 1;
+    inhabitants = std::make_unique<Inhabitants>(definition, picture, options, next_object);
+    now = Time{};
+    rest = Duration{};
+    timeline_next = 0;
+    run_timeline();
+}
+
+// ---- Time ----
+
+void World::step(Duration span) {
+    insides_->happenings.clear();
+    insides_->happenings_lost = 0;
+    insides_->rest += span;
+    while (insides_->rest >= kNodeStep) {
+        insides_->rest -= kNodeStep;
+        insides_->millisecond();
+    }
+}
+
+// One instant: timeline, deliveries, nodes by id, bodies. What nodes send is delivered at the next.
+void World::Insides::millisecond() {
+    now += kNodeStep;
+    run_timeline();
+    for (const size_t index : by_node) deliver(index);
+    inhabitants->arena().prepare_looks();
+    const Surroundings around = {inhabitants->arena(), inhabitants->ground(),
+                                 inhabitants->colours(), now};
+    for (const size_t index : by_node) {
+        robot(index).sense(around);
+        robot(index).machine().run();
+    }
+    for (const size_t index : by_node) collect(index);
+    if (now % kPhysicsStep == Duration::zero()) move_bodies();
+}
+
+void World::Insides::run_timeline() {
+    while (timeline_next < definition.timeline.size() &&
+           definition.timeline[timeline_next].at <= now)
+        act(definition.timeline[timeline_next++].action);
+}
+
+namespace {
+
+size_t index_of(const WorldDefinition& definition, std::string_view robot) {
+    const auto found =
+        std::find_if(definition.robots.begin(), definition.robots.end(),
+                     [robot](const RobotDefinition& each) { return each.name == robot; });
+    return static_cast<size_t>(found - definition.robots.begin());
+}
+
+}  // namespace
+
+// What a hand from outside has taken away before its entry came is left alone.
+void World::Insides::act(const Action& action) {
+    Inhabitants& all = *inhabitants;
+    const auto with_object = [&all](const std::string& id, const auto& act_on) {
+        if (const auto object = all.find(id)) (void)act_on(*object);
+    };
+    if (const auto* add = std::get_if<AddObject>(&action)) (void)all.add(add->object);
+    if (const auto* remove = std::get_if<RemoveObject>(&action))
+        with_object(remove->id, [&all](ObjectId id) { return all.remove(id); });
+    if (const auto* light = std::get_if<SwitchLight>(&action))
+        with_object(light->id, [&](ObjectId id) { return all.switch_light(id, light->on); });
+    if (const auto* press = std::get_if<PressButton>(&action))
+        robot(index_of(definition, press->robot)).set_button(press->button, press->pressed);
+    const auto* move = std::get_if<MoveObject>(&action);
+    if (move == nullptr) return;
+    const size_t moved = index_of(definition, move->id);
+    if (moved < definition.robots.size()) {
+        const double angle = all.arena().pose(robot(moved).body()).angle;
+        all.move_robot(moved, {move->at, move->angle.value_or(angle)});
+        return;
+    }
+    for (const Object& object : all.objects()) {
+        if (object.definition.id != move->id) continue;
+        (void)all.move(object.id, {move->at, move->angle.value_or(all.pose_of(object).angle)});
+        return;
+    }
+}
+
+// ---- The bus ----
+
+void World::Insides::deliver(size_t index) {
+    Machine& machine = robot(index).machine();
+    machine.begin_millisecond();
+    Berth& berth = berths[index];
+    wire::Frame frame;
+    while (machine.wants_frame() && bus.take(berth.link, frame)) machine.receive(frame);
+    if (berth.private_bus == nullptr) return;
+    while (machine.wants_frame() && berth.private_bus->take(berth.private_link, frame))
+        machine.receive(frame);
+}
+
+void World::Insides::collect(size_t index) {
+    std::vector<wire::Frame>& sent = robot(index).machine().sent();
+    Berth& berth = berths[index];
+    for (const wire::Frame& frame : sent) {
+        bus.receive(berth.link, frame);
+        if (berth.private_bus) berth.private_bus->receive(berth.private_link, frame);
+        note_frame(index, frame);
+    }
+    sent.clear();
+}
+
+namespace {
+
+template <typename Message, typename Say>
+std::optional<Fault> fault_of(const wire::Frame& frame, const Say& say) {
+    Message message;
+    if (wire::decode_message(frame, message) != wire::Error::None) return std::nullopt;
+    return Fault{say(message), message.pc};
+}
+
+std::optional<Fault> fault_of(const wire::Frame& frame) {
+    switch (static_cast<wire::MessageType>(frame.type)) {
+        case wire::MessageType::DivisionByZero:
+            return fault_of<wire::DivisionByZero>(
+                frame, [](const auto&) { return std::string("division by zero"); });
+        case wire::MessageType::ArrayAccessOutOfBounds:
+            return fault_of<wire::ArrayAccessOutOfBounds>(frame, [](const auto& message) {
+                return "index " + std::to_string(static_cast<int16_t>(message.index)) +
+                       " of an array of " + std::to_string(message.size);
+            });
+        case wire::MessageType::NodeSpecificError:
+            return fault_of<wire::NodeSpecificError>(frame, [](const auto& message) {
+                return std::string(message.text.bytes, message.text.size);
+            });
+        default:  // all other messages are no faults
+            return std::nullopt;
+    }
+}
+
+}  // namespace
+
+void World::Insides::note_frame(size_t index, const wire::Frame& frame) {
+    if (wire::is_user_event(frame.type)) {
+        Emitted emitted{{}, frame.type};
+        for (size_t i = 0; i + 1 < frame.size; i += 2) {
+            emitted.arguments.push_back(
+                static_cast<int16_t>(frame.payload[i] | frame.payload[i + 1] << 8));
+        }
+        note(index, std::move(emitted), frame.source);
+    } else if (auto fault = fault_of(frame)) {
+        note(index, std::move(*fault), frame.source);
+    }
+}
+
+void World::Insides::note(size_t index, decltype(Happening::what) what, uint16_t node) {
+    if (happenings.size() < kHappeningsMax) {
+        happenings.push_back(
+            {now, RobotId{static_cast<uint32_t>(index) + 1}, node, std::move(what)});
+    } else {
+        ++happenings_lost;
+    }
+}
+
+// ---- Bodies ----
+
+void World::Insides::move_bodies() {
+    Arena& arena = inhabitants->arena();
+    for (const auto& each : inhabitants->robots()) each->drive(arena);
+    arena.step();
+    note_touches();
+    if (now % kPoseEvery != Duration::zero()) return;
+    for (size_t i = 0; i < definition.robots.size(); ++i)
+        note(i, PoseNote{arena.pose(robot(i).body())});
+}
+
+void World::Insides::note_touches() {
+    for (const Touch& touch : inhabitants->arena().touches()) {
+        const std::array<std::array<BodyId, 2>, 2> ways = {
+            {{touch.a, touch.b}, {touch.b, touch.a}}};
+        for (const auto& [self, other] : ways) {
+            const auto index = inhabitants->robot_of(self);
+            if (!index) continue;
+            robot(*index).knock();
+            note(*index, Contact{inhabitants->name_of(other)});
+        }
+    }
+}
+
+// ---- The public side ----
+
+Time World::now() const {
+    return insides_->now;
+}
+
+void World::reset() {
+    wire::Frame frame;
+    for (Berth& berth : insides_->berths) {
+        while (insides_->bus.take(berth.link, frame)) {
+        }
+        while (berth.private_bus && berth.private_bus->take(berth.private_link, frame)) {
+        }
+    }
+    insides_->happenings.clear();
+    insides_->populate();
+}
+
+std::span<const Happening> World::happenings() const {
+    return insides_->happenings;
+}
+
+uint64_t World::happenings_lost() const {
+    return insides_->happenings_lost;
+}
+
+hub::Hub& World::bus() {
+    return insides_->bus;
+}
+
+namespace {
+
+// A handle from outside as an index, checked.
+std::optional<size_t> index_of(const WorldDefinition& definition, RobotId robot) {
+    if (robot.number == 0 || robot.number > definition.robots.size()) return std::nullopt;
+    return robot.number - 1;
+}
+
+Error no_robot() {
+    return {Code::NotFound, "there is no such robot in this world; look it up by its name"};
+}
+
+}  // namespace
+
+hub::Hub* World::private_bus(RobotId robot) {
+    const auto index = index_of(insides_->definition, robot);
+    return index ? insides_->berths[*index].private_bus.get() : nullptr;
+}
+
+const WorldDefinition& World::definition() const {
+    return insides_->definition;
+}
+
+std::vector<RobotView> World::robots() const {
+    std::vector<RobotView> views;
+    for (size_t i = 0; i < insides_->definition.robots.size(); ++i) {
+        const RobotDefinition& robot = insides_->definition.robots[i];
+        views.push_back({.id = {static_cast<uint32_t>(i) + 1},
+                         .name = robot.name,
+                         .type = robot.type,
+                         .node = robot.node,
+                         .pose = insides_->inhabitants->arena().pose(insides_->robot(i).body()),
+                         .paint = robot.paint,
+                         .outline = insides_->robot(i).outline()});
+    }
+    return views;
+}
+
+std::vector<ObjectView> World::objects() const {
+    std::vector<ObjectView> views;
+    for (const Object& object : insides_->inhabitants->objects()) {
+        views.push_back(
+            {object.id, &object.definition, insides_->inhabitants->pose_of(object), object.on});
+    }
+    return views;
+}
+
+std::vector<Lamp> World::lamps(RobotId robot) const {
+    const auto index = index_of(insides_->definition, robot);
+    return index ? insides_->robot(*index).lamps() : std::vector<Lamp>{};
+}
+
+std::vector<Look> World::looks(RobotId robot) const {
+    const auto index = index_of(insides_->definition, robot);
+    if (!index) return {};
+    Arena& arena = insides_->inhabitants->arena();
+    arena.prepare_looks();
+    return insides_->robot(*index).looks(arena);
+}
+
+Colour World::ground_at(Point at) const {
+    return insides_->inhabitants->ground().colour_at(at);
+}
+
+std::optional<RobotId> World::find_robot(std::string_view name) const {
+    const size_t index = index_of(insides_->definition, name);
+    if (index == insides_->definition.robots.size()) return std::nullopt;
+    return RobotId{static_cast<uint32_t>(index) + 1};
+}
+
+std::optional<ObjectId> World::find_object(std::string_view id) const {
+    return insides_->inhabitants->find(id);
+}
+
+std::span<const int16_t> World::variables(RobotId robot) const {
+    const auto index = index_of(insides_->definition, robot);
+    if (!index) return {};
+    return insides_->robot(*index).machine().variables();
+}
+
+Result<ObjectId> World::add(const ObjectDefinition& object) {
+    if (find_robot(object.id)) {
+        return Error{Code::Refused, "\"" + object.id + "\" is the name of a robot; choose another"};
+    }
+    return insides_->inhabitants->add(object);
+}
+
+Status World::remove(ObjectId object) {
+    return insides_->inhabitants->remove(object);
+}
+
+Status World::move(ObjectId object, const Pose& to) {
+    return insides_->inhabitants->move(object, to);
+}
+
+Status World::move(RobotId robot, const Pose& to) {
+    const auto index = index_of(insides_->definition, robot);
+    if (!index) return no_robot();
+    const auto is_far = [](double value) {
+        return !(value >= -kWorldSizeMax && value <= 2 * kWorldSizeMax);
+    };
+    if (is_far(to.at.x) || is_far(to.at.y) || !(to.angle >= -kAngleMax && to.angle <= kAngleMax)) {
+        return Error{Code::BadInput,
+                     "the robot would stand outside of every world; places are in "
+                     "metres, angles in radians"};
+    }
+    insides_->inhabitants->move_robot(*index, to);
+    return Status::done();
+}
+
+Status World::switch_light(ObjectId light, bool on) {
+    return insides_->inhabitants->switch_light(light, on);
+}
+
+Status World::Insides::set_button(RobotId id, std::string_view button, bool pressed) {
+    const auto index = index_of(definition, id);
+    if (!index) return no_robot();
+    const auto names = buttons_of(definition.robots[*index].type);
+    if (std::find(names.begin(), names.end(), button) == names.end()) {
+        std::string all;
+        for (const std::string_view name : names)
+            all += (all.empty() ? "" : ", ") + std::string(name);
+        return Error{Code::NotFound, definition.robots[*index].name + " has no button \"" +
+                                         std::string(button) +
+                                         "\"; it has: " + (all.empty() ? "none" : all)};
+    }
+    robot(*index).set_button(button, pressed);
+    return Status::done();
+}
+
+Status World::press(RobotId robot, std::string_view button) {
+    return insides_->set_button(robot, button, true);
+}
+
+Status World::release(RobotId robot, std::string_view button) {
+    return insides_->set_button(robot, button, false);
+}
+
+Status World::tap(RobotId robot) {
+    const auto index = index_of(insides_->definition, robot);
+    if (!index) return no_robot();
+    insides_->robot(*index).knock();
+    return Status::done();
+}
+
+}  // namespace vagus::sim

@@ -1,4 +1,5 @@
-// Every operator at its edges. Expected values are worked out by hand from the specification, section 3.4 and appendix C.
+// Every operator at its edges. Expected values are worked out by hand from the specification,
+// section 3.4 and appendix C.
 #include <gtest/gtest.h>
 
 #include "isa/isa.hpp"

@@ -120,7 +120,7 @@ TEST(Execute, SubroutineReturnsToAnAddressAbove32767) {
 
 namespace {
 
-// Runs `push left; push 0; branch !=` once, with the branch word as it is then; gives whether it was taken.
+// Runs a load of variable 100, a push and `branch_word` at 5 once; gives whether it was taken.
 bool taken(TestMachine& machine, uint16_t branch_word, int16_t left) {
     machine.variables[100] = left;
     machine.bytecode[5] = branch_word;
@@ -269,6 +269,8 @@ INSTANTIATE_TEST_SUITE_P(Addresses, Violations, testing::ValuesIn(std::vector<Vi
     {"EmitTooLong", {0xb000, 0, 65535}, 3, "event too long"},
 }), name_of);
 
+#define FOURTEEN_ZEROES 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0
+
 INSTANTIATE_TEST_SUITE_P(Instructions, Violations, testing::ValuesIn(std::vector<Violation>{
     {"Undefined", {0xf000}, 3, "bad instruction"},
     {"UnknownUnary", {0x1001, 0x7003}, 4, "bad instruction"},
@@ -280,9 +282,9 @@ INSTANTIATE_TEST_SUITE_P(Instructions, Violations, testing::ValuesIn(std::vector
     {"CallOutside", {0xdfff}, 4095, "pc outside bytecode"},
     {"ReturnOutside", {PUSH(65535), 0xe000}, 65535, "pc outside bytecode"},
     {"BranchOutside", {0x1000, 0x1000, 0xa00b, 1000}, 1005, "pc outside bytecode"},
-    {"RunsOffTheEnd", {0x9010, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x9001}, 20, "pc outside bytecode"},
-    {"TwoWordsAtTheEnd", {0x9010, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x2000}, 19, "pc outside bytecode"},
-    {"ThreeWordsAtTheEnd", {0x900f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xb000, 0}, 18, "pc outside bytecode"},
+    {"RunsOffTheEnd", {0x9010, FOURTEEN_ZEROES, 0, 0x9001}, 20, "pc outside bytecode"},
+    {"TwoWordsAtTheEnd", {0x9010, FOURTEEN_ZEROES, 0, 0x2000}, 19, "pc outside bytecode"},
+    {"ThreeWordsAtTheEnd", {0x900f, FOURTEEN_ZEROES, 0xb000, 0}, 18, "pc outside bytecode"},
 }), name_of);
 // clang-format on
 

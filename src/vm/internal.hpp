@@ -7,8 +7,8 @@
 namespace vagus {
 namespace vm {
 
-// Sends a message of a node. All their types are 0x90.., so the low byte says which: that is smaller
-// wherever this is called.
+// Sends a message of a node. All their types are 0x90.., so the low byte says which: that is
+// smaller wherever this is called.
 void report_low(Vm& vm, uint8_t type, const uint16_t* words, uint8_t count);
 inline void report(Vm& vm, wire::MessageType type, const uint16_t* words, uint8_t count) {
     report_low(vm, static_cast<uint8_t>(type), words, count);

@@ -1,5 +1,6 @@
-// A machine for tests, on a bus that writes down what it is sent. Frames are written as in the dumps
-// of docs/spec/aseba-wire-and-vm.md, section 2.10: length, source, type, payload, all in hexadecimal.
+// A machine for tests, on a bus that writes down what it is sent. Frames are written as in the
+// dumps of docs/spec/aseba-wire-and-vm.md, section 2.10: length, source, type, payload, all in
+// hexadecimal.
 #pragma once
 
 #include <functional>
@@ -29,8 +30,8 @@ public:
     void command(wire::MessageType type, const std::vector<uint16_t>& words_after_destination = {});
     void event(uint16_t type, const std::vector<uint16_t>& arguments = {}, uint16_t source = 0);
 
-    // Uploads `code` behind an event vector whose only entry is the init event, at address 3, forgets
-    // what that sent, and leaves the machine in running mode.
+    // Uploads `code` behind an event vector whose only entry is the init event, at address 3,
+    // forgets what that sent, and leaves the machine in running mode.
     void load(const std::vector<uint16_t>& code);
     // The same, then runs it; gives what was sent.
     std::vector<std::string> execute(const std::vector<uint16_t>& code);

@@ -1,0 +1,50 @@
+// The verbs of `vagus net`: what each takes, and what it does on a connected session. net.cpp reads
+// the command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/net_session.hpp"
+#include "debug/control.hpp"
+
+namespace vagus::cli {
+
+// An exit code, or an Error that is said and ends with 1.
+using Verdict = Result<int>;
+
+// ---- net_nodes.cpp ----
+Verdict net_list(NetSession& session);
+Verdict net_describe(NetSession& session, const std::vector<std::string>& nodes);
+// run, pause, stop, reset, step, save: all nodes are asked, then all are waited for.
+Verdict net_control(NetSession& session, debug::Control::Kind act,
+                    const std::vector<std::string>& nodes);
+
+// ---- net_variables.cpp ----
+Verdict net_get(NetSession& session, const std::string& node,
+                const std::vector<std::string>& variables);
+Verdict net_set(NetSession& session, const std::string& node, const std::string& variable,
+                const std::vector<int16_t>& values);
+Verdict net_emit(NetSession& session, const std::string& event,
+                 const std::vector<int16_t>& arguments);
+Verdict net_watch(NetSession& session, const std::string& node,
+                  const std::vector<std::string>& variables);
+// All that happens, or what happens on these nodes.
+Verdict net_log(NetSession& session, const std::vector<std::string>& nodes);
+
+// ---- net_load.cpp ----
+// To every node that the project has a script for, or to `node` if it is not empty.
+Verdict net_load(NetSession& session, const session::ScriptFile& scripts, const std::string& node);
+
+// ---- net_break.cpp ----
+struct BreakOptions {
+    std::string node;
+    std::string file;  // empty: only clear
+    int line = 0;      // of the file
+    std::string condition;
+    bool clear = false;  // all that the node has
+    bool keep = false;   // leave it set at the end
+};
+Verdict net_break(NetSession& session, const BreakOptions& options);
+
+}  // namespace vagus::cli

@@ -18,7 +18,8 @@ enum class Dialect { Auto, Modern, Year2007 };  // Auto: the look at the tokens 
 
 struct Options {
     Dialect dialect = Dialect::Auto;
-    std::string ontimer;  // name of the local event that `ontimer` means; empty: the rule of section 6
+    std::string
+        ontimer;  // name of the local event that `ontimer` means; empty: the rule of section 6
 };
 
 // Line and column count from 1, the column in code points. Line 0: the error has no position.
@@ -29,11 +30,13 @@ struct Position {
 };
 
 struct Diagnostic {
-    std::string code;     // name in the catalogue of section 3.9, for instance "ARRAY_SIZE_MISMATCH"; warnings: "W_…"
-    int number = 0;       // its number there; 0 for warnings
+    std::string
+        code;  // name in the catalogue of section 3.9, for instance "ARRAY_SIZE_MISMATCH"; warnings: "W_…"
+    int number = 0;  // its number there; 0 for warnings
     Position at;
-    Position end;         // one past the last character of what is marked; equal to `at` if nothing is
-    std::string message;  // what was expected, what was found, how to mend it; one sentence, no position in it
+    Position end;  // one past the last character of what is marked; equal to `at` if nothing is
+    std::string
+        message;  // what was expected, what was found, how to mend it; one sentence, no position in it
 };
 
 struct VariablePlace {
@@ -56,7 +59,7 @@ struct Used {
 
 struct Program {
     std::vector<uint16_t> bytecode;
-    std::vector<uint16_t> lines;  // one a word, from 1; 0 for the event table
+    std::vector<uint16_t> lines;           // one a word, from 1; 0 for the event table
     std::vector<VariablePlace> variables;  // the node's, then the user's, in order of address
     std::vector<SubroutinePlace> subroutines;
     Used used;

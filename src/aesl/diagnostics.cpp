@@ -36,7 +36,9 @@ bool stands_before(const Diagnostic& a, const Diagnostic& b) {
 
 }  // namespace
 
-std::span<const CatalogueEntry> catalogue() { return kCatalogue; }
+std::span<const CatalogueEntry> catalogue() {
+    return kCatalogue;
+}
 
 std::string catalogue_page() {
     std::string page =
@@ -56,11 +58,13 @@ void Diagnostics::report(Diag what, Mark mark, std::initializer_list<std::string
     if (!entry.is_warning()) ++errors_found_;
     std::vector<Diagnostic>& list = entry.is_warning() ? warnings_ : errors_;
     if (list.size() >= (entry.is_warning() ? kWarningsMax : kErrorsMax)) return;
-    list.push_back({std::string(entry.code), entry.number, mark.at, mark.end,
-                    fill(entry.wording, words)});
+    list.push_back(
+        {std::string(entry.code), entry.number, mark.at, mark.end, fill(entry.wording, words)});
 }
 
-bool Diagnostics::full() const { return errors_.size() >= kErrorsMax; }
+bool Diagnostics::full() const {
+    return errors_.size() >= kErrorsMax;
+}
 
 std::vector<Diagnostic> Diagnostics::take_errors() {
     if (!errors_.empty()) std::stable_sort(errors_.begin() + 1, errors_.end(), stands_before);

@@ -6,7 +6,10 @@ namespace vagus::aesl {
 namespace {
 
 constexpr std::string_view kSpellings[] = {
-    "", "", "", "",
+    "",
+    "",
+    "",
+    "",
 #define KEYWORD(name, spelling) spelling,
 #include "aesl/tokens.def"
 #undef KEYWORD
@@ -61,6 +64,8 @@ TokenKind keyword_of(NameId id) {
     return static_cast<TokenKind>(static_cast<uint32_t>(kFirstKeyword) + id);
 }
 
-std::string_view spelling_of(TokenKind kind) { return kSpellings[static_cast<size_t>(kind)]; }
+std::string_view spelling_of(TokenKind kind) {
+    return kSpellings[static_cast<size_t>(kind)];
+}
 
 }  // namespace vagus::aesl

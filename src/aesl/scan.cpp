@@ -11,15 +11,38 @@ namespace {
 constexpr size_t kShownBytes = 60;
 constexpr int32_t kNumberLimit = 65536;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
 bool is_hex_digit(char c) {
     return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
-int32_t digit_value(char c) { return is_digit(c) ? c - '0' : (c | 0x20) - 'a' + 10; }
+int32_t digit_value(char c) {
+    return is_digit(c) ? c - '0' : (c | 0x20) - 'a' + 10;
+}
 
 // What may follow in a word, for the bytes that are ASCII.
 bool is_ascii_word(char c) {
     return is_digit(c) || ((c | 0x20) >= 'a' && (c | 0x20) <= 'z') || c == '_' || c == '.';
+}
+
+constexpr uint32_t pack(std::string_view text) {
+    uint32_t packed = 0;
+    for (const char c : text) packed = packed << 8 | static_cast<uint8_t>(c);
+    return packed;
+}
+
+// The sign that the first `length` characters are, or Bad.
+TokenKind sign_of(std::string_view text, size_t length) {
+    if (text.size() < length || text[0] == '\0') return TokenKind::Bad;
+    switch (pack(text)) {
+#define SIGN(name, spelling) \
+    case pack(spelling):     \
+        return TokenKind::Sign##name;
+#include "aesl/tokens.def"
+#undef SIGN
+    }
+    return TokenKind::Bad;
 }
 
 class Scanner {
@@ -204,24 +227,6 @@ private:
         bad_character();
     }
 
-    static TokenKind sign_of(std::string_view text, uint32_t length) {
-        if (text.size() < length || text[0] == '\0') return TokenKind::Bad;
-        switch (pack(text)) {
-#define SIGN(name, spelling) \
-    case pack(spelling):     \
-        return TokenKind::Sign##name;
-#include "aesl/tokens.def"
-#undef SIGN
-        }
-        return TokenKind::Bad;
-    }
-
-    static constexpr uint32_t pack(std::string_view text) {
-        uint32_t packed = 0;
-        for (const char c : text) packed = packed << 8 | static_cast<uint8_t>(c);
-        return packed;
-    }
-
     void bad_character() {
         const CodePoint point = decode(source_, at_);
         step();
@@ -247,13 +252,18 @@ private:
 
     static std::string_view advice(uint32_t character) {
         switch (character) {
-            case ';': return ": statements need no separator";
+            case ';':
+                return ": statements need no separator";
             case '{':
-            case '}': return ": blocks begin with \"then\" or \"do\" and end with \"end\"";
+            case '}':
+                return ": blocks begin with \"then\" or \"do\" and end with \"end\"";
             case '"':
-            case '\'': return ": there are no texts in this language";
-            case 0xfeff: return ": it is a byte-order mark; save the file as UTF-8 without one";
-            default: return "";
+            case '\'':
+                return ": there are no texts in this language";
+            case 0xfeff:
+                return ": it is a byte-order mark; save the file as UTF-8 without one";
+            default:
+                return "";
         }
     }
 
@@ -264,7 +274,8 @@ private:
     Token token_;
     size_t at_ = 0;
     size_t line_start_ = 0;
-    size_t continuation_bytes_ = 0;  // on this line, before at_: bytes that are no column of their own
+    size_t continuation_bytes_ =
+        0;  // on this line, before at_: bytes that are no column of their own
     int32_t line_ = 1;
 };
 

@@ -27,7 +27,9 @@ enum class TokenKind : uint8_t {
 
 constexpr TokenKind kFirstKeyword = TokenKind::Abs;
 constexpr TokenKind kLastKeyword = TokenKind::While;
-constexpr bool is_keyword(TokenKind kind) { return kind >= kFirstKeyword && kind <= kLastKeyword; }
+constexpr bool is_keyword(TokenKind kind) {
+    return kind >= kFirstKeyword && kind <= kLastKeyword;
+}
 
 // Value of a Number that was malformed: its error has been reported, whatever holds it must stay quiet.
 constexpr int32_t kBadNumber = -1;

@@ -31,11 +31,11 @@ enum class NodeKind : uint8_t {
     Slice,     // variable; two Numbers, first and last element; name
     Tuple,     // -; elements; `[`
     Unary,     // -; operand; operator, `op` is an isa::UnaryOperator
-    Binary,    // -; left, right; operator, `op` is an isa::BinaryOperator: arithmetic, comparisons, `and`, `or`
-    Not,       // -; operand; the first `not` of an odd number of them
-    Error,     // takes the place of what was wrong
+    Binary,  // -; left, right; operator, `op` is an isa::BinaryOperator: arithmetic, comparisons, `and`, `or`
+    Not,    // -; operand; the first `not` of an odd number of them
+    Error,  // takes the place of what was wrong
     // Statements
-    Assign,   // -; left, right; operator. `op` is the isa::BinaryOperator of `+=` …, kPlainAssignment for `=`
+    Assign,  // -; left, right; operator. `op` is the isa::BinaryOperator of `+=` …, kPlainAssignment for `=`
     Count,    // -; left; `++` or `--`, `op` is Add or Subtract
     If,       // token of the closing `end`; Clauses, then perhaps a Block for `else`; `if`
     Clause,   // -; condition, Block; `if` or `elseif`
@@ -65,10 +65,10 @@ struct Node {
 };
 
 struct TreeVariable {
-    std::string_view name;
+    std::string_view name = {};
     TokenId token = 0;  // where it is declared; 0 for the node's variables
     int32_t address = 0;
-    int32_t size = 1;      // 0: a mistake in the declaration, or a variable that was used without one
+    int32_t size = 1;  // 0: a mistake in the declaration, or a variable that was used without one
     bool is_used = false;  // it occurs in the code
 };
 
@@ -77,31 +77,34 @@ enum class SectionKind : uint8_t { Init, Event, Sub };
 // The code of the initialisation, of one handler or of one sub.
 struct Section {
     SectionKind kind = SectionKind::Init;
-    std::string_view name;
-    TokenId token = 0;     // `onevent`, `sub` or `ontimer`
-    int32_t number = 0;    // Event: id in bytecode; Sub: index into Tree::subs
+    std::string_view name = {};
+    TokenId token = 0;   // `onevent`, `sub` or `ontimer`
+    int32_t number = 0;  // Event: id in bytecode; Sub: index into Tree::subs
     NodeId block = kNoNode;
-    bool is_ignored = false;  // second handler or sub of a name, or one of an unknown event: checked, not compiled
+    bool is_ignored =
+        false;  // second handler or sub of a name, or one of an unknown event: checked, not compiled
 };
 
 struct TreeSub {
-    std::string_view name;
+    std::string_view name = {};
     TokenId token = 0;  // `sub`
     uint32_t section = 0;
     bool is_called = false;
 };
 
 struct Tree {
-    std::string_view source;  // borrowed: the text must outlive the tree, as must target and common definitions
+    std::string_view
+        source;  // borrowed: the text must outlive the tree, as must target and common definitions
     Tokens tokens;
     Names names;
     std::vector<Node> nodes;
     std::vector<TreeVariable> variables;  // the node's, then the user's
     uint32_t node_variables = 0;          // how many of them are the node's
-    std::vector<Section> sections;        // in the order of the text; the first is the initialisation
-    std::vector<TreeSub> subs;            // in the order of the text
-    int32_t memory_words = 0;             // of variables that a program can address on this node
-    int32_t variable_words = 0;           // in use by variables
+    std::vector<Section> sections;  // in the order of the text; the first is the initialisation
+    std::vector<TreeSub> subs;      // in the order of the text
+    int32_t memory_words = 0;       // of variables that a program can address on this node
+    int32_t variable_words = 0;     // in use by variables
+    bool is_partial = false;        // the parser gave up before the end of the text
 
     const Node& operator[](NodeId id) const { return nodes[id]; }
     Node& operator[](NodeId id) { return nodes[id]; }

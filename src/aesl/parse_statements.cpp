@@ -1,0 +1,671 @@
+// Statements (docs/spec/aesl-language.md, chapter 2 and section 3.8).
+#include <algorithm>
+
+#include "aesl/expand.hpp"
+#include "aesl/limits.hpp"
+#include "aesl/parser.hpp"
+#include "aesl/places.hpp"
+#include "aesl/sizes.hpp"
+
+namespace vagus::aesl {
+namespace {
+
+using isa::BinaryOperator;
+
+constexpr int32_t kInt16Max = 32767;
+constexpr uint8_t kNoOperator = 0xfe;
+
+// `op` of the Assign node that a token makes, or kNoOperator.
+uint8_t assignment_operator(TokenKind kind) {
+    switch (kind) {
+        case TokenKind::SignAssign:
+            return kPlainAssignment;
+        case TokenKind::SignAddAssign:
+            return static_cast<uint8_t>(BinaryOperator::Add);
+        case TokenKind::SignSubtractAssign:
+            return static_cast<uint8_t>(BinaryOperator::Subtract);
+        case TokenKind::SignMultiplyAssign:
+            return static_cast<uint8_t>(BinaryOperator::Multiply);
+        case TokenKind::SignDivideAssign:
+            return static_cast<uint8_t>(BinaryOperator::Divide);
+        case TokenKind::SignModuloAssign:
+            return static_cast<uint8_t>(BinaryOperator::Modulo);
+        case TokenKind::SignShiftLeftAssign:
+            return static_cast<uint8_t>(BinaryOperator::ShiftLeft);
+        case TokenKind::SignShiftRightAssign:
+            return static_cast<uint8_t>(BinaryOperator::ShiftRight);
+        case TokenKind::SignBitOrAssign:
+            return static_cast<uint8_t>(BinaryOperator::BitOr);
+        case TokenKind::SignBitXorAssign:
+            return static_cast<uint8_t>(BinaryOperator::BitXor);
+        case TokenKind::SignBitAndAssign:
+            return static_cast<uint8_t>(BinaryOperator::BitAnd);
+        default:
+            return kNoOperator;
+    }
+}
+
+}  // namespace
+
+NodeId Parser::statement() {
+    statement_start_ = position_;
+    if (++nesting_ > kNestingMax) give_up();
+    const NodeId made = statement_by_keyword();
+    --nesting_;
+    return made;
+}
+
+NodeId Parser::statement_by_keyword() {
+    switch (kind()) {
+        case TokenKind::If:
+            return if_statement();
+        case TokenKind::When:
+            return when_or_while(NodeKind::When);
+        case TokenKind::While:
+            return when_or_while(NodeKind::While);
+        case TokenKind::For:
+            return for_statement();
+        case TokenKind::Emit:
+        case TokenKind::EmitShort:
+            return emit_statement();
+        case TokenKind::Call:
+            return call_statement();
+        case TokenKind::CallSub:
+            return callsub_statement();
+        case TokenKind::Return: {
+            const TokenId keyword = position_;
+            advance();
+            return add({.kind = NodeKind::Return, .token = keyword});
+        }
+        case TokenKind::Identifier:
+            return assignment();
+        default:
+            return unexpected_statement();
+    }
+}
+
+// A token that cannot begin a statement.
+NodeId Parser::unexpected_statement() {
+    const std::string what = found();
+    const bool is_same_line = !is_first_of_line(position_);
+    const TokenKind before =
+        position_ == 0 ? TokenKind::EndOfText : tree_.tokens[position_ - 1].kind;
+    const auto sent_nothing = sent_nothing_;
+    sent_nothing_.reset();
+    if (is_same_line && sent_nothing && can_begin_operand()) {
+        const std::string event = name_text(static_cast<TokenId>(*sent_nothing));
+        syntax_error(Diag::EventTakesNoArgument, {what, event});
+    } else if (at(TokenKind::SignBracketOpen) && before == TokenKind::SignBracketClose) {
+        syntax_error(Diag::IndexOfExpression, {what});
+    } else if (at(TokenKind::SignBracketOpen)) {
+        syntax_error(Diag::LeftTuple, {what});
+    } else if (kind() >= TokenKind::SignEqual) {
+        syntax_error(Diag::ComparedInAssignment, {what});
+    } else {
+        syntax_error(Diag::ExpectedStatement, {what});
+    }
+    return recover();
+}
+
+// `var` and `const` where they must not stand: reported, but what they declare counts.
+NodeId Parser::misplaced_declaration() {
+    const bool is_var = at(TokenKind::Var);
+    const bool is_top = nesting_ == 0;
+    if (!is_var) {
+        syntax_error(Diag::MisplacedConst);
+    } else if (is_top) {
+        error(Diag::MisplacedVar, position_);
+    } else {
+        syntax_error(Diag::VarInBlock);
+    }
+    panic_ = false;
+    if (is_var) return var_definition();
+    const_definition();
+    return kNoNode;
+}
+
+// The statements up to a token that closes the block, or that must not stand in one.
+void Parser::statements(ChildList& list) {
+    while (true) {
+        switch (kind()) {
+            case TokenKind::EndOfText:
+            case TokenKind::End:
+            case TokenKind::Else:
+            case TokenKind::ElseIf:
+            case TokenKind::OnEvent:
+            case TokenKind::Sub:
+                return;
+            case TokenKind::Var:
+            case TokenKind::Const:
+                append(list, misplaced_declaration());
+                break;
+            default: {
+                const TokenId start = position_;
+                append(list, statement());
+                if (position_ == start) advance();
+            }
+        }
+    }
+}
+
+NodeId Parser::block() {
+    const TokenId before = position_ == 0 ? 0 : position_ - 1;
+    ChildList list;
+    statements(list);
+    return add({.kind = NodeKind::Block, .token = before, .first = list.first});
+}
+
+NodeId Parser::if_statement() {
+    const TokenId keyword = position_;
+    ++open_ifs_;
+    ChildList branches;
+    append(branches, clause());
+    const NodeId node = add({.kind = NodeKind::If, .token = keyword});
+    else_branches(node, branches);
+    tree_[node].first = branches.first;
+    --open_ifs_;
+    return node;
+}
+
+// `if` or `elseif`, condition, `then`, statements.
+NodeId Parser::clause() {
+    const TokenId keyword = position_;
+    const size_t before = errors();
+    statement_start_ = position_;
+    advance();
+    const NodeId test = condition();
+    expect_opener(TokenKind::Then, Diag::ExpectedThen, keyword);
+    const bool is_bad = errors() > before;
+    tree_[test].next = block();
+    return add({.kind = NodeKind::Clause, .bad = is_bad, .token = keyword, .first = test});
+}
+
+void Parser::else_branches(NodeId node, ChildList& branches) {
+    const TokenId keyword = tree_[node].token;
+    const std::string line = std::to_string(tree_.tokens[keyword].line);
+    bool had_else = false;
+    bool has_else_if = false;
+    while (at(TokenKind::Else) || at(TokenKind::ElseIf)) {
+        if (had_else) {
+            syntax_error(Diag::ElseAfterElse, {found(), line});
+            panic_ = false;
+        }
+        if (at(TokenKind::ElseIf)) {
+            const NodeId branch = clause();
+            if (!had_else) append(branches, branch);
+            continue;
+        }
+        advance();
+        has_else_if = at(TokenKind::If) && !is_first_of_line(position_);
+        const NodeId branch = block();
+        if (!had_else) append(branches, branch);
+        had_else = true;
+    }
+    expect_end(keyword, has_else_if);
+    tree_[node].value = static_cast<int32_t>(position_) - 1;
+}
+
+NodeId Parser::when_or_while(NodeKind node_kind) {
+    const TokenId keyword = position_;
+    const size_t before = errors();
+    advance();
+    const NodeId test = condition();
+    expect_opener(TokenKind::Do, Diag::ExpectedDo, keyword);
+    const bool is_bad = errors() > before;
+    tree_[test].next = loop_body(keyword);
+    return add({.kind = node_kind,
+                .bad = is_bad,
+                .token = keyword,
+                .value = static_cast<int32_t>(position_) - 1,
+                .first = test});
+}
+
+NodeId Parser::for_statement() {
+    const TokenId keyword = position_;
+    const size_t before = errors();
+    advance();
+    const NodeId variable = loop_variable();
+    expect(TokenKind::In, Diag::ExpectedIn, {found()});
+    const Bound first = loop_bound("first bound");
+    expect(TokenKind::SignColon, Diag::ExpectedLoopColon, {found()});
+    const Bound last = loop_bound("last bound");
+    const bool has_step = !panic_ && accept(TokenKind::Step);
+    const Bound step = has_step ? loop_bound("step") : Bound{.token = keyword, .value = 1};
+    if (!panic_) check_bounds(first, last, step);
+    expect_opener(TokenKind::Do, has_step ? Diag::ExpectedDo : Diag::ExpectedDoOrStep, keyword);
+    const bool is_bad = errors() > before;
+    ChildList parts;
+    append(parts, variable);
+    for (const Bound& bound : {first, last, step}) {
+        append(parts, add({.kind = NodeKind::Number,
+                           .token = bound.token,
+                           .value = bound.value.value_or(0),
+                           .size = 1}));
+    }
+    append(parts, loop_body(keyword));
+    const bool is_known = first.value && last.value && step.value;
+    return add({.kind = NodeKind::For,
+                .bad = is_bad || !is_known,
+                .token = keyword,
+                .value = static_cast<int32_t>(position_) - 1,
+                .first = parts.first});
+}
+
+NodeId Parser::loop_variable() {
+    const TokenId name = position_;
+    if (!at(TokenKind::Identifier)) {
+        syntax_error(Diag::ExpectedLoopVariable, {found()});
+        return error_node(name);
+    }
+    const Symbol& known = symbol(name);
+    if (known.variable < 0) return unknown_variable(name, NameSpace::Variable);
+    advance();
+    return reference(name, static_cast<VariableId>(known.variable));
+}
+
+// A number, a negated number, or the bare name of a constant (section 3.8).
+Parser::Bound Parser::loop_bound(std::string_view what) {
+    if (panic_) return {.token = position_};
+    const bool is_negative = accept(TokenKind::SignSubtract);
+    Bound bound{.token = position_};
+    if (at(TokenKind::Number)) {
+        const Token number = token();
+        const bool is_bad = number.value == kBadNumber;
+        const bool is_high = is_negative && !number.is_decimal && number.value > kInt16Max;
+        advance();
+        if (is_bad) return bound;
+        int32_t value = number.value;
+        if (!number.is_decimal && !is_negative && value > kInt16Max) value -= 0x10000;
+        if (is_negative) value = -value;
+        if (is_high || value > kInt16Max || value < -kInt16Max - 1) {
+            const std::string sign = is_negative ? "-" : "";
+            error(Diag::NumberTooLarge, bound.token, {sign + name_text(bound.token)});
+        } else {
+            bound.value = value;
+        }
+    } else if (at(TokenKind::Identifier) && !is_negative) {
+        bound.value = named_bound();
+    } else {
+        syntax_error(Diag::ExpectedBound, {found(), what});
+    }
+    return bound;
+}
+
+std::optional<int32_t> Parser::named_bound() {
+    const TokenId name = position_;
+    const Symbol known = symbol(name);
+    advance();
+    if (known.constant < 0) {
+        const std::string similar = guess(name, NameSpace::Constant);
+        if (known.variable >= 0) {
+            error(Diag::VariableAsBound, name, {name_text(name)});
+        } else if (similar.empty()) {
+            error(Diag::UnknownConstant, name, {name_text(name)});
+        } else {
+            error(Diag::UnknownConstantGuess, name, {name_text(name), similar});
+        }
+        return std::nullopt;
+    }
+    const ConstantSymbol& constant = constants_[static_cast<size_t>(known.constant)];
+    if (!constant.is_known) return std::nullopt;
+    if (constant.value > kInt16Max || constant.value < -kInt16Max - 1) {
+        error(Diag::ConstantTooLarge, name, {name_text(name), std::to_string(constant.value)});
+        return std::nullopt;
+    }
+    return constant.value;
+}
+
+// Step 0, then the order of start and end, then the last value (section 3.2).
+bool Parser::check_bounds(const Bound& first, const Bound& last, const Bound& step) {
+    if (step.value == 0) {
+        error(Diag::LoopStepZero, step.token);
+        return false;
+    }
+    if (!first.value || !last.value || !step.value) return false;
+    const bool rises = *step.value > 0;
+    const std::string from = std::to_string(*first.value);
+    const std::string to = std::to_string(*last.value);
+    if (rises && *first.value > *last.value) {
+        error(Diag::LoopStartTooHigh, first.token, {from, to});
+    } else if (!rises && *first.value < *last.value) {
+        error(Diag::LoopStartTooLow, first.token, {from, to});
+    } else if (rises && *last.value == kInt16Max) {
+        error(Diag::LoopEndMax, last.token);
+    } else if (!rises && *last.value == -kInt16Max - 1) {
+        error(Diag::LoopEndMin, last.token);
+    } else {
+        return true;
+    }
+    return false;
+}
+
+// The block of `when`, `while` and `for`, with its `end`.
+NodeId Parser::loop_body(TokenId opener) {
+    const TokenId before = position_ == 0 ? 0 : position_ - 1;
+    ChildList list;
+    statements(list);
+    // An `else` here belongs to an `if` around, whose inner block lacks its `end`; without one it is out of place.
+    while (open_ifs_ == 0 && (at(TokenKind::Else) || at(TokenKind::ElseIf))) {
+        const std::string line = std::to_string(tree_.tokens[opener].line);
+        syntax_error(Diag::ElseInLoop, {found(), tree_.text(opener), line});
+        panic_ = false;
+        if (at(TokenKind::ElseIf)) {
+            append(list, recover());
+        } else {
+            advance();
+        }
+        statements(list);
+    }
+    expect_end(opener, false);
+    return add({.kind = NodeKind::Block, .token = before, .first = list.first});
+}
+
+// `then` or `do`. Where it is missing, the head ends at the other one of the two, at the next one before another
+// statement, or right here.
+void Parser::expect_opener(TokenKind opener, Diag what, TokenId keyword) {
+    if (!panic_ && accept(opener)) return;
+    const std::string word = shown(tree_.text(keyword));
+    if (at(TokenKind::SignAssign) && what != Diag::ExpectedDoOrStep) {
+        syntax_error(Diag::ThenAfterAssign, {found(), spelling_of(opener)});
+    } else {
+        syntax_error(what, {found(), word});
+    }
+    panic_ = false;
+    for (TokenId ahead = position_;; ++ahead) {
+        const TokenKind next = tree_.tokens[ahead].kind;
+        if (next == TokenKind::Then || next == TokenKind::Do) {
+            position_ = ahead + 1;
+            return;
+        }
+        const bool is_keyword_of_statement = is_keyword(next) && next != TokenKind::And &&
+                                             next != TokenKind::Or && next != TokenKind::Not &&
+                                             next != TokenKind::Abs && next != TokenKind::In &&
+                                             next != TokenKind::Step;
+        if (next == TokenKind::EndOfText || is_keyword_of_statement) break;
+        if (is_first_of_line(ahead) && assigns_next(ahead)) break;
+    }
+    if (!is_first_of_line(position_) && !is_keyword(kind())) {
+        statement_start_ = position_;
+        recover();
+    }
+}
+
+void Parser::expect_end(TokenId opener, bool has_else_if) {
+    if (accept(TokenKind::End)) return;
+    const std::string line = std::to_string(tree_.tokens[opener].line);
+    syntax_error(has_else_if ? Diag::ElseIfInTwoWords : Diag::MissingEnd,
+                 {found(), shown(tree_.text(opener)), line});
+    panic_ = false;
+    ++missing_ends_;
+}
+
+NodeId Parser::emit_statement() {
+    const TokenId keyword = position_;
+    const size_t before = errors();
+    advance();
+    const TokenId name = position_;
+    const bool has_name =
+        expect(TokenKind::Identifier, Diag::ExpectedEventName, {found(), tree_.text(keyword)});
+    if (!has_name) return finish_simple(kNoNode, before);
+    Symbol& event = symbol(name);
+    if (event.global_event < 0 && event.local_event >= 0) {
+        error(Diag::EmitLocalEvent, name, {name_text(name)});
+    } else if (event.global_event < 0 && !event.is_event_unknown) {
+        event.is_event_unknown = true;
+        const std::string similar = guess(name, NameSpace::GlobalEvent);
+        error(similar.empty() ? Diag::UnknownEvent : Diag::UnknownEventGuess, name,
+              {name_text(name), similar});
+    }
+    const NodeId node =
+        add({.kind = NodeKind::Emit, .token = keyword, .value = event.global_event});
+    tree_[node].first = emit_argument(keyword, name, node);
+    tree_[node].bad = errors() > before || event.global_event < 0;
+    return finish_simple(node, before);
+}
+
+// Whether there is an argument depends on the size that the event declares (section 2.2).
+NodeId Parser::emit_argument(TokenId keyword, TokenId name, NodeId node) {
+    const int32_t event = tree_[node].value;
+    if (event < 0) return unsized_takes_argument(name) ? expression() : kNoNode;
+    const GlobalEvent& declared = common_.events[static_cast<size_t>(event)];
+    const bool is_unsized = !declared.size && is_2007_;
+    const int32_t words = declared.size.value_or(0);
+    if (is_unsized ? !unsized_takes_argument(name) : words == 0) {
+        sent_nothing_ = static_cast<int32_t>(name);
+        return kNoNode;
+    }
+    if (!can_begin_operand() && !at(TokenKind::SignAdd) && !at(TokenKind::Not)) {
+        syntax_error(Diag::MissingEventArgument, {found(), name_text(name), words_of(words)});
+        return kNoNode;
+    }
+    const NodeId argument = expression();
+    if (!panic_) check_event_size(keyword, name, argument);
+    return argument;
+}
+
+// Sizes inside the argument, then room for its temporary, then its size (section 3.2).
+void Parser::check_event_size(TokenId keyword, TokenId name, NodeId argument) {
+    if (!check_sizes_of(tree_, argument, diagnostics_)) return;
+    const int32_t words = tree_[argument].size;
+    if (words == 0) return;
+    if (tree_[argument].kind == NodeKind::Element &&
+        !check_places_of(tree_, argument, diagnostics_)) {
+        return;
+    }
+    Folder folder;
+    const bool needs_temporary = !Expander(tree_, folder).place(argument);
+    if (needs_temporary && !reserve(words, 0, keyword)) return;
+    const GlobalEvent& event = common_.events[static_cast<size_t>(symbol(name).global_event)];
+    const bool may_be_short = tree_.tokens[keyword].kind == TokenKind::EmitShort || !event.size;
+    const int32_t declared = event.size.value_or(kEventArgumentsMax);
+    if (words > declared && may_be_short) {
+        error(Diag::EventArgumentTooBig, keyword,
+              {name_text(name), words_of(declared), words_of(words)});
+    } else if (words != declared && !may_be_short) {
+        error(Diag::EventArgumentSize, keyword,
+              {name_text(name), words_of(declared), words_of(words)});
+    }
+}
+
+// 2007, and events nobody knows: an operand on the line of the name is the argument (section 6, rule 5).
+bool Parser::unsized_takes_argument(TokenId name) const {
+    return can_begin_operand() && token().line == tree_.tokens[name].line;
+}
+
+// Whether `words` of temporaries fit behind those that the statement has already.
+bool Parser::reserve(int32_t words, int32_t already, TokenId at) {
+    const int32_t free_words = tree_.memory_words - tree_.variable_words;
+    if (already + words <= free_words) return true;
+    error(Diag::NoTemporarySpace, at, {words_of(already + words), words_of(free_words)});
+    return false;
+}
+
+struct Parser::ArgumentSizes {
+    std::vector<std::pair<int32_t, size_t>>
+        templates;  // words, position of the argument; by template number
+    int32_t temporaries = 0;
+    bool is_bad = false;
+};
+
+NodeId Parser::call_statement() {
+    const TokenId keyword = position_;
+    const size_t before = errors();
+    advance();
+    const TokenId name = position_;
+    if (!expect(TokenKind::Identifier, Diag::ExpectedNativeName, {found()})) {
+        return finish_simple(kNoNode, before);
+    }
+    const int32_t native = symbol(name).native;
+    if (native < 0) unknown_native(keyword, name);
+    const NodeId node = add({.kind = NodeKind::Call, .token = keyword, .value = native});
+    ChildList list;
+    if (expect(TokenKind::SignParenOpen, Diag::ExpectedArguments, {found(), name_text(name)})) {
+        if (native < 0) {
+            arguments_unchecked(list);
+        } else {
+            arguments(node, keyword, target_.natives[static_cast<size_t>(native)], list);
+        }
+    }
+    tree_[node].first = list.first;
+    tree_[node].bad = errors() > before;
+    return finish_simple(node, before);
+}
+
+void Parser::unknown_native(TokenId keyword, TokenId name) {
+    const std::string similar = guess(name, NameSpace::Native);
+    const std::string text = name_text(name);
+    if (symbol(name).sub >= 0) {
+        error(Diag::SubNotNative, keyword, {text});
+    } else if (similar.empty()) {
+        error(Diag::UnknownNative, keyword, {text, shown(target_.name)});
+    } else {
+        error(Diag::UnknownNativeGuess, keyword, {text, similar});
+    }
+}
+
+// Behind the `(`, where nothing is known about the parameters, or too much has been found wrong already.
+void Parser::arguments_unchecked(ChildList& list) {
+    if (accept(TokenKind::SignParenClose)) return;
+    do {
+        append(list, expression());
+    } while (!panic_ && accept(TokenKind::SignComma));
+    expect(TokenKind::SignParenClose, Diag::ExpectedCallEnd, {found(), "the function"});
+}
+
+void Parser::arguments(NodeId call, TokenId keyword, const NativeFunction& native,
+                       ChildList& list) {
+    static_cast<void>(call);
+    const size_t count = native.parameters.size();
+    const std::string takes = std::to_string(count) + (count == 1 ? " argument" : " arguments");
+    if (count == 0 && !at(TokenKind::SignParenClose)) {
+        error(Diag::NativeTakesNothing, position_, {shown(native.name)});
+        return arguments_unchecked(list);
+    }
+    ArgumentSizes sizes;
+    for (size_t i = 0; i < count && !panic_; ++i) {
+        if (at(TokenKind::SignParenClose)) {
+            error(Diag::TooFewArguments, position_,
+                  {shown(native.name), takes, std::to_string(i), shown(native.parameters[i].name)});
+            break;
+        }
+        const NodeId argument = expression();
+        append(list, argument);
+        if (panic_) return;
+        check_argument(keyword, native, i, argument, sizes);
+        if (i + 1 == count || at(TokenKind::SignParenClose)) continue;
+        expect(TokenKind::SignComma, Diag::ExpectedNextArgument,
+               {found(), shown(native.parameters[i + 1].name), shown(native.name)});
+    }
+    if (!panic_ && at(TokenKind::SignComma)) {
+        error(Diag::TooManyArguments, position_, {shown(native.name), takes});
+        advance();
+        return arguments_unchecked(list);
+    }
+    expect(TokenKind::SignParenClose, Diag::ExpectedCallEnd, {found(), shown(native.name)});
+}
+
+// Sizes and indices inside the argument, then room for its temporary, then its size (section 3.2).
+void Parser::check_argument(TokenId keyword, const NativeFunction& native, size_t position,
+                            NodeId node, ArgumentSizes& sizes) {
+    const bool is_sound =
+        check_sizes_of(tree_, node, diagnostics_) && check_places_of(tree_, node, diagnostics_);
+    const int32_t words = tree_[node].size;
+    if (!is_sound || words == 0 || sizes.is_bad) {
+        sizes.is_bad = true;
+        return;
+    }
+    Folder folder;
+    if (!Expander(tree_, folder).place(node)) {
+        const bool is_computed = tree_[node].kind == NodeKind::Element;
+        if (!reserve(words, sizes.temporaries, is_computed ? tree_[node].token : keyword)) {
+            sizes.is_bad = true;
+            return;
+        }
+        sizes.temporaries += words;
+    }
+    check_argument_size(native, position, node, sizes);
+}
+
+void Parser::check_argument_size(const NativeFunction& native, size_t position, NodeId node,
+                                 ArgumentSizes& sizes) {
+    const NativeParameter& parameter = native.parameters[position];
+    const int32_t words = tree_[node].size;
+    if (parameter.size == 0) return;
+    // A binary operation begins with its left operand, not with its operator.
+    NodeId leftmost = node;
+    while (tree_[leftmost].kind == NodeKind::Binary) leftmost = tree_[leftmost].first;
+    const TokenId at = tree_[leftmost].token;
+    if (parameter.size > 0) {
+        if (words == parameter.size) return;
+        error(
+            Diag::NativeArgumentSize, at,
+            {shown(parameter.name), shown(native.name), words_of(parameter.size), words_of(words)});
+        return;
+    }
+    const auto number = static_cast<size_t>(-(parameter.size + 1));
+    if (sizes.templates.size() <= number) sizes.templates.resize(number + 1);
+    auto& [common_words, first] = sizes.templates[number];
+    if (common_words == 0) {
+        common_words = words;
+        first = position;
+    } else if (common_words != words) {
+        error(Diag::NativeTemplateSize, at,
+              {shown(parameter.name), shown(native.name), words_of(common_words), words_of(words),
+               shown(native.parameters[first].name)});
+    }
+}
+
+NodeId Parser::callsub_statement() {
+    const TokenId keyword = position_;
+    const size_t before = errors();
+    advance();
+    const bool has_name =
+        expect(TokenKind::Identifier, Diag::ExpectedSubName, {found(), "callsub"});
+    if (!has_name) return finish_simple(kNoNode, before);
+    const NodeId node = add({.kind = NodeKind::CallSub, .token = keyword, .value = kUnresolved});
+    return finish_simple(node, before);
+}
+
+NodeId Parser::assignment() {
+    const TokenId start = position_;
+    const size_t before = errors();
+    const NodeId left = expression();
+    const TokenId op = position_;
+    const uint8_t assigns = assignment_operator(kind());
+    Node node{.token = op, .first = left};
+    if (panic_) return finish_simple(undeclared_words(before, start), before);
+    if (assigns != kNoOperator) {
+        advance();
+        node.kind = NodeKind::Assign;
+        node.op = assigns;
+        const NodeId right = expression();
+        tree_[left].next = right;
+        if (tree_[right].kind == NodeKind::Error) node.bad = true;
+    } else if (at(TokenKind::SignIncrement) || at(TokenKind::SignDecrement)) {
+        node.kind = NodeKind::Count;
+        node.op = static_cast<uint8_t>(at(TokenKind::SignIncrement) ? BinaryOperator::Add
+                                                                    : BinaryOperator::Subtract);
+        advance();
+    } else {
+        missing_assignment(start);
+        return finish_simple(undeclared_words(before, start), before);
+    }
+    node.bad = node.bad || errors() > before;
+    return finish_simple(add(node), before);
+}
+
+void Parser::missing_assignment(TokenId start) {
+    const std::string name = name_text(start);
+    const Symbol& known = symbol(start);
+    const bool is_call = at(TokenKind::SignParenOpen) && known.native >= 0;
+    const bool compares = kind() == TokenKind::SignEqual;
+    if (compares) {
+        syntax_error(Diag::ComparisonAsStatement, {found(), name});
+    } else if (is_call) {
+        syntax_error(Diag::CallWithoutKeyword, {found(), name, "call"});
+    } else {
+        syntax_error(Diag::ExpectedAssignment, {found(), name});
+    }
+}
+
+}  // namespace vagus::aesl

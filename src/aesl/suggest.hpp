@@ -1,0 +1,13 @@
+// Suggestions for misspelt names (docs/spec/aesl-language.md, section 3.3).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace vagus::aesl {
+
+// The candidate with the smallest edit distance to `name`, of distance 1 or 2; the first in code-point order on a tie;
+// empty if there is none.
+std::string_view closest(std::string_view name, std::span<const std::string_view> candidates);
+
+}  // namespace vagus::aesl

@@ -103,9 +103,12 @@ void Network::Loop::on_readable(uint32_t number) {
     if (at == connections_.end()) return;
     Connection& connection = at->second;
     const Transfer done = connection.channel->read(*connection.hub, connection.link);
+    // The first to be heard is passed on at once; those who are heard in the same turn share the
+    // writes.
+    const bool first = received_ == 0;
     received_ += done.bytes;
     unflushed_ += done.bytes;
-    if (unflushed_ >= kFlushAfterBytes) flush();
+    if (first || unflushed_ >= kFlushAfterBytes) flush();
     if (done.flow == Flow::Ended) {
         drop(number, done.why);
         return;

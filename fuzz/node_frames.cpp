@@ -1,6 +1,6 @@
-// A node that is sent arbitrary frames, and runs whatever program they make: it stays inside its memories, and all
-// that it says can be understood. The input is a stream of frames as on TCP; the source of a frame from 0xfff0 on is
-// also a local event.
+// A node that is sent arbitrary frames, and runs whatever program they make: it stays inside its
+// memories, and all that it says can be understood. The input is a stream of frames as on TCP; the
+// source of a frame from 0xfff0 on is also a local event.
 #include <cstdint>
 #include <cstdlib>
 #include <memory>

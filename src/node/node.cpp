@@ -133,8 +133,8 @@ void local_event(Node& node, uint16_t index) {
     vm::local_event(node.vm, index);
 }
 
-// The commands Reset and Run: so the program starts as after its upload, whatever its `when`s remembered when it was
-// saved.
+// The commands Reset and Run: so the program starts as after its upload, whatever its `when`s
+// remembered when it was saved.
 void start_program(Node& node) {
     const uint16_t id = node.vm.config->id;
     vm::receive(node.vm, static_cast<uint16_t>(wire::MessageType::Reset), &id, 1);

@@ -1,5 +1,6 @@
-// Runs a compiled script on one software node, event by event, each to its end, and tells what came of it: the logic
-// of `vagus exec`. What goes in and out is defined in testdata/golden/aesl/README.md.
+// Runs a compiled script on one software node, event by event, each to its end, and tells what came
+// of it: the logic of `vagus exec`. What goes in and out is defined in
+// testdata/golden/aesl/README.md.
 //
 //     const auto stimuli = TRY(session::parse_stimuli(text, "case.json"));
 //     const auto execution = TRY(session::execute(program, node_file, stimuli, {}));
@@ -35,7 +36,8 @@ struct Stimulus {
     std::optional<int16_t> source;   // to the second variable
 };
 
-// Reads `stimuli` of an object; a whole expected file of the golden cases will do. None is no stimuli.
+// Reads `stimuli` of an object; a whole expected file of the golden cases will do. None is no
+// stimuli.
 Result<std::vector<Stimulus>> parse_stimuli(std::string_view text, std::string_view file);
 
 struct VariableWords {
@@ -70,8 +72,9 @@ struct Execution {
     std::optional<RuntimeError> error;  // the run stopped there
 };
 
-// Fails only for what is wrong with the input: natives without code, a program that does not fit the node, stimuli
-// that name what does not exist. What goes wrong inside the script is in the Execution.
+// Fails only for what is wrong with the input: natives without code, a program that does not fit
+// the node, stimuli that name what does not exist. What goes wrong inside the script is in the
+// Execution.
 Result<Execution> execute(const aesl::Program& program, const aesl::NodeFile& node,
                           const std::vector<Stimulus>& stimuli, uint32_t steps_per_event);
 

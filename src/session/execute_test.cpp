@@ -9,7 +9,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Variables: id 0, event.source 1, event.args 2..5, speed 6..7, and the script's n 8 and list 9..10.
+// Variables: id 0, event.source 1, event.args 2..5, speed 6..7, and the script's n 8 and list
+// 9..10.
 aesl::NodeFile node_file() {
     aesl::NodeFile file;
     file.target.name = "small";

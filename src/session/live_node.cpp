@@ -62,7 +62,7 @@ void LiveNode::look_at_period(Time now) {
     timer_.set_period(node_->variables()[place->address], now);
 }
 
-// Desktop nodes have no boot loader and do not sleep (section 2.3).
+// A desktop node has no boot loader, and nothing to save by sleeping.
 void LiveNode::obey(vm::Notice notice) {
     if (notice == vm::Notice::WriteBytecode) save();
 }

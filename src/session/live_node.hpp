@@ -1,7 +1,7 @@
-// A software node that lives in time: its timer, its program in a file, at most 1,000 instructions a millisecond. Told
-// the time, like everything below `net`; `vagus node` is this and a socket.
+// A software node that lives in time: its timer, its program in a file, at most 1,000 instructions
+// a millisecond. Told the time, like everything below `net`; `vagus node` is this and a socket.
 //
-//     auto made = session::LiveNode::make(target, {.id = 3, .flash = "three.abo", .transmit = …}, network.now());
+//     auto made = session::LiveNode::make(target, {.id = 3, .flash = "three.abo", .transmit = …});
 //     session::LiveNode& node = *made.value();
 //     Time next = node.step(network.now());
 //     for (;;) {
@@ -31,8 +31,8 @@ struct LiveNodeOptions {
     std::function<void(const wire::Frame&)> transmit = [](const wire::Frame&) {};
 };
 
-// The local event `timer`, every `timer.period` milliseconds: 0 or less is never (section 5.1, D18). Periods that have
-// been missed are not made up for.
+// The local event `timer`, every `timer.period` milliseconds: 0 or less is never (section 5.1,
+// D18). Periods that have been missed are not made up for.
 class NodeTimer {
 public:
     // A new period counts from `now`; the same one changes nothing.
@@ -49,11 +49,12 @@ private:
 
 class LiveNode {
 public:
-    // With a saved program the node starts it at once, in running mode, without a host. Fails as SoftwareNode::make()
-    // does, and if the file holds something else than a program for this node.
+    // With a saved program the node starts it at once, in running mode, without a host. Fails as
+    // SoftwareNode::make() does, and if the file holds something else than a program for this node.
     static Result<std::unique_ptr<LiveNode>> make(aesl::Target target, LiveNodeOptions options);
 
-    // Answers, and then lets the script run, so that a burst of events is not one long chain of killed handlers.
+    // Answers, and then lets the script run, so that a burst of events is not one long chain of
+    // killed handlers.
     void receive(const wire::Frame& frame);
     // Its breakpoints go with it.
     void host_left() { node_->host_left(); }

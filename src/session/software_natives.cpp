@@ -39,8 +39,8 @@ const node::Native* find_native(std::string_view name) {
     return own != std::end(kOwnNatives) ? own : nullptr;
 }
 
-// What a caller pushes: an address for each parameter, a size for each template and each parameter of any size
-// (docs/spec/aseba-wire-and-vm.md, section 4.1).
+// What a caller pushes: an address for each parameter, a size for each template and each parameter
+// of any size (docs/spec/aseba-wire-and-vm.md, section 4.1).
 template <typename Parameters>
 size_t words_pushed(const Parameters& parameters) {
     size_t words = parameters.size();

@@ -33,7 +33,8 @@ Status check_sizes(const aesl::Target& target) {
     return Status::done();
 }
 
-// Words of a user event that the node keeps: the third variable, by convention `event.args` (section 3.10).
+// Words of a user event that the node keeps: the third variable, by convention `event.args`
+// (section 3.10).
 uint16_t arguments_capacity(const aesl::Target& target) {
     return target.variables.size() < 3 ? uint16_t{0} : target.variables[2].size;
 }

@@ -1,8 +1,9 @@
-// A node in memory, made from a description: the node of `vagus node`, of `vagus exec`, and of tests. It has the
-// memories that its Target asks for, finds the code of each native by its name, and talks through two callbacks.
+// A node in memory, made from a description: the node of `vagus node`, of `vagus exec`, and of
+// tests. It has the memories that its Target asks for, finds the code of each native by its name,
+// and talks through two callbacks.
 //
-//     session::SoftwareNodeOptions options{.id = 3, .transmit = [&](const wire::Frame& f) { hub.receive(own, f); }};
-//     auto made = session::SoftwareNode::make(target, std::move(options));
+//     const auto send = [&](const wire::Frame& frame) { hub.receive(own, frame); };
+//     auto made = session::SoftwareNode::make(target, {.id = 3, .transmit = send});
 //     if (!made.ok()) return complain(made.error());
 //     session::SoftwareNode& node = *made.value();
 //     node.receive(frame);
@@ -42,8 +43,8 @@ struct VariableRange {
 
 class SoftwareNode {
 public:
-    // Fails if a native has no code here (the 30 standard ones, sys.nop and sys.sum have) or other parameters than
-    // its code, or if the variables do not fit the memory.
+    // Fails if a native has no code here (the 30 standard ones, sys.nop and sys.sum have) or other
+    // parameters than its code, or if the variables do not fit the memory.
     static Result<std::unique_ptr<SoftwareNode>> make(aesl::Target target,
                                                       SoftwareNodeOptions options);
     SoftwareNode(const SoftwareNode&) = delete;

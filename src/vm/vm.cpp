@@ -2,8 +2,6 @@
 // Instructions are in execute.cpp, commands in debug.cpp.
 #include "vm/vm.hpp"
 
-#include <string.h>
-
 #include "vm/internal.hpp"
 
 namespace vagus {
@@ -24,7 +22,7 @@ void init(Vm& vm, const Config& config) {
     vm.depth = 0;
     vm.breakpoint_count = 0;
     config.bytecode[0] = 0;
-    memset(config.variables, 0, config.variables_size * sizeof(int16_t));
+    for (uint16_t i = 0; i < config.variables_size; ++i) config.variables[i] = 0;
 }
 
 // ---- Messages ----

@@ -30,9 +30,22 @@ enum class UnaryOperator : uint8_t {
 #undef UNARY
 };
 
-constexpr uint16_t kOpcodeCount = 15;
-constexpr uint16_t kBinaryOperatorCount = 18;
-constexpr uint16_t kUnaryOperatorCount = 3;
+// How long the lists are; codes run from 0 without gaps.
+constexpr uint16_t kOpcodeCount = 0
+#define OP(name, opcode, words, popped, pushed) +1
+#include "isa/opcodes.def"
+#undef OP
+    ;
+constexpr uint16_t kBinaryOperatorCount = 0
+#define BINARY(name, code, symbol) +1
+#include "isa/operators.def"
+#undef BINARY
+    ;
+constexpr uint16_t kUnaryOperatorCount = 0
+#define UNARY(name, code, symbol) +1
+#include "isa/operators.def"
+#undef UNARY
+    ;
 
 // Bits of the first word of a Branch instruction.
 constexpr uint16_t kBranchIsWhen = 0x0100;  // edge-sensitive

@@ -55,6 +55,7 @@ int run(const Call& call, const Act& act) {
     if (!session.ok()) return complain(session.error());
     if (!project.path.empty()) session.value()->use_project(std::move(project));
     const Verdict verdict = act(*session.value(), call);
+    session.value()->farewell();
     return verdict.ok() ? verdict.value() : complain(verdict.error());
 }
 

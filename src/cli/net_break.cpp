@@ -79,10 +79,7 @@ Result<bool> set_and_wait(NetSession& session, debug::NodeId id, int line,
 Verdict net_break(NetSession& session, const BreakOptions& options) {
     const debug::NodeId id = TRY(session.node(options.node));
     if (options.clear) (void)TRY(session.network().clear_breakpoints(id));
-    if (options.file.empty()) {
-        session.flush();
-        return kExitDone;
-    }
+    if (options.file.empty()) return kExitDone;
     const aesl::Script* script = TRY(script_in(session, options.file, id));
     const aesl::Compilation done = session.network().compile(id, script->source, {});
     if (!done.ok()) {
@@ -95,7 +92,6 @@ Verdict net_break(NetSession& session, const BreakOptions& options) {
     const int line = TRY(script_line(session, *script, id, options));
     const Result<bool> hit = set_and_wait(session, id, line, options);
     if (!options.keep) (void)session.network().clear_breakpoint(id, line).ok();
-    session.flush();
     if (!hit.ok()) return hit.error();
     if (hit.value()) return kExitDone;
     return Error{Code::Timeout, "node " + node_name(session, id) + " did not reach " +

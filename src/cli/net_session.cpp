@@ -10,13 +10,28 @@ namespace vagus::cli {
 namespace {
 
 constexpr Duration kFlushWithin = std::chrono::seconds(2);
+constexpr Duration kFarewellWithin = std::chrono::milliseconds(200);
 
 }  // namespace
 
 struct NetSession::Bus {
     hub::Hub hub;
     net::Network net;  // after the hub: it goes first
-    hub::LinkId own;
+    hub::LinkId own, peer;
+    bool closed = false;
+    bool signalled = false;
+    std::string why;  // closed or failed
+
+    void note(const std::vector<net::Event>& events) {
+        for (const net::Event& event : events) {
+            if (event.kind == net::EventKind::Opened) peer = event.link;
+            const bool lost =
+                event.kind == net::EventKind::Closed || event.kind == net::EventKind::Failed;
+            closed = closed || lost;
+            if (lost) why = event.what;
+            signalled = signalled || event.kind == net::EventKind::Signal;
+        }
+    }
 };
 
 Result<session::ScriptFile> read_scripts(const std::string& file) {
@@ -40,6 +55,10 @@ NetSession::NetSession(NetOptions options)
 
 NetSession::~NetSession() = default;
 
+bool NetSession::interrupted() const {
+    return bus_->signalled;
+}
+
 Result<std::unique_ptr<NetSession>> NetSession::open(const NetOptions& options) {
     std::unique_ptr<NetSession> session(new NetSession(options));
     const Status connected = session->connect();
@@ -52,12 +71,10 @@ Status NetSession::connect() {
     bus_->own = TRY(bus_->hub.add({.name = "vagus net"}));
     (void)TRY(bus_->net.watch_signals());
     (void)TRY(bus_->net.connect(bus_->hub, target));
-    while (!interrupted_) {
-        for (const net::Event& event : bus_->net.poll(Time::max())) {
-            if (event.kind == net::EventKind::Opened) return Status::done();
-            if (event.kind == net::EventKind::Failed) return Error{Code::Unavailable, event.what};
-            interrupted_ = interrupted_ || event.kind == net::EventKind::Signal;
-        }
+    while (!bus_->signalled) {
+        bus_->note(bus_->net.poll(Time::max()));
+        if (bus_->closed) return Error{Code::Unavailable, bus_->why};
+        if (bus_->peer != hub::LinkId{}) return Status::done();
     }
     return Error{Code::Timeout, "interrupted while connecting to " + options_.target};
 }
@@ -77,17 +94,13 @@ Time NetSession::now() const {
 Status NetSession::turn(Time deadline) {
     network_.tick(now());
     for (const wire::Frame& frame : network_.take_frames()) bus_->hub.receive(bus_->own, frame);
-    std::optional<Error> gone;
-    for (const net::Event& event : bus_->net.poll(std::min(deadline, network_.next_tick()))) {
-        if (event.kind == net::EventKind::Closed) gone = Error{Code::Unavailable, event.what};
-        interrupted_ = interrupted_ || event.kind == net::EventKind::Signal;
-    }
+    bus_->note(bus_->net.poll(std::min(deadline, network_.next_tick())));
     wire::Frame frame;
     while (bus_->hub.take(bus_->own, frame)) network_.receive(now(), frame);
     const size_t before = events_.size();
     for (debug::Event& event : network_.take_events()) events_.push_back(std::move(event));
     note_answers(before);
-    if (gone) return *gone;
+    if (bus_->closed) return Error{Code::Unavailable, bus_->why};
     return Status::done();
 }
 
@@ -109,7 +122,7 @@ std::vector<debug::Event> NetSession::take_events() {
 
 Status NetSession::wait_for(const std::function<bool()>& ready, Time deadline) {
     while (!ready()) {
-        if (interrupted_) return Error{Code::Timeout, "interrupted"};
+        if (interrupted()) return Error{Code::Timeout, "interrupted"};
         if (now() >= deadline) return Error{Code::Timeout, "nothing happened in time"};
         (void)TRY(turn(deadline));
     }
@@ -132,12 +145,15 @@ Status NetSession::wait_done(const std::vector<debug::RequestId>& requests,
     return wait_for(all_done, Time::max());  // requests end by themselves
 }
 
-void NetSession::flush() {
+void NetSession::farewell() {
     for (const wire::Frame& frame : network_.take_frames()) bus_->hub.receive(bus_->own, frame);
     const Time deadline = now() + kFlushWithin;
     do {
-        (void)bus_->net.poll(now());
-    } while (bus_->net.has_unwritten() && now() < deadline);
+        bus_->note(bus_->net.poll(now()));
+    } while (bus_->net.has_unwritten() && !bus_->closed && now() < deadline);
+    const Time end = now() + kFarewellWithin;
+    if (bus_->closed || !bus_->net.end_writing(bus_->hub, bus_->peer)) return;
+    while (!bus_->closed && now() < end) bus_->note(bus_->net.poll(end));
 }
 
 // ---- nodes ----
@@ -170,7 +186,7 @@ Status NetSession::discover(Duration quiet, const std::function<bool()>& enough)
     const Time complete_by = start + std::max(kNodesWithin, quiet);
     last_answer_ = start;
     network_.tick(start);
-    while (!interrupted_ && !enough()) {
+    while (!interrupted() && !enough()) {
         const Time time = now();
         const Time quiet_since = last_answer_ + quiet;
         if (time >= quiet_since && (all_ready() || time >= complete_by)) break;
@@ -218,7 +234,7 @@ Result<std::vector<debug::NodeId>> NetSession::nodes(const std::vector<std::stri
     (void)TRY(discover(
         kQuiet, [&named, &numbered] { return std::all_of(named.begin(), named.end(), numbered); }));
     const auto found = [this, &named] { return find_all(named).ok(); };
-    while (!found() && !interrupted_ && now() < deadline) (void)TRY(turn(deadline));
+    while (!found() && !interrupted() && now() < deadline) (void)TRY(turn(deadline));
     match_scripts();
     adopt_scripts();
     return find_all(named);

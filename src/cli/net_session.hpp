@@ -54,15 +54,17 @@ public:
     // to events.
     Status turn(Time deadline);
     std::vector<debug::Event> take_events();
-    bool interrupted() const { return interrupted_; }
+    bool interrupted() const;  // by Ctrl-C
     // Until `ready` says so. Code::Timeout if the deadline passes or the user interrupts.
     Status wait_for(const std::function<bool()>& ready, Time deadline);
     // Until every request is done, adding all events to `events`. Fails only if the connection
     // does.
     Status wait_done(const std::vector<debug::RequestId>& requests,
                      std::vector<debug::Event>& events);
-    // Writes what still waits: before the process ends.
-    void flush();
+    // Writes what still waits and lets the peer know that it was all: before the process ends.
+    // Without that, what the peer sends meanwhile could make its system throw away our last frames;
+    // and a simulator of Aseba's dies if the next command comes before it saw this one leave.
+    void farewell();
 
     // ---- nodes ----
     // Asks who is there; until `quiet` after the last answer, or until it is `enough`.
@@ -99,7 +101,6 @@ private:
     std::vector<std::pair<debug::NodeId, int>> scripts_;  // index into the project's scripts
     std::vector<debug::NodeId> silent_;                   // would not describe themselves
     Time last_answer_{};
-    bool interrupted_ = false;
 };
 
 // How it ended; nothing if it worked.

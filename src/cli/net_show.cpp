@@ -244,9 +244,10 @@ struct Teller {
     Told operator()(const debug::RequestDone&) const { return {}; }
 };
 
-// A running node has no place worth telling.
+// A running node has no place worth telling; of a stopped one the line is, the counter is not.
 bool has_place(const Told& told) {
-    return told.at && told.event != "running";
+    if (!told.at || told.event == "running") return false;
+    return told.event != "stopped" || told.at->line > 0;
 }
 
 std::string seconds(Time at) {

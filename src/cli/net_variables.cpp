@@ -95,7 +95,6 @@ Verdict net_set(NetSession& session, const std::string& node, const std::string&
 Verdict net_emit(NetSession& session, const std::string& event,
                  const std::vector<int16_t>& arguments) {
     (void)TRY(session.network().emit(event, arguments));
-    session.flush();
     return kExitDone;
 }
 

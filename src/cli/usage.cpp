@@ -64,7 +64,10 @@ std::string hint(const CLI::App& verb) {
 
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App& verb = reached(app);
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    // A mistyped verb of `net` is missed first and found to be too much only afterwards.
+    const bool lacks_verb = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
+                            !verbs_of(verb).empty() && !app.remaining(true).empty();
+    if (lacks_verb || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         return unknown_word(verb, first_wrong(app.remaining(true))) + "\n" + hint(verb);
     }
     std::string sentence = error.what();

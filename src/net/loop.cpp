@@ -197,6 +197,15 @@ void Network::Loop::close(hub::Hub& hub, hub::LinkId link) {
     }
 }
 
+bool Network::Loop::end_writing(hub::Hub& hub, hub::LinkId link) {
+    for (auto& [number, connection] : connections_) {
+        if (connection.hub == &hub && connection.link == link) {
+            return connection.channel->end_writing();
+        }
+    }
+    return false;
+}
+
 // ---- pacing (pace.hpp) ----
 
 void Network::Loop::pause_if_ahead(Connection& connection, size_t bytes) {

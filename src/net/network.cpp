@@ -16,6 +16,9 @@ Result<PlaceId> Network::connect(hub::Hub& hub, const Target& target, ConnectOpt
 void Network::close(hub::Hub& hub, hub::LinkId link) {
     loop_->close(hub, link);
 }
+bool Network::end_writing(hub::Hub& hub, hub::LinkId link) {
+    return loop_->end_writing(hub, link);
+}
 void Network::close(PlaceId place) {
     loop_->close(place);
 }

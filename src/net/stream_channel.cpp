@@ -31,6 +31,9 @@ public:
     int descriptor() const override { return descriptor_; }
     Transfer read(hub::Hub& hub, hub::LinkId link) override;
     Transfer write(hub::Hub& hub, hub::LinkId link) override;
+    bool end_writing() override {
+        return kind_ == StreamKind::Socket && ::shutdown(descriptor_, SHUT_WR) == 0;
+    }
 
 private:
     ssize_t write_some(std::span<const uint8_t> bytes) const;

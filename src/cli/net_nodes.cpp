@@ -16,8 +16,10 @@ Verdict net_list(NetSession& session) {
     std::erase_if(ids,
                   [&session](debug::NodeId id) { return !session.network().node(id)->connected; });
     print(session.options().json ? show_nodes_json(session, ids) : show_nodes(session, ids));
-    if (!ids.empty()) return kExitDone;
-    return Error{Code::Timeout, "no node answers on " + session.options().target};
+    if (ids.empty() && !session.options().json) {  // "[]" says it, too
+        complain("no node answers on " + session.options().target);
+    }
+    return kExitDone;
 }
 
 // For one node its file; for several a list of files, which is JSON too.

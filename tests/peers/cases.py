@@ -57,7 +57,7 @@ class Peers(unittest.TestCase):
         ports = [free_port() for _ in range(count)]
         program = self.start(playground(display, self.folder, ports))
         for port in ports:
-            Bus(port).socket.close()
+            Bus(port).leave()
         return program, ports
 
     def wait_for_nodes(self, target, names):
@@ -138,7 +138,7 @@ class Peers(unittest.TestCase):
     def test_vagus_net_sees_a_vagus_node_through_asebaswitch(self):
         _, port = self.node(number=8, name="leg")
         _, foreign = self.foreign_switch(f"tcp:127.0.0.1;{port}")
-        Bus(foreign).socket.close()
+        Bus(foreign).leave()
         found = self.wait_for_nodes(f"tcp:127.0.0.1:{foreign}", ["leg"])
         self.assertEqual(found[0]["id"], 8)
 
@@ -164,7 +164,7 @@ class Peers(unittest.TestCase):
         # asebaswitch hands on the ids as they are; two robots of one world have different ones.
         _, ports = self.playground(2)
         _, foreign = self.foreign_switch(*[f"tcp:127.0.0.1;{port}" for port in ports])
-        Bus(foreign).socket.close()
+        Bus(foreign).leave()
         target = f"tcp:127.0.0.1:{foreign}"
         self.wait_for_nodes(target, ["thymio-II", "thymio-II"])
         run_vagus("net", target, "set", "2", "motor.left.target", "100")

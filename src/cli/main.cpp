@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "cli/output.hpp"
+#include "cli/page.hpp"
 #include "cli/usage.hpp"
 #include "cli/verbs.hpp"
 
@@ -46,5 +47,7 @@ int main(int argc, char** argv) {
 #define VERB(name) vagus::cli::add_##name(app, exit_code);
 #include "cli/verbs.def"
 #undef VERB
+    vagus::cli::add_page(app, exit_code);
+    vagus::cli::shape_help(app);
     return parse_and_run(app, argc, argv, exit_code);
 }

@@ -222,6 +222,12 @@ std::span<const int16_t> SimSession::node_variable(sim::RobotId id, std::string_
     return {};
 }
 
+const aesl::Target* SimSession::target(sim::RobotId id) const {
+    const Robot* robot = robot_of(id);
+    const debug::NodeView* node = robot != nullptr ? network_.node(robot->node) : nullptr;
+    return node != nullptr && node->described ? &node->target : nullptr;
+}
+
 std::vector<EventCount> SimSession::events() const {
     std::vector<EventCount> list;
     for (const auto& [name, count] : events_) list.push_back(count);

@@ -105,6 +105,8 @@ public:
         sim::RobotId robot) const;
     // A variable of the node's description, "prox.horizontal"; empty if there is none.
     std::span<const int16_t> node_variable(sim::RobotId robot, std::string_view name) const;
+    // What the robot's node told about itself; nullptr until then.
+    const aesl::Target* target(sim::RobotId robot) const;
     // The latest first.
     std::vector<EventCount> events() const;
     // Lines for people: the mistakes of the scripts as they stand now.

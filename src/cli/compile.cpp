@@ -40,7 +40,8 @@ struct Job {
 Result<std::vector<aesl::NodeFile>> read_nodes(const std::vector<std::string>& paths) {
     std::vector<aesl::NodeFile> nodes;
     for (const std::string& path : paths) {
-        nodes.push_back(TRY(aesl::parse_node_file(TRY(read_file(path)), path)));
+        const std::string text = TRY(read_file(path));
+        nodes.push_back(TRY(aesl::parse_node_file(text, path)));
     }
     return nodes;
 }
@@ -151,15 +152,13 @@ int deliver(const Options& options, const std::string& content) {
     return written.ok() ? kExitDone : complain(written.error());
 }
 
-int compile_all(const Options& options, const session::ScriptFile& file,
-                const std::vector<Job>& jobs) {
+int compile_all(const Options& options, const std::vector<Job>& jobs) {
     std::vector<CompiledNode> nodes;
     bool failed = false;
     for (const Job& job : jobs) {
-        const auto& common = file.plain ? job.node.common : file.project.common;
         nodes.push_back(
             {job.script.node.empty() ? job.node.target.name : job.script.node,
-             aesl::compile(job.script.source, job.node.target, common, options.compile)});
+             aesl::compile(job.script.source, job.node.target, job.common, options.compile)});
         show({options.file, job.script.source, job.script.first_line}, nodes.back().done);
         failed = failed || !nodes.back().done.ok();
     }

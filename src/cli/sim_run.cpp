@@ -98,6 +98,7 @@ private:
     std::string notice_;
     std::ofstream trace_;
     double speed_;
+    bool running_ = false;  // run() has begun
     bool paused_ = false;
     bool closed_ = false;  // nobody reads, or a person quits
     size_t selected_ = 0;
@@ -157,6 +158,7 @@ int SimRun::run() {
         terminal_ = std::make_unique<Terminal>(std::move(opened.value()));
         look_ = look_of_environment();
     }
+    running_ = true;
     real_before_ = network_.now();
     while (!ended()) turn();
     tell_notes();

@@ -13,7 +13,10 @@ constexpr Duration kAnswerWithin = std::chrono::seconds(5);  // simulated
 // A robot says what it is when it is asked over the bus: that is the one place where it stands.
 aesl::Target describe(sim::RobotType type) {
     sim::WorldDefinition world;
-    world.robots.push_back({.name = "robot", .type = type, .at = {0.5, 0.5}});
+    sim::RobotDefinition& robot_definition = world.robots.emplace_back();
+    robot_definition.name = "robot";
+    robot_definition.type = type;
+    robot_definition.at = {0.5, 0.5};
     auto made = sim::World::create(world);
     assert(made.ok());  // nothing in it comes from outside
     SimSession session(std::move(made.value()), {});

@@ -1,6 +1,6 @@
-// The physics and sensing of Vagus beside those of Debian's libenki, in one run: the same arenas, as
-// many Thymios at the same density, the same controller, seven distance sensors of three rays and two
-// ground sensors read in every step by both. Bodies only: no nodes, no scripts.
+// The physics and sensing of Vagus beside those of Debian's libenki, in one run: the same arenas,
+// as many Thymios at the same density, the same controller, seven distance sensors of three rays
+// and two ground sensors read in every step by both. Bodies only: no nodes, no scripts.
 //
 //     build/release/bin/sim_bench          microseconds a robot and step, and the ratio
 #include <enki/PhysicalEngine.h>

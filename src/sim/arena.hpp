@@ -97,8 +97,8 @@ public:
     Arena& operator=(Arena&&) noexcept;
     ~Arena();
 
-    // The body of a robot stands on its wheels: it drives, and is pushed, with the grip of its tyres.
-    // The corners are copied.
+    // The body of a robot stands on its wheels: it drives, and is pushed, with the grip of its
+    // tyres. The corners are copied.
     BodyId add_robot(const Outline& outline, const Pose& pose, const RobotBody& body);
     // A wall, box or cylinder. With a mass it slides on the ground when pushed.
     BodyId add_object(const ObjectDefinition& object);
@@ -114,8 +114,8 @@ public:
 
     // Call once after bodies have moved, before look(); it sorts them by place.
     void prepare_looks();
-    // How far each ray of a robot gets, at most its range. What is lower than `eye` (m) is not seen.
-    // May be called for several robots at once from several threads.
+    // How far each ray of a robot gets, at most its range. What is lower than `eye` (m) is not
+    // seen. May be called for several robots at once from several threads.
     void look(BodyId robot, const RayFan& rays, double eye, std::span<double> distances) const;
     // The nearest body in each of the directions `tangents` (sideways per ahead, ascending from
     // right to left), from a point ahead of the middle of the robot.

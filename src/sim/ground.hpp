@@ -1,5 +1,5 @@
-// The colours of the ground: one colour or a picture, with patches on it; and the light that falls on
-// it. Ground sensors ask it.
+// The colours of the ground: one colour or a picture, with patches on it; and the light that falls
+// on it. Ground sensors ask it.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
-// One node of a robot in simulated time: its memories, and the rule by which it shares a millisecond
-// between frames, local events and its script. Frames that it sends are collected; the world carries
-// them away.
+// One node of a robot in simulated time: its memories, and the rule by which it shares a
+// millisecond between frames, local events and its script. Frames that it sends are collected; the
+// world carries them away.
 //
-// A script executes at most kInstructionsPerMillisecond. The newest event kills the one that runs, as
-// on the original, but a local event waits until the running handler has ended or has had
+// A script executes at most kInstructionsPerMillisecond. The newest event kills the one that runs,
+// as on the original, but a local event waits until the running handler has ended or has had
 // kInstructionsPerMillisecond: so two handlers that are due at one instant both run.
 #pragma once
 
@@ -61,7 +61,8 @@ public:
     std::vector<wire::Frame>& sent() { return sent_; }
     const vm::Vm& vm() const { return node_.vm; }
 
-    // For natives: what stands as `robot` in the definition of the machine that the node belongs to.
+    // For natives: what stands as `robot` in the definition of the machine that the node belongs
+    // to.
     static void* robot_of(const node::Node& node) {
         return static_cast<const Machine*>(node.owner)->definition_.robot;
     }

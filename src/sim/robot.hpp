@@ -53,8 +53,8 @@ public:
     virtual Colour colour() const = 0;
 };
 
-// True at the instants at which something that happens `rate` times a second is due: the n-th time at
-// the first millisecond at or after n / rate.
+// True at the instants at which something that happens `rate` times a second is due: the n-th time
+// at the first millisecond at or after n / rate.
 inline bool is_due(Time now, int64_t rate) {
     const int64_t ms = now / std::chrono::milliseconds(1);
     return ms * rate / 1000 > (ms - 1) * rate / 1000;

@@ -1,6 +1,6 @@
 // The memory card of a robot: files `U<number>.DAT` of 16-bit words, as the natives sd.* see them
-// (docs/spec, section 4.6). The files lie in a folder of the host; the open one is held in memory and
-// written back as a whole when it changes.
+// (docs/spec, section 4.6). The files lie in a folder of the host; the open one is held in memory
+// and written back as a whole when it changes.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// What can be seen from a point: rays against discs and convex polygons, exactly, after one question
-// to the broad phase. Knows where bodies are and what they look like; nothing of forces.
+// What can be seen from a point: rays against discs and convex polygons, exactly, after one
+// question to the broad phase. Knows where bodies are and what they look like; nothing of forces.
 #pragma once
 
 #include <cstdint>

@@ -39,8 +39,8 @@ constexpr Duration kPhysicsStep = std::chrono::milliseconds(10);
 constexpr Duration kPoseEvery = std::chrono::milliseconds(100);  // `pose` lines of the trace
 constexpr size_t kHappeningsMax = 100000;  // in one step(); what is beyond is counted, not kept
 
-// Handles; 0 is nothing. That of a robot is its place in the file, from 1. That of an object is never
-// used twice, not even over reset().
+// Handles; 0 is nothing. That of a robot is its place in the file, from 1. That of an object is
+// never used twice, not even over reset().
 struct RobotId {
     uint32_t number = 0;
     auto operator<=>(const RobotId&) const = default;

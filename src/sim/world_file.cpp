@@ -16,7 +16,8 @@ std::string numbered(std::string_view list, size_t index) {
     return std::string(list) + "[" + std::to_string(index) + "]";
 }
 
-// ---- Values that JsonObject does not know. Each leaves its complaint and gives a harmless value. ----
+// ---- Values that JsonObject does not know. Each leaves its complaint and gives a harmless value.
+// ----
 
 // An array of exactly `count` numbers. Ranges are checked later, by world_check.
 std::vector<double> read_numbers(JsonObject& in, std::string_view key, size_t count,
@@ -197,8 +198,8 @@ WorldDefinition read_all(const Json& json, Complaints& complaints) {
     return world;
 }
 
-// The place of an element of the tree by its name, "objects[3].mass"; of its nearest parent if it is
-// not written.
+// The place of an element of the tree by its name, "objects[3].mass"; of its nearest parent if it
+// is not written.
 Place place_of(const Json& top, std::string_view name) {
     const Json* at = &top;
     while (!name.empty()) {

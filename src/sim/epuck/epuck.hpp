@@ -1,5 +1,5 @@
-// The node of a simulated e-puck as in the playground: its variables, local events and natives around
-// an epuck::Body.
+// The node of a simulated e-puck as in the playground: its variables, local events and natives
+// around an epuck::Body.
 #pragma once
 
 #include <cstddef>

@@ -54,7 +54,8 @@ void Thymio2::write(size_t offset, std::span<const int16_t> values) {
         machine_.variable(static_cast<uint16_t>(offset / kWord + i)) = values[i];
 }
 
-// Events of one instant in the order of the original: timers, motor, buttons, prox, acc, temperature.
+// Events of one instant in the order of the original: timers, motor, buttons, prox, acc,
+// temperature.
 void Thymio2::sense(const Surroundings& around) {
     run_timers(around.now);
     if (is_due(around.now, kMotorRate)) {

@@ -1,4 +1,5 @@
-// The node of a simulated Thymio II: its variables, local events and natives around a thymio2::Body.
+// The node of a simulated Thymio II: its variables, local events and natives around a
+// thymio2::Body.
 #pragma once
 
 #include <array>

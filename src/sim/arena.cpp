@@ -14,10 +14,10 @@
 namespace vagus::sim {
 namespace {
 
-// Box2D is made for bodies of 0.1 to 10 of its units, and lets them sink 0.005 units into each
-// other. With one unit a centimetre a robot is 11 of them and the slop is a twentieth of a
-// millimetre (decision 0070).
-constexpr double kUnitsPerMetre = 100;
+// Box2D is made for bodies of 0.1 to 10 of its units, lets them sink 0.005 units into each other and
+// watches 0.1 unit around them for others. With one unit a decimetre a robot is one of them, the slop
+// is half a millimetre, and a robot on its way is sorted anew every tenth step (decision 0070).
+constexpr double kUnitsPerMetre = 10;
 constexpr int kVelocityIterations = 6;
 constexpr int kPositionIterations = 2;
 constexpr double kBorderThickness = 0.5;  // m, outside of the world
@@ -25,7 +25,7 @@ constexpr double kGravity = 9.81;
 constexpr double kTyreFriction = 1.0;    // rubber on a table
 constexpr double kGroundFriction = 0.4;  // a wooden box on a table
 constexpr float kBodyFriction = 0.15F;   // plastic along a wall
-constexpr double kUnwindAngle = 64;      // rad: beyond, whole turns are taken off a body's angle
+constexpr double kUnwindAngle = 8;       // rad: beyond, whole turns are taken off a body's angle
 
 float to_units(double metres) {
     return static_cast<float>(metres * kUnitsPerMetre);

@@ -2,12 +2,12 @@
 // knows shapes, speeds and distances, and nothing of robots' types, nodes or files.
 //
 //     Arena arena({.width = 2, .height = 1});
-//     const BodyId robot = arena.add_robot(kOutline, {{0.5, 0.5}, 0}, {.mass = 0.27, .grip = 0.05});
+//     const BodyId robot = arena.add_robot(kOutline, {{0.5, 0.5}, 0}, {.mass = 0.27});
 //     arena.drive(robot, {.forward = 0.1, .turn = 0});   // until told otherwise
 //     arena.step();                                      // kArenaStep of it
 //     arena.look(robot, kRays, distances);
 //
-// Lengths are metres here; inside, Box2D counts in centimetres (decision 0070).
+// Lengths are metres here; inside, Box2D counts in decimetres (decision 0070).
 #pragma once
 
 #include <array>

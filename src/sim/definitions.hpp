@@ -62,9 +62,9 @@ enum class ObjectKind {
 };
 
 struct ObjectDefinition {
-    std::string id;  // empty, or unlike that of any other object
+    std::string id = {};  // empty, or unlike that of any other object
     ObjectKind kind = ObjectKind::Wall;
-    Point at;  // the middle
+    Point at = {};  // the middle
     double angle = 0;
     double width = 0;   // rectangles: along x before turning
     double length = 0;  // rectangles: along y before turning
@@ -78,13 +78,14 @@ struct ObjectDefinition {
 enum class RobotType { Thymio2, Epuck };
 
 struct RobotDefinition {
-    std::string name;
+    std::string name = {};
     RobotType type = RobotType::Thymio2;
-    Point at;
+    Point at = {};
     double angle = 0;
-    uint16_t node = 1;   // id of its (first) node on the bus
-    uint16_t port = 0;   // a TCP port of its own beside the common bus; 0: none
-    std::string script;  // an .aesl that whoever opens the world loads over the bus; empty: none
+    uint16_t node = 1;  // id of its (first) node on the bus
+    uint16_t port = 0;  // a TCP port of its own beside the common bus; 0: none
+    std::string script =
+        {};  // an .aesl that whoever opens the world loads over the bus; empty: none
     Colour paint = {0.95, 0.95, 0.95};
     bool operator==(const RobotDefinition&) const = default;
 };

@@ -2,7 +2,7 @@
 // as many Thymios at the same density, the same controller, seven distance sensors of three rays
 // and two ground sensors read in every step by both. Bodies only: no nodes, no scripts.
 //
-//     build/release/bin/sim_bench          microseconds a robot and step, and the ratio
+//     build/release/bin/bench_sim          microseconds a robot and step, and the ratio
 #include <enki/PhysicalEngine.h>
 #include <enki/robots/thymio2/Thymio2.h>
 

@@ -14,9 +14,10 @@
 namespace vagus::sim {
 namespace {
 
-// Box2D is made for bodies of 0.1 to 10 of its units, lets them sink 0.005 units into each other and
-// watches 0.1 unit around them for others. With one unit a decimetre a robot is one of them, the slop
-// is half a millimetre, and a robot on its way is sorted anew every tenth step (decision 0070).
+// Box2D is made for bodies of 0.1 to 10 of its units, lets them sink 0.005 units into each other
+// and watches 0.1 unit around them for others. With one unit a decimetre a robot is one of them,
+// the slop is half a millimetre, and a robot on its way is sorted anew every tenth step (decision
+// 0070).
 constexpr double kUnitsPerMetre = 10;
 constexpr int kVelocityIterations = 6;
 constexpr int kPositionIterations = 2;

@@ -71,8 +71,8 @@ TEST(Arena, AnAngleDoesNotGrowForEver) {
     run(arena, 60);  // 600 rad
     const double angle = arena.pose(robot).angle;
     EXPECT_LT(std::fabs(angle), 8.2);
-    // The tyres give at most 0.3 * 9.81 * 0.05 / 5e-4 * 0.01 = 2.943 rad/s more in a step: the first
-    // three steps are 7.057, 4.114 and 1.171 rad/s too slow.
+    // The tyres give at most 0.3 * 9.81 * 0.05 / 5e-4 * 0.01 = 2.943 rad/s more in a step: the
+    // first three steps are 7.057, 4.114 and 1.171 rad/s too slow.
     const double turns = (600 - 0.12342 - angle) / (2 * trig::kPi);
     EXPECT_NEAR(turns, std::round(turns), 0.001);
 }

@@ -130,11 +130,14 @@ TEST(WorldFile, WhatIsWrongIsSaid) {
         {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":0}])", "node"},
         {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":65535}])", "node"},
         {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"port":65536}])", "port"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1]},{"name":"a","type":"epuck","at":[1,1]}])",
+        {R"("robots":[{"name":"a","type":"epuck","at":[1,1]},)"
+         R"({"name":"a","type":"epuck","at":[1,1]}])",
          "robots[1].name: \"a\" is taken"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":2},{"name":"b","type":"epuck","at":[1,1]}])",
+        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":2},)"
+         R"({"name":"b","type":"epuck","at":[1,1]}])",
          "robots[1].node: 2 is the node of an earlier robot"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"port":5},{"name":"b","type":"epuck","at":[1,1],"port":5}])",
+        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"port":5},)"
+         R"({"name":"b","type":"epuck","at":[1,1],"port":5}])",
          "robots[1].port: 5 is the port of an earlier robot"},
         {R"("timeline":[{"t":1,"do":"dance"}])", "do"},
         {R"("timeline":[{"t":-1,"do":"remove","id":"a"}])", "t"},
@@ -142,11 +145,14 @@ TEST(WorldFile, WhatIsWrongIsSaid) {
         {R"("timeline":[{"t":1,"do":"remove","id":"a","on":true}])", "on"},
         {R"("timeline":[{"t":1,"do":"press","robot":"a","button":"b"}])",
          "there is no robot \"a\""},
-        {R"("robots":[{"name":"a","type":"thymio2","at":[1,1]}],"timeline":[{"t":1,"do":"press","robot":"a","button":"b"}])",
+        {R"("robots":[{"name":"a","type":"thymio2","at":[1,1]}],)"
+         R"("timeline":[{"t":1,"do":"press","robot":"a","button":"b"}])",
          "it has: backward, left, center, forward, right"},
-        {R"("objects":[{"id":"w","kind":"wall","at":[1,1],"size":[1,1]}],"timeline":[{"t":1,"do":"light","id":"w","on":true}])",
+        {R"("objects":[{"id":"w","kind":"wall","at":[1,1],"size":[1,1]}],)"
+         R"("timeline":[{"t":1,"do":"light","id":"w","on":true}])",
          "\"w\" is a wall; only a light"},
-        {R"("objects":[{"id":"w","kind":"light","at":[1,1]}],"timeline":[{"t":2,"do":"remove","id":"w"},{"t":1,"do":"light","id":"w","on":true}])",
+        {R"("objects":[{"id":"w","kind":"light","at":[1,1]}],)"
+         R"("timeline":[{"t":2,"do":"remove","id":"w"},{"t":1,"do":"light","id":"w","on":true}])",
          "no object \"w\""},
     };
     for (const Wrong& wrong : cases) {

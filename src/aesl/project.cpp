@@ -58,6 +58,24 @@ bool is_reference(std::string_view name) {
            is_xml_character(value);
 }
 
+// Behind the > that ends the start tag at `offset`; a > in an attribute's value does not count.
+size_t behind_start_tag(std::string_view text, size_t offset) {
+    char quote = '\0';
+    for (; offset < text.size(); ++offset) {
+        const char character = text[offset];
+        if (quote != '\0') {
+            if (character == quote) quote = '\0';
+        } else if (character == '"' || character == '\'') {
+            quote = character;
+        } else if (character == '>') {
+            return offset + 1;
+        } else {
+            // Part of the tag.
+        }
+    }
+    return offset;
+}
+
 // Comments, CDATA, processing instructions: in them an & means nothing.
 struct Opaque {
     std::string_view opening;
@@ -84,6 +102,38 @@ std::optional<Mistake> refuse_reference(std::string_view text, size_t offset) {
                    fmt::format("this & begins no character that XML knows; {}", kMendMarkup)};
 }
 
+// Behind the tag, or the text up to the next tag, that begins at `offset`.
+size_t piece_end(std::string_view text, size_t offset) {
+    if (text[offset] == '<') return behind_start_tag(text, offset);
+    return std::min(text.find('<', offset), text.size());
+}
+
+// Whether the < at `offset` is followed by what a tag begins with.
+bool begins_tag(std::string_view text, size_t offset) {
+    if (offset + 1 >= text.size()) return false;
+    const auto next = static_cast<unsigned char>(text[offset + 1]);
+    return std::isalpha(next) != 0 || next >= 0x80 ||
+           std::string_view("/!_:").find(text[offset + 1]) != std::string_view::npos;
+}
+
+// A tag or a piece of text: its references, and no < but the first.
+std::optional<Mistake> refuse_piece(std::string_view text, size_t start, size_t end) {
+    const bool is_doctype = text.substr(start).starts_with("<!");
+    const std::string_view piece = text.substr(start, end - start);
+    if (piece[0] == '<' && (piece.find('<', 1) != piece.npos || !begins_tag(text, start)))
+        return Mistake{start, fmt::format("this < begins no whole tag; {}", kMendMarkup)};
+    for (size_t offset = start; offset < end; ++offset) {
+        if (text[offset] == '&') {
+            if (auto mistake = refuse_reference(text, offset)) return mistake;
+        }
+        if (text[offset] == '[' && is_doctype)
+            return Mistake{offset,
+                           "a DOCTYPE with declarations is not read; write "
+                           "<!DOCTYPE aesl-source>"};
+    }
+    return std::nullopt;
+}
+
 // What the reader would let pass: bytes and characters that XML does not allow, a bare &.
 std::optional<Mistake> refuse_text(std::string_view text) {
     if (text.size() > kProjectBytesMax)
@@ -92,15 +142,19 @@ std::optional<Mistake> refuse_text(std::string_view text) {
                                       kProjectBytesMax >> 20)};
     if (const auto bad = malformed_utf8_at(text))
         return Mistake{*bad, "this byte is not UTF-8; save the file as UTF-8"};
-    size_t offset = 0;
-    while (offset < text.size()) {
-        if (!is_xml_character(static_cast<uint8_t>(text[offset])))
-            return Mistake{offset, "a control character cannot stand in XML; remove it"};
+    const auto control = std::find_if(text.begin(), text.end(), [](char character) {
+        return !is_xml_character(static_cast<uint8_t>(character));
+    });
+    if (control != text.end())
+        return Mistake{static_cast<size_t>(control - text.begin()),
+                       "a control character cannot stand in XML; remove it"};
+    for (size_t offset = 0; offset < text.size();) {
         const size_t behind = skip_opaque(text, offset);
-        if (behind == offset && text[offset] == '&') {
-            if (auto mistake = refuse_reference(text, offset)) return mistake;
+        const size_t end = behind > offset ? behind : piece_end(text, offset);
+        if (behind == offset) {
+            if (auto mistake = refuse_piece(text, offset, end)) return mistake;
         }
-        offset = std::max(behind, offset + 1);
+        offset = end;
     }
     return std::nullopt;
 }
@@ -112,24 +166,6 @@ std::string_view name_of(pugi::xml_node node) {
 // Offset of the < of an element.
 size_t offset_of(pugi::xml_node element) {
     return static_cast<size_t>(std::max<ptrdiff_t>(element.offset_debug(), 1)) - 1;
-}
-
-// Behind the > that ends the start tag at `offset`; a > in an attribute's value does not count.
-size_t behind_start_tag(std::string_view text, size_t offset) {
-    char quote = '\0';
-    for (; offset < text.size(); ++offset) {
-        const char character = text[offset];
-        if (quote != '\0') {
-            if (character == quote) quote = '\0';
-        } else if (character == '"' || character == '\'') {
-            quote = character;
-        } else if (character == '>') {
-            return offset + 1;
-        } else {
-            // Part of the tag.
-        }
-    }
-    return offset;
 }
 
 // "the event "ping"", "the second constant" …: what sentences call an element.
@@ -147,7 +183,12 @@ std::string as_xml(pugi::xml_node element) {
         std::string text;
     } collector;
     element.print(collector, "", pugi::format_raw, pugi::encoding_utf8);
-    return std::move(collector.text);
+    // A carriage return came from a reference; the library would write it so that it is read as a
+    // line feed.
+    std::string xml;
+    for (const char character : collector.text)
+        xml += character == '\r' ? std::string("&#13;") : std::string(1, character);
+    return xml;
 }
 
 bool is_uuid(std::string_view text) {

@@ -26,7 +26,7 @@ constexpr size_t kProjectDepthMax = 100;
 struct Script {
     std::string node;      // name of the node it is for
     uint16_t node_id = 0;  // preferred among nodes of that name; 0 if the file has none
-    std::string uuid;      // instead of a number in files of the later fork (appendix B); else empty
+    std::string uuid;      // instead of a number, in files of the later fork (appendix B)
     std::string source;    // line 1 begins right behind the start tag
     int first_line = 1;    // line of the file with the source's line 1: for messages with FILE:LINE
     std::string plugins;   // `toolsPlugins` and other elements, as XML, kept as they were

@@ -2,54 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "base/file.hpp"
+
 namespace vagus::aesl {
 namespace {
 
 // The worked example of section 5.2, byte for byte.
-constexpr std::string_view kRover = R"(<!DOCTYPE aesl-source>
-<network>
-
-
-<!--list of global events-->
-<event size="1" name="setspeed"/>
-<event size="2" name="status"/>
-
-
-<!--list of constants-->
-<constant value="40" name="PERIOD"/>
-<constant value="-3" name="DRIFT"/>
-
-
-<!--show keywords state-->
-<keywords flag="true"/>
-
-
-<!--node rover-->
-<node nodeId="1" name="rover">var speed = 0
-var ticks = 0
-
-timer.period = PERIOD
-
-onevent timer
-ticks += 1
-if speed &lt; 100 and ticks > 2 then
-	speed += DRIFT &amp; 0xf
-end
-when speed >= 50 do
-	emit status [speed, ticks]
-end
-
-onevent setspeed
-speed = args[0]
-<toolsPlugins>
-  <ThymioVisualProgramming>
-    <vplroot/>
-  </ThymioVisualProgramming>
-</toolsPlugins></node>
-
-
-</network>
-)";
+std::string rover() {
+    return read_file(VAGUS_TESTDATA "/projects/rover.aesl").value();
+}
 
 std::string error_of(std::string_view xml) {
     const auto parsed = parse_project(xml, "p.aesl");
@@ -65,7 +26,7 @@ std::string network(std::string_view inside) {
 }
 
 TEST(Project, ReadsTheWorkedExample) {
-    const Project project = parsed(kRover);
+    const Project project = parsed(rover());
     ASSERT_EQ(project.common.events.size(), 2u);
     EXPECT_EQ(project.common.events[1].name, "status");
     EXPECT_EQ(project.common.events[1].size, 2);
@@ -86,7 +47,7 @@ TEST(Project, ReadsTheWorkedExample) {
 }
 
 TEST(Project, WritingTheWorkedExampleChangesNoByte) {
-    EXPECT_EQ(format_project(parsed(kRover)), kRover);
+    EXPECT_EQ(format_project(parsed(rover())), rover());
 }
 
 TEST(Project, ChildrenMayComeInAnyOrder) {
@@ -184,8 +145,10 @@ TEST(Project, BrokenXmlIsPlacedAndMended) {
         "; in a script write &lt; for < and &amp; for &, or put the script into <![CDATA[ … ]]>";
     EXPECT_EQ(error_of("<network>\n<node name=\"a\">é & 1</node></network>"),
               "p.aesl:2:18: this & begins no character that XML knows" + std::string(kMend));
-    EXPECT_EQ(error_of("<network>\n<node name=\"a\">if x < 2</node></network>").substr(0, 26),
-              "p.aesl:2:22: this is not X");
+    EXPECT_EQ(error_of("<network>\n<node name=\"a\">if x < 2</node></network>"),
+              "p.aesl:2:21: this < begins no whole tag" + std::string(kMend));
+    EXPECT_EQ(error_of("<network>\n<node name=\"a\">if x <y</node></network>").substr(0, 12),
+              "p.aesl:2:21:");
     EXPECT_NE(error_of("<network>\n<node name=\"a\">").find("this is not XML"), std::string::npos);
     EXPECT_NE(error_of("<network></nodes>").find("this is not XML"), std::string::npos);
     EXPECT_EQ(error_of(""), "p.aesl:1:1: the file has no element; a project is a <network>");
@@ -205,6 +168,7 @@ TEST(Project, OnlyXmlCharactersAreRead) {
               "p.aesl:2:1: this byte is not UTF-8; save the file as UTF-8");
     EXPECT_EQ(error_of("<network>\x01</network>"),
               "p.aesl:1:10: a control character cannot stand in XML; remove it");
+    EXPECT_NE(error_of("<network><node name=\"a\"><![CDATA[\x1f]]></node></network>"), "no error");
     EXPECT_EQ(error_of(std::string_view("<network/>\0", 11)).substr(0, 12), "p.aesl:1:11:");
     for (const std::string bad : {"&#0;", "&#1;", "&#xd800;", "&nbsp;", "&#;", "&#x;", "&lt"})
         EXPECT_NE(error_of(network("<node name=\"a\">" + bad + "</node>")), "no error") << bad;

@@ -115,10 +115,8 @@ private:
                 break;
             case net::EventKind::Closed:
                 if (is_target) tell(event.what + "; trying to reach it again");
-                if (!is_target && options_.verbose) tell(event.what);
-                closed_losses_.events += event.stats.dropped.events;
-                closed_losses_.messages += event.stats.dropped.messages;
-                told_.erase(event.link);
+                if (!is_target && (options_.verbose || event.expelled)) tell(event.what);
+                on_last_losses(event);
                 break;
             case net::EventKind::Failed:
                 tell(event.what + (is_target ? "; trying again" : ""));
@@ -129,6 +127,14 @@ private:
             case net::EventKind::Readable:
                 break;
         }
+    }
+
+    void on_last_losses(const net::Event& closed) {
+        const hub::Dropped& dropped = closed.stats.dropped;
+        closed_losses_.events += dropped.events;
+        closed_losses_.messages += dropped.messages;
+        if (dropped != told_[closed.link]) tell(loss_sentence(closed.what, dropped));
+        told_.erase(closed.link);
     }
 
     void show_frames() {

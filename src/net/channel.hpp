@@ -23,7 +23,8 @@ enum class Flow {
 struct Transfer {
     Flow flow = Flow::Moved;
     size_t bytes = 0;
-    std::string why = {};  // Ended: a part of a sentence, "the peer closed the connection"
+    std::string why = {};   // Ended: a part of a sentence, "the peer closed the connection"
+    bool expelled = false;  // Ended: by us, since the peer does not speak the protocol
 };
 
 class Channel {

@@ -110,7 +110,7 @@ void Network::Loop::on_readable(uint32_t number) {
     unflushed_ += done.bytes;
     if (first || unflushed_ >= kFlushAfterBytes) flush();
     if (done.flow == Flow::Ended) {
-        drop(number, done.why);
+        drop(number, done);
         return;
     }
     // The flush may have found that this peer is gone.
@@ -143,7 +143,7 @@ void Network::Loop::write(uint32_t number, Connection& connection) {
             break;
         case Flow::Ended:
             read_last_words(connection);
-            drop(number, done.why);
+            drop(number, done);
             break;
     }
 }
@@ -176,13 +176,14 @@ void Network::Loop::retry_writes_soon() {
     retry_writes_.async_wait([this](const SystemError&) { retrying_writes_ = false; });
 }
 
-void Network::Loop::drop(uint32_t number, const std::string& why) {
+void Network::Loop::drop(uint32_t number, const Transfer& last) {
     const auto at = connections_.find(number);
     if (at == connections_.end()) return;
     Connection& connection = at->second;
     const PlaceId place = connection.place;
-    events_.push_back({EventKind::Closed, place, connection.link, 0, connection.name + ": " + why,
-                       connection.hub->stats(connection.link)});
+    events_.push_back({EventKind::Closed, place, connection.link, 0,
+                       connection.name + ": " + last.why, connection.hub->stats(connection.link),
+                       last.expelled});
     connection.hub->remove(connection.link);
     connections_.erase(at);
     on_lost(place);

@@ -98,7 +98,7 @@ private:
     void wait_readable(uint32_t number, Connection& connection);
     void wait_writable(uint32_t number, Connection& connection);
     void on_readable(uint32_t number);
-    void drop(uint32_t number, const std::string& why);
+    void drop(uint32_t number, const Transfer& last);
     void pause_if_ahead(Connection& connection, size_t bytes);
     void resume_paused();
     bool somebody_to_wait_for(const Connection& sender);

@@ -68,6 +68,7 @@ struct Event {
     int number = 0;             // Readable: the descriptor. Signal: its number
     std::string what;           // a name (Opened) or a sentence for a person that names the peer
     hub::LinkStats stats = {};  // Closed: what the link did
+    bool expelled = false;      // Closed: by us, since the peer does not speak the protocol
 };
 
 // How many clients a listener keeps. With One a new client replaces the one that is there, as at

@@ -254,6 +254,7 @@ TEST(Network, ClosesAPeerThatDoesNotSpeakTheProtocol) {
     liar.send(oversized);
     ASSERT_TRUE(net.until([&] { return net.count(EventKind::Closed) == 1; }));
     EXPECT_NE(net.events.back().what.find("does not speak the Aseba protocol"), std::string::npos);
+    EXPECT_TRUE(net.events.back().expelled);
     EXPECT_EQ(net.hub.links().size(), 1u);
 }
 

@@ -150,7 +150,8 @@ void Network::Loop::close_clients_of(PlaceId place) {
     for (const auto& [number, connection] : connections_) {
         if (connection.place == place) numbers.push_back(number);
     }
-    for (const uint32_t number : numbers) drop(number, "replaced by a new client");
+    for (const uint32_t number : numbers)
+        drop(number, {.flow = Flow::Ended, .why = "replaced by a new client"});
 }
 
 // ---- connecting ----

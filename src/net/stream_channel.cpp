@@ -63,7 +63,8 @@ Transfer StreamChannel::read(hub::Hub& hub, hub::LinkId link) {
                 .bytes = static_cast<size_t>(count),
                 .why = "it does not speak the Aseba protocol (" +
                        std::to_string(reader_.dropped()) + " frames of more than " +
-                       std::to_string(wire::kPayloadMax) + " bytes)"};
+                       std::to_string(wire::kPayloadMax) + " bytes)",
+                .expelled = true};
     }
     return {.flow = Flow::Moved, .bytes = static_cast<size_t>(count)};
 }

@@ -27,16 +27,18 @@ bool report(const session::ScriptFile& scripts, const aesl::Script& script,
     return done.ok();
 }
 
-void say_unused(const NetSession& session, const session::ScriptFile& scripts) {
+void say_unused(const NetSession& session) {
+    const session::ScriptFile& scripts = *session.project();
     for (const aesl::Script& script : scripts.project.scripts) {
         bool used = false;
         for (const debug::NodeId id : session.connected()) {
             used = used || session.script_of(id) == &script;
         }
         const std::string where = scripts.path + ":" + std::to_string(script.first_line);
-        if (!used)
+        if (!used) {
             complain(where + ": the script for \"" + script.node +
                      "\" was not loaded: no such node is there");
+        }
     }
 }
 
@@ -120,7 +122,7 @@ Verdict net_load(NetSession& session, const session::ScriptFile& scripts, const 
         good = report(scripts, script, jobs.back().done) && good;
     }
     if (!good) return kExitFailed;
-    if (node.empty()) say_unused(session, scripts);
+    if (node.empty()) say_unused(session);
     session.take_events();
     std::vector<debug::RequestId> requests;
     for (const Job& job : jobs) {

@@ -235,7 +235,6 @@ Result<std::vector<debug::NodeId>> NetSession::nodes(const std::vector<std::stri
         kQuiet, [&named, &numbered] { return std::all_of(named.begin(), named.end(), numbered); }));
     const auto found = [this, &named] { return find_all(named).ok(); };
     while (!found() && !interrupted() && now() < deadline) (void)TRY(turn(deadline));
-    match_scripts();
     adopt_scripts();
     return find_all(named);
 }
@@ -280,6 +279,7 @@ void NetSession::match_scripts() {
 }
 
 void NetSession::adopt_scripts() {
+    match_scripts();
     for (const debug::NodeId id : connected()) {
         const aesl::Script* script = script_of(id);
         if (script == nullptr || network_.node(id)->program) continue;

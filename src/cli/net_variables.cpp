@@ -104,7 +104,7 @@ namespace {
 // more.
 template <typename Shown>
 Verdict tell_until(NetSession& session, Time deadline, const Shown& shown) {
-    while (!session.interrupted() && session.now() < deadline) {
+    for (;;) {
         for (const debug::Event& event : session.take_events()) {
             if (!shown(event)) continue;
             const bool json = session.options().json;
@@ -112,9 +112,9 @@ Verdict tell_until(NetSession& session, Time deadline, const Shown& shown) {
                 json ? show_event_json(session, event) : show_event(session, event);
             if (!line.empty() && !print(line)) return kExitDone;
         }
+        if (session.interrupted() || session.now() >= deadline) return kExitDone;
         (void)TRY(session.turn(deadline));
     }
-    return kExitDone;
 }
 
 Time end_of(const NetSession& session) {
@@ -140,18 +140,12 @@ Verdict net_watch(NetSession& session, const std::string& node,
     });
 }
 
-// Events before the project's scripts are matched are told with their names all the same: the
-// project is known first.
+// Tells from the first moment on. Scripts become known when their nodes have described themselves.
 Verdict net_log(NetSession& session, const std::vector<std::string>& named) {
-    const Time end = end_of(session);
     std::vector<debug::NodeId> only;
-    if (named.empty()) {
-        (void)TRY(session.discover(kQuiet));
-        session.adopt_scripts();
-    } else {
-        only = TRY(session.nodes(named));
-        if (std::find(named.begin(), named.end(), "all") != named.end()) only.clear();
-    }
+    const bool all = named.empty() || std::find(named.begin(), named.end(), "all") != named.end();
+    if (!all) only = TRY(session.nodes(named));
+    const Time end = end_of(session);
     return tell_until(session, end, [&session, &only](const debug::Event& event) {
         if (std::holds_alternative<debug::NodeDescribed>(event.what)) session.adopt_scripts();
         return only.empty() || std::find(only.begin(), only.end(), event.node) != only.end();

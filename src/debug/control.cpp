@@ -7,6 +7,7 @@
 namespace vagus::debug {
 namespace {
 
+constexpr std::string_view kFlashing = "Flashing ";
 constexpr std::string_view kFlashed =
     "Flashing OK";  // how a dsPIC says that WriteBytecode worked (2.3)
 
@@ -326,14 +327,15 @@ void Control::fault(FaultKind kind, uint16_t pc, const std::string& text) {
     finish({Error{Code::Refused, who() + " stopped again at once: " + text}, ""});
 }
 
+// The report of WriteBytecode comes as an error message, whether it worked or not.
 void Control::node_specific(const std::string& text, uint16_t pc) {
     Request* save = active(Kind::Save);
-    if (text == kFlashed) {  // not an error, whatever message carries it
-        if (save != nullptr) save->note = "the node says: " + text;
+    if (!text.starts_with(kFlashing)) return fault(FaultKind::NodeSpecific, pc, text);
+    if (save == nullptr) return;
+    if (text == kFlashed) {
+        save->note = "the node says: " + text;
         return;
     }
-    fault(FaultKind::NodeSpecific, pc, text);
-    if (save == nullptr) return;
     finish({Error{Code::Refused, who() + " did not save its program: " + text}, ""});
 }
 

@@ -432,8 +432,9 @@ TEST_F(Program, IsSavedWithOrWithoutAnAnswer) {
     EXPECT_EQ(bus.told<RequestDone>()[0].note, "the node says: Flashing OK");
     EXPECT_TRUE(bus.told<Fault>().empty());
     const RequestId failed = bus.network.save(1).value();
-    bus.node_says("06 00 01 00 09 90 00 00 03 62 61 64");
-    EXPECT_EQ(error_of(bus, failed), "node 1 \"robot\" did not save its program: bad");
+    bus.node_says("0f 00 01 00 09 90 00 00 0c 46 6c 61 73 68 69 6e 67 20 62 61 64");
+    EXPECT_EQ(error_of(bus, failed), "node 1 \"robot\" did not save its program: Flashing bad");
+    EXPECT_TRUE(bus.told<Fault>().empty());
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ constexpr Duration kDescriptionRetry =
 constexpr int kDescriptionTriesMax =
     5;  // in a row without progress; fork fragments: then the whole
 constexpr Duration kAnswerWithin = std::chrono::milliseconds(3000);  // for requests
+constexpr Duration kWatchEveryMin = std::chrono::milliseconds(10);
 constexpr Duration kWatchEvery = std::chrono::milliseconds(100);  // polling while someone watches
 
 constexpr size_t kNodesMax = 1024;
@@ -168,7 +169,8 @@ public:
     Result<RequestId> get(NodeId id, const VariableRange& range);
     // Writes and waits for the node's sign of life behind it. At most range.count values.
     Result<RequestId> set(NodeId id, const VariableRange& range, std::span<const int16_t> values);
-    // VariableChanged now and whenever it differs, polled every `every`.
+    // VariableChanged now and whenever it differs, polled every `every`, at least
+    // kWatchEveryMin.
     Status watch(NodeId id, const VariableRange& range, Duration every = kWatchEvery);
     void unwatch(NodeId id, std::string_view name);
 

@@ -70,6 +70,11 @@ void show_diagnostics(const ExecOptions& options, const aesl::Script& script,
     std::fputs(lines.c_str(), stderr);
 }
 
+// Lines of a script are those of its file: in a project it begins further down.
+int line_of_file(int line, const aesl::Script& script) {
+    return line > 0 ? line + script.first_line - 1 : line;
+}
+
 int exec(const ExecOptions& options) {
     const Result<Input> read = read_input(options);
     if (!read.ok()) return complain(read.error(), kExitUsage);
@@ -78,12 +83,16 @@ int exec(const ExecOptions& options) {
         aesl::compile(input.script.source, input.node.target, input.node.common, options.compiler);
     show_diagnostics(options, input.script, done);
     if (!done.ok()) {
-        (void)print(session::format_compile_error(done.errors.front()));
+        aesl::Diagnostic first = done.errors.front();
+        first.at.line = line_of_file(first.at.line, input.script);
+        (void)print(session::format_compile_error(first));
         return kExitFailed;
     }
-    const Result<session::Execution> execution =
+    Result<session::Execution> execution =
         session::execute(done.program, input.node, input.stimuli, options.steps_per_event);
     if (!execution.ok()) return complain(execution.error(), kExitUsage);
+    auto& error = execution.value().error;
+    if (error) error->line = line_of_file(error->line, input.script);
     (void)print(session::format_execution(execution.value()));
     return kExitDone;
 }

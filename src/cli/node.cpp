@@ -40,11 +40,11 @@ Result<aesl::Target> target_of(const NodeOptions& options) {
 // A hub with two sides: the node, and whoever is connected.
 class NodeProgram {
 public:
-    Status open(const NodeOptions& options);
+    Status make_node(const NodeOptions& options);
+    Status open_network(const NodeOptions& options);
     void run();
 
 private:
-    Status open_network(const NodeOptions& options);
     void answer();
     // False if it is time to end.
     bool notice(const net::Event& event);
@@ -55,17 +55,17 @@ private:
     std::unique_ptr<session::LiveNode> node_;
 };
 
-Status NodeProgram::open(const NodeOptions& options) {
+Status NodeProgram::make_node(const NodeOptions& options) {
     own_ = TRY(hub_.add({.name = "node"}));
     session::LiveNodeOptions live{.id = options.id, .flash = options.flash};
     live.transmit = [this](const wire::Frame& frame) { hub_.receive(own_, frame); };
     aesl::Target target = TRY(target_of(options));
     node_ = TRY(session::LiveNode::make(std::move(target), std::move(live)));
-    TRY(network_.watch_signals());
-    return open_network(options);
+    return Status::done();
 }
 
 Status NodeProgram::open_network(const NodeOptions& options) {
+    TRY(network_.watch_signals());
     if (!options.connect.empty()) {
         const net::Target target = TRY(net::parse_target(options.connect));
         TRY(network_.connect(hub_, target, {.retry = net::Retry::Forever}));
@@ -102,8 +102,13 @@ bool NodeProgram::notice(const net::Event& event) {
 
 int run_node(const NodeOptions& options) {
     NodeProgram program;
-    const Status opened = program.open(options);
-    if (!opened.ok()) return complain(opened.error(), kExitUsage);
+    const Status made = program.make_node(options);
+    if (!made.ok()) return complain(made.error(), kExitUsage);
+    const Status opened = program.open_network(options);
+    if (!opened.ok()) {
+        const bool wrong = opened.error().code == Code::BadInput;
+        return complain(opened.error(), wrong ? kExitUsage : kExitFailed);
+    }
     program.run();
     return kExitDone;
 }

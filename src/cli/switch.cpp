@@ -87,20 +87,32 @@ private:
     // The first line of the output is a promise that all of this works.
     std::optional<int> open(const std::vector<net::Target>& listen,
                             const std::vector<net::Target>& connect) {
-        std::string listening;
+        std::string text;
+        std::vector<net::Target> listening;
         for (const net::Target& target : listen) {
             const auto place = network_.listen(hub_, target, {.echo = options_.echo});
             if (!place.ok()) return complain(place.error(), exit_code(place.error()));
-            listening += "listening " + net::to_string(place.value().target) + "\n";
+            listening.push_back(place.value().target);
+            text += "listening " + net::to_string(listening.back()) + "\n";
         }
         for (const net::Target& target : connect) {
+            for (const net::Target& own : listening) {
+                if (is_ourselves(target, own)) return complain_of_ring(target);
+            }
             const auto place = network_.connect(
                 hub_, target, {.retry = net::Retry::Forever, .echo = options_.echo});
             if (!place.ok()) return complain(place.error(), exit_code(place.error()));
             targets_.insert(place.value());
         }
-        print(listening);
+        print(text);
         return std::nullopt;
+    }
+
+    static int complain_of_ring(const net::Target& target) {
+        return complain(net::to_string(target) +
+                            ": this switch listens there itself; give it another place to listen, "
+                            "such as --listen tcp:127.0.0.1:0",
+                        kExitUsage);
     }
 
     static int exit_code(const Error& error) {
@@ -213,6 +225,17 @@ std::string frame_line(Time at, const wire::Frame& frame) {
 std::string loss_sentence(const std::string& link, const hub::Dropped& dropped) {
     return fmt::format("{}: too slow: {} user events and {} other messages lost so far", link,
                        dropped.events, dropped.messages);
+}
+
+bool is_ourselves(const net::Target& target, const net::Target& listening) {
+    const auto* to = std::get_if<net::TcpPlace>(&target.place);
+    const auto* at = std::get_if<net::TcpPlace>(&listening.place);
+    if (to == nullptr || at == nullptr || to->port != at->port) return false;
+    const bool to_this_machine = to->host == "localhost" || to->host == "::1" ||
+                                 to->host.starts_with("127.") || to->host == "0.0.0.0";
+    const bool at_loopback = at->host == "0.0.0.0" || at->host == "::" || at->host == "::1" ||
+                             at->host.starts_with("127.");
+    return to->host == at->host || (to_this_machine && at_loopback);
 }
 
 void add_switch(CLI::App& app, int& exit_code) {

@@ -5,6 +5,7 @@
 
 #include "base/time.hpp"
 #include "hub/hub.hpp"
+#include "net/target.hpp"
 #include "wire/frame.hpp"
 
 namespace vagus::cli {
@@ -18,5 +19,9 @@ std::string frame_line(Time at, const wire::Frame& frame);
 
 // "tcp:…: too slow: 2048 user events and 0 other messages lost so far"
 std::string loss_sentence(const std::string& link, const hub::Dropped& dropped);
+
+// Would a connection to `target` end at our own `listening` place? Then every frame would go round
+// without end.
+bool is_ourselves(const net::Target& target, const net::Target& listening);
 
 }  // namespace vagus::cli

@@ -27,5 +27,19 @@ TEST(Switch, SaysWhoLostHowMuch) {
               "tcp:127.0.0.1:5: too slow: 2048 user events and 1 other messages lost so far");
 }
 
+TEST(Switch, KnowsItselfUnderItsNames) {
+    const auto same = [](const char* target, const char* listening) {
+        return is_ourselves(net::parse_target(target).value(),
+                            net::parse_target(listening).value());
+    };
+    EXPECT_TRUE(same("tcp:localhost:33333", "tcp:127.0.0.1:33333"));
+    EXPECT_TRUE(same("tcp:127.0.0.1;33333", "tcpin:port=33333;address=0.0.0.0"));
+    EXPECT_TRUE(same("tcp:10.0.0.7:33333", "tcp:10.0.0.7:33333"));
+    EXPECT_FALSE(same("tcp:localhost:33334", "tcp:127.0.0.1:33333"));
+    EXPECT_FALSE(same("tcp:10.0.0.7:33333", "tcp:127.0.0.1:33333"));
+    EXPECT_FALSE(same("tcp:localhost:33333", "tcp:10.0.0.7:33333"));
+    EXPECT_FALSE(same("can:can0", "tcp:127.0.0.1:33333"));
+}
+
 }  // namespace
 }  // namespace vagus::cli

@@ -35,7 +35,8 @@ public:
     virtual Transfer read(hub::Hub& hub, hub::LinkId link) = 0;
     // Writes what the hub has for the link, as far as it goes.
     virtual Transfer write(hub::Hub& hub, hub::LinkId link) = 0;
-    // Tells the other side that nothing more will be written; false if this kind of line cannot say so.
+    // Tells the other side that nothing more will be written; false if this kind of line cannot say
+    // so.
     virtual bool end_writing() { return false; }
     // Something taken from the hub still waits in the channel.
     virtual bool has_unwritten() const { return false; }

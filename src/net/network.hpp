@@ -106,8 +106,8 @@ public:
     // Closes one link; there is no event for it.
     void close(hub::Hub& hub, hub::LinkId link);
     // Tells the peer that nothing more comes, when has_unwritten() is false. It then reads all that
-    // was written and closes: Closed. A close() that does not wait for that may take the last frames
-    // with it. False: the peer cannot be told (serial, CAN), or the link is gone.
+    // was written and closes: Closed. A close() that does not wait for that may take the last
+    // frames with it. False: the peer cannot be told (serial, CAN), or the link is gone.
     bool end_writing(hub::Hub& hub, hub::LinkId link);
     // Stops listening or connecting, and closes the links that came of it.
     void close(PlaceId place);

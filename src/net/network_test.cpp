@@ -240,6 +240,23 @@ TEST(Network, AFloodReachesAReceiverThatKeepsUp) {
     EXPECT_EQ(net.hub.stats(net.hub.links()[1]).dropped, hub::Dropped{});
 }
 
+TEST(Network, ServesHundredsOfClients) {
+    Switch net;
+    const size_t count = 300;
+    std::vector<Peer> peers;
+    while (peers.size() < count) {
+        // Not more at once than the listener's queue takes.
+        for (int i = 0; i < 50; ++i) peers.emplace_back(net.listening.target);
+        ASSERT_TRUE(net.until([&] { return net.hub.links().size() == peers.size(); }));
+    }
+    peers[0].send(event_from(1, 4));
+    for (size_t i = 1; i < count; ++i) {
+        EXPECT_EQ(receive(net, peers[i], 14), bytes_of(event_from(1, 4)));
+    }
+    peers.clear();
+    ASSERT_TRUE(net.until([&] { return net.hub.links().empty(); }));
+}
+
 TEST(Network, ClosesAPeerThatDoesNotSpeakTheProtocol) {
     Switch net;
     const Peer good(net.listening.target);

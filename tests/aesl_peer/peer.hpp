@@ -27,11 +27,16 @@ public:
     PeerCompiler& operator=(const PeerCompiler&) = delete;
 
     PeerProgram compile(const std::string& source);
+    // Nothing but the compiler's work, for benchmarks: whether it found no error.
+    bool compiles(const std::wstring& source);
 
 private:
     struct Insides;
     std::unique_ptr<Insides> insides_;
 };
+
+// UTF-8 as the compiler wants it.
+std::wstring widened(std::string_view text);
 
 // Compiles and runs. One at a time: the machine's surroundings are global functions.
 Outcome run_peer(PeerCompiler& compiler, const Case& program, const NodeFile& node);

@@ -8,9 +8,8 @@
 #include "peer.hpp"
 
 namespace vagus::aesl {
-namespace {
 
-std::wstring wide(std::string_view text) {
+std::wstring widened(std::string_view text) {
     std::wstring characters;
     while (!text.empty()) {
         const CodePoint point = first_code_point(text);
@@ -20,6 +19,8 @@ std::wstring wide(std::string_view text) {
     }
     return characters;
 }
+
+namespace {
 
 std::string narrow(const std::wstring& text) {
     std::string bytes;
@@ -43,19 +44,19 @@ std::string code_of(const Aseba::Error& error) {
 
 Aseba::TargetDescription described(const Target& target) {
     Aseba::TargetDescription peer;
-    peer.name = wide(target.name);
+    peer.name = widened(target.name);
     peer.protocolVersion = target.protocol_version;
     peer.bytecodeSize = target.bytecode_size;
     peer.variablesSize = target.variables_size;
     peer.stackSize = target.stack_size;
     for (const NamedVariable& variable : target.variables)
-        peer.namedVariables.emplace_back(wide(variable.name), variable.size);
+        peer.namedVariables.emplace_back(widened(variable.name), variable.size);
     for (const LocalEvent& event : target.local_events)
-        peer.localEvents.push_back({wide(event.name), L""});
+        peer.localEvents.push_back({widened(event.name), L""});
     for (const NativeFunction& native : target.natives) {
-        Aseba::TargetDescription::NativeFunction function{wide(native.name), L"", {}};
+        Aseba::TargetDescription::NativeFunction function{widened(native.name), L"", {}};
         for (const NativeParameter& parameter : native.parameters)
-            function.parameters.emplace_back(wide(parameter.name), parameter.size);
+            function.parameters.emplace_back(widened(parameter.name), parameter.size);
         peer.nativeFunctions.push_back(function);
     }
     return peer;
@@ -64,9 +65,9 @@ Aseba::TargetDescription described(const Target& target) {
 Aseba::CommonDefinitions described(const CommonDefinitions& common) {
     Aseba::CommonDefinitions peer;
     for (const GlobalEvent& event : common.events)
-        peer.events.emplace_back(wide(event.name), event.size.value_or(0));
+        peer.events.emplace_back(widened(event.name), event.size.value_or(0));
     for (const Constant& each : common.constants)
-        peer.constants.emplace_back(wide(each.name), each.value);
+        peer.constants.emplace_back(widened(each.name), each.value);
     return peer;
 }
 
@@ -90,7 +91,7 @@ PeerCompiler::PeerCompiler(const NodeFile& node)
 PeerCompiler::~PeerCompiler() = default;
 
 PeerProgram PeerCompiler::compile(const std::string& source) {
-    std::wistringstream text(wide(source));
+    std::wistringstream text(widened(source));
     Aseba::BytecodeVector bytecode;
     unsigned variables_in_use = 0;
     Aseba::Error error;
@@ -107,6 +108,14 @@ PeerProgram PeerCompiler::compile(const std::string& source) {
     for (const auto& [name, place] : *insides_->compiler.getVariablesMap())
         program.variables[narrow(name)] = {place.first, place.second};
     return program;
+}
+
+bool PeerCompiler::compiles(const std::wstring& source) {
+    std::wistringstream text(source);
+    Aseba::BytecodeVector bytecode;
+    unsigned variables_in_use = 0;
+    Aseba::Error error;
+    return insides_->compiler.compile(text, bytecode, variables_in_use, error);
 }
 
 }  // namespace vagus::aesl

@@ -488,16 +488,19 @@ NodeId Parser::orphan_block() {
     statements(list);
     while (at(TokenKind::Else) || at(TokenKind::ElseIf)) {
         if (open_ifs_ > 0) break;
-        advance();
-        while (!begins_anew(kind()) && !at(TokenKind::Then) && !is_first_of_line(position_)) {
-            advance();
-        }
-        accept(TokenKind::Then);
+        skip_branch_head();
         statements(list);
     }
     accept(TokenKind::End);
     --nesting_;
     return add({.kind = NodeKind::Block, .token = position_ - 1, .first = list.first});
+}
+
+// Over an `else`, or an `elseif` with its condition, that has no `if`.
+void Parser::skip_branch_head() {
+    advance();
+    while (!begins_anew(kind()) && !at(TokenKind::Then) && !is_first_of_line(position_)) advance();
+    accept(TokenKind::Then);
 }
 
 // The end of a statement without a block. After a mistake in it the rest of its line is skipped: it belongs to the

@@ -92,7 +92,11 @@ NodeId Parser::unexpected_statement() {
         position_ == 0 ? TokenKind::EndOfText : tree_.tokens[position_ - 1].kind;
     const auto sent_nothing = sent_nothing_;
     sent_nothing_.reset();
-    if (is_same_line && sent_nothing && can_begin_operand()) {
+    if (at(TokenKind::End)) {
+        syntax_error(Diag::StrayEnd);
+    } else if (at(TokenKind::Else) || at(TokenKind::ElseIf)) {
+        syntax_error(Diag::StrayElse, {what});
+    } else if (is_same_line && sent_nothing && can_begin_operand()) {
         const std::string event = name_text(static_cast<TokenId>(*sent_nothing));
         syntax_error(Diag::EventTakesNoArgument, {what, event});
     } else if (at(TokenKind::SignBracketOpen) && before == TokenKind::SignBracketClose) {
@@ -349,11 +353,7 @@ NodeId Parser::loop_body(TokenId opener) {
         const std::string line = std::to_string(tree_.tokens[opener].line);
         syntax_error(Diag::ElseInLoop, {found(), tree_.text(opener), line});
         panic_ = false;
-        if (at(TokenKind::ElseIf)) {
-            append(list, recover());
-        } else {
-            advance();
-        }
+        skip_branch_head();
         statements(list);
     }
     expect_end(opener, false);

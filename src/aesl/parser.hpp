@@ -102,6 +102,7 @@ private:
     int open_brackets() const;
     NodeId recover();
     NodeId orphan_block();
+    void skip_branch_head();
     NodeId finish_simple(NodeId statement, size_t errors_before);
     void give_up();
 

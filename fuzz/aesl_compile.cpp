@@ -1,5 +1,5 @@
-// Any bytes as a program, for a roomy node and a tiny one, in every dialect: no crash, no hang; errors lie inside the
-// text; what compiles fits the node and can be listed.
+// Any bytes as a program, for a roomy node and a tiny one, in every dialect: no crash, no hang;
+// errors lie inside the text; what compiles fits the node and can be listed.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

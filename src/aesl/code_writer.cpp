@@ -15,7 +15,8 @@ constexpr int64_t kJumpMax = 2047;
 constexpr int64_t kJumpMin = -2048;
 constexpr uint32_t kLongJumpWords = 4;
 
-// A jump beyond the reach of JUMP: a branch on a condition that never holds. `distance` counts from its first word.
+// A jump beyond the reach of JUMP: a branch on a condition that never holds. `distance` counts from
+// its first word.
 //     SMALL_IMMEDIATE 0    SMALL_IMMEDIATE 1    BRANCH ==, else …
 std::array<uint16_t, kLongJumpWords> long_jump_words(int64_t distance) {
     const auto equal = static_cast<uint16_t>(isa::BinaryOperator::Equal);

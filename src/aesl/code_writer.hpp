@@ -1,5 +1,6 @@
-// Writes instructions into one section and keeps count of the stack. The shapes of branches and jumps, with what to do
-// when they are too far for their instruction, are here; what they mean is in emit.cpp.
+// Writes instructions into one section and keeps count of the stack. The shapes of branches and
+// jumps, with what to do when they are too far for their instruction, are here; what they mean is
+// in emit.cpp.
 #pragma once
 
 #include "aesl/code.hpp"
@@ -24,13 +25,13 @@ public:
     void expression(const Folder& folder, ScalarId id, int base);
     void call(int32_t sub, int32_t line);
 
-    // Pops two words and continues behind itself if the comparison holds, else at the place that patch_branch() names.
-    // Gives the place of the branch.
+    // Pops two words and continues behind itself if the comparison holds, else at the place that
+    // patch_branch() names. Gives the place of the branch.
     uint32_t branch(uint8_t op, uint16_t flags, int32_t line);
     void patch_branch(uint32_t branch, uint32_t target);
 
-    // A word to be filled by patch_jump() with a jump to a later place. Where the jump takes more than one word, what
-    // stands behind it moves; gives by how much.
+    // A word to be filled by patch_jump() with a jump to a later place. Where the jump takes more
+    // than one word, what stands behind it moves; gives by how much.
     uint32_t jump_placeholder(int32_t line);
     uint32_t patch_jump(uint32_t jump, uint32_t target);
     void jump_back(uint32_t target, int32_t line);
@@ -45,7 +46,8 @@ public:
     Checkpoint checkpoint() const;
     void rewind(const Checkpoint& to);
 
-    // The longest distance that a branch was asked for; above kBranchDistanceMax the code is useless.
+    // The longest distance that a branch was asked for; above kBranchDistanceMax the code is
+    // useless.
     uint32_t longest_branch() const { return longest_branch_; }
     int32_t longest_branch_line() const { return longest_branch_line_; }
 

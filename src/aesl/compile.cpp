@@ -1,8 +1,8 @@
 // The map of the compiler: the phases in their order, each a value in and a value out
 // (docs/spec/aesl-language.md, section 3.2).
 //
-//     text → scan → parse → check_sizes → check_places → check_types → emit → check_stack → link → Program
-//             tokens   tree                                    sections of code
+//     text → scan → tokens → parse → tree → check_sizes, check_places, check_types
+//     tree → emit → sections of code → check_stack, link → Program
 #include "aesl/compile.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The AESL compiler: source text in, program or diagnostics out (docs/spec/aesl-language.md). Pure: no files, no clock.
+// The AESL compiler: source text in, program or diagnostics out (docs/spec/aesl-language.md). Pure:
+// no files, no clock.
 //
 //     const Compilation done = compile("var n\nonevent tick\nn++", target, common, {});
 //     if (!done.ok()) for (const Diagnostic& d : done.errors) print(d);
@@ -31,12 +32,15 @@ struct Position {
 
 struct Diagnostic {
     std::string
-        code;  // name in the catalogue of section 3.9, for instance "ARRAY_SIZE_MISMATCH"; warnings: "W_…"
+        // Name in the catalogue of section 3.9, for instance "ARRAY_SIZE_MISMATCH"; warnings:
+        // "W_…".
+        code;
     int number = 0;  // its number there; 0 for warnings
     Position at;
     Position end;  // one past the last character of what is marked; equal to `at` if nothing is
     std::string
-        message;  // what was expected, what was found, how to mend it; one sentence, no position in it
+        // What was expected, what was found, how to mend it; one sentence, no position in it.
+        message;
 };
 
 struct VariablePlace {
@@ -65,8 +69,8 @@ struct Program {
     Used used;
 };
 
-// With errors the program is empty. The first error is the one that section 3.2 selects; the others follow in order
-// of position, never two for one mistake.
+// With errors the program is empty. The first error is the one that section 3.2 selects; the others
+// follow in order of position, never two for one mistake.
 struct Compilation {
     Program program;
     std::vector<Diagnostic> errors;

@@ -1,4 +1,5 @@
-// The compiler by small programs: what they become, worked out by hand from chapters 1 to 4 of the specification.
+// The compiler by small programs: what they become, worked out by hand from chapters 1 to 4 of the
+// specification.
 #include "aesl/compile.hpp"
 
 #include "aesl/parse.hpp"
@@ -36,7 +37,8 @@ TEST(Compile, TheWorkedExampleOfTheSpecification) {
               (Words{0, 0, 0, 0, 0, 4, 4, 4, 4, 5, 5, 5, 5, 5,  5,  5,  5,  5,  5,  5, 5, 5,
                      5, 5, 5, 5, 5, 6, 6, 6, 6, 6, 6, 6, 6, 6,  6,  6,  6,  7,  7,  7, 7, 7,
                      7, 7, 9, 9, 1, 1, 2, 2, 2, 2, 2, 2, 2, 11, 11, 11, 11, 11, 11, 11}));
-    // 40 words of the node, n, v, and three temporaries; the deepest is v[…] > 9 or n == 7 with three words.
+    // 40 words of the node, n, v, and three temporaries; the deepest is v[…] > 9 or n == 7 with
+    // three words.
     EXPECT_EQ(done.program.used.bytecode, 64);
     EXPECT_EQ(done.program.used.variables, 47);
     EXPECT_EQ(done.program.used.stack, 3);
@@ -65,7 +67,8 @@ TEST(Compile, TheEventTableIsSortedByIdAndTheInitialisationIsLast) {
     EXPECT_EQ(table, (Words{11, 0, 11, 1, 14, 0xfffd, 17, 0xfffe, 20, 0xffff, 23}));
 }
 
-// Columns count code points; tabs count one; comments, signs of two characters and the end of the text are no exception.
+// Columns count code points; tabs count one; comments, signs of two characters and the end of the
+// text are no exception.
 TEST(Compile, ColumnsCountCodePoints) {
     EXPECT_EQ(errors_of("var ä\n# ö\n\tä = é\n"), (List{"3:6 VARIABLE_NOT_DEFINED_GUESS"}));
     EXPECT_EQ(errors_of("id = id << [1,2]"), (List{"1:9 ARRAY_SIZE_MISMATCH"}));
@@ -144,7 +147,8 @@ TEST(Compile, EverySubEndsWithAReturnUnlessItsEndCannotBeReached) {
                            0xe000}));
 }
 
-// 1100 assignments of two words are 2200: beyond the reach of JUMP. A branch on 0 == 1 goes instead.
+// 1100 assignments of two words are 2200: beyond the reach of JUMP. A branch on 0 == 1 goes
+// instead.
 TEST(Compile, AFarJumpIsABranchThatIsNeverTaken) {
     Target target = test_target();
     target.bytecode_size = 6000;
@@ -154,7 +158,8 @@ TEST(Compile, AFarJumpIsABranchThatIsNeverTaken) {
         compile("if id == 1 then id = 2 else\n" + block + "end\n", target, test_common(), {});
     ASSERT_TRUE(done.ok());
     const Words start(done.program.bytecode.begin() + 3, done.program.bytecode.begin() + 13);
-    // The branch for `else` passes 2 + 2 + 4 words; the long one, at 11, passes itself and 2200 words.
+    // The branch for `else` passes 2 + 2 + 4 words; the long one, at 11, passes itself and 2200
+    // words.
     EXPECT_EQ(start,
               (Words{0x3000, 0x1001, 0xa00a, 8, 0x1002, 0x4000, 0x1000, 0x1001, 0xa00a, 2202}));
     EXPECT_EQ(done.program.used.stack, 2);

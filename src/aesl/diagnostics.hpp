@@ -1,5 +1,5 @@
-// What the compiler says. Each sentence is worded once, in diagnostics.def; the phases report an entry of that list,
-// a place and the words to fill in.
+// What the compiler says. Each sentence is worded once, in diagnostics.def; the phases report an
+// entry of that list, a place and the words to fill in.
 //
 //     diagnostics.report(Diag::UnknownVariable, mark, {"speed"});
 #pragma once

@@ -9,7 +9,8 @@ bool is_word(const Tree& tree, TokenId token, std::string_view word) {
     return tree.tokens[token].kind == TokenKind::Identifier && tree.text(token) == word;
 }
 
-// Whether a variable or constant of the name `ontimer` exists anywhere: then only a colon makes it a header.
+// Whether a variable or constant of the name `ontimer` exists anywhere: then only a colon makes it
+// a header.
 bool is_ontimer_a_name(const Tree& tree, const Target& target, const CommonDefinitions& common) {
     const auto is_it = [](const auto& named) { return named.name == kOntimer; };
     if (std::any_of(target.variables.begin(), target.variables.end(), is_it)) return true;
@@ -74,7 +75,8 @@ private:
         if (i == 0) return true;
         if (!can_end_item(kind(i - 1))) return false;
         if (i < 2) return true;
-        // Behind `emit NAME`, on its line, it is the argument; with a colon it is a header all the same.
+        // Behind `emit NAME`, on its line, it is the argument; with a colon it is a header all the
+        // same.
         const TokenKind two_before = kind(i - 2);
         const bool is_argument =
             (two_before == TokenKind::Emit || two_before == TokenKind::EmitShort) &&

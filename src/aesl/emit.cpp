@@ -244,7 +244,8 @@ private:
     }
 
     //     BRANCH 3+|T|   T   JUMP |E|+1   E
-    // From the last branch to the first: what has become longer then lies behind what is still to be measured.
+    // From the last branch to the first: what has become longer then lies behind what is still to
+    // be measured.
     void close_branches(std::vector<OpenBranch>& open) {
         for (size_t i = open.size(); i-- > 0;) {
             OpenBranch& part = open[i];
@@ -528,7 +529,8 @@ private:
     NodeId last_statement_ = kNoNode;  // of the section itself that has left code
 };
 
-// `if`, `elseif`: constants are switches that people set on purpose, so a condition with a name in it is left alone.
+// `if`, `elseif`: constants are switches that people set on purpose, so a condition with a name in
+// it is left alone.
 void Emitter::warn_condition(NodeId clause, bool is_false) {
     const TokenId keyword = tree_[clause].token;
     for (TokenId i = keyword; tree_.tokens[i].kind != TokenKind::Then; ++i) {
@@ -544,7 +546,8 @@ void Emitter::warn_condition(NodeId body, bool is_false, TokenId when) {
     report(is_false ? Diag::AlwaysFalse : Diag::WhenAlwaysTrue, when, {tree_.text(when)});
 }
 
-// The last value within the bounds, plus the step, must still fit a variable; otherwise it wraps and goes on.
+// The last value within the bounds, plus the step, must still fit a variable; otherwise it wraps
+// and goes on.
 void Emitter::warn_endless(TokenId loop, int64_t first, int64_t last, int64_t step) {
     constexpr int64_t kMin = -32768;
     constexpr int64_t kMax = 32767;

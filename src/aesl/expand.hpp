@@ -1,4 +1,5 @@
-// Vector expressions to single words: element k of any expression, folded (docs/spec/aesl-language.md, 4.3).
+// Vector expressions to single words: element k of any expression, folded
+// (docs/spec/aesl-language.md, 4.3).
 //
 //     v + [a, 2, w[i]]      element 2  →  LOAD v+2, LOAD_INDIRECT w[i], +
 #pragma once
@@ -24,8 +25,8 @@ public:
     // Element `k` of an expression, built in the folder. A mistake inside gives Unknown.
     ScalarId element(NodeId expression, int32_t k);
 
-    // Where a variable, a slice, or an element with constant index lies; nothing for all other expressions and for
-    // those out of bounds.
+    // Where a variable, a slice, or an element with constant index lies; nothing for all other
+    // expressions and for those out of bounds.
     std::optional<Place> place(NodeId expression);
 
     // The number that the index of an Element folds to.
@@ -37,7 +38,8 @@ private:
     ScalarId tuple_element(NodeId id, int32_t k);
     OperatorPlace at(NodeId id) const { return {tree_[id].token, tree_.line_of(id)}; }
 
-    // Where the last walk through a tuple stopped, so that asking for each element in turn takes linear time.
+    // Where the last walk through a tuple stopped, so that asking for each element in turn takes
+    // linear time.
     struct Cursor {
         NodeId child = kNoNode;
         int32_t start = 0;

@@ -223,7 +223,8 @@ std::optional<ScalarId> Folder::simplify(BinaryOperator op, ScalarId left, Scala
     return std::nullopt;
 }
 
-// Rule 7:  x * 8  →  x << 3;  x / 8  →  x >> 3, which rounds toward minus infinity, as programs observe.
+// Rule 7:  x * 8  →  x << 3;  x / 8  →  x >> 3, which rounds toward minus infinity, as programs
+// observe.
 ScalarId Folder::with_shift(BinaryOperator op, ScalarId left, ScalarId right, OperatorPlace at) {
     const Scalar b = scalars_[right];
     if (b.kind == ScalarKind::Number && is_power_of_two(b.value)) {

@@ -1,5 +1,6 @@
-// Expressions over single words, folded while they are built (docs/spec/aesl-language.md, section 3.6). Rules 1 to 7
-// and 11 of that section live here and nowhere else; the parser uses the same rules for constant expressions.
+// Expressions over single words, folded while they are built (docs/spec/aesl-language.md, section
+// 3.6). Rules 1 to 7 and 11 of that section live here and nowhere else; the parser uses the same
+// rules for constant expressions.
 //
 //     Folder folder;
 //     const ScalarId sum = folder.binary(op_add, folder.number(2, 1), folder.number(3, 1), token);

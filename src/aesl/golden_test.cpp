@@ -1,5 +1,6 @@
-// The golden vectors, compile side: every case has the error it must have, or none (testdata/golden/aesl/README.md).
-// Bytecode and lines are those of the reference word for word, except in the cases listed here with the reason.
+// The golden vectors, compile side: every case has the error it must have, or none
+// (testdata/golden/aesl/README.md). Bytecode and lines are those of the reference word for word,
+// except in the cases listed here with the reason.
 #include <algorithm>
 #include <filesystem>
 #include <map>

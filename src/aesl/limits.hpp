@@ -1,4 +1,5 @@
-// Every bound of the compiler, in one place. A text beyond one of them is an error with a sentence, never a crash.
+// Every bound of the compiler, in one place. A text beyond one of them is an error with a sentence,
+// never a crash.
 #pragma once
 
 #include <cstddef>

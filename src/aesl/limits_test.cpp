@@ -1,4 +1,5 @@
-// Every limit: what lies at it is accepted, what lies beyond is an error, and no text costs more than it may.
+// Every limit: what lies at it is accepted, what lies beyond is an error, and no text costs more
+// than it may.
 #include "aesl/limits.hpp"
 
 #include "aesl/test_node.hpp"

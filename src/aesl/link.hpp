@@ -1,4 +1,5 @@
-// Phase 9: the sections of a program to one image with its event table (docs/spec/aesl-language.md, section 4.2).
+// Phase 9: the sections of a program to one image with its event table (docs/spec/aesl-language.md,
+// section 4.2).
 #pragma once
 
 #include "aesl/code.hpp"

@@ -1,4 +1,5 @@
-// A program for people: each source line with the instructions made from it, names instead of numbers.
+// A program for people: each source line with the instructions made from it, names instead of
+// numbers.
 //
 //        4 | n += 1
 //     5  3028       Load       n
@@ -14,8 +15,8 @@
 
 namespace vagus::aesl {
 
-// `source`, `target` and `common` are those that the program was compiled from. Any words can be listed: what is no
-// instruction is shown as a number.
+// `source`, `target` and `common` are those that the program was compiled from. Any words can be
+// listed: what is no instruction is shown as a number.
 std::string listing(const Program& program, std::string_view source, const Target& target,
                     const CommonDefinitions& common);
 

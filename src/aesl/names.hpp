@@ -13,7 +13,8 @@ class Names {
 public:
     Names();
 
-    // The id of that name, a new one if it is not known yet. Keywords have the first ids, in the order of tokens.def.
+    // The id of that name, a new one if it is not known yet. Keywords have the first ids, in the
+    // order of tokens.def.
     NameId intern(std::string_view name);
 
     std::string_view text(NameId id) const { return texts_[id]; }

@@ -138,7 +138,8 @@ std::optional<VariableId> Parser::alias(std::string_view name) const {
     return std::nullopt;
 }
 
-// Makes a name known that an error has named, so that it is reported once. Size 0 keeps all checks quiet about it.
+// Makes a name known that an error has named, so that it is reported once. Size 0 keeps all checks
+// quiet about it.
 VariableId Parser::declare_implicitly(TokenId name) {
     const auto id = static_cast<VariableId>(tree_.variables.size());
     tree_.variables.push_back(
@@ -236,8 +237,8 @@ void Parser::begin_handler(TokenId keyword, TokenId name) {
                    .is_ignored = !is_known || is_second});
 }
 
-// 2007: `ontimer` (section 6, rule 1): a header if it is no variable or constant or a colon follows; without a colon
-// only if it does not begin an assignment.
+// 2007: `ontimer` (section 6, rule 1): a header if it is no variable or constant or a colon
+// follows; without a colon only if it does not begin an assignment.
 bool Parser::at_ontimer_header() const {
     if (!is_2007_ || !at(TokenKind::Identifier) || token().length != kOntimer.size()) return false;
     if (tree_.text(position_) != kOntimer) return false;
@@ -383,8 +384,8 @@ void Parser::error(Diag what, TokenId token, std::initializer_list<std::string_v
     if (diagnostics_.full()) give_up();
 }
 
-// At the current token. Only the first one of a statement, and only one for each token, is reported. Beside a
-// character that the scanner has refused nothing is: the mistake is known.
+// At the current token. Only the first one of a statement, and only one for each token, is
+// reported. Beside a character that the scanner has refused nothing is: the mistake is known.
 void Parser::syntax_error(Diag what, std::initializer_list<std::string_view> words) {
     if (panic_) return;
     panic_ = true;
@@ -453,9 +454,10 @@ int Parser::open_brackets() const {
     return depth;
 }
 
-// Skips to where the next statement can begin: at a keyword that begins one, or at a name that is the first of its
-// line (and begins an assignment, if brackets are still open). A `then` or `do` on the way means that the statement
-// was to open a block, so that block is read, with its `end`; it is what comes back.
+// Skips to where the next statement can begin: at a keyword that begins one, or at a name that is
+// the first of its line (and begins an assignment, if brackets are still open). A `then` or `do` on
+// the way means that the statement was to open a block, so that block is read, with its `end`; it
+// is what comes back.
 NodeId Parser::recover() {
     panic_ = false;
     const TokenId start = statement_start_;
@@ -503,8 +505,8 @@ void Parser::skip_branch_head() {
     accept(TokenKind::Then);
 }
 
-// The end of a statement without a block. After a mistake in it the rest of its line is skipped: it belongs to the
-// mistake.
+// The end of a statement without a block. After a mistake in it the rest of its line is skipped: it
+// belongs to the mistake.
 NodeId Parser::finish_simple(NodeId statement, size_t errors_before) {
     if (panic_) {
         const NodeId orphan = recover();
@@ -517,7 +519,8 @@ NodeId Parser::finish_simple(NodeId statement, size_t errors_before) {
     return orphan == kNoNode ? statement : orphan;
 }
 
-// Nothing sensible can be read any more: too many errors, or nested too deep. The rest of the text is not looked at.
+// Nothing sensible can be read any more: too many errors, or nested too deep. The rest of the text
+// is not looked at.
 void Parser::give_up() {
     if (!tree_.is_partial && !diagnostics_.full()) {
         diagnostics_.report(Diag::NestedTooDeep, mark(position_), {std::to_string(kNestingMax)});

@@ -48,8 +48,8 @@ std::optional<int32_t> Parser::constant_for(TokenId name, NodeId value) {
     return result.value;
 }
 
-// The order of the checks is that of section 3.2: size, name, initialiser, space. Gives the assignment of the initial
-// value, if there is one.
+// The order of the checks is that of section 3.2: size, name, initialiser, space. Gives the
+// assignment of the initial value, if there is one.
 NodeId Parser::var_definition() {
     statement_start_ = position_;
     const size_t before = errors();
@@ -135,7 +135,8 @@ bool Parser::name_is_free(TokenId name) {
     return true;
 }
 
-// The list form is taken if, and only if, a comma follows the next token, or the one behind a minus (section 2.1).
+// The list form is taken if, and only if, a comma follows the next token, or the one behind a minus
+// (section 2.1).
 NodeId Parser::initialiser(bool* is_list) {
     const bool is_minus = at(TokenKind::SignSubtract);
     if (kind_ahead(is_minus ? 2 : 1) == TokenKind::SignComma) {
@@ -167,7 +168,8 @@ NodeId Parser::bare_list() {
                 .first = elements.first});
 }
 
-// 2007:  var v[4] = 1, 2  is  var v[4] = [1, 2, 0, 0]  (section 6, rule 4). Other lists stay as they are.
+// 2007:  var v[4] = 1, 2  is  var v[4] = [1, 2, 0, 0]  (section 6, rule 4). Other lists stay as
+// they are.
 NodeId Parser::filled_with_zeros(NodeId list, int32_t size) {
     const int32_t given = tree_[list].size;
     if (given <= 0 || given >= size || size > kAddressableWords) return list;
@@ -201,8 +203,8 @@ VariableId Parser::declare(TokenId name, int32_t size) {
     return id;
 }
 
-// `int speed = 3`, `vra speed`: the word in front is unknown, what follows is meant as a declaration. It is declared,
-// so that the one mistake stays one.
+// `int speed = 3`, `vra speed`: the word in front is unknown, what follows is meant as a
+// declaration. It is declared, so that the one mistake stays one.
 NodeId Parser::undeclared_words(size_t errors_before, TokenId start) {
     const bool looks_declared = errors() > errors_before && !code_began_ &&
                                 tree_.tokens[start].kind == TokenKind::Identifier &&

@@ -138,7 +138,8 @@ NodeId Parser::primary() {
     }
 }
 
-// A number, with the minus before it where there is one: `-32768` is a literal, `-(32768)` is not (section 1.4).
+// A number, with the minus before it where there is one: `-32768` is a literal, `-(32768)` is not
+// (section 1.4).
 NodeId Parser::literal(bool is_negative) {
     const Token number = token();
     const TokenId at_number = position_;
@@ -328,7 +329,8 @@ bool Parser::can_begin_operand() const {
     }
 }
 
-// An operator node over its operands. Its size, unless it has one: that of the operands; 0 where they clash.
+// An operator node over its operands. Its size, unless it has one: that of the operands; 0 where
+// they clash.
 NodeId Parser::operation(Node node, NodeId left, NodeId right) {
     int depth = tree_[left].depth;
     if (right != kNoNode) depth = std::max<int>(depth, tree_[right].depth);

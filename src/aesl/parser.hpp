@@ -1,13 +1,14 @@
-// The parser's inside: state and helpers shared by its four files. The interface is parse.hpp.
+// The parser's inside: state and helpers shared by its five files. The interface is parse.hpp.
 //
-// parse.cpp               program, headers, names, recovery
-// parse_declarations.cpp  const, var
-// parse_statements.cpp    if, when, while, for, emit, call, callsub, return, assignment
+// parse.cpp               program, headers, names, recovery parse_declarations.cpp  const, var
+// parse_statements.cpp    if, when, while, for, return, assignment
+// parse_calls.cpp         emit, call, callsub
 // parse_expressions.cpp   conditions and expressions
 //
-// Recovery. The first error of syntax in a statement sets `panic_`; while it is set, nothing more is reported. The
-// statement then skips to where the next one can begin, which clears it. What was wrong stays in the tree as an Error
-// node or a `bad` statement; an unknown name is declared with size 0, so that it is reported once.
+// Recovery. The first error of syntax in a statement sets `panic_`; while it is set, nothing more
+// is reported. The statement then skips to where the next one can begin, which clears it. What was
+// wrong stays in the tree as an Error node or a `bad` statement; an unknown name is declared with
+// size 0, so that it is reported once.
 #pragma once
 
 #include <optional>
@@ -128,6 +129,8 @@ private:
     // parse_statements.cpp
     NodeId statement();
     NodeId statement_by_keyword();
+    NodeId assignment();
+    void missing_assignment(TokenId start);
     NodeId unexpected_statement();
     NodeId misplaced_declaration();
     void statements(ChildList& list);
@@ -148,6 +151,8 @@ private:
     NodeId loop_body(TokenId opener);
     void expect_opener(TokenKind opener, Diag what, TokenId keyword);
     void expect_end(TokenId opener, bool has_else_if);
+
+    // parse_calls.cpp
     NodeId emit_statement();
     NodeId emit_argument(TokenId keyword, TokenId name, NodeId node);
     void check_event_size(TokenId keyword, TokenId name, NodeId argument);
@@ -155,7 +160,7 @@ private:
     NodeId call_statement();
     void unknown_native(TokenId keyword, TokenId name);
     void arguments_unchecked(ChildList& list);
-    void arguments(NodeId call, TokenId keyword, const NativeFunction& native, ChildList& list);
+    void arguments(TokenId keyword, const NativeFunction& native, ChildList& list);
     struct ArgumentSizes;
     void check_argument(TokenId keyword, const NativeFunction& native, size_t position, NodeId node,
                         ArgumentSizes& sizes);
@@ -163,8 +168,6 @@ private:
                              ArgumentSizes& sizes);
     bool reserve(int32_t words, int32_t already, TokenId at);
     NodeId callsub_statement();
-    NodeId assignment();
-    void missing_assignment(TokenId start);
 
     // parse_expressions.cpp
     NodeId condition();

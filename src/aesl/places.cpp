@@ -43,7 +43,8 @@ public:
         return out_of_bounds(node, first < 0 ? first : last);
     }
 
-    // Left side, then right side; the other way round where the statement reads its right side first.
+    // Left side, then right side; the other way round where the statement reads its right side
+    // first.
     bool assignment(const Node& node) {
         const NodeId left = node.first;
         const NodeId right = tree_[left].next;

@@ -1,6 +1,6 @@
-// Phase 1: text to tokens (docs/spec/aesl-language.md, section 1).
-// Line ends separate tokens and nothing else; comments leave no trace. A malformed word or character is reported and
-// becomes a Bad token or a kBadNumber, so that the parser goes on without a second error.
+// Phase 1: text to tokens (docs/spec/aesl-language.md, section 1). Line ends separate tokens and
+// nothing else; comments leave no trace. A malformed word or character is reported and becomes a
+// Bad token or a kBadNumber, so that the parser goes on without a second error.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,8 @@
 
 namespace vagus::aesl {
 
-// The tokens in order; the last one is EndOfText. Words are interned into `names`, which borrows from `source`.
+// The tokens in order; the last one is EndOfText. Words are interned into `names`, which borrows
+// from `source`.
 Tokens scan(std::string_view source, Names& names, Diagnostics& diagnostics);
 
 // The range that a token covers.

@@ -31,8 +31,8 @@ public:
         return need;
     }
 
-    // Depth first over the calls, without recursion: a chain of calls may be as long as the program. Gives a sub that
-    // calls itself, if there is one.
+    // Depth first over the calls, without recursion: a chain of calls may be as long as the
+    // program. Gives a sub that calls itself, if there is one.
     std::optional<size_t> resolve(size_t root) {
         if (needs_[root]) return std::nullopt;
         std::vector<Visit> path{{root, 0}};

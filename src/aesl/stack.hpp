@@ -1,5 +1,6 @@
-// Phase 8: how deep can the stack get? (docs/spec/aesl-language.md, section 4.9)
-// Exact for expressions: max(left, 1 + right). A call of a sub takes one word; subs that call themselves are refused.
+// Phase 8: how deep can the stack get? (docs/spec/aesl-language.md, section 4.9) Exact for
+// expressions: max(left, 1 + right). A call of a sub takes one word; subs that call themselves are
+// refused.
 #pragma once
 
 #include "aesl/code.hpp"

@@ -20,8 +20,8 @@ std::u32string code_points(std::string_view text) {
     return points;
 }
 
-// Levenshtein distance, or anything above `limit` if it is above. Only the cells within `limit` of the diagonal are
-// looked at, so the time is linear in the length.
+// Levenshtein distance, or anything above `limit` if it is above. Only the cells within `limit` of
+// the diagonal are looked at, so the time is linear in the length.
 int distance(const std::u32string& a, const std::u32string& b, int limit) {
     const int rows = static_cast<int>(a.size());
     const int columns = static_cast<int>(b.size());

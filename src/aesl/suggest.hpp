@@ -6,8 +6,8 @@
 
 namespace vagus::aesl {
 
-// The candidate with the smallest edit distance to `name`, of distance 1 or 2; the first in code-point order on a tie;
-// empty if there is none.
+// The candidate with the smallest edit distance to `name`, of distance 1 or 2; the first in
+// code-point order on a tie; empty if there is none.
 std::string_view closest(std::string_view name, std::span<const std::string_view> candidates);
 
 }  // namespace vagus::aesl

@@ -1,6 +1,6 @@
-// What a program is compiled for: the node it runs on, and the names that all nodes of a network share
-// (docs/spec/aesl-language.md, section 3.1). A Target comes from a node file, from a live node's description, or
-// from a simulated robot.
+// What a program is compiled for: the node it runs on, and the names that all nodes of a network
+// share (docs/spec/aesl-language.md, section 3.1). A Target comes from a node file, from a live
+// node's description, or from a simulated robot.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,8 @@ struct NativeFunction {
     friend bool operator==(const NativeFunction&, const NativeFunction&) = default;
 };
 
-// One node. Variables lie from address 0 in this order; the k-th local event has id 0xfffe - k; the k-th native id k.
+// One node. Variables lie from address 0 in this order; the k-th local event has id 0xfffe - k; the
+// k-th native id k.
 struct Target {
     std::string name;
     uint16_t protocol_version = 5;
@@ -58,7 +59,8 @@ struct Constant {
     int32_t value = 0;  // may lie outside 16 bits; then its use is an error
 };
 
-// The names that all nodes of a network share. The position of an event in the list is its number on the bus.
+// The names that all nodes of a network share. The position of an event in the list is its number
+// on the bus.
 struct CommonDefinitions {
     std::vector<GlobalEvent> events;
     std::vector<Constant> constants;

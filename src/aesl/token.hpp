@@ -31,7 +31,8 @@ constexpr bool is_keyword(TokenKind kind) {
     return kind >= kFirstKeyword && kind <= kLastKeyword;
 }
 
-// Value of a Number that was malformed: its error has been reported, whatever holds it must stay quiet.
+// Value of a Number that was malformed: its error has been reported, whatever holds it must stay
+// quiet.
 constexpr int32_t kBadNumber = -1;
 
 struct Token {

@@ -1,7 +1,9 @@
-// The syntax tree of one program, as the parser leaves it: names are resolved, sizes are known, nothing is rewritten
-// or folded (docs/spec/aesl-language.md, chapter 2). All phases behind the parser read it; none changes it.
+// The syntax tree of one program, as the parser leaves it: names are resolved, sizes are known,
+// nothing is rewritten or folded (docs/spec/aesl-language.md, chapter 2). All phases behind the
+// parser read it; none changes it, but for the mark `bad` on a statement with a mistake.
 //
-// Nodes lie in one array and name each other by index. A node's children form a list: `first`, then `next` of each.
+// Nodes lie in one array and name each other by index. A node's children form a list: `first`, then
+// `next` of each.
 //
 //     for (NodeId child = tree[id].first; child != kNoNode; child = tree[child].next) …
 #pragma once
@@ -31,22 +33,28 @@ enum class NodeKind : uint8_t {
     Slice,     // variable; two Numbers, first and last element; name
     Tuple,     // -; elements; `[`
     Unary,     // -; operand; operator, `op` is an isa::UnaryOperator
-    Binary,  // -; left, right; operator, `op` is an isa::BinaryOperator: arithmetic, comparisons, `and`, `or`
+    // -; left, right; operator, `op` is an isa::BinaryOperator: arithmetic, comparisons, `and`,
+    // `or`.
+    Binary,
     Not,    // -; operand; the first `not` of an odd number of them
     Error,  // takes the place of what was wrong
     // Statements
-    Assign,  // -; left, right; operator. `op` is the isa::BinaryOperator of `+=` …, kPlainAssignment for `=`
-    Count,    // -; left; `++` or `--`, `op` is Add or Subtract
-    If,       // token of the closing `end`; Clauses, then perhaps a Block for `else`; `if`
-    Clause,   // -; condition, Block; `if` or `elseif`
-    When,     // token of the closing `end`; condition, Block; `when`
-    While,    // -; condition, Block; `while`
-    For,      // -; variable reference, then Numbers first, last, step, then Block; `for`
-    Emit,     // number of the global event; nothing or the argument; `emit` or `_emit`
-    Call,     // number of the native; arguments; `call`
-    CallSub,  // index into Tree::subs, kUnresolved if there is none; -; `callsub` (the name is the token behind it)
-    Return,   // -; -; `return`
-    Block,    // -; statements; the token before the first of them
+    // -; left, right; operator. `op` is the isa::BinaryOperator of `+=` …, kPlainAssignment for
+    // `=`.
+    Assign,
+    Count,   // -; left; `++` or `--`, `op` is Add or Subtract
+    If,      // token of the closing `end`; Clauses, then perhaps a Block for `else`; `if`
+    Clause,  // -; condition, Block; `if` or `elseif`
+    When,    // token of the closing `end`; condition, Block; `when`
+    While,   // -; condition, Block; `while`
+    For,     // -; variable reference, then Numbers first, last, step, then Block; `for`
+    Emit,    // number of the global event; nothing or the argument; `emit` or `_emit`
+    Call,    // number of the native; arguments; `call`
+    // Index into Tree::subs, kUnresolved if there is none; -; `callsub` (the name is the token
+    // behind it).
+    CallSub,
+    Return,  // -; -; `return`
+    Block,   // -; statements; the token before the first of them
 };
 
 constexpr uint8_t kPlainAssignment = 0xff;
@@ -81,8 +89,8 @@ struct Section {
     TokenId token = 0;   // `onevent`, `sub` or `ontimer`
     int32_t number = 0;  // Event: id in bytecode; Sub: index into Tree::subs
     NodeId block = kNoNode;
-    bool is_ignored =
-        false;  // second handler or sub of a name, or one of an unknown event: checked, not compiled
+    // Second handler or sub of a name, or one of an unknown event: checked, not compiled.
+    bool is_ignored = false;
 };
 
 struct TreeSub {

@@ -1,7 +1,9 @@
-// Phase 6: numbers and conditions in their places, subs that exist (docs/spec/aesl-language.md, section 3.4).
+// Phase 6: numbers and conditions in their places, subs that exist (docs/spec/aesl-language.md,
+// section 3.4).
 //
-// Where the reference checks nothing (indices, arguments of events and native functions), a condition counts as 0 or
-// 1, also as an operand of arithmetic; a number where a condition is needed is an error there too.
+// Where the reference checks nothing (indices, arguments of events and native functions), a
+// condition counts as 0 or 1, also as an operand of arithmetic; a number where a condition is
+// needed is an error there too.
 #pragma once
 
 #include "aesl/diagnostics.hpp"

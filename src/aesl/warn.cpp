@@ -67,7 +67,8 @@ private:
         if (divides) rounds_down(node.token, node.first, tree_[node.first].next);
     }
 
-    // `(a - b) / 2`: only where the dividend is visibly meant to become negative, and once a program.
+    // `(a - b) / 2`: only where the dividend is visibly meant to become negative, and once a
+    // program.
     void division(NodeId id) {
         const Node& node = tree_[id];
         if (node.kind == NodeKind::Binary && is_op(node, BinaryOperator::Divide)) {

@@ -35,11 +35,16 @@ struct Job {
     aesl::Script script;
     aesl::NodeFile node;
     aesl::CommonDefinitions common;  // the project's, or those of the node file
+    bool plain = false;
 };
 
 Result<std::vector<aesl::NodeFile>> read_nodes(const std::vector<std::string>& paths) {
     std::vector<aesl::NodeFile> nodes;
     for (const std::string& path : paths) {
+        if (path == "thymio-II" || path == "e-puck") {
+            nodes.push_back({session::known_node(path), {}});
+            continue;
+        }
         const std::string text = TRY(read_file(path));
         nodes.push_back(TRY(aesl::parse_node_file(text, path)));
     }
@@ -86,7 +91,7 @@ Result<std::vector<Job>> jobs_of(const Options& options, const session::ScriptFi
     for (const aesl::Script& script : scripts) {
         const aesl::NodeFile node = node_for(script, nodes);
         const auto plain = session::with_emitted(node.common, script.source, node.target);
-        jobs.push_back({script, node, file.plain ? plain : file.project.common});
+        jobs.push_back({script, node, file.plain ? plain : file.project.common, file.plain});
     }
     const bool single = options.format == "hex" || options.format == "abo";
     if (!single || jobs.size() == 1) return jobs;
@@ -156,13 +161,20 @@ int compile_all(const Options& options, const std::vector<Job>& jobs) {
     std::vector<CompiledNode> nodes;
     bool failed = false;
     for (const Job& job : jobs) {
-        nodes.push_back(
-            {job.script.node.empty() ? job.node.target.name : job.script.node,
-             aesl::compile(job.script.source, job.node.target, job.common, options.compile)});
+        nodes.push_back({job.script.node.empty() ? job.node.target.name : job.script.node,
+                         aesl::compile(job.script.source, job.node.target, job.common,
+                                       session::options_for(job.common, options.compile))});
         show({options.file, job.script.source, job.script.first_line}, nodes.back().done);
         failed = failed || !nodes.back().done.ok();
     }
-    return failed ? kExitFailed : deliver(options, output_of(options, nodes, jobs));
+    if (!failed) return deliver(options, output_of(options, nodes, jobs));
+    if (jobs.front().plain && options.node_files.empty()) {
+        std::fputs(
+            "vagus: compiled for the standard software node, because no node is given; for a "
+            "robot add --node thymio-II, --node e-puck or --node NODE.json\n",
+            stderr);
+    }
+    return kExitFailed;
 }
 
 int run(const Options& options) {
@@ -190,7 +202,8 @@ void add_compile(CLI::App& app, int& exit_code) {
     takes_file(
         *verb->add_option(
                  "--node", options->node_files,
-                 "description of the node; once for each node of a project. Without it: "
+                 "description of the node: a file, thymio-II or e-puck; once for each node of a "
+                 "project. Without it: "
                  "thymio-II and e-puck are known by their names, all else is a software node")
              ->allow_extra_args(false),
         {".json"});

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/nearest.hpp"
-#include "base/text.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -12,6 +11,15 @@ namespace {
 aesl::Dialect dialect_of(const std::string& word) {
     if (word == "modern") return aesl::Dialect::Modern;
     return word == "2007" ? aesl::Dialect::Year2007 : aesl::Dialect::Auto;
+}
+
+// "a, b or c"
+std::string one_of(const std::vector<std::string>& words) {
+    std::string text;
+    for (size_t i = 0; i < words.size(); i++) {
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    }
+    return text;
 }
 
 }  // namespace
@@ -24,8 +32,8 @@ void takes_one_of(CLI::Option& option, std::vector<std::string> words) {
         [words](std::string& given) -> std::string {
             if (std::find(words.begin(), words.end(), given) != words.end()) return "";
             const std::string guess = nearest(given, words);
-            return "expected " + list_of({words.begin(), words.end()}) + ", found \"" + given +
-                   "\"" + (guess.empty() ? "" : "; did you mean " + guess + "?");
+            return "expected " + one_of(words) + ", found \"" + given + "\"" +
+                   (guess.empty() ? "" : "; did you mean " + guess + "?");
         },
         ""));
 }

@@ -216,6 +216,8 @@ void SimRun::pass_time(Time real) {
 
 void SimRun::advance(Duration span) {
     session_.step(std::min(span, end() - session_.now()));
+    // Plain lines stand for moments of simulated time, however many of them pass in a turn.
+    if (running_ && !on_terminal()) tell_notes();
 }
 
 void SimRun::set_speed(double speed) {

@@ -68,4 +68,14 @@ aesl::CommonDefinitions with_emitted(const aesl::CommonDefinitions& common, std:
     return wider;
 }
 
+aesl::Options options_for(const aesl::CommonDefinitions& common, aesl::Options options) {
+    const bool unsized_event =
+        std::any_of(common.events.begin(), common.events.end(),
+                    [](const aesl::GlobalEvent& event) { return !event.size; });
+    if (unsized_event && options.dialect == aesl::Dialect::Auto) {
+        options.dialect = aesl::Dialect::Year2007;
+    }
+    return options;
+}
+
 }  // namespace vagus::session

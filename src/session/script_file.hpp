@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "aesl/compile.hpp"
 #include "aesl/project.hpp"
 #include "base/result.hpp"
 
@@ -24,5 +25,10 @@ Result<ScriptFile> read_script_file(std::string_view text, const std::string& pa
 // `common` and the names that the plain script emits and that are neither in it nor local events.
 aesl::CommonDefinitions with_emitted(const aesl::CommonDefinitions& common, std::string_view source,
                                      const aesl::Target& target);
+
+// An event of unknown size may be emitted with any arguments in the dialect of 2007 only, which
+// otherwise takes every modern script: it is chosen where the names need it and nothing else is
+// asked for.
+aesl::Options options_for(const aesl::CommonDefinitions& common, aesl::Options options);
 
 }  // namespace vagus::session

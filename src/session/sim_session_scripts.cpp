@@ -173,8 +173,9 @@ void SimSession::give(Robot& robot, const ScriptFile& file, const aesl::Script& 
 
 void SimSession::compile(Robot& robot) {
     Assignment& script = *robot.script;
-    const aesl::Compilation done = aesl::compile(
-        script.script.source, network_.node(robot.node)->target, script.common, options_.compile);
+    const aesl::Compilation done =
+        aesl::compile(script.script.source, network_.node(robot.node)->target, script.common,
+                      options_for(script.common, options_.compile));
     const SourceText text{script.path, script.script.source, script.script.first_line};
     std::string report;
     const std::vector<std::string> lines = diagnostic_report(text, done);

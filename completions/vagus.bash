@@ -1,0 +1,199 @@
+# Completion of `vagus` for bash. Made by `vagus page bash`; do not edit.
+#
+#     source completions/vagus.bash
+
+# What may follow each verb, by its name.
+declare -A _vagus_names=(
+    [" "]="compile exec switch node net sim --version --help"
+    ["compile "]="--node --node-name --format --out --dialect --ontimer --help"
+    ["exec "]="--node --stimuli --max-steps --dialect --ontimer --help"
+    ["switch "]="--listen --verbose --loop --help"
+    ["node "]="--id --name --describe --flash --listen --connect --help"
+    ["net "]="list describe log get set emit watch run pause step reset stop save load break --json --project --wait --help"
+    ["net list "]="--help"
+    ["net describe "]="--help"
+    ["net log "]="--help"
+    ["net get "]="--help"
+    ["net set "]="--help"
+    ["net emit "]="--help"
+    ["net watch "]="--help"
+    ["net run "]="--help"
+    ["net pause "]="--help"
+    ["net step "]="--help"
+    ["net reset "]="--help"
+    ["net stop "]="--help"
+    ["net save "]="--help"
+    ["net load "]="--help"
+    ["net break "]="--clear --keep --help"
+    ["sim "]="--load --watch --headless --speed --duration --seed --listen --trace --dialect --ontimer --help"
+)
+# What each option and each argument (by its number) takes: "none", "any", "file ENDING...", "words WORD...".
+declare -A _vagus_takes=(
+    [" --version"]="none"
+    [" --help"]="none"
+    [" -h"]="none"
+    ["compile 1"]="file .aesl "
+    ["compile --node"]="file .json "
+    ["compile --node-name"]="any"
+    ["compile --format"]="words listing json hex abo"
+    ["compile --out"]="file"
+    ["compile -o"]="file"
+    ["compile --dialect"]="words auto modern 2007"
+    ["compile --ontimer"]="any"
+    ["compile --help"]="none"
+    ["compile -h"]="none"
+    ["exec 1"]="file .aesl "
+    ["exec --node"]="file .json "
+    ["exec --stimuli"]="file .json "
+    ["exec --max-steps"]="any"
+    ["exec --dialect"]="words auto modern 2007"
+    ["exec --ontimer"]="any"
+    ["exec --help"]="none"
+    ["exec -h"]="none"
+    ["switch --listen"]="any"
+    ["switch 1"]="any"
+    ["switch --verbose"]="none"
+    ["switch -v"]="none"
+    ["switch --loop"]="none"
+    ["switch -l"]="none"
+    ["switch --help"]="none"
+    ["switch -h"]="none"
+    ["node --id"]="any"
+    ["node --name"]="any"
+    ["node --describe"]="file .json "
+    ["node --flash"]="file .abo "
+    ["node --listen"]="any"
+    ["node --connect"]="any"
+    ["node --help"]="none"
+    ["node -h"]="none"
+    ["net 1"]="any"
+    ["net --json"]="none"
+    ["net --project"]="any"
+    ["net --wait"]="any"
+    ["net --help"]="none"
+    ["net -h"]="none"
+    ["net list --help"]="none"
+    ["net list -h"]="none"
+    ["net describe 1"]="any"
+    ["net describe --help"]="none"
+    ["net describe -h"]="none"
+    ["net log 1"]="any"
+    ["net log --help"]="none"
+    ["net log -h"]="none"
+    ["net get 1"]="any"
+    ["net get 2"]="any"
+    ["net get --help"]="none"
+    ["net get -h"]="none"
+    ["net set 1"]="any"
+    ["net set 2"]="any"
+    ["net set 3"]="any"
+    ["net set --help"]="none"
+    ["net set -h"]="none"
+    ["net emit 1"]="any"
+    ["net emit 2"]="any"
+    ["net emit --help"]="none"
+    ["net emit -h"]="none"
+    ["net watch 1"]="any"
+    ["net watch 2"]="any"
+    ["net watch --help"]="none"
+    ["net watch -h"]="none"
+    ["net run 1"]="any"
+    ["net run --help"]="none"
+    ["net run -h"]="none"
+    ["net pause 1"]="any"
+    ["net pause --help"]="none"
+    ["net pause -h"]="none"
+    ["net step 1"]="any"
+    ["net step --help"]="none"
+    ["net step -h"]="none"
+    ["net reset 1"]="any"
+    ["net reset --help"]="none"
+    ["net reset -h"]="none"
+    ["net stop 1"]="any"
+    ["net stop --help"]="none"
+    ["net stop -h"]="none"
+    ["net save 1"]="any"
+    ["net save --help"]="none"
+    ["net save -h"]="none"
+    ["net load 1"]="any"
+    ["net load 2"]="any"
+    ["net load --help"]="none"
+    ["net load -h"]="none"
+    ["net break 1"]="any"
+    ["net break 2"]="any"
+    ["net break --clear"]="none"
+    ["net break --keep"]="none"
+    ["net break --help"]="none"
+    ["net break -h"]="none"
+    ["sim 1"]="file .world.json "
+    ["sim --load"]="file .aesl "
+    ["sim --watch"]="none"
+    ["sim --headless"]="none"
+    ["sim --speed"]="words max"
+    ["sim --duration"]="any"
+    ["sim --seed"]="any"
+    ["sim --listen"]="any"
+    ["sim --trace"]="file"
+    ["sim --dialect"]="words auto modern 2007"
+    ["sim --ontimer"]="any"
+    ["sim --help"]="none"
+    ["sim -h"]="none"
+)
+
+# Files with one of the endings, and folders; all files if there is no ending.
+_vagus_files() {
+    local cur=$1 ending
+    shift
+    compopt -o filenames 2>/dev/null
+    if [ $# -eq 0 ]; then
+        mapfile -t COMPREPLY < <(compgen -f -- "$cur")
+        return
+    fi
+    mapfile -t COMPREPLY < <(
+        compgen -d -- "$cur"
+        for ending; do compgen -f -X "!*$ending" -- "$cur"; done | sort -u
+    )
+}
+
+_vagus_complete_kind() {
+    local kind=$1 cur=$2
+    case $kind in
+        file*) read -ra kind <<<"$kind"; _vagus_files "$cur" "${kind[@]:1}" ;;
+        words*) mapfile -t COMPREPLY < <(compgen -W "${kind#words}" -- "$cur") ;;
+    esac
+}
+
+_vagus() {
+    local cur=${COMP_WORDS[COMP_CWORD]} verb="" position=0 value_of="" word i
+    COMPREPLY=()
+    for ((i = 1; i < COMP_CWORD; i++)); do
+        word=${COMP_WORDS[i]}
+        if [ -n "$value_of" ]; then
+            value_of=""
+        elif [[ $word == -* ]]; then
+            [[ $word == *=* || ${_vagus_takes["$verb $word"]:-none} == none ]] || value_of=$word
+        elif [[ " ${_vagus_names["$verb "]} " == *" $word "* ]]; then
+            verb="${verb:+$verb }$word"
+            position=0
+        else
+            position=$((position + 1))
+        fi
+    done
+    if [ -n "$value_of" ]; then
+        _vagus_complete_kind "${_vagus_takes["$verb $value_of"]}" "$cur"
+        return
+    fi
+    if [[ $cur != -* ]]; then
+        _vagus_complete_kind "${_vagus_takes["$verb $((position + 1))"]:-any
+}
+" " $cur "
+    fi if [[$cur == -* || $ { #COMPREPLY[@] } - eq 0]];
+then local names = $ {
+    _vagus_names["$verb "]
+}
+#Options are offered when one is begun; verbs always.
+[[$cur == -*]] || names = $(printf '%s\n' $names | grep - v '^-') mapfile - t COMPREPLY < <
+                          (compgen - W "$names" --"$cur") fi
+}
+
+complete -F _vagus vagus

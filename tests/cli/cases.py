@@ -1,0 +1,437 @@
+"""What `vagus` promises on the command line: exit codes, where words go, formats, the terminal given back.
+
+Waiting is always for a condition; GIVE_UP_AFTER only says when to give up.
+"""
+import fcntl
+import json
+import os
+import pathlib
+import pty
+import select
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+VAGUS = os.environ.get("VAGUS_BIN", str(ROOT / "build/release/bin/vagus"))
+GIVE_UP_AFTER = 60.0
+VERBS = ["compile", "exec", "switch", "node", "net", "sim"]
+
+WORLD = """{
+  "format": "vagus-world/1",
+  "name": "yard",
+  "size": [2, 1],
+  "robots": [{ "name": "rob", "type": "thymio2", "at": [0.5, 0.5], "node": 7 }]
+}
+"""
+PROJECT = """<!DOCTYPE aesl-source>
+<network>
+<event size="1" name="count"/>
+<node nodeId="7" name="thymio-II">var n = 0
+timer.period[0] = 100
+onevent timer0
+n += STEP
+emit count n
+</node>
+</network>
+"""
+# The worked example of docs/spec/aesl-language.md, section 5.2, and the words that stand there.
+ROVER = """<!DOCTYPE aesl-source>
+<network>
+
+
+<!--list of global events-->
+<event size="1" name="setspeed"/>
+<event size="2" name="status"/>
+
+
+<!--list of constants-->
+<constant value="40" name="PERIOD"/>
+<constant value="-3" name="DRIFT"/>
+
+
+<!--node rover-->
+<node nodeId="1" name="rover">var speed = 0
+var ticks = 0
+
+timer.period = PERIOD
+
+onevent timer
+ticks += 1
+if speed &lt; 100 and ticks > 2 then
+	speed += DRIFT &amp; 0xf
+end
+when speed >= 50 do
+	emit status [speed, ticks]
+end
+
+onevent setspeed
+speed = args[0]
+</node>
+</network>
+"""
+
+
+class Screen:
+    """A program on a terminal of its own; what it paints is kept as bytes."""
+
+    def __init__(self, *arguments, columns=80, rows=24, env=None):
+        self.master, self.slave = pty.openpty()
+        self.resize(columns, rows)
+        self.before = termios.tcgetattr(self.slave)
+        self.process = subprocess.Popen([VAGUS, *map(str, arguments)], stdin=self.slave, stdout=self.slave,
+                                        stderr=self.slave, start_new_session=True, preexec_fn=self._own_terminal,
+                                        env={**os.environ, "TERM": "xterm-256color", "NO_COLOR": "1", "LC_ALL": "C.UTF-8",
+                                             **(env or {})})
+        self.bytes = b""
+
+    def _own_terminal(self):
+        fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+        os.close(self.master)
+        os.close(self.slave)
+
+    def resize(self, columns, rows):
+        fcntl.ioctl(self.slave, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
+
+    def type(self, keys):
+        os.write(self.master, keys.encode())
+
+    def read(self, seconds):
+        if select.select([self.master], [], [], seconds)[0]:
+            self.bytes += os.read(self.master, 65536)
+
+    def wait_for(self, text):
+        """Reads until the program has painted the text; forgets what came before it."""
+        deadline = time.monotonic() + GIVE_UP_AFTER
+        wanted = text.encode()
+        while wanted not in self.bytes:
+            if time.monotonic() > deadline:
+                raise AssertionError(f"never painted {text!r}; the end of what it painted: {self.bytes[-2000:]!r}")
+            self.read(0.05)
+        self.bytes = self.bytes[self.bytes.index(wanted) + len(wanted):]
+
+    def wait_until(self, condition, what):
+        deadline = time.monotonic() + GIVE_UP_AFTER
+        while not condition():
+            if time.monotonic() > deadline:
+                raise AssertionError(f"never came: {what}")
+            self.read(0.05)
+
+    def wait_end(self):
+        self.wait_until(lambda: self.process.poll() is not None, "the end")
+        while select.select([self.master], [], [], 0)[0]:
+            self.bytes += os.read(self.master, 65536)
+        return self.process.returncode
+
+    def given_back(self):
+        """Input modes as before, cursor visible, the page of the shell again, in this order at the end."""
+        return termios.tcgetattr(self.slave) == self.before and self.bytes.find(b"\x1b[?25h") >= 0 and \
+            self.bytes.rfind(b"\x1b[?1049l") > self.bytes.rfind(b"\x1b[?1049h")
+
+
+class Cli(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-cli-")))
+        self.world = self.file("yard.world.json", WORLD)
+        self.script = self.file("count.aesl", PROJECT.replace("STEP", "1"))
+
+    def file(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def run_vagus(self, *arguments, status=0, stdin=None):
+        done = subprocess.run([VAGUS, *map(str, arguments)], capture_output=True, text=True, timeout=GIVE_UP_AFTER,
+                              cwd=self.folder, input=stdin)
+        self.assertEqual(done.returncode, status, f"{arguments}: {done.stdout}\n{done.stderr}")
+        return done
+
+    # ---- all verbs ----
+
+    def test_help_of_every_verb_has_an_example(self):
+        top = self.run_vagus("--help").stdout
+        for verb in VERBS:
+            self.assertIn(f"  {verb} ", top)
+            page = self.run_vagus(verb, "--help")
+            self.assertIn("Example", page.stdout)
+            self.assertIn(f"vagus {verb} ", page.stdout.split("Example")[1])
+            self.assertEqual(page.stderr, "")
+
+    def test_version_is_one_line(self):
+        self.assertRegex(self.run_vagus("--version").stdout, r"^vagus \d+\.\d+\.\d+\n$")
+
+    def test_wrong_command_lines_end_with_2_and_a_hint(self):
+        for arguments, said in [
+            ((), "say what to do"),
+            (("compil", "x"), 'no verb "compil" here; did you mean compile?'),
+            (("sim", self.world, "--sped", "2"), 'no option "--sped" here; did you mean --speed?'),
+            (("sim", self.world, "--speed", "fast"), 'expected a number from 0.01 to 1000, or max, found "fast"'),
+            (("sim", self.world, "--duration", "-1"), 'expected a number of seconds above 0, found "-1"'),
+            (("sim", self.world, "more"), '"more" is one argument too many'),
+            (("compile",), "FILE is required"),
+            (("compile", self.script, "--format", "jso"), 'found "jso"; did you mean json?'),
+            (("exec", self.script), "--node is required"),
+            (("node", "--id", "x"), "--id"),
+        ]:
+            with self.subTest(arguments=arguments):
+                done = self.run_vagus(*arguments, status=2)
+                self.assertIn(said, done.stderr)
+                self.assertIn("--help", done.stderr)
+                self.assertEqual(done.stdout, "")
+
+    def test_files_that_cannot_be_read_end_with_2(self):
+        for arguments in [("compile", "gone.aesl"), ("compile", self.script, "--node", "gone.json"), ("sim", "gone.json"),
+                          ("sim", self.world, "--load", "gone.aesl")]:
+            with self.subTest(arguments=arguments):
+                self.assertIn("gone", self.run_vagus(*arguments, status=2).stderr)
+
+    def test_a_reader_that_leaves_is_harmless(self):
+        with subprocess.Popen([VAGUS, "sim", self.world, "--headless", "--speed", "max", "--duration", "100000"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+            program.stdout.readline()
+            program.stdout.close()
+            self.assertEqual(program.wait(timeout=GIVE_UP_AFTER), 0)
+            self.assertEqual(program.stderr.read(), "")
+
+    # ---- derived pages ----
+
+    def test_completion_is_current(self):
+        self.assertEqual((ROOT / "completions/vagus.bash").read_text(), self.run_vagus("page", "bash").stdout,
+                         "run: vagus page bash > completions/vagus.bash")
+
+    def test_manual_is_current(self):
+        self.assertEqual((ROOT / "docs/cli.md").read_text(), self.run_vagus("page", "manual").stdout,
+                         "run: vagus page manual > docs/cli.md")
+
+    def complete(self, *words):
+        """What bash would offer for the last word."""
+        line = " ".join(f"'{word}'" for word in words)
+        script = (f"source {ROOT}/completions/vagus.bash; COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; "
+                  f"_vagus; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
+        done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, cwd=self.folder, check=True)
+        return sorted(filter(None, done.stdout.split("\n")))
+
+    def test_bash_completes_verbs_options_words_and_files(self):
+        self.file("other.txt", "")
+        self.assertEqual(self.complete("vagus", ""), sorted(VERBS))
+        self.assertEqual(self.complete("vagus", "co"), ["compile"])
+        self.assertEqual(self.complete("vagus", "compile", "--form"), ["--format"])
+        self.assertEqual(self.complete("vagus", "compile", "--format", "l"), ["listing"])
+        self.assertEqual(self.complete("vagus", "compile", "--format", ""), ["abo", "hex", "json", "listing"])
+        self.assertEqual(self.complete("vagus", "compile", ""), ["count.aesl"])
+        self.assertEqual(self.complete("vagus", "sim", ""), ["yard.world.json"])
+        self.assertEqual(self.complete("vagus", "sim", "yard.world.json", "--load", ""), ["count.aesl"])
+        self.assertEqual(self.complete("vagus", "sim", "--watch", "--sp"), ["--speed"])
+        self.assertIn("list", self.complete("vagus", "net", "tcp:localhost:33333", ""))
+
+    # ---- compile ----
+
+    def test_compile_writes_the_words_of_the_specification(self):
+        hexes = self.run_vagus("compile", self.file("rover.aesl", ROVER), "--format", "hex").stdout.split()
+        # Three vectors: setspeed at 7, timer at 10, the start at 38 in the reference; a compiler may do better.
+        self.assertEqual(hexes[:5], ["0007", "0000", "0007", "fffe", "000a"])
+        self.assertTrue(all(len(word) == 4 for word in hexes))
+        node = json.loads(self.run_vagus("compile", "rover.aesl", "--format", "json").stdout)["nodes"][0]
+        self.assertEqual(node["name"], "rover")
+        self.assertEqual([f"{word:04x}" for word in node["bytecode"]], hexes)
+        self.assertEqual(len(node["lines"]), len(hexes))
+        self.assertEqual(node["variables"]["speed"], [36, 1])
+        self.assertEqual(node["variables"]["ticks"], [37, 1])
+        self.assertEqual(node["used"]["bytecode"], len(hexes))
+        self.assertEqual(node["warnings"], [])
+
+    def test_compile_writes_object_files(self):
+        self.file("rover.aesl", ROVER)
+        self.run_vagus("compile", "rover.aesl", "--format", "abo", "-o", "rover.abo")
+        data = (self.folder / "rover.abo").read_bytes()
+        words = self.run_vagus("compile", "rover.aesl", "--format", "hex").stdout.split()
+        self.assertEqual(data[:4], b"ABO\0")
+        version, protocol, _, _, node_id, _, _, count = struct.unpack("<8H", data[4:20])
+        self.assertEqual((version, protocol, node_id, count), (0, 5, 1, len(words)))
+        self.assertEqual([f"{word:04x}" for word in struct.unpack(f"<{count}H", data[20:20 + 2 * count])], words)
+
+    def test_mistakes_name_line_and_column_of_the_file(self):
+        # Line 19 of the file: "ticks += 1" without its "s".
+        self.file("rover.aesl", ROVER.replace("ticks += 1", "tick += 1\nspeeed = 2"))
+        done = self.run_vagus("compile", "rover.aesl", status=1)
+        self.assertEqual(done.stdout, "")
+        lines = done.stderr.strip().split("\n")
+        line = ROVER.split("\n").index("ticks += 1") + 1
+        self.assertRegex(lines[0], rf'^rover\.aesl:{line}:1: error: .*"tick".* \[VARIABLE_NOT_DEFINED')
+        self.assertRegex(lines[1], rf'^rover\.aesl:{line + 1}:1: error: .*"speeed".*did you mean "speed"')
+        self.assertEqual(len(lines), 2)
+
+    def test_broken_projects_are_mistakes_too(self):
+        self.file("rover.aesl", "<network><node name='x'></network>")
+        self.assertRegex(self.run_vagus("compile", "rover.aesl", status=1).stderr, r"^rover\.aesl:1:")
+
+    def test_hex_of_several_nodes_needs_a_name(self):
+        two = ROVER.replace("</network>", '<node nodeId="2" name="other">var x = 1</node></network>')
+        self.file("two.aesl", two)
+        self.assertIn("--node-name", self.run_vagus("compile", "two.aesl", "--format", "hex", status=2).stderr)
+        self.assertEqual(self.run_vagus("compile", "two.aesl", "--format", "hex", "--node-name", "other").stdout[:4], "0003")
+        wrong = self.run_vagus("compile", "two.aesl", "--format", "hex", "--node-name", "othr", status=2).stderr
+        self.assertIn("did you mean other?", wrong)
+        nodes = json.loads(self.run_vagus("compile", "two.aesl", "--format", "json").stdout)["nodes"]
+        self.assertEqual([node["name"] for node in nodes], ["rover", "other"])
+
+    def test_compile_reads_standard_input(self):
+        done = self.run_vagus("compile", "-", "--format", "hex", stdin="var a = 5")
+        # Table: start at 3; push 5, store at 36 (behind the 36 words of the software node), stop.
+        self.assertEqual(done.stdout.split(), ["0003", "ffff", "0003", "1005", "4024", "0000"])
+
+    # ---- sim, plain lines ----
+
+    def test_without_a_terminal_it_ends_after_20_simulated_seconds(self):
+        text = self.run_vagus("sim", self.world, "--load", self.script, "--speed", "max").stdout
+        self.assertIn("loaded", text)
+        self.assertIn("event  rob: count 1\n", text)
+        poses = [line for line in text.split("\n") if "  rob  at " in line]
+        self.assertEqual(len(poses), 21)  # at the start and after each second
+        self.assertTrue(poses[-1].startswith("20.000 s"), poses[-1])
+
+    def test_duration_says_otherwise(self):
+        text = self.run_vagus("sim", self.world, "--headless", "--speed", "max", "--duration", "2.5").stdout
+        self.assertIn("2.000 s  rob  at", text)
+        self.assertNotIn("3.000 s", text)
+
+    def test_two_traces_of_a_run_are_the_same(self):
+        for name in ("a", "b"):
+            self.run_vagus("sim", self.world, "--load", self.script, "--speed", "max", "--duration", "5", "--trace", name)
+        first = (self.folder / "a").read_bytes()
+        self.assertEqual(first, (self.folder / "b").read_bytes())
+        lines = [json.loads(line) for line in first.decode().split("\n")[:-1]]
+        poses = [line for line in lines if line["kind"] == "pose"]
+        self.assertEqual(len(poses), 50)  # ten a second
+        self.assertEqual((poses[0]["robot"], poses[0]["x"], poses[0]["y"]), ("rob", 0.5, 0.5))
+        events = [line for line in lines if line["kind"] == "event"]
+        self.assertEqual([event["args"][0] for event in events], list(range(1, len(events) + 1)))
+        self.assertEqual((events[0]["node"], events[0]["name"]), (7, "count"))
+        self.assertEqual(sorted(line["t"] for line in lines), [line["t"] for line in lines])
+
+    def test_mistakes_in_the_script_end_the_run_with_1(self):
+        self.script.write_text(PROJECT.replace("STEP", "stp"))
+        done = self.run_vagus("sim", self.world, "--load", self.script, "--speed", "max", status=1)
+        self.assertIn(f"{self.script}:7:", done.stderr)
+
+    def test_a_plain_script_needs_no_declarations(self):
+        plain = self.file("plain.aesl", "timer.period[0] = 100\nonevent timer0\nemit both [7, 8]\nemit none\n")
+        text = self.run_vagus("sim", self.world, "--load", plain, "--speed", "max", "--duration", "1").stdout
+        self.assertIn("event  rob: both 7 8\n", text)
+        self.assertIn("event  rob: none\n", text)
+
+    def test_a_project_for_other_nodes_says_so(self):
+        other = self.file("other.aesl", PROJECT.replace("STEP", "1").replace("thymio-II", "rover"))
+        done = self.run_vagus("sim", self.world, "--load", other, "--speed", "max", status=1)
+        self.assertIn('"rover" (node 7)', done.stderr)
+        self.assertIn('"thymio-II" (node 7)', done.stderr)
+
+    def test_listening_is_the_first_line_and_hosts_see_the_robot(self):
+        with subprocess.Popen([VAGUS, "sim", self.world, "--headless", "--duration", "600", "--listen", "tcp:127.0.0.1:0"],
+                              stdout=subprocess.PIPE, text=True) as program:
+            try:
+                first = program.stdout.readline()
+                self.assertRegex(first, r"^listening tcp:127\.0\.0\.1:\d+\n$")
+                nodes = json.loads(self.run_vagus("net", first.split()[1], "list", "--json").stdout)
+                self.assertEqual([(node["id"], node["name"]) for node in nodes], [(7, "thymio-II")])
+            finally:
+                program.terminate()
+
+    def test_a_saved_script_takes_effect_while_it_runs(self):
+        with subprocess.Popen([VAGUS, "sim", self.world, "--load", self.script, "--watch", "--headless", "--duration", "600"],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as program:
+            try:
+                self.wait_line(program, "count 2\n")
+                self.script.write_text(PROJECT.replace("STEP", "sttep"))
+                self.wait_line(program, 'no variable or constant "sttep"')
+                self.wait_line(program, "count")  # the old program runs on
+                self.script.write_text(PROJECT.replace("STEP", "100"))
+                self.wait_line(program, "count 200\n")
+            finally:
+                program.terminate()
+
+    @staticmethod
+    def wait_line(program, text):
+        for line in program.stdout:
+            if text in line:
+                return
+        raise AssertionError(f"never printed {text!r}")
+
+    # ---- sim on a terminal ----
+
+    def test_the_screen_shows_the_robot_and_q_gives_the_terminal_back(self):
+        with Screen("sim", self.world, "--load", self.script) as screen:
+            screen.wait_for("yard")
+            screen.wait_for("thymio-II")
+            screen.wait_for("count")
+            screen.type(" ")
+            screen.wait_for("paused")
+            screen.type(" ")
+            screen.wait_for("pause")
+            screen.type("+")
+            screen.wait_for("x2")
+            screen.bytes = b""
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 0)
+            self.assertTrue(screen.given_back(), screen.bytes[-200:])
+
+    def test_the_page_follows_the_size_of_the_terminal(self):
+        with Screen("sim", self.world) as screen:
+            screen.wait_for("thymio-II")
+            screen.resize(59, 16)
+            screen.wait_for("needs 60 x 16")
+            screen.resize(60, 16)
+            screen.wait_for("thymio-II")
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 0)
+
+    def test_whatever_ends_it_the_terminal_is_given_back(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGABRT, signal.SIGSEGV):
+            with self.subTest(signal=number), Screen("sim", self.world) as screen:
+                screen.wait_for("thymio-II")
+                screen.bytes = b""
+                screen.process.send_signal(number)
+                self.assertEqual(screen.wait_end(), -number)
+                self.assertTrue(screen.given_back(), screen.bytes[-200:])
+
+    def test_ctrl_c_ends_it_by_the_signal_so_that_scripts_around_stop(self):
+        with Screen("sim", self.world) as screen:
+            screen.wait_for("thymio-II")
+            screen.type("\x03")
+            self.assertEqual(screen.wait_end(), -signal.SIGINT)
+            self.assertTrue(screen.given_back())
+
+    def test_mistakes_appear_on_the_screen_and_go_when_mended(self):
+        with Screen("sim", self.world, "--load", self.script, "--watch", columns=100, rows=30) as screen:
+            screen.wait_for("count")
+            self.script.write_text(PROJECT.replace("STEP", "sttep"))
+            screen.wait_for("has mistakes")
+            screen.wait_for("sttep")
+            self.script.write_text(PROJECT.replace("STEP", "100"))
+            screen.wait_for("runs on rob")
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 0)
+
+    def test_no_color_means_no_colour(self):
+        for environment, coloured in (({}, False), ({"NO_COLOR": ""}, True)):
+            with Screen("sim", self.world, env=environment) as screen:
+                screen.wait_until(lambda: b"quit" in screen.bytes, "the keys")
+                self.assertEqual(b";38;5;" in screen.bytes, coloured)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -150,8 +150,10 @@ _vagus_files() {
         return
     fi
     mapfile -t COMPREPLY < <(
-        compgen -d -- "$cur"
-        for ending; do compgen -f -X "!*$ending" -- "$cur"; done | sort -u
+        {
+            compgen -d -- "$cur"
+            for ending; do compgen -f -X "!*$ending" -- "$cur"; done
+        } | sort -u
     )
 }
 
@@ -164,7 +166,7 @@ _vagus_complete_kind() {
 }
 
 _vagus() {
-    local cur=${COMP_WORDS[COMP_CWORD]} verb="" position=0 value_of="" word i
+    local cur=${COMP_WORDS[COMP_CWORD]} verb="" position=0 value_of="" word names i
     COMPREPLY=()
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
@@ -184,16 +186,14 @@ _vagus() {
         return
     fi
     if [[ $cur != -* ]]; then
-        _vagus_complete_kind "${_vagus_takes["$verb $((position + 1))"]:-any
-}
-" " $cur "
-    fi if [[$cur == -* || $ { #COMPREPLY[@] } - eq 0]];
-then local names = $ {
-    _vagus_names["$verb "]
-}
-#Options are offered when one is begun; verbs always.
-[[$cur == -*]] || names = $(printf '%s\n' $names | grep - v '^-') mapfile - t COMPREPLY < <
-                          (compgen - W "$names" --"$cur") fi
+        _vagus_complete_kind "${_vagus_takes["$verb $((position + 1))"]:-any}" "$cur"
+    fi
+    if [[ $cur == -* || ${#COMPREPLY[@]} -eq 0 ]]; then
+        names=${_vagus_names["$verb "]}
+        # Options are offered when one is begun; verbs always.
+        [[ $cur == -* ]] || names=$(printf '%s\n' $names | grep -v '^-')
+        mapfile -t COMPREPLY < <(compgen -W "$names" -- "$cur")
+    fi
 }
 
 complete -F _vagus vagus

@@ -142,7 +142,7 @@ TEST(Thymio2Body, FiveHundredIsSixteenPointSixCentimetresASecond) {
     EXPECT_EQ(body.left_speed(), 500);
 }
 
-// Wheels 9.4 cm apart: 250 and -250 turn 2 * 0.083 / 0.094 = 1.766 rad/s.
+// Wheels 9.5 cm apart: 250 and -250 turn 2 * 0.083 / 0.095 = 1.747 rad/s.
 TEST(Thymio2Body, TurningOnTheSpotFollowsTheWheelbase) {
     Arena arena({.width = 2, .height = 2});
     thymio2::Body body(arena, {{1, 1}, 0});
@@ -150,7 +150,7 @@ TEST(Thymio2Body, TurningOnTheSpotFollowsTheWheelbase) {
         body.drive(arena, -250, 250);
         arena.step();
     }
-    EXPECT_NEAR(arena.pose(body.id()).angle, 2 * 1.766, 0.03);
+    EXPECT_NEAR(arena.pose(body.id()).angle, 2 * 1.747, 0.03);
     EXPECT_NEAR(arena.pose(body.id()).at.x, 1, 1e-4);
 }
 

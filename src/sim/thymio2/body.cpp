@@ -17,8 +17,8 @@ constexpr double kGroundNoise = 10;
 constexpr double kEyeHeight = 0.03;  // m
 constexpr double kAmbientMax = 1023;
 
-constexpr RobotBody kBody = {.mass = 0.27, .inertia = 5.5e-4, .grip = 0.047, .height = 0.053};
-constexpr WheelsDefinition kWheels = {.base = 0.094, .response = 0.01, .speed_max = 0.2};
+constexpr RobotBody kBody = {.mass = 0.27, .inertia = 5.5e-4, .grip = 0.0475, .height = 0.053};
+constexpr WheelsDefinition kWheels = {.base = 0.095, .response = 0.01, .speed_max = 0.2};
 
 constexpr std::array<Point, 8> kOutline = {{{-0.030, -0.056},
                                             {0.045, -0.056},

@@ -1,0 +1,580 @@
+#include "plan/machine.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+
+namespace vagus::plan {
+
+namespace {
+
+enum class Phase : uint8_t {
+    Pending,   // begin() is due
+    Running,   // its code, or a plan inside it, runs
+    SubEnded,  // the plan inside it has ended: end_sub_plan() is due
+    Stopping,  // its code has been told to stop
+    None,      // no activation: the plan is ending
+};
+
+// Whether a global supervisor watches (P23).
+enum class Rest : uint8_t {
+    No,
+    Remedy,  // its event has been taken; the activation that follows is its remedy
+    Resting  // the remedy is active; it starts anew with the activation after it
+};
+
+}  // namespace
+
+// What follows when an activation has been stopped.
+struct Machine::After {
+    int target = kTargetTerminate;
+    bool failed = false;
+    std::string message = {};
+};
+
+struct Machine::Watch {
+    WatchId id = 0;  // 0: does not watch
+    Rest rest = Rest::No;
+    int level = 0;
+    bool global = false;
+    int index = 0;
+    const GraphSupervisor* of = nullptr;
+};
+
+// One plan that runs: the outermost, or one inside an actor of the level below.
+struct Machine::Level {
+    const GraphPlan* plan = nullptr;
+    std::string path;
+    std::vector<Value> values;
+    std::vector<Value*> cells;  // into `values`, or into those of an outer level (shared)
+    std::vector<Watch> globals;
+
+    // The activation.
+    int actor = -1;
+    ActivationId activation = 0;
+    Phase phase = Phase::None;
+    std::vector<Watch> own;
+    bool interrupted = false;  // and this from then on:
+    Time interrupted_at{};
+    After after;
+
+    // What the plan inside gave, from its end to end_sub_plan().
+    PlanResult sub_result = PlanResult::Ok;
+    std::vector<std::optional<Value>> sub_outputs;
+
+    const GraphActor& active() const { return plan->actors[static_cast<size_t>(actor)]; }
+};
+
+Machine::Machine(const Graph& graph) : graph_(graph) {}
+Machine::~Machine() = default;
+
+// ---- starting ----
+
+void Machine::start(const std::vector<std::pair<int, Value>>& outside, Time now) {
+    assert(levels_.empty() && !over_);
+    const GraphPlan& plan = graph_.plans.front();
+    push_level(plan, plan.name);
+    Level& level = at(0);
+    for (Value& value : level.values) level.cells.push_back(&value);
+    trace(0, now, PlanStarted{});
+    for (size_t i = 0; i < plan.variables.size(); ++i) {
+        trace(0, now, VariableWritten{plan.variables[i].name, level.values[i], "initial"});
+    }
+    for (const auto& [slot, value] : outside) {
+        cell(0, slot) = value;
+        trace(0, now,
+              VariableWritten{plan.variables[static_cast<size_t>(slot)].name, value, "outside"});
+    }
+    start_globals(0, now);
+    activate(0, plan.start, now);
+}
+
+void Machine::push_level(const GraphPlan& plan, std::string path) {
+    auto level = std::make_unique<Level>();
+    level->plan = &plan;
+    level->path = std::move(path);
+    for (const GraphVariable& variable : plan.variables) level->values.push_back(variable.initial);
+    level->globals.resize(plan.globals.size());
+    levels_.push_back(std::move(level));
+}
+
+void Machine::start_globals(int level, Time) {
+    for (size_t i = 0; i < at(level).globals.size(); ++i) {
+        start_watch(level, true, static_cast<int>(i));
+    }
+}
+
+void Machine::start_watch(int level, bool global, int index) {
+    Level& l = at(level);
+    const auto i = static_cast<size_t>(index);
+    Watch& watch = global ? l.globals[i] : l.own[i];
+    const GraphSupervisor& of = global ? l.plan->globals[i] : l.active().supervisors[i];
+    watch = {.id = ++watches_, .level = level, .global = global, .index = index, .of = &of};
+    commands_.push_back(StartWatch{watch.id, level, global, index, &of});
+}
+
+void Machine::activate(int level, int actor, Time now) {
+    Level& l = at(level);
+    l.actor = actor;
+    l.interrupted = false;
+    if (at_once_ >= kActivationsAtOnceMax) {
+        l.phase = Phase::None;
+        fail_plan(level, l.active().name,
+                  fmt::format("{} activations have come without any time passing: a loop that "
+                              "never waits",
+                              kActivationsAtOnceMax),
+                  now);
+        return;
+    }
+    ++at_once_;
+    l.activation = ++activations_;
+    l.phase = Phase::Pending;
+    restart_globals(level);
+    l.own.assign(l.active().supervisors.size(), {});
+    for (size_t i = 0; i < l.own.size(); ++i) start_watch(level, false, static_cast<int>(i));
+    commands_.push_back(Activate{l.activation, level});
+}
+
+void Machine::restart_globals(int level) {
+    Level& l = at(level);
+    for (size_t i = 0; i < l.globals.size(); ++i) {
+        Watch& watch = l.globals[i];
+        if (watch.rest == Rest::Remedy) {
+            watch.rest = Rest::Resting;
+        } else if (watch.rest == Rest::Resting) {
+            start_watch(level, true, static_cast<int>(i));
+        }
+    }
+}
+
+void Machine::begin(ActivationId activation, Time now) {
+    const int level = level_of(activation);
+    if (level < 0 || at(level).phase != Phase::Pending) return;
+    Level& l = at(level);
+    const GraphActor& actor = l.active();
+    Result<std::vector<Value>> in = read(level, actor.inputs);
+    if (!in.ok()) {
+        l.phase = Phase::None;
+        fail_plan(level, actor.name, in.error().what, now);
+        return;
+    }
+    ActorStarted started{actor.name, activation, {}};
+    for (size_t i = 0; i < actor.inputs.size(); ++i) {
+        started.in.emplace_back(actor.inputs[i].name, in.value()[i]);
+    }
+    trace(level, now, std::move(started));
+    l.phase = Phase::Running;
+    if (actor.of) {
+        commands_.push_back(StartCode{activation, level, &actor, std::move(in.value())});
+    } else if (depth() >= kPlanDepthMax) {
+        fail(activation,
+             fmt::format("plans are nested more than {} deep; the outermost counts as 1",
+                         kPlanDepthMax),
+             now);
+    } else {
+        begin_sub_plan(level, std::move(in.value()), now);
+    }
+}
+
+void Machine::begin_sub_plan(int level, std::vector<Value> in, Time now) {
+    const GraphActor& actor = at(level).active();
+    const GraphPlan& plan = graph_.plans[static_cast<size_t>(actor.sub_plan)];
+    push_level(plan, at(level).path + "/" + actor.name);
+    const int inner = level + 1;
+    Level& l = at(inner);
+    for (Value& value : l.values) l.cells.push_back(&value);
+    for (const auto& [slot, outer] : actor.shared) {
+        l.cells[static_cast<size_t>(slot)] = &cell(level, outer);
+    }
+    trace(inner, now, PlanStarted{});
+    for (size_t i = 0; i < plan.variables.size(); ++i) {
+        if (plan.variables[i].shared) continue;
+        trace(inner, now, VariableWritten{plan.variables[i].name, l.values[i], "initial"});
+    }
+    for (size_t i = 0; i < actor.inputs.size(); ++i) {
+        const GraphInput& input = actor.inputs[i];
+        if (!input.fed) continue;
+        cell(inner, input.inner_slot) = in[i];
+        trace(inner, now, VariableWritten{input.name, in[i], "outside"});
+    }
+    start_globals(inner, now);
+    activate(inner, plan.start, now);
+}
+
+// ---- what happened ----
+
+void Machine::end(ActivationId activation, const Given& given, Time now) {
+    const int level = level_of(activation);
+    if (level < 0 || at(level).phase != Phase::Running) return;
+    Level& l = at(level);
+    const GraphActor& actor = l.active();
+    const auto outcome = static_cast<size_t>(given.outcome);
+    const int target = actor.targets[outcome];
+    l.phase = Phase::None;
+    trace(level, now,
+          ActorEnded{actor.name, activation, actor.states[outcome], target_name(level, target)});
+    const Status written = write_outputs(level, actor.outputs, given.outputs, actor.name, now);
+    if (!written.ok()) {
+        fail_plan(level, actor.name, written.error().what, now);
+        return;
+    }
+    stop_own(level);
+    follow(level, target, PlanResult::Ok, now);
+}
+
+void Machine::end_sub_plan(ActivationId activation, Time now) {
+    const int level = level_of(activation);
+    if (level < 0 || at(level).phase != Phase::SubEnded) return;
+    Level& l = at(level);
+    l.phase = Phase::Running;
+    Given given{.outcome = static_cast<int>(l.sub_result), .outputs = std::move(l.sub_outputs)};
+    if (l.sub_result == PlanResult::Error) given.outputs.assign(given.outputs.size(), {});
+    end(activation, given, now);
+}
+
+void Machine::raise(WatchId id, const Given& given, Time now) {
+    Watch* watch = find(id);
+    if (!watch) return;
+    const int level = watch->level;
+    const GraphSupervisor& of = *watch->of;
+    const auto outcome = static_cast<size_t>(given.outcome);
+    const int target = of.targets[outcome];
+    trace(level, now,
+          EventRaised{of.name, of.of->outcomes[outcome].name, target_name(level, target),
+                      watch->global, at(level).activation});
+    if (target == kTargetIgnore) return;
+    After after{.target = target};
+    const Status written = write_outputs(level, of.outputs, given.outputs, of.name, now);
+    stop_watch(*watch);
+    if (watch->global) watch->rest = Rest::Remedy;
+    if (!written.ok()) {
+        after = {.failed = true, .message = sentence(level, of.name, written.error().what)};
+        trace(level, now, ErrorFound{of.name, after.message});
+    }
+    interrupt(level, std::move(after), now);
+}
+
+void Machine::fail(ActivationId activation, std::string_view cause, Time now) {
+    const int level = level_of(activation);
+    if (level < 0 || at(level).phase != Phase::Running) return;
+    at(level).phase = Phase::None;
+    fail_plan(level, at(level).active().name, cause, now);
+}
+
+void Machine::fail_watch(WatchId id, std::string_view cause, Time now) {
+    Watch* watch = find(id);
+    if (!watch) return;
+    const int level = watch->level;
+    After after{.failed = true, .message = sentence(level, watch->of->name, cause)};
+    trace(level, now, ErrorFound{watch->of->name, after.message});
+    stop_watch(*watch);
+    interrupt(level, std::move(after), now);
+}
+
+void Machine::stopped(ActivationId activation, Time now) {
+    const int level = level_of(activation);
+    if (level < 0 || at(level).phase != Phase::Stopping) return;
+    finish_stop(now);
+}
+
+void Machine::overstayed(ActivationId activation, Time now) {
+    const int innermost = level_of(activation);
+    if (innermost < 0 || at(innermost).phase != Phase::Stopping) return;
+    const GraphActor& actor = at(innermost).active();
+    const std::string message =
+        sentence(innermost, actor.name,
+                 fmt::format("it did not stop within its grace time of {} ms", actor.of->grace_ms));
+    trace(innermost, now, ErrorFound{actor.name, message});
+    stopping_from_ = -1;
+    for (int level = innermost; level >= 0; --level) {
+        at(level).phase = Phase::None;
+        end_plan(level, PlanResult::Error, message, now);
+    }
+}
+
+void Machine::abort(Time now) {
+    if (over_ || levels_.empty()) return;
+    interrupt(0, After{}, now);
+}
+
+void Machine::log(ActivationId activation, std::string text, Time now) {
+    const int level = level_of(activation);
+    if (level < 0) return;
+    trace(level, now, TextLogged{at(level).active().name, std::move(text)});
+}
+
+void Machine::late(WatchId id, Duration by, Time now) {
+    if (const Watch* watch = find(id)) trace(watch->level, now, CheckLate{watch->of->name, by});
+}
+
+void Machine::time_passed() {
+    at_once_ = 0;
+}
+
+// ---- ending ----
+
+// The activation at `level` is to be stopped, with all that runs inside it, innermost code first;
+// then `after` follows (P18, P25). Code that was told before is not told again (P18a).
+void Machine::interrupt(int level, After after, Time now) {
+    Level& l = at(level);
+    l.after = std::move(after);
+    stopping_from_ = stopping_from_ < 0 ? level : std::min(stopping_from_, level);
+    if (!l.interrupted) {
+        l.interrupted = true;
+        l.interrupted_at = now;
+    }
+    stop_own(level);
+    for (int inner = level + 1; inner < depth(); ++inner) {
+        Level& i = at(inner);
+        if (!i.interrupted) {
+            i.interrupted = true;
+            i.interrupted_at = now;
+        }
+        stop_own(inner);
+        stop_globals(inner);
+    }
+    Level& innermost = at(depth() - 1);
+    if (innermost.phase == Phase::Stopping) return;
+    if (innermost.phase == Phase::Running) {
+        innermost.phase = Phase::Stopping;
+        commands_.push_back(StopCode{innermost.activation});
+        return;
+    }
+    finish_stop(now);
+}
+
+// Nothing runs any more from the innermost level to that of the interruption (P25a).
+void Machine::finish_stop(Time now) {
+    const int level = stopping_from_;
+    stopping_from_ = -1;
+    for (int inner = depth() - 1; inner >= level; --inner) {
+        Level& l = at(inner);
+        const bool ran = l.phase != Phase::Pending;
+        trace(inner, now,
+              ActorInterrupted{l.active().name, l.activation, ran, now - l.interrupted_at});
+        l.phase = Phase::None;
+        if (inner > level) {
+            trace(inner, now, PlanEnded{PlanResult::Interrupted, {}});
+            levels_.pop_back();
+        }
+    }
+    const After after = std::move(at(level).after);
+    if (after.failed) {
+        end_plan(level, PlanResult::Error, after.message, now);
+    } else {
+        follow(level, after.target, PlanResult::Interrupted, now);
+    }
+}
+
+void Machine::follow(int level, int target, PlanResult at_terminate, Time now) {
+    assert(target != kTargetIgnore);
+    if (target == kTargetTerminate) {
+        end_plan(level, at_terminate, {}, now);
+    } else {
+        activate(level, target, now);
+    }
+}
+
+// The plan at the innermost level ends; no code of it runs.
+void Machine::end_plan(int level, PlanResult result, std::string message, Time now) {
+    assert(level == depth() - 1);
+    Level& l = at(level);
+    stop_own(level);
+    stop_globals(level);
+    trace(level, now, PlanEnded{result, message});
+    if (level == 0) {
+        over_ = true;
+        result_ = result;
+        message_ = std::move(message);
+        levels_.clear();
+        return;
+    }
+    Level& caller = at(level - 1);
+    caller.phase = Phase::SubEnded;
+    caller.sub_result = result;
+    caller.sub_outputs.clear();
+    for (const int slot : caller.active().inner_outputs) {
+        caller.sub_outputs.emplace_back(*l.cells[static_cast<size_t>(slot)]);
+    }
+    levels_.pop_back();
+    commands_.push_back(SubPlanOver{caller.activation, level - 1});
+}
+
+void Machine::fail_plan(int level, std::string_view element, std::string_view cause, Time now) {
+    std::string message = sentence(level, element, cause);
+    trace(level, now, ErrorFound{element, message});
+    end_plan(level, PlanResult::Error, std::move(message), now);
+}
+
+void Machine::stop_watch(Watch& watch) {
+    if (watch.id == 0) return;
+    commands_.push_back(StopWatch{watch.id});
+    watch.id = 0;
+    watch.rest = Rest::No;
+}
+
+void Machine::stop_own(int level) {
+    for (Watch& watch : at(level).own) stop_watch(watch);
+}
+
+void Machine::stop_globals(int level) {
+    for (Watch& watch : at(level).globals) {
+        stop_watch(watch);
+        watch.rest = Rest::No;
+    }
+}
+
+// ---- values ----
+
+Result<std::vector<Value>> Machine::read(int level, const std::vector<GraphInput>& inputs) const {
+    std::vector<Value> values;
+    values.reserve(inputs.size());
+    std::vector<Value> variables;
+    for (const GraphInput& input : inputs) {
+        if (!input.formula) {
+            values.push_back(input.value);
+            continue;
+        }
+        variables.clear();
+        for (const int slot : input.slots) variables.push_back(cell(level, slot));
+        Result<Value> value = input.formula->evaluate(variables);
+        if (value.ok() && input.type) value = convert(value.value(), *input.type);
+        if (!value.ok()) {
+            return Error{Code::BadInput,
+                         fmt::format("the input \"{}\": {}", input.name, value.error().what)};
+        }
+        values.push_back(std::move(value.value()));
+    }
+    return values;
+}
+
+Result<std::vector<Value>> Machine::read_inputs(WatchId id) const {
+    const Watch* watch = find(id);
+    if (!watch) return Error{Code::NotFound, "this supervisor does not watch any more"};
+    return read(watch->level, watch->of->inputs);
+}
+
+// All are converted, then all are written (P17a).
+Status Machine::write_outputs(int level, const std::vector<GraphOutput>& outputs,
+                              const std::vector<std::optional<Value>>& values, std::string_view by,
+                              Time now) {
+    std::vector<std::pair<int, Value>> writes;
+    for (const GraphOutput& output : outputs) {
+        const auto source = static_cast<size_t>(output.source);
+        if (source >= values.size() || !values[source]) continue;
+        const GraphVariable& variable = at(level).plan->variables[static_cast<size_t>(output.slot)];
+        Result<Value> converted = convert(*values[source], variable.type);
+        if (!converted.ok()) {
+            return Error{Code::BadInput,
+                         fmt::format("the output \"{}\" for the variable \"{}\": {}", output.name,
+                                     variable.name, converted.error().what)};
+        }
+        writes.emplace_back(output.slot, std::move(converted.value()));
+    }
+    for (auto& [slot, value] : writes) {
+        const GraphVariable& variable = at(level).plan->variables[static_cast<size_t>(slot)];
+        trace(level, now, VariableWritten{variable.name, value, by});
+        cell(level, slot) = std::move(value);
+    }
+    return Status::done();
+}
+
+Value& Machine::cell(int level, int slot) const {
+    return *at(level).cells[static_cast<size_t>(slot)];
+}
+
+const Value& Machine::variable(int slot) const {
+    return cell(0, slot);
+}
+
+const Value& Machine::variable(int level, int slot) const {
+    return cell(level, slot);
+}
+
+Status Machine::write_outside(int slot, const Value& value, Time now) {
+    const GraphVariable& variable = at(0).plan->variables[static_cast<size_t>(slot)];
+    Value converted = TRY(convert(value, variable.type));
+    trace(0, now, VariableWritten{variable.name, converted, "outside"});
+    cell(0, slot) = std::move(converted);
+    return Status::done();
+}
+
+std::string_view Machine::target_name(int level, int target) const {
+    if (target == kTargetTerminate) return kTerminate;
+    if (target == kTargetIgnore) return kIgnore;
+    return at(level).plan->actors[static_cast<size_t>(target)].name;
+}
+
+// Names the plan's instance, the element and the cause (P27).
+std::string Machine::sentence(int level, std::string_view element, std::string_view cause) const {
+    return fmt::format("{}: {}: {}", at(level).path, element, cause);
+}
+
+// ---- what is going on ----
+
+bool Machine::over() const {
+    return over_;
+}
+PlanResult Machine::result() const {
+    return result_;
+}
+const std::string& Machine::message() const {
+    return message_;
+}
+bool Machine::watching(WatchId watch) const {
+    return find(watch) != nullptr;
+}
+int Machine::depth() const {
+    return static_cast<int>(levels_.size());
+}
+const GraphPlan& Machine::plan_at(int level) const {
+    return *at(level).plan;
+}
+const std::string& Machine::path_at(int level) const {
+    return at(level).path;
+}
+const GraphActor* Machine::actor_at(int level) const {
+    return at(level).actor < 0 ? nullptr : &at(level).active();
+}
+ActivationId Machine::activation_at(int level) const {
+    return at(level).activation;
+}
+int Machine::stopping_level() const {
+    return stopping_from_;
+}
+
+std::vector<Command> Machine::take_commands() {
+    return std::exchange(commands_, {});
+}
+std::vector<TraceEvent> Machine::take_trace() {
+    return std::exchange(trace_, {});
+}
+
+Machine::Level& Machine::at(int level) const {
+    return *levels_[static_cast<size_t>(level)];
+}
+
+int Machine::level_of(ActivationId activation) const {
+    for (int level = depth() - 1; level >= 0; --level) {
+        if (at(level).activation == activation && at(level).phase != Phase::None) return level;
+    }
+    return -1;
+}
+
+Machine::Watch* Machine::find(WatchId id) const {
+    if (id == 0) return nullptr;
+    for (const auto& level : levels_) {
+        for (auto* watches : {&level->globals, &level->own}) {
+            for (Watch& watch : *watches) {
+                if (watch.id == id) return &watch;
+            }
+        }
+    }
+    return nullptr;
+}
+
+void Machine::trace(int level, Time now, decltype(TraceEvent::what) what) {
+    trace_.push_back({now, at(level).path, std::move(what)});
+}
+
+}  // namespace vagus::plan

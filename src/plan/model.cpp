@@ -1,0 +1,19 @@
+#include "plan/model.hpp"
+
+namespace vagus::plan {
+
+int find_variable(const Plan& plan, std::string_view name) {
+    for (size_t i = 0; i < plan.configuration.size(); ++i) {
+        if (plan.configuration[i].name == name) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+int find_actor(const Plan& plan, std::string_view name) {
+    for (size_t i = 0; i < plan.actors.size(); ++i) {
+        if (plan.actors[i].name == name) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+}  // namespace vagus::plan

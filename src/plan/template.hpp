@@ -1,0 +1,82 @@
+// Templates: what an actor or supervisor is an instance of (docs/plans.md, sections 1, 7, 8). Here
+// is what they declare; the code behind them belongs to the toolboxes.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plan/value.hpp"
+
+namespace vagus::plan {
+
+enum class Kind : uint8_t { Actor, Computation, Supervisor };
+std::string_view name_of(Kind kind);
+
+struct Input {
+    std::string name;
+    std::optional<Type> type;            // empty: any
+    std::optional<Value> fallback = {};  // of `type`; empty: must be fed
+    std::string unit = {};
+    std::string help = {};
+    std::optional<double> low = {};
+    std::optional<double> high = {};
+};
+
+struct OutputDeclaration {
+    std::string name;
+    std::optional<Type> type;  // empty: that of the input `value`
+    std::string unit = {};
+    std::string help = {};
+};
+
+// A state of an actor, an event of a supervisor.
+struct Outcome {
+    std::string name;
+    std::string help = {};
+};
+
+constexpr int64_t kPeriodDefaultMs = 10;  // P22
+constexpr int64_t kPeriodMaxMs = 1'000'000;
+constexpr int64_t kGraceDefaultMs = 2000;  // P27
+
+struct Template {
+    std::string name;
+    Kind kind = Kind::Actor;
+    std::string help = {};
+    std::string icon = {};  // SVG path data on a 24 x 24 field
+    std::vector<Input> inputs = {};
+    std::vector<OutputDeclaration> outputs = {};
+    std::vector<Outcome> outcomes = {};
+    int64_t period_ms = kPeriodDefaultMs;  // supervisors; 0: it waits for events itself (P22b)
+    int64_t grace_ms = kGraceDefaultMs;    // actors
+};
+
+struct Toolbox {
+    std::string name;
+    std::string help = {};
+    std::vector<Template> templates = {};
+};
+
+// All toolboxes that a program has. Templates keep their addresses as long as the library lives.
+class Library {
+public:
+    void add(Toolbox toolbox) { toolboxes_.push_back(std::move(toolbox)); }
+    const Toolbox* find(std::string_view toolbox) const;
+    const std::deque<Toolbox>& toolboxes() const { return toolboxes_; }
+
+private:
+    std::deque<Toolbox> toolboxes_;
+};
+
+inline constexpr std::string_view kCoreToolbox = "core";
+
+// Indices into a template's lists; -1 if there is none of that name.
+int find_input(const Template& of, std::string_view name);
+int find_output(const Template& of, std::string_view name);
+int find_outcome(const Template& of, std::string_view name);
+
+}  // namespace vagus::plan

@@ -1,0 +1,79 @@
+// What happened in a run, as values and as the lines of docs/plans.md, section 6.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/time.hpp"
+#include "plan/value.hpp"
+
+namespace vagus::plan {
+
+// How a plan ended.
+enum class PlanResult : uint8_t { Ok, Interrupted, Error };
+std::string_view name_of(PlanResult result);
+
+// Names point into the Graph of the run.
+struct PlanStarted {};
+struct PlanEnded {
+    PlanResult result;
+    std::string message;  // of an error
+};
+struct ActorStarted {
+    std::string_view actor;
+    uint64_t activation;
+    std::vector<std::pair<std::string_view, Value>> in;
+};
+struct ActorEnded {
+    std::string_view actor;
+    uint64_t activation;
+    std::string_view state;
+    std::string_view target;
+};
+struct EventRaised {
+    std::string_view supervisor;
+    std::string_view event;
+    std::string_view target;
+    bool global;
+    uint64_t activation;
+};
+struct ActorInterrupted {
+    std::string_view actor;
+    uint64_t activation;
+    bool ran;
+    Duration stop;
+};
+struct VariableWritten {
+    std::string_view variable;
+    Value value;
+    std::string_view by;
+};
+struct CheckLate {
+    std::string_view supervisor;
+    Duration by;
+};
+struct TextLogged {
+    std::string_view actor;
+    std::string text;
+};
+struct ErrorFound {
+    std::string_view element;
+    std::string message;
+};
+
+struct TraceEvent {
+    Time at{};
+    std::string plan;  // instance path: "WallFollow/calibrate"
+    std::variant<PlanStarted, PlanEnded, ActorStarted, ActorEnded, EventRaised, ActorInterrupted,
+                 VariableWritten, CheckLate, TextLogged, ErrorFound>
+        what;
+};
+
+// One line of JSON, without the newline.
+std::string format_trace(const TraceEvent& event);
+
+}  // namespace vagus::plan

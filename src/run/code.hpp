@@ -1,0 +1,162 @@
+// What the author of a template writes: the code of an actor, plain and blocking; the check of a
+// supervisor (docs/plans.md, sections 1 and 8).
+//
+//     class Blink : public Actor {
+//         void run(ActorContext& context) override {
+//             for (int i = 0; i < context.in(0).integer(); ++i) {
+//                 lamp_.toggle();
+//                 context.sleep(500ms);        // may throw Stop: the plan has been interrupted
+//             }
+//             context.end(0);                  // the first of the template's states
+//         }
+//     };
+//
+// Code waits only through its context. When the plan takes another way, the wait throws Stop; code
+// that must put something in order first catches it, does so (waiting with stop_time() to come,
+// if need be), and throws on. It then has the template's grace time (P27).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/rng.hpp"
+#include "base/time.hpp"
+#include "plan/graph.hpp"
+#include "plan/machine.hpp"
+
+namespace vagus::run {
+
+constexpr size_t kEventArgumentsMax = 8;      // of an event that a plan sends or hears
+constexpr Duration kNever = Duration::max();  // a wait that only an event or Stop ends
+
+// An event of the bus, as plans see it: by name.
+struct BusEvent {
+    std::string name;
+    std::vector<int16_t> arguments;
+};
+
+// Thrown by waits when the code is told to stop. No error; catch it only to put things in order.
+struct Stop {};
+
+// Any other exception of a template's code ends the plan with an internal error (P27).
+class CodeError : public std::exception {
+public:
+    explicit CodeError(std::string what) : what_(std::move(what)) {}
+    const char* what() const noexcept override { return what_.c_str(); }
+
+private:
+    std::string what_;
+};
+
+// What one running of an actor's code can do. Used by that code's thread only.
+class ActorContext {
+public:
+    virtual ~ActorContext() = default;
+
+    // Inputs in the order of the template's declaration, converted to their types.
+    const plan::Value& in(size_t index) const { return in_[index]; }
+    // Outputs are kept until the actor ends (P17); the last value counts.
+    void out(size_t index, plan::Value value);
+    // Ends in this state (by its number) when run() returns.
+    void end(int state) { given_.outcome = state; }
+
+    // Since the start of the run.
+    virtual Time now() const = 0;
+    // These three throw Stop when the actor is interrupted, also when it was before the call.
+    void sleep(Duration time);
+    BusEvent wait_event(std::string_view name);
+    // Gives nothing when the time is over first.
+    std::optional<BusEvent> wait_event(std::string_view name, Duration at_most);
+    // Waits until `holds` does, looking every `every`.
+    void wait_until(const std::function<bool()>& holds, Duration every);
+
+    // After Stop has been thrown: time to put things in order. Does not throw.
+    virtual void linger(Duration time) = 0;
+    bool told_to_stop() const { return told_; }
+
+    virtual void log(std::string text) = 0;
+    // Emits on the bus; it is heard in its own run too.
+    virtual void emit(BusEvent event) = 0;
+    // The one generator of the run (`Random` draws from it).
+    virtual SplitMix64& random() = 0;
+
+    const plan::Given& given() const { return given_; }
+
+protected:
+    ActorContext(std::vector<plan::Value> in, size_t outputs);
+    // Until the time, an event of that name (empty: any), or Stop, whichever comes first.
+    struct Woken {
+        bool stop = false;
+        std::optional<BusEvent> event = {};
+    };
+    virtual Woken wait(Duration at_most, std::string_view event) = 0;
+
+    bool told_ = false;
+
+private:
+    Woken wait_or_stop(Duration at_most, std::string_view event);
+
+    std::vector<plan::Value> in_;
+    plan::Given given_;
+};
+
+class Actor {
+public:
+    virtual ~Actor() = default;
+    virtual void run(ActorContext& context) = 0;
+};
+
+// One check of a supervisor.
+struct Check {
+    std::vector<plan::Value> in;
+    Duration since_start{};           // of the watching
+    const BusEvent* event = nullptr;  // with period 0: what has come
+};
+
+class Supervisor {
+public:
+    virtual ~Supervisor() = default;
+    // The event to raise, or nothing. Must not wait.
+    virtual std::optional<plan::Given> check(const Check& check) = 0;
+};
+
+using MakeActor = std::function<std::unique_ptr<Actor>()>;
+using MakeSupervisor = std::function<std::unique_ptr<Supervisor>()>;
+
+// One template with its code: exactly one of the two makers is set, by the template's kind.
+struct Coded {
+    plan::Template declared;
+    MakeActor actor = {};
+    MakeSupervisor supervisor = {};
+};
+
+// A toolbox as a program has it: what is declared, and the code behind it.
+class CodeLibrary {
+public:
+    CodeLibrary() = default;
+    CodeLibrary(const CodeLibrary&) = delete;
+    CodeLibrary& operator=(const CodeLibrary&) = delete;
+
+    void add(std::string toolbox, std::string help, std::vector<Coded> templates);
+    // What checks and graphs need.
+    const plan::Library& templates() const { return library_; }
+    // Fresh code for one activation, one watching.
+    std::unique_ptr<Actor> make_actor(const plan::Template& of) const;
+    std::unique_ptr<Supervisor> make_supervisor(const plan::Template& of) const;
+
+private:
+    struct Makers {
+        MakeActor actor;
+        MakeSupervisor supervisor;
+    };
+    plan::Library library_;
+    std::map<const plan::Template*, Makers> makers_;
+};
+
+}  // namespace vagus::run

@@ -1,0 +1,37 @@
+// What a run is started with and how it ends, in virtual and in real time alike.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/time.hpp"
+#include "plan/trace.hpp"
+#include "plan/value.hpp"
+#include "run/code.hpp"
+
+namespace vagus::run {
+
+struct RunOptions {
+    uint64_t seed = 1;
+    std::optional<Duration> max_time;              // then the run is aborted (plans.md, section 6)
+    std::vector<std::pair<int, plan::Value>> set;  // slots of the outermost plan
+    // Called on the deciding thread between two decisions.
+    std::function<void(const plan::TraceEvent&)> on_trace;
+    // What the plan emits, for a bus beyond this run; called on the deciding thread.
+    std::function<void(const BusEvent&)> on_emit;
+};
+
+struct Ended {
+    plan::PlanResult result = plan::PlanResult::Ok;
+    std::string message;     // of an error
+    bool timed_out = false;  // max_time came, or nothing could ever fall due
+};
+
+// Exit status of a run (plans.md, section 6).
+int exit_status(const Ended& ended);
+
+}  // namespace vagus::run

@@ -1,0 +1,575 @@
+#include "run/real_time.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <set>
+#include <vector>
+
+#include "run/workers.hpp"
+
+namespace vagus::run {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// ---- what other threads tell the deciding one ----
+
+struct CodeOver {  // run() has returned or thrown
+    plan::ActivationId activation;
+    plan::Given given;
+    bool failed;
+    std::string failure;
+};
+struct Checked {
+    plan::WatchId watch;
+    std::optional<plan::Given> given;
+    bool failed;
+    std::string failure;
+    Duration late;  // from the deadline to the begin of the check
+};
+struct Logged {
+    plan::ActivationId activation;
+    std::string text;
+};
+struct Heard {
+    BusEvent event;
+    bool own;  // emitted by the plan itself
+};
+struct Written {
+    int slot;
+    plan::Value value;
+};
+struct Aborted {};
+using Message = std::variant<CodeOver, Checked, Logged, Heard, Written, Aborted>;
+
+// The one door to the deciding thread.
+class Inbox {
+public:
+    void post(Message message) {
+        {
+            const std::lock_guard lock(mutex_);
+            messages_.push_back(std::move(message));
+        }
+        filled_.notify_one();
+    }
+
+    // Events from outside are bounded: a flood of them must not fill the memory.
+    bool post_bounded(Message message) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (messages_.size() >= kInboxMax) return false;
+            messages_.push_back(std::move(message));
+        }
+        filled_.notify_one();
+        return true;
+    }
+
+    std::deque<Message> take() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(messages_, {});
+    }
+
+    void wait_until(std::optional<Clock::time_point> until) {
+        std::unique_lock lock(mutex_);
+        const auto ready = [this] { return !messages_.empty(); };
+        if (until) {
+            filled_.wait_until(lock, *until, ready);
+        } else {
+            filled_.wait(lock, ready);
+        }
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable filled_;
+    std::deque<Message> messages_;
+};
+
+// The generator of a run, drawn from by one actor at a time (P14): the inbox orders the draws.
+class LiveContext final : public ActorContext {
+public:
+    LiveContext(std::vector<plan::Value> in, size_t outputs, plan::ActivationId activation,
+                Inbox& inbox, SplitMix64& random, Clock::time_point start)
+        : ActorContext(std::move(in), outputs),
+          activation_(activation),
+          inbox_(inbox),
+          random_(random),
+          start_(start) {}
+
+    // ---- for the code ----
+    Time now() const override {
+        return std::chrono::duration_cast<Duration>(Clock::now() - start_);
+    }
+    void linger(Duration time) override {
+        std::unique_lock lock(mutex_);
+        wake_.wait_until(lock, end_of(time), [] { return false; });
+    }
+    void log(std::string text) override { inbox_.post(Logged{activation_, std::move(text)}); }
+    void emit(BusEvent event) override { inbox_.post(Heard{std::move(event), true}); }
+    SplitMix64& random() override { return random_; }
+
+    // ---- for the deciding thread ----
+    void tell_to_stop() {
+        {
+            const std::lock_guard lock(mutex_);
+            stop_ = true;
+        }
+        wake_.notify_one();
+    }
+    void hear(const BusEvent& event) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (!waiting_ || heard_ || (!event_.empty() && event_ != event.name)) return;
+            heard_ = event;
+        }
+        wake_.notify_one();
+    }
+
+protected:
+    Woken wait(Duration at_most, std::string_view event) override {
+        std::unique_lock lock(mutex_);
+        event_ = std::string(event);
+        waiting_ = true;
+        heard_.reset();
+        const auto ready = [this] { return stop_ || heard_; };
+        if (at_most == kNever) {
+            wake_.wait(lock, ready);
+        } else {
+            wake_.wait_until(lock, end_of(at_most), ready);
+        }
+        waiting_ = false;
+        return {.stop = stop_, .event = std::move(heard_)};
+    }
+
+private:
+    static Clock::time_point end_of(Duration time) {
+        constexpr Duration kFar = std::chrono::hours(24 * 365);
+        return Clock::now() + std::clamp(time, Duration{0}, kFar);
+    }
+
+    const plan::ActivationId activation_;
+    Inbox& inbox_;
+    SplitMix64& random_;
+    const Clock::time_point start_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool stop_ = false;
+    bool waiting_ = false;
+    std::string event_;
+    std::optional<BusEvent> heard_;
+};
+
+}  // namespace
+
+class RealTime::Engine {
+public:
+    Engine(const plan::Graph& graph, const CodeLibrary& library, const RunOptions& options)
+        : library_(library), options_(options), machine_(graph), random_(options.seed) {}
+
+    Ended run();
+    Lateness lateness() const;
+    Inbox& inbox() { return inbox_; }
+
+private:
+    struct Watching {
+        plan::WatchId id;
+        int level;
+        const plan::GraphSupervisor* of;
+        std::shared_ptr<Supervisor> code;  // owners: this, and the check that runs
+        Clock::time_point started;
+        Clock::time_point next;
+        bool waits_for_events = false;  // period 0, its inputs are read
+        bool busy = false;              // a check runs
+        bool first_done = false;
+        std::vector<plan::Value> in;
+        std::deque<BusEvent> events;
+
+        Duration period() const { return Duration{of->period_us}; }
+    };
+    struct Code {
+        plan::ActivationId activation = 0;
+        std::unique_ptr<Actor> actor;
+        std::unique_ptr<LiveContext> context;
+        bool told = false;
+        Duration grace{};
+        std::optional<Clock::time_point> grace_ends;
+    };
+
+    Time now() const { return std::chrono::duration_cast<Duration>(Clock::now() - start_); }
+
+    void obey();
+    void obey(plan::StartWatch& command);
+    void obey(plan::StopWatch& command) { watching_.erase(command.watch); }
+    void obey(plan::Activate& command) { begin_due_ = command.activation; }
+    void obey(plan::StartCode& command);
+    void obey(plan::StopCode& command);
+    void obey(plan::SubPlanOver& command) { machine_.end_sub_plan(command.activation, now()); }
+
+    void take(CodeOver& message);
+    void take(Checked& message);
+    void take(Logged& message) { machine_.log(message.activation, std::move(message.text), now()); }
+    void take(Heard& message);
+    void take(Written& message);
+    void take(Aborted&) { machine_.abort(now()); }
+
+    void start_due_checks();
+    void start_check(Watching& watching);
+    void run_check(Watching& watching, Check check, std::optional<BusEvent> event,
+                   Clock::time_point deadline);
+    void begin_if_checked();
+    void check_deadlines();
+    bool may_check(const Watching& watching) const;
+    std::optional<Clock::time_point> next_deadline() const;
+    void note_lateness(Duration late);
+    void hand_out_trace();
+
+    const CodeLibrary& library_;
+    const RunOptions& options_;
+    plan::Machine machine_;
+    SplitMix64 random_;
+    Inbox inbox_;
+    Clock::time_point start_{};
+    bool timed_out_ = false;
+    std::map<plan::WatchId, Watching> watching_;
+    plan::ActivationId begin_due_ = 0;
+    std::map<plan::ActivationId, std::shared_ptr<Code>> code_;  // owners: this, and its thread
+    int checks_running_ = 0;
+    std::vector<uint32_t> lateness_us_;
+    size_t lateness_next_ = 0;
+    Workers workers_;  // last: its threads end before what they use
+};
+
+Ended RealTime::Engine::run() {
+    start_ = Clock::now();
+    machine_.start(options_.set, Time{0});
+    obey();
+    while (!machine_.over()) {
+        begin_if_checked();
+        start_due_checks();
+        obey();
+        std::deque<Message> messages = inbox_.take();
+        if (messages.empty() && begin_due_ == 0 && !machine_.over()) {
+            machine_.time_passed();
+            inbox_.wait_until(next_deadline());
+            messages = inbox_.take();
+        }
+        for (Message& message : messages) {
+            std::visit([this](auto& one) { take(one); }, message);
+            obey();
+        }
+        check_deadlines();
+        obey();
+    }
+    // Nothing of the run may outlive it: what still runs is told to stop and waited for.
+    for (const auto& [activation, code] : code_) code->context->tell_to_stop();
+    while (checks_running_ > 0 || !code_.empty()) {
+        inbox_.wait_until(std::nullopt);
+        for (Message& message : inbox_.take()) {
+            std::visit([this](auto& one) { take(one); }, message);
+        }
+    }
+    hand_out_trace();
+    return {machine_.result(), machine_.message(), timed_out_};
+}
+
+// ---- what the machine wants ----
+
+void RealTime::Engine::obey() {
+    hand_out_trace();
+    for (auto commands = machine_.take_commands(); !commands.empty();
+         commands = machine_.take_commands()) {
+        for (plan::Command& command : commands) {
+            std::visit([this](auto& one) { obey(one); }, command);
+        }
+        hand_out_trace();
+    }
+}
+
+void RealTime::Engine::obey(plan::StartWatch& command) {
+    const Clock::time_point now = Clock::now();
+    Watching watching{.id = command.watch,
+                      .level = command.level,
+                      .of = command.supervisor,
+                      .code = library_.make_supervisor(*command.supervisor->of),
+                      .started = now,
+                      .next = now,
+                      .in = {},
+                      .events = {}};
+    watching_.emplace(command.watch, std::move(watching));
+}
+
+void RealTime::Engine::obey(plan::StartCode& command) {
+    auto code = std::make_shared<Code>();
+    code->activation = command.activation;
+    code->actor = library_.make_actor(*command.actor->of);
+    code->context =
+        std::make_unique<LiveContext>(std::move(command.in), command.actor->of->outputs.size(),
+                                      command.activation, inbox_, random_, start_);
+    code->grace = Duration{command.actor->of->grace_ms * 1000};
+    code_[command.activation] = code;
+    const auto body = [code, &inbox = inbox_] {
+        CodeOver over{code->activation, {}, false, {}};
+        try {
+            code->actor->run(*code->context);
+        } catch (const Stop&) {
+        } catch (const std::exception& error) {
+            over.failed = true;
+            over.failure = error.what();
+        }
+        over.given = code->context->given();
+        inbox.post(std::move(over));
+    };
+    if (command.actor->of->kind == plan::Kind::Computation) {
+        body();  // it never waits
+    } else {
+        workers_.start(body);
+    }
+}
+
+void RealTime::Engine::obey(plan::StopCode& command) {
+    const auto found = code_.find(command.activation);
+    if (found == code_.end()) {
+        machine_.stopped(command.activation, now());
+        return;
+    }
+    Code& code = *found->second;
+    code.told = true;
+    code.grace_ends = Clock::now() + code.grace;
+    code.context->tell_to_stop();
+}
+
+// ---- what other threads tell ----
+
+void RealTime::Engine::take(CodeOver& message) {
+    const auto found = code_.find(message.activation);
+    if (found == code_.end()) return;
+    const bool told = found->second->told;
+    code_.erase(found);
+    if (told) {
+        const int level = machine_.stopping_level();
+        for (auto& [id, watching] : watching_) {
+            if (level >= 0 && watching.level >= level) watching.events.clear();
+        }
+        machine_.stopped(message.activation, now());
+    } else if (message.failed) {
+        machine_.fail(message.activation, message.failure, now());
+    } else {
+        machine_.end(message.activation, message.given, now());
+    }
+}
+
+void RealTime::Engine::take(Checked& message) {
+    --checks_running_;
+    note_lateness(message.late);
+    const auto found = watching_.find(message.watch);
+    if (found == watching_.end()) return;  // it has been stopped meanwhile: dropped (P18)
+    Watching& watching = found->second;
+    watching.busy = false;
+    watching.first_done = true;
+    if (message.late > kLateness) machine_.late(message.watch, message.late, now());
+    if (watching.period().count() > 0) {
+        // The next whole multiple that lies ahead; one that an overrun has passed is left out.
+        const auto since = std::chrono::duration_cast<Duration>(Clock::now() - watching.started);
+        const Duration planned =
+            std::chrono::duration_cast<Duration>(watching.next - watching.started);
+        if (since >= planned) {
+            machine_.late(message.watch, since - planned + watching.period(), now());
+            watching.next = watching.started + (since / watching.period() + 1) * watching.period();
+        }
+    }
+    if (!may_check(watching)) return;  // its plan is being stopped: left out (P18a)
+    if (message.failed) {
+        machine_.fail_watch(message.watch, message.failure, now());
+    } else if (message.given) {
+        machine_.raise(message.watch, *message.given, now());
+    }
+}
+
+void RealTime::Engine::take(Heard& message) {
+    if (message.own && options_.on_emit) options_.on_emit(message.event);
+    for (auto& [id, watching] : watching_) {
+        if (watching.waits_for_events && may_check(watching)) {
+            watching.events.push_back(message.event);
+        }
+    }
+    for (const auto& [activation, code] : code_) code->context->hear(message.event);
+}
+
+void RealTime::Engine::take(Written& message) {
+    if (machine_.over()) return;
+    // A value that does not fit is the writer's to know: set() has checked it before.
+    const Status written = machine_.write_outside(message.slot, message.value, now());
+    (void)written.ok();
+}
+
+// ---- checks ----
+
+bool RealTime::Engine::may_check(const Watching& watching) const {
+    const int stopping = machine_.stopping_level();
+    return stopping < 0 || watching.level < stopping;
+}
+
+void RealTime::Engine::start_due_checks() {
+    std::vector<plan::WatchId> due;
+    const Clock::time_point now = Clock::now();
+    for (const auto& [id, watching] : watching_) {
+        if (watching.busy || !may_check(watching)) continue;
+        const bool timed = !watching.waits_for_events && watching.next <= now;
+        if (timed || !watching.events.empty()) due.push_back(id);
+    }
+    for (const plan::WatchId id : due) {
+        const auto found = watching_.find(id);
+        if (found != watching_.end()) start_check(found->second);
+    }
+}
+
+void RealTime::Engine::start_check(Watching& watching) {
+    const Clock::time_point deadline = watching.next;
+    Check check;
+    check.since_start = std::chrono::duration_cast<Duration>(deadline - watching.started);
+    if (!watching.waits_for_events) {
+        Result<std::vector<plan::Value>> in = machine_.read_inputs(watching.id);
+        if (!in.ok()) {
+            machine_.fail_watch(watching.id, in.error().what, now());
+            return;
+        }
+        if (watching.period().count() == 0) {
+            watching.in = std::move(in.value());
+            watching.waits_for_events = true;
+            watching.first_done = true;
+            return;
+        }
+        check.in = std::move(in.value());
+        watching.next = deadline + watching.period();
+        run_check(watching, std::move(check), std::nullopt, deadline);
+        return;
+    }
+    BusEvent event = std::move(watching.events.front());
+    watching.events.pop_front();
+    check.in = watching.in;
+    run_check(watching, std::move(check), std::move(event), Clock::now());
+}
+
+void RealTime::Engine::run_check(Watching& watching, Check check, std::optional<BusEvent> event,
+                                 Clock::time_point deadline) {
+    watching.busy = true;
+    ++checks_running_;
+    workers_.start([watch = watching.id, code = watching.code, check = std::move(check),
+                    event = std::move(event), deadline, &inbox = inbox_]() mutable {
+        Checked checked{watch, std::nullopt, false, {}, {}};
+        checked.late = std::chrono::duration_cast<Duration>(Clock::now() - deadline);
+        if (event) check.event = &*event;
+        try {
+            checked.given = code->check(check);
+        } catch (const std::exception& error) {
+            checked.failed = true;
+            checked.failure = error.what();
+        }
+        inbox.post(std::move(checked));
+    });
+}
+
+// The actor's code starts only after the first check of each of its supervisors (P16).
+void RealTime::Engine::begin_if_checked() {
+    if (begin_due_ == 0) return;
+    start_due_checks();
+    for (const auto& [id, watching] : watching_) {
+        if (!watching.first_done) return;
+    }
+    machine_.begin(std::exchange(begin_due_, 0), now());
+    obey();
+}
+
+// ---- time ----
+
+void RealTime::Engine::check_deadlines() {
+    const Clock::time_point now_point = Clock::now();
+    for (const auto& [activation, code] : code_) {
+        if (code->grace_ends && *code->grace_ends < now_point) {
+            code->grace_ends.reset();
+            machine_.overstayed(activation, now());
+            break;
+        }
+    }
+    if (options_.max_time && !timed_out_ && now() >= *options_.max_time && !machine_.over()) {
+        timed_out_ = true;
+        machine_.abort(now());
+    }
+}
+
+std::optional<Clock::time_point> RealTime::Engine::next_deadline() const {
+    std::optional<Clock::time_point> next;
+    const auto consider = [&next](Clock::time_point at) {
+        if (!next || at < *next) next = at;
+    };
+    for (const auto& [id, watching] : watching_) {
+        if (!watching.busy && !watching.waits_for_events && may_check(watching)) {
+            consider(watching.next);
+        }
+    }
+    for (const auto& [activation, code] : code_) {
+        if (code->grace_ends) consider(*code->grace_ends);
+    }
+    if (options_.max_time && !timed_out_) consider(start_ + *options_.max_time);
+    return next;
+}
+
+void RealTime::Engine::note_lateness(Duration late) {
+    const auto us = static_cast<uint32_t>(std::clamp<int64_t>(late.count(), 0, UINT32_MAX));
+    if (lateness_us_.size() < kLatenessSamples) {
+        lateness_us_.push_back(us);
+        return;
+    }
+    lateness_us_[lateness_next_] = us;
+    lateness_next_ = (lateness_next_ + 1) % kLatenessSamples;
+}
+
+Lateness RealTime::Engine::lateness() const {
+    if (lateness_us_.empty()) return {};
+    std::vector<uint32_t> sorted = lateness_us_;
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&sorted](double share) {
+        const auto index = static_cast<size_t>(share * static_cast<double>(sorted.size() - 1));
+        return Duration{sorted[index]};
+    };
+    return {sorted.size(), at(0.5), at(0.99), at(1.0)};
+}
+
+void RealTime::Engine::hand_out_trace() {
+    for (const plan::TraceEvent& event : machine_.take_trace()) {
+        if (options_.on_trace) options_.on_trace(event);
+    }
+}
+
+RealTime::RealTime(const plan::Graph& graph, const CodeLibrary& library, const RunOptions& options)
+    : engine_(std::make_unique<Engine>(graph, library, options)) {}
+
+RealTime::~RealTime() = default;
+
+Ended RealTime::run() {
+    return engine_->run();
+}
+
+Lateness RealTime::lateness() const {
+    return engine_->lateness();
+}
+
+void RealTime::abort() {
+    engine_->inbox().post(Aborted{});
+}
+
+void RealTime::set(int slot, plan::Value value) {
+    engine_->inbox().post(Written{slot, std::move(value)});
+}
+
+void RealTime::hear(BusEvent event) {
+    engine_->inbox().post_bounded(Heard{std::move(event), false});
+}
+
+}  // namespace vagus::run

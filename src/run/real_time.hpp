@@ -1,0 +1,59 @@
+// Runs a plan in real time. One thread decides (the caller of run()); actors' code and supervisors'
+// checks run on threads of their own and tell it what happened through one inbox. The next actor's
+// code starts only after the one before has fully stopped (P14).
+//
+//     RealTime run(graph, library, options);
+//     const Ended ended = run.run();            // from other threads: abort(), set(), hear()
+//
+// Checks come at whole multiples of their period from the start of the watching, by absolute
+// deadlines. One that begins late, or is still busy when the next is due, is told in the trace.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/result.hpp"
+#include "plan/machine.hpp"
+#include "run/code.hpp"
+#include "run/options.hpp"
+
+namespace vagus::run {
+
+// A check that begins so much after its deadline is late (`late` in the trace).
+constexpr Duration kLateness = std::chrono::milliseconds(5);
+
+struct Lateness {  // of checks, measured from deadline to begin
+    uint64_t checks = 0;
+    Duration median{0};
+    Duration p99{0};
+    Duration worst{0};
+};
+
+class RealTime {
+public:
+    // All three are borrowed for the life of the run.
+    RealTime(const plan::Graph& graph, const CodeLibrary& library, const RunOptions& options);
+    ~RealTime();
+
+    // Returns when the plan has ended and no code of it runs any more.
+    Ended run();
+    // After run(); over the last kLatenessSamples checks.
+    Lateness lateness() const;
+
+    // ---- from any thread, at any time ----
+    void abort();
+    // Writes a variable of the outermost plan (P29); the Error comes back through `done` or is
+    // dropped where nobody asks.
+    void set(int slot, plan::Value value);
+    // An event has come from the bus.
+    void hear(BusEvent event);
+
+private:
+    class Engine;
+    std::unique_ptr<Engine> engine_;
+};
+
+constexpr size_t kLatenessSamples = 100'000;
+constexpr size_t kInboxMax = 65'536;  // events from outside beyond this are dropped and counted
+
+}  // namespace vagus::run

@@ -1,0 +1,382 @@
+#include "run/virtual_time.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <deque>
+#include <exception>
+#include <utility>
+
+namespace vagus::run {
+
+using plan::Machine;
+
+namespace {
+
+// A wait of `length` that begins at `now` ends then; kNever stays never.
+Time after(Time now, Duration length) {
+    if (length == kNever || length > kNever - now) return kNever;
+    return now + std::max(length, Duration{0});
+}
+
+}  // namespace
+
+// A supervisor that watches.
+struct VirtualTime::Watching {
+    plan::WatchId id;
+    int level;
+    bool global;
+    int index;
+    const plan::GraphSupervisor* of;
+    std::unique_ptr<Supervisor> code;
+    Time started;
+    Time next;                    // of the next check; kNever: waits for events
+    std::vector<plan::Value> in;  // with period 0: read at the start
+    std::deque<BusEvent> events;  // with period 0: heard, not yet checked
+
+    Duration period() const { return Duration{of->period_us}; }
+    bool due(Time now) const { return next <= now || !events.empty(); }
+    // The first whole multiple of the period after `now`.
+    void move_beyond(Time now) {
+        next =
+            period().count() == 0 ? kNever : started + ((now - started) / period() + 1) * period();
+    }
+};
+
+// The code of the innermost actor: it runs, or has run to its end.
+struct VirtualTime::Code {
+    plan::ActivationId activation = 0;
+    std::unique_ptr<Actor> actor;
+    std::unique_ptr<Context> context;
+    std::unique_ptr<CodeThread> thread;
+    std::exception_ptr thrown;
+    std::string failure;  // what it threw, if that was no Stop
+    bool failed = false;
+    bool ended = false;  // run() has returned or thrown; `wake` is when that counts
+    bool told = false;
+    Time told_at{};
+    Time wake{};  // when its wait ends
+    Time grace_ends = kNever;
+    std::string event;  // that ends its wait; empty: any
+    Machine* machine = nullptr;
+};
+
+class VirtualTime::Context final : public ActorContext {
+public:
+    Context(VirtualTime& run, Code& code, std::vector<plan::Value> in, size_t outputs)
+        : ActorContext(std::move(in), outputs), run_(run), code_(code) {}
+
+    Time now() const override { return run_.now_; }
+
+    void linger(Duration time) override {
+        code_.wake = after(run_.now_, time);
+        code_.event = std::string("\0", 1);
+        code_.thread->give_back();
+    }
+
+    void log(std::string text) override {
+        run_.machine_.log(code_.activation, std::move(text), run_.now_);
+    }
+
+    // The executor waits while code runs, so its state is the code's to use.
+    void emit(BusEvent event) override {
+        if (run_.options_.on_emit) run_.options_.on_emit(event);
+        run_.deliver(event);
+    }
+
+    SplitMix64& random() override { return run_.random_; }
+
+    void wake_with(Woken woken) { woken_ = std::move(woken); }
+
+protected:
+    Woken wait(Duration at_most, std::string_view event) override {
+        code_.wake = after(run_.now_, at_most);
+        code_.event = std::string(event);
+        woken_ = {};
+        code_.thread->give_back();
+        return std::move(woken_);
+    }
+
+private:
+    VirtualTime& run_;
+    Code& code_;
+    Woken woken_;
+};
+
+VirtualTime::VirtualTime(const plan::Graph& graph, const CodeLibrary& library,
+                         const RunOptions& options)
+    : library_(library), options_(options), machine_(graph), random_(options.seed) {}
+
+VirtualTime::~VirtualTime() = default;
+
+Ended VirtualTime::run() {
+    machine_.start(options_.set, now_);
+    obey();
+    while (!machine_.over()) {
+        if (std::exchange(abort_asked_, false)) {
+            machine_.abort(now_);
+        } else if (!take_first_due() && !advance()) {
+            timed_out_ = true;
+            machine_.abort(now_);
+        }
+        obey();
+    }
+    // An actor that overstayed its grace time still holds its thread: it is told until it ends.
+    while (code_ && !code_->ended) {
+        code_->thread->go_on();
+        after_turn();
+    }
+    finish_code();
+    hand_out_trace();
+    return {machine_.result(), machine_.message(), timed_out_};
+}
+
+// ---- what the machine wants ----
+
+void VirtualTime::obey() {
+    hand_out_trace();
+    for (auto commands = machine_.take_commands(); !commands.empty();
+         commands = machine_.take_commands()) {
+        for (plan::Command& command : commands) {
+            std::visit([this](auto& one) { obey(one); }, command);
+        }
+        hand_out_trace();
+    }
+}
+
+void VirtualTime::obey(plan::StartWatch& command) {
+    auto watching =
+        std::make_unique<Watching>(Watching{command.watch,
+                                            command.level,
+                                            command.global,
+                                            command.index,
+                                            command.supervisor,
+                                            library_.make_supervisor(*command.supervisor->of),
+                                            now_,
+                                            now_,
+                                            {},
+                                            {}});
+    const auto rank = [](const Watching& w) { return std::tuple(w.level, !w.global, w.index); };
+    const auto place = std::find_if(watching_.begin(), watching_.end(), [&](const auto& other) {
+        return rank(*watching) < rank(*other);
+    });
+    watching_.insert(place, std::move(watching));
+}
+
+void VirtualTime::obey(plan::StopWatch& command) {
+    std::erase_if(watching_, [&command](const auto& w) { return w->id == command.watch; });
+}
+
+void VirtualTime::obey(plan::Activate& command) {
+    begin_due_ = command;
+    over_due_.reset();
+}
+
+void VirtualTime::obey(plan::SubPlanOver& command) {
+    over_due_ = command;
+    begin_due_.reset();
+}
+
+void VirtualTime::obey(plan::StartCode& command) {
+    finish_code();
+    code_ = std::make_unique<Code>();
+    Code& code = *code_;
+    code.activation = command.activation;
+    code.actor = library_.make_actor(*command.actor->of);
+    code.context = std::make_unique<Context>(*this, code, std::move(command.in),
+                                             command.actor->of->outputs.size());
+    code.grace_ends = Duration{command.actor->of->grace_ms * 1000};
+    const auto body = [&code] {
+        try {
+            code.actor->run(*code.context);
+        } catch (const Stop&) {
+        } catch (const std::exception& error) {
+            code.failed = true;
+            code.failure = error.what();
+        }
+        code.ended = true;
+    };
+    if (command.actor->of->kind == plan::Kind::Computation) {
+        body();  // it never waits: no thread of its own
+    } else {
+        code.thread = threads_.take();
+        code.thread->start(body);
+    }
+    after_turn();
+}
+
+void VirtualTime::obey(plan::StopCode& command) {
+    assert(code_ && code_->activation == command.activation);
+    Code& code = *code_;
+    code.told = true;
+    code.told_at = now_;
+    code.grace_ends = after(now_, code.grace_ends);
+    if (!code.ended) {
+        code.context->wake_with({.stop = true, .event = {}});
+        code.thread->go_on();
+        after_turn();
+    } else {
+        code.wake = now_;  // it had ended at this instant, but something else was first
+    }
+    if (code.ended && code.wake <= now_) {
+        machine_.stopped(code.activation, now_);
+        finish_code();
+    }
+}
+
+// ---- what is due ----
+
+// Takes the first thing due at this instant, in the order of P21. False if there is none.
+bool VirtualTime::take_first_due() {
+    for (const auto& watching : watching_) {
+        if (!may_check(*watching) || !watching->due(now_)) continue;
+        take_check(*watching);
+        return true;
+    }
+    if (begin_due_) {
+        const plan::ActivationId activation = begin_due_->activation;
+        begin_due_.reset();
+        machine_.begin(activation, now_);
+        return true;
+    }
+    if (over_due_) {
+        const plan::ActivationId activation = over_due_->activation;
+        over_due_.reset();
+        machine_.end_sub_plan(activation, now_);
+        return true;
+    }
+    if (!code_ || std::min(code_->wake, code_->told ? code_->grace_ends : kNever) > now_) {
+        return false;
+    }
+    take_code();
+    return true;
+}
+
+bool VirtualTime::may_check(const Watching& watching) const {
+    const int stopping = machine_.stopping_level();
+    return stopping < 0 || watching.level < stopping;
+}
+
+void VirtualTime::take_check(Watching& watching) {
+    const plan::WatchId id = watching.id;
+    Check check;
+    check.since_start = now_ - watching.started;
+    const bool reads = watching.next <= now_;
+    if (reads) {
+        watching.move_beyond(now_);
+        Result<std::vector<plan::Value>> in = machine_.read_inputs(id);
+        if (!in.ok()) {
+            machine_.fail_watch(id, in.error().what, now_);
+            return;
+        }
+        if (watching.period().count() == 0) {
+            watching.in = std::move(in.value());
+            return;
+        }
+        check.in = std::move(in.value());
+    }
+    BusEvent event;
+    if (!reads) {
+        event = std::move(watching.events.front());
+        watching.events.pop_front();
+        check.in = watching.in;
+        check.event = &event;
+    }
+    try {
+        if (const auto given = watching.code->check(check)) machine_.raise(id, *given, now_);
+    } catch (const std::exception& error) {
+        machine_.fail_watch(id, error.what(), now_);
+    }
+}
+
+// The innermost code's wait is over, it has ended, it has stopped, or its grace time is over.
+void VirtualTime::take_code() {
+    Code& code = *code_;
+    if (!code.ended && code.wake <= now_) {
+        code.thread->go_on();
+        after_turn();
+        if (!code.ended) return;
+    }
+    if (!code.ended) {
+        machine_.overstayed(code.activation, now_);
+        return;
+    }
+    const plan::ActivationId activation = code.activation;
+    if (code.told) {
+        if (code.told_at < now_) leave_out_missed(machine_.stopping_level());
+        machine_.stopped(activation, now_);
+    } else if (code.failed) {
+        machine_.fail(activation, code.failure, now_);
+    } else {
+        machine_.end(activation, code.context->given(), now_);
+    }
+    finish_code();
+}
+
+// The code has had its turn: it waits, or has ended, which counts at this instant.
+void VirtualTime::after_turn() {
+    if (code_->ended) code_->wake = now_;
+}
+
+void VirtualTime::finish_code() {
+    if (!code_) return;
+    if (code_->thread) threads_.give(std::move(code_->thread));
+    code_.reset();
+}
+
+// A stop that took time: what was due meanwhile is left out (P18a).
+void VirtualTime::leave_out_missed(int level) {
+    for (const auto& watching : watching_) {
+        if (watching->level < level) continue;
+        watching->events.clear();
+        if (watching->next <= now_) watching->move_beyond(now_);
+    }
+}
+
+// All that listen hear the event; each hearing is due at this instant (P22b).
+void VirtualTime::deliver(const BusEvent& event) {
+    for (const auto& watching : watching_) {
+        const bool armed = watching->period().count() == 0 && watching->next == kNever;
+        if (armed && may_check(*watching)) watching->events.push_back(event);
+    }
+    if (!code_ || code_->ended || code_->told || code_->wake <= now_) return;
+    if (!code_->event.empty() && code_->event != event.name) return;
+    code_->context->wake_with({.stop = false, .event = event});
+    code_->wake = now_;
+}
+
+// ---- time ----
+
+std::optional<Time> VirtualTime::next_due() const {
+    Time next = kNever;
+    for (const auto& watching : watching_) {
+        if (may_check(*watching)) next = std::min(next, watching->next);
+    }
+    if (code_) {
+        next = std::min(next, code_->wake);
+        if (code_->told) next = std::min(next, code_->grace_ends);
+    }
+    return next == kNever ? std::nullopt : std::optional(next);
+}
+
+// Jumps to the next thing due. False: max_time comes first, or nothing can ever fall due; then the
+// run is to be aborted at the time that now is.
+bool VirtualTime::advance() {
+    const auto next = next_due();
+    const bool limited = options_.max_time && !timed_out_;
+    machine_.time_passed();
+    if (limited && (!next || *options_.max_time <= *next)) {
+        now_ = *options_.max_time;
+        return false;
+    }
+    if (!next) return false;
+    now_ = *next;
+    return true;
+}
+
+void VirtualTime::hand_out_trace() {
+    for (const plan::TraceEvent& event : machine_.take_trace()) {
+        if (options_.on_trace) options_.on_trace(event);
+    }
+}
+
+}  // namespace vagus::run

@@ -1,0 +1,71 @@
+// Runs a plan in virtual time: time jumps to the next thing due, code takes no time, and a run is
+// the same to the byte each time (docs/plans.md, P21a and section 6). One thread decides; actors'
+// code runs in turn with it.
+//
+//     VirtualTime run(graph, library, {.seed = 1});
+//     run.on_trace([&](const TraceEvent& event) { … });
+//     const Ended ended = run.run();
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/rng.hpp"
+#include "plan/machine.hpp"
+#include "run/code.hpp"
+#include "run/code_thread.hpp"
+#include "run/options.hpp"
+
+namespace vagus::run {
+
+class VirtualTime {
+public:
+    // All three are borrowed for the life of the run.
+    VirtualTime(const plan::Graph& graph, const CodeLibrary& library, const RunOptions& options);
+    ~VirtualTime();
+
+    Ended run();
+    // Ends the run as soon as what is being taken is done (P28). For on_trace and for actors' code.
+    void abort() { abort_asked_ = true; }
+
+private:
+    class Context;
+    struct Watching;
+    struct Code;
+
+    void obey();
+    void obey(plan::StartWatch& command);
+    void obey(plan::StopWatch& command);
+    void obey(plan::Activate& command);
+    void obey(plan::StartCode& command);
+    void obey(plan::StopCode& command);
+    void obey(plan::SubPlanOver& command);
+
+    bool take_first_due();
+    bool may_check(const Watching& watching) const;
+    void take_check(Watching& watching);
+    void take_code();
+    void after_turn();
+    void finish_code();
+    void leave_out_missed(int level);
+    void deliver(const BusEvent& event);
+    std::optional<Time> next_due() const;
+    bool advance();
+    void hand_out_trace();
+
+    const CodeLibrary& library_;
+    const RunOptions& options_;
+    plan::Machine machine_;
+    SplitMix64 random_;
+    Time now_{0};
+    bool timed_out_ = false;
+    bool abort_asked_ = false;
+    std::vector<std::unique_ptr<Watching>> watching_;  // in the order of P21
+    std::optional<plan::Activate> begin_due_;
+    std::optional<plan::SubPlanOver> over_due_;
+    std::unique_ptr<Code> code_;
+    CodeThreads threads_;
+};
+
+}  // namespace vagus::run

@@ -58,7 +58,7 @@ FUNCTION_LINES_MAX = 60
 LONG_FUNCTIONS = {
     "src/vm/": "the instruction loop is one picture",
 }
-SLEEPS = re.compile(r"\b(sleep_for|sleep_until|usleep|nanosleep)\s*\(|(?<![\w.:])sleep\s*\(")
+SLEEPS = re.compile(r"\b(sleep_for|sleep_until|usleep|nanosleep)\s*\(|(?<![\w.])sleep\s*\(\s*\d")
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
 SUFFIXES = {".hpp", ".cpp", ".inl", ".h"}
 

@@ -48,6 +48,12 @@ struct Held {
     Time until{};
 };
 
+// A robot's own port.
+struct Port {
+    net::PlaceId place;
+    sim::RobotId robot;
+};
+
 class SimRun {
 public:
     SimRun(const SimRunOptions& options, session::SimSession session)
@@ -74,6 +80,7 @@ private:
     void advance(Duration span);
     void set_speed(double speed);
     void step_speed(int direction);
+    void notice(const net::Event& event);
     void look_at_files();
     void tell_notes();
     void write_trace();
@@ -103,6 +110,7 @@ private:
     bool closed_ = false;  // nobody reads, or a person quits
     size_t selected_ = 0;
     std::vector<Held> held_;
+    std::vector<Port> ports_;
     Time real_before_{};
     Duration owed_{};  // simulated time that is due
     Time next_frame_{};
@@ -121,7 +129,8 @@ Status SimRun::listen() {
         hub::Hub* hub = session_.world().private_bus(views[i].id);
         if (hub == nullptr) continue;
         const net::Target target{net::TcpPlace{"127.0.0.1", robots[i].port}};
-        const auto listening = TRY(network_.listen(*hub, target));
+        const auto listening = TRY(network_.listen(*hub, target, {.clients = net::Clients::One}));
+        ports_.push_back({listening.place, views[i].id});
         print("listening " + net::to_string(listening.target) + " " + robots[i].name + "\n");
     }
     return Status::done();
@@ -185,11 +194,17 @@ void SimRun::turn() {
         if (network_.now() >= next_frame_) show();
     }
     const bool hurry = speed_ == 0 && !paused_;
-    for (const net::Event& event : network_.poll(hurry ? now : now + kTurn)) {
-        if (event.kind == net::EventKind::Opened) notice_ = event.what + " is connected";
-        if (event.kind == net::EventKind::Closed || event.kind == net::EventKind::Failed) {
-            notice_ = event.what;
-        }
+    for (const net::Event& event : network_.poll(hurry ? now : now + kTurn)) notice(event);
+}
+
+void SimRun::notice(const net::Event& event) {
+    if (event.kind == net::EventKind::Opened) notice_ = event.what + " is connected";
+    if (event.kind == net::EventKind::Closed || event.kind == net::EventKind::Failed) {
+        notice_ = event.what;
+    }
+    if (event.kind != net::EventKind::Closed) return;
+    for (const Port& port : ports_) {
+        if (port.place == event.place) session_.world().host_left(port.robot);
     }
 }
 

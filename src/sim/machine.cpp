@@ -63,6 +63,10 @@ bool Machine::start_pending() {
     return true;
 }
 
+void Machine::host_left() {
+    node::host_left(node_);
+}
+
 void Machine::run() {
     while (!vm::is_paused_in_event(node_.vm)) {
         if (start_pending()) continue;

@@ -52,6 +52,8 @@ public:
     // The local event has happened: it runs in this run() or a later one.
     void raise(uint8_t event);
     void run();
+    // The only host of a port has left: it takes its breakpoints along (section 1.4).
+    void host_left();
 
     uint16_t id() const { return config_.id; }
     int16_t& variable(uint16_t address) { return variables_[address]; }

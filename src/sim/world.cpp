@@ -327,6 +327,11 @@ hub::Hub* World::private_bus(RobotId robot) {
     return index ? insides_->berths[*index].private_bus.get() : nullptr;
 }
 
+void World::host_left(RobotId robot) {
+    if (const auto index = index_of(insides_->definition, robot))
+        insides_->robot(*index).machine().host_left();
+}
+
 const WorldDefinition& World::definition() const {
     return insides_->definition;
 }

@@ -131,6 +131,9 @@ public:
     // The private switch behind the robot's `port`: that robot alone is on it. nullptr if it has no
     // port.
     hub::Hub* private_bus(RobotId robot);
+    // The host at the robot's `port` has left or was replaced: its breakpoints go with it (section
+    // 1.4).
+    void host_left(RobotId robot);
 
     // ---- Looking ----
     const WorldDefinition& definition() const;  // as it was loaded

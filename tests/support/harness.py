@@ -3,6 +3,7 @@ network namespace that the test run made for itself, so that the peers' fixed po
 
 Waiting is always for a condition; the deadline below only says when to give up.
 """
+import json
 import os
 import pathlib
 import queue
@@ -18,6 +19,13 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 VAGUS = os.environ.get("VAGUS_BIN", str(ROOT / "build/release/bin/vagus"))
 GIVE_UP_AFTER = 60.0
+ASK_AGAIN_AFTER = 0.1
+
+# Types of messages, section 2 of docs/spec/aseba-wire-and-vm.md.
+DESCRIPTION, NAMED_VARIABLE, LOCAL_EVENT, NATIVE_FUNCTION = 0x9000, 0x9001, 0x9002, 0x9003
+DISCONNECTED, VARIABLES, STATE, BREAKPOINT_SET_RESULT, NODE_PRESENT = 0x9004, 0x9005, 0x900A, 0x900B, 0x900C
+SET_BYTECODE, RESET, RUN, BREAKPOINT_SET, GET_VARIABLES = 0xA001, 0xA002, 0xA003, 0xA008, 0xA00B
+GET_NODE_DESCRIPTION, LIST_NODES = 0xA010, 0xA011
 
 
 class Missing(Exception):
@@ -34,7 +42,8 @@ class Program:
         self.process = subprocess.Popen(self.arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                         errors="replace", stdin=subprocess.DEVNULL, cwd=cwd,
                                         env={**os.environ, **(env or {})})
-        threading.Thread(target=self._read, daemon=True).start()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
 
     def _read(self):
         for line in self.process.stdout:
@@ -46,6 +55,12 @@ class Program:
 
     def __exit__(self, *_):
         self.stop()
+        self._reader.join(timeout=5)  # whatever it started may hold its output open for longer
+        if not self._reader.is_alive():
+            self.process.stdout.close()
+
+    def signal(self, number):
+        self.process.send_signal(number)
 
     def wait_line(self, pattern):
         """The match of the next line in which the pattern is found."""
@@ -173,6 +188,40 @@ class Bus:
             seen.append(f"{frame[1]:04x}")
         raise Missing(f"no frame of type {kind:04x} came; there were {seen[-20:]}")
 
+    def ask(self, again, kind, source=None):
+        """Calls `again` until a frame of that type (and source) comes, which it gives. For peers that do not say when
+        they are there: what was sent before they were has gone."""
+        deadline = time.monotonic() + GIVE_UP_AFTER
+        while time.monotonic() < deadline:
+            again()
+            self.socket.settimeout(ASK_AGAIN_AFTER)
+            try:
+                while True:
+                    frame = self.read()
+                    if frame[1] == kind and source in (None, frame[0]):
+                        return frame[2]
+            except TimeoutError:
+                continue
+        raise Missing(f"no frame of type {kind:04x} came, however often it was asked for")
+
+    def description(self, source):
+        """What the node says of itself, from Description to its last native function: (header, items by type)."""
+        name, rest = text_at(self.wait(DESCRIPTION, source))
+        protocol, bytecode, stack, variables, *counts = struct.unpack("<7H", rest)
+        items = {}
+        for kind, count in zip((NAMED_VARIABLE, LOCAL_EVENT, NATIVE_FUNCTION), counts):
+            items[kind] = [self.wait(kind, source) for _ in range(count)]
+        return (name, protocol, bytecode, stack, variables), items
+
+
+def text_at(payload):
+    """A string of section 2, and what follows it."""
+    return payload[1:1 + payload[0]].decode(), payload[1 + payload[0]:]
+
+
+def variable_names(items):
+    return [text_at(payload[2:])[0] for payload in items[NAMED_VARIABLE]]
+
 
 class Display:
     """A virtual screen; .env sends programs to it."""
@@ -216,10 +265,19 @@ PLAYGROUND = """<!DOCTYPE aseba-playground>
 """
 
 
-def playground(display, folder, ports):
-    """asebaplayground with a Thymio II of node id 1, 2 … at each port."""
-    robots = "\n".join(f'<robot type="thymio2" x="{30 + 25 * i}" y="50" angle="0" port="{port}" name="t{i + 1}" nodeId="{i + 1}"/>'
+def playground(display, folder, ports, ids):
+    """asebaplayground with a Thymio II of these node ids at these ports."""
+    robots = "\n".join(f'<robot type="thymio2" x="{30 + 25 * i}" y="50" angle="0" port="{port}" name="t{i + 1}" nodeId="{ids[i]}"/>'
                        for i, port in enumerate(ports))
     scenario = pathlib.Path(folder) / "arena.playground"
     scenario.write_text(PLAYGROUND.format(robots=robots), encoding="utf-8")
     return Program("asebaplayground", scenario, env=display.env)
+
+
+def simulated(folder, *robots, listen="tcp:127.0.0.1:0"):
+    """vagus sim with these robots (as in a world file); its bus is where it listens."""
+    world = {"format": "vagus-world/1", "size": [2, 1.5],
+             "robots": [{"type": "thymio2", "at": [0.4 + 0.4 * i, 0.7], **robot} for i, robot in enumerate(robots)]}
+    path = pathlib.Path(folder) / "arena.world.json"
+    path.write_text(json.dumps(world), encoding="utf-8")
+    return vagus("sim", path, "--headless", "--duration", 3600, "--listen", listen)

@@ -9,9 +9,7 @@ constexpr int16_t kHeaderFragment = -1;     // 2.9
 
 }  // namespace
 
-void Describer::start(Outbox& out, NodeId id, uint16_t protocol) {
-    id_ = id;
-    protocol_ = protocol;
+void Describer::start(Outbox& out, uint16_t protocol) {
     mode_ = protocol < kNodeRequestsSince ? Mode::Broadcast
             : protocol < kFragmentsSince  ? Mode::Whole
                                           : Mode::Fragments;
@@ -24,7 +22,11 @@ void Describer::start(Outbox& out, NodeId id, uint16_t protocol) {
 
 void Describer::receive(Outbox& out, const wire::Description& header) {
     if (state_ == State::Done && description_.same_header(header)) return;
-    if (state_ != State::Asking) mode_ = Mode::Whole;  // the rest follows: somebody else has asked
+    if (state_ !=
+        State::Asking) {  // the rest follows: somebody else has asked, or it is an old node
+        mode_ = header.protocol_version < kNodeRequestsSince ? Mode::Broadcast : Mode::Whole;
+        tries_ = 0;
+    }
     state_ = State::Asking;
     take(out, description_.begin(header));
 }

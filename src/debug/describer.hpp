@@ -18,9 +18,11 @@ public:
         Failed,  // why() says why; a header that arrives all the same begins anew
     };
 
+    explicit Describer(NodeId id) : id_(id) {}
+
     // How nodes of that version want to be asked: 4 by broadcast, 5 to 7 for the whole, from 8 on
     // part by part.
-    void start(Outbox& out, NodeId id, uint16_t protocol);
+    void start(Outbox& out, uint16_t protocol);
     void receive(Outbox& out, const wire::Description& header);
     template <typename Part>  // NamedVariable-, LocalEvent- or NativeFunctionDescription
     void receive(Outbox& out, const Part& part) {
@@ -48,8 +50,7 @@ private:
 
     State state_ = State::Idle;
     Mode mode_ = Mode::Whole;
-    NodeId id_ = 0;
-    uint16_t protocol_ = 0;
+    NodeId id_;
     int tries_ = 0;  // since the last progress
     Time deadline_{};
     Description description_;

@@ -177,6 +177,18 @@ TEST(OldNodes, OfVersion4DescribeThemselvesUnaskedAndMayBeSilent) {
     EXPECT_TRUE(bus.told<NodeDisconnected>().empty());
 }
 
+// Found by fuzzing: the second question went to node 0, in a message that old nodes do not know.
+TEST(OldNodes, OfVersion4AreAskedAgainByBroadcast) {
+    ScriptedBus bus;
+    bus.node_says(
+        "18 00 01 00 00 90 09 74 68 79 6d 69 6f 2d 49 49 04 00 fe 05 20 00 4a 02 01 00 00 00 00 "
+        "00");
+    bus.pass(milliseconds(999));
+    bus.forget();
+    bus.pass(milliseconds(1));
+    EXPECT_EQ(bus.sent_all(), (Dumps{"02 00 00 00 00 a0 05 00"}));
+}
+
 TEST(Versions, OutsideFourToNineAreRefusedOnceAndRemembered) {
     ScriptedBus bus;
     bus.node_says("02 00 01 00 0c 90 03 00");

@@ -28,13 +28,13 @@ std::string sentence(const wire::ArrayAccessOutOfBounds& fault) {
 }  // namespace
 
 Peer::Peer(NodeId id, uint16_t protocol, Outbox& out, const aesl::CommonDefinitions& common)
-    : out_(out), common_(common), control_(view_, out) {
+    : out_(out), common_(common), control_(view_, out), describer_(id) {
     view_.id = id;
     view_.protocol = protocol;
     view_.connected = true;
     last_seen_ = out.now;
     out_.tell(id, NodeAppeared{protocol});
-    if (protocol >= kListedSince) describer_.start(out_, id, protocol);
+    if (protocol >= kListedSince) describer_.start(out_, protocol);
 }
 
 void Peer::seen() {
@@ -43,7 +43,7 @@ void Peer::seen() {
     view_.connected = true;
     out_.tell(view_.id, NodeReconnected{});
     // It may have been started anew with other firmware: what it says now counts.
-    describer_.start(out_, view_.id, view_.protocol);
+    describer_.start(out_, view_.protocol);
     told_describer_ = Describer::State::Asking;
 }
 

@@ -49,10 +49,8 @@ Status Peer::watch(const VariableRange& range, Duration every) {
         return Error{Code::Limit, who() + " has " + std::to_string(kWatchesMax) +
                                       " watched variables already: end one first"};
     }
-    watches_.push_back({.range = range,
-                        .every = std::max(every, kWatchEveryMin),
-                        .next = out_.now,
-                        .told = {}});
+    watches_.push_back(
+        {.range = range, .every = std::max(every, kWatchEveryMin), .next = out_.now, .told = {}});
     tick_watches();
     return Status::done();
 }

@@ -108,7 +108,7 @@ std::string JsonObject::word(std::string_view key, const std::vector<std::string
     const Json* value = find(key, JsonKind::String, need);
     if (value == nullptr) return std::string(fallback);
     if (std::find(words.begin(), words.end(), value->text) != words.end()) return value->text;
-    const std::string guess = nearest(value->text, {words.begin(), words.end()});
+    const std::string guess = nearest(value->text, words);
     const std::string mend = guess.empty() ? fmt::format("write one of {}", list_of(words))
                                            : fmt::format("did you mean \"{}\"?", guess);
     complain(value->at, fmt::format("\"{}\" of {} is {}; {}", key, name_, shown(*value), mend));

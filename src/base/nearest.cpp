@@ -25,13 +25,12 @@ size_t distance(std::string_view from, std::string_view to) {
     return cost[from.size()][to.size()];
 }
 
-}  // namespace
-
-std::string nearest(std::string_view typed, const std::vector<std::string>& known) {
+template <typename Word>
+std::string nearest_of(std::string_view typed, const std::vector<Word>& known) {
     std::string best;
     size_t best_cost = kWordMax;
     if (typed.empty() || typed.size() > kWordMax) return best;
-    for (const std::string& word : known) {
+    for (const std::string_view word : known) {
         if (word.size() > kWordMax) continue;
         const bool begins = typed.size() > 1 && word.starts_with(typed);
         const size_t cost = begins ? 1 : distance(typed, word);
@@ -40,6 +39,16 @@ std::string nearest(std::string_view typed, const std::vector<std::string>& know
         best_cost = cost;
     }
     return best;
+}
+
+}  // namespace
+
+std::string nearest(std::string_view typed, const std::vector<std::string>& known) {
+    return nearest_of(typed, known);
+}
+
+std::string nearest(std::string_view typed, const std::vector<std::string_view>& known) {
+    return nearest_of(typed, known);
 }
 
 }  // namespace vagus

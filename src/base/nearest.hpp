@@ -11,5 +11,6 @@ namespace vagus {
 // `typed`, the first of equals; a word that `typed` begins counts as one change. Empty if all need
 // more than a third of their length, at least one: then a guess would only mislead.
 std::string nearest(std::string_view typed, const std::vector<std::string>& known);
+std::string nearest(std::string_view typed, const std::vector<std::string_view>& known);
 
 }  // namespace vagus

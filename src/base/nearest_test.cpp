@@ -24,8 +24,9 @@ TEST(Nearest, NoGuessIsBetterThanAWrongOne) {
 }
 
 TEST(Nearest, WordsBeyondTheLimitAreNotCompared) {
-    EXPECT_EQ(nearest(std::string(64, 'a'), {std::string(64, 'a')}), std::string(64, 'a'));
-    EXPECT_EQ(nearest(std::string(65, 'a'), {std::string(65, 'a')}), "");
+    EXPECT_EQ(nearest(std::string(64, 'a'), std::vector{std::string(64, 'a')}),
+              std::string(64, 'a'));
+    EXPECT_EQ(nearest(std::string(65, 'a'), std::vector{std::string(65, 'a')}), "");
 }
 
 }  // namespace

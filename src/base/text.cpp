@@ -1,4 +1,4 @@
-// UTF-8, splitting and suggestions: see text.hpp.
+// UTF-8, splitting and lists: see text.hpp.
 #include "base/text.hpp"
 
 #include <algorithm>
@@ -6,10 +6,6 @@
 
 namespace vagus {
 namespace {
-
-constexpr size_t kNearestStepsMax = 2;
-// Names longer than this get no suggestion: the work grows with the square of the length.
-constexpr size_t kNearestLengthMax = 256;
 
 bool is_continuation(char byte) {
     return (static_cast<uint8_t>(byte) & 0xc0u) == 0x80u;
@@ -29,32 +25,6 @@ bool is_allowed(char32_t value, size_t bytes) {
     if (value > 0x10ffff) return false;
     constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};  // below it the form is overlong
     return value >= kSmallest[bytes];
-}
-
-std::u32string decode(std::string_view text) {
-    std::u32string decoded;
-    while (!text.empty()) {
-        const CodePoint point = first_code_point(text);
-        decoded.push_back(point.bytes == 0 ? U'\ufffd' : point.value);
-        text.remove_prefix(std::max<size_t>(point.bytes, 1));
-    }
-    return decoded;
-}
-
-// Levenshtein's distance, one row of the table at a time.
-size_t edit_distance(const std::u32string& from, const std::u32string& to) {
-    std::vector<size_t> row(to.size() + 1);
-    for (size_t column = 0; column <= to.size(); ++column) row[column] = column;
-    for (size_t line = 1; line <= from.size(); ++line) {
-        size_t diagonal = row[0];
-        row[0] = line;
-        for (size_t column = 1; column <= to.size(); ++column) {
-            const size_t replaced = diagonal + (from[line - 1] == to[column - 1] ? 0 : 1);
-            diagonal = row[column];
-            row[column] = std::min({replaced, row[column] + 1, row[column - 1] + 1});
-        }
-    }
-    return row[to.size()];
 }
 
 }  // namespace
@@ -106,26 +76,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
     parts.push_back(text.substr(start));
     return parts;
-}
-
-std::optional<std::string> nearest_name(std::string_view word,
-                                        const std::vector<std::string_view>& known) {
-    const std::u32string wanted = decode(word);
-    if (wanted.size() > kNearestLengthMax) return std::nullopt;
-    size_t best_steps = kNearestStepsMax + 1;
-    std::optional<std::string_view> best;
-    for (const std::string_view name : known) {
-        const std::u32string candidate = decode(name);
-        if (candidate.size() > wanted.size() + kNearestStepsMax) continue;
-        const size_t steps = edit_distance(wanted, candidate);
-        // Bytes of UTF-8 compare in the order of their code points.
-        const bool better = steps < best_steps || (steps == best_steps && best && name < *best);
-        if (steps == 0 || steps > kNearestStepsMax || !better) continue;
-        best_steps = steps;
-        best = name;
-    }
-    if (!best) return std::nullopt;
-    return std::string(*best);
 }
 
 std::string list_of(const std::vector<std::string_view>& words) {

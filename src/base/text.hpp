@@ -1,5 +1,4 @@
-// Small acts on text that several modules need: UTF-8, splitting, and the known name that is
-// nearest to a mistyped one.
+// Small acts on text that several modules need: UTF-8, splitting, lists of words.
 #pragma once
 
 #include <cstddef>
@@ -32,12 +31,6 @@ size_t count_code_points(std::string_view text);
 
 // The parts between the separators: one more than there are separators.
 std::vector<std::string_view> split(std::string_view text, char separator);
-
-// The known name that can be made from `word` by inserting, deleting or replacing one code point,
-// else by two such steps; the first in code-point order if there are several. Nothing if all are
-// farther (aesl-language.md 3.3).
-std::optional<std::string> nearest_name(std::string_view word,
-                                        const std::vector<std::string_view>& known);
 
 // "a, b and c"
 std::string list_of(const std::vector<std::string_view>& words);

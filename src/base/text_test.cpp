@@ -43,14 +43,6 @@ TEST(Text, SplitsAtEverySeparator) {
     EXPECT_EQ(split("", ';'), (std::vector<std::string_view>{""}));
 }
 
-TEST(Text, NearestNameIsAtMostTwoStepsAway) {
-    EXPECT_EQ(nearest_name("siez", {"size", "name"}), "size");
-    EXPECT_EQ(nearest_name("sizexy", {"size"}), "size");
-    EXPECT_EQ(nearest_name("sizexyz", {"size"}), std::nullopt);
-    EXPECT_EQ(nearest_name("motr", {"motor", "moar"}), "moar") << "a tie: code-point order";
-    EXPECT_EQ(nearest_name("höhe", {"hohe", "tiefe"}), "hohe") << "one code point, not two bytes";
-}
-
 TEST(Text, ListsWordsAsASentenceDoes) {
     EXPECT_EQ(list_of({"a"}), "a");
     EXPECT_EQ(list_of({"a", "b", "c"}), "a, b and c");

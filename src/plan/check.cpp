@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "base/json.hpp"
+#include "base/nearest.hpp"
 #include "base/text.hpp"
 #include "plan/file.hpp"
 #include "plan/interface.hpp"
@@ -25,9 +26,8 @@ std::vector<std::string_view> names_of(const List& list) {
 
 // "; did you mean "x"?", or what there is, or nothing.
 std::string hint(std::string_view word, const std::vector<std::string_view>& known) {
-    if (const auto near = nearest_name(word, known)) {
-        return fmt::format("; did you mean \"{}\"?", *near);
-    }
+    const std::string near = nearest(word, known);
+    if (!near.empty()) return fmt::format("; did you mean \"{}\"?", near);
     if (known.empty() || known.size() > 20) return "";
     return fmt::format("; there {} {}", known.size() == 1 ? "is" : "are", list_of(known));
 }

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "base/json.hpp"
+#include "base/nearest.hpp"
 #include "base/text.hpp"
 #include "plan/keys.hpp"
 
@@ -53,10 +54,10 @@ public:
                 continue;
             }
             const std::vector<std::string_view> known(keys.begin(), keys.end());
-            const auto near = nearest_name(member.key, known);
+            const std::string near = nearest(member.key, known);
             complain("P0", element, member.at.line,
                      fmt::format("{} has no key \"{}\"{}; its keys are {}", what, member.key,
-                                 near ? fmt::format(" (did you mean \"{}\"?)", *near) : "",
+                                 near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near),
                                  list_of(known)));
         }
         return kept;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/text.hpp"
+#include "base/nearest.hpp"
 #include "isa/isa.hpp"
 #include "session/software_node.hpp"
 #include "wire/messages.hpp"
@@ -18,8 +18,9 @@ constexpr uint16_t kBatch = 10'000;  // instructions between two looks at the li
 std::string unknown(std::string_view kind, const std::string& name,
                     const std::vector<std::string_view>& known) {
     std::string sentence = "stimuli: there is no " + std::string(kind) + " " + name;
-    const auto near = nearest_name(name, known);
-    return sentence + (near ? ": did you mean " + *near + "?" : ": use one that the node has");
+    const std::string near = nearest(name, known);
+    return sentence +
+           (near.empty() ? ": use one that the node has" : ": did you mean " + near + "?");
 }
 
 // One run of one program: a node, and a list of what it says.

@@ -1,4 +1,5 @@
-// vagus compile: scripts and projects to bytecode. Mistakes go to stderr as FILE:LINE:COL: error: sentence [CODE].
+// vagus compile: scripts and projects to bytecode. Mistakes go to stderr as FILE:LINE:COL: error:
+// sentence [CODE].
 #include "aesl/compile.hpp"
 
 #include <CLI/CLI.hpp>
@@ -51,7 +52,8 @@ Result<std::vector<aesl::NodeFile>> read_nodes(const std::vector<std::string>& p
     return nodes;
 }
 
-// The node file of the script's node; with one file only, that one; without any, a node that is built in.
+// The node file of the script's node; with one file only, that one; without any, a node that is
+// built in.
 aesl::NodeFile node_for(const aesl::Script& script, const std::vector<aesl::NodeFile>& nodes) {
     for (const aesl::NodeFile& node : nodes) {
         if (node.target.name == script.node) return node;

@@ -1,5 +1,5 @@
-// Notices that files were saved. Editors write a file in pieces, or write another and rename it: a change counts once
-// the file stayed the same for two looks.
+// Notices that files were saved. Editors write a file in pieces, or write another and rename it: a
+// change counts once the file stayed the same for two looks.
 #pragma once
 
 #include <cstdint>

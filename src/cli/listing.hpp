@@ -1,4 +1,5 @@
-// The output of `compile --format listing`: the script, and under each line the instructions it became.
+// The output of `compile --format listing`: the script, and under each line the instructions it
+// became.
 //
 //     12 | when speed > 50 do
 //             16  3024       Load speed

@@ -17,11 +17,12 @@ namespace vagus::cli {
 // `--dialect auto|modern|2007` and `--ontimer EVENT` (docs/spec/aesl-language.md, section 6).
 void add_dialect_options(CLI::App& verb, aesl::Options& options);
 
-// The option takes one of these words; anything else is answered with the list and the nearest of them. The words are
-// also what the shell completes.
+// The option takes one of these words; anything else is answered with the list and the nearest of
+// them. The words are also what the shell completes.
 void takes_one_of(CLI::Option& option, std::vector<std::string> words);
 
-// The option takes the path of a file or folder: the shell completes it, with these endings first (".aesl").
+// The option takes the path of a file or folder: the shell completes it, with these endings first
+// (".aesl").
 void takes_file(CLI::Option& option, std::vector<std::string> endings);
 
 }  // namespace vagus::cli

@@ -27,7 +27,8 @@ std::string path_of(const CLI::App& app) {
     return above + (above.empty() ? "" : " ") + app.get_name();
 }
 
-// What an option or argument takes, as the completion script reads it: "file .aesl", "words a b", "any", "none".
+// What an option or argument takes, as the completion script reads it: "file .aesl", "words a b",
+// "any", "none".
 std::string kind_of(const CLI::Option& option) {
     if (option.get_items_expected_max() == 0) return "none";
     std::string type = option.get_type_name();
@@ -81,7 +82,7 @@ declare -A _vagus_names=(
 )sh";
 
 constexpr std::string_view kBashMiddle = R"sh()
-# What each option and each argument (by its number) takes: "none", "any", "file ENDING...", "words WORD...".
+# What each option and argument (by its number) takes: "none", "any", "file ENDING", "words WORD".
 declare -A _vagus_takes=(
 )sh";
 
@@ -113,10 +114,20 @@ _vagus_complete_kind() {
 }
 
 _vagus() {
-    local cur=${COMP_WORDS[COMP_CWORD]} verb="" position=0 value_of="" word names i
+    local cur=${COMP_WORDS[COMP_CWORD]} verb="" position=0 value_of="" glue="" word names i
+    local -a words=()
     COMPREPLY=()
+    # bash cuts words at : and =, which targets like tcp:localhost:33333 have: join them again.
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
+        if [[ ${#words[@]} -gt 0 && ( -n $glue || $word == [:=] ) ]]; then
+            words[-1]+=$word
+        else
+            words+=("$word")
+        fi
+        if [[ $word == [:=] ]]; then glue=yes; else glue=""; fi
+    done
+    for word in "${words[@]}"; do
         if [ -n "$value_of" ]; then
             value_of=""
         elif [[ $word == -* ]]; then
@@ -220,7 +231,8 @@ private:
         return text + " " + placeholder(option);
     }
 
-    // "FILE(.aesl)" tells the completion about endings, "N:UINT" CLI11 about checks; a person needs the word.
+    // "FILE(.aesl)" tells the completion about endings, "N:UINT" CLI11 about checks; a person needs
+    // the word.
     static std::string placeholder(const CLI::Option& option) {
         const std::string type = option.get_type_name();
         return type.starts_with("FILE") ? "FILE" : type.substr(0, type.find(':'));

@@ -1,5 +1,6 @@
-// What is derived from the description of the command line, so that it cannot drift apart from it: the completion of
-// the shell (completions/vagus.bash) and the page docs/cli.md. `vagus page bash|manual` prints them, `./test` compares.
+// What is derived from the description of the command line, so that it cannot drift apart from it:
+// the completion of the shell (completions/vagus.bash) and the page docs/cli.md. `vagus page
+// bash|manual` prints them, `./test` compares.
 #pragma once
 
 #include <string>

@@ -66,8 +66,8 @@ public:
 
     Status listen();
     Status open_trace();
-    // Steps until the scripts run, so that their mistakes are known before the screen appears. False if there
-    // are some and nobody watches their files.
+    // Steps until the scripts run, so that their mistakes are known before the screen appears.
+    // False if there are some and nobody watches their files.
     bool settle();
     int run();
 
@@ -77,6 +77,7 @@ private:
     bool ended() const { return session_.now() >= end() || end_asked() || closed_; }
     void turn();
     void pass_time(Time real);
+    Duration to_next_step() const;
     void advance(Duration span);
     void set_speed(double speed);
     void step_speed(int direction);
@@ -161,7 +162,8 @@ Duration SimRun::end() const {
 
 int SimRun::run() {
     watch_for_end();
-    if (!options_.headless && stdout_is_terminal()) {
+    // Without a keyboard, or on a terminal that cannot move its cursor, lines are what helps.
+    if (!options_.headless && Terminal::can_draw()) {
         auto opened = Terminal::open();
         if (!opened.ok()) return complain(opened.error());
         terminal_ = std::make_unique<Terminal>(std::move(opened.value()));
@@ -215,7 +217,7 @@ void SimRun::pass_time(Time real) {
     if (paused_) return;
     if (speed_ == 0) {
         // As much as fits between two looks at keys and sockets.
-        while (!ended() && network_.now() - real < kTurn) advance(sim::kPhysicsStep);
+        while (!ended() && network_.now() - real < kTurn) advance(to_next_step());
         return;
     }
     owed_ += Duration(std::llround(static_cast<double>(passed.count()) * speed_));
@@ -227,6 +229,11 @@ void SimRun::pass_time(Time real) {
         advance(span);
         owed_ -= span;
     }
+}
+
+// Whole steps of the physics end on their multiples, so that lines of each second name its end.
+Duration SimRun::to_next_step() const {
+    return sim::kPhysicsStep - session_.now() % sim::kPhysicsStep;
 }
 
 void SimRun::advance(Duration span) {

@@ -1,4 +1,5 @@
-// One run of `vagus sim`: passes the time, moves the bytes of the bus, watches the script files, shows what happens.
+// One run of `vagus sim`: passes the time, moves the bytes of the bus, watches the script files,
+// shows what happens.
 #pragma once
 
 #include <cstdint>

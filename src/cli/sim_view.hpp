@@ -1,4 +1,5 @@
-// What the terminal view shows of a session: picks the robot's figures, remembers trails and what changed a moment ago.
+// What the terminal view shows of a session: picks the robot's figures, remembers trails and what
+// changed a moment ago.
 #pragma once
 
 #include <deque>

@@ -99,6 +99,12 @@ std::string environment(const char* name) {
 
 }  // namespace
 
+bool Terminal::can_draw() {
+    const std::string term = environment("TERM");
+    const bool moves = !term.empty() && term != "dumb";
+    return moves && ::isatty(STDIN_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 1;
+}
+
 Result<Terminal> Terminal::open() {
     if (::isatty(STDOUT_FILENO) != 1 || ::tcgetattr(STDIN_FILENO, &g_before) != 0) {
         return Error{Code::Unavailable, "no terminal to draw on: give --headless for plain lines"};

@@ -17,6 +17,8 @@ namespace vagus::cli {
 
 class Terminal {
 public:
+    // stdin and stdout are a terminal that can move its cursor (TERM is not empty or "dumb").
+    static bool can_draw();
     // Takes stdin and stdout. Unavailable if one of them is no terminal.
     static Result<Terminal> open();
     ~Terminal();

@@ -1,6 +1,6 @@
 // Diagnostics as people read them, the same on stderr and on the screen:
 //
-//     explore.aesl:12:5: error: There is no variable speeed; did you mean speed? [VARIABLE_NOT_DEFINED]
+//     explore.aesl:12:5: error: There is no speeed; did you mean speed? [VARIABLE_NOT_DEFINED]
 //        12 | speeed = 3
 //           | ^~~~~~
 #pragma once

@@ -10,8 +10,8 @@
 //     for (const Note& note : session.take_notes()) show(note.text);
 //     for (const RobotState& robot : session.robots()) show(robot.node_name, robot.state);
 //
-// What mistakes a script has is known once the robots have described themselves, some milliseconds of
-// simulated time after the start: settled() tells when.
+// What mistakes a script has is known once the robots have described themselves, some milliseconds
+// of simulated time after the start: settled() tells when.
 #pragma once
 
 #include <map>
@@ -77,9 +77,9 @@ class SimSession {
 public:
     SimSession(sim::World world, SimOptions options);
 
-    // Takes over the scripts of a file for all robots they are for; those of the same path that came
-    // before are forgotten. A plain script is for every robot. Whatever is wrong, with the file or a
-    // script, comes as a note and stays among the mistakes() until a better text comes.
+    // Takes over the scripts of a file for all robots they are for; those of the same path that
+    // came before are forgotten. A plain script is for every robot. Whatever is wrong, with the
+    // file or a script, comes as a note and stays among the mistakes() until a better text comes.
     void load(const std::string& path, std::string_view text);
     // For one robot only, as the world file says: the script for its node, or the only one.
     void load_for(sim::RobotId robot, const std::string& path, std::string_view text);
@@ -100,7 +100,8 @@ public:
     const sim::World& world() const { return world_; }
     sim::World& world() { return world_; }
     std::vector<RobotState> robots() const;
-    // The script's own variables with their values now, in order of address; empty without a script.
+    // The script's own variables with their values now, in order of address; empty without a
+    // script.
     std::vector<std::pair<std::string, std::span<const int16_t>>> script_variables(
         sim::RobotId robot) const;
     // A variable of the node's description, "prox.horizontal"; empty if there is none.

@@ -1,4 +1,5 @@
-// Lines of `sim --trace` (docs/formats.md, "Outputs"): one JSON object a line, keys in a fixed order, no spaces.
+// Lines of `sim --trace` (docs/formats.md, "Outputs"): one JSON object a line, keys in a fixed
+// order, no spaces.
 #pragma once
 
 #include <cstdint>

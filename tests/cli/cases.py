@@ -236,7 +236,10 @@ class Cli(unittest.TestCase):
         self.assertEqual(self.complete("vagus", "sim", ""), ["yard.world.json"])
         self.assertEqual(self.complete("vagus", "sim", "yard.world.json", "--load", ""), ["count.aesl"])
         self.assertEqual(self.complete("vagus", "sim", "--watch", "--sp"), ["--speed"])
-        self.assertIn("list", self.complete("vagus", "net", "tcp:localhost:33333", ""))
+        # As bash cuts the words of `vagus net tcp:localhost:33333 li`.
+        target = ["tcp", ":", "localhost", ":", "33333"]
+        self.assertEqual(self.complete("vagus", "net", *target, "li"), ["list"])
+        self.assertEqual(self.complete("vagus", "sim", "--listen", *target, ""), ["yard.world.json"])
 
     # ---- compile ----
 
@@ -414,6 +417,25 @@ class Cli(unittest.TestCase):
             screen.type("\x03")
             self.assertEqual(screen.wait_end(), -signal.SIGINT)
             self.assertTrue(screen.given_back())
+
+    def test_ctrl_z_gives_the_terminal_back_until_fg(self):
+        with Screen("sim", self.world) as screen:
+            screen.wait_for("thymio-II")
+            screen.bytes = b""
+            screen.process.send_signal(signal.SIGTSTP)
+            screen.wait_until(screen.given_back, "the terminal given back")
+            screen.bytes = b""
+            screen.process.send_signal(signal.SIGCONT)
+            screen.wait_for("\x1b[?1049h")
+            screen.wait_for("thymio-II")
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 0)
+            self.assertTrue(screen.given_back())
+
+    def test_a_terminal_that_cannot_draw_gets_lines(self):
+        with Screen("sim", self.world, "--speed", "max", env={"TERM": "dumb"}) as screen:
+            screen.wait_for("20.000 s  rob  at")
+            self.assertEqual(screen.wait_end(), 0)
 
     def test_mistakes_appear_on_the_screen_and_go_when_mended(self):
         with Screen("sim", self.world, "--load", self.script, "--watch", columns=100, rows=30) as screen:

@@ -15,7 +15,8 @@ Outline rectangle(double left, double bottom, double right, double top) {
     return {{{left, bottom}, {right, bottom}, {right, top}, {left, top}}, {}, 0};
 }
 
-// Two metres wide, one high; a robot in the middle that looks up, a wall at the left, a dark patch at the right.
+// Two metres wide, one high; a robot in the middle that looks up, a wall at the left, a dark patch
+// at the right.
 View small_world() {
     View view;
     view.title = "yard";
@@ -68,8 +69,8 @@ TEST(Screen, SaysWhatItShows) {
     EXPECT_THAT(page, HasSubstr("q quit"));
 }
 
-// Without colour and UTF-8 the picture is made of letters. The arena is twice as wide as high, and so is a cell of
-// text turned round: in a 60 x 16 page the world takes 32 columns and 8 rows.
+// Without colour and UTF-8 the picture is made of letters. The arena is twice as wide as high, and
+// so is a cell of text turned round: in a 60 x 16 page the world takes 32 columns and 8 rows.
 TEST(Screen, DrawsWithLettersWhereBlocksWouldNotShow) {
     const Grid page = draw(small_world(), kSizeMin, kLetters);
     const std::string text = text_of(page);

@@ -1,0 +1,208 @@
+#include "session/sim_session.hpp"
+
+#include <gmock/gmock.h>
+
+namespace vagus::session {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+sim::RobotDefinition robot(const std::string& name, uint16_t node, double x) {
+    sim::RobotDefinition definition;
+    definition.name = name;
+    definition.node = node;
+    definition.at = {x, 0.5};
+    return definition;
+}
+
+// Two Thymios, nodes 3 and 7, both called "thymio-II" on the bus.
+SimSession two_robots(bool traced = false) {
+    sim::WorldDefinition world;
+    world.width = 2;
+    world.robots = {robot("left", 3, 0.5), robot("right", 7, 1.5)};
+    SimOptions options;
+    options.traced = traced;
+    return SimSession(std::move(sim::World::create(world).value()), options);
+}
+
+std::string project(const std::string& events, const std::string& nodes) {
+    return "<network>" + events + nodes + "</network>";
+}
+
+std::string node(const std::string& name, int id, const std::string& source) {
+    return "<node name=\"" + name + "\" nodeId=\"" + std::to_string(id) + "\">" + source +
+           "</node>";
+}
+
+// Passes simulated time until all scripts are placed and run or have mistakes.
+void settle(SimSession& session) {
+    while (!session.settled() && session.now() < 10s) session.step(1ms);
+    ASSERT_TRUE(session.settled());
+}
+
+std::vector<std::string> texts(SimSession& session, NoteKind kind) {
+    std::vector<std::string> list;
+    for (const Note& note : session.take_notes()) {
+        if (note.kind == kind) list.push_back(note.text);
+    }
+    return list;
+}
+
+int16_t value(const SimSession& session, size_t index, const std::string& name) {
+    for (const auto& [known, values] : session.script_variables(session.robots().at(index).id)) {
+        if (known == name) return values.front();
+    }
+    ADD_FAILURE() << "no variable " << name;
+    return 0;
+}
+
+TEST(SimSession, EachScriptGoesToTheNodeOfItsNameAndNumber) {
+    SimSession session = two_robots();
+    // The second robot's script stands first: the number decides, not the order.
+    session.load("a.aesl", project("", node("thymio-II", 7, "var x = 70") +
+                                           node("thymio-II", 3, "var x = 30")));
+    settle(session);
+    EXPECT_EQ(value(session, 0, "x"), 30);
+    EXPECT_EQ(value(session, 1, "x"), 70);
+    EXPECT_THAT(texts(session, NoteKind::Loaded), testing::SizeIs(2));
+    EXPECT_THAT(session.mistakes(), IsEmpty());
+}
+
+TEST(SimSession, APlainScriptIsForEveryRobotAndMayEmitWhatItLikes) {
+    SimSession session = two_robots();
+    session.load("a.txt", "var x = _id\nemit hello [x, 5]");
+    settle(session);
+    EXPECT_THAT(texts(session, NoteKind::Event),
+                ElementsAre("left: hello 3 5", "right: hello 7 5"));
+    EXPECT_EQ(session.events().at(0).count, 2u);
+}
+
+TEST(SimSession, AScriptForOneRobotIsForNoOther) {
+    SimSession session = two_robots();
+    session.load_for(session.robots().at(1).id, "a.aesl",
+                     project("", node("somebody", 1, "var x = 4")));
+    settle(session);
+    EXPECT_FALSE(session.robots().at(0).has_script);
+    EXPECT_EQ(value(session, 1, "x"), 4);
+}
+
+TEST(SimSession, WithMistakesTheOldProgramRunsOnUntilABetterTextComes) {
+    SimSession session = two_robots();
+    session.load("a.txt", "var n = 1");
+    settle(session);
+    session.reload("a.txt", "var n = 1\nnn = 2");
+    settle(session);
+    EXPECT_THAT(session.mistakes(), Contains(HasSubstr("a.txt:2:1: error: ")));
+    EXPECT_EQ(value(session, 0, "n"), 1);
+    session.reload("a.txt", "var n = 5");
+    settle(session);
+    EXPECT_THAT(session.mistakes(), IsEmpty());
+    EXPECT_EQ(value(session, 0, "n"), 5);
+}
+
+TEST(SimSession, AFileThatIsNoProjectIsAMistakeThatCanBeMended) {
+    SimSession session = two_robots();
+    session.load("a.aesl", "<network><node>");
+    EXPECT_THAT(session.mistakes(), Contains(HasSubstr("a.aesl:1:")));
+    session.reload("a.aesl", project("", node("thymio-II", 3, "var x = 1")));
+    settle(session);
+    EXPECT_THAT(session.mistakes(), IsEmpty());
+    EXPECT_EQ(value(session, 0, "x"), 1);
+}
+
+TEST(SimSession, AProjectForNobodyHereNamesWhoIsHere) {
+    SimSession session = two_robots();
+    session.load("a.aesl", project("", node("rover", 9, "var x")));
+    settle(session);
+    EXPECT_THAT(session.mistakes(),
+                ElementsAre(testing::AllOf(HasSubstr("\"rover\" (node 9)"),
+                                           HasSubstr("\"thymio-II\" (node 3)"))));
+}
+
+// On a bus an event is only a number: two lists that disagree would make one robot hear another's words.
+TEST(SimSession, ProjectsThatNumberEventsDifferentlyAreRefused) {
+    SimSession session = two_robots();
+    session.load_for(session.robots().at(0).id, "a.aesl",
+                     project("<event name=\"go\" size=\"0\"/>", node("thymio-II", 3, "var x")));
+    session.load_for(session.robots().at(1).id, "b.aesl",
+                     project("<event name=\"halt\" size=\"0\"/>", node("thymio-II", 7, "var x")));
+    settle(session);
+    EXPECT_THAT(
+        session.mistakes(),
+        ElementsAre(HasSubstr("b.aesl: error: event 0 is \"halt\" here and \"go\" in a.aesl")));
+}
+
+TEST(SimSession, AFaultNamesFileAndLine) {
+    SimSession session = two_robots();
+    session.load_for(session.robots().at(0).id, "a.aesl",
+                     "<network>\n" + node("thymio-II", 3, "var x = 0\nx = 1 / x") + "</network>");
+    settle(session);
+    session.step(10ms);
+    EXPECT_THAT(session.robots().at(0).fault, HasSubstr("a.aesl:3: "));
+    EXPECT_THAT(texts(session, NoteKind::Fault), testing::SizeIs(1));
+}
+
+TEST(SimSession, ResetBeginsAgainWithTheSameScripts) {
+    SimSession session = two_robots();
+    session.load("a.txt", "var n = 0\ntimer.period[0] = 100\nonevent timer0\nn++\nemit tick n");
+    settle(session);
+    session.step(1s);
+    EXPECT_GE(value(session, 0, "n"), 9);
+    session.reset();
+    EXPECT_EQ(session.now(), 0s);
+    EXPECT_THAT(session.events(), IsEmpty());
+    settle(session);
+    session.step(250ms);
+    EXPECT_EQ(value(session, 0, "n"), 2);
+}
+
+TEST(SimSession, TheTraceOfARunIsTheSameEachTime) {
+    std::string first;
+    for (int round = 0; round < 2; round++) {
+        SimSession session = two_robots(true);
+        session.load("a.txt",
+                     "motor.left.target = 200\nonevent prox\nemit seen prox.ground.delta[0]");
+        session.step(3s);
+        const std::string trace = session.take_trace();
+        EXPECT_THAT(trace, HasSubstr("\"kind\":\"event\",\"node\":3,\"name\":\"seen\""));
+        if (round == 0) first = trace;
+        EXPECT_EQ(trace, first);
+    }
+}
+
+TEST(SimSession, MoreFilesThanTheLimitAreRefused) {
+    SimSession session = two_robots();
+    for (size_t i = 0; i < kScriptFilesMax; i++) session.load("f" + std::to_string(i), "var x");
+    EXPECT_THAT(session.mistakes(), IsEmpty());
+    EXPECT_EQ(session.script_paths().size(), kScriptFilesMax);
+    session.load("one more", "var x");
+    EXPECT_THAT(session.mistakes(), ElementsAre(HasSubstr("more than 1001 script files")));
+    EXPECT_EQ(session.script_paths().size(), kScriptFilesMax);
+}
+
+TEST(SimSession, MoreNamesOfEventsThanTheLimitOnlyPass) {
+    SimSession session = two_robots();
+    std::string source;
+    for (size_t i = 0; i <= kEventNamesMax; i++) source += "emit e" + std::to_string(i) + "\n";
+    session.load_for(session.robots().at(0).id, "a.txt", source);
+    settle(session);
+    session.step(100ms);
+    EXPECT_EQ(session.events().size(), kEventNamesMax);
+}
+
+TEST(SimSession, NotesThatNobodyTakesEndAtTheLimit) {
+    SimSession session = two_robots();
+    session.load("a.txt",
+                 "var i\ntimer.period[0] = 20\nonevent timer0\nfor i in 1:50 do\nemit e\nend");
+    settle(session);
+    // Two robots, 50 events each, 50 times a second: 10000 in two seconds.
+    session.step(4s);
+    EXPECT_EQ(session.take_notes().size(), kNotesMax);
+}
+
+}  // namespace
+}  // namespace vagus::session

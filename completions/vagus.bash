@@ -4,7 +4,7 @@
 
 # What may follow each verb, by its name.
 declare -A _vagus_names=(
-    [" "]="compile exec switch node net sim --version --help"
+    [" "]="compile exec switch node net sim plan --version --help"
     ["compile "]="--node --node-name --format --out --dialect --ontimer --help"
     ["exec "]="--node --stimuli --max-steps --dialect --ontimer --help"
     ["switch "]="--listen --verbose --loop --help"
@@ -26,8 +26,12 @@ declare -A _vagus_names=(
     ["net load "]="--help"
     ["net break "]="--clear --keep --help"
     ["sim "]="--load --watch --headless --speed --duration --seed --listen --trace --dialect --ontimer --help"
+    ["plan "]="check run format --help"
+    ["plan check "]="--json --help"
+    ["plan run "]="--set --clock --seed --max-time --trace --help"
+    ["plan format "]="--write --check --help"
 )
-# What each option and each argument (by its number) takes: "none", "any", "file ENDING...", "words WORD...".
+# What each option and argument (by its number) takes: "none", "any", "file ENDING", "words WORD".
 declare -A _vagus_takes=(
     [" --version"]="none"
     [" --help"]="none"
@@ -138,6 +142,26 @@ declare -A _vagus_takes=(
     ["sim --ontimer"]="any"
     ["sim --help"]="none"
     ["sim -h"]="none"
+    ["plan --help"]="none"
+    ["plan -h"]="none"
+    ["plan check 1"]="file .plan.json "
+    ["plan check --json"]="none"
+    ["plan check --help"]="none"
+    ["plan check -h"]="none"
+    ["plan run 1"]="file .plan.json "
+    ["plan run --set"]="any"
+    ["plan run --clock"]="words real virtual"
+    ["plan run --seed"]="any"
+    ["plan run --max-time"]="any"
+    ["plan run --trace"]="file .jsonl "
+    ["plan run --help"]="none"
+    ["plan run -h"]="none"
+    ["plan format 1"]="file .plan.json "
+    ["plan format --write"]="none"
+    ["plan format -w"]="none"
+    ["plan format --check"]="none"
+    ["plan format --help"]="none"
+    ["plan format -h"]="none"
 )
 
 # Files with one of the endings, and folders; all files if there is no ending.
@@ -166,10 +190,20 @@ _vagus_complete_kind() {
 }
 
 _vagus() {
-    local cur=${COMP_WORDS[COMP_CWORD]} verb="" position=0 value_of="" word names i
+    local cur=${COMP_WORDS[COMP_CWORD]} verb="" position=0 value_of="" glue="" word names i
+    local -a words=()
     COMPREPLY=()
+    # bash cuts words at : and =, which targets like tcp:localhost:33333 have: join them again.
     for ((i = 1; i < COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]}
+        if [[ ${#words[@]} -gt 0 && ( -n $glue || $word == [:=] ) ]]; then
+            words[-1]+=$word
+        else
+            words+=("$word")
+        fi
+        if [[ $word == [:=] ]]; then glue=yes; else glue=""; fi
+    done
+    for word in "${words[@]}"; do
         if [ -n "$value_of" ]; then
             value_of=""
         elif [[ $word == -* ]]; then

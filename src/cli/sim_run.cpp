@@ -225,7 +225,7 @@ void SimRun::pass_time(Time real) {
                                                   std::max(speed_, 1.0))));
     const Time deadline = real + kBehindMax;
     while (owed_ >= sim::kNodeStep && !ended() && network_.now() < deadline) {
-        const Duration span = std::min<Duration>(owed_ - owed_ % sim::kNodeStep, sim::kPhysicsStep);
+        const Duration span = std::min(owed_ - owed_ % sim::kNodeStep, to_next_step());
         advance(span);
         owed_ -= span;
     }

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import pty
+import re
 import select
 import shutil
 import signal
@@ -21,7 +22,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 VAGUS = os.environ.get("VAGUS_BIN", str(ROOT / "build/release/bin/vagus"))
 GIVE_UP_AFTER = 60.0
-VERBS = ["compile", "exec", "switch", "node", "net", "sim"]
+VERBS = re.findall(r"^VERB\((\w+)\)", (ROOT / "src/cli/verbs.def").read_text(), re.MULTILINE)
 
 WORLD = """{
   "format": "vagus-world/1",
@@ -123,6 +124,16 @@ class Screen:
                 raise AssertionError(f"never painted {text!r}; the end of what it painted: {self.bytes[-2000:]!r}")
             self.read(0.05)
         self.bytes = self.bytes[self.bytes.index(wanted) + len(wanted):]
+
+    def wait_page(self, text):
+        """Asks for the whole page (Ctrl-L) until the text stands on it: changes alone may leave letters out."""
+        deadline = time.monotonic() + GIVE_UP_AFTER
+        self.bytes = b""
+        while text.encode() not in self.bytes:
+            if time.monotonic() > deadline:
+                raise AssertionError(f"never showed {text!r}; the end of what it painted: {self.bytes[-2000:]!r}")
+            self.type("\x0c")
+            self.read(0.05)
 
     def wait_until(self, condition, what):
         deadline = time.monotonic() + GIVE_UP_AFTER
@@ -378,15 +389,15 @@ class Cli(unittest.TestCase):
 
     def test_the_screen_shows_the_robot_and_q_gives_the_terminal_back(self):
         with Screen("sim", self.world, "--load", self.script) as screen:
-            screen.wait_for("yard")
-            screen.wait_for("thymio-II")
-            screen.wait_for("count")
+            screen.wait_page("yard")
+            screen.wait_page("thymio-II")
+            screen.wait_page("count")
             screen.type(" ")
-            screen.wait_for("paused")
+            screen.wait_page("go on")
             screen.type(" ")
-            screen.wait_for("pause")
+            screen.wait_page("x1")
             screen.type("+")
-            screen.wait_for("x2")
+            screen.wait_page("x2")
             screen.bytes = b""
             screen.type("q")
             self.assertEqual(screen.wait_end(), 0)
@@ -394,18 +405,18 @@ class Cli(unittest.TestCase):
 
     def test_the_page_follows_the_size_of_the_terminal(self):
         with Screen("sim", self.world) as screen:
-            screen.wait_for("thymio-II")
+            screen.wait_page("thymio-II")
             screen.resize(59, 16)
-            screen.wait_for("needs 60 x 16")
+            screen.wait_page("needs 60 x 16")
             screen.resize(60, 16)
-            screen.wait_for("thymio-II")
+            screen.wait_page("thymio-II")
             screen.type("q")
             self.assertEqual(screen.wait_end(), 0)
 
     def test_whatever_ends_it_the_terminal_is_given_back(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGABRT, signal.SIGSEGV):
             with self.subTest(signal=number), Screen("sim", self.world) as screen:
-                screen.wait_for("thymio-II")
+                screen.wait_page("thymio-II")
                 screen.bytes = b""
                 screen.process.send_signal(number)
                 self.assertEqual(screen.wait_end(), -number)
@@ -413,21 +424,21 @@ class Cli(unittest.TestCase):
 
     def test_ctrl_c_ends_it_by_the_signal_so_that_scripts_around_stop(self):
         with Screen("sim", self.world) as screen:
-            screen.wait_for("thymio-II")
+            screen.wait_page("thymio-II")
             screen.type("\x03")
             self.assertEqual(screen.wait_end(), -signal.SIGINT)
             self.assertTrue(screen.given_back())
 
     def test_ctrl_z_gives_the_terminal_back_until_fg(self):
         with Screen("sim", self.world) as screen:
-            screen.wait_for("thymio-II")
+            screen.wait_page("thymio-II")
             screen.bytes = b""
             screen.process.send_signal(signal.SIGTSTP)
             screen.wait_until(screen.given_back, "the terminal given back")
             screen.bytes = b""
             screen.process.send_signal(signal.SIGCONT)
             screen.wait_for("\x1b[?1049h")
-            screen.wait_for("thymio-II")
+            screen.wait_page("thymio-II")
             screen.type("q")
             self.assertEqual(screen.wait_end(), 0)
             self.assertTrue(screen.given_back())
@@ -439,12 +450,12 @@ class Cli(unittest.TestCase):
 
     def test_mistakes_appear_on_the_screen_and_go_when_mended(self):
         with Screen("sim", self.world, "--load", self.script, "--watch", columns=100, rows=30) as screen:
-            screen.wait_for("count")
+            screen.wait_page("count")
             self.script.write_text(PROJECT.replace("STEP", "sttep"))
-            screen.wait_for("has mistakes")
-            screen.wait_for("sttep")
+            screen.wait_page("has mistakes")
+            screen.wait_page("sttep")
             self.script.write_text(PROJECT.replace("STEP", "100"))
-            screen.wait_for("runs on rob")
+            screen.wait_page("runs on rob")
             screen.type("q")
             self.assertEqual(screen.wait_end(), 0)
 

@@ -311,6 +311,8 @@ class Peers(unittest.TestCase):
             self.assertEqual((asked, start), (node, 0))
             answer = bus.wait(VARIABLES, source=node)
             self.assertEqual(len(answer), 2 * (1 + length))
+            for _ in range(2):  # it asks once a second, between two paintings: then the values are on the screen
+                bus.wait(LIST_NODES, source=0)
             display.screenshot(ROOT / "build" / picture)
             return struct.unpack(f"<{length}h", answer[2:])
 

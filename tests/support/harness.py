@@ -274,10 +274,10 @@ def playground(display, folder, ports, ids):
     return Program("asebaplayground", scenario, env=display.env)
 
 
-def simulated(folder, *robots, listen="tcp:127.0.0.1:0"):
+def simulated(folder, *robots, listen="tcp:127.0.0.1:0", options=()):
     """vagus sim with these robots (as in a world file); its bus is where it listens."""
     world = {"format": "vagus-world/1", "size": [2, 1.5],
              "robots": [{"type": "thymio2", "at": [0.4 + 0.4 * i, 0.7], **robot} for i, robot in enumerate(robots)]}
     path = pathlib.Path(folder) / "arena.world.json"
     path.write_text(json.dumps(world), encoding="utf-8")
-    return vagus("sim", path, "--headless", "--duration", 3600, "--listen", listen)
+    return vagus("sim", path, "--headless", "--duration", 3600, "--listen", listen, *options)

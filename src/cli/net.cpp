@@ -52,7 +52,10 @@ int run(const Call& call, const Act& act) {
         project = std::move(read.value());
     }
     Result<std::unique_ptr<NetSession>> session = NetSession::open(call.net);
-    if (!session.ok()) return complain(session.error());
+    if (!session.ok()) {
+        const bool mistyped = session.error().code == Code::BadInput;
+        return complain(session.error(), mistyped ? kExitUsage : kExitFailed);
+    }
     if (!project.path.empty()) session.value()->use_project(std::move(project));
     const Verdict verdict = act(*session.value(), call);
     session.value()->farewell();

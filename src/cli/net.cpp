@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/net_verbs.hpp"
+#include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 
@@ -190,7 +191,9 @@ void add_load(CLI::App& net, const SharedCall& call, int& exit_code) {
                  "A project: each node gets the script of its name. A plain script: "
                  "NODE, or the only node.\nNothing is loaded if any script has an error.\n"
                  "Example:\n  vagus net tcp:127.0.0.1:33333 load explore.aesl");
-    verb->add_option("FILE", call->file, ".aesl project, or the text of one script")->required();
+    takes_file(*verb->add_option("FILE", call->file, ".aesl project, or the text of one script")
+                    ->required(),
+               {".aesl"});
     verb->add_option("NODE", call->node, "only this node; number, name or all");
     verb->callback([call, &exit_code] { exit_code = load(*call); });
 }
@@ -248,8 +251,9 @@ void add_net(CLI::App& app, int& exit_code) {
     net->add_option("TARGET", call->net.target, "tcp:HOST:PORT, ser:DEVICE or can:INTERFACE")
         ->required();
     net->add_flag("--json", call->net.json, "results as JSON");
-    net->add_option("--project", call->net.project_file,
-                    "an .aesl project: names of events, script variables, lines");
+    takes_file(*net->add_option("--project", call->net.project_file,
+                                "an .aesl project: names of events, script variables, lines"),
+               {".aesl"});
     net->add_option("--wait", call->net.wait_s,
                     "seconds to wait for nodes or for an end; see the verbs")
         ->check(CLI::Range(0.0, kWaitMax_s));

@@ -50,8 +50,12 @@ std::vector<std::string_view> lines_of(std::string_view source) {
 class Listing {
 public:
     Listing(const Program& program, std::string_view source, const Target& target,
-            const CommonDefinitions& common)
-        : program_(program), target_(target), common_(common), lines_(lines_of(source)) {
+            const CommonDefinitions& common, int first_line)
+        : program_(program),
+          target_(target),
+          common_(common),
+          lines_(lines_of(source)),
+          first_line_(first_line) {
         for (const VariablePlace& variable : program.variables) {
             variables_end_ =
                 std::max<size_t>(variables_end_, size_t{variable.address} + variable.size);
@@ -128,7 +132,7 @@ private:
         const size_t line = at_ < program_.lines.size() ? program_.lines[at_] : 0;
         if (line == 0 || line == line_) return;
         line_ = line;
-        print("%8zu | ", line);
+        print("%8zu | ", line + static_cast<size_t>(first_line_) - 1);
         if (line <= lines_.size()) text_ += lines_[line - 1];
         text_ += '\n';
     }
@@ -256,6 +260,7 @@ private:
     const Target& target_;
     const CommonDefinitions& common_;
     std::vector<std::string_view> lines_;
+    int first_line_;
     std::string text_;
     size_t at_ = 0;
     size_t line_ = 0;
@@ -265,8 +270,8 @@ private:
 }  // namespace
 
 std::string listing(const Program& program, std::string_view source, const Target& target,
-                    const CommonDefinitions& common) {
-    return Listing(program, source, target, common).run();
+                    const CommonDefinitions& common, int first_line) {
+    return Listing(program, source, target, common, first_line).run();
 }
 
 }  // namespace vagus::aesl

@@ -15,9 +15,10 @@
 
 namespace vagus::aesl {
 
-// `source`, `target` and `common` are those that the program was compiled from. Any words can be
-// listed: what is no instruction is shown as a number.
+// `source`, `target` and `common` are those that the program was compiled from; `first_line` is the
+// number to show for the first line of the source, which may stand inside a project file. Any words
+// can be listed: what is no instruction is shown as a number.
 std::string listing(const Program& program, std::string_view source, const Target& target,
-                    const CommonDefinitions& common);
+                    const CommonDefinitions& common, int first_line = 1);
 
 }  // namespace vagus::aesl

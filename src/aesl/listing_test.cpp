@@ -79,6 +79,13 @@ TEST(Listing, ShowsSourceLinesNamesAddressesAndWords) {
               "   33  e000            SubRet\n");
 }
 
+TEST(Listing, CountsLinesFromWhereTheSourceStandsInItsFile) {
+    const std::string source = "id = 1\n";
+    const Compilation done = compile(source, rover(), kCommon, {});
+    const std::string text = listing(done.program, source, rover(), kCommon, 11);
+    EXPECT_NE(text.find("      11 | id = 1\n"), text.npos) << text;
+}
+
 TEST(Listing, ShowsAnyWordsWithoutFallingOverThem) {
     Program program;
     program.bytecode = {3, 0xffff, 3, 0xf123, 0xb000, 1};

@@ -6,12 +6,12 @@
 #include <algorithm>
 
 #include "aesl/abo.hpp"
+#include "aesl/listing.hpp"
 #include "aesl/node_file.hpp"
 #include "base/file.hpp"
 #include "base/nearest.hpp"
 #include "base/text.hpp"
 #include "cli/compile_json.hpp"
-#include "cli/listing.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
@@ -131,8 +131,8 @@ std::string listings_of(const std::vector<CompiledNode>& nodes, const std::vecto
         if (i > 0) text += "\n";
         if (nodes.size() > 1) text += "node " + nodes[i].name + "\n\n";
         const Job& job = jobs[i];
-        text += listing({nodes[i].done.program, job.node.target, job.common, job.script.source,
-                         job.script.first_line});
+        text += aesl::listing(nodes[i].done.program, job.script.source, job.node.target, job.common,
+                              job.script.first_line);
     }
     return text;
 }

@@ -11,6 +11,10 @@ if(VAGUS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 set(VAGUS_WARNINGS -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+  # libstdc++ 12 implements stable_sort with what it deprecates itself; clang blames the caller.
+  list(APPEND VAGUS_WARNINGS -Wno-deprecated-declarations)
+endif()
 if(VAGUS_WERROR)
   list(APPEND VAGUS_WARNINGS -Werror)
 endif()

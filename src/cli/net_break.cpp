@@ -81,7 +81,8 @@ Verdict net_break(NetSession& session, const BreakOptions& options) {
     if (options.clear) (void)TRY(session.network().clear_breakpoints(id));
     if (options.file.empty()) return kExitDone;
     const aesl::Script* script = TRY(script_in(session, options.file, id));
-    const aesl::Compilation done = session.network().compile(id, script->source, {});
+    const aesl::Options how = session::options_for(session.network().common(), {});
+    const aesl::Compilation done = session.network().compile(id, script->source, how);
     if (!done.ok()) {
         return Error{Code::BadInput,
                      options.file + ":" +

@@ -118,7 +118,8 @@ Verdict net_load(NetSession& session, const session::ScriptFile& scripts, const 
     bool good = true;
     for (const debug::NodeId id : ids) {
         const aesl::Script& script = *session.script_of(id);
-        jobs.push_back({id, session.network().compile(id, script.source, {})});
+        const aesl::Options how = session::options_for(session.network().common(), {});
+        jobs.push_back({id, session.network().compile(id, script.source, how)});
         good = report(scripts, script, jobs.back().done) && good;
     }
     if (!good) return kExitFailed;

@@ -41,6 +41,7 @@ void SimSession::step(Duration span) {
         if (options_.traced) trace_happenings();
         exchange();
         if (!waiting_.empty() && all_described()) place_files();
+        send_ready();
     }
 }
 
@@ -59,7 +60,9 @@ void SimSession::reset() {
     if (options_.traced) trace_ += TraceLine(world_.now(), "reset").done();
     for (Robot& robot : robots_) {
         robot.fault.clear();
-        if (robot.script) send(robot);
+        if (robot.script && !robot.script->program.bytecode.empty()) {
+            robot.script->stage = Stage::Ready;
+        }
     }
 }
 

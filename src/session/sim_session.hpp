@@ -31,6 +31,9 @@
 namespace vagus::session {
 
 constexpr size_t kScriptFilesMax = sim::kRobotsMax + 1;  // one for each robot, and one for all
+// Programs on their way at a time: everything on the bus reaches every node, and a node takes in
+// only so much in a millisecond.
+constexpr size_t kLoadsAtOnce = 4;
 constexpr size_t kEventNamesMax = 256;  // different events that are counted; further ones only pass
 constexpr size_t kNotesMax = 10000;     // not taken yet; then the newest are dropped
 
@@ -118,7 +121,7 @@ public:
 
 private:
     // A script on its way to a robot, or there.
-    enum class Stage { Waiting, Sent, Runs, Failed };
+    enum class Stage { Waiting, Ready, Sent, Runs, Failed };
     struct Assignment {
         std::string path;
         aesl::Script script;
@@ -158,6 +161,7 @@ private:
     const aesl::CommonDefinitions& names_without(const std::string& path) const;
     bool agree_on_names(const std::string& path, const aesl::CommonDefinitions& common);
     void compile(Robot& robot);
+    void send_ready();
     void send(Robot& robot);
     Robot* robot_of(debug::NodeId node);
     const Robot* robot_of(sim::RobotId id) const;

@@ -189,12 +189,27 @@ void SimSession::compile(Robot& robot) {
     script.mistakes.clear();
     if (!report.empty()) note(NoteKind::Warnings, report);
     script.program = done.program;
-    send(robot);
+    script.stage = Stage::Ready;
+}
+
+void SimSession::send_ready() {
+    size_t sent = 0;
+    size_t ready = 0;
+    for (const Robot& robot : robots_) {
+        if (robot.script && robot.script->stage == Stage::Sent) sent++;
+        if (robot.script && robot.script->stage == Stage::Ready) ready++;
+    }
+    if (ready == 0) return;
+    for (Robot& robot : robots_) {
+        if (sent >= kLoadsAtOnce) return;
+        if (!robot.script || robot.script->stage != Stage::Ready) continue;
+        send(robot);
+        sent++;
+    }
 }
 
 void SimSession::send(Robot& robot) {
     Assignment& script = *robot.script;
-    if (script.program.bytecode.empty()) return;
     const auto request = network_.load(robot.node, script.program);
     if (!request.ok()) {
         script.stage = Stage::Failed;

@@ -123,7 +123,8 @@ TEST(SimSession, AProjectForNobodyHereNamesWhoIsHere) {
                                            HasSubstr("\"thymio-II\" (node 3)"))));
 }
 
-// On a bus an event is only a number: two lists that disagree would make one robot hear another's words.
+// On a bus an event is only a number: two lists that disagree would make one robot hear another's
+// words.
 TEST(SimSession, ProjectsThatNumberEventsDifferentlyAreRefused) {
     SimSession session = two_robots();
     session.load_for(session.robots().at(0).id, "a.aesl",
@@ -172,6 +173,21 @@ TEST(SimSession, TheTraceOfARunIsTheSameEachTime) {
         if (round == 0) first = trace;
         EXPECT_EQ(trace, first);
     }
+}
+
+// Everything on the bus reaches every node: with all programs on their way at once, most got lost.
+TEST(SimSession, AHundredRobotsGetTheirPrograms) {
+    sim::WorldDefinition world;
+    world.width = world.height = 4;
+    for (uint16_t i = 0; i < 100; i++) {
+        world.robots.push_back(robot("r" + std::to_string(i), static_cast<uint16_t>(i + 1), 0));
+        world.robots.back().at = {0.3 + 0.35 * (i % 10), 0.3 + 0.35 * (i / 10)};
+    }
+    SimSession session(std::move(sim::World::create(world).value()), {});
+    session.load("a.txt", "var x = _id");
+    settle(session);
+    EXPECT_THAT(texts(session, NoteKind::Trouble), IsEmpty());
+    for (size_t i = 0; i < 100; i++) EXPECT_EQ(value(session, i, "x"), static_cast<int16_t>(i + 1));
 }
 
 TEST(SimSession, MoreFilesThanTheLimitAreRefused) {

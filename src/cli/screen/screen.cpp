@@ -10,7 +10,7 @@
 namespace vagus::cli {
 namespace {
 
-constexpr int kPanelMin = 27;
+constexpr int kPanelMin = 28;         // with a column of margin at the right
 constexpr double kPanelShare = 0.36;  // of the columns, where the arena would take more
 constexpr int kPanelMax = 60;
 constexpr int kNoticeMin = 10;  // columns that make it worth showing
@@ -136,7 +136,7 @@ Layout layout(const View& view, Size size) {
     const int columns = static_cast<int>(std::clamp(wanted, 1.0, 1.0 * most));
     const int panel = std::min(size.columns - columns - 1, kPanelMax);
     layout.arena = {0, 1, size.columns - panel - 1, rows};
-    layout.panel = {size.columns - panel, 1, panel, rows};
+    layout.panel = {size.columns - panel, 1, panel - 1, rows};
     return layout;
 }
 

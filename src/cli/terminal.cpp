@@ -69,11 +69,18 @@ void on_stop(int signal_number) {
     errno = before;
 }
 
-void on_continue(int) {
-    const int before = errno;
+// SIGCONT waits while the terminal is being given back: taken in between, it would be lost again.
+void catch_stop() {
     struct sigaction stop = {};
     stop.sa_handler = on_stop;
+    ::sigemptyset(&stop.sa_mask);
+    ::sigaddset(&stop.sa_mask, SIGCONT);
     ::sigaction(SIGTSTP, &stop, nullptr);
+}
+
+void on_continue(int) {
+    const int before = errno;
+    catch_stop();
     // In the background a change of the terminal would stop us again.
     if (g_taken == 0 && ::tcgetpgrp(STDIN_FILENO) == ::getpgrp()) take();
     errno = before;
@@ -110,7 +117,7 @@ Result<Terminal> Terminal::open() {
         return Error{Code::Unavailable, "no terminal to draw on: give --headless for plain lines"};
     }
     for (const int crash : kCrashes) catch_signal(crash, on_crash);
-    catch_signal(SIGTSTP, on_stop);
+    catch_stop();
     catch_signal(SIGCONT, on_continue);
     take();
     g_lost = 0;

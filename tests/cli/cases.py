@@ -82,11 +82,11 @@ speed = args[0]
 class Screen:
     """A program on a terminal of its own; what it paints is kept as bytes."""
 
-    def __init__(self, *arguments, columns=80, rows=24, env=None):
+    def __init__(self, *arguments, columns=80, rows=24, env=None, program=VAGUS):
         self.master, self.slave = pty.openpty()
         self.resize(columns, rows)
         self.before = termios.tcgetattr(self.slave)
-        self.process = subprocess.Popen([VAGUS, *map(str, arguments)], stdin=self.slave, stdout=self.slave,
+        self.process = subprocess.Popen([program, *map(str, arguments)], stdin=self.slave, stdout=self.slave,
                                         stderr=self.slave, start_new_session=True, preexec_fn=self._own_terminal,
                                         env={**os.environ, "TERM": "xterm-256color", "NO_COLOR": "1", "LC_ALL": "C.UTF-8",
                                              **(env or {})})
@@ -148,9 +148,12 @@ class Screen:
             self.bytes += os.read(self.master, 65536)
         return self.process.returncode
 
+    def modes_are_back(self):
+        return termios.tcgetattr(self.slave) == self.before
+
     def given_back(self):
         """Input modes as before, cursor visible, the page of the shell again, in this order at the end."""
-        return termios.tcgetattr(self.slave) == self.before and self.bytes.find(b"\x1b[?25h") >= 0 and \
+        return self.modes_are_back() and self.bytes.find(b"\x1b[?25h") >= 0 and \
             self.bytes.rfind(b"\x1b[?1049l") > self.bytes.rfind(b"\x1b[?1049h")
 
 
@@ -430,18 +433,19 @@ class Cli(unittest.TestCase):
             self.assertTrue(screen.given_back())
 
     def test_ctrl_z_gives_the_terminal_back_until_fg(self):
-        with Screen("sim", self.world) as screen:
+        # A shell with job control around it, as a person has: it takes the terminal when the program stops.
+        shell = 'set -m; "$@"; echo "stopped $?"; read -r; fg >/dev/null; echo "ended $?"'
+        with Screen("-c", shell, "bash", VAGUS, "sim", self.world, program="bash") as screen:
             screen.wait_page("thymio-II")
-            screen.bytes = b""
-            screen.process.send_signal(signal.SIGTSTP)
-            screen.wait_until(screen.given_back, "the terminal given back")
-            screen.bytes = b""
-            screen.process.send_signal(signal.SIGCONT)
+            screen.type("\x1a")
+            screen.wait_for("stopped 148")
+            self.assertTrue(screen.modes_are_back())
+            screen.type("\n")
             screen.wait_for("\x1b[?1049h")
             screen.wait_page("thymio-II")
             screen.type("q")
-            self.assertEqual(screen.wait_end(), 0)
-            self.assertTrue(screen.given_back())
+            screen.wait_for("ended 0")
+            self.assertTrue(screen.modes_are_back())
 
     def test_a_terminal_that_cannot_draw_gets_lines(self):
         with Screen("sim", self.world, "--speed", "max", env={"TERM": "dumb"}) as screen:

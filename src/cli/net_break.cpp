@@ -15,7 +15,7 @@ Result<const aesl::Script*> script_in(NetSession& session, const std::string& fi
                                       debug::NodeId id) {
     session::ScriptFile scripts = TRY(read_scripts(file));
     if (scripts.plain) {
-        const debug::NodeView& node = *session.network().node(id);
+        const debug::NodeView& node = session.view(id);
         scripts.project.common = session::with_emitted(
             session.network().common(), scripts.project.scripts.front().source, node.target);
         scripts.project.scripts.front().node = node.name;
@@ -29,7 +29,7 @@ Result<const aesl::Script*> script_in(NetSession& session, const std::string& fi
 
 Result<int> script_line(const NetSession& session, const aesl::Script& script, debug::NodeId id,
                         const BreakOptions& options) {
-    const aesl::Program& program = *session.network().node(id)->program;
+    const aesl::Program& program = *session.view(id).program;
     const int line = options.line - script.first_line + 1;
     if (line > 0 && debug::pc_of(program, line) >= 0) return line;
     const int next = debug::next_line_with_code(program, std::max(line, 0));
@@ -66,7 +66,7 @@ Result<bool> set_and_wait(NetSession& session, debug::NodeId id, int line,
     std::vector<debug::Event> events;
     (void)TRY(session.wait_done({request}, events));
     if (const auto error = error_of(events, request)) return *error;
-    const debug::NodeView& node = *session.network().node(id);
+    const debug::NodeView& node = session.view(id);
     if (node.state != debug::ProgramState::Running) {
         complain("node " + node_name(session, id) + " is " + debug::name_of(node.state) +
                  ": it reaches no breakpoint until it runs");

@@ -49,7 +49,7 @@ std::string of(uint16_t used, uint16_t size) {
 std::string show_loaded(const NetSession& session, const std::vector<Job>& jobs) {
     std::vector<std::vector<std::string>> rows;
     for (const Job& job : jobs) {
-        const debug::NodeView& node = *session.network().node(job.id);
+        const debug::NodeView& node = session.view(job.id);
         const aesl::Used& used = job.done.program.used;
         rows.push_back({std::to_string(job.id), node.name,
                         "loaded, " + std::string(name_of(node.state)),
@@ -65,7 +65,7 @@ std::string show_loaded_json(const NetSession& session, const std::vector<Job>& 
     for (const Job& job : jobs) {
         const aesl::Used& used = job.done.program.used;
         elements.push_back("{ \"id\": " + std::to_string(job.id) +
-                           ", \"name\": " + json_quote(session.network().node(job.id)->name) +
+                           ", \"name\": " + json_quote(session.view(job.id).name) +
                            ", \"used\": { \"bytecode\": " + std::to_string(used.bytecode) +
                            ", \"variables\": " + std::to_string(used.variables) +
                            ", \"stack\": " + std::to_string(used.stack) + " } }");
@@ -87,7 +87,7 @@ Result<std::vector<debug::NodeId>> receivers(NetSession& session, session::Scrip
         scripts.project.scripts.clear();
         scripts.project.common = session.network().common();
         for (const debug::NodeId id : ids) {
-            const aesl::Target& target = session.network().node(id)->target;
+            const aesl::Target& target = session.view(id).target;
             scripts.project.common =
                 session::with_emitted(scripts.project.common, script.source, target);
             scripts.project.scripts.push_back(script);
@@ -136,6 +136,12 @@ Verdict net_load(NetSession& session, const session::ScriptFile& scripts, const 
     int code = kExitDone;
     for (const debug::RequestId request : requests) {
         if (const auto error = error_of(events, request)) code = complain(*error);
+    }
+    for (const Job& job : jobs) {
+        if (code == kExitDone && !session.view(job.id).connected) {
+            code = complain("node " + std::to_string(job.id) +
+                            " left while it was loaded; load it again when it is back");
+        }
     }
     if (code != kExitDone) return code;
     for (const debug::Event& event : events) {

@@ -13,8 +13,7 @@ Verdict net_list(NetSession& session) {
     (void)TRY(session.discover(quiet));
     session.adopt_scripts();
     std::vector<debug::NodeId> ids = session.network().nodes();
-    std::erase_if(ids,
-                  [&session](debug::NodeId id) { return !session.network().node(id)->connected; });
+    std::erase_if(ids, [&session](debug::NodeId id) { return !session.view(id).connected; });
     print(session.options().json ? show_nodes_json(session, ids) : show_nodes(session, ids));
     if (ids.empty() && !session.options().json) {  // "[]" says it, too
         complain("no node answers on " + session.options().target);
@@ -27,7 +26,7 @@ Verdict net_describe(NetSession& session, const std::vector<std::string>& named)
     const std::vector<debug::NodeId> ids = TRY(session.nodes(named));
     std::string text;
     for (const debug::NodeId id : ids) {
-        const debug::NodeView& node = *session.network().node(id);
+        const debug::NodeView& node = session.view(id);
         if (session.options().json) {
             if (ids.size() > 1) text += text.empty() ? "[\n" : ",\n";
             text += aesl::format_node_file({node.target, session.network().common()});

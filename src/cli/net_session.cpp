@@ -167,6 +167,11 @@ std::vector<debug::NodeId> NetSession::connected() const {
     return ids;
 }
 
+const debug::NodeView& NetSession::view(debug::NodeId id) const {
+    const debug::NodeView* node = network_.node(id);
+    return node == nullptr ? gone_ : *node;
+}
+
 bool NetSession::ready(debug::NodeId id) const {
     const debug::NodeView* node = network_.node(id);
     return node != nullptr && node->connected && node->described &&
@@ -176,7 +181,7 @@ bool NetSession::ready(debug::NodeId id) const {
 bool NetSession::all_ready() const {
     for (const debug::NodeId id : network_.nodes()) {
         const bool given_up = std::find(silent_.begin(), silent_.end(), id) != silent_.end();
-        if (network_.node(id)->connected && !ready(id) && !given_up) return false;
+        if (view(id).connected && !ready(id) && !given_up) return false;
     }
     return true;
 }
@@ -253,7 +258,7 @@ const aesl::Script* NetSession::script_of(debug::NodeId id) const {
 }
 
 void NetSession::match(debug::NodeId id, std::vector<bool>& used) {
-    const int index = aesl::script_for(project_->project, network_.node(id)->name, id, used);
+    const int index = aesl::script_for(project_->project, view(id).name, id, used);
     if (index >= 0) scripts_.emplace_back(id, index);
 }
 
@@ -265,7 +270,7 @@ void NetSession::match_scripts() {
     std::vector<bool> used(scripts.size());
     std::vector<debug::NodeId> others;
     for (const debug::NodeId id : connected()) {
-        const std::string& name = network_.node(id)->name;
+        const std::string& name = view(id).name;
         const bool exact = std::any_of(scripts.begin(), scripts.end(), [&name, id](const auto& s) {
             return s.node == name && s.node_id == id;
         });
@@ -282,7 +287,7 @@ void NetSession::adopt_scripts() {
     match_scripts();
     for (const debug::NodeId id : connected()) {
         const aesl::Script* script = script_of(id);
-        if (script == nullptr || network_.node(id)->program) continue;
+        if (script == nullptr || view(id).program) continue;
         const aesl::Compilation done = network_.compile(id, script->source, {});
         if (done.ok()) (void)network_.adopt(id, done.program).ok();
     }

@@ -75,6 +75,9 @@ public:
     // known from then on.
     Result<std::vector<debug::NodeId>> nodes(const std::vector<std::string>& named);
     Result<debug::NodeId> node(const std::string& named);
+    // The node as it is known now. Nodes may leave at any time; one that said good-bye is a nameless
+    // view that is neither connected nor described. Borrowed until the next wait.
+    const debug::NodeView& view(debug::NodeId id) const;
     // --wait, or that many seconds.
     Duration wait_or(double seconds) const;
     std::vector<debug::NodeId> connected() const;
@@ -97,6 +100,7 @@ private:
     std::optional<session::ScriptFile> project_;
     std::unique_ptr<Bus> bus_;
     debug::Network network_;
+    debug::NodeView gone_;
     std::vector<debug::Event> events_;
     std::vector<std::pair<debug::NodeId, int>> scripts_;  // index into the project's scripts
     std::vector<debug::NodeId> silent_;                   // would not describe themselves

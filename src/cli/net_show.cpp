@@ -105,7 +105,7 @@ std::string node_name(const NetSession& session, debug::NodeId id) {
 std::string show_nodes(const NetSession& session, const std::vector<debug::NodeId>& ids) {
     std::vector<std::vector<std::string>> rows;
     for (const debug::NodeId id : ids) {
-        const debug::NodeView& node = *session.network().node(id);
+        const debug::NodeView& node = session.view(id);
         std::string state = state_of(node);
         if (node.state == debug::ProgramState::Paused) {
             state += " at " + show_place(session, id, node.at);
@@ -120,7 +120,7 @@ std::string show_nodes(const NetSession& session, const std::vector<debug::NodeI
 std::string show_nodes_json(const NetSession& session, const std::vector<debug::NodeId>& ids) {
     std::vector<std::string> elements;
     for (const debug::NodeId id : ids) {
-        const debug::NodeView& node = *session.network().node(id);
+        const debug::NodeView& node = session.view(id);
         elements.push_back("{ \"id\": " + std::to_string(id) +
                            ", \"name\": " + (node.described ? json_quote(node.name) : "null") +
                            ", \"state\": " + json_quote(state_of(node)) +

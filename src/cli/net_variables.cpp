@@ -20,7 +20,7 @@ struct Wanted {
 Result<std::vector<Wanted>> wanted_of(NetSession& session, debug::NodeId id,
                                       std::vector<std::string> typed) {
     if (typed.empty()) {
-        for (const auto& place : debug::variables_of(*session.network().node(id))) {
+        for (const auto& place : debug::variables_of(session.view(id))) {
             if (place.size > 0) typed.push_back(place.name);
         }
     }

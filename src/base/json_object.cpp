@@ -54,7 +54,7 @@ JsonObject::JsonObject(const Json& json, std::string name, Complaints& complaint
 }
 
 const Json* JsonObject::find(std::string_view key, Need need) {
-    known_.emplace_back(key);
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
     const Json* value = json_.find(key);
     if (value == nullptr && need == Need::Required && is_object_)
         complain(json_.at, fmt::format("{} has no \"{}\"; add it", name_, key));

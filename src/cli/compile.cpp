@@ -92,8 +92,11 @@ Result<std::vector<Job>> jobs_of(const Options& options, const session::ScriptFi
     std::vector<Job> jobs;
     for (const aesl::Script& script : scripts) {
         const aesl::NodeFile node = node_for(script, nodes);
-        const auto plain = session::with_emitted(node.common, script.source, node.target);
-        jobs.push_back({script, node, file.plain ? plain : file.project.common, file.plain});
+        aesl::CommonDefinitions common = file.plain ? node.common : file.project.common;
+        // A node file that lists events lists all of them: another name is a slip of the pen.
+        if (file.plain && common.events.empty())
+            common = session::with_emitted(common, script.source, node.target);
+        jobs.push_back({script, node, std::move(common), file.plain});
     }
     const bool single = options.format == "hex" || options.format == "abo";
     if (!single || jobs.size() == 1) return jobs;

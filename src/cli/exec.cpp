@@ -108,7 +108,7 @@ void add_exec(CLI::App& app, int& exit_code) {
         "  vagus exec counter.aesl --node node.json --stimuli events.json");
     auto options = std::make_shared<ExecOptions>();  // owners: the options below, the callback
     CLI::Option* script =
-        verb->add_option("FILE", options->script, "the script, or a project (XML)");
+        verb->add_option("FILE", options->script, "a script, a project, or - for standard input");
     script->required();
     takes_file(*script, {".aesl"});
     CLI::Option* node =
@@ -119,10 +119,10 @@ void add_exec(CLI::App& app, int& exit_code) {
         verb->add_option("--stimuli", options->stimuli,
                          "events and values to apply in order, after the start (JSON)");
     takes_file(*stimuli, {".json"});
-    verb->add_option("--max-steps", options->steps_per_event,
-                     "instructions after which an event is stopped")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    CLI::Option* steps = verb->add_option("--max-steps", options->steps_per_event,
+                                          "instructions after which an event is stopped");
+    steps->type_name("N")->capture_default_str();
+    takes_whole_number(*steps, 1, UINT32_MAX);
     add_dialect_options(*verb, options->compiler);
     verb->callback([options, &exit_code] { exit_code = exec(*options); });
 }

@@ -17,7 +17,7 @@ void describe(CLI::App& app) {
     app.require_subcommand(0, 1);
     app.footer(
         "Example:\n"
-        "  vagus sim examples/arena.world.json --watch\n"
+        "  vagus sim examples/thymio/arena.world.json --watch\n"
         "\n"
         "Exit codes: 0 done, 1 the work failed, 2 the command line or a file it names is wrong.");
 }
@@ -49,5 +49,5 @@ int main(int argc, char** argv) {
 #undef VERB
     vagus::cli::add_page(app, exit_code);
     vagus::cli::shape_help(app);
-    return parse_and_run(app, argc, argv, exit_code);
+    return vagus::cli::end_output(parse_and_run(app, argc, argv, exit_code));
 }

@@ -114,9 +114,10 @@ void add_variable_verbs(CLI::App& net, const SharedCall& call, int& exit_code) {
                              "motor.left.target 100");
     set->add_option("NODE", call->node, "number or name of a node")->required();
     set->add_option("VARIABLE", call->variable, variable)->required();
-    set->add_option("VALUE", call->values, "as many as the range has words, or fewer")
-        ->required()
-        ->check(CLI::Range(kWordMin, kWordMax));
+    CLI::Option* value =
+        set->add_option("VALUE", call->values, "as many as the range has words, or fewer");
+    value->required();
+    takes_whole_number(*value, kWordMin, kWordMax);
     acts(set, call, exit_code, [](NetSession& s, const Call& c) {
         return net_set(s, c.node, c.variable, words_of(c.values));
     });
@@ -126,7 +127,7 @@ void add_variable_verbs(CLI::App& net, const SharedCall& call, int& exit_code) {
                               "Example:\n  vagus net tcp:127.0.0.1:33333 --project explore.aesl "
                               "emit speed 200 -50");
     emit->add_option("EVENT", call->event, "name or number")->required();
-    emit->add_option("ARGUMENT", call->values, "words")->check(CLI::Range(kWordMin, kWordMax));
+    takes_whole_number(*emit->add_option("ARGUMENT", call->values, "words"), kWordMin, kWordMax);
     acts(emit, call, exit_code,
          [](NetSession& s, const Call& c) { return net_emit(s, c.event, words_of(c.values)); });
 

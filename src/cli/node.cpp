@@ -114,10 +114,9 @@ int run_node(const NodeOptions& options) {
 }
 
 void add_options(CLI::App& verb, NodeOptions& options) {
-    verb.add_option("--id", options.id, "its number on the bus")
-        ->check(CLI::Range(uint16_t{1}, kLastNodeId))
-        ->type_name("N")
-        ->capture_default_str();
+    CLI::Option* id = verb.add_option("--id", options.id, "its number on the bus");
+    id->type_name("N")->capture_default_str();
+    takes_whole_number(*id, 1, kLastNodeId);
     verb.add_option("--name", options.name, "its name (that of the node file, or dummynode-N)")
         ->type_name("NAME");
     takes_file(*verb.add_option("--describe", options.description,

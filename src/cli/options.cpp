@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <utility>
 
 #include "base/nearest.hpp"
 
@@ -13,7 +15,8 @@ aesl::Dialect dialect_of(const std::string& word) {
     return word == "2007" ? aesl::Dialect::Year2007 : aesl::Dialect::Auto;
 }
 
-// "a, b or c"
+}  // namespace
+
 std::string one_of(const std::vector<std::string>& words) {
     std::string text;
     for (size_t i = 0; i < words.size(); i++) {
@@ -21,8 +24,6 @@ std::string one_of(const std::vector<std::string>& words) {
     }
     return text;
 }
-
-}  // namespace
 
 void takes_one_of(CLI::Option& option, std::vector<std::string> words) {
     std::string kinds;
@@ -34,6 +35,25 @@ void takes_one_of(CLI::Option& option, std::vector<std::string> words) {
             const std::string guess = nearest(given, words);
             return "expected " + one_of(words) + ", found \"" + given + "\"" +
                    (guess.empty() ? "" : "; did you mean " + guess + "?");
+        },
+        ""));
+}
+
+void takes_whole_number(CLI::Option& option, int64_t low, uint64_t high) {
+    option.check(CLI::Validator(
+        [low, high](std::string& given) -> std::string {
+            const char* end = given.data() + given.size();
+            int64_t below = 0;
+            uint64_t above = 0;
+            const bool negative = given.starts_with('-');
+            const auto read = negative ? std::from_chars(given.data(), end, below)
+                                       : std::from_chars(given.data(), end, above);
+            const bool whole = !given.empty() && read.ec == std::errc() && read.ptr == end;
+            const bool fits =
+                negative ? below >= low : std::cmp_greater_equal(above, low) && above <= high;
+            if (whole && fits) return "";
+            return "expected a whole number from " + std::to_string(low) + " to " +
+                   std::to_string(high) + ", found \"" + given + "\"";
         },
         ""));
 }

@@ -17,9 +17,16 @@ namespace vagus::cli {
 // `--dialect auto|modern|2007` and `--ontimer EVENT` (docs/spec/aesl-language.md, section 6).
 void add_dialect_options(CLI::App& verb, aesl::Options& options);
 
+// "a, b or c"
+std::string one_of(const std::vector<std::string>& words);
+
 // The option takes one of these words; anything else is answered with the list and the nearest of
 // them. The words are also what the shell completes.
 void takes_one_of(CLI::Option& option, std::vector<std::string> words);
+
+// The option takes whole numbers of this range; anything else is answered with the range and what
+// was found.
+void takes_whole_number(CLI::Option& option, int64_t low, uint64_t high);
 
 // The option takes the path of a file or folder: the shell completes it, with these endings first
 // (".aesl").

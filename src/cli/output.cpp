@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <string>
 
@@ -9,7 +10,14 @@ namespace vagus::cli {
 
 bool print(std::string_view text) {
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-    return std::fflush(stdout) == 0 && written;
+    if (std::fflush(stdout) == 0 && written) return true;
+    if (errno == EPIPE) std::clearerr(stdout);  // the reader has seen enough: not a failure
+    return false;
+}
+
+int end_output(int exit_code) {
+    if (std::ferror(stdout) == 0) return exit_code;
+    return complain("the output could not be written to its end; is the disk full?");
 }
 
 int complain(std::string_view sentence, int exit_code) {

@@ -16,6 +16,10 @@ constexpr int kExitUsage = 2;
 // on ends then, with exit code 0. SIGPIPE never ends the process (main.cpp).
 bool print(std::string_view text);
 
+// The last word of the program: `exit_code`, but kExitFailed with a sentence if some of the output
+// was lost although there is a reader (a full disk).
+int end_output(int exit_code);
+
 // "vagus: sentence" on stderr, with a final newline. Gives `exit_code`, so that a verb can `return
 // complain(…)`.
 int complain(std::string_view sentence, int exit_code = kExitFailed);

@@ -46,9 +46,10 @@ void add_time_options(CLI::App& verb, SimRunOptions& options) {
                 return good ? "" : "expected a number of seconds above 0, found \"" + text + "\"";
             },
             ""));
-    verb.add_option("--seed", options.seed,
-                    "of everything random (default: that of the world file)")
-        ->type_name("N");
+    CLI::Option* seed = verb.add_option("--seed", options.seed,
+                                        "of everything random (default: that of the world file)");
+    seed->type_name("N");
+    takes_whole_number(*seed, 0, UINT64_MAX);
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ Status SimRun::listen() {
     for (size_t i = 0; i < robots.size() && i < views.size(); i++) {
         hub::Hub* hub = session_.world().private_bus(views[i].id);
         if (hub == nullptr) continue;
-        const net::Target target{net::TcpPlace{"127.0.0.1", robots[i].port}};
+        const net::Target target{net::TcpPlace{"127.0.0.1", *robots[i].port}};
         const auto listening = TRY(network_.listen(*hub, target, {.clients = net::Clients::One}));
         ports_.push_back({listening.place, views[i].id});
         print("listening " + net::to_string(listening.target) + " " + robots[i].name + "\n");
@@ -406,7 +406,10 @@ int run_sim(const SimRunOptions& options) {
     const Status traced = run.open_trace();
     if (!traced.ok()) return complain(traced.error(), kExitUsage);
     const Status listening = run.listen();
-    if (!listening.ok()) return complain(listening.error());
+    if (!listening.ok()) {
+        const bool wrong = listening.error().code == Code::BadInput;
+        return complain(listening.error(), wrong ? kExitUsage : kExitFailed);
+    }
     if (!run.settle()) return kExitFailed;
     return run.run();
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/nearest.hpp"
+#include "cli/options.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -71,6 +72,12 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
         return unknown_word(verb, first_wrong(app.remaining(true))) + "\n" + hint(verb);
     }
     std::string sentence = error.what();
+    if (sentence == "A subcommand is required")
+        sentence = "say what to do: " + one_of(verbs_of(verb));
+    // "--speed: At Most 1 required but received 2"
+    const size_t twice = sentence.find(": At Most 1 required but received");
+    if (twice != sentence.npos)
+        sentence = sentence.substr(0, twice) + " is given more than once; keep one of them";
     if (!sentence.ends_with(".") && !sentence.ends_with("?")) sentence += ".";
     return full_name(verb) + ": " + sentence + "\n" + hint(verb);
 }

@@ -83,7 +83,8 @@ struct RobotDefinition {
     Point at = {};
     double angle = 0;
     uint16_t node = 1;  // id of its (first) node on the bus
-    uint16_t port = 0;  // a TCP port of its own beside the common bus; 0: none
+    std::optional<uint16_t> port =
+        {};  // a TCP port of its own beside the common bus; 0: a free one
     std::string script =
         {};  // an .aesl that whoever opens the world loads over the bus; empty: none
     Colour paint = {0.95, 0.95, 0.95};

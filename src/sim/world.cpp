@@ -82,7 +82,7 @@ Status World::Insides::join_bus() {
     for (const RobotDefinition& robot : definition.robots) {
         Berth berth;
         berth.link = TRY(bus.add({.name = robot.name}));
-        if (robot.port != 0) {
+        if (robot.port) {
             berth.private_bus = std::make_unique<hub::Hub>();
             berth.private_link = TRY(berth.private_bus->add({.name = robot.name}));
         }

@@ -197,6 +197,18 @@ Found check_objects(const WorldDefinition& world) {
     return std::nullopt;
 }
 
+// A robot outside the walls could never come in.
+Found check_inside(const RobotDefinition& robot, const std::string& element,
+                   const WorldDefinition& world) {
+    const bool inside = robot.at.x >= 0 && robot.at.x <= world.width && robot.at.y >= 0 &&
+                        robot.at.y <= world.height;
+    if (inside || world.open) return std::nullopt;
+    return Problem{element, "[" + text_of(robot.at.x) + ", " + text_of(robot.at.y) +
+                                "] is outside of the walls around the world; place it from 0 to " +
+                                text_of(world.width) + " and from 0 to " + text_of(world.height) +
+                                ", or write \"open\": true"};
+}
+
 Found check_robot(const RobotDefinition& robot, const std::string& element,
                   const WorldDefinition& world) {
     if (robot.name.empty()) return Problem{element + ".name", "is empty; give the robot a name"};
@@ -208,6 +220,7 @@ Found check_robot(const RobotDefinition& robot, const std::string& element,
     }
     const double margin = kWorldSizeMax;
     if (auto found = check_point(element + ".at", robot.at, -margin, 2 * margin)) return found;
+    if (auto found = check_inside(robot, element + ".at", world)) return found;
     if (auto found = check_angle(element + ".angle", robot.angle)) return found;
     if (auto found = check_colour(element + ".paint", robot.paint)) return found;
     return check_range(element + ".node", robot.node, {1, 65534, "node id"},
@@ -230,8 +243,8 @@ Found check_robots(const WorldDefinition& world) {
                                                   " is the node of an earlier robot; all robots "
                                                   "are on one bus, choose another"};
         }
-        if (robot.port != 0 && !ports.insert(robot.port).second)
-            return Problem{element + ".port", std::to_string(robot.port) +
+        if (robot.port.value_or(0) != 0 && !ports.insert(*robot.port).second)
+            return Problem{element + ".port", std::to_string(*robot.port) +
                                                   " is the port of an "
                                                   "earlier robot; choose "
                                                   "another"};

@@ -92,7 +92,8 @@ RobotDefinition read_robot(const Json& json, const std::string& name, int64_t no
     read_number(in, "angle", robot.angle);
     robot.node =
         static_cast<uint16_t>(in.integer("node", {.low = 1, .high = 65534, .fallback = node}));
-    robot.port = static_cast<uint16_t>(in.integer("port", {.low = 0, .high = 65535}));
+    if (in.find("port", Need::Optional) != nullptr)
+        robot.port = static_cast<uint16_t>(in.integer("port", {.low = 0, .high = 65535}));
     robot.script = in.text("script", Need::Optional);
     read_colour(in, "paint", robot.paint);
     in.finish();

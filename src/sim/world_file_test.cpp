@@ -139,6 +139,8 @@ TEST(WorldFile, WhatIsWrongIsSaid) {
         {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"port":5},)"
          R"({"name":"b","type":"epuck","at":[1,1],"port":5}])",
          "robots[1].port: 5 is the port of an earlier robot"},
+        {R"("robots":[{"name":"a","type":"epuck","at":[-0.1,1]}])", "outside of the walls"},
+        {R"("robots":[{"name":"a","type":"epuck","at":[1,99]}])", "or write \"open\": true"},
         {R"("timeline":[{"t":1,"do":"dance"}])", "do"},
         {R"("timeline":[{"t":-1,"do":"remove","id":"a"}])", "t"},
         {R"("timeline":[{"t":1,"do":"remove","id":"a"}])", "there is no object \"a\" at that time"},
@@ -160,6 +162,22 @@ TEST(WorldFile, WhatIsWrongIsSaid) {
         EXPECT_NE(error.find(wrong.says), std::string::npos) << wrong.member << "\n" << error;
         EXPECT_EQ(error.substr(0, 9), "w.json:2:") << wrong.member << "\n" << error;
     }
+}
+
+TEST(WorldFile, RobotsMayStandAnywhereWhereThereAreNoWalls) {
+    EXPECT_EQ(error_of(with(R"("open":true,"robots":[{"name":"a","type":"epuck","at":[-3,1]}])")),
+              "");
+}
+
+TEST(WorldFile, PortZeroIsAPortToo) {
+    const auto world =
+        read_world(with(R"("robots":[{"name":"a","type":"epuck","at":[1,1],"port":0},)"
+                        R"({"name":"b","type":"epuck","at":[1,1],"port":0},)"
+                        R"({"name":"c","type":"epuck","at":[1,1]}])"),
+                   "w.json");
+    ASSERT_TRUE(world.ok()) << world.error().what;
+    EXPECT_EQ(world.value().robots[1].port, 0);
+    EXPECT_EQ(world.value().robots[2].port, std::nullopt);
 }
 
 TEST(WorldFile, TheTopMustBeAWorld) {

@@ -4,6 +4,7 @@ Waiting is always for a condition; GIVE_UP_AFTER only says when to give up.
 """
 import fcntl
 import json
+import math
 import os
 import pathlib
 import pty
@@ -199,13 +200,24 @@ class Cli(unittest.TestCase):
             (("compile",), "FILE is required"),
             (("compile", self.script, "--format", "jso"), 'found "jso"; did you mean json?'),
             (("exec", self.script), "--node is required"),
-            (("node", "--id", "x"), "--id"),
+            (("net", "tcp:127.0.0.1:1"), "say what to do: list, describe, "),
+            (("node", "--id", "x"), "--id: expected a whole number from 1 to 65534, found"),
+            (("exec", self.script, "--node", "n", "--max-steps", "0"), "expected a whole number from 1 to"),
+            (("sim", self.world, "--seed", "-1"), "expected a whole number from 0 to"),
+            (("sim", self.world, "--speed", "1", "--speed", "2"), "--speed is given more than once"),
+            (("net", "tcp:127.0.0.1:1", "set", "1", "x", "65536"), "expected a whole number from -32768 to 65535"),
         ]:
             with self.subTest(arguments=arguments):
                 done = self.run_vagus(*arguments, status=2)
                 self.assertIn(said, done.stderr)
                 self.assertIn("--help", done.stderr)
                 self.assertEqual(done.stdout, "")
+
+    def test_targets_that_are_none_end_with_2(self):
+        for arguments in [("net", "foo", "list"), ("sim", self.world, "--headless", "--listen", "foo"),
+                          ("node", "--listen", "foo"), ("switch", "foo"), ("switch", "--listen", "foo")]:
+            with self.subTest(arguments=arguments):
+                self.assertIn("tcp:HOST:PORT", self.run_vagus(*arguments, status=2).stderr)
 
     def test_files_that_cannot_be_read_end_with_2(self):
         for arguments in [("compile", "gone.aesl"), ("compile", self.script, "--node", "gone.json"), ("sim", "gone.json"),
@@ -220,6 +232,12 @@ class Cli(unittest.TestCase):
             program.stdout.close()
             self.assertEqual(program.wait(timeout=GIVE_UP_AFTER), 0)
             self.assertEqual(program.stderr.read(), "")
+
+    def test_output_that_is_lost_is_a_failure(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([VAGUS, "compile", self.script], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("could not be written to its end", done.stderr)
 
     # ---- derived pages ----
 
@@ -311,7 +329,53 @@ class Cli(unittest.TestCase):
         # Table: start at 3; push 5, store at 36 (behind the 36 words of the software node), stop.
         self.assertEqual(done.stdout.split(), ["0003", "ffff", "0003", "1005", "4024", "0000"])
 
+    def test_a_node_file_that_lists_events_lists_all(self):
+        node = json.loads((ROOT / "testdata/golden/aesl/node.json").read_text())
+        listed = self.file("node.json", json.dumps(node))
+        done = self.run_vagus("compile", "-", "--node", listed, status=1, stdin="emit pnig\n")
+        self.assertRegex(done.stderr, r"^-:1:6: error: .*ping")
+        node["events"] = []
+        silent = self.file("silent.json", json.dumps(node))
+        self.run_vagus("compile", "-", "--node", silent, stdin="emit pnig\n")
+
+    # ---- net ----
+
+    def test_a_plain_script_for_a_live_node_needs_no_declarations(self):
+        plain = self.file("plain.aesl", "emit both [7, 8]\nemit none\n")
+        with subprocess.Popen([VAGUS, "node", "--listen", "tcp:127.0.0.1:0"], stdout=subprocess.PIPE, text=True) as node:
+            try:
+                place = node.stdout.readline().split()[1]
+                self.assertIn("loaded, running", self.run_vagus("net", place, "load", plain).stdout)
+            finally:
+                node.terminate()
+
     # ---- sim, plain lines ----
+
+    def test_the_exploring_robot_never_stands_still(self):
+        # In 10 seconds it leaves a disc of 3 cm, from wherever it is, with any seed.
+        for seed in range(1, 21):
+            self.run_vagus("sim", ROOT / "examples/thymio/arena.world.json", "--headless", "--speed", "max", "--duration",
+                           "120", "--seed", seed, "--trace", "trace")
+            lines = map(json.loads, (self.folder / "trace").read_text().splitlines())
+            poses = [(line["x"], line["y"]) for line in lines if line["kind"] == "pose"]
+            self.assertEqual(len(poses), 1200)
+            for i in range(len(poses) - 100):
+                still = all(math.dist(poses[i], later) < 0.03 for later in poses[i:i + 101])
+                self.assertFalse(still, f"seed {seed}: stands still at {i / 10} s")
+            places = {(int(x / 0.1), int(y / 0.1)) for x, y in poses}  # of 300 in the arena
+            self.assertGreater(len(places), 50, f"seed {seed}")
+
+    def test_a_robots_own_port_may_be_a_free_one(self):
+        world = self.file("own.world.json", WORLD.replace('"node": 7', '"node": 7, "port": 0'))
+        with subprocess.Popen([VAGUS, "sim", world, "--headless", "--duration", "600"], stdout=subprocess.PIPE,
+                              text=True) as program:
+            try:
+                first = program.stdout.readline()
+                self.assertRegex(first, r"^listening tcp:127\.0\.0\.1:[1-9]\d* rob\n$")
+                nodes = json.loads(self.run_vagus("net", first.split()[1], "list", "--json").stdout)
+                self.assertEqual([node["id"] for node in nodes], [7])
+            finally:
+                program.terminate()
 
     def test_without_a_terminal_it_ends_after_20_simulated_seconds(self):
         text = self.run_vagus("sim", self.world, "--load", self.script, "--speed", "max").stdout

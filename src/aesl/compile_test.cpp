@@ -70,7 +70,7 @@ TEST(Compile, TheEventTableIsSortedByIdAndTheInitialisationIsLast) {
 // Columns count code points; tabs count one; comments, signs of two characters and the end of the
 // text are no exception.
 TEST(Compile, ColumnsCountCodePoints) {
-    EXPECT_EQ(errors_of("var ä\n# ö\n\tä = é\n"), (List{"3:6 VARIABLE_NOT_DEFINED_GUESS"}));
+    EXPECT_EQ(errors_of("var ä\n# ö\n\tä = é\n"), (List{"3:6 VARIABLE_NOT_DEFINED"}));
     EXPECT_EQ(errors_of("id = id << [1,2]"), (List{"1:9 ARRAY_SIZE_MISMATCH"}));
     EXPECT_EQ(errors_of("#*\tä\n*# id = $"), (List{"2:9 INVALID_IDENTIFIER"}));
     EXPECT_EQ(errors_of("id = \n"), (List{"2:1 EXPECTING_ONE_OF"}));
@@ -299,6 +299,51 @@ TEST(Compile, TheTreeIsAsTheProgramIsWritten) {
     EXPECT_EQ(tree[tree.child(tree.child(choice, 0), 0)].kind, NodeKind::Not);
     EXPECT_EQ(tree[tree.child(choice, 1)].kind, NodeKind::Clause);
     EXPECT_EQ(tree[tree.child(choice, 2)].kind, NodeKind::Block);
+}
+
+// Found by comparing programs with mistakes with libasebacompiler.
+TEST(Compile, ACarriageReturnEndsALineCommentButNotTheLine) {
+    EXPECT_EQ(errors_of("motor.left = 1 # note\rmotor.left = \n"), (List{"2:1 EXPECTING_ONE_OF"}));
+}
+
+TEST(Compile, OnlyTheEndOfASliceIsComparedWithItsArrayInTheSizePhase) {
+    EXPECT_EQ(errors_of("var z[4]\nz = [prox[-1:2], z[0]]\n"), (List{"2:3 ARRAY_SIZE_MISMATCH"}));
+    EXPECT_EQ(errors_of("prox[-1:2] = prox\nprox = 1\n"),
+              (List{"2:6 ARRAY_SIZE_MISMATCH", "1:1 ARRAY_OUT_OF_BOUND"}));
+    EXPECT_EQ(errors_of("prox[-2:-2] = id\nprox = 1\n").front(), "1:1 ARRAY_OUT_OF_BOUND");
+}
+
+TEST(Compile, OfArgumentsOnlyTheFirstPlaceIsComparedWithItsArrayWhileParsing) {
+    const std::string later = "\nnothing = 1\n";
+    EXPECT_EQ(errors_of("call math.fill(prox[7] + id, 1)" + later).front(),
+              "1:16 ARRAY_OUT_OF_BOUND");
+    EXPECT_EQ(errors_of("call math.fill(prox[7] + [id, id], 1)" + later).front(),
+              "1:16 ARRAY_OUT_OF_BOUND");
+    EXPECT_EQ(errors_of("call math.fill(id + prox[7], 1)" + later).front(),
+              "2:1 VARIABLE_NOT_DEFINED");
+    EXPECT_EQ(errors_of("call math.fill(prox[id + prox[7]], 1)" + later).front(),
+              "2:1 VARIABLE_NOT_DEFINED");
+    EXPECT_EQ(errors_of("emit report prox[id + prox[7]]" + later).front(),
+              "2:1 VARIABLE_NOT_DEFINED");
+    EXPECT_EQ(errors_of("emit report prox[-1:2]" + later).front(), "1:13 ARRAY_OUT_OF_BOUND");
+}
+
+TEST(Compile, SizesUnderCountingComeBeforeAllOtherPlaces) {
+    EXPECT_EQ(errors_of("prox[9] = 1\nid + prox++\n").front(), "2:4 ARRAY_SIZE_MISMATCH");
+}
+
+// 160 words are free on the test's node; `full` leaves none for the copy.
+TEST(Compile, RoomForTheCopyComesBeforeThePlacesOfAnAssignment) {
+    EXPECT_EQ(errors_of("var full[157]\nvar q[3]\nq = q + [q[9], 1, 2]\n"),
+              (List{"3:3 NOT_ENOUGH_TEMP_SPACE"}));
+    EXPECT_EQ(errors_of("var full[157]\nvar q[3]\nq[-1:1]++\n"),
+              (List{"3:8 NOT_ENOUGH_TEMP_SPACE"}));
+}
+
+TEST(Compile, ASuggestionSharesACharacterWithTheName) {
+    EXPECT_EQ(sentence_of("var q\na = q\n"),
+              "there is no variable or constant \"a\" at this point; declare it with \"var a\" "
+              "before the code");
 }
 
 }  // namespace

@@ -57,10 +57,9 @@ void Parser::check_event_size(TokenId keyword, TokenId name, NodeId argument) {
     if (!check_sizes_of(tree_, argument, diagnostics_)) return;
     const int32_t words = tree_[argument].size;
     if (words == 0) return;
-    if (tree_[argument].kind == NodeKind::Element &&
-        !check_places_of(tree_, argument, diagnostics_)) {
-        return;
-    }
+    const NodeKind kind = tree_[argument].kind;
+    const bool is_place = kind == NodeKind::Element || kind == NodeKind::Slice;
+    if (is_place && !check_first_place(tree_, argument, diagnostics_)) return;
     Folder folder;
     const bool needs_temporary = !Expander(tree_, folder).place(argument);
     if (needs_temporary && !reserve(words, 0, keyword)) return;
@@ -173,11 +172,11 @@ void Parser::arguments(TokenId keyword, const NativeFunction& native, ChildList&
     expect(TokenKind::SignParenClose, Diag::ExpectedCallEnd, {found(), shown(native.name)});
 }
 
-// Sizes and indices inside the argument, then room for its temporary, then its size (section 3.2).
+// The element with which the argument begins and the sizes inside it, then room for its temporary, then its size (section 3.2).
 void Parser::check_argument(TokenId keyword, const NativeFunction& native, size_t position,
                             NodeId node, ArgumentSizes& sizes) {
     const bool is_sound =
-        check_sizes_of(tree_, node, diagnostics_) && check_places_of(tree_, node, diagnostics_);
+        check_first_place(tree_, node, diagnostics_) && check_sizes_of(tree_, node, diagnostics_);
     const int32_t words = tree_[node].size;
     if (!is_sound || words == 0 || sizes.is_bad) {
         sizes.is_bad = true;

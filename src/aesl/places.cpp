@@ -2,12 +2,18 @@
 
 #include "aesl/expand.hpp"
 #include "aesl/scan.hpp"
+#include "aesl/sizes.hpp"
 
 namespace vagus::aesl {
 namespace {
 
 bool is_reference(NodeKind kind) {
     return kind == NodeKind::Variable || kind == NodeKind::Element || kind == NodeKind::Slice;
+}
+
+bool is_operation(NodeKind kind) {
+    return kind == NodeKind::Tuple || kind == NodeKind::Unary || kind == NodeKind::Not ||
+           kind == NodeKind::Binary;
 }
 
 bool mentions(const Tree& tree, NodeId id, int32_t variable) {
@@ -25,13 +31,19 @@ public:
         : tree_(tree), diagnostics_(diagnostics), expander_(tree, folder_) {}
 
     bool expression(NodeId id) {
+        if (!reference(id)) return false;
         const Node& node = tree_[id];
-        if (node.kind == NodeKind::Slice) return slice(id);
-        if (node.kind == NodeKind::Element && !element(id)) return false;
+        if (node.kind == NodeKind::Slice) return true;
         for (NodeId child = node.first; child != kNoNode; child = tree_[child].next) {
             if (!expression(child)) return false;
         }
         return true;
+    }
+
+    // An element or slice itself, not its index.
+    bool reference(NodeId id) {
+        if (tree_[id].kind == NodeKind::Slice) return slice(id);
+        return tree_[id].kind != NodeKind::Element || element(id);
     }
 
     bool slice(NodeId id) {
@@ -43,17 +55,15 @@ public:
         return out_of_bounds(node, first < 0 ? first : last);
     }
 
-    // Left side, then right side; the other way round where the statement reads its right side
-    // first.
+    // Room for the copy of the right side, left side, then right side; the last two the other way
+    // round where the statement reads its right side first.
     bool assignment(const Node& node) {
         const NodeId left = node.first;
         const NodeId right = tree_[left].next;
-        if (!assignable(node)) return false;
-        if (node.kind == NodeKind::Count) return expression(left) && has_room(node);
-        if (node.op == kPlainAssignment) {
-            return expression(right) && expression(left) && has_room(node);
-        }
-        return expression(left) && expression(right) && has_room(node);
+        if (!assignable(node) || !has_room(node)) return false;
+        if (node.kind == NodeKind::Count) return expression(left);
+        if (node.op == kPlainAssignment) return expression(right) && expression(left);
+        return expression(left) && expression(right);
     }
 
 private:
@@ -106,12 +116,12 @@ private:
     Expander expander_;
 };
 
-enum class Phase { CountedSlices, All };
+enum class Phase { CountedSizes, All };
 
 class Walk {
 public:
     Walk(Tree& tree, Diagnostics& diagnostics, Phase phase)
-        : tree_(tree), check_(tree, diagnostics), phase_(phase) {}
+        : tree_(tree), diagnostics_(diagnostics), check_(tree, diagnostics), phase_(phase) {}
 
     void block(NodeId id) {
         for (NodeId child = tree_[id].first; child != kNoNode; child = tree_[child].next) {
@@ -129,10 +139,8 @@ private:
     }
 
     bool head(const Node& node) {
-        if (phase_ == Phase::CountedSlices) {
-            const bool is_slice =
-                node.kind == NodeKind::Count && tree_[node.first].kind == NodeKind::Slice;
-            return !is_slice || check_.slice(node.first);
+        if (phase_ == Phase::CountedSizes) {
+            return node.kind != NodeKind::Count || check_sizes_of(tree_, node.first, diagnostics_);
         }
         switch (node.kind) {
             case NodeKind::Assign:
@@ -159,6 +167,7 @@ private:
     }
 
     Tree& tree_;
+    Diagnostics& diagnostics_;
     PlaceCheck check_;
     Phase phase_;
 };
@@ -166,14 +175,16 @@ private:
 }  // namespace
 
 void check_places(Tree& tree, Diagnostics& diagnostics) {
-    for (const Phase phase : {Phase::CountedSlices, Phase::All}) {
+    for (const Phase phase : {Phase::CountedSizes, Phase::All}) {
         Walk walk(tree, diagnostics, phase);
         for (const Section& section : tree.sections) walk.block(section.block);
     }
 }
 
-bool check_places_of(const Tree& tree, NodeId expression, Diagnostics& diagnostics) {
-    return PlaceCheck(tree, diagnostics).expression(expression);
+bool check_first_place(const Tree& tree, NodeId expression, Diagnostics& diagnostics) {
+    NodeId first = expression;
+    while (is_operation(tree[first].kind)) first = tree[first].first;
+    return PlaceCheck(tree, diagnostics).reference(first);
 }
 
 bool overlaps(const Tree& tree, const Node& assignment) {

@@ -8,12 +8,13 @@
 
 namespace vagus::aesl {
 
-// In text order: first the slices under `++` and `--`, then all else. Marks statements with a
+// In text order: first the sizes under `++` and `--`, then all else. Marks statements with a
 // mistake as bad.
 void check_places(Tree& tree, Diagnostics& diagnostics);
 
-// The indices of one expression; false if something was reported.
-bool check_places_of(const Tree& tree, NodeId expression, Diagnostics& diagnostics);
+// The element or slice with which an expression begins, not what stands in its index: all that the
+// reference looks at while it reads arguments. False if something was reported.
+bool check_first_place(const Tree& tree, NodeId expression, Diagnostics& diagnostics);
 
 // Whether the right side of an assignment of several words must be complete before the left side is
 // changed: it is if the variable on the left occurs in it (section 4.4).

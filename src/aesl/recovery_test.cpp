@@ -88,7 +88,7 @@ TEST(Recovery, AWrongHeadKeepsItsBlock) {
     EXPECT_EQ(errors_of("while id > do\nmotor.left = 1\nend\nmotor.left++\n"),
               (List{"1:12 EXPECTING_ONE_OF"}));
     EXPECT_EQ(errors_of("for i = 0:3 do\nmotor.left = i\nend\n"),
-              (List{"1:5 VARIABLE_NOT_DEFINED_GUESS", "1:7 EXPECTING"}));
+              (List{"1:5 VARIABLE_NOT_DEFINED", "1:7 EXPECTING"}));
     EXPECT_EQ(errors_of("if id == 1 do\nmotor.left = 1\nelseif id == 2 do\nmotor.left = 2\nend\n"),
               (List{"1:12 EXPECTING", "3:16 EXPECTING"}));
     EXPECT_EQ(errors_of("when id == 1\nmotor.left = 1\nend\n"), (List{"2:1 EXPECTING"}));

@@ -99,7 +99,9 @@ private:
 
     void skip_comment() {
         if (peek(1) != '*') {
-            while (at_ < source_.size() && source_[at_] != '\n') step();
+            // A bare carriage return ends the comment, though not the line: the reference reads on
+            // behind it.
+            while (at_ < source_.size() && source_[at_] != '\n' && source_[at_] != '\r') step();
             return;
         }
         begin();

@@ -76,13 +76,12 @@ private:
     bool slice(NodeId id) {
         const Node& node = tree_[id];
         const TreeVariable& variable = tree_.variables[static_cast<size_t>(node.value)];
-        const int32_t first = tree_[node.first].value;
+        // Only the end: a start below 0 waits for phase 5, as in the reference.
         const int32_t last = tree_[tree_[node.first].next].value;
-        if (variable.size == 0 || (first >= 0 && last < variable.size)) return true;
-        return report(
-            Diag::IndexOutOfBounds, node.token,
-            {shown(variable.name), words_of(variable.size), std::to_string(variable.size - 1),
-             std::to_string(first < 0 ? first : last)});
+        if (variable.size == 0 || (last >= 0 && last < variable.size)) return true;
+        return report(Diag::IndexOutOfBounds, node.token,
+                      {shown(variable.name), words_of(variable.size),
+                       std::to_string(variable.size - 1), std::to_string(last)});
     }
 
     bool report(Diag what, TokenId token, std::initializer_list<std::string_view> words) {

@@ -55,7 +55,8 @@ std::string_view closest(std::string_view name, std::span<const std::string_view
         const size_t longest = (wanted.size() + kGuessDistanceMax) * kBytesOfCodePointMax;
         if (candidate.empty() || candidate.size() > longest) continue;
         const int d = distance(wanted, code_points(candidate), kGuessDistanceMax);
-        if (d == 0) continue;
+        // A name of which no character is left is no suggestion: "a" for "q", "id" for "no".
+        if (d == 0 || d >= static_cast<int>(wanted.size())) continue;
         // Bytes of UTF-8 compare in the order of their code points.
         if (d < best_distance || (d == best_distance && candidate < best)) {
             best = candidate;

@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "aesl/compile.hpp"
 #include "base/file.hpp"
 #include "session/execute.hpp"
 
@@ -48,12 +47,14 @@ Outcome converted(const session::Execution& execution, const Target& target) {
 
 }  // namespace
 
-OurRun run_ours(const Case& program, const NodeFile& node) {
+OurRun run_ours(const Case& program, const NodeFile& node, Dialect dialect) {
     OurRun run;
-    const Compilation compiled = compile(program.source, node.target, node.common, {});
+    const Compilation compiled =
+        compile(program.source, node.target, node.common, {.dialect = dialect, .ontimer = {}});
     if (!compiled.ok()) {
         const Diagnostic& first = compiled.errors.front();
         run.outcome.error = CompileError{without_guess(first.code), first.at.line};
+        run.message = first.message;
         return run;
     }
     run.bytecode_words = compiled.program.bytecode.size();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "aesl/compile.hpp"
 #include "aesl/node_file.hpp"
 #include "aesl/outcome.hpp"
 
@@ -15,8 +16,9 @@ namespace vagus::aesl {
 struct OurRun {
     Outcome outcome;
     size_t bytecode_words = 0;
+    std::string message;  // of the error
 };
-OurRun run_ours(const Case& program, const NodeFile& node);
+OurRun run_ours(const Case& program, const NodeFile& node, Dialect dialect = Dialect::Auto);
 
 // Errors that say that a program is too large for the node: another compiler may manage it.
 bool is_want_of_room(const Outcome& outcome);

@@ -172,7 +172,8 @@ void Parser::arguments(TokenId keyword, const NativeFunction& native, ChildList&
     expect(TokenKind::SignParenClose, Diag::ExpectedCallEnd, {found(), shown(native.name)});
 }
 
-// The element with which the argument begins and the sizes inside it, then room for its temporary, then its size (section 3.2).
+// The element with which the argument begins and the sizes inside it, then room for its temporary,
+// then its size (section 3.2).
 void Parser::check_argument(TokenId keyword, const NativeFunction& native, size_t position,
                             NodeId node, ArgumentSizes& sizes) {
     const bool is_sound =

@@ -75,8 +75,8 @@ public:
     // known from then on.
     Result<std::vector<debug::NodeId>> nodes(const std::vector<std::string>& named);
     Result<debug::NodeId> node(const std::string& named);
-    // The node as it is known now. Nodes may leave at any time; one that said good-bye is a nameless
-    // view that is neither connected nor described. Borrowed until the next wait.
+    // The node as it is known now. Nodes may leave at any time; one that said good-bye is a view
+    // without a name, neither connected nor described. Borrowed until the next wait.
     const debug::NodeView& view(debug::NodeId id) const;
     // --wait, or that many seconds.
     Duration wait_or(double seconds) const;

@@ -43,13 +43,12 @@ void CodeWriter::touch(int32_t depth, int32_t line) {
 
 void CodeWriter::immediate(int32_t value, int32_t line, int base) {
     touch(base + 1, line);
-    const auto low = static_cast<int16_t>(static_cast<uint16_t>(value));
-    if (low >= -kSmallMax && low <= kSmallMax) {
-        instruction(Opcode::SmallImm, low, line);
+    if (value >= -kSmallMax && value <= kSmallMax) {
+        instruction(Opcode::SmallImm, value, line);
         return;
     }
     instruction(Opcode::LargeImm, 0, line);
-    word(static_cast<uint16_t>(low), line);
+    word(static_cast<uint16_t>(value), line);
 }
 
 void CodeWriter::expression(const Folder& folder, ScalarId id, int base) {

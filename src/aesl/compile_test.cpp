@@ -195,8 +195,17 @@ TEST(Compile, FoldingHas32BitsAndDivisionByAPowerOfTwoIsAShift) {
     EXPECT_EQ(init_words("id = id / -2"), (Words{0x3000, 0x1ffe, 0x8005, 0x4000, 0}));
     EXPECT_EQ(init_words("id = id * 0 + id * 1"), (Words{0x3000, 0x4000, 0}));
     EXPECT_EQ(init_words("id = (1 << 30) + (1 << 30) >> 31"), (Words{0x1fff, 0x4000, 0}));
-    EXPECT_EQ(init_words("id = (1 << 30) * -2 / -1"), (Words{0x1000, 0x4000, 0}));
+    EXPECT_EQ(init_words("id = (1 << 30) * -2 / -1"), (Words{0x2000, 0, 0x4000, 0}));
     EXPECT_EQ(init_words("id = (1 << 30) * -2 % -1"), (Words{0x1000, 0x4000, 0}));
+}
+
+// Measured on the reference: a written `else` keeps its jump, an `elseif` that folds away does not.
+TEST(Compile, AnElseIfThatFoldsAwayLeavesNoJump) {
+    const Words alone = {0x3000, 0x1001, 0xa00a, 4, 0x1001, 0x4000, 0};
+    EXPECT_EQ(init_words("if id == 1 then id = 1 elseif 1 == 2 then id = 2 end"), alone);
+    EXPECT_EQ(init_words("if id == 1 then id = 1 elseif id == 2 then end"), alone);
+    EXPECT_EQ(init_words("if id == 1 then id = 1 else end"),
+              (Words{0x3000, 0x1001, 0xa00a, 5, 0x1001, 0x4000, 0x9001, 0}));
 }
 
 TEST(Compile, NotTurnsConditionsRound) {

@@ -199,11 +199,14 @@ private:
     // One branch of an `if` that is decided while the program runs.
     struct OpenBranch {
         CodeWriter::Checkpoint start;
+        CodeWriter::Checkpoint body_end = {};
         uint32_t branch = 0;
         uint32_t body = 0;
         uint32_t jump = 0;
         uint32_t rest = 0;  // where the `else` part begins
         bool has_jump = false;
+        bool has_else =
+            false;  // a written one, not an `elseif`: its jump stays, even if it is empty
     };
 
     void if_statement(const Node& node) {
@@ -237,7 +240,10 @@ private:
         made.branch = branch(test, 0, tree_.line_of(clause));
         made.body = out_.here();
         block(body);
-        made.has_jump = tree_[clause].next != kNoNode;
+        made.body_end = out_.checkpoint();
+        const NodeId next = tree_[clause].next;
+        made.has_jump = next != kNoNode;
+        made.has_else = made.has_jump && tree_[next].kind == NodeKind::Block;
         if (made.has_jump) made.jump = out_.jump_placeholder(out_.last_line());
         made.rest = out_.here();
         return made;
@@ -249,10 +255,15 @@ private:
     void close_branches(std::vector<OpenBranch>& open) {
         for (size_t i = open.size(); i-- > 0;) {
             OpenBranch& part = open[i];
-            const uint32_t body_end = part.has_jump ? part.jump : part.rest;
-            if (body_end == part.body && out_.here() == part.rest) {
+            const bool is_rest_empty = out_.here() == part.rest;
+            if (is_rest_empty && part.body_end.words == part.body) {
                 out_.rewind(part.start);
                 continue;
+            }
+            if (is_rest_empty && part.has_jump && !part.has_else) {
+                out_.rewind(part.body_end);
+                part.rest = part.body_end.words;
+                part.has_jump = false;
             }
             if (part.has_jump) part.rest += out_.patch_jump(part.jump, out_.here());
             out_.patch_branch(part.branch, part.rest);

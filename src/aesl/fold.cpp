@@ -197,7 +197,7 @@ ScalarId Folder::binary(BinaryOperator op, ScalarId left, ScalarId right, Operat
     if (op == BinaryOperator::Divide && b.kind == ScalarKind::Number && b.value == 0) {
         return fail(Diag::DivisionByZero, at.token);
     }
-    if (const auto simple = simplify(op, left, right)) return *simple;
+    if (const auto simple = simplify(op, left, right, at.line)) return *simple;
     return with_shift(op, left, right, at);
 }
 
@@ -205,19 +205,20 @@ ScalarId Folder::binary(BinaryOperator op, ScalarId left, ScalarId right, Operat
 ScalarId Folder::compute(BinaryOperator op, const Scalar& left, const Scalar& right,
                          OperatorPlace at) {
     if (is_division(op) && right.value == 0) return fail(Diag::DivisionByZero, at.token);
-    return number(calculate(op, left.value, right.value), left.line);
+    return number(calculate(op, left.value, right.value), at.line);
 }
 
 // One operand is a number at most: rules 5 and 6.
-std::optional<ScalarId> Folder::simplify(BinaryOperator op, ScalarId left, ScalarId right) {
+std::optional<ScalarId> Folder::simplify(BinaryOperator op, ScalarId left, ScalarId right,
+                                         int32_t line) {
     const Scalar a = scalars_[left];
     const Scalar b = scalars_[right];
     if (b.kind == ScalarKind::Number) {
-        if (const auto result = absorbed(op, b.value)) return number(*result, b.line);
+        if (const auto result = absorbed(op, b.value)) return number(*result, line);
         if (is_neutral_right(op, b.value)) return left;
     }
     if (a.kind == ScalarKind::Number) {
-        if (const auto result = absorbed(op, a.value)) return number(*result, a.line);
+        if (const auto result = absorbed(op, a.value)) return number(*result, line);
         if (is_neutral_left(op, a.value)) return right;
     }
     return std::nullopt;

@@ -79,7 +79,8 @@ private:
     ScalarId fail(Diag what, TokenId token);
     ScalarId compute(isa::BinaryOperator op, const Scalar& left, const Scalar& right,
                      OperatorPlace at);
-    std::optional<ScalarId> simplify(isa::BinaryOperator op, ScalarId left, ScalarId right);
+    std::optional<ScalarId> simplify(isa::BinaryOperator op, ScalarId left, ScalarId right,
+                                     int32_t line);
     ScalarId with_shift(isa::BinaryOperator op, ScalarId left, ScalarId right, OperatorPlace at);
 
     std::vector<Scalar> scalars_;

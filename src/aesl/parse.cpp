@@ -6,9 +6,45 @@
 #include "aesl/limits.hpp"
 #include "aesl/parser.hpp"
 #include "aesl/suggest.hpp"
-#include "aesl/unicode.hpp"
+#include "base/nearest.hpp"
 
 namespace vagus::aesl {
+
+namespace {
+
+// Keywords at which the next statement, header or declaration begins, or a block ends.
+bool begins_anew(TokenKind kind) {
+    switch (kind) {
+        case TokenKind::Call:
+        case TokenKind::CallSub:
+        case TokenKind::Const:
+        case TokenKind::Else:
+        case TokenKind::ElseIf:
+        case TokenKind::Emit:
+        case TokenKind::EmitShort:
+        case TokenKind::End:
+        case TokenKind::For:
+        case TokenKind::If:
+        case TokenKind::OnEvent:
+        case TokenKind::Return:
+        case TokenKind::Sub:
+        case TokenKind::Var:
+        case TokenKind::When:
+        case TokenKind::While:
+        case TokenKind::EndOfText:
+            return true;
+        default:
+            return false;
+    }
+}
+
+int bracket_step(TokenKind kind) {
+    if (kind == TokenKind::SignParenOpen || kind == TokenKind::SignBracketOpen) return 1;
+    if (kind == TokenKind::SignParenClose || kind == TokenKind::SignBracketClose) return -1;
+    return 0;
+}
+
+}  // namespace
 
 Tree parse(std::string_view source, const Target& target, const CommonDefinitions& common,
            const Options& options, Diagnostics& diagnostics) {
@@ -111,18 +147,18 @@ std::string Parser::guess(TokenId name, NameSpace space) const {
     return shown(closest(tree_.text(name), candidates));
 }
 
-// A keyword that the word may have been meant as: another spelling of it, or one letter away.
+// A keyword that the first word of a statement may have been meant as: with capital letters, or one
+// slip away.
 std::string Parser::misspelt_keyword(TokenId name) const {
     std::vector<std::string_view> keywords;
     for (auto kind = kFirstKeyword; kind <= kLastKeyword;
          kind = static_cast<TokenKind>(static_cast<int>(kind) + 1)) {
-        keywords.push_back(spelling_of(kind));
+        if (begins_anew(kind)) keywords.push_back(spelling_of(kind));
     }
-    std::string lower(tree_.text(name));
+    std::string lower(name_text(name));
     for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
     if (std::find(keywords.begin(), keywords.end(), lower) != keywords.end()) return lower;
-    if (lower.size() < 3) return {};
-    return std::string(closest(lower, keywords));
+    return nearest(lower, keywords);
 }
 
 // 2007: `args` and `source` where there is no such variable (section 6, rule 3).
@@ -408,42 +444,6 @@ bool Parser::assigns_next(TokenId token) const {
     return next == TokenKind::SignBracketOpen ||
            (next >= TokenKind::SignAssign && next <= TokenKind::SignDecrement);
 }
-
-namespace {
-
-// Keywords at which the next statement, header or declaration begins, or a block ends.
-bool begins_anew(TokenKind kind) {
-    switch (kind) {
-        case TokenKind::Call:
-        case TokenKind::CallSub:
-        case TokenKind::Const:
-        case TokenKind::Else:
-        case TokenKind::ElseIf:
-        case TokenKind::Emit:
-        case TokenKind::EmitShort:
-        case TokenKind::End:
-        case TokenKind::For:
-        case TokenKind::If:
-        case TokenKind::OnEvent:
-        case TokenKind::Return:
-        case TokenKind::Sub:
-        case TokenKind::Var:
-        case TokenKind::When:
-        case TokenKind::While:
-        case TokenKind::EndOfText:
-            return true;
-        default:
-            return false;
-    }
-}
-
-int bracket_step(TokenKind kind) {
-    if (kind == TokenKind::SignParenOpen || kind == TokenKind::SignBracketOpen) return 1;
-    if (kind == TokenKind::SignParenClose || kind == TokenKind::SignBracketClose) return -1;
-    return 0;
-}
-
-}  // namespace
 
 // Brackets of the statement that are open before the current token.
 int Parser::open_brackets() const {

@@ -2,6 +2,7 @@
 #include "aesl/expand.hpp"
 #include "aesl/limits.hpp"
 #include "aesl/parser.hpp"
+#include "aesl/places.hpp"
 #include "aesl/sizes.hpp"
 
 namespace vagus::aesl {
@@ -42,7 +43,8 @@ std::optional<int32_t> Parser::constant_for(TokenId name, NodeId value) {
     const ConstantValue result = constant_value(tree_, value);
     if (result.problem) {
         error(result.problem->what, result.problem->token, {name_text(result.problem->token)});
-    } else if (!result.value && !result.is_unknown) {
+    } else if (!result.value && !result.is_unknown &&
+               check_first_place(tree_, value, diagnostics_)) {
         error(Diag::ConstantNotConstant, name, {name_text(name)});
     }
     return result.value;
@@ -113,7 +115,7 @@ int32_t Parser::checked_size(TokenId name, TokenId bracket, NodeId expression_no
         error(Diag::SizeZero, bracket, {name_text(name)});
     } else if (size.value) {
         return *size.value;
-    } else if (!size.is_unknown) {
+    } else if (!size.is_unknown && check_first_place(tree_, expression_node, diagnostics_)) {
         error(Diag::SizeNotConstant, bracket, {name_text(name)});
     }
     return 0;
@@ -206,10 +208,9 @@ VariableId Parser::declare(TokenId name, int32_t size) {
 // `int speed = 3`, `vra speed`: the word in front is unknown, what follows is meant as a
 // declaration. It is declared, so that the one mistake stays one.
 NodeId Parser::undeclared_words(size_t errors_before, TokenId start) {
-    const bool looks_declared = errors() > errors_before && !code_began_ &&
-                                tree_.tokens[start].kind == TokenKind::Identifier &&
-                                tree_.tokens[start + 1].kind == TokenKind::Identifier &&
-                                !is_first_of_line(start + 1);
+    const bool looks_declared =
+        errors() > errors_before && tree_.tokens[start].kind == TokenKind::Identifier &&
+        tree_.tokens[start + 1].kind == TokenKind::Identifier && !is_first_of_line(start + 1);
     if (!looks_declared) return kNoNode;
     const Symbol& known = symbol(start + 1);
     if (known.variable < 0 && known.constant < 0) declare_implicitly(start + 1);

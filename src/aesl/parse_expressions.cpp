@@ -175,22 +175,33 @@ NodeId Parser::name_in_expression() {
     return reference(name, static_cast<VariableId>(known.variable));
 }
 
-NodeId Parser::unknown_variable(TokenId name, NameSpace space) {
-    advance();
-    if (const auto meant = alias(tree_.text(name))) return reference(name, *meant);
+// The sentence that helps most with a name that nobody knows.
+void Parser::report_unknown_variable(TokenId name, NameSpace space) {
     const std::string text = name_text(name);
     const std::string similar = guess(name, space);
-    const std::string keyword = name == statement_start_ ? misspelt_keyword(name) : "";
+    const bool begins = name == statement_start_ && !assigns_next(name);
+    const std::string keyword = begins ? misspelt_keyword(name) : "";
+    const bool names_next = begins && at(TokenKind::Identifier) && !is_first_of_line(position_);
     if (symbol(name).native >= 0) {
         error(Diag::NativeAsValue, name, {text});
-    } else if (!keyword.empty() && !assigns_next(name)) {
+    } else if (!keyword.empty()) {
         error(Diag::MisspeltKeyword, name, {text, keyword});
+    } else if (names_next) {
+        error(Diag::UnknownWord, name, {text, name_text(position_)});
+    } else if (text == "true" || text == "false") {
+        error(Diag::TruthValue, name, {text});
     } else if (!similar.empty()) {
         error(Diag::UnknownVariableGuess, name, {text, similar});
     } else {
         error(space == NameSpace::Variable ? Diag::UnknownLoopVariable : Diag::UnknownVariable,
               name, {text});
     }
+}
+
+NodeId Parser::unknown_variable(TokenId name, NameSpace space) {
+    advance();
+    if (const auto meant = alias(tree_.text(name))) return reference(name, *meant);
+    report_unknown_variable(name, space);
     // A statement that begins with a word nobody knows is one mistake, whatever follows.
     if (name == statement_start_ && !assigns_next(name)) panic_ = true;
     if (symbol(name).native >= 0 && at(TokenKind::SignParenOpen)) panic_ = true;
@@ -292,7 +303,9 @@ NodeId Parser::parenthesised() {
     if (++nesting_ > kNestingMax) give_up();
     const NodeId inside = condition();
     --nesting_;
-    expect(TokenKind::SignParenClose, Diag::ExpectedParenClose, {found(), line});
+    const bool assigns = at(TokenKind::SignAssign);
+    expect(TokenKind::SignParenClose, assigns ? Diag::ParenAssign : Diag::ExpectedParenClose,
+           {found(), line});
     return inside;
 }
 

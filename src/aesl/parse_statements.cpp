@@ -233,7 +233,9 @@ NodeId Parser::for_statement() {
     const bool has_step = !panic_ && accept(TokenKind::Step);
     const Bound step = has_step ? loop_bound("step") : Bound{.token = keyword, .value = 1};
     if (!panic_) check_bounds(first, last, step);
-    expect_opener(TokenKind::Do, has_step ? Diag::ExpectedDo : Diag::ExpectedDoOrStep, keyword);
+    const bool is_do_missing = has_step || is_first_of_line(position_);
+    expect_opener(TokenKind::Do, is_do_missing ? Diag::ExpectedDo : Diag::ExpectedDoOrStep,
+                  keyword);
     const bool is_bad = errors() > before;
     ChildList parts;
     append(parts, variable);

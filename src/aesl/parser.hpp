@@ -185,6 +185,7 @@ private:
     NodeId parenthesised();
     NodeId element();
     NodeId missing_operand();
+    void report_unknown_variable(TokenId name, NameSpace space);
     NodeId unknown_variable(TokenId name, NameSpace space);
     bool can_begin_operand() const;
 

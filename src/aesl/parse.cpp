@@ -271,6 +271,25 @@ void Parser::begin_handler(TokenId keyword, TokenId name) {
                    .token = keyword,
                    .number = number,
                    .is_ignored = !is_known || is_second});
+    refuse_block();
+}
+
+// `onevent tick do … end` is one mistake: the `end` belongs to it.
+void Parser::refuse_block() {
+    if (!at(TokenKind::Do) && !at(TokenKind::Then)) return;
+    error(Diag::HeaderOpensBlock, position_, {found()});
+    advance();
+    ++late_ends_;
+}
+
+// `sub turn()` and `callsub turn()`, also with words between the parentheses.
+void Parser::refuse_parentheses(TokenId name) {
+    if (!at(TokenKind::SignParenOpen)) return;
+    error(Diag::SubWithParentheses, position_, {name_text(name)});
+    const int line = token().line;
+    while (!at(TokenKind::EndOfText) && !at(TokenKind::SignParenClose) && token().line == line)
+        advance();
+    accept(TokenKind::SignParenClose);
 }
 
 // 2007: `ontimer` (section 6, rule 1): a header if it is no variable or constant or a colon
@@ -361,6 +380,8 @@ void Parser::sub_header() {
                               .section = static_cast<uint32_t>(tree_.sections.size())});
     }
     begin_section(section);
+    refuse_parentheses(name);
+    refuse_block();
 }
 
 // A sub may be called before it is declared; what stays unresolved is reported in phase 6.

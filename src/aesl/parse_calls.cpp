@@ -105,7 +105,7 @@ NodeId Parser::call_statement() {
         return finish_simple(kNoNode, before);
     }
     const int32_t native = symbol(name).native;
-    if (native < 0) unknown_native(keyword, name);
+    if (native < 0 && !symbol(name).is_native_unknown) unknown_native(keyword, name);
     const NodeId node = add({.kind = NodeKind::Call, .token = keyword, .value = native});
     ChildList list;
     if (expect(TokenKind::SignParenOpen, Diag::ExpectedArguments, {found(), name_text(name)})) {
@@ -116,13 +116,14 @@ NodeId Parser::call_statement() {
         }
     }
     tree_[node].first = list.first;
-    tree_[node].bad = errors() > before;
+    tree_[node].bad = native < 0 || errors() > before;
     return finish_simple(node, before);
 }
 
 void Parser::unknown_native(TokenId keyword, TokenId name) {
     const std::string similar = guess(name, NameSpace::Native);
     const std::string text = name_text(name);
+    symbol(name).is_native_unknown = true;
     if (symbol(name).sub >= 0) {
         error(Diag::SubNotNative, keyword, {text});
     } else if (similar.empty()) {
@@ -232,6 +233,7 @@ NodeId Parser::callsub_statement() {
         expect(TokenKind::Identifier, Diag::ExpectedSubName, {found(), "callsub"});
     if (!has_name) return finish_simple(kNoNode, before);
     const NodeId node = add({.kind = NodeKind::CallSub, .token = keyword, .value = kUnresolved});
+    refuse_parentheses(position_ - 1);
     return finish_simple(node, before);
 }
 

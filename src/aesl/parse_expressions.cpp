@@ -322,6 +322,12 @@ NodeId Parser::missing_operand() {
             syntax_error(Diag::EmptyTuple);
             break;
         default:
+            if (position_ > 0 && kind() == tree_.tokens[position_ - 1].kind &&
+                (at(TokenKind::SignBitAnd) || at(TokenKind::SignBitOr))) {
+                const bool is_and = at(TokenKind::SignBitAnd);
+                syntax_error(Diag::DoubledOperator, {is_and ? "&" : "|", is_and ? "and" : "or"});
+                break;
+            }
             syntax_error(Diag::ExpectedOperand, {found()});
     }
     return error_node(here);

@@ -100,6 +100,8 @@ NodeId Parser::unexpected_statement() {
         syntax_error(Diag::IndexOfExpression, {what});
     } else if (at(TokenKind::SignBracketOpen)) {
         syntax_error(Diag::LeftTuple, {what});
+    } else if (at(TokenKind::SignDivide) && !is_same_line) {
+        syntax_error(Diag::SlashComment);
     } else if (kind() >= TokenKind::SignEqual) {
         syntax_error(Diag::ComparedInAssignment, {what});
     } else {

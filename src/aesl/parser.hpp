@@ -31,9 +31,10 @@ struct Symbol {
     int32_t local_event = -1;
     int32_t native = -1;
     int32_t sub = -1;
-    int32_t handler = -1;           // token of the header of this event's handler
-    bool is_implicit = false;       // the variable exists only because of an error that named it
-    bool is_event_unknown = false;  // reported once as an unknown event
+    int32_t handler = -1;            // token of the header of this event's handler
+    bool is_implicit = false;        // the variable exists only because of an error that named it
+    bool is_event_unknown = false;   // reported once as an unknown event
+    bool is_native_unknown = false;  // reported once as an unknown native function
 };
 
 struct ConstantSymbol {
@@ -73,6 +74,8 @@ private:
     void onevent_header();
     void ontimer_header();
     void sub_header();
+    void refuse_block();
+    void refuse_parentheses(TokenId name);
     void begin_handler(TokenId keyword, TokenId name);
     void begin_section(Section section);
     bool at_ontimer_header() const;

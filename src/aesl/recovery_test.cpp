@@ -114,6 +114,18 @@ TEST(Recovery, ABrokenCallOrEmitIsOneMistake) {
               (List{"1:11 EXPECTING", "3:12 EXPECTING"}));
 }
 
+TEST(Recovery, HabitsOfOtherLanguagesAreOneMistakeEach) {
+    EXPECT_EQ(errors_of("onevent tick do\nmotor.left = 1\nend\nonevent button\nmotor.left = 2\n"),
+              (List{"1:14 EXPECTING"}));
+    EXPECT_EQ(errors_of("callsub turn(3)\nsub turn()\nmotor.left = 1\n"),
+              (List{"1:13 EXPECTING", "2:9 EXPECTING"}));
+    EXPECT_EQ(errors_of("call turn(1)\ncall turn(2)\nmotor.left = 1\n"),
+              (List{"1:1 FUNCTION_NOT_DEFINED"}));
+    EXPECT_EQ(errors_of("motor.left = true\nmotor.left = true\n"),
+              (List{"1:14 VARIABLE_NOT_DEFINED"}));
+    EXPECT_EQ(errors_of("// turn left\nmotor.left = 1\n"), (List{"1:1 EXPECTING"}));
+}
+
 // Lines without a mistake, and lines with exactly one, which does not spread to other lines.
 constexpr std::string_view kSound[] = {
     "a = a + 1",

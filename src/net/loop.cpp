@@ -18,6 +18,7 @@ constexpr size_t kReturnAfterBytes = 64 * 1024;
 // How often the last words of a peer are read when writing to it has failed.
 constexpr int kLastReadsMax = 64;
 constexpr Duration kRetryWrites = 1ms;
+constexpr Duration kWaitMax = 1h;  // then it looks at the clock and waits on
 
 }  // namespace
 
@@ -62,6 +63,8 @@ size_t Network::Loop::run_some(Time deadline) {
     for (const auto& [number, connection] : connections_) {
         if (connection.read_paused) until = std::min(until, now() + kPacePeriod);
     }
+    // Time::max() is more than the nanoseconds of the system's clock can hold.
+    until = std::min(until, now() + kWaitMax);
     size_t ran = until > now() ? io_.run_one_until(start_ + until) : 0;
     for (int i = 0; i < kHandlersAtOnce && received_ < kReturnAfterBytes; ++i) {
         const size_t more = io_.poll_one();

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <ctime>
 #include <functional>
 
 #include "base/rng.hpp"
@@ -398,6 +399,28 @@ TEST(Network, TellsOfSignalsAndOfInput) {
     ::close(ends[0]);
     ::close(ends[1]);
     EXPECT_FALSE(net.network.watch_input(ends[0]).ok());
+}
+
+// Time::max() in nanoseconds is no number: a wait for it once was a busy loop.
+TEST(Network, WaitsWithoutAnEndAndWithoutWork) {
+    Network network;
+    ASSERT_TRUE(network.watch_signals().ok());
+    sigevent tell{};
+    tell.sigev_notify = SIGEV_SIGNAL;
+    tell.sigev_signo = SIGTERM;
+    timer_t timer{};
+    ASSERT_EQ(timer_create(CLOCK_MONOTONIC, &tell, &timer), 0);
+    const itimerspec once{{0, 0}, {0, 100'000'000}};
+    ASSERT_EQ(timer_settime(timer, 0, &once, nullptr), 0);
+    const Time begun = network.now();
+    const std::clock_t worked_before = std::clock();
+    const std::vector<Event> events = network.poll(Time::max());
+    const double worked = static_cast<double>(std::clock() - worked_before) / CLOCKS_PER_SEC;
+    const double waited = std::chrono::duration<double>(network.now() - begun).count();
+    timer_delete(timer);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].kind, EventKind::Signal);
+    EXPECT_LT(worked, waited / 4);
 }
 
 TEST(Network, TakesItsLinksAlongWhenItGoes) {

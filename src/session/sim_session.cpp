@@ -177,7 +177,11 @@ void SimSession::trace_happenings() {
 }
 
 void SimSession::note(NoteKind kind, std::string text) {
-    if (notes_.size() < kNotesMax) notes_.push_back({now(), kind, std::move(text)});
+    // Robots that share a script share its mistakes.
+    const bool about_script = kind == NoteKind::Mistakes || kind == NoteKind::Warnings;
+    const bool again =
+        about_script && !notes_.empty() && notes_.back().kind == kind && notes_.back().text == text;
+    if (notes_.size() < kNotesMax && !again) notes_.push_back({now(), kind, std::move(text)});
 }
 
 // ---- looking ----

@@ -409,6 +409,12 @@ class Cli(unittest.TestCase):
         done = self.run_vagus("sim", self.world, "--load", self.script, "--speed", "max", status=1)
         self.assertIn(f"{self.script}:7:", done.stderr)
 
+    def test_a_mistake_of_two_robots_is_said_once(self):
+        twins = WORLD.replace("}]", '}, { "name": "bob", "type": "thymio2", "at": [1.5, 0.5], "node": 8 }]')
+        plain = self.file("plain.aesl", "var n = m\n")
+        done = self.run_vagus("sim", self.file("twins.world.json", twins), "--load", plain, "--headless", status=1)
+        self.assertEqual(done.stderr.count("plain.aesl:1:9: error: "), 1)
+
     def test_a_plain_script_needs_no_declarations(self):
         plain = self.file("plain.aesl", "timer.period[0] = 100\nonevent timer0\nemit both [7, 8]\nemit none\n")
         text = self.run_vagus("sim", self.world, "--load", plain, "--speed", "max", "--duration", "1").stdout

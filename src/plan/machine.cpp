@@ -8,14 +8,6 @@ namespace vagus::plan {
 
 namespace {
 
-enum class Phase : uint8_t {
-    Pending,   // begin() is due
-    Running,   // its code, or a plan inside it, runs
-    SubEnded,  // the plan inside it has ended: end_sub_plan() is due
-    Stopping,  // its code has been told to stop
-    None,      // no activation: the plan is ending
-};
-
 // Whether a global supervisor watches (P23).
 enum class Rest : uint8_t {
     No,
@@ -492,10 +484,14 @@ const Value& Machine::variable(int level, int slot) const {
 }
 
 Status Machine::write_outside(int slot, const Value& value, Time now) {
-    const GraphVariable& variable = at(0).plan->variables[static_cast<size_t>(slot)];
+    return write_outside(0, slot, value, now);
+}
+
+Status Machine::write_outside(int level, int slot, const Value& value, Time now) {
+    const GraphVariable& variable = at(level).plan->variables[static_cast<size_t>(slot)];
     Value converted = TRY(convert(value, variable.type));
-    trace(0, now, VariableWritten{variable.name, converted, "outside"});
-    cell(0, slot) = std::move(converted);
+    trace(level, now, VariableWritten{variable.name, converted, "outside"});
+    cell(level, slot) = std::move(converted);
     return Status::done();
 }
 
@@ -538,6 +534,15 @@ const GraphActor* Machine::actor_at(int level) const {
 }
 ActivationId Machine::activation_at(int level) const {
     return at(level).activation;
+}
+Phase Machine::phase_at(int level) const {
+    return at(level).phase;
+}
+WatchId Machine::watch_at(const WatchPlace& place) const {
+    const Level& level = at(place.level);
+    const auto& watches = place.global ? level.globals : level.own;
+    const auto index = static_cast<size_t>(place.index);
+    return index < watches.size() ? watches[index].id : 0;
 }
 int Machine::stopping_level() const {
     return stopping_from_;

@@ -80,6 +80,22 @@ struct SubPlanOver {
 };
 using Command = std::variant<StartWatch, StopWatch, Activate, StartCode, StopCode, SubPlanOver>;
 
+// Where the activation of a level stands.
+enum class Phase : uint8_t {
+    Pending,   // begin() is due
+    Running,   // its code, or a plan inside it, runs
+    SubEnded,  // the plan inside it has ended: end_sub_plan() is due
+    Stopping,  // its code has been told to stop
+    None,      // no activation: the plan is ending
+};
+
+// One supervisor of the plan at `level`, of its start tag or of the actor that is active there.
+struct WatchPlace {
+    int level = 0;
+    bool global = false;
+    int index = 0;  // file order among its kind
+};
+
 class Machine {
 public:
     explicit Machine(const Graph& graph);
@@ -117,6 +133,7 @@ public:
     Status write_outside(int slot, const Value& value, Time now);
     // Of any level of the plan that runs now.
     const Value& variable(int level, int slot) const;
+    Status write_outside(int level, int slot, const Value& value, Time now);
 
     // ---- what is going on ----
     bool over() const;
@@ -128,6 +145,9 @@ public:
     const std::string& path_at(int level) const;
     const GraphActor* actor_at(int level) const;
     ActivationId activation_at(int level) const;
+    Phase phase_at(int level) const;
+    // 0: it does not watch now.
+    WatchId watch_at(const WatchPlace& place) const;
     // Supervisors at this level and below are not checked while code is being stopped (P18a);
     // nothing is being stopped: -1.
     int stopping_level() const;

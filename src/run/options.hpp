@@ -15,6 +15,8 @@
 
 namespace vagus::run {
 
+class Debugger;
+
 struct RunOptions {
     uint64_t seed = 1;
     std::optional<Duration> max_time;              // then the run is aborted (plans.md, section 6)
@@ -23,6 +25,7 @@ struct RunOptions {
     std::function<void(const plan::TraceEvent&)> on_trace;
     // What the plan emits, for a bus beyond this run; called on the deciding thread.
     std::function<void(const BusEvent&)> on_emit;
+    Debugger* debugger = nullptr;  // borrowed for the run
 };
 
 struct Ended {

@@ -1,171 +1,15 @@
 #include "run/real_time.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <condition_variable>
-#include <deque>
 #include <exception>
 #include <map>
-#include <mutex>
-#include <set>
 #include <vector>
 
+#include "run/debugger.hpp"
+#include "run/real_time_parts.hpp"
 #include "run/workers.hpp"
 
 namespace vagus::run {
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-// ---- what other threads tell the deciding one ----
-
-struct CodeOver {  // run() has returned or thrown
-    plan::ActivationId activation;
-    plan::Given given;
-    bool failed;
-    std::string failure;
-};
-struct Checked {
-    plan::WatchId watch;
-    std::optional<plan::Given> given;
-    bool failed;
-    std::string failure;
-    Duration late;  // from the deadline to the begin of the check
-};
-struct Logged {
-    plan::ActivationId activation;
-    std::string text;
-};
-struct Heard {
-    BusEvent event;
-    bool own;  // emitted by the plan itself
-};
-struct Written {
-    int slot;
-    plan::Value value;
-};
-struct Aborted {};
-using Message = std::variant<CodeOver, Checked, Logged, Heard, Written, Aborted>;
-
-// The one door to the deciding thread.
-class Inbox {
-public:
-    void post(Message message) {
-        {
-            const std::lock_guard lock(mutex_);
-            messages_.push_back(std::move(message));
-        }
-        filled_.notify_one();
-    }
-
-    // Events from outside are bounded: a flood of them must not fill the memory.
-    bool post_bounded(Message message) {
-        {
-            const std::lock_guard lock(mutex_);
-            if (messages_.size() >= kInboxMax) return false;
-            messages_.push_back(std::move(message));
-        }
-        filled_.notify_one();
-        return true;
-    }
-
-    std::deque<Message> take() {
-        const std::lock_guard lock(mutex_);
-        return std::exchange(messages_, {});
-    }
-
-    void wait_until(std::optional<Clock::time_point> until) {
-        std::unique_lock lock(mutex_);
-        const auto ready = [this] { return !messages_.empty(); };
-        if (until) {
-            filled_.wait_until(lock, *until, ready);
-        } else {
-            filled_.wait(lock, ready);
-        }
-    }
-
-private:
-    std::mutex mutex_;
-    std::condition_variable filled_;
-    std::deque<Message> messages_;
-};
-
-// The generator of a run, drawn from by one actor at a time (P14): the inbox orders the draws.
-class LiveContext final : public ActorContext {
-public:
-    LiveContext(std::vector<plan::Value> in, size_t outputs, plan::ActivationId activation,
-                Inbox& inbox, SplitMix64& random, Clock::time_point start)
-        : ActorContext(std::move(in), outputs),
-          activation_(activation),
-          inbox_(inbox),
-          random_(random),
-          start_(start) {}
-
-    // ---- for the code ----
-    Time now() const override {
-        return std::chrono::duration_cast<Duration>(Clock::now() - start_);
-    }
-    void linger(Duration time) override {
-        std::unique_lock lock(mutex_);
-        wake_.wait_until(lock, end_of(time), [] { return false; });
-    }
-    void log(std::string text) override { inbox_.post(Logged{activation_, std::move(text)}); }
-    void emit(BusEvent event) override { inbox_.post(Heard{std::move(event), true}); }
-    SplitMix64& random() override { return random_; }
-
-    // ---- for the deciding thread ----
-    void tell_to_stop() {
-        {
-            const std::lock_guard lock(mutex_);
-            stop_ = true;
-        }
-        wake_.notify_one();
-    }
-    void hear(const BusEvent& event) {
-        {
-            const std::lock_guard lock(mutex_);
-            if (!waiting_ || heard_ || (!event_.empty() && event_ != event.name)) return;
-            heard_ = event;
-        }
-        wake_.notify_one();
-    }
-
-protected:
-    Woken wait(Duration at_most, std::string_view event) override {
-        std::unique_lock lock(mutex_);
-        event_ = std::string(event);
-        waiting_ = true;
-        heard_.reset();
-        const auto ready = [this] { return stop_ || heard_; };
-        if (at_most == kNever) {
-            wake_.wait(lock, ready);
-        } else {
-            wake_.wait_until(lock, end_of(at_most), ready);
-        }
-        waiting_ = false;
-        return {.stop = stop_, .event = std::move(heard_)};
-    }
-
-private:
-    static Clock::time_point end_of(Duration time) {
-        constexpr Duration kFar = std::chrono::hours(24 * 365);
-        return Clock::now() + std::clamp(time, Duration{0}, kFar);
-    }
-
-    const plan::ActivationId activation_;
-    Inbox& inbox_;
-    SplitMix64& random_;
-    const Clock::time_point start_;
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    bool stop_ = false;
-    bool waiting_ = false;
-    std::string event_;
-    std::optional<BusEvent> heard_;
-};
-
-}  // namespace
 
 class RealTime::Engine {
 public:
@@ -182,8 +26,8 @@ private:
         int level;
         const plan::GraphSupervisor* of;
         std::shared_ptr<Supervisor> code;  // owners: this, and the check that runs
-        Clock::time_point started;
-        Clock::time_point next;
+        Time started;
+        Time next;
         bool waits_for_events = false;  // period 0, its inputs are read
         bool busy = false;              // a check runs
         bool first_done = false;
@@ -198,10 +42,10 @@ private:
         std::unique_ptr<LiveContext> context;
         bool told = false;
         Duration grace{};
-        std::optional<Clock::time_point> grace_ends;
+        std::optional<Time> grace_ends;
     };
 
-    Time now() const { return std::chrono::duration_cast<Duration>(Clock::now() - start_); }
+    Time now() const { return clock_.now(); }
 
     void obey();
     void obey(plan::StartWatch& command);
@@ -220,12 +64,15 @@ private:
 
     void start_due_checks();
     void start_check(Watching& watching);
-    void run_check(Watching& watching, Check check, std::optional<BusEvent> event,
-                   Clock::time_point deadline);
+    void run_check(Watching& watching, Check check, std::optional<BusEvent> event, Time deadline);
     void begin_if_checked();
     void check_deadlines();
     bool may_check(const Watching& watching) const;
-    std::optional<Clock::time_point> next_deadline() const;
+    std::optional<Time> next_deadline() const;
+    void let_debug();
+    void stand_still();
+    void go_on();
+    Ended decide();
     void note_lateness(Duration late);
     void hand_out_trace();
 
@@ -234,7 +81,7 @@ private:
     plan::Machine machine_;
     SplitMix64 random_;
     Inbox inbox_;
-    Clock::time_point start_{};
+    RunClock clock_;
     bool timed_out_ = false;
     std::map<plan::WatchId, Watching> watching_;
     plan::ActivationId begin_due_ = 0;
@@ -246,22 +93,36 @@ private:
 };
 
 Ended RealTime::Engine::run() {
-    start_ = Clock::now();
+    Debugger* const debugger = options_.debugger;
+    if (debugger) debugger->attach(machine_, [&inbox = inbox_] { inbox.nudge(); });
+    clock_.start();
+    let_debug();
+    Ended ended{.result = plan::PlanResult::Interrupted, .message = {}};
+    if (!debugger || !debugger->aborted()) ended = decide();
+    if (debugger) debugger->detach({now(), ended.result, ended.message});
+    return ended;
+}
+
+Ended RealTime::Engine::decide() {
     machine_.start(options_.set, Time{0});
     obey();
     while (!machine_.over()) {
+        let_debug();
         begin_if_checked();
+        let_debug();
         start_due_checks();
         obey();
         std::deque<Message> messages = inbox_.take();
         if (messages.empty() && begin_due_ == 0 && !machine_.over()) {
             machine_.time_passed();
-            inbox_.wait_until(next_deadline());
+            const std::optional<Time> next = next_deadline();
+            inbox_.wait_until(next ? std::optional(clock_.point_of(*next)) : std::nullopt);
             messages = inbox_.take();
         }
         for (Message& message : messages) {
             std::visit([this](auto& one) { take(one); }, message);
             obey();
+            let_debug();
         }
         check_deadlines();
         obey();
@@ -278,6 +139,34 @@ Ended RealTime::Engine::run() {
     return {machine_.result(), machine_.message(), timed_out_};
 }
 
+// ---- debugging ----
+
+// Between two decisions: what a debugger asks is answered; while it pauses the run, here. Then no
+// message is taken, no check starts, code is held at its waits, and the run's clock stands.
+void RealTime::Engine::let_debug() {
+    if (!options_.debugger) return;
+    bool standing = false;
+    for (bool more = true; more;) {
+        if (options_.debugger->paused() && !standing) {
+            standing = true;
+            stand_still();
+        }
+        more = options_.debugger->serve(now());
+        if (more) obey();
+    }
+    if (standing) go_on();
+}
+
+void RealTime::Engine::stand_still() {
+    clock_.halt();
+    for (const auto& [activation, code] : code_) code->context->hold();
+}
+
+void RealTime::Engine::go_on() {
+    clock_.release();
+    for (const auto& [activation, code] : code_) code->context->release();
+}
+
 // ---- what the machine wants ----
 
 void RealTime::Engine::obey() {
@@ -292,13 +181,12 @@ void RealTime::Engine::obey() {
 }
 
 void RealTime::Engine::obey(plan::StartWatch& command) {
-    const Clock::time_point now = Clock::now();
     Watching watching{.id = command.watch,
                       .level = command.level,
                       .of = command.supervisor,
                       .code = library_.make_supervisor(*command.supervisor->of),
-                      .started = now,
-                      .next = now,
+                      .started = now(),
+                      .next = now(),
                       .in = {},
                       .events = {}};
     watching_.emplace(command.watch, std::move(watching));
@@ -310,7 +198,7 @@ void RealTime::Engine::obey(plan::StartCode& command) {
     code->actor = library_.make_actor(*command.actor->of);
     code->context =
         std::make_unique<LiveContext>(std::move(command.in), command.actor->of->outputs.size(),
-                                      command.activation, inbox_, random_, start_);
+                                      command.activation, *code->actor, inbox_, random_, clock_);
     code->grace = Duration{command.actor->of->grace_ms * 1000};
     code_[command.activation] = code;
     const auto body = [code, &inbox = inbox_] {
@@ -340,7 +228,7 @@ void RealTime::Engine::obey(plan::StopCode& command) {
     }
     Code& code = *found->second;
     code.told = true;
-    code.grace_ends = Clock::now() + code.grace;
+    code.grace_ends = now() + code.grace;
     code.context->tell_to_stop();
 }
 
@@ -375,9 +263,8 @@ void RealTime::Engine::take(Checked& message) {
     if (message.late > kLateness) machine_.late(message.watch, message.late, now());
     if (watching.period().count() > 0) {
         // The next whole multiple that lies ahead; one that an overrun has passed is left out.
-        const auto since = std::chrono::duration_cast<Duration>(Clock::now() - watching.started);
-        const Duration planned =
-            std::chrono::duration_cast<Duration>(watching.next - watching.started);
+        const Duration since = now() - watching.started;
+        const Duration planned = watching.next - watching.started;
         if (since >= planned) {
             machine_.late(message.watch, since - planned + watching.period(), now());
             watching.next = watching.started + (since / watching.period() + 1) * watching.period();
@@ -417,10 +304,10 @@ bool RealTime::Engine::may_check(const Watching& watching) const {
 
 void RealTime::Engine::start_due_checks() {
     std::vector<plan::WatchId> due;
-    const Clock::time_point now = Clock::now();
+    const Time at = now();
     for (const auto& [id, watching] : watching_) {
         if (watching.busy || !may_check(watching)) continue;
-        const bool timed = !watching.waits_for_events && watching.next <= now;
+        const bool timed = !watching.waits_for_events && watching.next <= at;
         if (timed || !watching.events.empty()) due.push_back(id);
     }
     for (const plan::WatchId id : due) {
@@ -430,9 +317,9 @@ void RealTime::Engine::start_due_checks() {
 }
 
 void RealTime::Engine::start_check(Watching& watching) {
-    const Clock::time_point deadline = watching.next;
+    const Time deadline = watching.next;
     Check check;
-    check.since_start = std::chrono::duration_cast<Duration>(deadline - watching.started);
+    check.since_start = deadline - watching.started;
     if (!watching.waits_for_events) {
         Result<std::vector<plan::Value>> in = machine_.read_inputs(watching.id);
         if (!in.ok()) {
@@ -453,17 +340,18 @@ void RealTime::Engine::start_check(Watching& watching) {
     BusEvent event = std::move(watching.events.front());
     watching.events.pop_front();
     check.in = watching.in;
-    run_check(watching, std::move(check), std::move(event), Clock::now());
+    run_check(watching, std::move(check), std::move(event), now());
 }
 
 void RealTime::Engine::run_check(Watching& watching, Check check, std::optional<BusEvent> event,
-                                 Clock::time_point deadline) {
+                                 Time deadline) {
     watching.busy = true;
     ++checks_running_;
     workers_.start([watch = watching.id, code = watching.code, check = std::move(check),
-                    event = std::move(event), deadline, &inbox = inbox_]() mutable {
+                    event = std::move(event), deadline, &clock = clock_,
+                    &inbox = inbox_]() mutable {
         Checked checked{watch, std::nullopt, false, {}, {}};
-        checked.late = std::chrono::duration_cast<Duration>(Clock::now() - deadline);
+        checked.late = clock.now() - deadline;
         if (event) check.event = &*event;
         try {
             checked.given = code->check(check);
@@ -482,6 +370,7 @@ void RealTime::Engine::begin_if_checked() {
     for (const auto& [id, watching] : watching_) {
         if (!watching.first_done) return;
     }
+    if (options_.debugger && options_.debugger->stops_before_begin()) return;
     machine_.begin(std::exchange(begin_due_, 0), now());
     obey();
 }
@@ -489,23 +378,25 @@ void RealTime::Engine::begin_if_checked() {
 // ---- time ----
 
 void RealTime::Engine::check_deadlines() {
-    const Clock::time_point now_point = Clock::now();
+    const Time at = now();
     for (const auto& [activation, code] : code_) {
-        if (code->grace_ends && *code->grace_ends < now_point) {
+        if (code->grace_ends && *code->grace_ends < at) {
             code->grace_ends.reset();
             machine_.overstayed(activation, now());
             break;
         }
     }
+    Debugger* const debugger = options_.debugger;
+    if (debugger && debugger->instant() && *debugger->instant() <= at) debugger->reach_instant(at);
     if (options_.max_time && !timed_out_ && now() >= *options_.max_time && !machine_.over()) {
         timed_out_ = true;
         machine_.abort(now());
     }
 }
 
-std::optional<Clock::time_point> RealTime::Engine::next_deadline() const {
-    std::optional<Clock::time_point> next;
-    const auto consider = [&next](Clock::time_point at) {
+std::optional<Time> RealTime::Engine::next_deadline() const {
+    std::optional<Time> next;
+    const auto consider = [&next](Time at) {
         if (!next || at < *next) next = at;
     };
     for (const auto& [id, watching] : watching_) {
@@ -516,7 +407,8 @@ std::optional<Clock::time_point> RealTime::Engine::next_deadline() const {
     for (const auto& [activation, code] : code_) {
         if (code->grace_ends) consider(*code->grace_ends);
     }
-    if (options_.max_time && !timed_out_) consider(start_ + *options_.max_time);
+    if (options_.max_time && !timed_out_) consider(*options_.max_time);
+    if (options_.debugger && options_.debugger->instant()) consider(*options_.debugger->instant());
     return next;
 }
 
@@ -543,6 +435,7 @@ Lateness RealTime::Engine::lateness() const {
 
 void RealTime::Engine::hand_out_trace() {
     for (const plan::TraceEvent& event : machine_.take_trace()) {
+        if (options_.debugger) options_.debugger->see(event);
         if (options_.on_trace) options_.on_trace(event);
     }
 }

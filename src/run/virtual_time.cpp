@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "run/debugger.hpp"
+
 namespace vagus::run {
 
 using plan::Machine;
@@ -109,9 +111,19 @@ VirtualTime::VirtualTime(const plan::Graph& graph, const CodeLibrary& library,
 VirtualTime::~VirtualTime() = default;
 
 Ended VirtualTime::run() {
+    Debugger* const debugger = options_.debugger;
+    if (debugger) debugger->attach(machine_, {});
+    let_debug();
+    Ended ended{.result = plan::PlanResult::Interrupted, .message = {}};
+    if (!debugger || !debugger->aborted()) ended = decide();
+    if (debugger) debugger->detach({now_, ended.result, ended.message});
+    return ended;
+}
+
+Ended VirtualTime::decide() {
     machine_.start(options_.set, now_);
     obey();
-    while (!machine_.over()) {
+    for (let_debug(); !machine_.over(); let_debug()) {
         if (std::exchange(abort_asked_, false)) {
             machine_.abort(now_);
         } else if (!take_first_due() && !advance()) {
@@ -128,6 +140,12 @@ Ended VirtualTime::run() {
     finish_code();
     hand_out_trace();
     return {machine_.result(), machine_.message(), timed_out_};
+}
+
+// Between two decisions: what a debugger asks is answered; while it pauses the run, here.
+void VirtualTime::let_debug() {
+    if (!options_.debugger) return;
+    while (options_.debugger->serve(now_)) obey();
 }
 
 // ---- what the machine wants ----
@@ -233,6 +251,7 @@ bool VirtualTime::take_first_due() {
         return true;
     }
     if (begin_due_) {
+        if (options_.debugger && options_.debugger->stops_before_begin()) return true;
         const plan::ActivationId activation = begin_due_->activation;
         begin_due_.reset();
         machine_.begin(activation, now_);
@@ -369,12 +388,24 @@ bool VirtualTime::advance() {
         return false;
     }
     if (!next) return false;
+    if (pause_comes_first(*next)) {
+        now_ = *options_.debugger->instant();
+        options_.debugger->reach_instant(now_);
+        return true;
+    }
     now_ = *next;
     return true;
 }
 
+bool VirtualTime::pause_comes_first(Time next) const {
+    if (!options_.debugger) return false;
+    const std::optional<Time> instant = options_.debugger->instant();
+    return instant && *instant <= next;
+}
+
 void VirtualTime::hand_out_trace() {
     for (const plan::TraceEvent& event : machine_.take_trace()) {
+        if (options_.debugger) options_.debugger->see(event);
         if (options_.on_trace) options_.on_trace(event);
     }
 }

@@ -34,6 +34,7 @@ private:
     struct Watching;
     struct Code;
 
+    Ended decide();
     void obey();
     void obey(plan::StartWatch& command);
     void obey(plan::StopWatch& command);
@@ -52,6 +53,8 @@ private:
     void deliver(const BusEvent& event);
     std::optional<Time> next_due() const;
     bool advance();
+    bool pause_comes_first(Time next) const;
+    void let_debug();
     void hand_out_trace();
 
     const CodeLibrary& library_;

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <compare>
 
+#include "plan/compare.hpp"
 #include "run/code.hpp"
 
 namespace vagus::toolbox {
@@ -12,35 +12,6 @@ namespace vagus::toolbox {
 namespace {
 
 constexpr double kSecondsMax = 1e12;
-
-int64_t integer_of(const plan::Value& value) {
-    return value.type() == plan::Type::Bool ? int64_t{value.boolean()} : value.integer();
-}
-
-bool is_whole(const plan::Value& value) {
-    return value.type() == plan::Type::Bool || value.type() == plan::Type::Int;
-}
-
-double number_of(const plan::Value& value) {
-    const Result<plan::Value> converted = plan::convert(value, plan::Type::Float);
-    if (!converted.ok()) throw run::CodeError(converted.error().what);
-    return converted.value().number();
-}
-
-std::partial_ordering order(const plan::Value& left, const plan::Value& right) {
-    if (left.type() == plan::Type::String && right.type() == plan::Type::String) {
-        return left.string().compare(right.string()) <=> 0;
-    }
-    if (is_whole(left) && is_whole(right)) return integer_of(left) <=> integer_of(right);
-    return number_of(left) <=> number_of(right);
-}
-
-bool compare_objects(const plan::Value& left, std::string_view op, const plan::Value& right) {
-    if (left.type() != right.type() || (op != "==" && op != "!=")) {
-        throw run::CodeError("an object can only be compared with an object, by == or !=");
-    }
-    return (left.object() == right.object()) == (op == "==");
-}
 
 }  // namespace
 
@@ -51,20 +22,9 @@ Duration duration_of(double seconds) {
 }
 
 bool compare(const plan::Value& left, std::string_view op, const plan::Value& right) {
-    const bool known =
-        op == "==" || op == "!=" || op == "<" || op == "<=" || op == ">" || op == ">=";
-    if (!known) {
-        throw run::CodeError(fmt::format("the operator \"{}\" is not one of == != < <= > >=", op));
-    }
-    if (left.type() == plan::Type::Object || right.type() == plan::Type::Object) {
-        return compare_objects(left, op, right);
-    }
-    const std::partial_ordering result = order(left, right);
-    if (op == "==") return result == 0;
-    if (op == "!=") return result != 0;
-    if (op == "<") return result < 0;
-    if (op == "<=") return result <= 0;
-    return op == ">" ? result > 0 : result >= 0;
+    const Result<bool> holds = plan::compare(left, op, right);
+    if (!holds.ok()) throw run::CodeError(holds.error().what);
+    return holds.value();
 }
 
 std::vector<int16_t> words_of(std::string_view text) {

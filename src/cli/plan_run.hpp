@@ -1,0 +1,68 @@
+// A plan made ready to run as the command line says: what `vagus plan run` and `debug` share.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plan/check.hpp"
+#include "plan/graph.hpp"
+#include "run/code.hpp"
+#include "run/options.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace vagus::cli {
+
+class PlanDisk final : public plan::Files {
+public:
+    Result<std::string> read(const std::string& path) const override;
+};
+
+// On stderr, one a line.
+void show_findings(const plan::Findings& findings);
+
+struct PlanRunOptions {
+    std::string file;
+    std::vector<std::string> set;
+    std::string clock = "real";
+    uint64_t seed = 1;
+    std::string max_time;
+    std::string trace;
+};
+
+void add_plan_file(CLI::App& verb, std::string& file);
+void add_run_options(CLI::App& verb, PlanRunOptions& options);
+
+class PlanRun {
+public:
+    // Nothing if it cannot run; it has complained then.
+    static std::unique_ptr<PlanRun> prepare(const PlanRunOptions& options);
+    ~PlanRun();
+
+    const plan::Graph& graph() const { return graph_; }
+    bool in_virtual_time() const { return virtual_time_; }
+    // Also hears the trace, on the deciding thread. Before a run.
+    void listen(std::function<void(const plan::TraceEvent&)> listener);
+    // Can be called again: each is a run of its own.
+    run::Ended run(run::Debugger* debugger = nullptr);
+
+private:
+    class TraceSink;
+    PlanRun();
+    Status take_options(const PlanRunOptions& options);
+
+    run::CodeLibrary library_;
+    plan::Checked checked_;
+    plan::Graph graph_;
+    run::RunOptions how_;
+    bool virtual_time_ = false;
+    std::unique_ptr<TraceSink> sink_;
+    std::function<void(const plan::TraceEvent&)> listener_;
+};
+
+}  // namespace vagus::cli

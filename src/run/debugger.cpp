@@ -1,0 +1,293 @@
+#include "run/debugger.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+
+#include "base/nearest.hpp"
+#include "run/debug_view.hpp"
+
+namespace vagus::run {
+
+namespace {
+
+struct Posted {
+    uint64_t number;
+    Request request;
+};
+
+// Both directions between the deciding thread and all others.
+class Mailbox {
+public:
+    Result<uint64_t> post(Request request) {
+        const std::lock_guard lock(mutex_);
+        if (requests_.size() >= kDebugQueueMax) {
+            return Error{Code::Limit, fmt::format("{} requests wait already: the run does not "
+                                                  "come to answer them",
+                                                  kDebugQueueMax)};
+        }
+        requests_.push_back({++last_, std::move(request)});
+        waiting_ = true;
+        came_.notify_one();
+        // Under the lock, so that the executor lives as long as the call.
+        if (wake_) wake_();
+        return last_;
+    }
+
+    void report(Report report) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (reports_.size() >= kDebugQueueMax) reports_.pop_front();
+            reports_.push_back(std::move(report));
+        }
+        reported_.notify_one();
+    }
+
+    std::optional<Report> wait_report(Duration at_most) {
+        std::unique_lock lock(mutex_);
+        reported_.wait_for(lock, at_most, [this] { return !reports_.empty(); });
+        if (reports_.empty()) return std::nullopt;
+        Report report = std::move(reports_.front());
+        reports_.pop_front();
+        return report;
+    }
+
+    void set_wake(std::function<void()> wake) {
+        const std::lock_guard lock(mutex_);
+        wake_ = std::move(wake);
+    }
+
+    std::optional<Posted> take() {
+        if (!waiting_) return std::nullopt;
+        const std::lock_guard lock(mutex_);
+        return take_locked();
+    }
+
+    Posted wait() {
+        std::unique_lock lock(mutex_);
+        came_.wait(lock, [this] { return !requests_.empty(); });
+        return *take_locked();
+    }
+
+private:
+    std::optional<Posted> take_locked() {
+        if (requests_.empty()) return std::nullopt;
+        Posted posted = std::move(requests_.front());
+        requests_.pop_front();
+        waiting_ = !requests_.empty();
+        return posted;
+    }
+
+    std::mutex mutex_;
+    std::condition_variable came_;
+    std::condition_variable reported_;
+    std::deque<Posted> requests_;
+    std::deque<Report> reports_;
+    std::function<void()> wake_;
+    uint64_t last_ = 0;
+    std::atomic<bool> waiting_ = false;  // so that a decision costs no lock
+};
+
+const Error kNotPaused{Code::Refused, "the plan runs; pause it first"};
+const Error kNotStarted{Code::Refused,
+                        "the run has not started; step to its first actor, or give values at the "
+                        "start with --set NAME=VALUE"};
+
+}  // namespace
+
+class Debugger::Core {
+public:
+    Core(const plan::Graph& graph, At first) : first_(first), breakpoints_(graph) {}
+
+    Result<Reply> answer(AddBreakpoint& asked) {
+        const int id = TRY(breakpoints_.add(std::move(asked.breakpoint)));
+        return Reply(id);
+    }
+    Result<Reply> answer(RemoveBreakpoint& asked) { return reply(breakpoints_.remove(asked.id)); }
+    Result<Reply> answer(EnableBreakpoint& asked) {
+        return reply(breakpoints_.enable(asked.id, asked.enabled));
+    }
+    Result<Reply> answer(ListBreakpoints&) { return Reply(breakpoints_.list()); }
+    Result<Reply> answer(Pause& asked) {
+        if (asked.at && *asked.at > now_) {
+            instant_ = asked.at;
+        } else if (!paused_) {
+            stop(Stopped::Why::Asked);
+        }
+        return Reply(Done{});
+    }
+    Result<Reply> answer(Continue&) { return go_on(false); }
+    Result<Reply> answer(Step&) { return go_on(true); }
+    Result<Reply> answer(Abort&) {
+        abort_asked_ = true;
+        paused_ = false;
+        machine_->abort(now_);
+        return Reply(Done{});
+    }
+    Result<Reply> answer(Look&) { return Reply(where()); }
+    Result<Reply> answer(Evaluate& asked) {
+        return as_reply(evaluate(*machine_, asked.level, asked.expression));
+    }
+    Result<Reply> answer(SetVariable& asked) {
+        if (!paused_) return kNotPaused;
+        if (machine_->depth() == 0) return kNotStarted;
+        const int slot = TRY(find_variable(*machine_, asked.level, asked.name));
+        const Status written = machine_->write_outside(asked.level, slot, asked.value, now_);
+        if (written.ok()) return Reply(Done{});
+        return Error{Code::BadInput,
+                     fmt::format("the variable {}: {}", asked.name, written.error().what)};
+    }
+    Result<Reply> answer(RaiseEvent& asked) {
+        if (!paused_) return kNotPaused;
+        if (machine_->depth() == 0) return kNotStarted;
+        const Raised raised =
+            TRY(find_raised(*machine_, asked.supervisor, asked.event, asked.outputs));
+        machine_->raise(raised.watch, raised.given, now_);
+        return Reply(Done{});
+    }
+
+    Where where() const {
+        Where seen = look(*machine_);
+        seen.at = now_;
+        seen.paused = paused_;
+        return seen;
+    }
+
+    void stop(Stopped::Why why, std::vector<int> breakpoints = {}) {
+        paused_ = true;
+        step_ = false;
+        mailbox_.report(Stopped{why, std::move(breakpoints), where()});
+    }
+
+    // Pauses for what was met since the last decision.
+    void stop_if_met() {
+        add(breakpoints_.settle());
+        const bool pauses = stepped_ || !met_.empty();
+        if (pauses && !paused_ && !machine_->over()) {
+            stop(met_.empty() ? Stopped::Why::Step : Stopped::Why::Breakpoint, met_);
+        }
+        met_.clear();
+        stepped_ = false;
+    }
+
+    void add(std::vector<int> hits) { met_.insert(met_.end(), hits.begin(), hits.end()); }
+
+    static Result<Reply> reply(const Status& status) {
+        if (!status.ok()) return status.error();
+        return Reply(Done{});
+    }
+    static Result<Reply> as_reply(Result<plan::Value> value) {
+        if (!value.ok()) return value.error();
+        return Reply(std::move(value.value()));
+    }
+
+    const At first_;
+    Mailbox mailbox_;
+    // From here on: the deciding thread's.
+    Breakpoints breakpoints_;
+    plan::Machine* machine_ = nullptr;
+    Time now_{0};
+    bool paused_ = false;
+    bool step_ = false;     // stop before the next begin
+    bool stepped_ = false;  // that is now
+    bool abort_asked_ = false;
+    std::vector<int> met_;              // breakpoints, in this decision
+    std::optional<Time> instant_;       // at which to pause
+    plan::ActivationId announced_ = 0;  // whose begin has been stopped at, or let pass
+
+private:
+    Result<Reply> go_on(bool step) {
+        if (!paused_) return Error{Code::Refused, "the plan runs already"};
+        paused_ = false;
+        step_ = step;
+        return Reply(Done{});
+    }
+};
+
+Debugger::Debugger(const plan::Graph& graph, At first)
+    : core_(std::make_unique<Core>(graph, first)) {}
+Debugger::~Debugger() = default;
+
+Result<uint64_t> Debugger::post(Request request) {
+    return core_->mailbox_.post(std::move(request));
+}
+
+std::optional<Report> Debugger::wait_report(Duration at_most) {
+    return core_->mailbox_.wait_report(at_most);
+}
+
+void Debugger::attach(plan::Machine& machine, std::function<void()> wake) {
+    Core& core = *core_;
+    core.machine_ = &machine;
+    core.now_ = Time{0};
+    core.breakpoints_.start_anew();
+    core.met_.clear();
+    core.step_ = core.stepped_ = core.abort_asked_ = false;
+    core.instant_.reset();
+    core.announced_ = 0;
+    core.paused_ = false;
+    core.mailbox_.set_wake(std::move(wake));
+    if (core.first_ == At::Start) core.stop(Stopped::Why::Start);
+}
+
+bool Debugger::serve(Time now) {
+    Core& core = *core_;
+    core.now_ = now;
+    const bool was_paused = core.paused_;
+    core.stop_if_met();
+    if (core.paused_ && !was_paused) return true;  // the executor first makes all stand still
+    if (core.abort_asked_ || core.machine_->over()) return false;
+    std::optional<Posted> posted =
+        core.paused_ ? std::optional(core.mailbox_.wait()) : core.mailbox_.take();
+    if (!posted) return false;
+    Result<Reply> reply =
+        std::visit([&core](auto& asked) { return core.answer(asked); }, posted->request);
+    core.mailbox_.report(Answer{posted->number, std::move(reply)});
+    return true;
+}
+
+bool Debugger::paused() const {
+    return core_->paused_;
+}
+
+bool Debugger::aborted() const {
+    return core_->abort_asked_;
+}
+
+void Debugger::see(const plan::TraceEvent& event) {
+    core_->add(core_->breakpoints_.see(event));
+}
+
+bool Debugger::stops_before_begin() {
+    Core& core = *core_;
+    const int level = core.machine_->depth() - 1;
+    const plan::ActivationId activation = core.machine_->activation_at(level);
+    if (core.announced_ == activation) return false;
+    core.announced_ = activation;
+    core.add(core.breakpoints_.settle());
+    core.add(core.breakpoints_.before_begin(level, *core.machine_->actor_at(level)));
+    core.stepped_ = core.step_;
+    return core.stepped_ || !core.met_.empty();
+}
+
+std::optional<Time> Debugger::instant() const {
+    return core_->instant_;
+}
+
+void Debugger::reach_instant(Time now) {
+    core_->instant_.reset();
+    core_->now_ = now;
+    if (!core_->paused_) core_->stop(Stopped::Why::Instant);
+}
+
+void Debugger::detach(const RunOver& over) {
+    core_->mailbox_.set_wake({});
+    core_->paused_ = false;
+    core_->machine_ = nullptr;
+    core_->mailbox_.report(over);
+}
+
+}  // namespace vagus::run

@@ -1,0 +1,169 @@
+// The parts of RealTime that its threads share: the run's clock, the inbox of the deciding thread,
+// and what an actor's code waits on. Only real_time.cpp includes this.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "run/code.hpp"
+#include "run/real_time.hpp"
+
+namespace vagus::run {
+
+using SteadyClock = std::chrono::steady_clock;
+
+// Time since the start of the run, without its pauses. Read from any thread; started, halted and
+// released by the deciding one.
+class RunClock {
+public:
+    void start();
+    // The clock stands from here to release().
+    void halt();
+    void release();
+    Time now() const;
+    SteadyClock::time_point point_of(Time time) const;
+
+private:
+    mutable std::mutex mutex_;            // over the two: a time is read of both at once
+    SteadyClock::time_point start_{};     // where a run without pauses would have started
+    std::optional<Time> halted_at_ = {};  // the time at which it stands
+};
+
+// ---- what other threads tell the deciding one ----
+
+struct CodeOver {  // run() has returned or thrown
+    plan::ActivationId activation;
+    plan::Given given;
+    bool failed;
+    std::string failure;
+};
+struct Checked {
+    plan::WatchId watch;
+    std::optional<plan::Given> given;
+    bool failed;
+    std::string failure;
+    Duration late;  // from the deadline to the begin of the check
+};
+struct Logged {
+    plan::ActivationId activation;
+    std::string text;
+};
+struct Heard {
+    BusEvent event;
+    bool own;  // emitted by the plan itself
+};
+struct Written {
+    int slot;
+    plan::Value value;
+};
+struct Aborted {};
+using Message = std::variant<CodeOver, Checked, Logged, Heard, Written, Aborted>;
+
+// The one door to the deciding thread.
+class Inbox {
+public:
+    void post(Message message) {
+        {
+            const std::lock_guard lock(mutex_);
+            messages_.push_back(std::move(message));
+        }
+        filled_.notify_one();
+    }
+
+    // Events from outside are bounded: a flood of them must not fill the memory.
+    bool post_bounded(Message message) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (messages_.size() >= kInboxMax) return false;
+            messages_.push_back(std::move(message));
+        }
+        filled_.notify_one();
+        return true;
+    }
+
+    std::deque<Message> take() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(messages_, {});
+    }
+
+    void wait_until(std::optional<SteadyClock::time_point> until) {
+        std::unique_lock lock(mutex_);
+        const auto ready = [this] { return nudged_ || !messages_.empty(); };
+        if (until) {
+            filled_.wait_until(lock, *until, ready);
+        } else {
+            filled_.wait(lock, ready);
+        }
+        nudged_ = false;
+    }
+
+    // Ends the wait although there is no message: a debugger asks.
+    void nudge() {
+        {
+            const std::lock_guard lock(mutex_);
+            nudged_ = true;
+        }
+        filled_.notify_one();
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable filled_;
+    std::deque<Message> messages_;
+    bool nudged_ = false;
+};
+
+// One running of an actor's code. While the run is paused its waits hold it (decision 0090).
+class LiveContext final : public ActorContext {
+public:
+    LiveContext(std::vector<plan::Value> in, size_t outputs, plan::ActivationId activation,
+                Actor& actor, Inbox& inbox, SplitMix64& random, const RunClock& clock)
+        : ActorContext(std::move(in), outputs),
+          activation_(activation),
+          actor_(actor),
+          inbox_(inbox),
+          random_(random),
+          clock_(clock) {}
+
+    // ---- for the code ----
+    Time now() const override { return clock_.now(); }
+    void linger(Duration time) override;
+    void log(std::string text) override { inbox_.post(Logged{activation_, std::move(text)}); }
+    void emit(BusEvent event) override { inbox_.post(Heard{std::move(event), true}); }
+    // The generator of a run, drawn from by one actor at a time (P14).
+    SplitMix64& random() override { return random_; }
+
+    // ---- for the deciding thread ----
+    void tell_to_stop();
+    void hear(const BusEvent& event);
+    void hold();
+    void release();
+
+protected:
+    Woken wait(Duration at_most, std::string_view event) override;
+
+private:
+    void stay_held(std::unique_lock<std::mutex>& lock);
+
+    const plan::ActivationId activation_;
+    Actor& actor_;
+    Inbox& inbox_;
+    SplitMix64& random_;
+    const RunClock& clock_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool stop_ = false;
+    bool held_ = false;
+    bool waiting_ = false;
+    std::string event_;
+    std::optional<BusEvent> heard_;
+};
+
+}  // namespace vagus::run

@@ -1,0 +1,61 @@
+#include "run/traced_variables.hpp"
+
+#include <algorithm>
+
+namespace vagus::run {
+
+int level_of(const plan::TraceEvent& event) {
+    return static_cast<int>(std::count(event.plan.begin(), event.plan.end(), '/'));
+}
+
+void TracedVariables::see(const plan::TraceEvent& event) {
+    const int level = level_of(event);
+    if (std::holds_alternative<plan::PlanStarted>(event.what)) {
+        start_plan(level);
+    } else if (std::holds_alternative<plan::PlanEnded>(event.what)) {
+        levels_.resize(static_cast<size_t>(level));
+    } else if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
+        Level& here = levels_[static_cast<size_t>(level)];
+        for (const plan::GraphActor& actor : here.plan->actors) {
+            if (actor.name == started->actor) here.actor = &actor;
+        }
+    } else if (const auto* written = std::get_if<plan::VariableWritten>(&event.what)) {
+        const auto& variables = at(level).plan->variables;
+        for (size_t slot = 0; slot < variables.size(); ++slot) {
+            if (variables[slot].name != written->variable) continue;
+            const Place place = place_of({level, static_cast<int>(slot)});
+            levels_[static_cast<size_t>(place.level)].values[static_cast<size_t>(place.slot)] =
+                written->value;
+        }
+    }
+}
+
+void TracedVariables::start_plan(int level) {
+    levels_.resize(static_cast<size_t>(level));
+    const plan::GraphPlan* plan = &graph_->plans.front();
+    if (level > 0) plan = &graph_->plans[static_cast<size_t>(at(level - 1).actor->sub_plan)];
+    Level started{.plan = plan, .values = {}};
+    for (const plan::GraphVariable& variable : plan->variables) {
+        started.values.push_back(variable.initial);
+    }
+    levels_.push_back(std::move(started));
+}
+
+TracedVariables::Place TracedVariables::place_of(Place place) const {
+    while (place.level > 0) {
+        const auto& shared = at(place.level - 1).actor->shared;
+        const auto found =
+            std::find_if(shared.begin(), shared.end(),
+                         [slot = place.slot](const auto& pair) { return pair.first == slot; });
+        if (found == shared.end()) break;
+        place = {place.level - 1, found->second};
+    }
+    return place;
+}
+
+const plan::Value& TracedVariables::value(int level, int slot) const {
+    const Place place = place_of({level, slot});
+    return at(place.level).values[static_cast<size_t>(place.slot)];
+}
+
+}  // namespace vagus::run

@@ -1,0 +1,45 @@
+// What the variables of a run hold, at each line of its trace: rebuilt from the trace alone, so
+// that also a value which stood only between two writes of one decision is seen.
+#pragma once
+
+#include <vector>
+
+#include "plan/graph.hpp"
+#include "plan/trace.hpp"
+
+namespace vagus::run {
+
+// The number of plans around the one that a line of the trace tells of; 0: the outermost.
+int level_of(const plan::TraceEvent& event);
+
+class TracedVariables {
+public:
+    explicit TracedVariables(const plan::Graph& graph) : graph_(&graph) {}
+
+    void see(const plan::TraceEvent& event);
+
+    int depth() const { return static_cast<int>(levels_.size()); }
+    const plan::GraphPlan& plan_at(int level) const { return *at(level).plan; }
+    const plan::Value& value(int level, int slot) const;
+
+private:
+    struct Level {
+        const plan::GraphPlan* plan = nullptr;
+        std::vector<plan::Value> values;          // of shared variables: the caller's count
+        const plan::GraphActor* actor = nullptr;  // the one that started last
+    };
+    // Where a variable's value is kept: that of a shared one by an outer plan.
+    struct Place {
+        int level;
+        int slot;
+    };
+
+    const Level& at(int level) const { return levels_[static_cast<size_t>(level)]; }
+    Place place_of(Place place) const;
+    void start_plan(int level);
+
+    const plan::Graph* graph_;
+    std::vector<Level> levels_;
+};
+
+}  // namespace vagus::run

@@ -1,0 +1,146 @@
+"""`vagus plan debug`, driven by lines of stdin in virtual time: every command, what it says, what it refuses."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+VAGUS = os.environ.get("VAGUS_BIN", str(ROOT / "build/release/bin/vagus"))
+
+# Waits 0.5 s, counts n up to 3 and ends: at 0.5, 1.0, 1.5, 2.0 it loops, at 2.5 it is done.
+COUNT = """{
+  "format": "vagus-plan/1",
+  "name": "Count",
+  "configuration": {
+    "n": { "type": "int", "initial": 0 },
+    "limit": { "type": "int", "initial": 3 },
+    "word": { "type": "string", "initial": "a b" }
+  },
+  "start": { "actor": "wait", "supervisors": {
+    "tick": { "template": "Every", "in": { "seconds": 10 }, "out": { "count": "n" }, "events": { "Tick": "@terminate" } } } },
+  "actors": {
+    "wait": { "template": "Wait", "in": { "seconds": "0.5" }, "states": { "Done": "step" } },
+    "step": { "template": "For", "in": { "counter": "n", "last": "limit" }, "out": { "counter": "n" },
+      "states": { "Loop": "wait", "Done": "@terminate" } }
+  }
+}
+"""
+
+
+class Prompt(unittest.TestCase):
+    def debug(self, *lines, exit_code=0, arguments=()):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "Count.plan.json"
+            path.write_text(COUNT)
+            done = subprocess.run([VAGUS, "plan", "debug", path, "--clock", "virtual", *arguments], timeout=60,
+                                  input="".join(line + "\n" for line in lines), capture_output=True, text=True)
+        self.assertEqual(done.returncode, exit_code, done.stdout + done.stderr)
+        return done.stdout, done.stderr
+
+    def test_break_list_and_run(self):
+        out, err = self.debug("break actor step count 2", "break state step Loop if n == 2", "break when n > 2",
+                              "run", "run", "list", exit_code=3)
+        self.assertNotIn("vagus:", err)
+        self.assertEqual(out, """\
+breakpoint 1 in Count actor step count 2: 0 hits
+breakpoint 2 in Count state step Loop if n == 2: 0 hits
+breakpoint 3 in Count when n > 2: 0 hits
+breakpoint 1, paused at 1.000000, Count: step (activation 4) is about to begin
+breakpoint 2, paused at 1.000000, Count: wait (activation 5) is about to begin
+1 in Count actor step count 2: 2 hits
+2 in Count state step Loop if n == 2: 1 hit
+3 in Count when n > 2: 0 hits
+""")
+
+    def test_delete_enable_disable(self):
+        out, err = self.debug("break actor step", "break actor wait", "disable 1", "list", "delete 2", "run", "list",
+                              "enable all", "delete all", "list", "delete 7", "delete x", "delete")
+        self.assertIn("1 in Count actor step: 0 hits, disabled\n", out)
+        self.assertIn("the run is over at 2.500000: OK\n", out)
+        self.assertIn("no breakpoints; `break actor NAME` sets one\n", out)
+        self.assertIn("there is no breakpoint 7", err)
+        self.assertIn('"x" is not the number of a breakpoint', err)
+        self.assertIn("which breakpoint? its number, or all", err)
+
+    def test_step_where_and_continue(self):
+        out, _ = self.debug("where", "step", "step", "where", "continue")
+        self.assertEqual(out, """\
+before the start
+paused at 0.000000, Count: wait (activation 1) is about to begin
+paused at 0.500000, Count: step (activation 2) is about to begin
+paused at 0.500000
+0 Count: step (activation 2) is about to begin
+    tick (global) watches: Tick
+the run is over at 2.500000: OK
+""")
+
+    def test_print_and_set(self):
+        out, err = self.debug("print n", "set n = 1", "step", "step", "print n", "set n = limit * 2", "print",
+                              "print n > 3", "print in 0 word & 'c'", "set word = 'x y'", "print word",
+                              "set limt = 3", "set n", "print in 3 n", "print n +", "continue")
+        self.assertEqual(out, """\
+paused at 0.000000, Count: wait (activation 1) is about to begin
+paused at 0.500000, Count: step (activation 2) is about to begin
+0
+0 Count
+n = 6 (int)
+limit = 3 (int)
+word = "a b" (string)
+true
+"a bc"
+"x y"
+the run is over at 0.500000: OK
+""")
+        self.assertIn("the run has not started", err)
+        self.assertIn('the plan Count has no variable "limt"; did you mean limit?', err)
+        self.assertIn("expected NAME = EXPRESSION", err)
+        self.assertIn("there is no level 3", err)
+
+    def test_raise_pause_and_trace(self):
+        out, err = self.debug("pause 0.7", "run", "trace on", "raise tik Tick", "raise tick", "raise tick Tick count",
+                              "raise tick Tick count=n+4", exit_code=3)
+        self.assertEqual(out, """\
+paused at 0.700000, Count: wait (activation 3) runs
+{"t":0.700000,"plan":"Count","kind":"event","supervisor":"tick","event":"Tick","target":"@terminate","global":true,"activation":3}
+{"t":0.700000,"plan":"Count","kind":"write","variable":"n","value":5,"by":"tick"}
+{"t":0.700000,"plan":"Count","kind":"interrupted","actor":"wait","activation":3,"ran":true,"stop_us":0}
+{"t":0.700000,"plan":"Count","kind":"plan-end","result":"Interrupted"}
+the run is over at 0.700000: Interrupted
+""")
+        self.assertIn('no supervisor "tik" watches now; did you mean tick?', err)
+        self.assertIn("expected SUPERVISOR EVENT", err)
+        self.assertIn("expected OUTPUT=EXPRESSION", err)
+
+    def test_trace_is_that_of_plan_run(self):
+        out, _ = self.debug("step", "step", "pause 1.2", "continue", "step", "continue", arguments=("--trace", "-"))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "Count.plan.json"
+            path.write_text(COUNT)
+            plain = subprocess.run([VAGUS, "plan", "run", path, "--clock", "virtual", "--trace", "-"],
+                                   capture_output=True, text=True, check=True, timeout=60).stdout
+        self.assertEqual([line for line in out.split("\n") if line.startswith("{")], plain.split("\n")[:-1])
+
+    def test_runs_again_with_the_breakpoints_kept(self):
+        out, _ = self.debug("run", "break actor step count 4", "run", "continue", "continue")
+        self.assertIn("breakpoint 1, paused at 2.000000", out)
+        self.assertEqual(out.count("the run is over at 2.500000: OK"), 2)
+
+    def test_help_trace_quit_and_unknown_words(self):
+        out, err = self.debug("help", "help step", "hlp", "r", "trace maybe", "break actr step", "break actor stp",
+                              "break actor", "break actor step count 0", "break in Cont actor step", "break when",
+                              "break event tick Tack", "break actor step count 2 extra", "# a comment", "", "trace off",
+                              "pause x", "quit", "run")
+        for command in ("break", "delete", "list", "run", "continue", "step", "pause", "print", "set", "raise", "where",
+                        "trace on | off", "help", "quit"):
+            self.assertIn("\n" + command, "\n" + out)
+        for sentence in ('no command "hlp"; did you mean help?', '"r" can be run or raise', "expected on or off",
+                         "did you mean actor?", 'no actor "stp"; did you mean step?', "the name of an actor is missing",
+                         "expected a whole number from 1", 'no plan "Cont"; did you mean Count?', "needs one",
+                         'no event "Tack"; did you mean Tick?', '"extra" is too much here', "expected seconds"):
+            self.assertIn(sentence, err)
+        self.assertNotIn("the run is over", out)
+
+
+if __name__ == "__main__":
+    unittest.main()

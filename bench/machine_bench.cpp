@@ -41,7 +41,8 @@ std::string ring(int actors) {
         "configuration":{"arg":{"type":"int","initial":0}},"start":{"actor":"a0"},"actors":{)";
     for (int i = 0; i < actors; ++i) {
         text += fmt::format(
-            R"({}"a{}":{{"template":"Wait","in":{{"seconds":"1+arg"}},"states":{{"Done":"@terminate"}},
+            R"({}"a{}":{{"template":"Wait","in":{{"seconds":"1+arg"}},
+            "states":{{"Done":"@terminate"}},
             "supervisors":{{"s{}":{{"template":"OnEvent","in":{{"event":"\"go\""}},
             "out":{{"arg0":"arg"}},"events":{{"Received":"a{}"}}}}}}}})",
             i == 0 ? "" : ",", i, i, (i + 1) % actors);

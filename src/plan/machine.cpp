@@ -102,7 +102,7 @@ void Machine::start_watch(int level, bool global, int index) {
     Watch& watch = global ? l.globals[i] : l.own[i];
     const GraphSupervisor& of = global ? l.plan->globals[i] : l.active().supervisors[i];
     watch = {.id = ++watches_, .level = level, .global = global, .index = index, .of = &of};
-    commands_.push_back(StartWatch{watch.id, level, global, index, &of});
+    commands_.emplace_back(StartWatch{watch.id, level, global, index, &of});
 }
 
 void Machine::activate(int level, int actor, Time now) {
@@ -124,7 +124,7 @@ void Machine::activate(int level, int actor, Time now) {
     restart_globals(level);
     l.own.assign(l.active().supervisors.size(), {});
     for (size_t i = 0; i < l.own.size(); ++i) start_watch(level, false, static_cast<int>(i));
-    commands_.push_back(Activate{l.activation, level});
+    commands_.emplace_back(Activate{l.activation, level});
 }
 
 void Machine::restart_globals(int level) {
@@ -157,7 +157,7 @@ void Machine::begin(ActivationId activation, Time now) {
     trace(level, now, std::move(started));
     l.phase = Phase::Running;
     if (actor.of) {
-        commands_.push_back(StartCode{activation, level, &actor, std::move(in.value())});
+        commands_.emplace_back(StartCode{activation, level, &actor, std::move(in.value())});
     } else if (depth() >= kPlanDepthMax) {
         fail(activation,
              fmt::format("plans are nested more than {} deep; the outermost counts as 1",
@@ -329,7 +329,7 @@ void Machine::interrupt(int level, After after, Time now) {
     if (innermost.phase == Phase::Stopping) return;
     if (innermost.phase == Phase::Running) {
         innermost.phase = Phase::Stopping;
-        commands_.push_back(StopCode{innermost.activation});
+        commands_.emplace_back(StopCode{innermost.activation});
         return;
     }
     finish_stop(now);
@@ -389,7 +389,7 @@ void Machine::end_plan(int level, PlanResult result, std::string message, Time n
         caller.sub_outputs.emplace_back(*l.cells[static_cast<size_t>(slot)]);
     }
     levels_.pop_back();
-    commands_.push_back(SubPlanOver{caller.activation, level - 1});
+    commands_.emplace_back(SubPlanOver{caller.activation, level - 1});
 }
 
 void Machine::fail_plan(int level, std::string_view element, std::string_view cause, Time now) {
@@ -400,7 +400,7 @@ void Machine::fail_plan(int level, std::string_view element, std::string_view ca
 
 void Machine::stop_watch(Watch& watch) {
     if (watch.id == 0) return;
-    commands_.push_back(StopWatch{watch.id});
+    commands_.emplace_back(StopWatch{watch.id});
     watch.id = 0;
     watch.rest = Rest::No;
 }

@@ -81,6 +81,18 @@ mode_t rights_for(const std::string& path) {
     return 0666u & ~mask;
 }
 
+// Devices and pipes are written to; only files are replaced.
+bool is_replaceable(const std::string& path) {
+    struct stat old = {};
+    return ::stat(path.c_str(), &old) != 0 || S_ISREG(old.st_mode);
+}
+
+Status write_through(const std::string& path, std::string_view content) {
+    const OpenFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (file.get() < 0) return failure(path, "written");
+    return write_all(file, content, path);
+}
+
 Status fill(const std::string& beside, std::string_view content, mode_t rights,
             const std::string& path, int descriptor) {
     const OpenFile file(descriptor);
@@ -103,6 +115,7 @@ Result<std::string> read_file(const std::string& path) {
 
 Status write_file(const std::string& path, std::string_view content) {
     const std::string target = final_path(path);
+    if (!is_replaceable(target)) return write_through(path, content);
     std::string beside = target + ".XXXXXX";
     const int descriptor = ::mkostemp(beside.data(), O_CLOEXEC);
     if (descriptor < 0) return failure(path, "written");

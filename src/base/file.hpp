@@ -15,6 +15,7 @@ Result<std::string> read_file(const std::string& path);
 
 // Writes beside the file and renames over it, so that a crash leaves the old file or the new one,
 // never half of it.
+// What is no file (/dev/stdout, a pipe) is written to as it is.
 Status write_file(const std::string& path, std::string_view content);
 
 }  // namespace vagus

@@ -1,5 +1,6 @@
 #include "base/file.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -52,6 +53,18 @@ TEST_F(FileTest, WritesThroughASymbolicLink) {
     ASSERT_TRUE(write_file(path("link"), "new").ok());
     EXPECT_TRUE(fs::is_symlink(path("link")));
     EXPECT_EQ(read_file(path("real")).value(), "new");
+}
+
+// `-o /dev/null` by an administrator once left a file where the device had been.
+TEST_F(FileTest, WritesIntoAPipeAndDoesNotReplaceIt) {
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    const int reader = ::open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_TRUE(write_file(path("pipe"), "words").ok());
+    char read[8] = {};
+    EXPECT_EQ(::read(reader, read, sizeof read), 5);
+    EXPECT_STREQ(read, "words");
+    ::close(reader);
+    EXPECT_TRUE(fs::is_fifo(path("pipe")));
 }
 
 TEST_F(FileTest, NamesTheFileAndTheReason) {

@@ -64,8 +64,7 @@ private:
         for (const ToolboxName& toolbox : plan_.toolboxes) {
             if (checked_.library->find(toolbox.name)) continue;
             say("P2", "", toolbox.line,
-                fmt::format("there is no toolbox \"{}\"{}; load its file with --toolbox",
-                            toolbox.name,
+                fmt::format("there is no toolbox \"{}\"{}", toolbox.name,
                             hint(toolbox.name, names_of(checked_.library->toolboxes()))));
         }
     }

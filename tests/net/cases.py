@@ -89,7 +89,7 @@ class Net(unittest.TestCase):
                          "speed[1:1] = -7\nticks      = 0")
         self.assertIn("has 2 words", self.net("get", "rover", "speed[2]", *known, status=1))
         self.assertIn("takes 1 to 1 values", self.net("set", "rover", "speed[0]", "1", "2", *known, status=1))
-        self.assertIn("not in range", self.net("set", "rover", "ticks", "70000", *known, status=2))
+        self.assertIn("from -32768 to 65535", self.net("set", "rover", "ticks", "70000", *known, status=2))
         self.assertIn("did you mean ticks?", self.net("get", "rover", "tikcs", *known, status=1))
 
     def test_unknown_nodes_verbs_and_targets_are_said_with_a_way_out(self):

@@ -75,7 +75,9 @@ class Peers(unittest.TestCase):
         return ports
 
     def net(self, port, *arguments):
-        return run_vagus("net", f"tcp:127.0.0.1:{port}", *arguments)
+        # A robot under Xvfb on a busy machine may take its time to answer; `list` waits by its own rule.
+        patience = () if arguments[0] == "list" else ("--wait", 30)
+        return run_vagus("net", f"tcp:127.0.0.1:{port}", *arguments, *patience)
 
     def wait_for_nodes(self, port, names):
         """Asks until the network lists exactly these names."""

@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # An arrow means "may include" (docs/ARCHITECTURE.md). Nothing else may.
-BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "vm", "base", "isa", "wire"]
+BELOW_SESSION = ["embed", "run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "vm", "base", "isa", "wire"]
 MAY_INCLUDE = {
     "base": [],
     "isa": [],
@@ -23,6 +23,7 @@ MAY_INCLUDE = {
     "aesl": ["isa", "base"],
     "run": ["plan", "base"],
     "toolbox": ["run", "plan", "wire", "base"],
+    "embed": ["toolbox", "run", "plan", "base"],
     "sim": ["hub", "node", "vm", "isa", "wire", "base"],
     "debug": ["aesl", "wire", "base"],
     "net": ["hub", "wire", "base"],

@@ -11,6 +11,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/plan_debug.hpp"
+#include "cli/plan_generate.hpp"
 #include "cli/plan_run.hpp"
 #include "cli/verbs.hpp"
 #include "plan/check.hpp"
@@ -127,12 +128,14 @@ void add_format(CLI::App& plan, int& exit_code) {
 }  // namespace
 
 void add_plan(CLI::App& app, int& exit_code) {
-    CLI::App* plan = app.add_subcommand("plan", "checks, runs, debugs and formats plans");
+    CLI::App* plan =
+        app.add_subcommand("plan", "checks, runs, debugs and formats plans; programs of them");
     plan->require_subcommand(1);
     plan->footer("Example:\n  vagus plan run Square.plan.json --clock virtual --trace -");
     add_check(*plan, exit_code);
     add_run(*plan, exit_code);
     add_debug(*plan, exit_code);
+    add_plan_generate(*plan, exit_code);
     add_format(*plan, exit_code);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "embed/command_line.hpp"
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
 #include "run/code.hpp"
@@ -52,7 +53,6 @@ public:
     run::Ended run(run::Debugger* debugger = nullptr);
 
 private:
-    class TraceSink;
     PlanRun();
     Status take_options(const PlanRunOptions& options);
 
@@ -61,7 +61,7 @@ private:
     plan::Graph graph_;
     run::RunOptions how_;
     bool virtual_time_ = false;
-    std::unique_ptr<TraceSink> sink_;
+    std::unique_ptr<embed::TraceSink> sink_;
     std::function<void(const plan::TraceEvent&)> listener_;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <filesystem>
 #include <functional>
 
@@ -488,48 +489,72 @@ const Plan* Checked::sub_plan(const Plan& plan, const Actor& actor) const {
     return &plans[static_cast<size_t>(found->second)];
 }
 
-Checked check(const std::string& path, const Files& files, const Library& library) {
-    Checked checked;
-    checked.library = &library;
-    std::vector<Findings> by_file;
-    read_all(std::filesystem::path(path).lexically_normal().string(), files, checked, by_file);
-    for (const auto& [file, index] : checked.files) {
-        if (index < 0) continue;
-        const Plan& plan = checked.plans[static_cast<size_t>(index)];
-        Findings found;
-        Checker(checked, plan, found).check_plan();
-        by_file.push_back(std::move(found));
-    }
-    bool error = false;
-    for (const Findings& findings : by_file) error = error || has_error(findings);
-    if (!error) {
-        for (const Plan& plan : checked.plans) {
-            Findings found;
-            warn(checked, plan, found);
-            by_file.push_back(std::move(found));
-        }
-    }
-    // The outermost file first, then in the order in which the files were met.
+namespace {
+
+// The findings about one file, by line: those of the outermost file first, then in the order in
+// which the files were met.
+Findings by_file(const std::vector<Findings>& found, const std::string& first) {
     std::vector<std::string> order;
-    for (const Findings& findings : by_file) {
+    for (const Findings& findings : found) {
         for (const Finding& finding : findings) {
             if (std::find(order.begin(), order.end(), finding.file) == order.end()) {
                 order.push_back(finding.file);
             }
         }
     }
-    const std::string first = std::filesystem::path(path).lexically_normal().string();
     std::stable_partition(order.begin(), order.end(),
                           [&first](const std::string& file) { return file == first; });
+    Findings sorted;
     for (const std::string& file : order) {
         Findings of_file;
-        for (const Findings& findings : by_file) {
+        for (const Findings& findings : found) {
             std::copy_if(findings.begin(), findings.end(), std::back_inserter(of_file),
                          [&file](const Finding& finding) { return finding.file == file; });
         }
         sort_by_line(of_file);
-        checked.findings.insert(checked.findings.end(), of_file.begin(), of_file.end());
+        sorted.insert(sorted.end(), of_file.begin(), of_file.end());
     }
+    return sorted;
+}
+
+// Checks what has been read; `found` is what reading found.
+void check_read(Checked& checked, std::vector<Findings> found, const std::string& first) {
+    for (const auto& [file, index] : checked.files) {
+        if (index < 0) continue;
+        const Plan& plan = checked.plans[static_cast<size_t>(index)];
+        found.emplace_back();
+        Checker(checked, plan, found.back()).check_plan();
+    }
+    if (std::none_of(found.begin(), found.end(), has_error)) {
+        for (const Plan& plan : checked.plans) {
+            found.emplace_back();
+            warn(checked, plan, found.back());
+        }
+    }
+    checked.findings = by_file(found, first);
+}
+
+}  // namespace
+
+Checked check(const std::string& path, const Files& files, const Library& library) {
+    Checked checked;
+    checked.library = &library;
+    std::vector<Findings> found;
+    const std::string first = std::filesystem::path(path).lexically_normal().string();
+    read_all(first, files, checked, found);
+    check_read(checked, std::move(found), first);
+    return checked;
+}
+
+Checked check(std::vector<Plan> plans, Findings found, const Library& library) {
+    assert(!plans.empty());
+    Checked checked;
+    checked.library = &library;
+    checked.plans = std::move(plans);
+    for (size_t i = 0; i < checked.plans.size(); ++i) {
+        checked.files.emplace(checked.plans[i].file, static_cast<int>(i));
+    }
+    check_read(checked, {std::move(found)}, checked.plans.front().file);
     return checked;
 }
 

@@ -46,6 +46,10 @@ struct Checked {
 
 Checked check(const std::string& path, const Files& files, const Library& library);
 
+// The same for plans that a program has made, the outermost first; each has a `file` of its own.
+// `found` is what making them found already.
+Checked check(std::vector<Plan> plans, Findings found, const Library& library);
+
 // What an editor asks for: the same, with one file's text as it stands on the screen.
 std::string format_findings_json(const Findings& findings);
 

@@ -124,6 +124,7 @@ Ended VirtualTime::decide() {
     machine_.start(options_.set, now_);
     obey();
     for (let_debug(); !machine_.over(); let_debug()) {
+        write_from_outside();
         if (std::exchange(abort_asked_, false)) {
             machine_.abort(now_);
         } else if (!take_first_due() && !advance()) {
@@ -401,6 +402,13 @@ bool VirtualTime::pause_comes_first(Time next) const {
     if (!options_.debugger) return false;
     const std::optional<Time> instant = options_.debugger->instant();
     return instant && *instant <= next;
+}
+
+// Listeners that hear of these writes may ask for more: those come next time.
+void VirtualTime::write_from_outside() {
+    for (const auto& [slot, value] : std::exchange(sets_asked_, {})) {
+        if (machine_.write_outside(slot, value, now_).ok()) hand_out_trace();
+    }
 }
 
 void VirtualTime::hand_out_trace() {

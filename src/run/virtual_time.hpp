@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/rng.hpp"
@@ -28,6 +29,9 @@ public:
     Ended run();
     // Ends the run as soon as what is being taken is done (P28). For on_trace and for actors' code.
     void abort() { abort_asked_ = true; }
+    // Writes a variable of the outermost plan as soon as what is being taken is done (P29); a value
+    // that does not fit its type is dropped. For on_trace and for actors' code.
+    void set(int slot, plan::Value value) { sets_asked_.emplace_back(slot, std::move(value)); }
 
 private:
     class Context;
@@ -55,6 +59,7 @@ private:
     bool advance();
     bool pause_comes_first(Time next) const;
     void let_debug();
+    void write_from_outside();
     void hand_out_trace();
 
     const CodeLibrary& library_;
@@ -64,6 +69,7 @@ private:
     Time now_{0};
     bool timed_out_ = false;
     bool abort_asked_ = false;
+    std::vector<std::pair<int, plan::Value>> sets_asked_;
     std::vector<std::unique_ptr<Watching>> watching_;  // in the order of P21
     std::optional<plan::Activate> begin_due_;
     std::optional<plan::SubPlanOver> over_due_;

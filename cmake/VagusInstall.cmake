@@ -1,0 +1,31 @@
+# `cmake --install`: the program, and what embeds plans in programs of others (find_package(Vagus)).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# In the order of the layers: each needs those before it.
+set(VAGUS_INSTALLED_MODULES base isa wire plan run toolbox embed)
+
+foreach(module IN LISTS VAGUS_INSTALLED_MODULES)
+  set_target_properties(vagus_${module} PROPERTIES EXPORT_NAME ${module})
+  install(TARGETS vagus_${module} EXPORT VagusTargets
+    COMPONENT embed
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${CMAKE_INSTALL_INCLUDEDIR}/vagus)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/src/${module}
+    COMPONENT embed
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vagus
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def"
+    PATTERN "test_*" EXCLUDE)
+endforeach()
+install(DIRECTORY ${CMAKE_BINARY_DIR}/generated/templates
+  COMPONENT embed
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vagus)
+install(TARGETS vagus COMPONENT program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Vagus)
+install(EXPORT VagusTargets NAMESPACE Vagus:: DESTINATION ${package} COMPONENT embed)
+configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/VagusConfig.cmake.in
+  ${CMAKE_BINARY_DIR}/VagusConfig.cmake INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/VagusConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/VagusConfig.cmake ${CMAKE_BINARY_DIR}/VagusConfigVersion.cmake
+  DESTINATION ${package} COMPONENT embed)

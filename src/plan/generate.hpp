@@ -1,0 +1,16 @@
+// Plans as C++ that a person would have written (docs/plans.md, section 9): the code makes the plan
+// with embed/plan_code.hpp and gives the same trace in virtual time.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "plan/check.hpp"
+
+namespace vagus::plan {
+
+// Files by name: NAME.hpp and NAME.cpp of each plan, main.cpp, CMakeLists.txt. `checked` has no
+// error.
+std::map<std::string, std::string> generate(const Checked& checked);
+
+}  // namespace vagus::plan

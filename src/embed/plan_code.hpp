@@ -171,6 +171,11 @@ public:
                 Target target, Place at = Place::current()) {
         add_event(index_of(actor), supervisor, event.name, target, at);
     }
+    // Supervisors that raise no event at all.
+    void always(const SupervisorObject& supervisor) { supervisor_in(kGlobal, supervisor); }
+    void during(const ActorObject& actor, const SupervisorObject& supervisor) {
+        supervisor_in(index_of(actor), supervisor);
+    }
     // An actor without rules: only what watches always ends it.
     void add(const ActorObject& actor) { index_of(actor); }
 

@@ -85,6 +85,12 @@ public:
             real_->set(index, std::move(fit.value()));
         } else if (virtual_) {
             virtual_->set(index, std::move(fit.value()));
+        } else if (over_) {
+            return Error{
+                Code::Refused,
+                fmt::format("the variable \"{}\" cannot be written: the run of the plan {} "
+                            "is over; make a new PlanRun",
+                            variable, outermost().name)};
         } else {
             values_[slot] = fit.value();
             options_.set.emplace_back(index, std::move(fit.value()));
@@ -126,12 +132,18 @@ private:
         open(door, &executor);
         const run::Ended ended = executor.run();
         open(door, static_cast<Executor*>(nullptr));
+        close();
         return ended;
     }
     template <typename Executor>
     void open(Executor*& door, Executor* executor) {
         const std::lock_guard guard(mutex_);
         door = executor;
+    }
+
+    void close() {
+        const std::lock_guard guard(mutex_);
+        over_ = true;
     }
 
     void see(const plan::TraceEvent& event) {
@@ -152,6 +164,7 @@ private:
     std::vector<plan::Value> values_;  // of the outermost plan's variables, by slot
     run::RealTime* real_ = nullptr;    // while it runs
     run::VirtualTime* virtual_ = nullptr;
+    bool over_ = false;
 };
 
 PlanRun::PlanRun(const LoadedPlan& plan, const RunSettings& settings)

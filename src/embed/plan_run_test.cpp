@@ -99,6 +99,7 @@ TEST_F(PlanRunTest, ARunInRealTimeHearsIsWrittenAndRead) {
     outside.join();
     EXPECT_EQ(ended.result, plan::PlanResult::Interrupted);
     EXPECT_EQ(run.read("far").value(), Value(int64_t{0}));
+    EXPECT_THAT(run.write("far", Value(int64_t{1})).error().what, HasSubstr("is over"));
 }
 
 TEST_F(PlanRunTest, InVirtualTimeAListenerWritesAndAborts) {

@@ -369,9 +369,11 @@ private:
                              const Supervisor& supervisor) const {
         std::string text;
         const Class of = class_of(supervisor);
+        std::vector<std::string> known = before;
+        known.push_back(supervisors_.at(supervisor.name));
+        if (supervisor.events.empty()) return call(head, known);
         for (const Rule& rule : supervisor.events) {
-            std::vector<std::string> arguments = before;
-            arguments.push_back(supervisors_.at(supervisor.name));
+            std::vector<std::string> arguments = known;
             arguments.push_back(fmt::format("{}::{}", of.path, of.names->outcomes.at(rule.name)));
             arguments.push_back(target(rule.target));
             text += call(head, arguments);

@@ -76,7 +76,13 @@ function(vagus_test name)
     target_link_libraries(${name} PRIVATE vagus_${module})
   endforeach()
   target_link_libraries(${name} PRIVATE ${T_LIBRARIES} GTest::gmock GTest::gtest_main)
-  gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")
+  # A program under a sanitizer may need a wrapper to start at all: it is not run while building.
+  set(discovery)
+  if(VAGUS_SANITIZE)
+    set(discovery DISCOVERY_MODE PRE_TEST)
+  endif()
+  gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120 ${discovery}
+    PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")
 endfunction()
 
 # vagus_fuzz(NAME SOURCE file MODULES …): a libFuzzer program, corpus in testdata/fuzz/NAME. The same source defines

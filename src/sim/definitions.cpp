@@ -32,6 +32,11 @@ std::string_view name_of(RobotType type) {
     return "";
 }
 
+uint16_t nodes_of(RobotType type) {
+    (void)type;
+    return 1;
+}
+
 std::span<const std::string_view> buttons_of(RobotType type) {
     // Variables and local events of a Thymio stand in this order (docs/spec, section 5.2).
     static constexpr std::array<std::string_view, 5> kThymio2 = {"backward", "left", "center",

@@ -82,7 +82,7 @@ struct RobotDefinition {
     RobotType type = RobotType::Thymio2;
     Point at = {};
     double angle = 0;
-    uint16_t node = 1;  // id of its (first) node on the bus
+    uint16_t node = 1;  // id of its first node on the bus; further ones follow
     std::optional<uint16_t> port =
         {};  // a TCP port of its own beside the common bus; 0: a free one
     std::string script =
@@ -144,6 +144,8 @@ struct WorldDefinition {
 // "wall", "thymio2": as in the file.
 std::string_view name_of(ObjectKind kind);
 std::string_view name_of(RobotType type);
+// How many nodes a robot is: they have neighbouring ids.
+uint16_t nodes_of(RobotType type);
 // The names of the buttons of a robot, in the order of its variables.
 std::span<const std::string_view> buttons_of(RobotType type);
 

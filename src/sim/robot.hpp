@@ -1,5 +1,5 @@
-// What the world asks of a robot, whatever its type. A robot is a body in the arena and the machine
-// of its node; its own folder (thymio2, epuck) knows what the variables mean.
+// What the world asks of a robot, whatever its type. A robot is a body in the arena and the machines
+// of its nodes, one or several; its own folder (thymio2, epuck) knows what the variables mean.
 #pragma once
 
 #include <memory>
@@ -32,10 +32,11 @@ class Robot {
 public:
     virtual ~Robot() = default;
 
-    virtual Machine& machine() = 0;
+    // Its nodes by ascending id: nodes_of() its type, the same ones for life.
+    virtual std::span<Machine* const> machines() = 0;
     virtual BodyId body() const = 0;
     virtual std::span<const Point> outline() const = 0;
-    // What is due at this millisecond: sensors to variables, local events raised.
+    // What is due at this millisecond, of all nodes: sensors to variables, local events raised.
     virtual void sense(const Surroundings& around) = 0;
     // Before each step of the arena: variables to wheels.
     virtual void drive(Arena& arena) = 0;

@@ -11,11 +11,12 @@
 
 namespace vagus::sim {
 
-// One robot's places on the bus.
+// One node's places on the bus.
 struct Berth {
-    hub::LinkId link;                       // on the bus of all
-    std::unique_ptr<hub::Hub> private_bus;  // behind its own port, if it has one
-    hub::LinkId private_link;
+    size_t robot = 0;          // index of the robot it belongs to
+    size_t place = 0;          // among its machines
+    hub::LinkId link;          // on the bus of all
+    hub::LinkId private_link;  // on that behind the robot's own port, if it has one
 };
 
 struct World::Insides {
@@ -26,25 +27,29 @@ struct World::Insides {
 
     Status join_bus();
     void populate();
-    void millisecond();
+    void forget_happenings();
+    void begin_instant();
+    void end_instant();
     void run_timeline();
     void act(const Action& action);
-    void deliver(size_t robot);
-    void collect(size_t robot);
+    void deliver(const Berth& berth);
+    void collect(const Berth& berth);
     void note_frame(size_t robot, const wire::Frame& frame);
     void move_bodies();
     void note_touches();
     void note(size_t robot, decltype(Happening::what) what, uint16_t node = 0);
     Status set_button(RobotId id, std::string_view button, bool pressed);
     Robot& robot(size_t index) { return *inhabitants->robots()[index]; }
+    Machine& machine(const Berth& berth) { return *robot(berth.robot).machines()[berth.place]; }
 
     WorldDefinition definition;
     Picture picture;
     WorldOptions options;
     std::unique_ptr<Inhabitants> inhabitants;
     hub::Hub bus;
-    std::vector<Berth> berths;    // by index of the robot
-    std::vector<size_t> by_node;  // indices of robots by ascending node id
+    std::vector<Berth> berths;                             // by ascending node id
+    std::vector<size_t> by_node;                           // indices of robots by ascending node id
+    std::vector<std::unique_ptr<hub::Hub>> private_buses;  // by index of the robot
     size_t timeline_next = 0;
     Time now{};
     Duration rest{};  // asked for, but less than a step
@@ -79,19 +84,21 @@ World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
 Status World::Insides::join_bus() {
-    for (const RobotDefinition& robot : definition.robots) {
-        Berth berth;
-        berth.link = TRY(bus.add({.name = robot.name}));
-        if (robot.port) {
-            berth.private_bus = std::make_unique<hub::Hub>();
-            berth.private_link = TRY(berth.private_bus->add({.name = robot.name}));
-        }
-        by_node.push_back(berths.size());
-        berths.push_back(std::move(berth));
-    }
+    for (size_t i = 0; i < definition.robots.size(); ++i) by_node.push_back(i);
     std::sort(by_node.begin(), by_node.end(), [this](size_t a, size_t b) {
         return definition.robots[a].node < definition.robots[b].node;
     });
+    private_buses.resize(definition.robots.size());
+    for (const size_t index : by_node) {
+        const RobotDefinition& robot = definition.robots[index];
+        if (robot.port) private_buses[index] = std::make_unique<hub::Hub>();
+        for (size_t place = 0; place < nodes_of(robot.type); ++place) {
+            Berth berth{index, place, TRY(bus.add({.name = robot.name})), {}};
+            if (robot.port)
+                berth.private_link = TRY(private_buses[index]->add({.name = robot.name}));
+            berths.push_back(berth);
+        }
+    }
     return Status::done();
 }
 
@@ -107,28 +114,45 @@ void World::Insides::populate() {
 // ---- Time ----
 
 void World::step(Duration span) {
-    insides_->happenings.clear();
-    insides_->happenings_lost = 0;
+    insides_->forget_happenings();
     insides_->rest += span;
     while (insides_->rest >= kNodeStep) {
         insides_->rest -= kNodeStep;
-        insides_->millisecond();
+        insides_->begin_instant();
+        insides_->end_instant();
     }
 }
 
+void World::begin_instant() {
+    insides_->forget_happenings();
+    insides_->begin_instant();
+}
+
+void World::end_instant() {
+    insides_->end_instant();
+}
+
+void World::Insides::forget_happenings() {
+    happenings.clear();
+    happenings_lost = 0;
+}
+
 // One instant: timeline, deliveries, nodes by id, bodies. What nodes send is delivered at the next.
-void World::Insides::millisecond() {
+void World::Insides::begin_instant() {
     now += kNodeStep;
     run_timeline();
-    for (const size_t index : by_node) deliver(index);
+    for (const Berth& berth : berths) deliver(berth);
     inhabitants->arena().prepare_looks();
     const Surroundings around = {inhabitants->arena(), inhabitants->ground(),
                                  inhabitants->colours(), now};
     for (const size_t index : by_node) {
         robot(index).sense(around);
-        robot(index).machine().run();
+        for (Machine* const machine : robot(index).machines()) machine->run();
     }
-    for (const size_t index : by_node) collect(index);
+    for (const Berth& berth : berths) collect(berth);
+}
+
+void World::Insides::end_instant() {
     if (now % kPhysicsStep == Duration::zero()) move_bodies();
 }
 
@@ -179,24 +203,23 @@ void World::Insides::act(const Action& action) {
 
 // ---- The bus ----
 
-void World::Insides::deliver(size_t index) {
-    Machine& machine = robot(index).machine();
-    machine.begin_millisecond();
-    Berth& berth = berths[index];
+void World::Insides::deliver(const Berth& berth) {
+    Machine& node = machine(berth);
+    node.begin_millisecond();
     wire::Frame frame;
-    while (machine.wants_frame() && bus.take(berth.link, frame)) machine.receive(frame);
-    if (berth.private_bus == nullptr) return;
-    while (machine.wants_frame() && berth.private_bus->take(berth.private_link, frame))
-        machine.receive(frame);
+    while (node.wants_frame() && bus.take(berth.link, frame)) node.receive(frame);
+    hub::Hub* const own_bus = private_buses[berth.robot].get();
+    if (own_bus == nullptr) return;
+    while (node.wants_frame() && own_bus->take(berth.private_link, frame)) node.receive(frame);
 }
 
-void World::Insides::collect(size_t index) {
-    std::vector<wire::Frame>& sent = robot(index).machine().sent();
-    Berth& berth = berths[index];
+void World::Insides::collect(const Berth& berth) {
+    std::vector<wire::Frame>& sent = machine(berth).sent();
+    hub::Hub* const own_bus = private_buses[berth.robot].get();
     for (const wire::Frame& frame : sent) {
         bus.receive(berth.link, frame);
-        if (berth.private_bus) berth.private_bus->receive(berth.private_link, frame);
-        note_frame(index, frame);
+        if (own_bus != nullptr) own_bus->receive(berth.private_link, frame);
+        note_frame(berth.robot, frame);
     }
     sent.clear();
 }
@@ -286,10 +309,11 @@ Time World::now() const {
 
 void World::reset() {
     wire::Frame frame;
-    for (Berth& berth : insides_->berths) {
+    for (const Berth& berth : insides_->berths) {
         while (insides_->bus.take(berth.link, frame)) {
         }
-        while (berth.private_bus && berth.private_bus->take(berth.private_link, frame)) {
+        hub::Hub* const own_bus = insides_->private_buses[berth.robot].get();
+        while (own_bus != nullptr && own_bus->take(berth.private_link, frame)) {
         }
     }
     insides_->happenings.clear();
@@ -324,12 +348,13 @@ Error no_robot() {
 
 hub::Hub* World::private_bus(RobotId robot) {
     const auto index = index_of(insides_->definition, robot);
-    return index ? insides_->berths[*index].private_bus.get() : nullptr;
+    return index ? insides_->private_buses[*index].get() : nullptr;
 }
 
 void World::host_left(RobotId robot) {
-    if (const auto index = index_of(insides_->definition, robot))
-        insides_->robot(*index).machine().host_left();
+    const auto index = index_of(insides_->definition, robot);
+    if (!index) return;
+    for (Machine* const machine : insides_->robot(*index).machines()) machine->host_left();
 }
 
 const WorldDefinition& World::definition() const {
@@ -344,6 +369,7 @@ std::vector<RobotView> World::robots() const {
                          .name = robot.name,
                          .type = robot.type,
                          .node = robot.node,
+                         .nodes = nodes_of(robot.type),
                          .pose = insides_->inhabitants->arena().pose(insides_->robot(i).body()),
                          .paint = robot.paint,
                          .outline = insides_->robot(i).outline()});
@@ -389,8 +415,17 @@ std::optional<ObjectId> World::find_object(std::string_view id) const {
 
 std::span<const int16_t> World::variables(RobotId robot) const {
     const auto index = index_of(insides_->definition, robot);
-    if (!index) return {};
-    return insides_->robot(*index).machine().variables();
+    return index ? variables_of(insides_->definition.robots[*index].node)
+                 : std::span<const int16_t>();
+}
+
+std::span<const int16_t> World::variables_of(uint16_t node) const {
+    const auto& berths = insides_->berths;
+    const auto found = std::lower_bound(
+        berths.begin(), berths.end(), node,
+        [this](const Berth& berth, uint16_t id) { return insides_->machine(berth).id() < id; });
+    if (found == berths.end() || insides_->machine(*found).id() != node) return {};
+    return insides_->machine(*found).variables();
 }
 
 Result<ObjectId> World::add(const ObjectDefinition& object) {

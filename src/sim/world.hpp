@@ -62,7 +62,8 @@ struct RobotView {
     RobotId id;
     std::string_view name;  // views and spans here: valid until the world is changed or stepped
     RobotType type = RobotType::Thymio2;
-    uint16_t node = 0;
+    uint16_t node = 0;   // its first one
+    uint16_t nodes = 1;  // how many it has, with neighbouring ids
     Pose pose;
     Colour paint;
     std::span<const Point>
@@ -116,6 +117,14 @@ public:
 
     // Lets `span` pass. Whole kNodeStep are simulated; the rest is kept for the next call.
     void step(Duration span);
+    // One kNodeStep in two halves, for whoever has something of its own at each instant after the
+    // nodes and before the bodies: a plan. Call them in turn; happenings() are those of both.
+    //
+    //     world.begin_instant();   // time + 1 ms, timeline, deliveries, nodes, what they sent
+    //     plan.look(world.now());  // what it sends is delivered at the next instant
+    //     world.end_instant();     // bodies
+    void begin_instant();
+    void end_instant();
     Time now() const;
     // Everything as at the start, time 0; the links of the bus stay, scripts and variables are
     // gone.
@@ -125,8 +134,8 @@ public:
     uint64_t happenings_lost() const;
 
     // ---- The bus ----
-    // All robots are on it. Add links for hosts, for sockets (net), for tests; frames for the
-    // robots go through it.
+    // All nodes of all robots are on it. Add links for hosts, for sockets (net), for tests; frames
+    // for the robots go through it.
     hub::Hub& bus();
     // The private switch behind the robot's `port`: that robot alone is on it. nullptr if it has no
     // port.
@@ -144,8 +153,10 @@ public:
     Colour ground_at(Point at) const;
     std::optional<RobotId> find_robot(std::string_view name) const;
     std::optional<ObjectId> find_object(std::string_view id) const;
-    // The variables of the robot's first node: for tests and views that do not go over the bus.
+    // The variables of the robot's first node, of any node: for tests and views that do not go over
+    // the bus. Empty if there is no such robot or node.
     std::span<const int16_t> variables(RobotId robot) const;
+    std::span<const int16_t> variables_of(uint16_t node) const;
 
     // ---- Acting, as a hand from above. Fails with NotFound, Limit, or BadInput. ----
     Result<ObjectId> add(const ObjectDefinition& object);

@@ -519,6 +519,23 @@ uint64_t hash_of_run(Duration span, uint64_t seed) {
     return hash.value();
 }
 
+TEST(World, TwoHalvesOfAnInstantAreAStep) {
+    World whole = make(with_thymio());
+    World halves = make(with_thymio());
+    Host(whole.bus()).set(1, kTargets, {300, 200});
+    Host(halves.bus()).set(1, kTargets, {300, 200});
+    size_t poses = 0;
+    for (int i = 0; i < 2000; ++i) {
+        whole.step(1ms);
+        halves.begin_instant();
+        EXPECT_EQ(halves.now(), (i + 1) * 1ms);
+        halves.end_instant();
+        poses += halves.happenings().size();
+    }
+    EXPECT_EQ(halves.robots()[0].pose, whole.robots()[0].pose);
+    EXPECT_EQ(poses, 20u) << "ten a second";
+}
+
 TEST(World, TheSameRunIsTheSameToTheLastBit) {
     const uint64_t whole = hash_of_run(20s, 1);
     EXPECT_EQ(whole, hash_of_run(20s, 1));

@@ -2,6 +2,7 @@
 // around an epuck::Body.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 
@@ -28,7 +29,7 @@ public:
     // `seed` is that of its noise; `pool` must outlive it.
     Epuck(Arena& arena, const RobotDefinition& definition, EnergyPool& pool, uint64_t seed);
 
-    Machine& machine() override { return machine_; }
+    std::span<Machine* const> machines() override { return machines_; }
     BodyId body() const override { return body_.id(); }
     std::span<const Point> outline() const override { return epuck::outline(); }
     void sense(const Surroundings& around) override;
@@ -44,6 +45,7 @@ private:
     std::string name_;
     node::Description description_;  // differs from robot to robot by its name
     Machine machine_;
+    std::array<Machine*, 1> machines_ = {&machine_};
     Body body_;
     Noise noise_;
     Colour paint_;

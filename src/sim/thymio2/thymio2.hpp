@@ -57,7 +57,7 @@ public:
     Thymio2(Arena& arena, const RobotDefinition& definition, const std::string& sd_folder,
             uint64_t seed);
 
-    Machine& machine() override { return machine_; }
+    std::span<Machine* const> machines() override { return machines_; }
     BodyId body() const override { return body_.id(); }
     std::span<const Point> outline() const override { return thymio2::outline(); }
     void sense(const Surroundings& around) override;
@@ -80,6 +80,7 @@ private:
 
     Devices devices_;
     Machine machine_;
+    std::array<Machine*, 1> machines_ = {&machine_};
     Body body_;
     Noise noise_;
     Colour paint_;

@@ -6,7 +6,8 @@
 
 namespace vagus::run {
 
-ActorContext::ActorContext(std::vector<plan::Value> in, size_t outputs) : in_(std::move(in)) {
+ActorContext::ActorContext(std::vector<plan::Value> in, size_t outputs, uint64_t number)
+    : in_(std::move(in)), number_(number) {
     given_.outputs.resize(outputs);
 }
 
@@ -16,7 +17,10 @@ void ActorContext::out(size_t index, plan::Value value) {
 
 ActorContext::Woken ActorContext::wait_or_stop(Duration at_most, std::string_view event) {
     if (told_) throw Stop();
-    Woken woken = wait(at_most, event);
+    return unless_stopped(wait(at_most, event));
+}
+
+ActorContext::Woken ActorContext::unless_stopped(Woken woken) {
     if (!woken.stop) return woken;
     told_ = true;
     throw Stop();
@@ -39,6 +43,20 @@ std::optional<BusEvent> ActorContext::wait_event(std::string_view name, Duration
 void ActorContext::wait_until(const std::function<bool()>& holds, Duration every) {
     while (!holds()) sleep(every);
 }
+
+std::optional<BusEvent> ActorContext::next_event(Duration at_most) {
+    if (told_) throw Stop();
+    return unless_stopped(wait_kept(at_most)).event;
+}
+
+std::optional<BusEvent> ActorContext::linger_event(Duration at_most) {
+    assert(told_);
+    return wait_kept(at_most).event;
+}
+
+void Supervisor::started(const std::vector<plan::Value>&, SupervisorContext&) {}
+
+void Supervisor::stopped(SupervisorContext&) noexcept {}
 
 void CodeLibrary::add(std::string toolbox, std::string help, std::vector<Coded> templates) {
     plan::Toolbox declared{.name = std::move(toolbox), .help = std::move(help), .templates = {}};

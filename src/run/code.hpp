@@ -33,6 +33,7 @@
 namespace vagus::run {
 
 constexpr size_t kEventArgumentsMax = 8;      // of an event that a plan sends or hears
+constexpr size_t kKeptEventsMax = 256;        // that code has asked for and not yet taken
 constexpr Duration kNever = Duration::max();  // a wait that only an event or Stop ends
 
 // An event of the bus, as plans see it: by name.
@@ -52,6 +53,20 @@ public:
 
 private:
     std::string what_;
+};
+
+// The running numbers of a run, one for each running of code and each watching of a supervisor,
+// from 1 on. Those whose low 15 bits are 0 are left out: the scripts of nodes know an activation by
+// these bits, and 0 is nobody's.
+class Numbers {
+public:
+    uint64_t next() {
+        if ((++last_ & 0x7fff) == 0) ++last_;
+        return last_;
+    }
+
+private:
+    uint64_t last_ = 0;
 };
 
 // What one running of an actor's code can do. Used by that code's thread only.
@@ -76,8 +91,17 @@ public:
     // Waits until `holds` does, looking every `every`.
     void wait_until(const std::function<bool()>& holds, Duration every);
 
-    // After Stop has been thrown: time to put things in order. Does not throw.
+    // From here on events of these names are kept, in their order, until next_event() takes them:
+    // for code that talks with a node, and must miss nothing between one wait and the next.
+    virtual void listen(std::vector<std::string> names) = 0;
+    // Gives nothing when the time is over first. Throws Stop as the waits above, and CodeError when
+    // more than kKeptEventsMax came untaken.
+    std::optional<BusEvent> next_event(Duration at_most);
+
+    // After Stop has been thrown: time to put things in order. These do not throw it again. Nothing
+    // also when the run cannot wait any longer: then return.
     virtual void linger(Duration time) = 0;
+    std::optional<BusEvent> linger_event(Duration at_most);
     bool told_to_stop() const { return told_; }
 
     virtual void log(std::string text) = 0;
@@ -85,24 +109,30 @@ public:
     virtual void emit(BusEvent event) = 0;
     // The one generator of the run (`Random` draws from it).
     virtual SplitMix64& random() = 0;
+    // Of this running of the code: see Numbers.
+    uint64_t number() const { return number_; }
 
     const plan::Given& given() const { return given_; }
 
 protected:
-    ActorContext(std::vector<plan::Value> in, size_t outputs);
+    ActorContext(std::vector<plan::Value> in, size_t outputs, uint64_t number);
     // Until the time, an event of that name (empty: any), or Stop, whichever comes first.
     struct Woken {
         bool stop = false;
         std::optional<BusEvent> event = {};
     };
     virtual Woken wait(Duration at_most, std::string_view event) = 0;
+    // Until the time, a kept event, or Stop; when told already, until one of the first two.
+    virtual Woken wait_kept(Duration at_most) = 0;
 
     bool told_ = false;
 
 private:
     Woken wait_or_stop(Duration at_most, std::string_view event);
+    Woken unless_stopped(Woken woken);
 
     std::vector<plan::Value> in_;
+    uint64_t number_;
     plan::Given given_;
 };
 
@@ -124,11 +154,27 @@ struct Check {
     const BusEvent* event = nullptr;  // with period 0: what has come
 };
 
+// What a supervisor can do besides raising, where its watching begins and ends.
+class SupervisorContext {
+public:
+    virtual ~SupervisorContext() = default;
+    // As an actor's.
+    virtual void emit(BusEvent event) = 0;
+    // Of this watching: see Numbers.
+    virtual uint64_t number() const = 0;
+};
+
+// None of these may wait.
 class Supervisor {
 public:
     virtual ~Supervisor() = default;
-    // The event to raise, or nothing. Must not wait.
+    // The watching begins: with the inputs of its first check, which follows; with period 0, with
+    // those that are read in the place of one (P22b). What it throws is an internal error (P27).
+    virtual void started(const std::vector<plan::Value>& in, SupervisorContext& context);
+    // The event to raise, or nothing.
     virtual std::optional<plan::Given> check(const Check& check) = 0;
+    // The watching is over, for whatever reason. Follows each started(), also one that threw.
+    virtual void stopped(SupervisorContext& context) noexcept;
 };
 
 using MakeActor = std::function<std::unique_ptr<Actor>()>;

@@ -21,14 +21,28 @@ public:
     Inbox& inbox() { return inbox_; }
 
 private:
+    // Used on the deciding thread only.
+    class WatchContext final : public SupervisorContext {
+    public:
+        explicit WatchContext(Engine& engine)
+            : inbox_(engine.inbox_), number_(engine.numbers_.next()) {}
+        void emit(BusEvent event) override { inbox_.post(Heard{std::move(event), true}); }
+        uint64_t number() const override { return number_; }
+
+    private:
+        Inbox& inbox_;
+        uint64_t number_;
+    };
     struct Watching {
         plan::WatchId id;
         int level;
         const plan::GraphSupervisor* of;
         std::shared_ptr<Supervisor> code;  // owners: this, and the check that runs
+        WatchContext context;
         Time started;
         Time next;
         bool waits_for_events = false;  // period 0, its inputs are read
+        bool begun = false;             // its code knows that it watches
         bool busy = false;              // a check runs
         bool first_done = false;
         std::vector<plan::Value> in;
@@ -49,7 +63,7 @@ private:
 
     void obey();
     void obey(plan::StartWatch& command);
-    void obey(plan::StopWatch& command) { watching_.erase(command.watch); }
+    void obey(plan::StopWatch& command);
     void obey(plan::Activate& command) { begin_due_ = command.activation; }
     void obey(plan::StartCode& command);
     void obey(plan::StopCode& command);
@@ -64,6 +78,8 @@ private:
 
     void start_due_checks();
     void start_check(Watching& watching);
+    bool begin_watching(Watching& watching, const std::vector<plan::Value>& in);
+    void end_watching(Watching& watching);
     void run_check(Watching& watching, Check check, std::optional<BusEvent> event, Time deadline);
     void begin_if_checked();
     void check_deadlines();
@@ -80,10 +96,12 @@ private:
     const RunOptions& options_;
     plan::Machine machine_;
     SplitMix64 random_;
+    Numbers numbers_;
     Inbox inbox_;
     RunClock clock_;
     bool timed_out_ = false;
     std::map<plan::WatchId, Watching> watching_;
+    std::map<plan::WatchId, Watching> ending_;  // over, but a check of theirs still runs
     plan::ActivationId begin_due_ = 0;
     std::map<plan::ActivationId, std::shared_ptr<Code>> code_;  // owners: this, and its thread
     int checks_running_ = 0;
@@ -135,6 +153,10 @@ Ended RealTime::Engine::decide() {
             std::visit([this](auto& one) { take(one); }, message);
         }
     }
+    // What was emitted last, as supervisors stopped, belongs to the bus too.
+    for (Message& message : inbox_.take()) {
+        std::visit([this](auto& one) { take(one); }, message);
+    }
     hand_out_trace();
     return {machine_.result(), machine_.message(), timed_out_};
 }
@@ -185,6 +207,7 @@ void RealTime::Engine::obey(plan::StartWatch& command) {
                       .level = command.level,
                       .of = command.supervisor,
                       .code = library_.make_supervisor(*command.supervisor->of),
+                      .context = WatchContext(*this),
                       .started = now(),
                       .next = now(),
                       .in = {},
@@ -192,13 +215,29 @@ void RealTime::Engine::obey(plan::StartWatch& command) {
     watching_.emplace(command.watch, std::move(watching));
 }
 
+void RealTime::Engine::obey(plan::StopWatch& command) {
+    const auto found = watching_.find(command.watch);
+    if (found == watching_.end()) return;
+    auto over = watching_.extract(found);
+    if (over.mapped().busy) {
+        ending_.insert(std::move(over));
+    } else {
+        end_watching(over.mapped());
+    }
+}
+
+void RealTime::Engine::end_watching(Watching& watching) {
+    if (watching.begun) watching.code->stopped(watching.context);
+}
+
 void RealTime::Engine::obey(plan::StartCode& command) {
     auto code = std::make_shared<Code>();
     code->activation = command.activation;
     code->actor = library_.make_actor(*command.actor->of);
+    const LiveContext::Of of{command.activation, numbers_.next(), *code->actor,
+                             command.actor->of->outputs.size()};
     code->context =
-        std::make_unique<LiveContext>(std::move(command.in), command.actor->of->outputs.size(),
-                                      command.activation, *code->actor, inbox_, random_, clock_);
+        std::make_unique<LiveContext>(std::move(command.in), of, inbox_, random_, clock_);
     code->grace = Duration{command.actor->of->grace_ms * 1000};
     code_[command.activation] = code;
     const auto body = [code, &inbox = inbox_] {
@@ -256,7 +295,11 @@ void RealTime::Engine::take(Checked& message) {
     --checks_running_;
     note_lateness(message.late);
     const auto found = watching_.find(message.watch);
-    if (found == watching_.end()) return;  // it has been stopped meanwhile: dropped (P18)
+    if (found == watching_.end()) {  // it has been stopped meanwhile: dropped (P18)
+        const auto over = ending_.extract(message.watch);
+        if (!over.empty()) end_watching(over.mapped());
+        return;
+    }
     Watching& watching = found->second;
     watching.busy = false;
     watching.first_done = true;
@@ -326,6 +369,7 @@ void RealTime::Engine::start_check(Watching& watching) {
             machine_.fail_watch(watching.id, in.error().what, now());
             return;
         }
+        if (!begin_watching(watching, in.value())) return;
         if (watching.period().count() == 0) {
             watching.in = std::move(in.value());
             watching.waits_for_events = true;
@@ -341,6 +385,18 @@ void RealTime::Engine::start_check(Watching& watching) {
     watching.events.pop_front();
     check.in = watching.in;
     run_check(watching, std::move(check), std::move(event), now());
+}
+
+// Tells its code once that it watches. False: that has failed.
+bool RealTime::Engine::begin_watching(Watching& watching, const std::vector<plan::Value>& in) {
+    if (std::exchange(watching.begun, true)) return true;
+    try {
+        watching.code->started(in, watching.context);
+        return true;
+    } catch (const std::exception& error) {
+        machine_.fail_watch(watching.id, error.what(), now());
+        return false;
+    }
 }
 
 void RealTime::Engine::run_check(Watching& watching, Check check, std::optional<BusEvent> event,

@@ -55,8 +55,10 @@ void LiveContext::tell_to_stop() {
 void LiveContext::hear(const BusEvent& event) {
     {
         const std::lock_guard lock(mutex_);
-        if (!waiting_ || heard_ || (!event_.empty() && event_ != event.name)) return;
-        heard_ = event;
+        const bool kept = kept_.offer(event);
+        const bool waited_for = waiting_ && !heard_ && (event_.empty() || event_ == event.name);
+        if (!kept && !waited_for) return;
+        if (waited_for) heard_ = event;
     }
     wake_.notify_one();
 }
@@ -77,25 +79,48 @@ void LiveContext::release() {
     wake_.notify_one();
 }
 
+void LiveContext::listen(std::vector<std::string> names) {
+    const std::lock_guard lock(mutex_);
+    kept_.listen(std::move(names));
+}
+
 ActorContext::Woken LiveContext::wait(Duration at_most, std::string_view event) {
-    // By the run's clock, which stands while the run is paused: what is left of a wait stays.
-    const Time end = now() + std::clamp(at_most, Duration{0}, kFar);
     std::unique_lock lock(mutex_);
     event_ = std::string(event);
     waiting_ = true;
     heard_.reset();
-    for (;;) {
-        if (held_ && !stop_) stay_held(lock);
-        const auto ready = [this] { return stop_ || held_ || heard_; };
-        if (at_most == kNever) {
-            wake_.wait(lock, ready);
-        } else {
-            wake_.wait_until(lock, clock_.point_of(end), ready);
-        }
-        if (stop_ || !held_) break;
-    }
+    wait_for(lock, at_most, [this] { return heard_.has_value(); });
     waiting_ = false;
     return {.stop = stop_, .event = std::move(heard_)};
+}
+
+ActorContext::Woken LiveContext::wait_kept(Duration at_most) {
+    std::unique_lock lock(mutex_);
+    if (told_) {
+        const auto end = SteadyClock::now() + std::clamp(at_most, Duration{0}, kFar);
+        wake_.wait_until(lock, end, [this] { return !kept_.empty(); });
+        return {.stop = false, .event = kept_.take()};
+    }
+    wait_for(lock, at_most, [this] { return !kept_.empty(); });
+    if (stop_) return {.stop = true};
+    return {.stop = false, .event = kept_.take()};
+}
+
+// Until the time, `ready`, or Stop. By the run's clock, which stands while the run is paused: what
+// is left of a wait stays.
+void LiveContext::wait_for(std::unique_lock<std::mutex>& lock, Duration at_most,
+                           const std::function<bool()>& ready) {
+    const Time end = clock_.now() + std::clamp(at_most, Duration{0}, kFar);
+    for (;;) {
+        if (held_ && !stop_) stay_held(lock);
+        const auto wakes = [this, &ready] { return stop_ || held_ || ready(); };
+        if (at_most == kNever) {
+            wake_.wait(lock, wakes);
+        } else {
+            wake_.wait_until(lock, clock_.point_of(end), wakes);
+        }
+        if (stop_ || !held_) return;
+    }
 }
 
 void LiveContext::stay_held(std::unique_lock<std::mutex>& lock) {

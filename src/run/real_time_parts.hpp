@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "run/code.hpp"
+#include "run/kept_events.hpp"
 #include "run/real_time.hpp"
 
 namespace vagus::run {
@@ -123,11 +124,17 @@ private:
 // One running of an actor's code. While the run is paused its waits hold it (decision 0090).
 class LiveContext final : public ActorContext {
 public:
-    LiveContext(std::vector<plan::Value> in, size_t outputs, plan::ActivationId activation,
-                Actor& actor, Inbox& inbox, SplitMix64& random, const RunClock& clock)
-        : ActorContext(std::move(in), outputs),
-          activation_(activation),
-          actor_(actor),
+    struct Of {  // which running of which code this is
+        plan::ActivationId activation;
+        uint64_t number;
+        Actor& actor;
+        size_t outputs;
+    };
+    LiveContext(std::vector<plan::Value> in, const Of& of, Inbox& inbox, SplitMix64& random,
+                const RunClock& clock)
+        : ActorContext(std::move(in), of.outputs, of.number),
+          activation_(of.activation),
+          actor_(of.actor),
           inbox_(inbox),
           random_(random),
           clock_(clock) {}
@@ -139,6 +146,7 @@ public:
     void emit(BusEvent event) override { inbox_.post(Heard{std::move(event), true}); }
     // The generator of a run, drawn from by one actor at a time (P14).
     SplitMix64& random() override { return random_; }
+    void listen(std::vector<std::string> names) override;
 
     // ---- for the deciding thread ----
     void tell_to_stop();
@@ -148,8 +156,11 @@ public:
 
 protected:
     Woken wait(Duration at_most, std::string_view event) override;
+    Woken wait_kept(Duration at_most) override;
 
 private:
+    void wait_for(std::unique_lock<std::mutex>& lock, Duration at_most,
+                  const std::function<bool()>& ready);
     void stay_held(std::unique_lock<std::mutex>& lock);
 
     const plan::ActivationId activation_;
@@ -164,6 +175,7 @@ private:
     bool waiting_ = false;
     std::string event_;
     std::optional<BusEvent> heard_;
+    KeptEvents kept_;
 };
 
 }  // namespace vagus::run

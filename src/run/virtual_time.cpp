@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "run/debugger.hpp"
+#include "run/kept_events.hpp"
 
 namespace vagus::run {
 
 using plan::Machine;
 
 namespace {
+
+constexpr std::string_view kNoEvent("\0", 1);  // no event of a bus is called this
 
 // A wait of `length` that begins at `now` ends then; kNever stays never.
 Time after(Time now, Duration length) {
@@ -22,6 +25,18 @@ Time after(Time now, Duration length) {
 
 }  // namespace
 
+class VirtualTime::WatchContext final : public SupervisorContext {
+public:
+    explicit WatchContext(VirtualTime& run) : run_(run), number_(run.numbers_.next()) {}
+
+    void emit(BusEvent event) override { run_.emit(event); }
+    uint64_t number() const override { return number_; }
+
+private:
+    VirtualTime& run_;
+    uint64_t number_;
+};
+
 // A supervisor that watches.
 struct VirtualTime::Watching {
     plan::WatchId id;
@@ -30,10 +45,12 @@ struct VirtualTime::Watching {
     int index;
     const plan::GraphSupervisor* of;
     std::unique_ptr<Supervisor> code;
+    WatchContext context;
     Time started;
-    Time next;                    // of the next check; kNever: waits for events
-    std::vector<plan::Value> in;  // with period 0: read at the start
-    std::deque<BusEvent> events;  // with period 0: heard, not yet checked
+    Time next;                      // of the next check; kNever: waits for events
+    bool begun = false;             // its code knows that it watches
+    std::vector<plan::Value> in{};  // with period 0: read at the start
+    std::deque<BusEvent> events{};  // with period 0: heard, not yet checked
 
     Duration period() const { return Duration{of->period_us}; }
     bool due(Time now) const { return next <= now || !events.empty(); }
@@ -58,20 +75,21 @@ struct VirtualTime::Code {
     Time told_at{};
     Time wake{};  // when its wait ends
     Time grace_ends = kNever;
-    std::string event;  // that ends its wait; empty: any
+    std::string event;        // that ends its wait; empty: any
+    bool waits_kept = false;  // a kept event ends its wait
     Machine* machine = nullptr;
 };
 
 class VirtualTime::Context final : public ActorContext {
 public:
     Context(VirtualTime& run, Code& code, std::vector<plan::Value> in, size_t outputs)
-        : ActorContext(std::move(in), outputs), run_(run), code_(code) {}
+        : ActorContext(std::move(in), outputs, run.numbers_.next()), run_(run), code_(code) {}
 
     Time now() const override { return run_.now_; }
 
     void linger(Duration time) override {
         code_.wake = after(run_.now_, time);
-        code_.event = std::string("\0", 1);
+        code_.event = std::string(kNoEvent);
         code_.thread->give_back();
     }
 
@@ -80,14 +98,14 @@ public:
     }
 
     // The executor waits while code runs, so its state is the code's to use.
-    void emit(BusEvent event) override {
-        if (run_.options_.on_emit) run_.options_.on_emit(event);
-        run_.deliver(event);
-    }
+    void emit(BusEvent event) override { run_.emit(event); }
 
     SplitMix64& random() override { return run_.random_; }
 
+    void listen(std::vector<std::string> names) override { kept_.listen(std::move(names)); }
+
     void wake_with(Woken woken) { woken_ = std::move(woken); }
+    bool keep(const BusEvent& event) { return kept_.offer(event); }
 
 protected:
     Woken wait(Duration at_most, std::string_view event) override {
@@ -98,10 +116,21 @@ protected:
         return std::move(woken_);
     }
 
+    Woken wait_kept(Duration at_most) override {
+        if (kept_.empty()) {
+            code_.waits_kept = true;
+            const Woken woken = wait(at_most, kNoEvent);
+            code_.waits_kept = false;
+            if (woken.stop) return woken;
+        }
+        return {.stop = false, .event = kept_.take()};
+    }
+
 private:
     VirtualTime& run_;
     Code& code_;
     Woken woken_;
+    KeptEvents kept_;
 };
 
 VirtualTime::VirtualTime(const plan::Graph& graph, const CodeLibrary& library,
@@ -163,17 +192,9 @@ void VirtualTime::obey() {
 }
 
 void VirtualTime::obey(plan::StartWatch& command) {
-    auto watching =
-        std::make_unique<Watching>(Watching{command.watch,
-                                            command.level,
-                                            command.global,
-                                            command.index,
-                                            command.supervisor,
-                                            library_.make_supervisor(*command.supervisor->of),
-                                            now_,
-                                            now_,
-                                            {},
-                                            {}});
+    auto watching = std::make_unique<Watching>(Watching{
+        command.watch, command.level, command.global, command.index, command.supervisor,
+        library_.make_supervisor(*command.supervisor->of), WatchContext(*this), now_, now_});
     const auto rank = [](const Watching& w) { return std::tuple(w.level, !w.global, w.index); };
     const auto place = std::find_if(watching_.begin(), watching_.end(), [&](const auto& other) {
         return rank(*watching) < rank(*other);
@@ -182,7 +203,12 @@ void VirtualTime::obey(plan::StartWatch& command) {
 }
 
 void VirtualTime::obey(plan::StopWatch& command) {
-    std::erase_if(watching_, [&command](const auto& w) { return w->id == command.watch; });
+    const auto found = std::find_if(watching_.begin(), watching_.end(),
+                                    [&command](const auto& w) { return w->id == command.watch; });
+    if (found == watching_.end()) return;
+    const std::unique_ptr<Watching> over = std::move(*found);
+    watching_.erase(found);
+    if (over->begun) over->code->stopped(over->context);
 }
 
 void VirtualTime::obey(plan::Activate& command) {
@@ -288,10 +314,6 @@ void VirtualTime::take_check(Watching& watching) {
             machine_.fail_watch(id, in.error().what, now_);
             return;
         }
-        if (watching.period().count() == 0) {
-            watching.in = std::move(in.value());
-            return;
-        }
         check.in = std::move(in.value());
     }
     BusEvent event;
@@ -302,10 +324,19 @@ void VirtualTime::take_check(Watching& watching) {
         check.event = &event;
     }
     try {
-        if (const auto given = watching.code->check(check)) machine_.raise(id, *given, now_);
+        this->check(watching, check);
     } catch (const std::exception& error) {
         machine_.fail_watch(id, error.what(), now_);
     }
+}
+
+void VirtualTime::check(Watching& watching, const Check& check) {
+    if (!std::exchange(watching.begun, true)) watching.code->started(check.in, watching.context);
+    if (watching.period().count() == 0 && !check.event) {
+        watching.in = check.in;
+        return;
+    }
+    if (const auto given = watching.code->check(check)) machine_.raise(watching.id, *given, now_);
 }
 
 // The innermost code's wait is over, it has ended, it has stopped, or its grace time is over.
@@ -352,13 +383,26 @@ void VirtualTime::leave_out_missed(int level) {
     }
 }
 
+void VirtualTime::emit(const BusEvent& event) {
+    if (options_.on_emit) options_.on_emit(event);
+    deliver(event);
+}
+
 // All that listen hear the event; each hearing is due at this instant (P22b).
 void VirtualTime::deliver(const BusEvent& event) {
     for (const auto& watching : watching_) {
         const bool armed = watching->period().count() == 0 && watching->next == kNever;
         if (armed && may_check(*watching)) watching->events.push_back(event);
     }
-    if (!code_ || code_->ended || code_->told || code_->wake <= now_) return;
+    if (code_ && !code_->ended) deliver_to_code(event);
+}
+
+// Code that is being stopped hears on what it has asked to be kept: an answer of its node.
+void VirtualTime::deliver_to_code(const BusEvent& event) {
+    const bool kept = code_->context->keep(event);
+    if (code_->wake <= now_) return;
+    if (kept && code_->waits_kept) code_->wake = now_;
+    if (code_->told || code_->wake <= now_) return;
     if (!code_->event.empty() && code_->event != event.name) return;
     code_->context->wake_with({.stop = false, .event = event});
     code_->wake = now_;

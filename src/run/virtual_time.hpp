@@ -35,6 +35,7 @@ public:
 
 private:
     class Context;
+    class WatchContext;
     struct Watching;
     struct Code;
 
@@ -50,11 +51,14 @@ private:
     bool take_first_due();
     bool may_check(const Watching& watching) const;
     void take_check(Watching& watching);
+    void check(Watching& watching, const Check& check);
     void take_code();
     void after_turn();
     void finish_code();
     void leave_out_missed(int level);
+    void emit(const BusEvent& event);
     void deliver(const BusEvent& event);
+    void deliver_to_code(const BusEvent& event);
     std::optional<Time> next_due() const;
     bool advance();
     bool pause_comes_first(Time next) const;
@@ -66,6 +70,7 @@ private:
     const RunOptions& options_;
     plan::Machine machine_;
     SplitMix64 random_;
+    Numbers numbers_;
     Time now_{0};
     bool timed_out_ = false;
     bool abort_asked_ = false;

@@ -320,4 +320,10 @@ void Arena::look_wide(BodyId robot, double ahead, std::span<const double> tangen
     insides_->sight.look_wide(robot.index, ahead, tangents, columns);
 }
 
+void Arena::slice(BodyId self, const Pose& eye, std::span<const double> tangents,
+                  std::vector<Slice>& slices) const {
+    const Stand stand = {eye.at.x, eye.at.y, trig::cos(eye.angle), trig::sin(eye.angle)};
+    insides_->sight.slice(self.index, stand, tangents, slices);
+}
+
 }  // namespace vagus::sim

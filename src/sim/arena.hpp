@@ -20,9 +20,10 @@
 
 namespace vagus::sim {
 
-constexpr double kArenaStep = 0.01;  // seconds
-constexpr size_t kOutlineMax = 8;    // corners of a body
-constexpr size_t kRaysMax = 24;      // of one look()
+constexpr double kArenaStep = 0.01;    // seconds
+constexpr size_t kOutlineMax = 8;      // corners of a body
+constexpr size_t kRaysMax = 24;        // of one look()
+constexpr double kBorderHeight = 0.3;  // m: what a camera sees of the walls around
 
 struct BodyId {
     uint32_t index = UINT32_MAX;
@@ -90,6 +91,18 @@ struct Column {
     BodyId body;  // kBorder for the walls around; no body: nothing there
 };
 
+// A body in one column of a camera: where the line of sight enters it, and where it leaves it.
+// Depths are measured along the axis of the camera.
+struct Slice {
+    uint32_t column = 0;
+    BodyId body;  // kBorder for the walls around
+    double enter = 0;
+    double leave = 0;
+    double height = 0;
+    Point normal;   // of the face that it enters, in the world, length 1
+    Point on_body;  // where it enters, in the frame of the body
+};
+
 class Arena {
 public:
     explicit Arena(const ArenaSize& size);
@@ -121,6 +134,10 @@ public:
     // right to left), from a point ahead of the middle of the robot.
     void look_wide(BodyId robot, double ahead, std::span<const double> tangents,
                    std::span<Column> columns) const;
+    // All bodies but `self` in each of the directions `tangents` (as above) from a place: by
+    // column, in each by ascending depth.
+    void slice(BodyId self, const Pose& eye, std::span<const double> tangents,
+               std::vector<Slice>& slices) const;
 
 private:
     struct Insides;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <tuple>
 
 #include "base/trig.hpp"
 
@@ -228,35 +230,149 @@ void Sight::look_wide(uint32_t self, double ahead, std::span<const double> tange
     }
 }
 
-// Tries one body in the columns that its bounding disc can cover.
-void Sight::see_wide(uint32_t index, const Stand& eye, std::span<const double> tangents,
-                     std::span<Column> columns) const {
+// The columns that the bounding disc of a body can cover.
+Sight::Span Sight::columns_of(uint32_t index, const Stand& eye,
+                              std::span<const double> tangents) const {
     const Stand& stand = stands_[index];
     const double bound = forms_[seen_[index].form].bound;
     const double mx = stand.x - eye.x;
     const double my = stand.y - eye.y;
     const double ahead = eye.cosine * mx + eye.sine * my;
     const double left = eye.cosine * my - eye.sine * mx;
-    if (ahead < -bound) return;
-    size_t first = 0;
-    size_t end = tangents.size();
-    if (ahead > bound) {
-        // The tangents to the corners of the square around the disc hold the disc between them.
-        const double low = left - bound;
-        const double high = left + bound;
-        const double from = low / (low > 0 ? ahead + bound : ahead - bound);
-        const double to = high / (high > 0 ? ahead - bound : ahead + bound);
-        first = static_cast<size_t>(std::lower_bound(tangents.begin(), tangents.end(), from) -
-                                    tangents.begin());
-        end = static_cast<size_t>(std::upper_bound(tangents.begin(), tangents.end(), to) -
-                                  tangents.begin());
-    }
-    for (size_t i = first; i < end; ++i) {
+    if (ahead < -bound) return {0, 0};
+    if (ahead <= bound) return {0, tangents.size()};
+    // The tangents to the corners of the square around the disc hold the disc between them.
+    const double low = left - bound;
+    const double high = left + bound;
+    const double from = low / (low > 0 ? ahead + bound : ahead - bound);
+    const double to = high / (high > 0 ? ahead - bound : ahead + bound);
+    const auto first = std::lower_bound(tangents.begin(), tangents.end(), from);
+    const auto end = std::upper_bound(tangents.begin(), tangents.end(), to);
+    return {static_cast<size_t>(first - tangents.begin()),
+            static_cast<size_t>(end - tangents.begin())};
+}
+
+// Tries one body in the columns that it can cover.
+void Sight::see_wide(uint32_t index, const Stand& eye, std::span<const double> tangents,
+                     std::span<Column> columns) const {
+    const Stand& stand = stands_[index];
+    const Span span = columns_of(index, eye, tangents);
+    for (size_t i = span.first; i < span.end; ++i) {
         const double length = std::sqrt(1 + tangents[i] * tangents[i]);
         const Beam beam = {eye.x, eye.y, (eye.cosine - eye.sine * tangents[i]) / length,
                            (eye.sine + eye.cosine * tangents[i]) / length};
         const double distance = hit(beam, forms_[seen_[index].form], stand, columns[i].distance);
         if (distance < columns[i].distance) columns[i] = {distance, BodyId{index}};
+    }
+}
+
+// ---- cameras ----
+
+void Sight::slice(uint32_t self, const Stand& eye, std::span<const double> tangents,
+                  std::vector<Slice>& slices) const {
+    slices.clear();
+    if (!size_.open) slice_border(eye, tangents, slices);
+    for (const std::vector<uint32_t>* list : {&fixed_, &moving_}) {
+        for (const uint32_t index : *list)
+            if (index != self) slice_body(index, eye, tangents, slices);
+    }
+    std::sort(slices.begin(), slices.end(), [](const Slice& a, const Slice& b) {
+        return std::tie(a.column, a.enter, a.body) < std::tie(b.column, b.enter, b.body);
+    });
+}
+
+namespace {
+
+// The part of a line inside a disc or a polygon around the origin, and the outward normal where it
+// goes in.
+struct Passage {
+    double enter = 0;
+    double leave = 0;
+    Point normal;
+};
+
+std::optional<Passage> pass_disc(const Point& from, const Point& way, double radius) {
+    const double square = way.x * way.x + way.y * way.y;
+    const double along = -(from.x * way.x + from.y * way.y) / square;
+    const double beside = from.x * way.y - from.y * way.x;
+    const double left = radius * radius - beside * beside / square;
+    if (left < 0) return std::nullopt;
+    const double half = std::sqrt(left / square);
+    const double enter = along - half;
+    return Passage{enter,
+                   along + half,
+                   {(from.x + enter * way.x) / radius, (from.y + enter * way.y) / radius}};
+}
+
+template <typename Edges>
+std::optional<Passage> pass_polygon(const Point& from, const Point& way, const Edges& edges) {
+    Passage passage = {-1e9, 1e9, {}};
+    for (const auto& edge : edges) {
+        const double outside = edge.nx * from.x + edge.ny * from.y - edge.reach;
+        const double speed = edge.nx * way.x + edge.ny * way.y;
+        if (speed < 0 && -outside / speed > passage.enter) {
+            passage.enter = -outside / speed;
+            passage.normal = {edge.nx, edge.ny};
+        } else if (speed > 0) {
+            passage.leave = std::min(passage.leave, -outside / speed);
+        } else if (speed == 0 && outside > 0) {
+            return std::nullopt;
+        }
+    }
+    if (passage.enter > passage.leave) return std::nullopt;
+    return passage;
+}
+
+}  // namespace
+
+// Lines of sight have depth 1 in one unit of their length, so lengths along them are depths.
+void Sight::slice_body(uint32_t index, const Stand& eye, std::span<const double> tangents,
+                       std::vector<Slice>& slices) const {
+    const Stand& stand = stands_[index];
+    const Form& form = forms_[seen_[index].form];
+    const Span span = columns_of(index, eye, tangents);
+    const Point from = stand.to_body({eye.x, eye.y});
+    for (size_t i = span.first; i < span.end; ++i) {
+        const Point ray = {eye.cosine - eye.sine * tangents[i],
+                           eye.sine + eye.cosine * tangents[i]};
+        const Point way = {stand.cosine * ray.x + stand.sine * ray.y,
+                           stand.cosine * ray.y - stand.sine * ray.x};
+        const auto passage = form.edges.empty() ? pass_disc(from, way, form.bound)
+                                                : pass_polygon(from, way, form.edges);
+        // What begins behind the camera is around it, and hides nothing: the camera is above it.
+        if (!passage || passage->enter <= 0) continue;
+        const auto& [enter, leave, normal] = *passage;
+        slices.push_back({.column = static_cast<uint32_t>(i),
+                          .body = BodyId{index},
+                          .enter = enter,
+                          .leave = leave,
+                          .height = seen_[index].height,
+                          .normal = {stand.cosine * normal.x - stand.sine * normal.y,
+                                     stand.sine * normal.x + stand.cosine * normal.y},
+                          .on_body = {from.x + enter * way.x, from.y + enter * way.y}});
+    }
+}
+
+void Sight::slice_border(const Stand& eye, std::span<const double> tangents,
+                         std::vector<Slice>& slices) const {
+    constexpr double kFar = 4 * kWorldSizeMax;
+    for (size_t i = 0; i < tangents.size(); ++i) {
+        const Beam beam = {eye.x, eye.y, eye.cosine - eye.sine * tangents[i],
+                           eye.sine + eye.cosine * tangents[i]};
+        const double depth = hit_border(beam, kFar);
+        const Point at = {eye.x + depth * beam.dx, eye.y + depth * beam.dy};
+        // The nearest of the four sides is the one that was hit.
+        const double side = std::min(at.x, size_.width - at.x);
+        const bool upright = side < std::min(at.y, size_.height - at.y);
+        const Point normal =
+            upright ? Point{beam.dx > 0 ? -1.0 : 1.0, 0} : Point{0, beam.dy > 0 ? -1.0 : 1.0};
+        slices.push_back({.column = static_cast<uint32_t>(i),
+                          .body = kBorder,
+                          .enter = depth,
+                          .leave = kFar,
+                          .height = kBorderHeight,
+                          .normal = normal,
+                          .on_body = at});
     }
 }
 

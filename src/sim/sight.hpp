@@ -21,6 +21,11 @@ struct Stand {
     Point to_world(Point point) const {
         return {x + cosine * point.x - sine * point.y, y + sine * point.x + cosine * point.y};
     }
+    Point to_body(Point point) const {
+        const double mx = point.x - x;
+        const double my = point.y - y;
+        return {cosine * mx + sine * my, cosine * my - sine * mx};
+    }
 };
 
 enum class Mobility : uint8_t { Fixed, Moving };
@@ -42,6 +47,8 @@ public:
     void look(uint32_t self, const RayFan& rays, double eye, std::span<double> distances) const;
     void look_wide(uint32_t self, double ahead, std::span<const double> tangents,
                    std::span<Column> columns) const;
+    void slice(uint32_t self, const Stand& eye, std::span<const double> tangents,
+               std::vector<Slice>& slices) const;
 
 private:
     // The half-plane left of an edge: x * nx + y * ny <= reach.
@@ -71,6 +78,14 @@ private:
     static double hit(const Beam& beam, const Form& form, const Stand& stand, double range);
     static double hit_polygon(const Beam& beam, const Form& form, const Stand& stand, double range);
     double hit_border(const Beam& beam, double range) const;
+    struct Span {
+        size_t first, end;
+    };
+    Span columns_of(uint32_t index, const Stand& eye, std::span<const double> tangents) const;
+    void slice_body(uint32_t index, const Stand& eye, std::span<const double> tangents,
+                    std::vector<Slice>& slices) const;
+    void slice_border(const Stand& eye, std::span<const double> tangents,
+                      std::vector<Slice>& slices) const;
     void see_wide(uint32_t index, const Stand& eye, std::span<const double> tangents,
                   std::span<Column> columns) const;
 

@@ -77,6 +77,12 @@ std::unique_ptr<Supervisor> CodeLibrary::make_supervisor(const plan::Template& o
     return makers_.at(&of).supervisor();
 }
 
+void throw_if_refused(const RunOptions& options, const BusEvent& event) {
+    if (!options.may_emit) return;
+    const Status may = options.may_emit(event);
+    if (!may.ok()) throw CodeError(may.error().what);
+}
+
 int exit_status(const Ended& ended) {
     if (ended.result == plan::PlanResult::Error) return 4;
     if (ended.timed_out) return 5;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/result.hpp"
 #include "base/time.hpp"
 #include "plan/trace.hpp"
 #include "plan/value.hpp"
@@ -16,6 +17,7 @@
 namespace vagus::run {
 
 class Debugger;
+class Surroundings;
 
 struct RunOptions {
     uint64_t seed = 1;
@@ -25,8 +27,16 @@ struct RunOptions {
     std::function<void(const plan::TraceEvent&)> on_trace;
     // What the plan emits, for a bus beyond this run; called on the deciding thread.
     std::function<void(const BusEvent&)> on_emit;
+    // Whether the bus can carry it; the Error is the failure of the code that emits it. Called on
+    // the thread of that code. What supervisors emit as they stop comes to on_emit in any case.
+    std::function<Status(const BusEvent&)> may_emit;
+    // In virtual time: what shares the run's clock (surroundings.hpp). Borrowed for the run.
+    Surroundings* surroundings = nullptr;
     Debugger* debugger = nullptr;  // borrowed for the run
 };
+
+// Throws CodeError with the sentence of may_emit.
+void throw_if_refused(const RunOptions& options, const BusEvent& event);
 
 struct Ended {
     plan::PlanResult result = plan::PlanResult::Ok;

@@ -24,14 +24,19 @@ private:
     // Used on the deciding thread only.
     class WatchContext final : public SupervisorContext {
     public:
-        explicit WatchContext(Engine& engine)
-            : inbox_(engine.inbox_), number_(engine.numbers_.next()) {}
-        void emit(BusEvent event) override { inbox_.post(Heard{std::move(event), true}); }
+        explicit WatchContext(Engine& engine) : engine_(&engine), number_(engine.numbers_.next()) {}
+        void emit(BusEvent event) override {
+            if (!over_) throw_if_refused(engine_->options_, event);
+            engine_->inbox_.post(Heard{std::move(event), true});
+        }
         uint64_t number() const override { return number_; }
+        // The watching is over: from now on there is nobody to throw to.
+        void end() { over_ = true; }
 
     private:
-        Inbox& inbox_;
+        Engine* engine_;
         uint64_t number_;
+        bool over_ = false;
     };
     struct Watching {
         plan::WatchId id;
@@ -227,6 +232,7 @@ void RealTime::Engine::obey(plan::StopWatch& command) {
 }
 
 void RealTime::Engine::end_watching(Watching& watching) {
+    watching.context.end();
     if (watching.begun) watching.code->stopped(watching.context);
 }
 
@@ -235,7 +241,7 @@ void RealTime::Engine::obey(plan::StartCode& command) {
     code->activation = command.activation;
     code->actor = library_.make_actor(*command.actor->of);
     const LiveContext::Of of{command.activation, numbers_.next(), *code->actor,
-                             command.actor->of->outputs.size()};
+                             command.actor->of->outputs.size(), options_};
     code->context =
         std::make_unique<LiveContext>(std::move(command.in), of, inbox_, random_, clock_);
     code->grace = Duration{command.actor->of->grace_ms * 1000};

@@ -14,6 +14,7 @@
 
 #include "run/code.hpp"
 #include "run/kept_events.hpp"
+#include "run/options.hpp"
 #include "run/real_time.hpp"
 
 namespace vagus::run {
@@ -129,12 +130,14 @@ public:
         uint64_t number;
         Actor& actor;
         size_t outputs;
+        const RunOptions& options;
     };
     LiveContext(std::vector<plan::Value> in, const Of& of, Inbox& inbox, SplitMix64& random,
                 const RunClock& clock)
         : ActorContext(std::move(in), of.outputs, of.number),
           activation_(of.activation),
           actor_(of.actor),
+          options_(of.options),
           inbox_(inbox),
           random_(random),
           clock_(clock) {}
@@ -143,7 +146,10 @@ public:
     Time now() const override { return clock_.now(); }
     void linger(Duration time) override;
     void log(std::string text) override { inbox_.post(Logged{activation_, std::move(text)}); }
-    void emit(BusEvent event) override { inbox_.post(Heard{std::move(event), true}); }
+    void emit(BusEvent event) override {
+        throw_if_refused(options_, event);
+        inbox_.post(Heard{std::move(event), true});
+    }
     // The generator of a run, drawn from by one actor at a time (P14).
     SplitMix64& random() override { return random_; }
     void listen(std::vector<std::string> names) override;
@@ -165,6 +171,7 @@ private:
 
     const plan::ActivationId activation_;
     Actor& actor_;
+    const RunOptions& options_;
     Inbox& inbox_;
     SplitMix64& random_;
     const RunClock& clock_;

@@ -8,6 +8,7 @@
 
 #include "run/debugger.hpp"
 #include "run/kept_events.hpp"
+#include "run/surroundings.hpp"
 
 namespace vagus::run {
 
@@ -29,12 +30,18 @@ class VirtualTime::WatchContext final : public SupervisorContext {
 public:
     explicit WatchContext(VirtualTime& run) : run_(run), number_(run.numbers_.next()) {}
 
-    void emit(BusEvent event) override { run_.emit(event); }
+    void emit(BusEvent event) override {
+        if (!over_) throw_if_refused(run_.options_, event);
+        run_.emit(event);
+    }
     uint64_t number() const override { return number_; }
+    // The watching is over: from now on there is nobody to throw to.
+    void end() { over_ = true; }
 
 private:
     VirtualTime& run_;
     uint64_t number_;
+    bool over_ = false;
 };
 
 // A supervisor that watches.
@@ -98,7 +105,10 @@ public:
     }
 
     // The executor waits while code runs, so its state is the code's to use.
-    void emit(BusEvent event) override { run_.emit(event); }
+    void emit(BusEvent event) override {
+        throw_if_refused(run_.options_, event);
+        run_.emit(event);
+    }
 
     SplitMix64& random() override { return run_.random_; }
 
@@ -154,6 +164,7 @@ Ended VirtualTime::decide() {
     obey();
     for (let_debug(); !machine_.over(); let_debug()) {
         write_from_outside();
+        meet_surroundings();
         if (std::exchange(abort_asked_, false)) {
             machine_.abort(now_);
         } else if (!take_first_due() && !advance()) {
@@ -162,6 +173,7 @@ Ended VirtualTime::decide() {
         }
         obey();
     }
+    leave_surroundings();
     // An actor that overstayed its grace time still holds its thread: it is told until it ends.
     while (code_ && !code_->ended) {
         code_->thread->go_on();
@@ -208,6 +220,7 @@ void VirtualTime::obey(plan::StopWatch& command) {
     if (found == watching_.end()) return;
     const std::unique_ptr<Watching> over = std::move(*found);
     watching_.erase(found);
+    over->context.end();
     if (over->begun) over->code->stopped(over->context);
 }
 
@@ -408,6 +421,22 @@ void VirtualTime::deliver_to_code(const BusEvent& event) {
     code_->wake = now_;
 }
 
+// ---- what has time of its own beside the plan ----
+
+// Instants of the surroundings that the clock has come to begin before anything of the plan.
+void VirtualTime::meet_surroundings() {
+    Surroundings* const around = options_.surroundings;
+    while (around && around->next() <= now_) {
+        leave_surroundings();
+        met_ = true;
+        for (const BusEvent& event : around->begin()) deliver(event);
+    }
+}
+
+void VirtualTime::leave_surroundings() {
+    if (std::exchange(met_, false)) options_.surroundings->end();
+}
+
 // ---- time ----
 
 std::optional<Time> VirtualTime::next_due() const {
@@ -419,12 +448,14 @@ std::optional<Time> VirtualTime::next_due() const {
         next = std::min(next, code_->wake);
         if (code_->told) next = std::min(next, code_->grace_ends);
     }
+    if (options_.surroundings) next = std::min(next, options_.surroundings->next());
     return next == kNever ? std::nullopt : std::optional(next);
 }
 
 // Jumps to the next thing due. False: max_time comes first, or nothing can ever fall due; then the
 // run is to be aborted at the time that now is.
 bool VirtualTime::advance() {
+    leave_surroundings();
     const auto next = next_due();
     const bool limited = options_.max_time && !timed_out_;
     machine_.time_passed();

@@ -27,7 +27,8 @@ public:
     ~VirtualTime();
 
     Ended run();
-    // Ends the run as soon as what is being taken is done (P28). For on_trace and for actors' code.
+    // Ends the run as soon as what is being taken is done (P28). For on_trace, actors' code and
+    // surroundings.
     void abort() { abort_asked_ = true; }
     // Writes a variable of the outermost plan as soon as what is being taken is done (P29); a value
     // that does not fit its type is dropped. For on_trace and for actors' code.
@@ -59,6 +60,8 @@ private:
     void emit(const BusEvent& event);
     void deliver(const BusEvent& event);
     void deliver_to_code(const BusEvent& event);
+    void meet_surroundings();
+    void leave_surroundings();
     std::optional<Time> next_due() const;
     bool advance();
     bool pause_comes_first(Time next) const;
@@ -73,6 +76,7 @@ private:
     Numbers numbers_;
     Time now_{0};
     bool timed_out_ = false;
+    bool met_ = false;  // an instant of the surroundings has begun and not ended
     bool abort_asked_ = false;
     std::vector<std::pair<int, plan::Value>> sets_asked_;
     std::vector<std::unique_ptr<Watching>> watching_;  // in the order of P21

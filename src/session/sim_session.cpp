@@ -1,6 +1,7 @@
 #include "session/sim_session.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <filesystem>
 
 #include "base/file.hpp"
@@ -36,21 +37,72 @@ void SimSession::step(Duration span) {
     rest_ += span;
     while (rest_ >= kExchangeEvery) {
         rest_ -= kExchangeEvery;
-        clock_ += kExchangeEvery;
-        world_.step(kExchangeEvery);
-        if (options_.traced) trace_happenings();
-        exchange();
-        if (!waiting_.empty() && all_described()) place_files();
-        send_ready();
+        begin_instant();
+        end_instant();
     }
 }
 
-void SimSession::exchange() {
+void SimSession::begin_instant() {
+    const std::vector<wire::Frame> delivered = take_frames();
+    world_.begin_instant();
+    listen(delivered);
+}
+
+void SimSession::end_instant() {
+    const size_t told = world_.happenings().size();
+    world_.end_instant();
+    if (options_.traced) trace_happenings(told);
+    speak();
+}
+
+bool SimSession::settle() {
+    assert(now() == Time{});
+    for (Duration held{}; !settled() && held < kSettleWithin; held += kExchangeEvery) {
+        const std::vector<wire::Frame> delivered = take_frames();
+        world_.hold_instant();
+        listen(delivered);
+        speak();
+    }
+    return settled();
+}
+
+// What was sent before this instant reaches the host at it, as it does the nodes.
+std::vector<wire::Frame> SimSession::take_frames() {
+    std::vector<wire::Frame> frames;
     wire::Frame frame;
-    while (world_.bus().take(link_, frame)) network_.receive(clock_, frame);
+    while (world_.bus().take(link_, frame)) frames.push_back(frame);
+    return frames;
+}
+
+void SimSession::listen(const std::vector<wire::Frame>& delivered) {
+    clock_ += kExchangeEvery;
+    if (options_.traced) trace_happenings(0);
+    for (const wire::Frame& frame : delivered) network_.receive(clock_, frame);
     if (network_.next_tick() <= clock_) network_.tick(clock_);
     for (const debug::Event& event : network_.take_events()) hear(event);
+}
+
+void SimSession::speak() {
+    if (!waiting_.empty() && all_described()) place_files();
+    send_ready();
     for (const wire::Frame& out : network_.take_frames()) world_.bus().receive(link_, out);
+}
+
+// ---- a plan beside it ----
+
+Status SimSession::emit(const std::string& event, std::span<const int16_t> arguments) {
+    const Status sent = network_.emit(event, arguments);
+    if (!sent.ok() || !options_.traced) return sent;
+    trace_ += TraceLine(now(), "event")
+                  .number("node", wire::kHostId)
+                  .text("name", event)
+                  .words("args", arguments)
+                  .done();
+    return sent;
+}
+
+std::vector<debug::UserEvent> SimSession::take_heard() {
+    return std::exchange(heard_, {});
 }
 
 void SimSession::reset() {
@@ -98,6 +150,7 @@ void SimSession::hear(const debug::Event& event) {
 
 void SimSession::hear_user_event(const debug::Event& event, const debug::UserEvent& sent) {
     const std::string name = sent.name.empty() ? std::to_string(sent.number) : sent.name;
+    if (options_.heard && heard_.size() < kHeardMax) heard_.push_back(sent);
     if (events_.size() < kEventNamesMax || events_.contains(name)) {
         EventCount& count = events_[name];
         count = {name, count.count + 1, sent.arguments, now()};
@@ -141,8 +194,8 @@ void SimSession::hear_done(Robot& robot, const debug::RequestDone& done) {
                                std::to_string(script.program.bytecode.size()) + " words");
 }
 
-void SimSession::trace_happenings() {
-    for (const sim::Happening& happening : world_.happenings()) {
+void SimSession::trace_happenings(size_t first) {
+    for (const sim::Happening& happening : world_.happenings().subspan(first)) {
         const Robot* robot = robot_of(happening.robot);
         const std::string name = robot != nullptr ? robot->name : "";
         if (const auto* sent = std::get_if<sim::Emitted>(&happening.what)) {

@@ -36,11 +36,14 @@ constexpr size_t kScriptFilesMax = sim::kRobotsMax + 1;  // one for each robot, 
 constexpr size_t kLoadsAtOnce = 4;
 constexpr size_t kEventNamesMax = 256;  // different events that are counted; further ones only pass
 constexpr size_t kNotesMax = 10000;     // not taken yet; then the newest are dropped
+constexpr size_t kHeardMax = 10000;     // the same of take_heard()
+constexpr Duration kSettleWithin = std::chrono::seconds(5);  // of settle(), in which no time passes
 
 struct SimOptions {
     sim::WorldOptions world;
     aesl::Options compile;
     bool traced = false;  // keep lines for take_trace()
+    bool heard = false;   // keep user events for take_heard()
 };
 
 enum class NoteKind {
@@ -93,11 +96,28 @@ public:
 
     // Lets `span` pass: whole milliseconds, the rest is kept.
     void step(Duration span);
+    // One sim::kNodeStep in two halves, as those of sim::World: for a plan beside it, which stands
+    // between the nodes and the bodies.
+    void begin_instant();
+    void end_instant();
+    // At time 0: loads the scripts while the world stands still (docs/decisions/0083). False if not
+    // all of them are settled() within kSettleWithin.
+    bool settle();
     Time now() const { return world_.now(); }
     // Time 0 again, and the same scripts are sent again.
     void reset();
     // Everything that was loaded runs on its robot, or has mistakes.
     bool settled() const;
+
+    // ---- a plan beside it ----
+    // Sends a user event as a host, delivered at the next instant. Fails for an event that no
+    // project of the robots declares, and for another number of arguments than is declared.
+    Status emit(const std::string& event, std::span<const int16_t> arguments);
+    // User events of nodes and of other hosts, in their order; with SimOptions::heard.
+    std::vector<debug::UserEvent> take_heard();
+    // Names of events and constants, by the projects that the robots load.
+    const aesl::CommonDefinitions& common() const { return network_.common(); }
+    const debug::Network& network() const { return network_; }
 
     // ---- looking ----
     const sim::World& world() const { return world_; }
@@ -143,13 +163,15 @@ private:
         std::optional<sim::RobotId> only;
     };
 
-    void exchange();
+    std::vector<wire::Frame> take_frames();
+    void listen(const std::vector<wire::Frame>& delivered);
+    void speak();
     void note(NoteKind kind, std::string text);
     void hear(const debug::Event& event);
     void hear_user_event(const debug::Event& event, const debug::UserEvent& sent);
     void hear_fault(Robot& robot, const debug::Fault& fault);
     void hear_done(Robot& robot, const debug::RequestDone& done);
-    void trace_happenings();
+    void trace_happenings(size_t first);
     void take(const std::string& path, std::optional<sim::RobotId> only, std::string_view text);
     bool all_described() const;
     void place_files();
@@ -181,6 +203,7 @@ private:
         names_;  // by path: events of the scripts that run
     std::map<std::string, EventCount> events_;
     std::vector<Note> notes_;
+    std::vector<debug::UserEvent> heard_;
     std::string trace_;
 };
 

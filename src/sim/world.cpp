@@ -30,6 +30,7 @@ struct World::Insides {
     void forget_happenings();
     void begin_instant();
     void end_instant();
+    void hold_instant();
     void run_timeline();
     void act(const Action& action);
     void deliver(const Berth& berth);
@@ -132,6 +133,11 @@ void World::end_instant() {
     insides_->end_instant();
 }
 
+void World::hold_instant() {
+    insides_->forget_happenings();
+    insides_->hold_instant();
+}
+
 void World::Insides::forget_happenings() {
     happenings.clear();
     happenings_lost = 0;
@@ -154,6 +160,12 @@ void World::Insides::begin_instant() {
 
 void World::Insides::end_instant() {
     if (now % kPhysicsStep == Duration::zero()) move_bodies();
+}
+
+void World::Insides::hold_instant() {
+    for (const Berth& berth : berths) deliver(berth);
+    for (const Berth& berth : berths) machine(berth).run();
+    for (const Berth& berth : berths) collect(berth);
 }
 
 void World::Insides::run_timeline() {

@@ -125,6 +125,9 @@ public:
     //     world.end_instant();     // bodies
     void begin_instant();
     void end_instant();
+    // A kNodeStep in which no time passes: frames are delivered and scripts run, while timeline,
+    // sensors, timers and bodies stand. So scripts can be loaded before the time 0 of a run.
+    void hold_instant();
     Time now() const;
     // Everything as at the start, time 0; the links of the bus stay, scripts and variables are
     // gone.

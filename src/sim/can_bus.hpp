@@ -60,8 +60,8 @@ struct CanDelivery {
     wire::Frame frame;
 };
 
-// What one port has put on the bus. Bits count with their intermission: while it lasts nobody else
-// can send.
+// What one port has put on the bus, what is under way included. Bits count with their intermission:
+// while it lasts nobody else can send.
 struct CanLoad {
     std::string name;
     uint64_t frames = 0;      // whole ones

@@ -56,6 +56,7 @@ public:
     void host_left();
 
     uint16_t id() const { return config_.id; }
+    const char* name() const { return definition_.description->name; }
     int16_t& variable(uint16_t address) { return variables_[address]; }
     int16_t variable(uint16_t address) const { return variables_[address]; }
     const std::vector<int16_t>& variables() const { return variables_; }

@@ -5,6 +5,7 @@
 
 #include "base/file.hpp"
 #include "sim/inhabitants.hpp"
+#include "sim/node_bus.hpp"
 #include "sim/world_check.hpp"
 #include "sim/world_file.hpp"
 #include "wire/messages.hpp"
@@ -15,7 +16,7 @@ namespace vagus::sim {
 struct Berth {
     size_t robot = 0;          // index of the robot it belongs to
     size_t place = 0;          // among its machines
-    hub::LinkId link;          // on the bus of all
+    hub::LinkId link;          // on the bus of all, if that is ideal
     hub::LinkId private_link;  // on that behind the robot's own port, if it has one
 };
 
@@ -27,14 +28,15 @@ struct World::Insides {
 
     Status join_bus();
     void populate();
+    void join_nodes();
     void forget_happenings();
     void begin_instant();
     void end_instant();
     void hold_instant();
     void run_timeline();
     void act(const Action& action);
-    void deliver(const Berth& berth);
-    void collect(const Berth& berth);
+    void deliver(size_t index);
+    void collect(size_t index);
     void note_frame(size_t robot, const wire::Frame& frame);
     void move_bodies();
     void note_touches();
@@ -48,8 +50,9 @@ struct World::Insides {
     WorldOptions options;
     std::unique_ptr<Inhabitants> inhabitants;
     hub::Hub bus;
-    std::vector<Berth> berths;                             // by ascending node id
-    std::vector<size_t> by_node;                           // indices of robots by ascending node id
+    std::optional<NodeBus> node_bus;  // between the nodes and `bus`, if it is a Can
+    std::vector<Berth> berths;        // by ascending node id
+    std::vector<size_t> by_node;      // indices of robots by ascending node id
     std::vector<std::unique_ptr<hub::Hub>> private_buses;  // by index of the robot
     size_t timeline_next = 0;
     Time now{};
@@ -62,9 +65,32 @@ Result<World> World::load(std::string_view text, std::string_view file, WorldOpt
     return create(TRY(read_world(text, file)), std::move(options));
 }
 
+namespace {
+
+// A CAN identifier has eight bits for the source.
+Status check_can(const WorldDefinition& definition) {
+    for (size_t i = 0; i < definition.robots.size(); ++i) {
+        const RobotDefinition& robot = definition.robots[i];
+        const int last = robot.node + nodes_of(robot.type) - 1;
+        if (last <= wire::kCanSourceMax) continue;
+        return Error{Code::BadInput, "robots[" + std::to_string(i) + "].node: expected ids up to " +
+                                         std::to_string(wire::kCanSourceMax) +
+                                         ", for a CAN bus carries no others; found " +
+                                         std::to_string(last) + "; give robot " + robot.name +
+                                         " a smaller one"};
+    }
+    return Status::done();
+}
+
+}  // namespace
+
 Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     const Status checked = check_world(definition);
     if (!checked.ok()) return checked.error();
+    if (options.bus == BusModel::Can) {
+        const Status fits = check_can(definition);
+        if (!fits.ok()) return fits.error();
+    }
     Picture picture;
     if (!definition.ground_image.empty()) {
         const std::string path = options.folder + "/" + definition.ground_image;
@@ -90,11 +116,13 @@ Status World::Insides::join_bus() {
         return definition.robots[a].node < definition.robots[b].node;
     });
     private_buses.resize(definition.robots.size());
+    if (options.bus == BusModel::Can) node_bus.emplace(bus, TRY(bus.add({.name = "nodes"})));
     for (const size_t index : by_node) {
         const RobotDefinition& robot = definition.robots[index];
         if (robot.port) private_buses[index] = std::make_unique<hub::Hub>();
         for (size_t place = 0; place < nodes_of(robot.type); ++place) {
-            Berth berth{index, place, TRY(bus.add({.name = robot.name})), {}};
+            Berth berth{index, place, {}, {}};
+            if (!node_bus) berth.link = TRY(bus.add({.name = robot.name}));
             if (robot.port)
                 berth.private_link = TRY(private_buses[index]->add({.name = robot.name}));
             berths.push_back(berth);
@@ -109,7 +137,23 @@ void World::Insides::populate() {
     now = Time{};
     rest = Duration{};
     timeline_next = 0;
+    join_nodes();
     run_timeline();
+}
+
+// With the names that their descriptions give them; those of one robot among several have its name
+// before them.
+void World::Insides::join_nodes() {
+    if (!node_bus) return;
+    if (node_bus->size() > 0) {
+        node_bus->reset();
+        return;
+    }
+    for (const Berth& berth : berths) {
+        const std::string& name = definition.robots[berth.robot].name;
+        const std::string prefix = definition.robots.size() > 1 ? name + "/" : "";
+        node_bus->join(machine(berth).id(), prefix + machine(berth).name());
+    }
 }
 
 // ---- Time ----
@@ -145,9 +189,11 @@ void World::Insides::forget_happenings() {
 
 // One instant: timeline, deliveries, nodes by id, bodies. What nodes send is delivered at the next.
 void World::Insides::begin_instant() {
+    if (node_bus) node_bus->accept(now);
     now += kNodeStep;
     run_timeline();
-    for (const Berth& berth : berths) deliver(berth);
+    if (node_bus) node_bus->advance(now);
+    for (size_t i = 0; i < berths.size(); ++i) deliver(i);
     inhabitants->arena().prepare_looks();
     const Surroundings around = {inhabitants->arena(), inhabitants->ground(),
                                  inhabitants->colours(), now};
@@ -155,7 +201,7 @@ void World::Insides::begin_instant() {
         robot(index).sense(around);
         for (Machine* const machine : robot(index).machines()) machine->run();
     }
-    for (const Berth& berth : berths) collect(berth);
+    for (size_t i = 0; i < berths.size(); ++i) collect(i);
 }
 
 void World::Insides::end_instant() {
@@ -215,21 +261,29 @@ void World::Insides::act(const Action& action) {
 
 // ---- The bus ----
 
-void World::Insides::deliver(const Berth& berth) {
+void World::Insides::deliver(size_t index) {
+    const Berth& berth = berths[index];
     Machine& node = machine(berth);
     node.begin_millisecond();
     wire::Frame frame;
-    while (node.wants_frame() && bus.take(berth.link, frame)) node.receive(frame);
+    const auto take = [&] {
+        return node_bus ? node_bus->take(index, frame) : bus.take(berth.link, frame);
+    };
+    while (node.wants_frame() && take()) node.receive(frame);
     hub::Hub* const own_bus = private_buses[berth.robot].get();
     if (own_bus == nullptr) return;
     while (node.wants_frame() && own_bus->take(berth.private_link, frame)) node.receive(frame);
 }
 
-void World::Insides::collect(const Berth& berth) {
+void World::Insides::collect(size_t index) {
+    const Berth& berth = berths[index];
     std::vector<wire::Frame>& sent = machine(berth).sent();
     hub::Hub* const own_bus = private_buses[berth.robot].get();
     for (const wire::Frame& frame : sent) {
-        bus.receive(berth.link, frame);
+        if (node_bus)
+            node_bus->send(index, frame, now);
+        else
+            bus.receive(berth.link, frame);
         if (own_bus != nullptr) own_bus->receive(berth.private_link, frame);
         note_frame(berth.robot, frame);
     }
@@ -322,7 +376,7 @@ Time World::now() const {
 void World::reset() {
     wire::Frame frame;
     for (const Berth& berth : insides_->berths) {
-        while (insides_->bus.take(berth.link, frame)) {
+        while (!insides_->node_bus && insides_->bus.take(berth.link, frame)) {
         }
         hub::Hub* const own_bus = insides_->private_buses[berth.robot].get();
         while (own_bus != nullptr && own_bus->take(berth.private_link, frame)) {
@@ -342,6 +396,11 @@ uint64_t World::happenings_lost() const {
 
 hub::Hub& World::bus() {
     return insides_->bus;
+}
+
+std::optional<BusLoad> World::bus_load() const {
+    if (!insides_->node_bus) return std::nullopt;
+    return insides_->node_bus->load();
 }
 
 namespace {

@@ -29,6 +29,7 @@
 #include "base/result.hpp"
 #include "base/time.hpp"
 #include "hub/hub.hpp"
+#include "sim/can_bus.hpp"
 #include "sim/definitions.hpp"
 #include "sim/drawing.hpp"
 
@@ -50,10 +51,17 @@ struct ObjectId {
     auto operator<=>(const ObjectId&) const = default;
 };
 
+// How frames get from node to node.
+enum class BusModel : uint8_t {
+    Ideal,  // at the next millisecond, however many
+    Can,    // over one CAN bus of 1 Mbit/s with all nodes on it (can_bus.hpp)
+};
+
 struct WorldOptions {
-    std::optional<uint64_t> seed;  // instead of that of the file
-    std::string folder = ".";      // where paths of the file start
-    std::string sd_folder;         // the card of every robot that has a slot; empty: no card
+    std::optional<uint64_t> seed;      // instead of that of the file
+    std::string folder = ".";          // where paths of the file start
+    std::string sd_folder;             // the card of every robot that has a slot; empty: no card
+    std::optional<BusModel> bus = {};  // empty: Ideal
 };
 
 // ---- What there is to draw. Everything in metres and radians. ----
@@ -104,6 +112,17 @@ struct Happening {
     std::variant<Emitted, Fault, PoseNote, Contact> what;
 };
 
+// What the nodes put on a bus of model Can. The first of `nodes` is the one place on it that all
+// hosts share, called "main", node 0; then come the nodes by id.
+struct NodeLoad {
+    uint16_t node = 0;
+    CanLoad load;
+};
+struct BusLoad {
+    CanLoad all;
+    std::vector<NodeLoad> nodes;
+};
+
 class World {
 public:
     // From the text of a world file; `file` is for the sentences of errors. Reads the ground image,
@@ -139,7 +158,13 @@ public:
     // ---- The bus ----
     // All nodes of all robots are on it. Add links for hosts, for sockets (net), for tests; frames
     // for the robots go through it.
+    //
+    // Over a Can bus a frame arrives at the first millisecond at or after the end of its
+    // transmission, never before the next one. What a host sends begins its way at the time of the
+    // last step; what the bus has no room for waits in the hub, bounded as for any link.
     hub::Hub& bus();
+    // Empty if the bus is ideal.
+    std::optional<BusLoad> bus_load() const;
     // The private switch behind the robot's `port`: that robot alone is on it. nullptr if it has no
     // port.
     hub::Hub* private_bus(RobotId robot);

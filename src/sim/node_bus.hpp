@@ -1,0 +1,50 @@
+// The nodes of a world on one CAN bus, and the hub with all hosts as one more place on it, called
+// "main": as the main computer of a robot is the one that passes on what others want of it.
+#pragma once
+
+#include <vector>
+
+#include "hub/hub.hpp"
+#include "hub/output_queue.hpp"
+#include "sim/can_bus.hpp"
+#include "sim/world.hpp"
+
+namespace vagus::sim {
+
+class NodeBus {
+public:
+    // `link` is ours on the hub, which must outlive this.
+    NodeBus(hub::Hub& hub, hub::LinkId link) : hub_(hub), link_(link), main_(can_.join("main")) {}
+
+    // The next node; they are counted from 0 by their order here. At most kCanSourceMax of them.
+    void join(uint16_t node, std::string name);
+    size_t size() const { return places_.size(); }
+
+    // What hosts have sent is queued at `now`, as much as there is room for.
+    void accept(Time now);
+    // What has crossed by `now` reaches the nodes and the hosts.
+    void advance(Time now);
+    // What has reached a node, the oldest first.
+    bool take(size_t place, wire::Frame& frame) { return places_[place].inbox.pop(frame); }
+    // A frame of a node.
+    void send(size_t place, const wire::Frame& frame, Time now);
+
+    BusLoad load() const;
+    // Nothing waits anywhere, nothing was counted, time 0.
+    void reset();
+
+private:
+    struct Place {
+        uint16_t node = 0;
+        CanPort port;
+        hub::OutputQueue inbox;  // bounded; a node takes as many frames as the bus can bring
+    };
+
+    hub::Hub& hub_;
+    hub::LinkId link_;
+    CanBus can_;
+    CanPort main_;
+    std::vector<Place> places_;
+};
+
+}  // namespace vagus::sim

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include "sim/world.hpp"
+#include "wire/messages.hpp"
+
+using namespace vagus;
+using namespace vagus::sim;
+using namespace std::chrono_literals;
+
+namespace {
+
+WorldOptions can() {
+    WorldOptions options;
+    options.bus = BusModel::Can;
+    return options;
+}
+
+WorldDefinition with_thymios(std::vector<uint16_t> nodes) {
+    WorldDefinition world;
+    world.width = world.height = 2;
+    for (const uint16_t node : nodes) {
+        const double x = 0.3 * static_cast<double>(world.robots.size() + 1);
+        world.robots.push_back({.name = "t" + std::to_string(node), .at = {x, 1}, .node = node});
+    }
+    return world;
+}
+
+World make(const WorldDefinition& definition, const WorldOptions& options) {
+    Result<World> world = World::create(definition, options);
+    EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().what);
+    return std::move(world.value());
+}
+
+wire::Frame event_of_zeros(uint16_t source) {
+    wire::Frame frame{};
+    frame.source = source;
+    frame.size = 6;
+    return frame;
+}
+
+// A host on the bus.
+class Host {
+public:
+    explicit Host(World& world) : hub_(world.bus()), link_(hub_.add({.name = "host"}).value()) {}
+
+    void send(const wire::Frame& frame) { hub_.receive(link_, frame); }
+    void list_nodes() {
+        wire::ListNodes message{};
+        message.version = wire::kProtocolVersion;
+        wire::Frame frame;
+        ASSERT_EQ(wire::encode_message(message, wire::kHostId, frame), wire::Error::None);
+        send(frame);
+    }
+    std::vector<wire::Frame> frames() {
+        std::vector<wire::Frame> all;
+        wire::Frame frame;
+        while (hub_.take(link_, frame)) all.push_back(frame);
+        return all;
+    }
+
+private:
+    hub::Hub& hub_;
+    hub::LinkId link_;
+};
+
+// The question leaves at 0, takes below 150 microseconds and arrives at 1 ms; the answers leave
+// then and arrive at 2 ms, the lower identifier first.
+TEST(NodeBus, AFrameArrivesAtTheMillisecondAfterItsTransmission) {
+    World world = make(with_thymios({7, 3}), can());
+    Host host(world);
+    host.list_nodes();
+    world.step(1ms);
+    EXPECT_TRUE(host.frames().empty());
+    world.step(1ms);
+    const std::vector<wire::Frame> answers = host.frames();
+    ASSERT_EQ(answers.size(), 2u);
+    EXPECT_EQ(answers[0].source, 3);
+    EXPECT_EQ(answers[1].source, 7);
+}
+
+TEST(NodeBus, AnIdealBusAnswersAtOnceAndCountsNothing) {
+    World world = make(with_thymios({7, 3}), {});
+    Host host(world);
+    host.list_nodes();
+    world.step(1ms);
+    EXPECT_EQ(host.frames().size(), 2u);
+    EXPECT_FALSE(world.bus_load());
+}
+
+TEST(NodeBus, HostsHearEachOtherAndWhatTheyHearIsCountedOnce) {
+    World world = make(with_thymios({1}), can());
+    Host one(world);
+    Host two(world);
+    one.send(event_of_zeros(0));
+    EXPECT_EQ(two.frames().size(), 1u);  // the hub's business, not the bus's
+    world.step(1ms);
+    EXPECT_TRUE(one.frames().empty());
+    const BusLoad load = *world.bus_load();
+    ASSERT_EQ(load.nodes.size(), 2u);
+    EXPECT_EQ(load.nodes[0].load.name, "main");
+    EXPECT_EQ(load.nodes[0].load.frames, 1u);
+    EXPECT_EQ(load.nodes[1].node, 1);
+    EXPECT_EQ(load.nodes[1].load.name, "thymio-II");
+    EXPECT_EQ(load.nodes[1].load.frames, 0u);
+    EXPECT_EQ(load.all.frames, 1u);
+}
+
+TEST(NodeBus, NodesOfSeveralRobotsAreToldApartByTheirRobot) {
+    World world = make(with_thymios({1, 2}), can());
+    EXPECT_EQ(world.bus_load()->nodes[2].load.name, "t2/thymio-II");
+}
+
+// 1000 frames at once are more than a port holds: they wait in the hub and pass as fast as the bus
+// goes, one after the other.
+TEST(NodeBus, AFloodFromAHostWaitsForTheBusAndLosesNothing) {
+    World world = make(with_thymios({1}), can());
+    Host host(world);
+    for (int i = 0; i < 1000; ++i) host.send(event_of_zeros(0));
+    const uint32_t each = can_bits({0x300, 8, {}}) + kCanIntermissionBits;
+    world.step(10ms);
+    const uint64_t after_10ms = world.bus_load()->all.frames;
+    EXPECT_EQ(after_10ms, (10'000 + each - 1) / each);  // the last one is under way
+    world.step(200ms);
+    EXPECT_EQ(world.bus_load()->all.frames, 1000u);
+    EXPECT_EQ(world.bus_load()->all.dropped, 0u);
+    EXPECT_LE(world.bus_load()->nodes[0].load.waiting_most, kCanQueueMax);
+}
+
+TEST(NodeBus, AFrameThatFitsNoIdentifierIsCountedAsDropped) {
+    World world = make(with_thymios({1}), can());
+    Host host(world);
+    host.send(event_of_zeros(256));
+    world.step(1ms);
+    EXPECT_EQ(world.bus_load()->nodes[0].load.dropped, 1u);
+}
+
+TEST(NodeBus, ANodeIdBeyondEightBitsIsRefused) {
+    EXPECT_TRUE(World::create(with_thymios({255}), can()).ok());
+    const Result<World> refused = World::create(with_thymios({256}), can());
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().what,
+              "robots[0].node: expected ids up to 255, for a CAN bus carries no others; found 256; "
+              "give robot t256 a smaller one");
+    EXPECT_TRUE(World::create(with_thymios({256}), {}).ok());
+}
+
+TEST(NodeBus, AResetForgetsWhatWasUnderWay) {
+    World world = make(with_thymios({1}), can());
+    Host host(world);
+    world.step(5ms);
+    host.list_nodes();
+    world.reset();
+    world.step(5ms);
+    EXPECT_TRUE(host.frames().empty());
+    EXPECT_EQ(world.bus_load()->all.frames, 0u);
+    host.list_nodes();
+    world.step(2ms);
+    EXPECT_EQ(host.frames().size(), 1u);
+}
+
+}  // namespace

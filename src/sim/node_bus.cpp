@@ -22,14 +22,25 @@ void NodeBus::send(size_t place, const wire::Frame& frame, Time now) {
 
 void NodeBus::advance(Time now) {
     can_.advance(now);
+    while (const auto delivery = can_.take()) hand_out(delivery->from, delivery->frame);
+}
+
+// To all but the sender.
+void NodeBus::hand_out(CanPort from, const wire::Frame& frame) {
     std::array<uint8_t, wire::kFrameMax> bytes;
-    while (const auto delivery = can_.take()) {
-        const std::span<const uint8_t> encoded(bytes.data(),
-                                               wire::encode(delivery->frame, bytes.data()));
-        for (Place& place : places_)
-            if (place.port != delivery->from) place.inbox.push(encoded);
-        if (delivery->from != main_) hub_.receive(link_, delivery->frame);
-    }
+    const std::span<const uint8_t> encoded(bytes.data(), wire::encode(frame, bytes.data()));
+    for (Place& place : places_)
+        if (place.port != from) place.inbox.push(encoded);
+    if (from != main_) hub_.receive(link_, frame);
+}
+
+void NodeBus::accept_at_once() {
+    wire::Frame frame;
+    while (hub_.take(link_, frame)) hand_out(main_, frame);
+}
+
+void NodeBus::send_at_once(size_t place, const wire::Frame& frame) {
+    hand_out(places_[place].port, frame);
 }
 
 BusLoad NodeBus::load() const {

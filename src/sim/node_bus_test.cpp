@@ -144,6 +144,17 @@ TEST(NodeBus, ANodeIdBeyondEightBitsIsRefused) {
     EXPECT_TRUE(World::create(with_thymios({256}), {}).ok());
 }
 
+// While the world is held, scripts are loaded: no time passes, and nothing is counted.
+TEST(NodeBus, WhileTheWorldStandsStillFramesPassAtOnceAndUncounted) {
+    World world = make(with_thymios({1, 2}), can());
+    Host host(world);
+    host.list_nodes();
+    world.hold_instant();
+    EXPECT_EQ(host.frames().size(), 2u);
+    EXPECT_EQ(world.now(), 0ms);
+    EXPECT_EQ(world.bus_load()->all.frames, 0u);
+}
+
 TEST(NodeBus, AResetForgetsWhatWasUnderWay) {
     World world = make(with_thymios({1}), can());
     Host host(world);

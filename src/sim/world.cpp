@@ -20,6 +20,9 @@ struct Berth {
     hub::LinkId private_link;  // on that behind the robot's own port, if it has one
 };
 
+// How a frame leaves its node when the bus is modelled.
+enum class Crossing : uint8_t { Timed, AtOnce };
+
 struct World::Insides {
     Insides(WorldDefinition its_definition, Picture its_picture, WorldOptions its_options)
         : definition(std::move(its_definition)),
@@ -36,7 +39,7 @@ struct World::Insides {
     void run_timeline();
     void act(const Action& action);
     void deliver(size_t index);
-    void collect(size_t index);
+    void collect(size_t index, Crossing crossing);
     void note_frame(size_t robot, const wire::Frame& frame);
     void move_bodies();
     void note_touches();
@@ -201,17 +204,19 @@ void World::Insides::begin_instant() {
         robot(index).sense(around);
         for (Machine* const machine : robot(index).machines()) machine->run();
     }
-    for (size_t i = 0; i < berths.size(); ++i) collect(i);
+    for (size_t i = 0; i < berths.size(); ++i) collect(i, Crossing::Timed);
 }
 
 void World::Insides::end_instant() {
     if (now % kPhysicsStep == Duration::zero()) move_bodies();
 }
 
+// No time passes, so a modelled bus cannot carry anything: what there is to say is said beside it.
 void World::Insides::hold_instant() {
-    for (const Berth& berth : berths) deliver(berth);
+    if (node_bus) node_bus->accept_at_once();
+    for (size_t i = 0; i < berths.size(); ++i) deliver(i);
     for (const Berth& berth : berths) machine(berth).run();
-    for (const Berth& berth : berths) collect(berth);
+    for (size_t i = 0; i < berths.size(); ++i) collect(i, Crossing::AtOnce);
 }
 
 void World::Insides::run_timeline() {
@@ -275,15 +280,17 @@ void World::Insides::deliver(size_t index) {
     while (node.wants_frame() && own_bus->take(berth.private_link, frame)) node.receive(frame);
 }
 
-void World::Insides::collect(size_t index) {
+void World::Insides::collect(size_t index, Crossing crossing) {
     const Berth& berth = berths[index];
     std::vector<wire::Frame>& sent = machine(berth).sent();
     hub::Hub* const own_bus = private_buses[berth.robot].get();
     for (const wire::Frame& frame : sent) {
-        if (node_bus)
+        if (!node_bus)
+            bus.receive(berth.link, frame);
+        else if (crossing == Crossing::Timed)
             node_bus->send(index, frame, now);
         else
-            bus.receive(berth.link, frame);
+            node_bus->send_at_once(index, frame);
         if (own_bus != nullptr) own_bus->receive(berth.private_link, frame);
         note_frame(berth.robot, frame);
     }

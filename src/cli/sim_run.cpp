@@ -295,7 +295,7 @@ void SimRun::keys() {
 }
 
 void SimRun::act(Key key) {
-    const size_t robots = session_.world().robots().size();
+    const size_t nodes = session_.nodes().size();
     switch (key) {
         case Key::Pause:
             paused_ = !paused_;
@@ -310,10 +310,10 @@ void SimRun::act(Key key) {
             step_speed(-1);
             break;
         case Key::NextRobot:
-            selected_ = robots > 0 ? (selected_ + 1) % robots : 0;
+            selected_ = nodes > 0 ? (selected_ + 1) % nodes : 0;
             break;
         case Key::LastRobot:
-            selected_ = robots > 0 ? (selected_ + robots - 1) % robots : 0;
+            selected_ = nodes > 0 ? (selected_ + nodes - 1) % nodes : 0;
             break;
         case Key::Centre:
             press("center");
@@ -331,9 +331,9 @@ void SimRun::act(Key key) {
             press("right");
             break;
         case Key::Tap: {
-            const auto states = session_.robots();
+            const auto states = session_.nodes();
             if (selected_ >= states.size()) break;
-            const Status done = session_.world().tap(states[selected_].id);
+            const Status done = session_.world().tap(states[selected_].robot);
             notice_ = done.ok() ? "tapped" : done.error().what;
             break;
         }
@@ -348,11 +348,11 @@ void SimRun::act(Key key) {
 }
 
 void SimRun::press(const std::string& button) {
-    const auto states = session_.robots();
-    if (selected_ >= states.size()) return;
-    const Status done = session_.world().press(states[selected_].id, button);
+    const auto nodes = session_.nodes();
+    if (selected_ >= nodes.size()) return;
+    const Status done = session_.world().press(nodes[selected_].robot, button);
     notice_ = done.ok() ? "button " + button : done.error().what;
-    if (done.ok()) held_.push_back({states[selected_].id, button, session_.now() + kButtonFor});
+    if (done.ok()) held_.push_back({nodes[selected_].robot, button, session_.now() + kButtonFor});
 }
 
 void SimRun::release_buttons() {

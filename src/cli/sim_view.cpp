@@ -149,8 +149,8 @@ int first_of(std::span<const int16_t> values) {
     return values.empty() ? 0 : values.front();
 }
 
-std::string state_text(const session::RobotState& state) {
-    if (state.node_name.empty()) return "starting";
+std::string state_text(const session::NodeState& state) {
+    if (state.name.empty()) return "starting";
     if (!state.fault.empty()) return "fault";
     if (!state.has_script && state.state != debug::ProgramState::Running) return "no script";
     return debug::name_of(state.state);
@@ -166,7 +166,19 @@ const Dials& dials_of(sim::RobotType type) {
     static const Dials kEpuck = {
         {{"prox", "prox", 4000}},
         {{"left", "speed.left", "speed.left"}, {"right", "speed.right", "speed.right"}}};
-    return type == sim::RobotType::Thymio2 ? kThymio : kEpuck;
+    static const Dials kCarbot = {
+        {{"touch", "touch.sectors", 1}, {"sonar", "sonar.distance", 3000}},
+        {{"front", "wheel.front.angle", "wheel.front.speed", "at", "rolls"},
+         {"rear", "wheel.rear.angle", "wheel.rear.speed", "at", "rolls"}}};
+    switch (type) {
+        case sim::RobotType::Thymio2:
+            return kThymio;
+        case sim::RobotType::Epuck:
+            return kEpuck;
+        case sim::RobotType::Carbot:
+            return kCarbot;
+    }
+    return kThymio;
 }
 
 SimView::SimView(const session::SimSession& session) : image_(image_of(session.world())) {}
@@ -178,20 +190,20 @@ void SimView::forget() {
 }
 
 void SimView::follow(const session::SimSession& session, size_t selected) {
-    const auto robots = session.world().robots();
-    if (selected < robots.size()) follow_variables(session, robots[selected].id);
+    const auto nodes = session.nodes();
+    if (selected < nodes.size()) follow_variables(session, nodes[selected].id);
     if (session.now() < next_trail_) return;
     next_trail_ = session.now() + kTrailEvery;
-    for (const sim::RobotView& robot : robots) {
+    for (const sim::RobotView& robot : session.world().robots()) {
         std::deque<Point>& trail = trails_[robot.id];
         trail.push_back({robot.pose.at.x, robot.pose.at.y});
         if (trail.size() > kTrailPoints) trail.pop_front();
     }
 }
 
-void SimView::follow_variables(const session::SimSession& session, sim::RobotId robot) {
-    for (const auto& [name, values] : session.script_variables(robot)) {
-        Remembered& before = variables_[{robot, name}];
+void SimView::follow_variables(const session::SimSession& session, uint16_t node) {
+    for (const auto& [name, values] : session.script_variables(node)) {
+        Remembered& before = variables_[{node, name}];
         const auto& old = before.values;
         if (std::equal(values.begin(), values.end(), old.begin(), old.end())) continue;
         if (!old.empty()) before.changed = session.now();
@@ -199,10 +211,10 @@ void SimView::follow_variables(const session::SimSession& session, sim::RobotId 
     }
 }
 
-void SimView::add_variables(const session::SimSession& session, sim::RobotId robot,
+void SimView::add_variables(const session::SimSession& session, uint16_t node,
                             PanelView& panel) const {
-    for (const auto& [name, values] : session.script_variables(robot)) {
-        const auto known = variables_.find({robot, name});
+    for (const auto& [name, values] : session.script_variables(node)) {
+        const auto known = variables_.find({node, name});
         const bool fresh = known != variables_.end() && known->second.changed > Time{} &&
                            session.now() - known->second.changed < kFreshFor;
         panel.variables.push_back({name, {values.begin(), values.end()}, fresh});
@@ -214,24 +226,24 @@ PanelView SimView::panel(const session::SimSession& session, size_t selected) co
     for (const session::EventCount& event : session.events()) {
         panel.events.push_back({event.name, event.count, event.arguments, event.last});
     }
-    const auto states = session.robots();
-    const auto robots = session.world().robots();
-    if (selected >= states.size() || selected >= robots.size()) return panel;
-    const session::RobotState& state = states[selected];
-    panel.node_name =
-        state.node_name.empty() ? std::string(robots[selected].name) : state.node_name;
-    panel.node_id = state.node;
+    const auto nodes = session.nodes();
+    if (selected >= nodes.size()) return panel;
+    const session::NodeState& state = nodes[selected];
+    const sim::RobotView robot = session.world().robots()[state.robot.number - 1];
+    panel.node_name = state.name.empty() ? std::string(robot.name) : state.name;
+    panel.node_id = state.id;
     panel.state = state_text(state);
     panel.wrong = !state.fault.empty();
-    const Dials& dials = dials_of(robots[selected].type);
+    const Dials& dials = dials_of(robot.type);
     for (const Dial& dial : dials.bars) {
-        const auto values = session.node_variable(state.id, dial.variable);
+        const auto values = session.node_variable(robot.id, dial.variable);
         panel.bars.push_back({std::string(dial.label), {values.begin(), values.end()}, dial.full});
     }
     for (const WheelDial& dial : dials.wheels) {
-        panel.wheels.push_back({std::string(dial.label),
-                                first_of(session.node_variable(state.id, dial.target)),
-                                first_of(session.node_variable(state.id, dial.speed)), 500});
+        panel.wheels.push_back({std::string(dial.label), std::string(dial.target_word),
+                                std::string(dial.speed_word),
+                                first_of(session.node_variable(robot.id, dial.target)),
+                                first_of(session.node_variable(robot.id, dial.speed))});
     }
     add_variables(session, state.id, panel);
     return panel;
@@ -261,14 +273,15 @@ View SimView::view(const session::SimSession& session, size_t selected) const {
             view.robots.back().trail.assign(trail->second.begin(), trail->second.end());
         }
     }
-    view.selected = selected;
+    const auto nodes = session.nodes();
+    if (selected < nodes.size()) view.selected = nodes[selected].robot.number - 1;
     view.panel = panel(session, selected);
     view.now = session.now();
     view.problems = session.mistakes();
     view.problems_title = "the script has mistakes; what was loaded before runs on";
     if (view.problems.empty()) {
         view.problems_title = "a script was stopped by what it did";
-        for (const auto& state : session.robots()) {
+        for (const auto& state : nodes) {
             if (!state.fault.empty()) view.problems.push_back(state.fault);
         }
     }

@@ -20,10 +20,13 @@ struct Dial {
     std::string_view variable;
     int full = 1;
 };
+// Two figures of a wheel: by default what it was told and what it does.
 struct WheelDial {
     std::string_view label;
     std::string_view target;
     std::string_view speed;
+    std::string_view target_word = "told";
+    std::string_view speed_word = "does";
 };
 struct Dials {
     std::vector<Dial> bars;
@@ -35,9 +38,10 @@ class SimView {
 public:
     explicit SimView(const session::SimSession& session);
 
-    // Remembers where the robots are and what the variables of the selected one hold; call often.
+    // Remembers where the robots are and what the variables of the selected node hold; call often.
     void follow(const session::SimSession& session, size_t selected);
-    // Everything but speed, pause and what is told from outside (listening, notice).
+    // Everything but speed, pause and what is told from outside (listening, notice). `selected` is
+    // the place of a node in session.nodes().
     View view(const session::SimSession& session, size_t selected) const;
     // After a reset: trails end.
     void forget();
@@ -48,13 +52,12 @@ private:
         Time changed{};
     };
     PanelView panel(const session::SimSession& session, size_t selected) const;
-    void follow_variables(const session::SimSession& session, sim::RobotId robot);
-    void add_variables(const session::SimSession& session, sim::RobotId robot,
-                       PanelView& panel) const;
+    void follow_variables(const session::SimSession& session, uint16_t node);
+    void add_variables(const session::SimSession& session, uint16_t node, PanelView& panel) const;
 
     GroundImage image_;
     std::map<sim::RobotId, std::deque<Point>> trails_;
-    std::map<std::pair<sim::RobotId, std::string>, Remembered> variables_;
+    std::map<std::pair<uint16_t, std::string>, Remembered> variables_;  // by node and name
     Time next_trail_{};
 };
 

@@ -1,6 +1,7 @@
 #include "session/known_nodes.hpp"
 
 #include <cassert>
+#include <iterator>
 
 #include "session/sim_session.hpp"
 #include "session/standard_target.hpp"
@@ -11,7 +12,7 @@ namespace {
 constexpr Duration kAnswerWithin = std::chrono::seconds(5);  // simulated
 
 // A robot says what it is when it is asked over the bus: that is the one place where it stands.
-aesl::Target describe(sim::RobotType type) {
+aesl::Target describe(sim::RobotType type, uint16_t place) {
     sim::WorldDefinition world;
     sim::RobotDefinition& robot_definition = world.robots.emplace_back();
     robot_definition.name = "robot";
@@ -20,19 +21,24 @@ aesl::Target describe(sim::RobotType type) {
     auto made = sim::World::create(world);
     assert(made.ok());  // nothing in it comes from outside
     SimSession session(std::move(made.value()), {});
-    const sim::RobotId robot = session.robots().front().id;
-    while (session.target(robot) == nullptr && session.now() < kAnswerWithin) {
+    const auto node = static_cast<uint16_t>(world.robots.front().node + place);
+    while (session.target(node) == nullptr && session.now() < kAnswerWithin) {
         session.step(sim::kNodeStep);
     }
-    assert(session.target(robot) != nullptr);
-    return *session.target(robot);
+    assert(session.target(node) != nullptr);
+    return *session.target(node);
 }
+
+constexpr std::string_view kCarbotNodes[] = {"drive", "bumper", "range", "head"};
 
 }  // namespace
 
 aesl::Target known_node(std::string_view name) {
-    if (name == "thymio-II") return describe(sim::RobotType::Thymio2);
-    if (name.starts_with("e-puck")) return describe(sim::RobotType::Epuck);
+    if (name == "thymio-II") return describe(sim::RobotType::Thymio2, 0);
+    if (name.starts_with("e-puck")) return describe(sim::RobotType::Epuck, 0);
+    for (uint16_t place = 0; place < std::size(kCarbotNodes); place++) {
+        if (name == kCarbotNodes[place]) return describe(sim::RobotType::Carbot, place);
+    }
     return standard_target(name.empty() ? "dummynode-0" : std::string(name));
 }
 

@@ -27,7 +27,11 @@ SimSession::SimSession(sim::World world, SimOptions options)
       options_(std::move(options)),
       link_(world_.bus().add({.name = "session"}).value()) {
     for (const sim::RobotView& robot : world_.robots()) {
-        robots_.push_back({robot.id, std::string(robot.name), robot.node, std::nullopt, ""});
+        for (uint16_t place = 0; place < robot.nodes; place++) {
+            nodes_.push_back({robot.id, std::string(robot.name),
+                              static_cast<uint16_t>(robot.node + place), place, robot.nodes,
+                              std::nullopt, ""});
+        }
     }
 }
 
@@ -110,20 +114,20 @@ void SimSession::reset() {
     rest_ = {};
     events_.clear();
     if (options_.traced) trace_ += TraceLine(world_.now(), "reset").done();
-    for (Robot& robot : robots_) {
-        robot.fault.clear();
-        if (robot.script && !robot.script->program.bytecode.empty()) {
-            robot.script->stage = Stage::Ready;
+    for (Node& node : nodes_) {
+        node.fault.clear();
+        if (node.script && !node.script->program.bytecode.empty()) {
+            node.script->stage = Stage::Ready;
         }
     }
 }
 
 bool SimSession::settled() const {
-    const auto waits = [](const Robot& robot) {
-        return robot.script && robot.script->stage != Stage::Runs &&
-               robot.script->stage != Stage::Failed;
+    const auto waits = [](const Node& node) {
+        return node.script && node.script->stage != Stage::Runs &&
+               node.script->stage != Stage::Failed;
     };
-    return waiting_.empty() && std::none_of(robots_.begin(), robots_.end(), waits);
+    return waiting_.empty() && std::none_of(nodes_.begin(), nodes_.end(), waits);
 }
 
 // ---- what the bus says ----
@@ -133,12 +137,12 @@ void SimSession::hear(const debug::Event& event) {
         hear_user_event(event, *sent);
         return;
     }
-    Robot* robot = robot_of(event.node);
-    if (robot == nullptr) return;
+    Node* node = find(event.node);
+    if (node == nullptr) return;
     if (const auto* fault = std::get_if<debug::Fault>(&event.what)) {
-        hear_fault(*robot, *fault);
+        hear_fault(*node, *fault);
     } else if (const auto* done = std::get_if<debug::RequestDone>(&event.what)) {
-        hear_done(*robot, *done);
+        hear_done(*node, *done);
     } else if (const auto* changed = std::get_if<debug::StateChanged>(&event.what)) {
         if (!options_.traced) return;
         trace_ += TraceLine(now(), "state")
@@ -155,11 +159,11 @@ void SimSession::hear_user_event(const debug::Event& event, const debug::UserEve
         EventCount& count = events_[name];
         count = {name, count.count + 1, sent.arguments, now()};
     }
-    const Robot* robot = robot_of(event.node);
-    const std::string from = robot != nullptr ? label(*robot) : "a host";
+    const Node* node = find(event.node);
+    const std::string from = node != nullptr ? label(*node) : "a host";
     note(NoteKind::Event, from + ": " + name + words_of(sent.arguments));
     // Events of nodes are traced as they happen (trace_happenings); hosts speak between the steps.
-    if (!options_.traced || robot != nullptr) return;
+    if (!options_.traced || node != nullptr) return;
     trace_ += TraceLine(now(), "event")
                   .number("node", event.node)
                   .text("name", name)
@@ -167,21 +171,21 @@ void SimSession::hear_user_event(const debug::Event& event, const debug::UserEve
                   .done();
 }
 
-void SimSession::hear_fault(Robot& robot, const debug::Fault& fault) {
-    std::string where = label(robot);
-    if (robot.script && fault.at.line > 0) {
-        const int line = fault.at.line + robot.script->script.first_line - 1;
-        where = robot.script->path + ":" + std::to_string(line);
+void SimSession::hear_fault(Node& node, const debug::Fault& fault) {
+    std::string where = label(node);
+    if (node.script && fault.at.line > 0) {
+        const int line = fault.at.line + node.script->script.first_line - 1;
+        where = node.script->path + ":" + std::to_string(line);
     }
     const std::string sentence = where + ": " + fault.text;
     if (fault.kind == debug::FaultKind::Killed) return;  // the script goes on with its next event
-    robot.fault = sentence;
+    node.fault = sentence;
     note(NoteKind::Fault, sentence);
 }
 
-void SimSession::hear_done(Robot& robot, const debug::RequestDone& done) {
-    if (!robot.script || !(robot.script->request == done.request)) return;
-    Assignment& script = *robot.script;
+void SimSession::hear_done(Node& node, const debug::RequestDone& done) {
+    if (!node.script || !(node.script->request == done.request)) return;
+    Assignment& script = *node.script;
     if (script.stage != Stage::Sent) return;
     if (done.error) {
         script.stage = Stage::Failed;
@@ -189,15 +193,15 @@ void SimSession::hear_done(Robot& robot, const debug::RequestDone& done) {
         return;
     }
     script.stage = Stage::Runs;
-    robot.fault.clear();
-    note(NoteKind::Loaded, script.path + " runs on " + label(robot) + ", " +
+    node.fault.clear();
+    note(NoteKind::Loaded, script.path + " runs on " + label(node) + ", " +
                                std::to_string(script.program.bytecode.size()) + " words");
 }
 
 void SimSession::trace_happenings(size_t first) {
+    const auto& robots = world_.definition().robots;
     for (const sim::Happening& happening : world_.happenings().subspan(first)) {
-        const Robot* robot = robot_of(happening.robot);
-        const std::string name = robot != nullptr ? robot->name : "";
+        const std::string& name = robots[happening.robot.number - 1].name;
         if (const auto* sent = std::get_if<sim::Emitted>(&happening.what)) {
             const auto& events = network_.common().events;
             const std::string event = sent->event < events.size() ? events[sent->event].name
@@ -239,13 +243,13 @@ void SimSession::note(NoteKind kind, std::string text) {
 
 // ---- looking ----
 
-std::vector<RobotState> SimSession::robots() const {
-    std::vector<RobotState> states;
-    for (const Robot& robot : robots_) {
-        RobotState state{robot.id, robot.node, "", {}, robot.script.has_value(), robot.fault};
-        if (const debug::NodeView* node = network_.node(robot.node)) {
-            state.node_name = node->name;
-            state.state = node->state;
+std::vector<NodeState> SimSession::nodes() const {
+    std::vector<NodeState> states;
+    for (const Node& node : nodes_) {
+        NodeState state{node.robot, node.id, "", {}, node.script.has_value(), node.fault};
+        if (const debug::NodeView* view = network_.node(node.id)) {
+            state.name = view->name;
+            state.state = view->state;
         }
         states.push_back(std::move(state));
     }
@@ -253,14 +257,13 @@ std::vector<RobotState> SimSession::robots() const {
 }
 
 std::vector<std::pair<std::string, std::span<const int16_t>>> SimSession::script_variables(
-    sim::RobotId id) const {
+    uint16_t id) const {
     std::vector<std::pair<std::string, std::span<const int16_t>>> list;
-    const Robot* robot = robot_of(id);
-    const debug::NodeView* node = robot != nullptr ? network_.node(robot->node) : nullptr;
+    const debug::NodeView* node = network_.node(id);
     if (node == nullptr || !node->program) return list;
     size_t own = 0;
     for (const aesl::NamedVariable& variable : node->target.variables) own += variable.size;
-    const std::span<const int16_t> memory = world_.variables(id);
+    const std::span<const int16_t> memory = world_.variables_of(id);
     for (const aesl::VariablePlace& place : node->program->variables) {
         if (place.address < own || size_t{place.address} + place.size > memory.size()) continue;
         list.emplace_back(place.name, memory.subspan(place.address, place.size));
@@ -269,23 +272,23 @@ std::vector<std::pair<std::string, std::span<const int16_t>>> SimSession::script
 }
 
 std::span<const int16_t> SimSession::node_variable(sim::RobotId id, std::string_view name) const {
-    const Robot* robot = robot_of(id);
-    const debug::NodeView* node = robot != nullptr ? network_.node(robot->node) : nullptr;
-    if (node == nullptr) return {};
-    const std::span<const int16_t> memory = world_.variables(id);
-    size_t address = 0;
-    for (const aesl::NamedVariable& variable : node->target.variables) {
-        if (address + variable.size > memory.size()) return {};
-        if (variable.name == name) return memory.subspan(address, variable.size);
-        address += variable.size;
+    for (const Node& node : nodes_) {
+        const debug::NodeView* view = network_.node(node.id);
+        if (node.robot != id || view == nullptr) continue;
+        const std::span<const int16_t> memory = world_.variables_of(node.id);
+        size_t address = 0;
+        for (const aesl::NamedVariable& variable : view->target.variables) {
+            if (address + variable.size > memory.size()) break;
+            if (variable.name == name) return memory.subspan(address, variable.size);
+            address += variable.size;
+        }
     }
     return {};
 }
 
-const aesl::Target* SimSession::target(sim::RobotId id) const {
-    const Robot* robot = robot_of(id);
-    const debug::NodeView* node = robot != nullptr ? network_.node(robot->node) : nullptr;
-    return node != nullptr && node->described ? &node->target : nullptr;
+const aesl::Target* SimSession::target(uint16_t id) const {
+    const debug::NodeView* view = network_.node(id);
+    return view != nullptr && view->described ? &view->target : nullptr;
 }
 
 std::vector<EventCount> SimSession::events() const {
@@ -299,10 +302,10 @@ std::vector<EventCount> SimSession::events() const {
 std::vector<std::string> SimSession::mistakes() const {
     std::vector<std::string> lines;
     for (const auto& [path, sentence] : file_mistakes_) lines.push_back(sentence);
-    for (const Robot& robot : robots_) {
-        if (!robot.script) continue;
-        const auto& more = robot.script->mistakes;
-        // The same script on several robots has the same mistakes: said once.
+    for (const Node& node : nodes_) {
+        if (!node.script) continue;
+        const auto& more = node.script->mistakes;
+        // The same script on several nodes has the same mistakes: said once.
         const bool known =
             !more.empty() && std::find(lines.begin(), lines.end(), more.front()) != lines.end();
         if (!known) lines.insert(lines.end(), more.begin(), more.end());
@@ -326,20 +329,22 @@ std::string SimSession::take_trace() {
     return std::exchange(trace_, {});
 }
 
-SimSession::Robot* SimSession::robot_of(debug::NodeId node) {
-    const auto found = std::find_if(robots_.begin(), robots_.end(),
-                                    [node](const Robot& robot) { return robot.node == node; });
-    return found == robots_.end() ? nullptr : &*found;
+const SimSession::Node* SimSession::find(debug::NodeId id) const {
+    const auto found = std::find_if(nodes_.begin(), nodes_.end(),
+                                    [id](const Node& node) { return node.id == id; });
+    return found == nodes_.end() ? nullptr : &*found;
 }
 
-const SimSession::Robot* SimSession::robot_of(sim::RobotId id) const {
-    const auto found = std::find_if(robots_.begin(), robots_.end(),
-                                    [id](const Robot& robot) { return robot.id == id; });
-    return found == robots_.end() ? nullptr : &*found;
+SimSession::Node* SimSession::find(debug::NodeId id) {
+    return const_cast<Node*>(std::as_const(*this).find(id));  // it is ours, and we are not const
 }
 
-std::string SimSession::label(const Robot& robot) const {
-    return robot.name.empty() ? "node " + std::to_string(robot.node) : robot.name;
+// "thymio"; of a robot with several nodes "carbot drive".
+std::string SimSession::label(const Node& node) const {
+    if (node.robot_name.empty()) return "node " + std::to_string(node.id);
+    const debug::NodeView* view = network_.node(node.id);
+    if (node.places == 1 || view == nullptr || !view->described) return node.robot_name;
+    return node.robot_name + " " + view->name;
 }
 
 Result<SimSession> open_sim(const std::string& path, SimOptions options) {

@@ -8,7 +8,7 @@
 //     session.load("explore.aesl", text);
 //     session.step(std::chrono::milliseconds(40));
 //     for (const Note& note : session.take_notes()) show(note.text);
-//     for (const RobotState& robot : session.robots()) show(robot.node_name, robot.state);
+//     for (const NodeState& node : session.nodes()) show(node.name, node.state);
 //
 // What mistakes a script has is known once the robots have described themselves, some milliseconds
 // of simulated time after the start: settled() tells when.
@@ -69,11 +69,11 @@ struct EventCount {
     Time last{};
 };
 
-// One robot as its script and its node tell.
-struct RobotState {
-    sim::RobotId id;
-    uint16_t node = 0;
-    std::string node_name;  // empty until it described itself
+// One node of a robot as its script and the node itself tell.
+struct NodeState {
+    sim::RobotId robot;
+    uint16_t id = 0;
+    std::string name;  // empty until it described itself
     debug::ProgramState state = debug::ProgramState::Unknown;
     bool has_script = false;
     std::string fault;  // the sentence, until the next program or reset
@@ -83,11 +83,13 @@ class SimSession {
 public:
     SimSession(sim::World world, SimOptions options);
 
-    // Takes over the scripts of a file for all robots they are for; those of the same path that
-    // came before are forgotten. A plain script is for every robot. Whatever is wrong, with the
-    // file or a script, comes as a note and stays among the mistakes() until a better text comes.
+    // Takes over the scripts of a file for all nodes they are for; those of the same path that came
+    // before are forgotten. A plain script is for the first node of every robot. Whatever is wrong,
+    // with the file or a script, comes as a note and stays among the mistakes() until a better text
+    // comes.
     void load(const std::string& path, std::string_view text);
-    // For one robot only, as the world file says: the script for its node, or the only one.
+    // For one robot only, as the world file says: the scripts for its nodes, or, for its first
+    // node, the only one.
     void load_for(sim::RobotId robot, const std::string& path, std::string_view text);
     // A file that was loaded before has another text now. With mistakes, what ran before runs on.
     void reload(const std::string& path, std::string_view text);
@@ -106,7 +108,7 @@ public:
     Time now() const { return world_.now(); }
     // Time 0 again, and the same scripts are sent again.
     void reset();
-    // Everything that was loaded runs on its robot, or has mistakes.
+    // Everything that was loaded runs on its node, or has mistakes.
     bool settled() const;
 
     // ---- a plan beside it ----
@@ -122,15 +124,17 @@ public:
     // ---- looking ----
     const sim::World& world() const { return world_; }
     sim::World& world() { return world_; }
-    std::vector<RobotState> robots() const;
-    // The script's own variables with their values now, in order of address; empty without a
-    // script.
+    // All nodes of all robots: in the order of the robots, and of the nodes of each.
+    std::vector<NodeState> nodes() const;
+    // The script's own variables of a node with their values now, in order of address; empty
+    // without a script.
     std::vector<std::pair<std::string, std::span<const int16_t>>> script_variables(
-        sim::RobotId robot) const;
-    // A variable of the node's description, "prox.horizontal"; empty if there is none.
+        uint16_t node) const;
+    // A variable of the description of the robot's nodes, "prox.horizontal": of the first node that
+    // has one of that name. Empty if there is none.
     std::span<const int16_t> node_variable(sim::RobotId robot, std::string_view name) const;
-    // What the robot's node told about itself; nullptr until then.
-    const aesl::Target* target(sim::RobotId robot) const;
+    // What a node told about itself; nullptr until then.
+    const aesl::Target* target(uint16_t node) const;
     // The latest first.
     std::vector<EventCount> events() const;
     // Lines for people: the mistakes of the scripts as they stand now.
@@ -140,7 +144,7 @@ public:
     std::string take_trace();
 
 private:
-    // A script on its way to a robot, or there.
+    // A script on its way to a node, or there.
     enum class Stage { Waiting, Ready, Sent, Runs, Failed };
     struct Assignment {
         std::string path;
@@ -151,10 +155,12 @@ private:
         debug::RequestId request;
         std::vector<std::string> mistakes;  // of the text as it is now; `program` may be older
     };
-    struct Robot {
-        sim::RobotId id;
-        std::string name;
-        uint16_t node = 0;
+    struct Node {
+        sim::RobotId robot;
+        std::string robot_name;
+        uint16_t id = 0;
+        uint16_t place = 0;   // among the nodes of the robot
+        uint16_t places = 1;  // how many nodes the robot has
         std::optional<Assignment> script;
         std::string fault;
     };
@@ -169,25 +175,26 @@ private:
     void note(NoteKind kind, std::string text);
     void hear(const debug::Event& event);
     void hear_user_event(const debug::Event& event, const debug::UserEvent& sent);
-    void hear_fault(Robot& robot, const debug::Fault& fault);
-    void hear_done(Robot& robot, const debug::RequestDone& done);
+    void hear_fault(Node& node, const debug::Fault& fault);
+    void hear_done(Node& node, const debug::RequestDone& done);
     void trace_happenings(size_t first);
     void take(const std::string& path, std::optional<sim::RobotId> only, std::string_view text);
     bool all_described() const;
     void place_files();
     void place(const WaitingFile& waiting);
     size_t place_project(const ScriptFile& file);
-    bool place_for(Robot& robot, const ScriptFile& file);
-    void give(Robot& robot, const ScriptFile& file, const aesl::Script& script);
+    size_t place_plain(const ScriptFile& file);
+    size_t place_for(sim::RobotId robot, const ScriptFile& file);
+    void give(Node& node, const ScriptFile& file, const aesl::Script& script);
     void refuse_file(const std::string& path, const std::string& sentence);
     const aesl::CommonDefinitions& names_without(const std::string& path) const;
     bool agree_on_names(const std::string& path, const aesl::CommonDefinitions& common);
-    void compile(Robot& robot);
+    void compile(Node& node);
     void send_ready();
-    void send(Robot& robot);
-    Robot* robot_of(debug::NodeId node);
-    const Robot* robot_of(sim::RobotId id) const;
-    std::string label(const Robot& robot) const;
+    void send(Node& node);
+    Node* find(debug::NodeId id);
+    const Node* find(debug::NodeId id) const;
+    std::string label(const Node& node) const;
 
     sim::World world_;
     SimOptions options_;
@@ -195,7 +202,7 @@ private:
     hub::LinkId link_;  // ours on the bus
     Time clock_{};      // of the network: goes on over reset()
     Duration rest_{};   // of step()
-    std::vector<Robot> robots_;
+    std::vector<Node> nodes_;
     std::vector<WaitingFile> waiting_;
     std::vector<std::pair<std::string, std::optional<sim::RobotId>>> sources_;  // as loaded
     std::map<std::string, std::string> file_mistakes_;  // by path: what keeps a whole file out

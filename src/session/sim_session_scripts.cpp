@@ -1,5 +1,5 @@
-// How scripts find their robots: files wait until all robots have described themselves, then each
-// script is compiled for its robot and sent.
+// How scripts find their nodes: files wait until all nodes have described themselves, then each
+// script is compiled for its node and sent.
 #include <algorithm>
 
 #include "base/text.hpp"
@@ -43,9 +43,9 @@ void SimSession::reload(const std::string& path, std::string_view text) {
 }
 
 bool SimSession::all_described() const {
-    return std::all_of(robots_.begin(), robots_.end(), [this](const Robot& robot) {
-        const debug::NodeView* node = network_.node(robot.node);
-        return node != nullptr && node->described;
+    return std::all_of(nodes_.begin(), nodes_.end(), [this](const Node& node) {
+        const debug::NodeView* view = network_.node(node.id);
+        return view != nullptr && view->described;
     });
 }
 
@@ -60,15 +60,9 @@ void SimSession::place(const WaitingFile& waiting) {
     if (!file.plain && !agree_on_names(file.path, file.project.common)) return;
     size_t placed = 0;
     if (waiting.only) {
-        const auto robot = std::find_if(robots_.begin(), robots_.end(), [&](const Robot& other) {
-            return other.id == *waiting.only;
-        });
-        placed = robot != robots_.end() && place_for(*robot, file) ? 1 : 0;
-    } else if (file.plain) {
-        for (Robot& robot : robots_) give(robot, file, file.project.scripts.front());
-        placed = robots_.size();
+        placed = place_for(*waiting.only, file);
     } else {
-        placed = place_project(file);
+        placed = file.plain ? place_plain(file) : place_project(file);
     }
     if (placed > 0) return;
     std::vector<std::string> wanted;
@@ -76,9 +70,9 @@ void SimSession::place(const WaitingFile& waiting) {
         wanted.push_back("\"" + script.node + "\" (node " + std::to_string(script.node_id) + ")");
     }
     std::vector<std::string> there;
-    for (const Robot& robot : robots_) {
-        const debug::NodeView* node = network_.node(robot.node);
-        there.push_back("\"" + node->name + "\" (node " + std::to_string(robot.node) + ")");
+    for (const Node& node : nodes_) {
+        there.push_back("\"" + network_.node(node.id)->name + "\" (node " +
+                        std::to_string(node.id) + ")");
     }
     const auto list = [](const std::vector<std::string>& words) {
         return words.empty() ? "none" : list_of({words.begin(), words.end()});
@@ -90,37 +84,58 @@ void SimSession::place(const WaitingFile& waiting) {
                     "; give the script's node the name of a robot's node");
 }
 
-// Robots whose name and number both fit come first, so that none takes the script of another.
+// A script without a node's name is for the first node of each robot.
+size_t SimSession::place_plain(const ScriptFile& file) {
+    size_t placed = 0;
+    for (Node& node : nodes_) {
+        if (node.place > 0) continue;
+        give(node, file, file.project.scripts.front());
+        placed++;
+    }
+    return placed;
+}
+
+// Nodes whose name and number both fit come first, so that none takes the script of another.
 size_t SimSession::place_project(const ScriptFile& file) {
     std::vector<bool> used(file.project.scripts.size());
-    std::vector<bool> served(robots_.size());
+    std::vector<bool> served(nodes_.size());
     for (const bool exact : {true, false}) {
-        for (size_t i = 0; i < robots_.size(); i++) {
-            Robot& robot = robots_[i];
+        for (size_t i = 0; i < nodes_.size(); i++) {
+            Node& node = nodes_[i];
             if (served[i]) continue;
-            const std::string& name = network_.node(robot.node)->name;
+            const std::string& name = network_.node(node.id)->name;
             std::vector<bool> marks = used;
-            const int index = aesl::script_for(file.project, name, robot.node, marks);
+            const int index = aesl::script_for(file.project, name, node.id, marks);
             if (index < 0) continue;
             const aesl::Script& script = file.project.scripts[static_cast<size_t>(index)];
-            if (exact && script.node_id != robot.node) continue;
+            if (exact && script.node_id != node.id) continue;
             used = marks;
-            give(robot, file, script);
+            give(node, file, script);
             served[i] = true;
         }
     }
     return static_cast<size_t>(std::count(served.begin(), served.end(), true));
 }
 
-// For a robot of its own: the script for its node, or the only one of the file.
-bool SimSession::place_for(Robot& robot, const ScriptFile& file) {
+// For a robot of its own: the scripts for its nodes, or, for its first one, the only one of the
+// file.
+size_t SimSession::place_for(sim::RobotId robot, const ScriptFile& file) {
     std::vector<bool> used(file.project.scripts.size());
-    const std::string& name = network_.node(robot.node)->name;
-    int index = aesl::script_for(file.project, name, robot.node, used);
-    if (index < 0 && file.project.scripts.size() == 1) index = 0;
-    if (index < 0) return false;
-    give(robot, file, file.project.scripts[static_cast<size_t>(index)]);
-    return true;
+    size_t placed = 0;
+    for (Node& node : nodes_) {
+        if (node.robot != robot) continue;
+        const std::string& name = network_.node(node.id)->name;
+        const int index = aesl::script_for(file.project, name, node.id, used);
+        if (index < 0) continue;
+        give(node, file, file.project.scripts[static_cast<size_t>(index)]);
+        placed++;
+    }
+    if (placed > 0 || file.project.scripts.size() != 1) return placed;
+    const auto first = std::find_if(nodes_.begin(), nodes_.end(),
+                                    [robot](const Node& node) { return node.robot == robot; });
+    if (first == nodes_.end()) return 0;
+    give(*first, file, file.project.scripts.front());
+    return 1;
 }
 
 void SimSession::refuse_file(const std::string& path, const std::string& sentence) {
@@ -158,23 +173,23 @@ bool SimSession::agree_on_names(const std::string& path, const aesl::CommonDefin
     return true;
 }
 
-void SimSession::give(Robot& robot, const ScriptFile& file, const aesl::Script& script) {
+void SimSession::give(Node& node, const ScriptFile& file, const aesl::Script& script) {
     aesl::Program before;
-    if (robot.script && robot.script->path == file.path) before = robot.script->program;
-    robot.script = Assignment{
+    if (node.script && node.script->path == file.path) before = node.script->program;
+    node.script = Assignment{
         file.path, script, file.project.common, Stage::Waiting, std::move(before), {}, {}};
     if (file.plain) {
-        const auto& target = network_.node(robot.node)->target;
-        robot.script->common = with_emitted(names_without(file.path), script.source, target);
-        if (!agree_on_names(file.path, robot.script->common)) return;
+        const auto& target = network_.node(node.id)->target;
+        node.script->common = with_emitted(names_without(file.path), script.source, target);
+        if (!agree_on_names(file.path, node.script->common)) return;
     }
-    compile(robot);
+    compile(node);
 }
 
-void SimSession::compile(Robot& robot) {
-    Assignment& script = *robot.script;
+void SimSession::compile(Node& node) {
+    Assignment& script = *node.script;
     const aesl::Compilation done =
-        aesl::compile(script.script.source, network_.node(robot.node)->target, script.common,
+        aesl::compile(script.script.source, network_.node(node.id)->target, script.common,
                       options_for(script.common, options_.compile));
     const SourceText text{script.path, script.script.source, script.script.first_line};
     std::string report;
@@ -195,22 +210,22 @@ void SimSession::compile(Robot& robot) {
 void SimSession::send_ready() {
     size_t sent = 0;
     size_t ready = 0;
-    for (const Robot& robot : robots_) {
-        if (robot.script && robot.script->stage == Stage::Sent) sent++;
-        if (robot.script && robot.script->stage == Stage::Ready) ready++;
+    for (const Node& node : nodes_) {
+        if (node.script && node.script->stage == Stage::Sent) sent++;
+        if (node.script && node.script->stage == Stage::Ready) ready++;
     }
     if (ready == 0) return;
-    for (Robot& robot : robots_) {
+    for (Node& node : nodes_) {
         if (sent >= kLoadsAtOnce) return;
-        if (!robot.script || robot.script->stage != Stage::Ready) continue;
-        send(robot);
+        if (!node.script || node.script->stage != Stage::Ready) continue;
+        send(node);
         sent++;
     }
 }
 
-void SimSession::send(Robot& robot) {
-    Assignment& script = *robot.script;
-    const auto request = network_.load(robot.node, script.program);
+void SimSession::send(Node& node) {
+    Assignment& script = *node.script;
+    const auto request = network_.load(node.id, script.program);
     if (!request.ok()) {
         script.stage = Stage::Failed;
         note(NoteKind::Trouble, script.path + ": " + request.error().what);

@@ -53,7 +53,7 @@ std::vector<std::string> texts(SimSession& session, NoteKind kind) {
 }
 
 int16_t value(const SimSession& session, size_t index, const std::string& name) {
-    for (const auto& [known, values] : session.script_variables(session.robots().at(index).id)) {
+    for (const auto& [known, values] : session.script_variables(session.nodes().at(index).id)) {
         if (known == name) return values.front();
     }
     ADD_FAILURE() << "no variable " << name;
@@ -72,6 +72,48 @@ TEST(SimSession, EachScriptGoesToTheNodeOfItsNameAndNumber) {
     EXPECT_THAT(session.mistakes(), IsEmpty());
 }
 
+// A Carbot with the nodes 2 to 5 and a Thymio with node 9.
+SimSession carbot_and_thymio() {
+    sim::WorldDefinition world;
+    world.width = 3;
+    world.robots = {robot("carbot", 2, 0.5), robot("thymio", 9, 2)};
+    world.robots[0].type = sim::RobotType::Carbot;
+    return SimSession(std::move(sim::World::create(world).value()), {});
+}
+
+TEST(SimSession, TheNodesOfOneRobotGetTheirScriptsByName) {
+    SimSession session = carbot_and_thymio();
+    session.load_for(
+        session.nodes().at(0).robot, "a.aesl",
+        project("<event name=\"hello\" size=\"1\"/>",
+                node("bumper", 2, "emit hello [_id]") + node("drive", 1, "emit hello [_id]")));
+    settle(session);
+    EXPECT_THAT(texts(session, NoteKind::Event),
+                testing::UnorderedElementsAre("carbot drive: hello 2", "carbot bumper: hello 3"));
+    EXPECT_TRUE(session.nodes().at(0).has_script);
+    EXPECT_TRUE(session.nodes().at(1).has_script);
+    EXPECT_FALSE(session.nodes().at(2).has_script);
+    EXPECT_FALSE(session.nodes().at(4).has_script);
+}
+
+TEST(SimSession, APlainScriptIsForTheFirstNodeOfARobot) {
+    SimSession session = carbot_and_thymio();
+    session.load("a.txt", "emit hello [_id]");
+    settle(session);
+    EXPECT_THAT(texts(session, NoteKind::Event),
+                testing::UnorderedElementsAre("carbot drive: hello 2", "thymio: hello 9"));
+}
+
+TEST(SimSession, VariablesOfARobotAreFoundOnWhicheverNodeHasThem) {
+    SimSession session = carbot_and_thymio();
+    settle(session);
+    while (session.target(5) == nullptr && session.now() < 10s) session.step(1ms);
+    const auto carbot = session.nodes().at(0).robot;
+    EXPECT_EQ(session.node_variable(carbot, "touch.sectors").size(), 12u);
+    EXPECT_EQ(session.node_variable(carbot, "odometry.x").size(), 2u);
+    EXPECT_TRUE(session.node_variable(carbot, "prox.horizontal").empty());
+}
+
 TEST(SimSession, APlainScriptIsForEveryRobotAndMayEmitWhatItLikes) {
     SimSession session = two_robots();
     session.load("a.txt", "var x = _id\nemit hello [x, 5]");
@@ -83,10 +125,10 @@ TEST(SimSession, APlainScriptIsForEveryRobotAndMayEmitWhatItLikes) {
 
 TEST(SimSession, AScriptForOneRobotIsForNoOther) {
     SimSession session = two_robots();
-    session.load_for(session.robots().at(1).id, "a.aesl",
+    session.load_for(session.nodes().at(1).robot, "a.aesl",
                      project("", node("somebody", 1, "var x = 4")));
     settle(session);
-    EXPECT_FALSE(session.robots().at(0).has_script);
+    EXPECT_FALSE(session.nodes().at(0).has_script);
     EXPECT_EQ(value(session, 1, "x"), 4);
 }
 
@@ -127,9 +169,9 @@ TEST(SimSession, AProjectForNobodyHereNamesWhoIsHere) {
 // words.
 TEST(SimSession, ProjectsThatNumberEventsDifferentlyAreRefused) {
     SimSession session = two_robots();
-    session.load_for(session.robots().at(0).id, "a.aesl",
+    session.load_for(session.nodes().at(0).robot, "a.aesl",
                      project("<event name=\"go\" size=\"0\"/>", node("thymio-II", 3, "var x")));
-    session.load_for(session.robots().at(1).id, "b.aesl",
+    session.load_for(session.nodes().at(1).robot, "b.aesl",
                      project("<event name=\"halt\" size=\"0\"/>", node("thymio-II", 7, "var x")));
     settle(session);
     EXPECT_THAT(
@@ -139,11 +181,11 @@ TEST(SimSession, ProjectsThatNumberEventsDifferentlyAreRefused) {
 
 TEST(SimSession, AFaultNamesFileAndLine) {
     SimSession session = two_robots();
-    session.load_for(session.robots().at(0).id, "a.aesl",
+    session.load_for(session.nodes().at(0).robot, "a.aesl",
                      "<network>\n" + node("thymio-II", 3, "var x = 0\nx = 1 / x") + "</network>");
     settle(session);
     session.step(10ms);
-    EXPECT_THAT(session.robots().at(0).fault, HasSubstr("a.aesl:3: "));
+    EXPECT_THAT(session.nodes().at(0).fault, HasSubstr("a.aesl:3: "));
     EXPECT_THAT(texts(session, NoteKind::Fault), testing::SizeIs(1));
 }
 
@@ -204,7 +246,7 @@ TEST(SimSession, MoreNamesOfEventsThanTheLimitOnlyPass) {
     SimSession session = two_robots();
     std::string source;
     for (size_t i = 0; i <= kEventNamesMax; i++) source += "emit e" + std::to_string(i) + "\n";
-    session.load_for(session.robots().at(0).id, "a.txt", source);
+    session.load_for(session.nodes().at(0).robot, "a.txt", source);
     settle(session);
     session.step(100ms);
     EXPECT_EQ(session.events().size(), kEventNamesMax);

@@ -247,12 +247,15 @@ void Arena::Insides::prepare_robot(Body& robot, const Stand& stand) const {
     b2Body& body = *robot.body;
     const double half_turn = robot.drive.turn * kArenaStep / 2;
     const double forward = robot.drive.forward * kUnitsPerMetre;
-    const b2Vec2 wanted(static_cast<float>(forward * (stand.cosine - stand.sine * half_turn)),
-                        static_cast<float>(forward * (stand.sine + stand.cosine * half_turn)));
+    const double sideways = robot.drive.sideways * kUnitsPerMetre;
+    const double cosine = stand.cosine - stand.sine * half_turn;
+    const double sine = stand.sine + stand.cosine * half_turn;
+    const b2Vec2 wanted(static_cast<float>(forward * cosine - sideways * sine),
+                        static_cast<float>(forward * sine + sideways * cosine));
     constexpr auto kStepMax =
         static_cast<float>(kTyreFriction * kGravity * kArenaStep * kUnitsPerMetre);
     const auto turn = static_cast<float>(robot.drive.turn);
-    const bool still = forward == 0 && turn == 0 && !body.IsAwake();
+    const bool still = forward == 0 && sideways == 0 && turn == 0 && !body.IsAwake();
     if (still) return;
     body.SetLinearVelocity(pull(body.GetLinearVelocity(), wanted, kStepMax));
     body.SetAngularVelocity(pull(body.GetAngularVelocity(), turn, robot.turn_step_max));
@@ -302,6 +305,21 @@ Pose Arena::pose(BodyId id) const {
 
 std::span<const Touch> Arena::touches() const {
     return insides_->touches.touches;
+}
+
+void Arena::touched_parts(BodyId id, std::vector<TouchedPart>& parts) const {
+    const b2Body& body = *insides_->bodies[id.index].body;
+    const auto local = [&body](const b2Vec2& point) {
+        const b2Vec2 at = body.GetLocalPoint(point);
+        return Point{at.x / kUnitsPerMetre, at.y / kUnitsPerMetre};
+    };
+    for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next) {
+        if (!edge->contact->IsTouching()) continue;
+        b2WorldManifold manifold;
+        edge->contact->GetWorldManifold(&manifold);
+        const int last = edge->contact->GetManifold()->pointCount - 1;
+        parts.push_back({local(manifold.points[0]), local(manifold.points[last])});
+    }
 }
 
 void Arena::prepare_looks() {

@@ -52,8 +52,9 @@ struct RobotBody {
 
 // What the wheels would do on free ground.
 struct Drive {
-    double forward = 0;  // m/s
-    double turn = 0;     // rad/s
+    double forward = 0;   // m/s
+    double turn = 0;      // rad/s
+    double sideways = 0;  // m/s to the left; only wheels that are steered do that
 };
 
 // One look of a sensor, in the frame of its robot; the direction has length 1.
@@ -83,6 +84,13 @@ private:
 struct Touch {
     BodyId a;
     BodyId b;
+};
+
+// Where something lies against a body now, in the frame of the body: along an edge from one point
+// to another, or at one point (both the same).
+struct TouchedPart {
+    Point from;
+    Point to;
 };
 
 // What is seen by a wide-angle look: the nearest body in each column.
@@ -124,6 +132,8 @@ public:
     Pose pose(BodyId body) const;
     // Those begun in the last step, in the order of the contacts of the solver.
     std::span<const Touch> touches() const;
+    // Appends all parts of a body that are touched, in the order of the contacts of the solver.
+    void touched_parts(BodyId body, std::vector<TouchedPart>& parts) const;
 
     // Call once after bodies have moved, before look(); it sorts them by place.
     void prepare_looks();

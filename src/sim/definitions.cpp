@@ -28,20 +28,30 @@ std::string_view name_of(RobotType type) {
             return "thymio2";
         case RobotType::Epuck:
             return "epuck";
+        case RobotType::Carbot:
+            return "carbot";
     }
     return "";
 }
 
 uint16_t nodes_of(RobotType type) {
-    (void)type;
-    return 1;
+    return type == RobotType::Carbot ? 4 : 1;
 }
 
 std::span<const std::string_view> buttons_of(RobotType type) {
     // Variables and local events of a Thymio stand in this order (docs/spec, section 5.2).
     static constexpr std::array<std::string_view, 5> kThymio2 = {"backward", "left", "center",
                                                                  "forward", "right"};
-    return type == RobotType::Thymio2 ? kThymio2 : std::span<const std::string_view>{};
+    static constexpr std::array<std::string_view, 1> kCarbot = {"escape"};
+    switch (type) {
+        case RobotType::Thymio2:
+            return kThymio2;
+        case RobotType::Epuck:
+            return {};
+        case RobotType::Carbot:
+            return kCarbot;
+    }
+    return {};
 }
 
 }  // namespace vagus::sim

@@ -75,7 +75,7 @@ struct ObjectDefinition {
     bool operator==(const ObjectDefinition&) const = default;
 };
 
-enum class RobotType { Thymio2, Epuck };
+enum class RobotType { Thymio2, Epuck, Carbot };
 
 struct RobotDefinition {
     std::string name = {};

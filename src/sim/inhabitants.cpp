@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "base/rng.hpp"
+#include "sim/carbot/carbot.hpp"
 #include "sim/epuck/epuck.hpp"
 #include "sim/thymio2/thymio2.hpp"
 #include "sim/world_check.hpp"
@@ -55,6 +56,9 @@ void Inhabitants::add_robot(const RobotDefinition& robot, const WorldOptions& op
             break;
         case RobotType::Epuck:
             robots_.push_back(std::make_unique<epuck::Epuck>(arena_, robot, pool_, seed));
+            break;
+        case RobotType::Carbot:
+            robots_.push_back(std::make_unique<carbot::Carbot>(arena_, robot, seed));
             break;
     }
     note_body(robots_.back()->body(), robot.paint);

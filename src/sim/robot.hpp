@@ -1,5 +1,6 @@
 // What the world asks of a robot, whatever its type. A robot is a body in the arena and the
-// machines of its nodes, one or several; its own folder (thymio2, epuck) knows what the variables mean.
+// machines of its nodes, one or several; its own folder (thymio2, epuck, carbot) knows what the
+// variables mean.
 #pragma once
 
 #include <memory>

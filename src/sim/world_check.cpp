@@ -223,8 +223,18 @@ Found check_robot(const RobotDefinition& robot, const std::string& element,
     if (auto found = check_inside(robot, element + ".at", world)) return found;
     if (auto found = check_angle(element + ".angle", robot.angle)) return found;
     if (auto found = check_colour(element + ".paint", robot.paint)) return found;
-    return check_range(element + ".node", robot.node, {1, 65534, "node id"},
-                       "0 is the host, 65535 is nobody");
+    return check_range(
+        element + ".node", robot.node, {1, 65535.0 - nodes_of(robot.type), "node id"},
+        "0 is the host, 65535 is nobody, and a robot of several nodes takes the next "
+        "ids, too");
+}
+
+// " (robot c has the nodes 1 to 4)" of a robot that is several nodes.
+std::string reach_text(const RobotDefinition& robot) {
+    const int last = robot.node + nodes_of(robot.type) - 1;
+    if (last == robot.node) return "";
+    return " (robot " + robot.name + " has the nodes " + std::to_string(robot.node) + " to " +
+           std::to_string(last) + ")";
 }
 
 Found check_robots(const WorldDefinition& world) {
@@ -238,10 +248,11 @@ Found check_robots(const WorldDefinition& world) {
         if (auto found = check_robot(robot, element, world)) return found;
         if (!names.insert(robot.name).second)
             return Problem{element + ".name", "\"" + robot.name + "\" is taken; choose another"};
-        if (!nodes.insert(robot.node).second) {
-            return Problem{element + ".node", std::to_string(robot.node) +
-                                                  " is the node of an earlier robot; all robots "
-                                                  "are on one bus, choose another"};
+        for (uint32_t node = robot.node; node < robot.node + nodes_of(robot.type); ++node) {
+            if (nodes.insert(static_cast<uint16_t>(node)).second) continue;
+            return Problem{element + ".node",
+                           std::to_string(node) + " is a node of an earlier robot" +
+                               reach_text(robot) + "; all robots are on one bus, choose another"};
         }
         if (robot.port.value_or(0) != 0 && !ports.insert(*robot.port).second)
             return Problem{element + ".port", std::to_string(*robot.port) +

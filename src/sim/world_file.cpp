@@ -50,7 +50,7 @@ void read_number(JsonObject& in, std::string_view key, double& into) {
 
 constexpr ObjectKind kObjectKinds[] = {ObjectKind::Wall,  ObjectKind::Box,   ObjectKind::Cylinder,
                                        ObjectKind::Patch, ObjectKind::Light, ObjectKind::Infrared};
-constexpr RobotType kRobotTypes[] = {RobotType::Thymio2, RobotType::Epuck};
+constexpr RobotType kRobotTypes[] = {RobotType::Thymio2, RobotType::Epuck, RobotType::Carbot};
 
 // One of an enumeration by its name.
 template <typename Enum, size_t kCount>
@@ -186,10 +186,11 @@ WorldDefinition read_all(const Json& json, Complaints& complaints) {
         world.objects.push_back(
             read_object(item, numbered("objects", world.objects.size()), complaints));
     }
+    int64_t node = 1;  // the next one, if every robot takes its own from 1 on
     for (const Json& item : read_list(in, "robots", kRobotsMax)) {
         const size_t index = world.robots.size();
-        world.robots.push_back(read_robot(item, numbered("robots", index),
-                                          static_cast<int64_t>(index) + 1, complaints));
+        world.robots.push_back(read_robot(item, numbered("robots", index), node, complaints));
+        node += nodes_of(world.robots.back().type);
     }
     for (const Json& item : read_list(in, "timeline", kTimelineMax)) {
         world.timeline.push_back(

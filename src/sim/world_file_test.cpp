@@ -125,7 +125,12 @@ TEST(WorldFile, WhatIsWrongIsSaid) {
         {R"("objects":[{"kind":"wall","at":[1,1],"size":[1,1],"angle":1001}])", "angle: expected"},
         {R"("objects":[{"id":"a","kind":"light","at":[1,1]},{"id":"a","kind":"light","at":[1,1]}])",
          "objects[1].id: \"a\" is the id of an earlier object"},
-        {R"("robots":[{"name":"a","type":"carbot","at":[1,1]}])", "type"},
+        {R"("robots":[{"name":"a","type":"carport","at":[1,1]}])", "type"},
+        {R"("robots":[{"name":"a","type":"carbot","at":[1,1],"node":65532}])",
+         "node: expected a number from 1 to 65531"},
+        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":4},)"
+         R"({"name":"b","type":"carbot","at":[1,1],"node":2}])",
+         "4 is a node of an earlier robot (robot b has the nodes 2 to 5)"},
         {R"("robots":[{"name":"","type":"epuck","at":[1,1]}])", "name: is empty"},
         {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":0}])", "node"},
         {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":65535}])", "node"},
@@ -135,7 +140,7 @@ TEST(WorldFile, WhatIsWrongIsSaid) {
          "robots[1].name: \"a\" is taken"},
         {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":2},)"
          R"({"name":"b","type":"epuck","at":[1,1]}])",
-         "robots[1].node: 2 is the node of an earlier robot"},
+         "robots[1].node: 2 is a node of an earlier robot"},
         {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"port":5},)"
          R"({"name":"b","type":"epuck","at":[1,1],"port":5}])",
          "robots[1].port: 5 is the port of an earlier robot"},

@@ -442,6 +442,27 @@ TEST(World, ARobotWithAPortIsAloneOnItsPrivateBus) {
     EXPECT_EQ(frames[0].source, 1);
 }
 
+TEST(World, ACarbotIsFourNodesOnBothItsBuses) {
+    WorldDefinition definition = with_thymio();
+    definition.robots[0].node = 9;
+    definition.robots.push_back(
+        {.name = "carbot", .type = RobotType::Carbot, .at = {0.5, 0.5}, .node = 5, .port = 4000});
+    World world = make(definition);
+    EXPECT_EQ(world.robots()[1].nodes, 4);
+    Host host(world.bus());
+    Host own(*world.private_bus({2}));
+    host.send(list_nodes());
+    own.send(list_nodes());
+    world.step(1ms);
+    std::vector<uint16_t> seen;
+    for (const wire::Frame& frame : host.frames()) seen.push_back(frame.source);
+    // Those of the Carbot were asked twice, over each bus, and tell both; the Thymio once.
+    EXPECT_EQ(seen, (std::vector<uint16_t>{5, 5, 6, 6, 7, 7, 8, 8, 9}));
+    EXPECT_EQ(own.frames().size(), 8u);
+    EXPECT_EQ(world.variables_of(7)[0], 7);
+    EXPECT_TRUE(world.variables_of(10).empty());
+}
+
 TEST(World, AfterAResetEverythingIsAsAtTheStart) {
     WorldDefinition definition = with_thymio();
     definition.objects.push_back({.id = "box",

@@ -137,9 +137,9 @@ void add_sensors(Page& page, const PanelView& panel, Charset charset) {
     for (const WheelView& wheel : panel.wheels) {
         page.add(wheel.label, {kDim, {}, false});
         page.jump(static_cast<int>(label) + 1);
-        page.add("told " + std::to_string(wheel.target), {});
+        page.add(wheel.target_word + " " + std::to_string(wheel.target), {});
         page.jump(static_cast<int>(label) + 11);
-        page.add(" does " + std::to_string(wheel.speed), {});
+        page.add(" " + wheel.speed_word + " " + std::to_string(wheel.speed), {});
         page.next();
     }
 }

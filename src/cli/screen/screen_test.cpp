@@ -51,7 +51,7 @@ constexpr Look kLetters{Charset::Ascii, ColourDepth::None};
 TEST(Screen, SaysWhatItShows) {
     View view = small_world();
     view.panel.bars = {{"prox", {0, 4500}, 4500}};
-    view.panel.wheels = {{"left", 300, 298, 500}};
+    view.panel.wheels = {{"left", "told", "does", 300, 298}};
     view.panel.variables = {{"state", {2}, false}};
     view.panel.events = {{"found", 7, {1, -2}, view.now}};
     view.listening = "tcp:127.0.0.1:40000";

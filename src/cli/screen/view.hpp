@@ -70,12 +70,13 @@ struct BarsView {
     int full = 1;  // the value of a full bar
 };
 
-// A wheel: what it was told and what it does.
+// A wheel: what it was told and what it does, each with its word.
 struct WheelView {
     std::string label;
+    std::string target_word = "told";
+    std::string speed_word = "does";
     int target = 0;
     int speed = 0;
-    int full = 500;
 };
 
 struct VariableView {

@@ -1,0 +1,74 @@
+#include "sim/carbot/carbot.hpp"
+
+#include "base/rng.hpp"
+
+namespace vagus::sim::carbot {
+namespace {
+
+constexpr double kMass = 4.7;  // kg
+constexpr double kLong = 0.40;
+constexpr double kWide = 0.35;
+constexpr RobotBody kBody = {.mass = kMass,
+                             .inertia = kMass * (kLong * kLong + kWide * kWide) / 12,
+                             .grip = kWheelAhead,
+                             .height = 0.22};
+
+// The corners are cut by 3 cm.
+constexpr std::array<Point, 8> kOutline = {{{0.200, -0.145},
+                                            {0.200, 0.145},
+                                            {0.170, 0.175},
+                                            {-0.170, 0.175},
+                                            {-0.200, 0.145},
+                                            {-0.200, -0.145},
+                                            {-0.170, -0.175},
+                                            {0.170, -0.175}}};
+
+// Each node has noise of its own.
+uint64_t seed_of(uint64_t seed, Place place) {
+    return SplitMix64(seed + place).next();
+}
+
+constexpr uint16_t id_of(const RobotDefinition& definition, Place place) {
+    return static_cast<uint16_t>(definition.node + place);
+}
+
+}  // namespace
+
+std::span<const Point> outline() {
+    return kOutline;
+}
+
+Carbot::Carbot(Arena& arena, const RobotDefinition& definition, uint64_t seed)
+    : body_(arena.add_robot({.corners = kOutline}, {definition.at, definition.angle}, kBody)),
+      drive_(id_of(definition, kDrive), seed_of(seed, kDrive)),
+      bumper_(id_of(definition, kBumper)),
+      range_(id_of(definition, kRange)),
+      head_(id_of(definition, kHead)),
+      machines_{&drive_.machine(), &bumper_.machine(), &range_.machine(), &head_.machine()},
+      paint_(definition.paint) {}
+
+void Carbot::sense(const Surroundings& around) {
+    drive_.sense(around);
+    bumper_.sense(around, body_);
+    range_.sense(around);
+    head_.sense(around);
+}
+
+void Carbot::drive(Arena& arena) {
+    arena.drive(body_, drive_.drive());
+}
+
+void Carbot::set_button(std::string_view button, bool pressed) {
+    if (button == "escape") bumper_.set_escape(pressed);
+}
+
+std::vector<Lamp> Carbot::lamps() const {
+    return {};
+}
+
+std::vector<Look> Carbot::looks(const Arena& arena) const {
+    (void)arena;
+    return {};
+}
+
+}  // namespace vagus::sim::carbot

@@ -1,0 +1,38 @@
+// The node `drive` of a Carbot: two steered wheels, odometry, and the driving commands as natives.
+#pragma once
+
+#include "sim/arena.hpp"
+#include "sim/carbot/chassis.hpp"
+#include "sim/carbot/motion.hpp"
+#include "sim/carbot/odometry.hpp"
+#include "sim/machine.hpp"
+#include "sim/robot.hpp"
+
+namespace vagus::sim::carbot {
+
+// What its natives change beside variables.
+struct Driver {
+    Motion motion;
+    Odometry odometry;
+};
+
+class DriveNode {
+public:
+    // `seed` is that of the slip of its wheels.
+    DriveNode(uint16_t id, uint64_t seed);
+
+    Machine& machine() { return machine_; }
+    // Each millisecond: variables, local events.
+    void sense(const Surroundings& around);
+    // Before each step of the arena: moves wheels and odometry, gives the motion of the body.
+    Drive drive();
+
+private:
+    void write_variables();
+
+    Driver driver_;
+    Machine machine_;
+    Chassis chassis_;
+};
+
+}  // namespace vagus::sim::carbot

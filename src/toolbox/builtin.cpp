@@ -1,0 +1,49 @@
+#include "toolbox/builtin.hpp"
+
+#include <cassert>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "toolbox/bus_template.hpp"
+#include "toolbox/carbot/templates.hpp"
+#include "toolbox/core.hpp"
+#include "toolbox/toolbox_file.hpp"
+
+namespace vagus::toolbox {
+
+namespace {
+
+// Files of the build: a test reads them, so they have no errors here.
+ToolboxFile read_builtin(std::string_view text) {
+    Result<ToolboxFile> file = read_toolbox(text, "built-in", {});
+    assert(file.ok());
+    return std::move(file.value());
+}
+
+void append(std::vector<run::Coded>& to, std::vector<run::Coded> more) {
+    to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+void add_builtin(run::CodeLibrary& library, const Parts& parts) {
+    add_core(library);
+    add_drive(library, parts);
+    add_carbot(library, parts);
+}
+
+void add_drive(run::CodeLibrary& library, const Parts& parts) {
+    const ToolboxFile file = read_builtin(kDriveText);
+    library.add(file.name, file.help, code_of(file, parts));
+}
+
+void add_carbot(run::CodeLibrary& library, const Parts& parts) {
+    const ToolboxFile file = read_builtin(kCarbotText);
+    std::vector<run::Coded> all = code_of(read_builtin(kDriveText), parts);
+    append(all, carbot_templates(parts));
+    append(all, code_of(file, parts));
+    library.add(file.name, file.help, std::move(all));
+}
+
+}  // namespace vagus::toolbox

@@ -1,0 +1,116 @@
+// LookAround and SearchWall: the distance sensor is turned around, the robot stands.
+#include <memory>
+#include <utility>
+
+#include "toolbox/carbot/inputs.hpp"
+#include "toolbox/carbot/rover.hpp"
+#include "toolbox/carbot/templates.hpp"
+#include "toolbox/carbot/walls.hpp"
+
+namespace vagus::toolbox::carbot {
+
+namespace {
+
+using plan::Type;
+using plan::Value;
+
+plan::Input spread_input() {
+    return {.name = "spread",
+            .type = Type::Float,
+            .fallback = Value(180.0),
+            .unit = "deg",
+            .help = "how far to each side it looks",
+            .low = 0,
+            .high = 180};
+}
+
+const plan::Template& look_around_declared() {
+    static const plan::Template kDeclared{
+        .name = "LookAround",
+        .help = "Measures the distance in many directions.",
+        .icon = "M12 12L20 6M12 12v-9M12 12L4 6M4 15a9 9 0 0 0 16 0M12 12v.1",
+        .inputs = {spread_input(), step_input()},
+        .outputs = {{.name = "map", .type = Type::Object, .help = "the distances"},
+                    {.name = "nearest",
+                     .type = Type::Float,
+                     .unit = "cm",
+                     .help = "the smallest of them; 0 if nothing is in reach"},
+                    {.name = "angle", .type = Type::Float, .unit = "deg", .help = "where that is"}},
+        .outcomes = {{"Done", "it has looked"}}};
+    return kDeclared;
+}
+
+const plan::Template& search_wall_declared() {
+    static const plan::Template kDeclared{
+        .name = "SearchWall",
+        .help = "Looks around for the nearest wall.",
+        .icon = "M4 3v18M10 10a4 4 0 1 0 8 0a4 4 0 1 0-8 0M17 13l4 4",
+        .inputs = {spread_input(), step_input()},
+        .outputs = {{.name = "angle",
+                     .type = Type::Float,
+                     .unit = "deg",
+                     .help = "how far to turn so that the robot is parallel to the wall"},
+                    {.name = "distance",
+                     .type = Type::Float,
+                     .unit = "cm",
+                     .help = "from the sensor to the wall"},
+                    {.name = "left", .type = Type::Bool, .help = "is it at the left then?"}},
+        .outcomes = {{"WallFound", "there is one"}, {"NoWallFound", "nothing is in reach"}}};
+    return kDeclared;
+}
+
+std::vector<Echo> scan(run::ActorContext& context, const Parts& parts, const plan::Template& of) {
+    const double spread = input_of(context, of, 0);
+    const double step = input_of(context, of, 1);
+    return Rover(context, parts, Rover::Needs::Range).scan(-spread, spread, step);
+}
+
+class LookAround final : public run::Actor {
+public:
+    explicit LookAround(const Parts& parts) : parts_(parts) {}
+
+    void run(run::ActorContext& context) override {
+        std::vector<Echo> echoes = scan(context, parts_, look_around_declared());
+        Echo nearest;
+        for (const Echo& echo : echoes) {
+            if (echo.distance_cm <= 0) continue;
+            if (nearest.distance_cm > 0 && echo.distance_cm >= nearest.distance_cm) continue;
+            nearest = echo;
+        }
+        context.out(0, Value(plan::Object(std::make_shared<DistanceMap>(std::move(echoes)))));
+        context.out(1, Value(nearest.distance_cm));
+        context.out(2, Value(nearest.angle_deg));
+    }
+
+private:
+    const Parts& parts_;
+};
+
+class SearchWall final : public run::Actor {
+public:
+    explicit SearchWall(const Parts& parts) : parts_(parts) {}
+
+    void run(run::ActorContext& context) override {
+        const auto wall = nearest_wall(scan(context, parts_, search_wall_declared()));
+        context.end(wall ? 0 : 1);
+        if (!wall) return;
+        context.out(0, Value(wall->direction_deg));
+        context.out(1, Value(wall->distance_cm));
+        context.out(2, Value(wall->left));
+    }
+
+private:
+    const Parts& parts_;
+};
+
+}  // namespace
+
+run::Coded look_around(const Parts& parts) {
+    return {look_around_declared(), [&parts] { return std::make_unique<LookAround>(parts); }, {}};
+}
+
+run::Coded search_wall(const Parts& parts) {
+    return {search_wall_declared(), [&parts] { return std::make_unique<SearchWall>(parts); }, {}};
+}
+
+}  // namespace vagus::toolbox::carbot

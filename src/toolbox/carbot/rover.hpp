@@ -1,0 +1,72 @@
+// What Carbot's templates in C++ do with its drive and range nodes, as calls that wait for the
+// answer. While it drives, each wait says the driving command again before the drive node would
+// take its silence for an end.
+//
+//     Rover rover(context, parts, Rover::Needs::DriveAndRange);
+//     rover.steer({.speed_cm = 20, .rate_deg = 0});
+//     if (rover.look(0).distance_cm < 30) rover.halt();
+//
+// Units as in plans: cm, degrees counter-clockwise from ahead.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/code.hpp"
+#include "toolbox/bus_talk.hpp"
+#include "toolbox/carbot/distance_map.hpp"
+#include "toolbox/parts.hpp"
+
+namespace vagus::toolbox::carbot {
+
+constexpr Duration kSteerPeriod = std::chrono::milliseconds(100);
+constexpr Duration kAnswerWithin = std::chrono::seconds(30);  // a whole scan takes seconds
+constexpr size_t kEchoesMax = 720;                            // of a scan
+
+struct Steering {
+    double speed_cm = 0;  // a second
+    double rate_deg = 0;  // a second
+};
+
+struct Pose {
+    double x_cm = 0;
+    double y_cm = 0;
+    double heading_deg = 0;
+};
+
+class Rover {
+public:
+    enum class Needs { Range, Drive, DriveAndRange };
+
+    Rover(run::ActorContext& context, const Parts& parts, Needs needs);
+
+    // Drives so until told otherwise.
+    void steer(const Steering& steering);
+    // Stops and waits until the wheels stand.
+    void halt();
+    // The same after Stop, if the wheels may turn.
+    void stop();
+
+    Echo look(double angle_deg);
+    // One echo for each direction; `step_deg` is at least 1.
+    std::vector<Echo> scan(double from_deg, double to_deg, double step_deg);
+    Pose pose();
+    void wait(Duration time);
+
+private:
+    std::optional<run::BusEvent> hear_until(Time end);
+    run::BusEvent await(const std::string& one, const std::string& other);
+    void say_steering();
+
+    run::ActorContext& context_;
+    BusTalk talk_;
+    std::optional<Steering> steering_;  // to be said again
+    bool moves_ = false;                // the wheels may turn
+    Time steer_again_{0};
+};
+
+// A whole number of tenths, as the nodes count, within a word.
+int16_t tenths(double value);
+
+}  // namespace vagus::toolbox::carbot

@@ -1,0 +1,10 @@
+#include "toolbox/carbot/templates.hpp"
+
+namespace vagus::toolbox {
+
+std::vector<run::Coded> carbot_templates(const Parts& parts) {
+    return {carbot::look_around(parts), carbot::search_wall(parts), carbot::wall_forward(parts),
+            carbot::navigate_to(parts)};
+}
+
+}  // namespace vagus::toolbox

@@ -28,7 +28,7 @@ struct RunOptions {
     // What the plan emits, for a bus beyond this run; called on the deciding thread.
     std::function<void(const BusEvent&)> on_emit;
     // Whether the bus can carry it; the Error is the failure of the code that emits it. Called on
-    // the thread of that code. What supervisors emit as they stop comes to on_emit in any case.
+    // the thread of that code. What supervisors emit as they stop goes out in any case.
     std::function<Status(const BusEvent&)> may_emit;
     // In virtual time: what shares the run's clock (surroundings.hpp). Borrowed for the run.
     Surroundings* surroundings = nullptr;

@@ -5,13 +5,14 @@
 //     class Metronome : public Surroundings {
 //         Time next() const override { return next_; }
 //         std::vector<BusEvent> begin() override { next_ += 1s; return {{"tick", {}}}; }
+//         void emit(Time, const BusEvent&) override {}
 //         void end() override {}
 //         …
 //     options.surroundings = &metronome;               // then VirtualTime
 //
 // All calls come on the deciding thread: next() at any time; begin() when the run has come to that
-// instant; then what the plan does at it, RunOptions::on_emit included; then end(), before the
-// clock moves on or the run is over.
+// instant; then what the plan does at it and emits; then end(), before the clock moves on or the
+// run is over.
 #pragma once
 
 #include <vector>
@@ -29,6 +30,8 @@ public:
     virtual Time next() const = 0;
     // Does what comes before the plan at the instant next(); gives what the plan hears at it.
     virtual std::vector<BusEvent> begin() = 0;
+    // The plan emits; `at` may lie between two instants.
+    virtual void emit(Time at, const BusEvent& event) = 0;
     // Does what comes after the plan at the instant that was begun last.
     virtual void end() = 0;
 };

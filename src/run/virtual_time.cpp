@@ -398,6 +398,7 @@ void VirtualTime::leave_out_missed(int level) {
 
 void VirtualTime::emit(const BusEvent& event) {
     if (options_.on_emit) options_.on_emit(event);
+    if (options_.surroundings) options_.surroundings->emit(now_, event);
     deliver(event);
 }
 

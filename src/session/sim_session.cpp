@@ -25,7 +25,8 @@ std::string words_of(std::span<const int16_t> values) {
 SimSession::SimSession(sim::World world, SimOptions options)
     : world_(std::move(world)),
       options_(std::move(options)),
-      link_(world_.bus().add({.name = "session"}).value()) {
+      link_(world_.bus().add({.name = "session"}).value()),
+      over_can_(world_.bus_load().has_value()) {
     for (const sim::RobotView& robot : world_.robots()) {
         for (uint16_t place = 0; place < robot.nodes; place++) {
             nodes_.push_back({robot.id, std::string(robot.name),
@@ -47,8 +48,12 @@ void SimSession::step(Duration span) {
 }
 
 void SimSession::begin_instant() {
-    const std::vector<wire::Frame> delivered = take_frames();
+    send_frames();  // what was emitted since the last
+    // On an ideal bus nodes put into our queue at this instant what arrives at the next one.
+    std::vector<wire::Frame> delivered;
+    if (!over_can_) delivered = take_frames();
     world_.begin_instant();
+    if (over_can_) delivered = take_frames();
     listen(delivered);
 }
 
@@ -89,15 +94,19 @@ void SimSession::listen(const std::vector<wire::Frame>& delivered) {
 void SimSession::speak() {
     if (!waiting_.empty() && all_described()) place_files();
     send_ready();
+    send_frames();
+}
+
+void SimSession::send_frames() {
     for (const wire::Frame& out : network_.take_frames()) world_.bus().receive(link_, out);
 }
 
 // ---- a plan beside it ----
 
-Status SimSession::emit(const std::string& event, std::span<const int16_t> arguments) {
+Status SimSession::emit(const std::string& event, std::span<const int16_t> arguments, Time at) {
     const Status sent = network_.emit(event, arguments);
     if (!sent.ok() || !options_.traced) return sent;
-    trace_ += TraceLine(now(), "event")
+    trace_ += TraceLine(at, "event")
                   .number("node", wire::kHostId)
                   .text("name", event)
                   .words("args", arguments)
@@ -105,7 +114,7 @@ Status SimSession::emit(const std::string& event, std::span<const int16_t> argum
     return sent;
 }
 
-std::vector<debug::UserEvent> SimSession::take_heard() {
+std::vector<debug::Event> SimSession::take_heard() {
     return std::exchange(heard_, {});
 }
 
@@ -133,6 +142,7 @@ bool SimSession::settled() const {
 // ---- what the bus says ----
 
 void SimSession::hear(const debug::Event& event) {
+    if (options_.heard && heard_.size() < kHeardMax) heard_.push_back(event);
     if (const auto* sent = std::get_if<debug::UserEvent>(&event.what)) {
         hear_user_event(event, *sent);
         return;
@@ -154,7 +164,6 @@ void SimSession::hear(const debug::Event& event) {
 
 void SimSession::hear_user_event(const debug::Event& event, const debug::UserEvent& sent) {
     const std::string name = sent.name.empty() ? std::to_string(sent.number) : sent.name;
-    if (options_.heard && heard_.size() < kHeardMax) heard_.push_back(sent);
     if (events_.size() < kEventNamesMax || events_.contains(name)) {
         EventCount& count = events_[name];
         count = {name, count.count + 1, sent.arguments, now()};

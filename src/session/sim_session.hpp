@@ -43,7 +43,7 @@ struct SimOptions {
     sim::WorldOptions world;
     aesl::Options compile;
     bool traced = false;  // keep lines for take_trace()
-    bool heard = false;   // keep user events for take_heard()
+    bool heard = false;   // keep what happens on the bus for take_heard()
 };
 
 enum class NoteKind {
@@ -112,14 +112,14 @@ public:
     bool settled() const;
 
     // ---- a plan beside it ----
-    // Sends a user event as a host, delivered at the next instant. Fails for an event that no
-    // project of the robots declares, and for another number of arguments than is declared.
-    Status emit(const std::string& event, std::span<const int16_t> arguments);
-    // User events of nodes and of other hosts, in their order; with SimOptions::heard.
-    std::vector<debug::UserEvent> take_heard();
+    // Sends a user event as a host; `at` is for the trace. It is delivered at the next instant.
+    // Fails for an event that no project of the robots declares, and for another number of
+    // arguments than is declared.
+    Status emit(const std::string& event, std::span<const int16_t> arguments, Time at);
+    // What the bus told since, user events and all else, in its order; with SimOptions::heard.
+    std::vector<debug::Event> take_heard();
     // Names of events and constants, by the projects that the robots load.
     const aesl::CommonDefinitions& common() const { return network_.common(); }
-    const debug::Network& network() const { return network_; }
 
     // ---- looking ----
     const sim::World& world() const { return world_; }
@@ -172,6 +172,7 @@ private:
     std::vector<wire::Frame> take_frames();
     void listen(const std::vector<wire::Frame>& delivered);
     void speak();
+    void send_frames();
     void note(NoteKind kind, std::string text);
     void hear(const debug::Event& event);
     void hear_user_event(const debug::Event& event, const debug::UserEvent& sent);
@@ -200,6 +201,7 @@ private:
     SimOptions options_;
     debug::Network network_;
     hub::LinkId link_;  // ours on the bus
+    bool over_can_;     // frames cross a modelled bus
     Time clock_{};      // of the network: goes on over reset()
     Duration rest_{};   // of step()
     std::vector<Node> nodes_;
@@ -210,7 +212,7 @@ private:
         names_;  // by path: events of the scripts that run
     std::map<std::string, EventCount> events_;
     std::vector<Note> notes_;
-    std::vector<debug::UserEvent> heard_;
+    std::vector<debug::Event> heard_;
     std::string trace_;
 };
 

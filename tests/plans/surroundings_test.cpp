@@ -40,6 +40,9 @@ public:
         next_ += step_;
         return found == events_.end() ? std::vector<run::BusEvent>() : found->second;
     }
+    void emit(Time at, const run::BusEvent& event) override {
+        log.push_back("emit " + event.name + " " + std::to_string(at.count()));
+    }
     void end() override { log.push_back("end " + std::to_string((next_ - step_).count())); }
 
     std::vector<std::string> log;
@@ -64,9 +67,6 @@ protected:
         EXPECT_TRUE(checked.ok()) << plan::format_findings_json(checked.findings);
         graph_ = plan::make_graph(checked);
         options.surroundings = &clockwork;
-        options.on_emit = [&](const run::BusEvent& event) {
-            clockwork.log.push_back("emit " + event.name);
-        };
         options.on_trace = [&](const plan::TraceEvent& event) {
             const std::string at = " " + std::to_string(event.at.count());
             if (const auto* ended = std::get_if<plan::ActorEnded>(&event.what)) {
@@ -94,9 +94,9 @@ TEST_F(SurroundingsTest, AtOneInstantThePlanStandsBetweenBeginAndEnd) {
         )",
                            clockwork);
     EXPECT_EQ(ended.result, plan::PlanResult::Ok);
-    EXPECT_THAT(clockwork.log,
-                ElementsAre("begin 1000", "end 1000", "a 1500", "emit go", "b 1500", "begin 2000",
-                            "end 2000", "begin 3000", "c 3000", "over 3000", "end 3000"));
+    EXPECT_THAT(clockwork.log, ElementsAre("begin 1000", "end 1000", "a 1500", "emit go 1500",
+                                           "b 1500", "begin 2000", "end 2000", "begin 3000",
+                                           "c 3000", "over 3000", "end 3000"));
 }
 
 TEST_F(SurroundingsTest, WhatBeginGivesIsHeardAtThatInstant) {

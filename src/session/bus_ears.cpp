@@ -1,0 +1,36 @@
+#include "session/bus_ears.hpp"
+
+namespace vagus::session {
+
+std::optional<run::BusEvent> BusEars::hear(const debug::Event& event) {
+    if (const auto* sent = std::get_if<debug::UserEvent>(&event.what)) {
+        if (sent->name.empty()) return std::nullopt;
+        return run::BusEvent{sent->name, sent->arguments};
+    }
+    if (const auto* described = std::get_if<debug::NodeDescribed>(&event.what)) {
+        const auto before = gone(event.node);  // it came back under another name
+        known_[event.node].name = described->name;
+        there(event.node);
+        return before && !nodes_.has(described->name) ? before : std::nullopt;
+    }
+    if (std::holds_alternative<debug::NodeReconnected>(event.what)) there(event.node);
+    if (std::holds_alternative<debug::NodeDisconnected>(event.what)) return gone(event.node);
+    return std::nullopt;
+}
+
+void BusEars::there(debug::NodeId node) {
+    const auto found = known_.find(node);
+    if (found == known_.end() || found->second.there) return;
+    found->second.there = true;
+    nodes_.appeared(found->second.name);
+}
+
+std::optional<run::BusEvent> BusEars::gone(debug::NodeId node) {
+    const auto found = known_.find(node);
+    if (found == known_.end() || !found->second.there) return std::nullopt;
+    found->second.there = false;
+    if (!nodes_.left(found->second.name)) return std::nullopt;
+    return run::BusEvent{toolbox::node_left(found->second.name), {}};
+}
+
+}  // namespace vagus::session

@@ -1,0 +1,39 @@
+// What a plan hears of a bus: user events by their names, and which nodes are there.
+//
+//     BusEars ears(nodes);                                // toolbox::BusNodes
+//     for (const debug::Event& event : network.take_events()) {
+//         if (auto heard = ears.hear(event)) run.hear(std::move(*heard));
+//     }
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "debug/event.hpp"
+#include "run/code.hpp"
+#include "toolbox/bus.hpp"
+
+namespace vagus::session {
+
+class BusEars {
+public:
+    // `nodes` is kept as the bus says; borrowed.
+    explicit BusEars(toolbox::BusNodes& nodes) : nodes_(nodes) {}
+
+    // Nothing for what is not for plans: numbers without a name, and all that debuggers hear.
+    std::optional<run::BusEvent> hear(const debug::Event& event);
+
+private:
+    void there(debug::NodeId node);
+    std::optional<run::BusEvent> gone(debug::NodeId node);
+
+    struct Known {
+        std::string name;
+        bool there = false;
+    };
+    toolbox::BusNodes& nodes_;
+    std::map<debug::NodeId, Known> known_;  // those that have described themselves
+};
+
+}  // namespace vagus::session

@@ -1,0 +1,45 @@
+// The events that a plan may use on a bus: those that the projects of its nodes declare, for only a
+// project gives an event its number (docs/formats.md, "Numbers of events").
+//
+//     const BusNames names(project.common, "arm.aesl");
+//     report(names.check(plans));                                // before the run
+//     options.may_emit = [names](const BusEvent& event) { return names.may_emit(event); };
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aesl/target.hpp"
+#include "base/result.hpp"
+#include "plan/finding.hpp"
+#include "plan/model.hpp"
+#include "plan/template.hpp"
+#include "run/code.hpp"
+
+namespace vagus::session {
+
+class BusNames {
+public:
+    // `source` is what declares them, for sentences: "the scripts of arena.world.json".
+    BusNames(aesl::CommonDefinitions common, std::string source)
+        : common_(std::move(common)), source_(std::move(source)) {}
+
+    // The Error names the event, a near one, and how to mend it.
+    Status may_emit(const run::BusEvent& event) const;
+    // Errors for events that plans name outright (in `Send`, `Receive`, `OnEvent`) and that no
+    // project declares; what a formula makes of variables is known only in the run.
+    plan::Findings check(const std::vector<plan::Plan>& plans) const;
+
+private:
+    Status known(std::string_view event) const;
+    const aesl::GlobalEvent* find(std::string_view event) const;
+
+    aesl::CommonDefinitions common_;
+    std::string source_;
+};
+
+// Whether the plans use a bus at all: those templates of `core` do, and those of other toolboxes.
+bool uses_bus(const std::vector<plan::Plan>& plans, const plan::Library& library);
+
+}  // namespace vagus::session

@@ -1,0 +1,98 @@
+#include "session/bus_names.hpp"
+
+#include <gmock/gmock.h>
+
+#include "plan/check.hpp"
+#include "toolbox/core.hpp"
+
+namespace vagus::session {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class OneText final : public plan::Files {
+public:
+    explicit OneText(std::string text) : text_(std::move(text)) {}
+    Result<std::string> read(const std::string&) const override { return text_; }
+
+private:
+    std::string text_;
+};
+
+const BusNames kNames({.events = {{"turning", 1}, {"clear", 0}, {"any", std::nullopt}},
+                       .constants = {}},
+                      "the scripts of arena.world.json");
+
+std::string refusal(const run::BusEvent& event) {
+    const Status status = kNames.may_emit(event);
+    return status.ok() ? "" : status.error().what;
+}
+
+TEST(BusNames, AnEventNeedsANumberAndItsArguments) {
+    EXPECT_EQ(refusal({"turning", {1}}), "");
+    EXPECT_EQ(refusal({"any", {1, 2, 3}}), "");
+    EXPECT_EQ(refusal({"turnin", {1}}),
+              "the event \"turnin\" has no number: the scripts of arena.world.json do not declare "
+              "it; did you mean \"turning\"?");
+    EXPECT_EQ(refusal({"jump", {}}),
+              "the event \"jump\" has no number: the scripts of arena.world.json do not declare "
+              "it; add <event name=\"jump\" size=\"…\"/> to the project");
+    EXPECT_EQ(refusal({"clear", {1, 2}}),
+              "the event \"clear\" takes 0 arguments, found 2; give it as many as the project "
+              "declares");
+}
+
+TEST(BusNames, WithoutEventsTheSentenceSaysSo) {
+    const BusNames none({}, "the scripts of arena.world.json");
+    const Status status = none.may_emit({"go", {}});
+    ASSERT_FALSE(status.ok());
+    EXPECT_THAT(status.error().what,
+                HasSubstr("the scripts of arena.world.json declare no events"));
+}
+
+TEST(BusNames, FindsWhatAPlanNamesOutrightAndNobodyDeclares) {
+    constexpr std::string_view kPlan = R"({
+  "format": "vagus-plan/1",
+  "name": "P",
+  "configuration": { "which": { "type": "string", "initial": "jump" } },
+  "start": { "actor": "a", "supervisors": {
+    "s": { "template": "OnEvent",
+           "in": { "event": "'jum' & 'p'" }, "events": { "Received": "@terminate" } } } },
+  "actors": {
+    "a": { "template": "Send", "in": { "event": "'clear'" }, "states": { "Sent": "b" } },
+    "b": { "template": "Send", "in": { "event": "which" }, "states": { "Sent": "c" } },
+    "c": { "template": "Receive",
+           "in": { "event": "'claer'" }, "states": { "Received": "@terminate" } }
+  }
+})";
+    run::CodeLibrary library;
+    toolbox::add_core(library);
+    const plan::Checked checked =
+        plan::check("p.plan.json", OneText(std::string(kPlan)), library.templates());
+    ASSERT_TRUE(checked.ok());
+    std::vector<std::string> found;
+    for (const plan::Finding& finding : kNames.check(checked.plans)) {
+        found.push_back(finding.file + ":" + std::to_string(finding.line) + " " + finding.element);
+    }
+    EXPECT_THAT(found, ElementsAre("p.plan.json:7 s", "p.plan.json:12 c"));
+    EXPECT_TRUE(uses_bus(checked.plans, library.templates()));
+}
+
+TEST(BusNames, APlanOfWaitsUsesNoBus) {
+    constexpr std::string_view kPlan = R"({
+  "format": "vagus-plan/1", "name": "P", "start": { "actor": "a" },
+  "actors": { "a": { "template": "Wait", "in": { "seconds": 1 },
+                     "states": { "Done": "@terminate" } } } })";
+    run::CodeLibrary library;
+    toolbox::add_core(library);
+    const plan::Checked checked =
+        plan::check("p.plan.json", OneText(std::string(kPlan)), library.templates());
+    ASSERT_TRUE(checked.ok());
+    EXPECT_FALSE(uses_bus(checked.plans, library.templates()));
+    EXPECT_THAT(kNames.check(checked.plans), IsEmpty());
+}
+
+}  // namespace
+}  // namespace vagus::session

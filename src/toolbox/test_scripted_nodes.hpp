@@ -26,7 +26,7 @@ public:
     using Answer = std::function<void(ScriptedNodes&, const run::BusEvent&)>;
     explicit ScriptedNodes(Answer answer) : answer_(std::move(answer)) {}
 
-    void hear(const run::BusEvent& event) {
+    void emit(Time, const run::BusEvent& event) override {
         said.push_back(
             fmt::format("{} {} {}", ms(now_), event.name, fmt::join(event.arguments, " ")));
         answer_(*this, event);
@@ -86,7 +86,6 @@ inline Driven drive(const std::string& plan_text, const run::CodeLibrary& librar
     run::RunOptions options;
     options.max_time = std::chrono::minutes(1);
     options.surroundings = &nodes;
-    options.on_emit = [&nodes](const run::BusEvent& event) { nodes.hear(event); };
     options.on_trace = [&driven](const plan::TraceEvent& event) {
         driven.trace.push_back(plan::format_trace(event));
     };

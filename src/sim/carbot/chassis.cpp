@@ -1,6 +1,7 @@
 #include "sim/carbot/chassis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/trig.hpp"
 #include "sim/arena.hpp"
@@ -12,6 +13,7 @@ namespace {
 constexpr double kScaleFlaw = 0.001;
 constexpr double kAngleFlaw = 0.03 * trig::kPi / 180;
 constexpr double kSlip = 0.005;  // of the speed, anew in every step
+constexpr double kSticks = 0.001;  // m/s: friction holds a slower wheel that shall stand
 
 // 1 - exp(-step / response) by its Padé approximation, which has the same bits everywhere
 // (sim/wheels.hpp).
@@ -25,6 +27,7 @@ void follow(Wheel& wheel, const Wheel& target) {
     const double angle = std::clamp(target.angle, -trig::kPi / 2, trig::kPi / 2);
     wheel.angle += std::clamp(angle - wheel.angle, -kTurnMax, kTurnMax);
     wheel.speed += kShare * (std::clamp(target.speed, -kSpeedMax, kSpeedMax) - wheel.speed);
+    if (target.speed == 0 && std::fabs(wheel.speed) < kSticks) wheel.speed = 0;
 }
 
 }  // namespace

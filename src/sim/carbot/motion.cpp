@@ -55,6 +55,7 @@ void Motion::start(MotionKind kind, const Order& order) {
     kind_ = kind;
     state_ = MotionState::Drives;
     ending_ = halting_ = false;
+    done_ = 0;  // a command takes the place of the one before, without a word of it
     path_ = {.aim = scaled(wheels, 1 / scale),
              .unit = {.ahead = order.ahead / scale, .sideways = 0, .turn = order.turn / scale},
              .left = order.left * scale,
@@ -95,6 +96,7 @@ void Motion::brake() {
     state_ = MotionState::Brakes;
     halting_ = true;
     ending_ = false;
+    done_ = 0;
     path_ = {};
 }
 

@@ -135,9 +135,12 @@ void Inhabitants::move_robot(size_t robot, const Pose& to) {
 void Inhabitants::refresh_ground() {
     std::vector<ObjectDefinition> patches;
     std::vector<Point> lamps;
+    beacons_.clear();
     for (const Object& object : objects_) {
         if (object.definition.kind == ObjectKind::Light && object.on)
             lamps.push_back(object.pose.at);
+        if (object.definition.kind == ObjectKind::Infrared && object.on)
+            beacons_.push_back(object.pose.at);
         if (object.definition.kind != ObjectKind::Patch) continue;
         patches.push_back(object.definition);
         patches.back().at = object.pose.at;

@@ -51,6 +51,8 @@ public:
 
     Arena& arena() { return arena_; }
     const Ground& ground() const { return ground_; }
+    // The infrared beacons that are on.
+    std::span<const Point> beacons() const { return beacons_; }
     // Colours of bodies by index, as cameras see them now.
     std::span<const Colour> colours();
 
@@ -68,6 +70,7 @@ private:
     std::vector<Object> objects_;
     std::vector<std::unique_ptr<Robot>> robots_;
     std::vector<Colour> colours_;
+    std::vector<Point> beacons_;
     uint32_t next_object_;
 };
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@ struct Surroundings {
     const Arena& arena;
     const Ground& ground;
     std::span<const Colour> colours;  // of bodies by index
+    std::span<const Point> beacons;   // infrared ones that are on
     Time now;
 };
 
@@ -53,6 +55,8 @@ public:
     virtual std::vector<Look> looks(const Arena& arena) const = 0;
     // The colour that cameras see.
     virtual Colour colour() const = 0;
+    // Where its camera is, in its frame; it looks ahead. Nothing: it has none.
+    virtual std::optional<Point> camera() const { return std::nullopt; }
 };
 
 // True at the instants at which something that happens `rate` times a second is due: the n-th time

@@ -4,11 +4,13 @@
 #include <array>
 
 #include "base/file.hpp"
+#include "base/trig.hpp"
+#include "sim/camera.hpp"
+#include "sim/frame_notes.hpp"
 #include "sim/inhabitants.hpp"
 #include "sim/node_bus.hpp"
 #include "sim/world_check.hpp"
 #include "sim/world_file.hpp"
-#include "wire/messages.hpp"
 
 namespace vagus::sim {
 
@@ -70,6 +72,14 @@ Result<World> World::load(std::string_view text, std::string_view file, WorldOpt
 
 namespace {
 
+// A Carbot is made for it.
+BusModel bus_of(const WorldDefinition& definition) {
+    const bool has_carbot =
+        std::any_of(definition.robots.begin(), definition.robots.end(),
+                    [](const RobotDefinition& robot) { return robot.type == RobotType::Carbot; });
+    return has_carbot ? BusModel::Can : BusModel::Ideal;
+}
+
 // A CAN identifier has eight bits for the source.
 Status check_can(const WorldDefinition& definition) {
     for (size_t i = 0; i < definition.robots.size(); ++i) {
@@ -90,6 +100,7 @@ Status check_can(const WorldDefinition& definition) {
 Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     const Status checked = check_world(definition);
     if (!checked.ok()) return checked.error();
+    options.bus = options.bus.value_or(bus_of(definition));
     if (options.bus == BusModel::Can) {
         const Status fits = check_can(definition);
         if (!fits.ok()) return fits.error();
@@ -199,7 +210,7 @@ void World::Insides::begin_instant() {
     for (size_t i = 0; i < berths.size(); ++i) deliver(i);
     inhabitants->arena().prepare_looks();
     const Surroundings around = {inhabitants->arena(), inhabitants->ground(),
-                                 inhabitants->colours(), now};
+                                 inhabitants->colours(), inhabitants->beacons(), now};
     for (const size_t index : by_node) {
         robot(index).sense(around);
         for (Machine* const machine : robot(index).machines()) machine->run();
@@ -297,47 +308,11 @@ void World::Insides::collect(size_t index, Crossing crossing) {
     sent.clear();
 }
 
-namespace {
-
-template <typename Message, typename Say>
-std::optional<Fault> fault_of(const wire::Frame& frame, const Say& say) {
-    Message message;
-    if (wire::decode_message(frame, message) != wire::Error::None) return std::nullopt;
-    return Fault{say(message), message.pc};
-}
-
-std::optional<Fault> fault_of(const wire::Frame& frame) {
-    switch (static_cast<wire::MessageType>(frame.type)) {
-        case wire::MessageType::DivisionByZero:
-            return fault_of<wire::DivisionByZero>(
-                frame, [](const auto&) { return std::string("division by zero"); });
-        case wire::MessageType::ArrayAccessOutOfBounds:
-            return fault_of<wire::ArrayAccessOutOfBounds>(frame, [](const auto& message) {
-                return "index " + std::to_string(static_cast<int16_t>(message.index)) +
-                       " of an array of " + std::to_string(message.size);
-            });
-        case wire::MessageType::NodeSpecificError:
-            return fault_of<wire::NodeSpecificError>(frame, [](const auto& message) {
-                return std::string(message.text.bytes, message.text.size);
-            });
-        default:  // all other messages are no faults
-            return std::nullopt;
-    }
-}
-
-}  // namespace
-
 void World::Insides::note_frame(size_t index, const wire::Frame& frame) {
-    if (wire::is_user_event(frame.type)) {
-        Emitted emitted{{}, frame.type};
-        for (size_t i = 0; i + 1 < frame.size; i += 2) {
-            emitted.arguments.push_back(
-                static_cast<int16_t>(frame.payload[i] | frame.payload[i + 1] << 8));
-        }
-        note(index, std::move(emitted), frame.source);
-    } else if (auto fault = fault_of(frame)) {
+    if (auto emitted = emitted_in(frame))
+        note(index, std::move(*emitted), frame.source);
+    else if (auto fault = fault_in(frame))
         note(index, std::move(*fault), frame.source);
-    }
 }
 
 void World::Insides::note(size_t index, decltype(Happening::what) what, uint16_t node) {
@@ -475,6 +450,24 @@ std::vector<Look> World::looks(RobotId robot) const {
     Arena& arena = insides_->inhabitants->arena();
     arena.prepare_looks();
     return insides_->robot(*index).looks(arena);
+}
+
+Result<Picture> World::render(RobotId robot) const {
+    const auto index = index_of(insides_->definition, robot);
+    if (!index) return no_robot();
+    Inhabitants& all = *insides_->inhabitants;
+    const std::optional<Point> place = insides_->robot(*index).camera();
+    if (!place) {
+        return Error{Code::NotFound,
+                     insides_->definition.robots[*index].name + " has no camera; a carbot has one"};
+    }
+    const BodyId body = insides_->robot(*index).body();
+    const Pose pose = all.arena().pose(body);
+    const double cosine = trig::cos(pose.angle);
+    const double sine = trig::sin(pose.angle);
+    const Point at = {pose.at.x + cosine * place->x - sine * place->y,
+                      pose.at.y + sine * place->x + cosine * place->y};
+    return sim::render({all.arena(), all.ground(), all.colours()}, body, {at, pose.angle});
 }
 
 Colour World::ground_at(Point at) const {

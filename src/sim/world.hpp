@@ -32,6 +32,7 @@
 #include "sim/can_bus.hpp"
 #include "sim/definitions.hpp"
 #include "sim/drawing.hpp"
+#include "sim/ground.hpp"
 
 namespace vagus::sim {
 
@@ -61,7 +62,7 @@ struct WorldOptions {
     std::optional<uint64_t> seed;      // instead of that of the file
     std::string folder = ".";          // where paths of the file start
     std::string sd_folder;             // the card of every robot that has a slot; empty: no card
-    std::optional<BusModel> bus = {};  // empty: Ideal
+    std::optional<BusModel> bus = {};  // empty: Can with a Carbot, otherwise Ideal
 };
 
 // ---- What there is to draw. Everything in metres and radians. ----
@@ -178,6 +179,8 @@ public:
     std::vector<ObjectView> objects() const;    // in the order of their adding
     std::vector<Lamp> lamps(RobotId robot) const;
     std::vector<Look> looks(RobotId robot) const;  // distance sensors as they stand now
+    // What the robot's camera sees now (camera.hpp). Fails with NotFound if it has none.
+    Result<Picture> render(RobotId robot) const;
     Colour ground_at(Point at) const;
     std::optional<RobotId> find_robot(std::string_view name) const;
     std::optional<ObjectId> find_object(std::string_view id) const;

@@ -453,7 +453,7 @@ TEST(World, ACarbotIsFourNodesOnBothItsBuses) {
     Host own(*world.private_bus({2}));
     host.send(list_nodes());
     own.send(list_nodes());
-    world.step(1ms);
+    world.step(2ms);  // the answers cross the CAN bus
     std::vector<uint16_t> seen;
     for (const wire::Frame& frame : host.frames()) seen.push_back(frame.source);
     // Those of the Carbot were asked twice, over each bus, and tell both; the Thymio once.

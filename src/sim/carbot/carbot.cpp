@@ -23,6 +23,8 @@ constexpr std::array<Point, 8> kOutline = {{{0.200, -0.145},
                                             {-0.170, -0.175},
                                             {0.170, -0.175}}};
 
+constexpr Point kCameraPlace = {0.16, 0};
+
 // Each node has noise of its own.
 uint64_t seed_of(uint64_t seed, Place place) {
     return SplitMix64(seed + place).next();
@@ -38,20 +40,24 @@ std::span<const Point> outline() {
     return kOutline;
 }
 
+std::optional<Point> Carbot::camera() const {
+    return kCameraPlace;
+}
+
 Carbot::Carbot(Arena& arena, const RobotDefinition& definition, uint64_t seed)
     : body_(arena.add_robot({.corners = kOutline}, {definition.at, definition.angle}, kBody)),
       drive_(id_of(definition, kDrive), seed_of(seed, kDrive)),
       bumper_(id_of(definition, kBumper)),
-      range_(id_of(definition, kRange)),
-      head_(id_of(definition, kHead)),
+      range_(id_of(definition, kRange), seed_of(seed, kRange)),
+      head_(id_of(definition, kHead), seed_of(seed, kHead)),
       machines_{&drive_.machine(), &bumper_.machine(), &range_.machine(), &head_.machine()},
       paint_(definition.paint) {}
 
 void Carbot::sense(const Surroundings& around) {
     drive_.sense(around);
     bumper_.sense(around, body_);
-    range_.sense(around);
-    head_.sense(around);
+    range_.sense(around, body_);
+    head_.sense(around, body_);
 }
 
 void Carbot::drive(Arena& arena) {
@@ -63,12 +69,11 @@ void Carbot::set_button(std::string_view button, bool pressed) {
 }
 
 std::vector<Lamp> Carbot::lamps() const {
-    return {};
+    return {head_.lamp()};
 }
 
 std::vector<Look> Carbot::looks(const Arena& arena) const {
-    (void)arena;
-    return {};
+    return {range_.look(arena.pose(body_))};
 }
 
 }  // namespace vagus::sim::carbot

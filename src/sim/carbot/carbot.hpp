@@ -29,6 +29,7 @@ public:
     std::vector<Lamp> lamps() const override;
     std::vector<Look> looks(const Arena& arena) const override;
     Colour colour() const override { return paint_; }
+    std::optional<Point> camera() const override;
 
 private:
     BodyId body_;

@@ -27,15 +27,39 @@ constexpr node::LocalEvent kEvents[] = {{"reached", "The rotator stands where it
                                         {"echo", "sonar.distance has a new value"},
                                         {"tick", "Every 20 ms"}};
 
-constexpr node::Description kDescription = describe({"range", kVariables, kEvents, {}});
+Sonar& sonar_of(node::Node& node) {
+    return *static_cast<Sonar*>(Machine::robot_of(node));
+}
+
+void turn(node::Node& node) {
+    sonar_of(node).turn(pop_word(node));
+}
+
+void ping(node::Node& node) {
+    sonar_of(node).ping();
+}
+
+constexpr node::Parameter kTurnParameters[] = {{1, "angle"}};
+constexpr node::Native kNatives[] = {
+    {"rotator.turn", "Turns the rotator: 0.1 deg", kTurnParameters, 1, turn},
+    {"sonar.ping", "Measures", nullptr, 0, ping}};
+
+constexpr node::Description kDescription = describe({"range", kVariables, kEvents, kNatives});
 
 }  // namespace
 
-RangeNode::RangeNode(uint16_t id) : machine_(machine_of(kDescription, id, nullptr)) {
+RangeNode::RangeNode(uint16_t id, uint64_t seed)
+    : sonar_(seed), machine_(machine_of(kDescription, id, &sonar_)) {
     machine_.variable(ADDRESS(id)) = static_cast<int16_t>(id);
 }
 
-void RangeNode::sense(const Surroundings& around) {
+void RangeNode::sense(const Surroundings& around, BodyId body) {
+    sonar_.step(around.arena, body, around.now);
+    machine_.variable(ADDRESS(rotator_angle)) = sonar_.angle();
+    machine_.variable(ADDRESS(sonar_angle)) = sonar_.heard_angle();
+    machine_.variable(ADDRESS(sonar_distance)) = sonar_.distance();
+    if (sonar_.take_reached()) machine_.raise(kReached);
+    if (sonar_.take_echo()) machine_.raise(kEcho);
     if (around.now % kTick == Duration::zero()) machine_.raise(kTickEvent);
 }
 

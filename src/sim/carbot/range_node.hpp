@@ -1,6 +1,7 @@
 // The node `range` of a Carbot: an ultrasonic sensor on a rotator.
 #pragma once
 
+#include "sim/carbot/sonar.hpp"
 #include "sim/machine.hpp"
 #include "sim/robot.hpp"
 
@@ -8,13 +9,17 @@ namespace vagus::sim::carbot {
 
 class RangeNode {
 public:
-    explicit RangeNode(uint16_t id);
+    // `seed` is that of the sensor's noise.
+    RangeNode(uint16_t id, uint64_t seed);
 
     Machine& machine() { return machine_; }
     // Each millisecond.
-    void sense(const Surroundings& around);
+    void sense(const Surroundings& around, BodyId body);
+    // Where it looked last, for drawings.
+    Look look(const Pose& robot) const { return sonar_.look(robot); }
 
 private:
+    Sonar sonar_;
     Machine machine_;
 };
 

@@ -36,15 +36,17 @@ Pilot::Pilot(sim::WorldDefinition world, const std::string& script, uint64_t see
 }
 
 void Pilot::send(const std::string& event, const std::vector<int16_t>& arguments) {
-    const Status sent = session_.emit(event, arguments);
+    const Status sent = session_.emit(event, arguments, now());
     EXPECT_TRUE(sent.ok()) << (sent.ok() ? "" : sent.error().what);
 }
 
 void Pilot::millisecond() {
     if (alive_ && now() % kAliveEvery == Duration::zero()) send("drive.alive", {*alive_});
     session_.step(1ms);
-    for (const debug::UserEvent& event : session_.take_heard())
-        heard_.push_back({now(), event.name, event.arguments});
+    for (const debug::Event& event : session_.take_heard()) {
+        if (const auto* sent = std::get_if<debug::UserEvent>(&event.what))
+            heard_.push_back({now(), sent->name, sent->arguments});
+    }
 }
 
 void Pilot::step(Duration span) {

@@ -6,7 +6,8 @@ include(CMakePackageConfigHelpers)
 set(VAGUS_INSTALLED_MODULES base isa wire plan run toolbox embed)
 
 foreach(module IN LISTS VAGUS_INSTALLED_MODULES)
-  set_target_properties(vagus_${module} PROPERTIES EXPORT_NAME ${module})
+  # Toolboxes of others are shared libraries that link these.
+  set_target_properties(vagus_${module} PROPERTIES EXPORT_NAME ${module} POSITION_INDEPENDENT_CODE ON)
   install(TARGETS vagus_${module} EXPORT VagusTargets
     COMPONENT embed
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
@@ -17,7 +18,7 @@ foreach(module IN LISTS VAGUS_INSTALLED_MODULES)
     FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def"
     PATTERN "test_*" EXCLUDE)
 endforeach()
-install(DIRECTORY ${CMAKE_BINARY_DIR}/generated/templates
+install(DIRECTORY ${CMAKE_BINARY_DIR}/generated/templates ${CMAKE_BINARY_DIR}/generated/toolbox
   COMPONENT embed
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vagus)
 install(TARGETS vagus COMPONENT program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

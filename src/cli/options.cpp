@@ -64,6 +64,13 @@ void takes_file(CLI::Option& option, std::vector<std::string> endings) {
     option.type_name(endings.empty() ? kinds : kinds + ")");
 }
 
+void add_toolbox_option(CLI::App& verb, std::vector<std::string>& files) {
+    takes_file(
+        *verb.add_option("--toolbox", files,
+                         "more templates: a toolbox file or a shared library; again for more"),
+        {".toolbox.json", ".so"});
+}
+
 void add_dialect_options(CLI::App& verb, aesl::Options& options) {
     CLI::Option* dialect = verb.add_option_function<std::string>(
         "--dialect", [&options](const std::string& word) { options.dialect = dialect_of(word); },

@@ -28,6 +28,9 @@ void takes_one_of(CLI::Option& option, std::vector<std::string> words);
 // was found.
 void takes_whole_number(CLI::Option& option, int64_t low, uint64_t high);
 
+// `--toolbox FILE`, as often as wanted.
+void add_toolbox_option(CLI::App& verb, std::vector<std::string>& files);
+
 // The option takes the path of a file or folder: the shell completes it, with these endings first
 // (".aesl").
 void takes_file(CLI::Option& option, std::vector<std::string> endings);

@@ -16,7 +16,7 @@
 #include "cli/verbs.hpp"
 #include "plan/check.hpp"
 #include "plan/file.hpp"
-#include "toolbox/core.hpp"
+#include "session/toolboxes.hpp"
 
 namespace vagus::cli {
 
@@ -26,12 +26,15 @@ namespace {
 
 struct CheckOptions {
     std::string file;
+    std::vector<std::string> toolboxes;
     bool json = false;
 };
 
 int check(const CheckOptions& options) {
+    const toolbox::Parts parts;
     run::CodeLibrary library;
-    toolbox::add_core(library);
+    const Status added = session::add_toolboxes(library, parts, options.toolboxes);
+    if (!added.ok()) return complain(added.error(), kExitUsage);
     const plan::Checked checked = plan::check(options.file, PlanDisk(), library.templates());
     if (options.json) {
         print(plan::format_findings_json(checked.findings));
@@ -55,6 +58,7 @@ int run_plan(const PlanRunOptions& options) {
 
 struct FormatOptions {
     std::string file;
+    std::vector<std::string> toolboxes;  // taken by all verbs alike; the form does not need them
     bool write = false;
     bool check = false;
 };
@@ -88,6 +92,7 @@ void add_check(CLI::App& plan, int& exit_code) {
     verb->footer("Example:\n  vagus plan check examples/wall/WallFollow.plan.json");
     auto options = std::make_shared<CheckOptions>();  // owners: CLI11's option and the callback
     add_plan_file(*verb, options->file);
+    add_toolbox_option(*verb, options->toolboxes);
     verb->add_flag("--json", options->json, "the findings as a JSON array on stdout");
     verb->callback([options, &exit_code] { exit_code = check(*options); });
 }
@@ -119,6 +124,7 @@ void add_format(CLI::App& plan, int& exit_code) {
     verb->footer("Example:\n  vagus plan format -w Square.plan.json");
     auto options = std::make_shared<FormatOptions>();  // owners: CLI11's options and the callback
     add_plan_file(*verb, options->file);
+    add_toolbox_option(*verb, options->toolboxes);
     verb->add_flag("-w,--write", options->write, "writes the file instead of printing");
     verb->add_flag("--check", options->check,
                    "exit code 1 if the file differs from its saved form");

@@ -19,7 +19,7 @@
 #include "cli/plan_run.hpp"
 #include "plan/check.hpp"
 #include "plan/generate.hpp"
-#include "toolbox/core.hpp"
+#include "session/toolboxes.hpp"
 
 namespace vagus::cli {
 
@@ -34,6 +34,7 @@ using Texts = std::map<std::string, std::string>;  // by the name of the file
 
 struct GenerateOptions {
     std::string file;
+    std::vector<std::string> toolboxes;
     std::string folder;
     bool force = false;
 };
@@ -150,8 +151,10 @@ int generate_into(const fs::path& folder, const Texts& texts, bool force) {
 }
 
 int generate(const GenerateOptions& options) {
+    const toolbox::Parts parts;
     run::CodeLibrary library;
-    toolbox::add_core(library);
+    const Status added = session::add_toolboxes(library, parts, options.toolboxes);
+    if (!added.ok()) return complain(added.error(), kExitUsage);
     const plan::Checked checked = plan::check(options.file, PlanDisk(), library.templates());
     show_findings(checked.findings);
     if (!checked.ok()) return kExitUsage;
@@ -167,6 +170,7 @@ void add_plan_generate(CLI::App& plan, int& exit_code) {
         "  vagus plan generate Square.plan.json -o square");
     auto options = std::make_shared<GenerateOptions>();  // owners: CLI11's options, the callback
     add_plan_file(*verb, options->file);
+    add_toolbox_option(*verb, options->toolboxes);
     takes_file(*verb->add_option("-o,--output", options->folder,
                                  "folder to write into: new, empty, or one that was generated")
                     ->required(),

@@ -9,7 +9,8 @@
 #include "embed/loaded_plan.hpp"
 #include "run/real_time.hpp"
 #include "run/virtual_time.hpp"
-#include "toolbox/core.hpp"
+#include "session/toolboxes.hpp"
+#include "toolbox/needs_bus.hpp"
 
 namespace vagus::cli {
 
@@ -26,7 +27,11 @@ PlanRun::~PlanRun() = default;
 
 std::unique_ptr<PlanRun> PlanRun::prepare(const PlanRunOptions& options) {
     std::unique_ptr<PlanRun> made(new PlanRun());  // make_unique cannot reach the constructor
-    toolbox::add_core(made->library_);
+    const Status added = session::add_toolboxes(made->library_, made->parts_, options.toolboxes);
+    if (!added.ok()) {
+        complain(added.error());
+        return nullptr;
+    }
     made->checked_ = plan::check(options.file, PlanDisk(), made->library_.templates());
     show_findings(made->checked_.findings);
     if (!made->checked_.ok()) return nullptr;
@@ -38,6 +43,12 @@ std::unique_ptr<PlanRun> PlanRun::prepare(const PlanRunOptions& options) {
 }
 
 Status PlanRun::take_options(const PlanRunOptions& options) {
+    const Status alone = toolbox::check_without_bus(graph_);
+    if (!alone.ok()) {
+        return Error{
+            alone.error().code,
+            alone.error().what + "; give it a world (--world FILE) or a bus (--bus TARGET)"};
+    }
     virtual_time_ = options.clock == "virtual";
     how_.seed = options.seed;
     for (const std::string& text : options.set) {
@@ -69,6 +80,7 @@ void add_plan_file(CLI::App& verb, std::string& file) {
 
 void add_run_options(CLI::App& verb, PlanRunOptions& options) {
     add_plan_file(verb, options.file);
+    add_toolbox_option(verb, options.toolboxes);
     verb.add_option("--set", options.set, "NAME=VALUE: a variable's value at the start");
     takes_one_of(*verb.add_option("--clock", options.clock, "real or virtual time (real)"),
                  {"real", "virtual"});

@@ -12,6 +12,7 @@
 #include "plan/graph.hpp"
 #include "run/code.hpp"
 #include "run/options.hpp"
+#include "toolbox/parts.hpp"
 
 namespace CLI {
 class App;
@@ -29,6 +30,7 @@ void show_findings(const plan::Findings& findings);
 
 struct PlanRunOptions {
     std::string file;
+    std::vector<std::string> toolboxes;
     std::vector<std::string> set;
     std::string clock = "real";
     uint64_t seed = 1;
@@ -56,6 +58,7 @@ private:
     PlanRun();
     Status take_options(const PlanRunOptions& options);
 
+    toolbox::Parts parts_;  // before the library, whose code looks at them
     run::CodeLibrary library_;
     plan::Checked checked_;
     plan::Graph graph_;

@@ -65,7 +65,8 @@ private:
         for (const ToolboxName& toolbox : plan_.toolboxes) {
             if (checked_.library->find(toolbox.name)) continue;
             say("P2", "", toolbox.line,
-                fmt::format("there is no toolbox \"{}\"{}", toolbox.name,
+                fmt::format("there is no toolbox \"{}\"{}; one of your own is given with --toolbox",
+                            toolbox.name,
                             hint(toolbox.name, names_of(checked_.library->toolboxes()))));
         }
     }

@@ -53,6 +53,9 @@ struct Template {
     std::vector<Outcome> outcomes = {};
     int64_t period_ms = kPeriodDefaultMs;  // supervisors; 0: it waits for events itself (P22b)
     int64_t grace_ms = kGraceDefaultMs;    // actors
+    // Events that its code sends or waits for on the bus: with any, it needs a bus. (What the
+    // templates of `core` send is named by their inputs, and heard without a bus too.)
+    std::vector<std::string> bus_events = {};
 };
 
 struct Toolbox {

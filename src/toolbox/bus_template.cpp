@@ -160,6 +160,7 @@ std::vector<run::Coded> code_of(const ToolboxFile& file, const Parts& parts) {
         // Owners: the makers in the library, which outlive the code that they make.
         const auto work = std::make_shared<const Work>(Work{one, parts});
         run::Coded coded{.declared = one.declared};
+        coded.declared.bus_events = events_of(one);
         if (one.declared.kind == plan::Kind::Supervisor) {
             coded.supervisor = [work] { return std::make_unique<BusSupervisor>(*work); };
         } else {

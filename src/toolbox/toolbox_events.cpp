@@ -15,6 +15,12 @@ std::string mend_for(const std::string& event, const ProjectEvents& known) {
     return near.empty() ? "declare it there" : fmt::format("did you mean \"{}\"?", near);
 }
 
+// What is sent fits exactly; of what is heard the rest is not looked at.
+bool fits(const EventCheck& check, std::optional<size_t> declared) {
+    if (!declared) return true;
+    return check.sent ? check.words == *declared : check.words <= *declared;
+}
+
 }  // namespace
 
 void check_events(const EventChecks& checks, const std::string& project_path, Place project_at,
@@ -33,11 +39,12 @@ void check_events(const EventChecks& checks, const std::string& project_path, Pl
             complain(check.at,
                      fmt::format("the event \"{}\", {}, is not in the project {}; {}", check.event,
                                  check.of, project_path, mend_for(check.event, events.value())));
-        } else if (check.words > found->second) {
+        } else if (!fits(check, found->second)) {
             complain(check.at,
                      fmt::format("the event \"{}\", {}, carries {} words with its token, but the "
-                                 "project {} declares {}; let it declare more",
-                                 check.event, check.of, check.words, project_path, found->second));
+                                 "project {} declares {}; let it declare {}",
+                                 check.event, check.of, check.words, project_path, *found->second,
+                                 check.words));
         }
     }
 }

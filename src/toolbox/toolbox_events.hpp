@@ -13,6 +13,7 @@ struct EventCheck {
     Place at;  // where the file names it
     std::string event;
     size_t words;    // that it carries, with its token
+    bool sent;       // by the plan: then it carries as many as are declared
     std::string of;  // what names it, for sentences
 };
 using EventChecks = std::vector<EventCheck>;

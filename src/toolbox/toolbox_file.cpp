@@ -287,7 +287,7 @@ void read_outcome(Reading& reading, const JsonMember& member, std::string_view w
     }
     if (!outcome.event.empty()) {
         check_unlike(reading, event->at, outcome.event, made, name);
-        reading.events.push_back({event->at, outcome.event, words, name});
+        reading.events.push_back({event->at, outcome.event, words, false, name});
     }
     made.declared.outcomes.push_back({member.key, in.text("help", Need::Optional)});
     made.outcomes.push_back(std::move(outcome));
@@ -359,7 +359,7 @@ void read_commands(Reading& reading, JsonObject& in, BusTemplate& made) {
                                                    key, in.name()));
         }
         reading.events.push_back({json->at, json->text, key == "start" ? words : 1,
-                                  fmt::format("\"{}\" of {}", key, in.name())});
+                                  key != "stopped", fmt::format("\"{}\" of {}", key, in.name())});
     }
 }
 

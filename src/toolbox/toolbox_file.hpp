@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,8 +25,8 @@ constexpr size_t kOutputsMax = 64;     // of a template, over all of its states 
 constexpr size_t kNodeNamesMax = 8;    // of a template
 constexpr size_t kNameBytesMax = 100;  // of templates, inputs, nodes, events …
 
-// The events of a project: how many arguments each declares.
-using ProjectEvents = std::map<std::string, size_t, std::less<>>;
+// The events of a project: how many arguments each declares, if it does.
+using ProjectEvents = std::map<std::string, std::optional<size_t>, std::less<>>;
 using ReadProject = std::function<Result<ProjectEvents>(const std::string& path)>;
 
 // `file` is the path, for errors; the project that it names is looked for beside it. Without

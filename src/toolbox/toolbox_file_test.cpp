@@ -210,7 +210,18 @@ TEST(ToolboxFile, AnEventThatCarriesTooLittleIsTold) {
         error,
         "box/lamp.toolbox.json:11:16: the event \"lamp.on\", \"start\" of template \"Shine\", "
         "carries 4 words with its token, but the project box/lamp.aesl declares 3; let it "
-        "declare more");
+              "declare 4");
+}
+
+// What is sent has as many arguments as the project declares; an answer may have more.
+TEST(ToolboxFile, AnEventThatIsSentCarriesWhatTheProjectDeclares) {
+    ProjectEvents events = lamp_events();
+    events["lamp.off"] = 2;
+    EXPECT_NE(error_of(std::string(kLamp), project_of(events)).find("carries 1 words"),
+              std::string::npos);
+    events["lamp.off"] = std::nullopt;
+    events["lamp.done"] = 3;
+    EXPECT_EQ(error_of(std::string(kLamp), project_of(events)), "no error");
 }
 
 TEST(ToolboxFile, AProjectThatCannotBeReadIsTold) {

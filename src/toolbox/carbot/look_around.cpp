@@ -36,7 +36,8 @@ const plan::Template& look_around_declared() {
                      .unit = "cm",
                      .help = "the smallest of them; 0 if nothing is in reach"},
                     {.name = "angle", .type = Type::Float, .unit = "deg", .help = "where that is"}},
-        .outcomes = {{"Done", "it has looked"}}};
+        .outcomes = {{"Done", "it has looked"}},
+        .bus_events = Rover::events_of(Rover::Needs::Range)};
     return kDeclared;
 }
 
@@ -55,7 +56,8 @@ const plan::Template& search_wall_declared() {
                      .unit = "cm",
                      .help = "from the sensor to the wall"},
                     {.name = "left", .type = Type::Bool, .help = "is it at the left then?"}},
-        .outcomes = {{"WallFound", "there is one"}, {"NoWallFound", "nothing is in reach"}}};
+        .outcomes = {{"WallFound", "there is one"}, {"NoWallFound", "nothing is in reach"}},
+        .bus_events = Rover::events_of(Rover::Needs::Range)};
     return kDeclared;
 }
 

@@ -39,7 +39,8 @@ const plan::Template& declared() {
         .icon = "M5 20c0-8 14-4 14-12M16 10l3-3l3 3M3 20h4",
         .inputs = {place("x", "ahead from where the robot started"),
                    place("y", "to the left of that"), speed_input()},
-        .outcomes = {{"Arrived", "it is there"}, {"Stuck", "it does not come nearer"}}};
+        .outcomes = {{"Arrived", "it is there"}, {"Stuck", "it does not come nearer"}},
+        .bus_events = Rover::events_of(Rover::Needs::Drive)};
     return kDeclared;
 }
 

@@ -53,6 +53,18 @@ Rover::Rover(run::ActorContext& context, const Parts& parts, Needs needs)
       talk_(context, parts, nodes_of(needs),
             {"range.measured", "range.done", "drive.odometry", "drive.stopped"}) {}
 
+std::vector<std::string> Rover::events_of(Needs needs) {
+    std::vector<std::string> events;
+    if (needs != Needs::Range) {
+        events = {"drive.steer", "drive.stop", "drive.ask", "drive.stopped", "drive.odometry"};
+    }
+    if (needs == Needs::Drive) return events;
+    for (const char* name : {"range.look", "range.scan", "range.measured", "range.done"}) {
+        events.emplace_back(name);
+    }
+    return events;
+}
+
 void Rover::steer(const Steering& steering) {
     steering_ = steering;
     moves_ = true;

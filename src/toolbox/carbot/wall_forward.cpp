@@ -59,7 +59,8 @@ const plan::Template& declared() {
                    with_default(length_input("length", "how far to drive"), 100)},
         .outcomes = {{"ForwardSuccessful", "it has driven so far"},
                      {"LaneNotFree", "something is ahead"},
-                     {"WallLost", "the wall has ended"}}};
+                     {"WallLost", "the wall has ended"}},
+        .bus_events = Rover::events_of(Rover::Needs::DriveAndRange)};
     return kDeclared;
 }
 

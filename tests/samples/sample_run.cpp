@@ -1,0 +1,130 @@
+#include "sample_run.hpp"
+
+#include <memory>
+#include <set>
+#include <type_traits>
+#include <variant>
+
+#include "base/file.hpp"
+#include "base/trig.hpp"
+#include "clearance.hpp"
+#include "plan/check.hpp"
+#include "plan/graph.hpp"
+#include "run/virtual_time.hpp"
+#include "session/plan_world.hpp"
+#include "toolbox/builtin.hpp"
+#include "toolbox/core.hpp"
+
+namespace vagus::samples {
+
+namespace {
+
+constexpr int kPosesTried = 10'000;
+
+class Disk final : public plan::Files {
+public:
+    Result<std::string> read(const std::string& path) const override { return read_file(path); }
+};
+
+// Looks at the robot while the plan runs.
+class Watcher {
+public:
+    Watcher(session::SimSession& session, bool traced) : session_(session), traced_(traced) {}
+
+    void hear(const plan::TraceEvent& event) {
+        if (traced_) ran_.trace += session_.take_trace() + plan::format_trace(event) + "\n";
+        if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
+            actor_ = *names_.emplace(started->actor).first;
+        } else if (const auto* ended = std::get_if<plan::ActorEnded>(&event.what)) {
+            ran_.states.push_back(std::string(ended->actor) + ": " + std::string(ended->state));
+        } else if (const auto* raised = std::get_if<plan::EventRaised>(&event.what)) {
+            ran_.states.push_back(std::string(actor_) + "! " + std::string(raised->event));
+        }
+    }
+
+    // The moment, at the instants at which there is one.
+    const Moment* look(Time now) {
+        if (now % kLookEvery != Duration::zero()) return nullptr;
+        const sim::RobotView robot = session_.world().robots().front();
+        const double gap = clearance(session_.world(), robot, robot.pose);
+        ran_.way.push_back({now, robot.pose, gap, actor_});
+        note_contact(ran_.way.back());
+        return &ran_.way.back();
+    }
+
+    Ran take(run::Ended ended, bool called_off) {
+        ran_.ended = std::move(ended);
+        ran_.called_off = called_off;
+        ran_.names = std::move(names_);
+        return std::move(ran_);
+    }
+
+private:
+    void note_contact(const Moment& now) {
+        const bool touches = now.gap < kTouchingMetres;
+        if (touches && !touched_) ran_.contacts.push_back({now.at, {}});
+        if (touches) ran_.contacts.back().length = now.at - ran_.contacts.back().from;
+        touched_ = touches;
+    }
+
+    session::SimSession& session_;
+    bool traced_;
+    bool touched_ = false;
+    std::set<std::string, std::less<>> names_;  // of actors, for the moments
+    std::string_view actor_;
+    Ran ran_;
+};
+
+Result<plan::Graph> graph_of(const std::string& path, const run::CodeLibrary& library) {
+    const plan::Checked checked = plan::check(path, Disk(), library.templates());
+    if (checked.ok()) return plan::make_graph(checked);
+    return Error{Code::BadInput, plan::format_findings_json(checked.findings)};
+}
+
+}  // namespace
+
+Result<Ran> run_sample(const Start& start, const std::function<bool(const Moment&)>& look) {
+    toolbox::BusNodes nodes;
+    toolbox::Parts parts;
+    parts.bus = &nodes;
+    run::CodeLibrary library;
+    toolbox::add_core(library);
+    toolbox::add_builtin(library, parts);
+    const plan::Graph graph = TRY(graph_of(start.plan, library));
+    const auto beside = TRY(session::PlanWorld::open(
+        {.path = start.world, .seed = start.seed, .traced = start.traced}, nodes));
+    sim::World& world = beside->session().world();
+    if (start.at) TRY(world.move(world.robots().front().id, *start.at));
+
+    Watcher watcher(beside->session(), start.traced);
+    run::RunOptions options;
+    options.seed = start.seed;
+    options.max_time = start.at_most;
+    options.on_trace = [&watcher](const plan::TraceEvent& event) { watcher.hear(event); };
+    beside->join(options);
+    run::VirtualTime run(graph, library, options);
+    bool called_off = false;
+    beside->before_each([&](Time now) {
+        const Moment* moment = watcher.look(now);
+        if (!moment || !look || look(*moment)) return;
+        called_off = true;
+        run.abort();
+    });
+    run::Ended ended = run.run();
+    return watcher.take(std::move(ended), called_off);
+}
+
+Result<sim::Pose> free_pose(const std::string& file, double clear, SplitMix64& random) {
+    const std::string text = TRY(read_file(file));
+    const sim::World world = TRY(sim::World::load(text, file));
+    const sim::WorldDefinition& size = world.definition();
+    for (int i = 0; i < kPosesTried; ++i) {
+        const double x = size.width * random.unit();
+        const double y = size.height * random.unit();
+        const sim::Pose pose{{x, y}, (2 * random.unit() - 1) * trig::kPi};
+        if (clearance(world, world.robots().front(), pose) >= clear) return pose;
+    }
+    return Error{Code::NotFound, file + " has no free place for its robot; make it emptier"};
+}
+
+}  // namespace vagus::samples

@@ -30,8 +30,9 @@
 namespace vagus::sim {
 
 constexpr int64_t kCanBitsPerSecond = 1'000'000;
-constexpr size_t kCanQueueMax = 1024;  // CAN frames that wait at a port; a description is 300 to 700
-constexpr size_t kCanPortsMax = 256;  // as many as there are sources
+// CAN frames that wait at a port; what comes then is dropped. A description is 300 to 700.
+constexpr size_t kCanQueueMax = 1024;
+constexpr size_t kCanPortsMax = 256;     // as many as there are sources
 constexpr size_t kLatenciesKept = 4096;  // of a port: its median and p99 are those of the latest
 constexpr size_t kLoadBins = 100;        // the last second in parts of 10 ms
 

@@ -20,6 +20,7 @@
 #include "plan/check.hpp"
 #include "plan/generate.hpp"
 #include "session/toolboxes.hpp"
+#include "toolbox/builtin.hpp"
 
 namespace vagus::cli {
 
@@ -158,7 +159,11 @@ int generate(const GenerateOptions& options) {
     const plan::Checked checked = plan::check(options.file, PlanDisk(), library.templates());
     show_findings(checked.findings);
     if (!checked.ok()) return kExitUsage;
-    return generate_into(options.folder, plan::generate(checked), options.force);
+    plan::OwnToolboxes own;
+    for (const plan::Toolbox& toolbox : library.templates().toolboxes()) {
+        if (!toolbox::is_builtin(toolbox.name)) own.insert(toolbox.name);
+    }
+    return generate_into(options.folder, plan::generate(checked, own), options.force);
 }
 
 }  // namespace

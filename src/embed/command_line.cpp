@@ -9,8 +9,10 @@
 
 #include "run/real_time.hpp"
 #include "run/virtual_time.hpp"
-#include "toolbox/core.hpp"
+#include "toolbox/builtin.hpp"
 #include "toolbox/core_values.hpp"
+#include "toolbox/load.hpp"
+#include "toolbox/needs_bus.hpp"
 
 namespace vagus::embed {
 
@@ -21,18 +23,20 @@ constexpr int kExitUsage = 2;
 constexpr std::string_view kHelp =
     "Runs the plan {0}.\n\n"
     "  {1} [--set NAME=VALUE]... [--clock real|virtual] [--seed N] [--max-time SECONDS]\n"
-    "      [--trace FILE|-]\n\n"
+    "      [--trace FILE|-] [--toolbox FILE]...\n\n"
     "  --set NAME=VALUE    a variable's value at the start\n"
     "  --clock             real or virtual time (real)\n"
     "  --seed N            of all that is random (1)\n"
     "  --max-time SECONDS  after which the run is aborted\n"
-    "  --trace FILE        where its trace goes; - is stdout\n\n"
+    "  --trace FILE        where its trace goes; - is stdout\n"
+    "  --toolbox FILE      more templates: a toolbox file or a shared library\n\n"
     "Exit codes: 0 the plan ended well, 3 it was interrupted, 4 it failed, 5 --max-time came, 2 "
     "it is not valid.\n\n"
     "Example:\n  {1} --clock virtual --trace -\n";
 
 struct Words {
     std::vector<std::string> set;
+    std::vector<std::string> toolboxes;
     std::string clock = "real";
     std::string seed = "1";
     std::string max_time;
@@ -40,7 +44,7 @@ struct Words {
     bool help = false;
 };
 
-// `--name VALUE` and `--name=VALUE`; the last one holds, but for --set.
+// `--name VALUE` and `--name=VALUE`; the last one holds, but for --set and --toolbox.
 Result<Words> read_words(int argc, char** argv) {
     Words words;
     for (int i = 1; i < argc; ++i) {
@@ -60,6 +64,7 @@ Result<Words> read_words(int argc, char** argv) {
                              : name == "--max-time" ? &words.max_time
                              : name == "--trace"    ? &words.trace
                              : name == "--set"      ? &words.set.emplace_back()
+                             : name == "--toolbox"  ? &words.toolboxes.emplace_back()
                                                     : nullptr;
         if (!place) {
             return Error{Code::BadInput, fmt::format("{}: there is no such option; --help lists "
@@ -107,27 +112,19 @@ int complain(std::string_view program, std::string_view sentence) {
     return kExitUsage;
 }
 
-}  // namespace
-
-int run_main(MakePlan make, int argc, char** argv) {
-    run::CodeLibrary library;
-    toolbox::add_core(library);
-    return run_main(make, library, argc, argv);
-}
-
-int run_main(MakePlan make, const run::CodeLibrary& library, int argc, char** argv) {
-    const std::string program = argc > 0 ? argv[0] : "plan";
-    const Result<Words> words = read_words(argc, argv);
-    if (!words.ok()) return complain(program, words.error().what);
+int run_with(MakePlan make, const run::CodeLibrary& library, const std::string& program,
+             const Words& words) {
     const LoadedPlan plan = LoadedPlan::from_code(make, library);
     std::fputs(plan.report().c_str(), stderr);
     if (!plan.ok()) return kExitUsage;
     const plan::GraphPlan& outermost = plan.graph().plans.front();
-    if (words.value().help) {
+    if (words.help) {
         std::fputs(fmt::format(kHelp, outermost.name, program).c_str(), stdout);
         return 0;
     }
-    Result<Prepared> prepared = prepare(words.value(), outermost);
+    const Status alone = toolbox::check_without_bus(plan.graph());
+    if (!alone.ok()) return complain(program, alone.error().what);
+    Result<Prepared> prepared = prepare(words, outermost);
     if (!prepared.ok()) return complain(program, prepared.error().what);
     run::RunOptions& options = prepared.value().options;
     options.on_trace = [&prepared](const plan::TraceEvent& event) {
@@ -138,6 +135,32 @@ int run_main(MakePlan make, const run::CodeLibrary& library, int argc, char** ar
                                  : run::RealTime(plan.graph(), library, options).run();
     if (!ended.message.empty()) complain(program, ended.message);
     return run::exit_status(ended);
+}
+
+}  // namespace
+
+int run_main(MakePlan make, int argc, char** argv) {
+    const std::string program = argc > 0 ? argv[0] : "plan";
+    const Result<Words> words = read_words(argc, argv);
+    if (!words.ok()) return complain(program, words.error().what);
+    const toolbox::Parts parts;
+    run::CodeLibrary library;
+    toolbox::add_builtin(library, parts);
+    for (const std::string& path : words.value().toolboxes) {
+        const Status loaded = toolbox::load_toolbox(library, path, parts, {});
+        if (!loaded.ok()) return complain(program, loaded.error().what);
+    }
+    return run_with(make, library, program, words.value());
+}
+
+int run_main(MakePlan make, const run::CodeLibrary& library, int argc, char** argv) {
+    const std::string program = argc > 0 ? argv[0] : "plan";
+    const Result<Words> words = read_words(argc, argv);
+    if (!words.ok()) return complain(program, words.error().what);
+    if (!words.value().toolboxes.empty()) {
+        return complain(program, "--toolbox: this program has its toolboxes built in");
+    }
+    return run_with(make, library, program, words.value());
 }
 
 // ---- options ----

@@ -4,15 +4,16 @@
 
 #include "base/file.hpp"
 #include "plan/generate_classes.hpp"
-#include "toolbox/core.hpp"
+#include "toolbox/builtin.hpp"
 
 int main(int count, char** arguments) {
     if (count != 2) {
         std::fputs("usage: template_classes FOLDER\n", stderr);
         return 2;
     }
+    const vagus::toolbox::Parts parts;
     vagus::run::CodeLibrary library;
-    vagus::toolbox::add_core(library);
+    vagus::toolbox::add_builtin(library, parts);
     const std::filesystem::path folder = arguments[1];
     std::filesystem::create_directories(folder);
     for (const vagus::plan::Toolbox& toolbox : library.templates().toolboxes()) {

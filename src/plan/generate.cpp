@@ -148,8 +148,9 @@ std::string in_lines(std::string_view text) {
 
 class CodeWriter {
 public:
-    CodeWriter(const Checked& checked, const Plan& plan, const std::vector<PlanNames>& names)
-        : checked_(checked), plan_(plan), plan_names_(names) {}
+    CodeWriter(const Checked& checked, const Plan& plan, const std::vector<PlanNames>& names,
+               const OwnToolboxes& own)
+        : checked_(checked), plan_(plan), plan_names_(names), own_(own) {}
 
     std::string write() {
         for (const PlanNames& names : plan_names_) names_.take(names.as_actor.name);
@@ -196,7 +197,7 @@ private:
         const TemplateClass made = find_class(*checked_.library, *of);
         const std::string space = cpp_namespace(*made.toolbox);
         names_.take(space);
-        toolboxes_.insert(space);
+        (own_.contains(made.toolbox->name) ? own_toolboxes_ : toolboxes_).insert(space);
         classes_[of] = made.names;
         paths_[of] = fmt::format("{}::{}", space, made.names.name);
     }
@@ -240,6 +241,9 @@ private:
         for (const std::string& toolbox : toolboxes_) {
             text += fmt::format("#include <vagus/templates/{}.hpp>\n", toolbox);
         }
+        for (const std::string& toolbox : own_toolboxes_) {
+            text += fmt::format("#include \"{}.hpp\"\n", toolbox);
+        }
         for (const std::string& file : sub_plans_) {
             if (file != names_of(plan_).file) text += fmt::format("#include \"{}.hpp\"\n", file);
         }
@@ -252,7 +256,9 @@ private:
             if (body.find(fmt::format(" {}::", one)) == std::string::npos) continue;
             text += fmt::format("    using vagus::embed::{};\n", one);
         }
-        for (const std::string& toolbox : toolboxes_) {
+        std::set<std::string> toolboxes = toolboxes_;
+        toolboxes.insert(own_toolboxes_.begin(), own_toolboxes_.end());
+        for (const std::string& toolbox : toolboxes) {
             text += fmt::format("    namespace {0} = vagus::templates::{0};\n", toolbox);
         }
         return text;
@@ -405,12 +411,14 @@ private:
     const Checked& checked_;
     const Plan& plan_;
     const std::vector<PlanNames>& plan_names_;
+    const OwnToolboxes& own_;
     CppNames names_{"plan", "Plan", "Type", "Access", kNamespace};
     std::map<std::string, std::string> actors_;       // a name in the plan to that in C++
     std::map<std::string, std::string> supervisors_;  // likewise
     std::map<const Template*, CppClass> classes_;
     std::map<const Template*, std::string> paths_;  // of their classes: core::Wait
     std::set<std::string> toolboxes_;               // namespaces
+    std::set<std::string> own_toolboxes_;           // likewise
     std::set<std::string> sub_plans_;               // files
 };
 
@@ -426,13 +434,30 @@ std::string write_header(const Plan& plan, const PlanNames& names, bool is_sub_p
     return text + fmt::format("\n}}  // namespace {}\n", kNamespace);
 }
 
-std::string write_main(const PlanNames& names) {
+std::string write_main(const PlanNames& names, const std::vector<const Toolbox*>& own) {
+    std::string toolboxes;
+    for (const Toolbox* toolbox : own) {
+        toolboxes += fmt::format("// The toolbox \"{}\" is given with --toolbox.\n", toolbox->name);
+    }
     return fmt::format(
-        "// Runs the plan, with the options of `vagus plan run`.\n"
+        "// Runs the plan, with the options of `vagus plan run`.\n{}"
         "#include <vagus/embed/command_line.hpp>\n\n#include \"{}.hpp\"\n\n"
         "int main(int argc, char** argv) {{\n"
         "    return vagus::embed::run_main(&{}::{}, argc, argv);\n}}\n",
-        names.file, kNamespace, names.make);
+        toolboxes, names.file, kNamespace, names.make);
+}
+
+// Those of `own` that the plans list.
+std::vector<const Toolbox*> listed(const Checked& checked, const OwnToolboxes& own) {
+    std::set<std::string> names;
+    for (const Plan& plan : checked.plans) {
+        for (const ToolboxName& toolbox : plan.toolboxes) names.insert(toolbox.name);
+    }
+    std::vector<const Toolbox*> toolboxes;
+    for (const std::string& name : names) {
+        if (own.contains(name)) toolboxes.push_back(checked.library->find(name));
+    }
+    return toolboxes;
 }
 
 std::string write_cmake(const std::vector<PlanNames>& names) {
@@ -447,7 +472,7 @@ std::string write_cmake(const std::vector<PlanNames>& names) {
 
 }  // namespace
 
-std::map<std::string, std::string> generate(const Checked& checked) {
+std::map<std::string, std::string> generate(const Checked& checked, const OwnToolboxes& own) {
     assert(checked.ok());
     const std::vector<PlanNames> names = name_plans(checked);
     std::set<const Plan*> sub_plans;
@@ -458,9 +483,13 @@ std::map<std::string, std::string> generate(const Checked& checked) {
     for (size_t i = 0; i < names.size(); ++i) {
         const Plan& plan = checked.plans[i];
         files[names[i].file + ".hpp"] = write_header(plan, names[i], sub_plans.contains(&plan));
-        files[names[i].file + ".cpp"] = CodeWriter(checked, plan, names).write();
+        files[names[i].file + ".cpp"] = CodeWriter(checked, plan, names, own).write();
     }
-    files["main.cpp"] = write_main(names.front());
+    const std::vector<const Toolbox*> toolboxes = listed(checked, own);
+    for (const Toolbox* toolbox : toolboxes) {
+        files[cpp_namespace(*toolbox) + ".hpp"] = generate_toolbox_header(*toolbox);
+    }
+    files["main.cpp"] = write_main(names.front(), toolboxes);
     files["CMakeLists.txt"] = write_cmake(names);
     return files;
 }

@@ -3,14 +3,18 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "plan/check.hpp"
 
 namespace vagus::plan {
 
-// Files by name: NAME.hpp and NAME.cpp of each plan, main.cpp, CMakeLists.txt. `checked` has no
-// error.
-std::map<std::string, std::string> generate(const Checked& checked);
+// Toolboxes whose classes no installed package has.
+using OwnToolboxes = std::set<std::string>;
+
+// Files by name: NAME.hpp and NAME.cpp of each plan, main.cpp, CMakeLists.txt, and the classes of
+// the toolboxes in `own` that the plans use. `checked` has no error.
+std::map<std::string, std::string> generate(const Checked& checked, const OwnToolboxes& own = {});
 
 }  // namespace vagus::plan

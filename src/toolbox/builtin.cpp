@@ -33,6 +33,10 @@ void add_builtin(run::CodeLibrary& library, const Parts& parts) {
     add_carbot(library, parts);
 }
 
+bool is_builtin(std::string_view toolbox) {
+    return toolbox == "core" || toolbox == "drive" || toolbox == "carbot";
+}
+
 void add_drive(run::CodeLibrary& library, const Parts& parts) {
     const ToolboxFile file = read_builtin(kDriveText);
     library.add(file.name, file.help, code_of(file, parts));

@@ -15,6 +15,9 @@ namespace vagus::toolbox {
 // The parts are borrowed as long as the library lives.
 void add_builtin(run::CodeLibrary& library, const Parts& parts);
 
+// Whether the toolbox of that name is one of them.
+bool is_builtin(std::string_view toolbox);
+
 // Driving on every robot whose nodes know the events of `drive`.
 void add_drive(run::CodeLibrary& library, const Parts& parts);
 // All that Carbot can do: the templates of `drive`, and its own.

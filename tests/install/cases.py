@@ -157,5 +157,111 @@ class Install(unittest.TestCase):
         self.assertFalse(out.exists())
 
 
+    # ---- toolboxes as shared libraries ----
+
+    def example_toolbox(self):
+        if not hasattr(type(self), "countdown"):
+            source = self.folder / "toolbox"
+            shutil.copytree(ROOT / "examples/toolbox", source)
+            type(self).launch = source / "Launch.plan.json"
+            type(self).countdown = self.build(source) / "countdown.so"
+        return self.launch, self.countdown
+
+    def texts(self, trace):
+        return [line["text"] for line in map(json.loads, trace.splitlines()) if line["kind"] == "log"]
+
+    def test_the_toolbox_of_the_example_builds_and_runs(self):
+        plan, library = self.example_toolbox()
+        run_it = [self.vagus, "plan", "run", plan, "--clock", "virtual", "--trace", "-"]
+        code, out, err = run(*run_it, "--toolbox", library)
+        self.assertEqual((code, self.texts(out)), (0, ["3", "2", "1", "lift-off"]), err)
+        code, out, err = run(*run_it, "--toolbox", library, "--set", "fuel=5")
+        self.assertEqual((code, self.texts(out)), (0, ["no fuel"]), err)
+        # Its code is stopped at a wait, by an exception that the program throws.
+        code, out, err = run(*run_it, "--toolbox", library, "--max-time", "1.5")
+        self.assertEqual((code, self.texts(out)), (5, ["3", "2"]), err)
+        code, out, err = run(self.vagus, "plan", "run", plan, "--toolbox", library, "--trace", "-", "--max-time", "0.01")
+        self.assertEqual((code, self.texts(out)), (5, ["3"]), err)
+
+    def test_a_plan_whose_toolbox_is_not_given_says_so(self):
+        plan, library = self.example_toolbox()
+        code, _, err = run(self.vagus, "plan", "check", plan)
+        self.assertEqual(code, 2)
+        self.assertIn('there is no toolbox "countdown"', err)
+        self.assertIn("--toolbox", err)
+        self.assertEqual(run(self.vagus, "plan", "check", plan, "--toolbox", library), (0, "", ""))
+        code, out, err = run(self.vagus, "toolbox", "show", "CountDown", "--toolbox", library)
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("CountDown  actor of countdown", out)
+        self.assertIn("from  int  default 10  0 to 100  the first number", out)
+
+    def test_what_is_wrong_with_a_shared_library_is_said(self):
+        plan, library = self.example_toolbox()
+
+        def refuse(toolboxes, sentence):
+            options = [word for path in toolboxes for word in ("--toolbox", path)]
+            code, out, err = run(self.vagus, "plan", "check", plan, *options)
+            self.assertEqual((code, out), (2, ""), err)
+            self.assertIn(str(toolboxes[-1]), err)
+            self.assertIn(sentence, err)
+
+        def built(name, code):
+            source, made = self.folder / (name + ".cpp"), self.folder / (name + ".so")
+            source.write_text(code)
+            status, _, err = run("c++", "-std=c++20", "-shared", "-fPIC", f"-I{self.prefix}/include",
+                                 f"-I{self.prefix}/include/vagus", source, "-o", made)
+            self.assertEqual(status, 0, err)
+            return made
+
+        refuse([library, library], 'there is a toolbox named "countdown" already')
+        refuse([self.folder / "none.so"], "it cannot be loaded as a shared library")
+        text = self.folder / "text.so"
+        text.write_text("no library\n")
+        refuse([text], "it cannot be loaded as a shared library")
+        refuse([plan], "expected a file NAME.toolbox.json or a shared library NAME.so")
+        refuse([built("empty", "int nothing;")], "it has no function vagus_toolbox_version")
+        version = """#include <toolbox/plugin.hpp>
+            extern "C" void vagus_toolbox_version(vagus::toolbox::PluginVersion& v) { %s }
+            extern "C" void vagus_toolbox_make(vagus::toolbox::Plugin& p, const vagus::toolbox::Parts&) { %s }"""
+        refuse([built("old", version % ('v.version = "0.0.1";', ""))], "it was built for another Vagus (0.0.1")
+        refuse([built("size", version % ("v.sizes[2] = 1;", ""))], "it was built for another Vagus")
+        refuse([built("half", 'extern "C" void vagus_toolbox_version() {}')], "it has no function vagus_toolbox_make")
+        make = "#include <toolbox/plugin.hpp>\n#include <stdexcept>\nusing namespace vagus;\n" \
+               "static toolbox::Plugin make(const toolbox::Parts&) { %s }\nVAGUS_TOOLBOX(make)\n"
+        refuse([built("throws", make % 'throw std::runtime_error("no lamp");')], "its code failed: no lamp")
+        refuse([built("name", make % 'return {.name = "my box"};')], 'cannot be the name of a toolbox')
+        refuse([built("core", make % 'return {.name = "core"};')], 'there is a toolbox named "core" already')
+        refuse([built("code", make % 'return {.name = "n", .templates = {{{.name = "T"}, {}, {}}}};')],
+               'the template "T" must have the code of an actor')
+        refuse([built("twice", make % 'run::Coded one{{.name = "T"}, [] { return std::unique_ptr<run::Actor>(); }, {}};'
+                                      'return {.name = "n", .templates = {one, one}};')],
+               'a template named "T" twice')
+
+    # ---- generated code with toolboxes ----
+
+    def test_the_wall_following_plan_builds(self):
+        source = self.folder / "wall"
+        code, _, err = run(self.vagus, "plan", "generate", ROOT / "testdata/plans/WallFollow.plan.json", "-o", source)
+        self.assertEqual((code, err), (0, ""))
+        code, out, err = run(self.build(source) / "WallFollow", "--clock", "virtual")
+        self.assertEqual((code, out), (2, ""))
+        self.assertIn("the plan WallFollow needs a bus", err)
+
+    def test_a_generated_program_takes_toolboxes(self):
+        plan, library = self.example_toolbox()
+        source = self.folder / "launch"
+        code, _, err = run(self.vagus, "plan", "generate", plan, "-o", source, "--toolbox", library)
+        self.assertEqual((code, err), (0, ""))
+        self.assertTrue((source / "countdown.hpp").exists())
+        program = self.build(source) / "Launch"
+        options = ["--clock", "virtual", "--trace", "-", "--toolbox", library]
+        theirs = run(self.vagus, "plan", "run", plan, *options)
+        self.assertEqual(run(program, *options), theirs)
+        self.assertIn("lift-off", theirs[1])
+        code, out, err = run(program)
+        self.assertEqual((code, out), (2, ""))
+        self.assertIn('there is no toolbox "countdown"', err)
+
+
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[1:]])

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "sim/standing.hpp"
+
 namespace vagus::sim {
 namespace {
 
@@ -246,6 +248,9 @@ Found check_robots(const WorldDefinition& world) {
         const RobotDefinition& robot = world.robots[i];
         const std::string element = "robots[" + std::to_string(i) + "]";
         if (auto found = check_robot(robot, element, world)) return found;
+        if (const auto solid = stands_in(robot, world)) {
+            return Problem{element + ".at", "robot " + robot.name + " would stand in " + *solid};
+        }
         if (!names.insert(robot.name).second)
             return Problem{element + ".name", "\"" + robot.name + "\" is taken; choose another"};
         for (uint32_t node = robot.node; node < robot.node + nodes_of(robot.type); ++node) {

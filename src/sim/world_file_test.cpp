@@ -125,24 +125,32 @@ TEST(WorldFile, WhatIsWrongIsSaid) {
         {R"("objects":[{"kind":"wall","at":[1,1],"size":[1,1],"angle":1001}])", "angle: expected"},
         {R"("objects":[{"id":"a","kind":"light","at":[1,1]},{"id":"a","kind":"light","at":[1,1]}])",
          "objects[1].id: \"a\" is the id of an earlier object"},
+        {R"("robots":[{"name":"a","type":"carbot","at":[0.19,0.5]}])",
+         "robots[0].at: robot a would stand in the border of the world; place it further inside"},
+        {R"("objects":[{"id":"north","kind":"wall","at":[0.5,0.74],"size":[1,0.15]}],)"
+         R"("robots":[{"name":"a","type":"carbot","at":[0.5,0.5]}])",
+         "robots[0].at: robot a would stand in the wall \"north\"; place one of them"},
+        {R"("objects":[{"kind":"cylinder","at":[0.75,0.5],"radius":0.06}],)"
+         R"("robots":[{"name":"a","type":"carbot","at":[0.5,0.5]}])",
+         "would stand in the cylinder objects[0]"},
         {R"("robots":[{"name":"a","type":"carport","at":[1,1]}])", "type"},
-        {R"("robots":[{"name":"a","type":"carbot","at":[1,1],"node":65532}])",
+        {R"("robots":[{"name":"a","type":"carbot","at":[0.5,0.5],"node":65532}])",
          "node: expected a number from 1 to 65531"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":4},)"
-         R"({"name":"b","type":"carbot","at":[1,1],"node":2}])",
+        {R"("robots":[{"name":"a","type":"epuck","at":[0.5,0.5],"node":4},)"
+         R"({"name":"b","type":"carbot","at":[0.5,0.5],"node":2}])",
          "4 is a node of an earlier robot (robot b has the nodes 2 to 5)"},
-        {R"("robots":[{"name":"","type":"epuck","at":[1,1]}])", "name: is empty"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":0}])", "node"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":65535}])", "node"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"port":65536}])", "port"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1]},)"
-         R"({"name":"a","type":"epuck","at":[1,1]}])",
+        {R"("robots":[{"name":"","type":"epuck","at":[0.5,0.5]}])", "name: is empty"},
+        {R"("robots":[{"name":"a","type":"epuck","at":[0.5,0.5],"node":0}])", "node"},
+        {R"("robots":[{"name":"a","type":"epuck","at":[0.5,0.5],"node":65535}])", "node"},
+        {R"("robots":[{"name":"a","type":"epuck","at":[0.5,0.5],"port":65536}])", "port"},
+        {R"("robots":[{"name":"a","type":"epuck","at":[0.5,0.5]},)"
+         R"({"name":"a","type":"epuck","at":[0.5,0.5]}])",
          "robots[1].name: \"a\" is taken"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"node":2},)"
-         R"({"name":"b","type":"epuck","at":[1,1]}])",
+        {R"("robots":[{"name":"a","type":"epuck","at":[0.5,0.5],"node":2},)"
+         R"({"name":"b","type":"epuck","at":[0.5,0.5]}])",
          "robots[1].node: 2 is a node of an earlier robot"},
-        {R"("robots":[{"name":"a","type":"epuck","at":[1,1],"port":5},)"
-         R"({"name":"b","type":"epuck","at":[1,1],"port":5}])",
+        {R"("robots":[{"name":"a","type":"epuck","at":[0.5,0.5],"port":5},)"
+         R"({"name":"b","type":"epuck","at":[0.5,0.5],"port":5}])",
          "robots[1].port: 5 is the port of an earlier robot"},
         {R"("robots":[{"name":"a","type":"epuck","at":[-0.1,1]}])", "outside of the walls"},
         {R"("robots":[{"name":"a","type":"epuck","at":[1,99]}])", "or write \"open\": true"},
@@ -152,7 +160,7 @@ TEST(WorldFile, WhatIsWrongIsSaid) {
         {R"("timeline":[{"t":1,"do":"remove","id":"a","on":true}])", "on"},
         {R"("timeline":[{"t":1,"do":"press","robot":"a","button":"b"}])",
          "there is no robot \"a\""},
-        {R"("robots":[{"name":"a","type":"thymio2","at":[1,1]}],)"
+        {R"("robots":[{"name":"a","type":"thymio2","at":[0.5,0.5]}],)"
          R"("timeline":[{"t":1,"do":"press","robot":"a","button":"b"}])",
          "it has: backward, left, center, forward, right"},
         {R"("objects":[{"id":"w","kind":"wall","at":[1,1],"size":[1,1]}],)"
@@ -176,13 +184,28 @@ TEST(WorldFile, RobotsMayStandAnywhereWhereThereAreNoWalls) {
 
 TEST(WorldFile, PortZeroIsAPortToo) {
     const auto world =
-        read_world(with(R"("robots":[{"name":"a","type":"epuck","at":[1,1],"port":0},)"
-                        R"({"name":"b","type":"epuck","at":[1,1],"port":0},)"
-                        R"({"name":"c","type":"epuck","at":[1,1]}])"),
+        read_world(with(R"("robots":[{"name":"a","type":"epuck","at":[0.5,0.5],"port":0},)"
+                        R"({"name":"b","type":"epuck","at":[0.5,0.5],"port":0},)"
+                        R"({"name":"c","type":"epuck","at":[0.5,0.5]}])"),
                    "w.json");
     ASSERT_TRUE(world.ok()) << world.error().what;
     EXPECT_EQ(world.value().robots[1].port, 0);
     EXPECT_EQ(world.value().robots[2].port, std::nullopt);
+}
+
+// The hull of a Carbot is 0.4 m by 0.35 m with cut corners: beside it there is room, and what moves
+// or lies on the ground is never in the way.
+TEST(WorldFile, ARobotMayStandCloseToThingsAndOverMarks) {
+    const auto error = [](const std::string& object) {
+        return error_of(with(R"("objects":[)" + object +
+                             R"(],"robots":[{"name":"a","type":"carbot","at":[0.5,0.5]}])"));
+    };
+    EXPECT_EQ(error(R"({"kind":"wall","at":[0.5,0.75],"size":[1,0.149]})"), "");
+    EXPECT_EQ(error(R"({"kind":"cylinder","at":[0.755,0.5],"radius":0.055})"), "");
+    EXPECT_EQ(error(R"({"kind":"cylinder","at":[0.7,0.675],"radius":0.02})"), "") << "the corner";
+    EXPECT_NE(error(R"({"kind":"cylinder","at":[0.5,0.5],"radius":0.02})"), "") << "under it";
+    EXPECT_EQ(error(R"({"kind":"box","at":[0.5,0.5],"size":[0.1,0.1],"mass":0.1})"), "");
+    EXPECT_EQ(error(R"({"kind":"patch","at":[0.5,0.5],"size":[1,1]})"), "");
 }
 
 TEST(WorldFile, TheTopMustBeAWorld) {
@@ -212,7 +235,7 @@ TEST(WorldFile, OneMoreThanEachLimitIsRefused) {
     EXPECT_NE(error_of(with(many("objects", kObjectsMax + 1, object))).find("at most 10000"),
               std::string::npos);
     const auto robot = [](const std::string& i) {
-        return R"({"type":"epuck","at":[1,1],"name":"r)" + i + "\"}";
+        return R"({"type":"epuck","at":[0.5,0.5],"name":"r)" + i + "\"}";
     };
     EXPECT_EQ(error_of(with(many("robots", kRobotsMax, robot))), "");
     EXPECT_NE(error_of(with(many("robots", kRobotsMax + 1, robot))).find("at most 1000"),

@@ -13,7 +13,6 @@
 #include "run/virtual_time.hpp"
 #include "session/plan_world.hpp"
 #include "toolbox/builtin.hpp"
-#include "toolbox/core.hpp"
 
 namespace vagus::samples {
 
@@ -88,7 +87,6 @@ Result<Ran> run_sample(const Start& start, const std::function<bool(const Moment
     toolbox::Parts parts;
     parts.bus = &nodes;
     run::CodeLibrary library;
-    toolbox::add_core(library);
     toolbox::add_builtin(library, parts);
     const plan::Graph graph = TRY(graph_of(start.plan, library));
     const auto beside = TRY(session::PlanWorld::open(

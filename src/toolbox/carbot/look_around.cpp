@@ -1,5 +1,8 @@
 // LookAround and SearchWall: the distance sensor is turned around, the robot stands.
+#include <cmath>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "toolbox/carbot/inputs.hpp"
@@ -14,14 +17,16 @@ namespace {
 using plan::Type;
 using plan::Value;
 
+constexpr double kReachDeg = 120;  // the rotator turns no further
+
 plan::Input spread_input() {
     return {.name = "spread",
             .type = Type::Float,
-            .fallback = Value(180.0),
+            .fallback = Value(kReachDeg),
             .unit = "deg",
             .help = "how far to each side it looks",
             .low = 0,
-            .high = 180};
+            .high = kReachDeg};
 }
 
 const plan::Template& look_around_declared() {
@@ -46,16 +51,20 @@ const plan::Template& search_wall_declared() {
         .name = "SearchWall",
         .help = "Looks around for the nearest wall.",
         .icon = "M4 3v18M10 10a4 4 0 1 0 8 0a4 4 0 1 0-8 0M17 13l4 4",
-        .inputs = {spread_input(), step_input()},
+        .inputs = {spread_input(),
+                   step_input(),
+                   {.name = "side",
+                    .type = Type::String,
+                    .fallback = Value(std::string("right")),
+                    .help = "where the wall is to be: right, left, or nearer (turns less)"}},
         .outputs = {{.name = "angle",
                      .type = Type::Float,
                      .unit = "deg",
-                     .help = "how far to turn so that the robot is parallel to the wall"},
+                     .help = "how far to turn to be parallel to it, with the wall on that side"},
                     {.name = "distance",
                      .type = Type::Float,
                      .unit = "cm",
-                     .help = "from the sensor to the wall"},
-                    {.name = "left", .type = Type::Bool, .help = "is it at the left then?"}},
+                     .help = "from the sensor to the wall"}},
         .outcomes = {{"WallFound", "there is one"}, {"NoWallFound", "nothing is in reach"}},
         .bus_events = Rover::events_of(Rover::Needs::Range)};
     return kDeclared;
@@ -64,7 +73,13 @@ const plan::Template& search_wall_declared() {
 std::vector<Echo> scan(run::ActorContext& context, const Parts& parts, const plan::Template& of) {
     const double spread = input_of(context, of, 0);
     const double step = input_of(context, of, 1);
-    return Rover(context, parts, Rover::Needs::Range).scan(-spread, spread, step);
+    Rover rover(context, parts, Rover::Needs::Range);
+    try {
+        return rover.scan(-spread, spread, step);
+    } catch (const run::Stop&) {
+        rover.stop();
+        throw;
+    }
 }
 
 class LookAround final : public run::Actor {
@@ -88,17 +103,28 @@ private:
     const Parts& parts_;
 };
 
+double turn_for(const Wall& wall, std::string_view side) {
+    const double right = wall.turn_to_have_it_right();
+    const double left = wall.turn_to_have_it_left();
+    if (side == "nearer") return std::abs(left) < std::abs(right) ? left : right;
+    return side == "left" ? left : right;
+}
+
 class SearchWall final : public run::Actor {
 public:
     explicit SearchWall(const Parts& parts) : parts_(parts) {}
 
     void run(run::ActorContext& context) override {
+        const std::string& side = context.in(2).string();
+        if (side != "right" && side != "left" && side != "nearer") {
+            throw run::CodeError("the input \"side\" is \"" + side +
+                                 "\", but must be right, left or nearer");
+        }
         const auto wall = nearest_wall(scan(context, parts_, search_wall_declared()));
         context.end(wall ? 0 : 1);
         if (!wall) return;
-        context.out(0, Value(wall->direction_deg));
+        context.out(0, Value(turn_for(*wall, side)));
         context.out(1, Value(wall->distance_cm));
-        context.out(2, Value(wall->left));
     }
 
 private:

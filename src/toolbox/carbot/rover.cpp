@@ -51,7 +51,8 @@ int16_t tenths(double value) {
 Rover::Rover(run::ActorContext& context, const Parts& parts, Needs needs)
     : context_(context),
       talk_(context, parts, nodes_of(needs),
-            {"range.measured", "range.done", "drive.odometry", "drive.stopped"}) {}
+            {"range.measured", "range.done", "drive.odometry", "drive.stopped"}),
+      ranges_(needs != Needs::Drive) {}
 
 std::vector<std::string> Rover::events_of(Needs needs) {
     std::vector<std::string> events;
@@ -59,7 +60,8 @@ std::vector<std::string> Rover::events_of(Needs needs) {
         events = {"drive.steer", "drive.stop", "drive.ask", "drive.stopped", "drive.odometry"};
     }
     if (needs == Needs::Drive) return events;
-    for (const char* name : {"range.look", "range.scan", "range.measured", "range.done"}) {
+    for (const char* name :
+         {"range.look", "range.scan", "range.unwatch", "range.measured", "range.done"}) {
         events.emplace_back(name);
     }
     return events;
@@ -84,6 +86,7 @@ void Rover::halt() {
 }
 
 void Rover::stop() {
+    if (ranges_) talk_.say("range.unwatch");
     if (moves_) talk_.stop("drive.stop", "drive.stopped", kGrace);
 }
 

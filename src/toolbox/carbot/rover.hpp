@@ -48,7 +48,7 @@ public:
     void steer(const Steering& steering);
     // Stops and waits until the wheels stand.
     void halt();
-    // The same after Stop, if the wheels may turn.
+    // After Stop: takes back what is still asked for; stops as halt() does, if the wheels may turn.
     void stop();
 
     Echo look(double angle_deg);
@@ -64,6 +64,7 @@ private:
 
     run::ActorContext& context_;
     BusTalk talk_;
+    bool ranges_;                       // the sensor is asked
     std::optional<Steering> steering_;  // to be said again
     bool moves_ = false;                // the wheels may turn
     Time steer_again_{0};

@@ -44,7 +44,7 @@ plan::Input with_default(plan::Input input, double value) {
 const plan::Template& declared() {
     static const plan::Template kDeclared{
         .name = "WallForward",
-        .help = "Drives along the wall that is nearer, at the left or at the right.",
+        .help = "Drives along the wall at the right, or else at the left.",
         .icon = "M5 3v18M14 20V6M10 10l4-4l4 4",
         .inputs = {with_default(length_input("distance", "to keep from the wall"), 30),
                    with_default(length_input("ahead", "how much must be free ahead"), 30),
@@ -88,12 +88,12 @@ public:
 private:
     State follow(Rover& rover) {
         if (is_blocked(rover)) return kLaneNotFree;
-        side_ = nearer_side(rover);
+        side_ = side_of_wall(rover);
         Pose last = rover.pose();
         for (double driven = 0; driven < length_;) {
             const Echo beside = rover.look(side_ * kBesideDeg);
             const Echo slant = rover.look(side_ * kSlantDeg);
-            const std::optional<Wall> wall = wall_through(beside, slant);
+            const std::optional<Wall> wall = fit_wall({beside, slant});
             if (!wall || wall->distance_cm > kLostFactor * distance_) return kWallLost;
             rover.steer({speed_, rate_for(*wall)});
             if (is_blocked(rover)) return kLaneNotFree;
@@ -109,11 +109,10 @@ private:
         return free > 0 && free < ahead_;
     }
 
-    // 1: the wall is at the left; -1: at the right.
-    static double nearer_side(Rover& rover) {
-        const double left = rover.look(kBesideDeg).distance_cm;
+    // -1: the wall is at the right, as it is for SearchWall; 1: at the left, if nothing is there.
+    double side_of_wall(Rover& rover) const {
         const double right = rover.look(-kBesideDeg).distance_cm;
-        return right == 0 || (left > 0 && left <= right) ? 1 : -1;
+        return right > 0 && right <= kLostFactor * distance_ ? -1 : 1;
     }
 
     // So that the robot becomes parallel to the wall when it is at the right distance, and goes
@@ -121,7 +120,9 @@ private:
     double rate_for(const Wall& wall) const {
         const double too_far = wall.distance_cm - distance_;
         const double approach = std::clamp(gain_ * too_far, -kApproachDeg, kApproachDeg);
-        const double turn = wall.direction_deg + side_ * approach;
+        const double parallel =
+            side_ > 0 ? wall.turn_to_have_it_left() : wall.turn_to_have_it_right();
+        const double turn = parallel + side_ * approach;
         return std::clamp(turn / kSettleSeconds, -kRateMaxDeg, kRateMaxDeg);
     }
 

@@ -1,5 +1,6 @@
 #include "toolbox/carbot/walls.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -9,44 +10,40 @@ namespace vagus::toolbox::carbot {
 
 namespace {
 
-constexpr double kDegree = trig::kPi / 180;
-constexpr double kReach = 1.4;    // echoes up to so many times the nearest distance are looked at
+constexpr double kReach = 1.5;    // echoes up to so many times the nearest distance are looked at
 constexpr double kStepMax = 0.3;  // from one echo of a surface to the next, as a part of it
+constexpr double kFitStep = 0.5;  // directions that are tried, in degrees
 
-struct Spot {
-    double x;
-    double y;
-};
-
-Spot spot_of(const Echo& echo) {
-    return {echo.distance_cm * trig::cos(echo.angle_deg * kDegree),
-            echo.distance_cm * trig::sin(echo.angle_deg * kDegree)};
+double cosine(double degrees) {
+    return trig::cos(degrees * trig::kPi / 180);
 }
 
-// The line through the middle of the spots along their greatest spread (total least squares).
-std::optional<Wall> line_through(const std::vector<Spot>& spots) {
-    const auto count = static_cast<double>(spots.size());
-    Spot middle{0, 0};
-    for (const Spot& spot : spots) middle = {middle.x + spot.x / count, middle.y + spot.y / count};
-    double xx = 0, xy = 0, yy = 0;
-    for (const Spot& spot : spots) {
-        const double x = spot.x - middle.x;
-        const double y = spot.y - middle.y;
-        xx += x * x;
-        xy += x * y;
-        yy += y * y;
+// How far a wall with that normal would be, by this echo.
+double distance_by(const Echo& echo, double normal_deg) {
+    const double off = std::abs(normal_angle(echo.angle_deg - normal_deg)) - kConeDeg;
+    return echo.distance_cm * cosine(std::clamp(off, 0.0, kGrazeDeg));
+}
+
+struct Fit {
+    double distance_cm;
+    double spread;  // of what the echoes say about it: mean square, as a part of its square
+};
+
+Fit fit_at(const std::vector<Echo>& echoes, double normal_deg) {
+    const auto count = static_cast<double>(echoes.size());
+    double mean = 0;
+    for (const Echo& echo : echoes) mean += distance_by(echo, normal_deg) / count;
+    double spread = 0;
+    for (const Echo& echo : echoes) {
+        const double off = distance_by(echo, normal_deg) / mean - 1;
+        spread += off * off / count;
     }
-    if (xx + yy < 1e-9) return std::nullopt;
-    double direction = trig::atan2(2 * xy, xx - yy) / 2;  // -90 to 90 degrees
-    if (direction <= -trig::kPi / 2) direction += trig::kPi;
-    // Which side the line lies on, seen along it; the sign is that of a cross product.
-    const double side = trig::cos(direction) * middle.y - trig::sin(direction) * middle.x;
-    return Wall{std::abs(side), direction / kDegree, side > 0};
+    return {mean, spread};
 }
 
 // The echo at `index` and its neighbours on the same surface.
-std::vector<Spot> surface_around(const std::vector<Echo>& echoes, size_t index) {
-    std::vector<Spot> spots = {spot_of(echoes[index])};
+std::vector<Echo> surface_around(const std::vector<Echo>& echoes, size_t index) {
+    std::vector<Echo> surface = {echoes[index]};
     const double reach = echoes[index].distance_cm * kReach;
     for (const int step : {-1, 1}) {
         double last = echoes[index].distance_cm;
@@ -55,14 +52,46 @@ std::vector<Spot> surface_around(const std::vector<Echo>& echoes, size_t index) 
             const double distance = echoes[i].distance_cm;
             if (distance <= 0 || distance > reach) break;
             if (std::abs(distance - last) > kStepMax * last) break;
-            spots.push_back(spot_of(echoes[i]));
+            surface.push_back(echoes[i]);
             last = distance;
         }
     }
-    return spots;
+    return surface;
 }
 
 }  // namespace
+
+double Wall::turn_to_have_it_right() const {
+    return normal_angle(normal_deg + 90);
+}
+
+double Wall::turn_to_have_it_left() const {
+    return normal_angle(normal_deg - 90);
+}
+
+std::optional<Wall> fit_wall(const std::vector<Echo>& all) {
+    std::vector<Echo> echoes;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(echoes),
+                 [](const Echo& echo) { return echo.distance_cm > 0; });
+    if (echoes.size() < 2) return std::nullopt;
+    const auto [low, high] =
+        std::minmax_element(echoes.begin(), echoes.end(),
+                            [](const Echo& a, const Echo& b) { return a.angle_deg < b.angle_deg; });
+    const double from = low->angle_deg - kGrazeDeg;
+    const auto steps = static_cast<int>((high->angle_deg + kGrazeDeg - from) / kFitStep);
+    std::optional<Fit> best;
+    double first = from;  // of the directions that fit equally well, in the middle of the cone
+    double last = from;
+    for (int i = 0; i <= steps; ++i) {
+        const double normal = from + i * kFitStep;
+        const Fit fit = fit_at(echoes, normal);
+        if (best && fit.spread > best->spread) continue;
+        if (!best || fit.spread < best->spread) first = normal;
+        last = normal;
+        best = fit;
+    }
+    return Wall{best->distance_cm, normal_angle((first + last) / 2)};
+}
 
 std::optional<Wall> nearest_wall(const std::vector<Echo>& echoes) {
     std::optional<size_t> nearest;
@@ -70,14 +99,7 @@ std::optional<Wall> nearest_wall(const std::vector<Echo>& echoes) {
         if (echoes[i].distance_cm <= 0) continue;
         if (!nearest || echoes[i].distance_cm < echoes[*nearest].distance_cm) nearest = i;
     }
-    if (!nearest) return std::nullopt;
-    const std::vector<Spot> spots = surface_around(echoes, *nearest);
-    return spots.size() < 2 ? std::nullopt : line_through(spots);
-}
-
-std::optional<Wall> wall_through(const Echo& one, const Echo& other) {
-    if (one.distance_cm <= 0 || other.distance_cm <= 0) return std::nullopt;
-    return line_through({spot_of(one), spot_of(other)});
+    return nearest ? fit_wall(surface_around(echoes, *nearest)) : std::nullopt;
 }
 
 double normal_angle(double degrees) {

@@ -1,5 +1,9 @@
-// Walls in what the distance sensor hears: pure geometry, in the sensor's frame (x ahead, y to the
-// left; cm, degrees).
+// Walls in what the distance sensor hears: pure geometry, seen from the sensor (cm, degrees
+// counter-clockwise from ahead).
+//
+// The sensor hears the nearest of all that lies in its cone. So of a wall at the distance d, whose
+// nearest point lies in the direction n, a look in the direction a gives d / cos(|a - n| - 12), and
+// just d where n is in the cone.
 #pragma once
 
 #include <optional>
@@ -9,20 +13,26 @@
 
 namespace vagus::toolbox::carbot {
 
+constexpr double kConeDeg = 12;   // to each side of where the sensor looks (docs/carbot.md)
+constexpr double kGrazeDeg = 60;  // beyond that from its normal a wall throws nothing back
+
 struct Wall {
-    double distance_cm = 0;    // from the sensor to the line
-    double direction_deg = 0;  // of the line: -90 (excluded) to 90; 0 is parallel to the robot
-    bool left = false;         // the side it is on when the robot has turned parallel to it
+    double distance_cm = 0;
+    double normal_deg = 0;  // the direction of its nearest point
+
+    // How far to turn to be parallel to it, with the wall on that side.
+    double turn_to_have_it_right() const;
+    double turn_to_have_it_left() const;
 };
 
-// The wall that the nearest echo belongs to: a line through that echo and its neighbours, as far as
-// they are one surface. Nothing where there is no echo, or the nearest one stands alone.
+// The wall that fits all of these echoes best. Nothing without two echoes that are something.
+std::optional<Wall> fit_wall(const std::vector<Echo>& echoes);
+
+// The wall that the nearest echo belongs to: it and its neighbours, as far as they are one surface.
+// Nothing where there is no echo, or the nearest one stands alone.
 std::optional<Wall> nearest_wall(const std::vector<Echo>& echoes);
 
-// The line through two echoes; nothing if one of them is none, or both are at one place.
-std::optional<Wall> wall_through(const Echo& one, const Echo& other);
-
-// -180 (excluded) to 180.
+// The same direction, above -180 to 180.
 double normal_angle(double degrees);
 
 }  // namespace vagus::toolbox::carbot

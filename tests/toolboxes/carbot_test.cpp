@@ -1,0 +1,228 @@
+// The templates of `drive` and `carbot` on the simulated robot. (Plans that many of them make up:
+// tests/samples.)
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "base/file.hpp"
+#include "sample_run.hpp"
+
+namespace vagus::samples {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double kPi = 3.14159265358979;
+
+class CarbotTemplates : public ::testing::Test {
+protected:
+    CarbotTemplates() {
+        std::string name = std::filesystem::temp_directory_path() / "vagus-toolboxes-XXXXXX";
+        folder_ = ::mkdtemp(name.data());
+    }
+    ~CarbotTemplates() override { std::filesystem::remove_all(folder_); }
+
+    std::string write(const std::string& name, std::string_view text) const {
+        EXPECT_TRUE(write_file(folder_ / name, text).ok());
+        return folder_ / name;
+    }
+
+    // A plan of these actors, from `a` on, in an empty room of 8 by 6 m. The robot starts in its
+    // middle, at (4, 3), looking along x.
+    Ran run(const std::string& actors, const std::string& objects = "",
+            const std::string& variables = "") {
+        const std::string plan = R"({ "format": "vagus-plan/1", "name": "P",
+            "toolboxes": ["carbot"], "configuration": {)" +
+                                 variables + R"(}, "start": { "actor": "a" }, "actors": {)" +
+                                 actors + "} }";
+        const std::string world = R"({ "format": "vagus-world/1", "size": [8, 6], "objects": [)" +
+                                  objects +
+                                  R"(], "robots": [{ "name": "carbot", "type": "carbot",
+                "at": [4, 3], "script": ")" +
+                                  VAGUS_EXAMPLES + R"(/carbot/carbot.aesl" }] })";
+        Result<Ran> ran = run_sample({.plan = write("p.plan.json", plan),
+                                      .world = write("w.world.json", world),
+                                      .at_most = 120s,
+                                      .traced = true});
+        EXPECT_TRUE(ran.ok()) << ran.error().what;
+        return ran.ok() ? std::move(ran.value()) : Ran{};
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
+sim::Pose end_of(const Ran& ran) {
+    return ran.way.empty() ? sim::Pose{} : ran.way.back().pose;
+}
+
+// The value of the variable's last `write` in the trace.
+double last_written(const Ran& ran, const std::string& variable) {
+    const std::string before = "\"variable\":\"" + variable + "\",\"value\":";
+    const size_t at = ran.trace.rfind(before);
+    return at == std::string::npos ? NAN : std::atof(ran.trace.c_str() + at + before.size());
+}
+
+// One percent of slip and more: a robot is not exact.
+void expect_pose(const Ran& ran, double x, double y, double degrees) {
+    const sim::Pose end = end_of(ran);
+    EXPECT_NEAR(end.at.x, x, 0.03);
+    EXPECT_NEAR(end.at.y, y, 0.03);
+    EXPECT_NEAR(std::remainder(end.angle * 180 / kPi - degrees, 360), 0, 2.5);
+}
+
+TEST_F(CarbotTemplates, ForwardDrivesBothWays) {
+    Ran ran = run(R"("a": { "template": "Forward", "in": { "distance": 120, "speed": 31 },
+                        "states": { "ForwardSuccessful": "@terminate" } })");
+    EXPECT_EQ(ran.ended.result, plan::PlanResult::Ok) << ran.ended.message;
+    expect_pose(ran, 5.2, 3, 0);
+    ran = run(R"("a": { "template": "Forward", "in": { "distance": -80 },
+                        "states": { "ForwardSuccessful": "@terminate" } })");
+    expect_pose(ran, 3.2, 3, 0);
+}
+
+TEST_F(CarbotTemplates, TurnTurnsBothWays) {
+    for (const int angle : {135, -60}) {
+        const Ran ran =
+            run(R"("a": { "template": "Turn", "in": { "angle": )" + std::to_string(angle) + R"( },
+                            "states": { "TurnSuccessful": "@terminate" } })");
+        EXPECT_EQ(ran.ended.result, plan::PlanResult::Ok) << ran.ended.message;
+        expect_pose(ran, 4, 3, angle);
+    }
+}
+
+// A quarter of a circle of 1 m to the left: from (4, 3) to (5, 4), looking along y.
+TEST_F(CarbotTemplates, CurveDrivesAnArc) {
+    const Ran ran = run(R"("a": { "template": "Curve", "in": { "radius": 100, "angle": 90 },
+                              "states": { "CurveSuccessful": "@terminate" } })");
+    EXPECT_EQ(ran.ended.result, plan::PlanResult::Ok) << ran.ended.message;
+    expect_pose(ran, 5, 4, 90);
+}
+
+TEST_F(CarbotTemplates, NavigateToArrives) {
+    const Ran ran = run(R"("a": { "template": "NavigateTo", "in": { "x": -120, "y": 90 },
+                              "states": { "Arrived": "@terminate", "Stuck": "a" } })");
+    EXPECT_EQ(ran.ended.result, plan::PlanResult::Ok) << ran.ended.message;
+    EXPECT_THAT(ran.states, ElementsAre("a: Arrived"));
+    EXPECT_NEAR(end_of(ran).at.x, 2.8, 0.08);
+    EXPECT_NEAR(end_of(ran).at.y, 3.9, 0.08);
+}
+
+// A wall stands in the way; the touch stops the wheels, and that the goal does not come nearer.
+TEST_F(CarbotTemplates, NavigateToSaysWhenItIsStuck) {
+    const Ran ran = run(R"("a": { "template": "NavigateTo", "in": { "x": 200, "y": 0 },
+                              "states": { "Arrived": "a", "Stuck": "@terminate" } })",
+                        R"({ "kind": "wall", "at": [5, 3], "size": [0.1, 2], "height": 0.5 })");
+    EXPECT_EQ(ran.ended.result, plan::PlanResult::Ok) << ran.ended.message;
+    EXPECT_THAT(ran.states, ElementsAre("a: Stuck"));
+}
+
+TEST_F(CarbotTemplates, ReadOdometryTellsWhereItThinksItIs) {
+    const Ran ran = run(
+        R"("a": { "template": "Curve", "in": { "radius": 100, "angle": 90 },
+             "states": { "CurveSuccessful": "b" } },
+           "b": { "template": "ReadOdometry", "out": { "x": "x", "y": "y", "heading": "h" },
+             "states": { "Done": "@terminate" } })",
+        "", R"("x": { "type": "float" }, "y": { "type": "float" }, "h": { "type": "float" })");
+    EXPECT_EQ(ran.ended.result, plan::PlanResult::Ok) << ran.ended.message;
+    EXPECT_NEAR(last_written(ran, "x"), 100, 2);
+    EXPECT_NEAR(last_written(ran, "y"), 100, 2);
+    EXPECT_NEAR(last_written(ran, "h"), 90, 2);
+}
+
+// A wall 1 m to the right of the sensor's axis at an angle of 30 degrees: after the turn the robot
+// is parallel to it, with the wall at its right.
+TEST_F(CarbotTemplates, SearchWallGivesTheTurnToBeParallel) {
+    const std::string wall =
+        R"({ "kind": "wall", "at": [4.5, 2.2], "angle": 0.5236, "size": [4, 0.1], "height": 0.5 })";
+    const Ran ran = run(
+        R"("a": { "template": "SearchWall", "out": { "angle": "angle" },
+             "states": { "WallFound": "b", "NoWallFound": "a" } },
+           "b": { "template": "Turn", "in": { "angle": "angle" },
+             "states": { "TurnSuccessful": "@terminate" } })",
+        wall, R"("angle": { "type": "float", "initial": 0 })");
+    EXPECT_EQ(ran.ended.result, plan::PlanResult::Ok) << ran.ended.message;
+    EXPECT_NEAR(end_of(ran).angle * 180 / kPi, 30, 4);
+}
+
+TEST_F(CarbotTemplates, SearchWallSaysWhenThereIsNone) {
+    const Ran ran = run(R"("a": { "template": "SearchWall", "in": { "spread": 20 },
+        "states": { "WallFound": "a", "NoWallFound": "@terminate" } })");
+    EXPECT_THAT(ran.states, ElementsAre("a: NoWallFound"));  // 3.8 m to the wall ahead
+}
+
+// A pillar of 10 cm radius 1 m to the left of the sensor's axis (18 cm ahead of the middle).
+TEST_F(CarbotTemplates, LookAroundFindsTheNearestThing) {
+    const Ran ran = run(
+        R"("a": { "template": "LookAround", "in": { "step": 5 },
+             "out": { "angle": "angle", "nearest": "far" }, "states": { "Done": "@terminate" } })",
+        R"({ "kind": "cylinder", "at": [4.18, 4], "radius": 0.1, "height": 0.5 })",
+        R"("angle": { "type": "float", "initial": 0 }, "far": { "type": "float", "initial": 0 })");
+    EXPECT_NEAR(last_written(ran, "far"), 90, 3);
+    EXPECT_NEAR(last_written(ran, "angle"), 90, 17);  // the cone, and the pillar's width
+}
+
+// 2 m along a wall at the right, at the distance that it starts with.
+TEST_F(CarbotTemplates, WallForwardKeepsItsDistance) {
+    const Ran ran = run(R"("a": { "template": "WallForward",
+             "in": { "distance": 50, "ahead": 40, "length": 200 },
+             "states": { "ForwardSuccessful": "@terminate", "LaneNotFree": "b", "WallLost": "b" } },
+           "b": { "template": "Fail", "in": { "message": "'no'" } })",
+                        R"({ "kind": "wall", "at": [5, 2.3], "size": [6, 0.1], "height": 0.5 })");
+    EXPECT_THAT(ran.states, ElementsAre("a: ForwardSuccessful")) << ran.ended.message;
+    EXPECT_NEAR(end_of(ran).at.x, 6, 0.15);
+    // The wall's face is at 2.35: 50 cm from it is 2.85.
+    EXPECT_NEAR(end_of(ran).at.y, 2.85, 0.06);
+}
+
+TEST_F(CarbotTemplates, WallForwardEndsBeforeAWallAndWhereTheWallEnds) {
+    const std::string actor = R"("a": { "template": "WallForward",
+             "in": { "distance": 50, "ahead": 40, "length": 500 },
+             "states": { "ForwardSuccessful": "b", "LaneNotFree": "@terminate",
+               "WallLost": "@terminate" } },
+           "b": { "template": "Fail", "in": { "message": "'no'" } })";
+    const std::string beside =
+        R"({ "kind": "wall", "at": [4.5, 2.3], "size": [2, 0.1], "height": 0.5 })";
+    EXPECT_THAT(run(actor, beside).states, ElementsAre("a: WallLost"));
+    const std::string ahead =
+        R"(, { "kind": "wall", "at": [5.4, 3], "size": [0.1, 2], "height": 0.5 })";
+    EXPECT_THAT(run(actor, beside + ahead).states, ElementsAre("a: LaneNotFree"));
+}
+
+// The wheels are stopped by the nodes themselves; the plan hears of it, and backs off.
+TEST_F(CarbotTemplates, CheckTouchSensorHearsOfTheTouch) {
+    const Ran ran = run(
+        R"("a": { "template": "Forward", "in": { "distance": 300 },
+             "states": { "ForwardSuccessful": "@terminate" }, "supervisors": {
+               "t": { "template": "CheckTouchSensor", "out": { "angle": "angle" },
+                 "events": { "TouchSensorPressed": "b" } } } },
+           "b": { "template": "Forward", "in": { "distance": -20 },
+             "states": { "ForwardSuccessful": "@terminate" } })",
+        R"({ "kind": "wall", "at": [5, 3], "size": [0.1, 2], "height": 0.5 })",
+        R"("angle": { "type": "float", "initial": 999 })");
+    EXPECT_THAT(ran.states, ElementsAre("a! TouchSensorPressed", "b: ForwardSuccessful"));
+    EXPECT_NEAR(last_written(ran, "angle"), 0, 30);  // of the sector
+    // The hull reaches 20 cm ahead: it stood at 4.75, and is 20 cm behind that.
+    EXPECT_NEAR(end_of(ran).at.x, 4.55, 0.05);
+}
+
+TEST_F(CarbotTemplates, CheckDrivingLaneSeesWhatIsInTheWay) {
+    const Ran ran = run(
+        R"("a": { "template": "Forward", "in": { "distance": 300 },
+             "states": { "ForwardSuccessful": "@terminate" }, "supervisors": {
+               "t": { "template": "CheckDrivingLane", "in": { "distance": 50 },
+                 "events": { "LaneNotFree": "@terminate" } } } })",
+        R"({ "kind": "wall", "at": [6, 3], "size": [0.1, 2], "height": 0.5 })");
+    EXPECT_THAT(ran.states, ElementsAre("a! LaneNotFree"));
+    EXPECT_TRUE(ran.contacts.empty());
+    // The sensor is 18 cm ahead of the middle, the wall's face at 5.95: 50 cm before it is 5.27.
+    EXPECT_NEAR(end_of(ran).at.x, 5.35, 0.1);
+}
+
+}  // namespace
+}  // namespace vagus::samples

@@ -27,6 +27,10 @@ constexpr Duration kBehindMax = 200ms;  // a machine that cannot keep up slows t
 constexpr Duration kSettleWithin = 5s;  // simulated: robots describe themselves in far less
 constexpr Duration kHeadlessFor = 20s;  // simulated, unless --duration says otherwise
 constexpr Duration kButtonFor = 200ms;  // simulated: how long a key holds a robot's button
+// How the arrows drive a robot by hand, until its script misses signs of life: mm/s, 0.1 deg/s.
+constexpr int16_t kHandSpeed = 200;
+constexpr int16_t kHandRate = 600;
+constexpr int16_t kTokenMax = 0x7fff;
 constexpr std::array<double, 10> kSpeeds = {0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 0};  // 0: max
 
 std::string speed_text(double speed) {
@@ -88,6 +92,8 @@ private:
     void keys();
     void act(Key key);
     void press(const std::string& button);
+    void arrow(const std::string& button, int16_t speed, int16_t rate);
+    bool has_button(std::string_view button) const;
     void release_buttons();
     void reset();
     void show();
@@ -111,6 +117,7 @@ private:
     bool closed_ = false;  // nobody reads, or a person quits
     size_t selected_ = 0;
     std::vector<Held> held_;
+    int16_t hand_token_ = 0;  // of the last command by hand
     std::vector<Port> ports_;
     Time real_before_{};
     Duration owed_{};  // simulated time that is due
@@ -316,19 +323,19 @@ void SimRun::act(Key key) {
             selected_ = nodes > 0 ? (selected_ + nodes - 1) % nodes : 0;
             break;
         case Key::Centre:
-            press("center");
+            press(has_button("escape") ? "escape" : "center");
             break;
         case Key::Forward:
-            press("forward");
+            arrow("forward", kHandSpeed, 0);
             break;
         case Key::Backward:
-            press("backward");
+            arrow("backward", -kHandSpeed, 0);
             break;
         case Key::Left:
-            press("left");
+            arrow("left", 0, kHandRate);
             break;
         case Key::Right:
-            press("right");
+            arrow("right", 0, -kHandRate);
             break;
         case Key::Tap: {
             const auto states = session_.nodes();
@@ -353,6 +360,25 @@ void SimRun::press(const std::string& button) {
     const Status done = session_.world().press(nodes[selected_].robot, button);
     notice_ = done.ok() ? "button " + button : done.error().what;
     if (done.ok()) held_.push_back({nodes[selected_].robot, button, session_.now() + kButtonFor});
+}
+
+bool SimRun::has_button(std::string_view button) const {
+    const auto nodes = session_.nodes();
+    if (selected_ >= nodes.size()) return true;
+    const size_t robot = nodes[selected_].robot.number - 1;
+    const auto names = sim::buttons_of(session_.world().definition().robots[robot].type);
+    return std::find(names.begin(), names.end(), button) != names.end();
+}
+
+// A button of that name; on a robot without it the driving events of docs/carbot.md, if its script
+// has them. Each key is a command of its own, so that one after a touch is obeyed.
+void SimRun::arrow(const std::string& button, int16_t speed, int16_t rate) {
+    if (has_button(button)) return press(button);
+    hand_token_ = hand_token_ == kTokenMax ? int16_t{1} : static_cast<int16_t>(hand_token_ + 1);
+    const std::array<int16_t, 3> arguments = {hand_token_, speed, rate};
+    const Status done = session_.emit("drive.steer", arguments, session_.now());
+    notice_ =
+        done.ok() ? "driven by hand" : "this robot has no buttons that the arrows could press";
 }
 
 void SimRun::release_buttons() {

@@ -149,6 +149,14 @@ int first_of(std::span<const int16_t> values) {
     return values.empty() ? 0 : values.front();
 }
 
+void add_key_words(const sim::WorldDefinition& world, View& view) {
+    if (view.selected >= world.robots.size()) return;
+    if (world.robots[view.selected].type != sim::RobotType::Carbot) return;
+    view.tab_goes_to = "node";
+    view.button_does = "escape";
+    view.arrows_do = "drive";
+}
+
 std::string state_text(const session::NodeState& state) {
     if (state.name.empty()) return "starting";
     if (!state.fault.empty()) return "fault";
@@ -231,6 +239,8 @@ PanelView SimView::panel(const session::SimSession& session, size_t selected) co
     const session::NodeState& state = nodes[selected];
     const sim::RobotView robot = session.world().robots()[state.robot.number - 1];
     panel.node_name = state.name.empty() ? std::string(robot.name) : state.name;
+    if (robot.nodes > 1 && !state.name.empty())
+        panel.node_name = std::string(robot.name) + " " + state.name;
     panel.node_id = state.id;
     panel.state = state_text(state);
     panel.wrong = !state.fault.empty();
@@ -276,6 +286,7 @@ View SimView::view(const session::SimSession& session, size_t selected) const {
     const auto nodes = session.nodes();
     if (selected < nodes.size()) view.selected = nodes[selected].robot.number - 1;
     view.panel = panel(session, selected);
+    add_key_words(definition, view);
     view.now = session.now();
     view.problems = session.mistakes();
     view.problems_title = "the script has mistakes; what was loaded before runs on";

@@ -23,13 +23,9 @@ constexpr Rgb kPaused{255, 180, 70};
 constexpr Rgb kError{255, 110, 100};
 
 struct KeyHelp {
-    const char* key;
-    const char* does;
+    std::string_view key;
+    std::string_view does;
 };
-constexpr KeyHelp kKeys[] = {{"space", "pause"}, {"q", "quit"},        {"r", "reset"},
-                             {"+ -", "speed"},   {"tab", "robot"},     {"t", "tap"},
-                             {"b", "button"},    {"arrows", "buttons"}};
-
 Grid too_small(Size size) {
     Grid grid(size);
     const std::string words = "vagus sim needs " + std::to_string(kSizeMin.columns) + " x " +
@@ -75,12 +71,18 @@ void draw_state(Grid& grid, int row, const View& view) {
 void draw_keys(Grid& grid, int row, const View& view) {
     const Size size = grid.size();
     int column = 1;
-    for (const KeyHelp& help : kKeys) {
-        const bool resumes = view.paused && std::string_view(help.does) == "pause";
-        const std::string_view does = resumes ? "go on" : help.does;
-        const int width = text_width(help.key) + 1 + text_width(does);
+    const KeyHelp keys[] = {{"space", view.paused ? "go on" : "pause"},
+                            {"q", "quit"},
+                            {"r", "reset"},
+                            {"+ -", "speed"},
+                            {"tab", view.tab_goes_to},
+                            {"t", "tap"},
+                            {"b", view.button_does},
+                            {"arrows", view.arrows_do}};
+    for (const auto& [key, does] : keys) {
+        const int width = text_width(key) + 1 + text_width(does);
         if (column + width > size.columns) return;
-        column = grid.text(column, row, size.columns, help.key, {kKey, {}, true});
+        column = grid.text(column, row, size.columns, key, {kKey, {}, true});
         column = grid.text(column + 1, row, size.columns, does, {}) + 2;
     }
 }

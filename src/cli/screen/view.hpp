@@ -118,6 +118,10 @@ struct View {
     bool paused = false;
     std::string listening;  // "tcp:127.0.0.1:33333", empty if nobody can connect
     std::string notice;     // one line: what was loaded last
+    // What the keys tab, b and the arrows do.
+    std::string tab_goes_to = "robot";
+    std::string button_does = "button";
+    std::string arrows_do = "buttons";
     // What is wrong with the scripts: sentences, and lines that begin with three spaces, which are
     // source text and the marks under it.
     std::string problems_title;

@@ -16,6 +16,8 @@ namespace {
 
 constexpr BusValue kPlace{.scale = 10, .words = 2};
 constexpr BusValue kTenth{.scale = 10, .words = 1};
+constexpr BusValue kThousandth{.scale = 1000, .words = 1};
+constexpr BusValue kWhole{.scale = 1, .words = 1};
 constexpr Duration kGrace{plan::kGraceDefaultMs * 1000};
 
 std::vector<NodeNames> nodes_of(Rover::Needs needs) {
@@ -24,6 +26,10 @@ std::vector<NodeNames> nodes_of(Rover::Needs needs) {
             return {{"range"}};
         case Rover::Needs::Drive:
             return {{"drive"}};
+        case Rover::Needs::Head:
+            return {{"head"}};
+        case Rover::Needs::DriveAndHead:
+            return {{"drive"}, {"head"}};
         case Rover::Needs::DriveAndRange:
             break;
     }
@@ -51,18 +57,22 @@ int16_t tenths(double value) {
 Rover::Rover(run::ActorContext& context, const Parts& parts, Needs needs)
     : context_(context),
       talk_(context, parts, nodes_of(needs),
-            {"range.measured", "range.done", "drive.odometry", "drive.stopped"}),
-      ranges_(needs != Needs::Drive) {}
+            {"range.measured", "range.done", "drive.odometry", "drive.stopped", "infrared.told",
+             "colour.told"}),
+      ranges_(needs == Needs::Range || needs == Needs::DriveAndRange) {}
 
 std::vector<std::string> Rover::events_of(Needs needs) {
     std::vector<std::string> events;
-    if (needs != Needs::Range) {
-        events = {"drive.steer", "drive.stop", "drive.ask", "drive.stopped", "drive.odometry"};
-    }
-    if (needs == Needs::Drive) return events;
-    for (const char* name :
-         {"range.look", "range.scan", "range.unwatch", "range.measured", "range.done"}) {
-        events.emplace_back(name);
+    const auto add = [&events](std::initializer_list<const char*> names) {
+        events.insert(events.end(), names.begin(), names.end());
+    };
+    for (const NodeNames& node : nodes_of(needs)) {
+        if (node.front() == "drive")
+            add({"drive.steer", "drive.stop", "drive.ask", "drive.stopped", "drive.odometry"});
+        if (node.front() == "range")
+            add({"range.look", "range.scan", "range.unwatch", "range.measured", "range.done"});
+        if (node.front() == "head")
+            add({"infrared.ask", "infrared.told", "colour.ask", "colour.told"});
     }
     return events;
 }
@@ -115,6 +125,19 @@ Pose Rover::pose() {
     talk_.say("drive.ask");
     const BusEvent told = await("drive.odometry", "drive.odometry");
     return {number(told, 0, kPlace), number(told, 2, kPlace), number(told, 4, kTenth)};
+}
+
+Beacon Rover::beacon() {
+    talk_.say("infrared.ask");
+    const BusEvent told = await("infrared.told", "infrared.told");
+    return {number(told, 0, kTenth), static_cast<int>(number(told, 1, kWhole))};
+}
+
+Surface Rover::surface() {
+    talk_.say("colour.ask");
+    const BusEvent told = await("colour.told", "colour.told");
+    return {number(told, 0, kWhole) != 0, number(told, 1, kThousandth),
+            number(told, 2, kThousandth), number(told, 3, kThousandth)};
 }
 
 void Rover::wait(Duration time) {

@@ -1,5 +1,5 @@
-// What Carbot's templates in C++ do with its drive and range nodes, as calls that wait for the
-// answer. While it drives, each wait says the driving command again before the drive node would
+// What Carbot's templates in C++ do with its nodes drive, range and head, as calls that wait for
+// the answer. While it drives, each wait says the driving command again before the drive node would
 // take its silence for an end.
 //
 //     Rover rover(context, parts, Rover::Needs::DriveAndRange);
@@ -35,9 +35,23 @@ struct Pose {
     double heading_deg = 0;
 };
 
+// What the infrared sensor sees.
+struct Beacon {
+    double direction_deg = 0;
+    int intensity = 0;  // 1 to 1000 at the beacon; 0: there is none
+};
+
+// What the colour sensor sees right ahead, parts from 0 to 1.
+struct Surface {
+    bool near = false;  // false: nothing, and no colour
+    double red = 0;
+    double green = 0;
+    double blue = 0;
+};
+
 class Rover {
 public:
-    enum class Needs { Range, Drive, DriveAndRange };
+    enum class Needs { Range, Drive, DriveAndRange, Head, DriveAndHead };
 
     Rover(run::ActorContext& context, const Parts& parts, Needs needs);
 
@@ -55,6 +69,8 @@ public:
     // One echo for each direction; `step_deg` is at least 1.
     std::vector<Echo> scan(double from_deg, double to_deg, double step_deg);
     Pose pose();
+    Beacon beacon();
+    Surface surface();
     void wait(Duration time);
 
 private:

@@ -17,6 +17,10 @@ run::Coded look_around(const Parts& parts);
 run::Coded search_wall(const Parts& parts);
 run::Coded wall_forward(const Parts& parts);
 run::Coded navigate_to(const Parts& parts);
+run::Coded find_object(const Parts& parts);
+run::Coded follow_object(const Parts& parts);
+run::Coded find_infrared(const Parts& parts);
+run::Coded read_colour(const Parts& parts);
 
 }  // namespace carbot
 }  // namespace vagus::toolbox

@@ -80,6 +80,15 @@ Result<plan::Graph> graph_of(const std::string& path, const run::CodeLibrary& li
     return Error{Code::BadInput, plan::format_findings_json(checked.findings)};
 }
 
+Result<std::pair<int, plan::Value>> slot_of(const plan::Graph& graph, const std::string& name,
+                                            const plan::Value& value) {
+    const auto& variables = graph.plans.front().variables;
+    for (size_t slot = 0; slot < variables.size(); ++slot) {
+        if (variables[slot].name == name) return std::pair{static_cast<int>(slot), value};
+    }
+    return Error{Code::NotFound, "the plan has no variable \"" + name + "\"; look at its names"};
+}
+
 }  // namespace
 
 Result<Ran> run_sample(const Start& start, const std::function<bool(const Moment&)>& look) {
@@ -98,6 +107,9 @@ Result<Ran> run_sample(const Start& start, const std::function<bool(const Moment
     run::RunOptions options;
     options.seed = start.seed;
     options.max_time = start.at_most;
+    for (const auto& [name, value] : start.set) {
+        options.set.push_back(TRY(slot_of(graph, name, value)));
+    }
     options.on_trace = [&watcher](const plan::TraceEvent& event) { watcher.hear(event); };
     beside->join(options);
     run::VirtualTime run(graph, library, options);

@@ -15,10 +15,12 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/result.hpp"
 #include "base/rng.hpp"
+#include "plan/value.hpp"
 #include "run/options.hpp"
 #include "sim/world.hpp"
 
@@ -33,7 +35,8 @@ struct Start {
     uint64_t seed = 1;
     std::optional<sim::Pose> at = {};  // empty: as the world file says
     Duration at_most = std::chrono::minutes(10);
-    bool traced = false;  // keep the lines of both traces
+    bool traced = false;                                        // keep the lines of both traces
+    std::vector<std::pair<std::string, plan::Value>> set = {};  // variables of the plan
 };
 
 // The robot at one of the instants at which it is looked at.

@@ -7,9 +7,7 @@
 
 namespace vagus::session {
 
-namespace {
-
-Result<toolbox::ProjectEvents> read_project(const std::string& path) {
+Result<toolbox::ProjectEvents> read_project_events(const std::string& path) {
     const std::string text = TRY(read_file(path));
     const aesl::Project project = TRY(aesl::parse_project(text, path));
     toolbox::ProjectEvents events;
@@ -20,13 +18,11 @@ Result<toolbox::ProjectEvents> read_project(const std::string& path) {
     return events;
 }
 
-}  // namespace
-
 Status add_toolboxes(run::CodeLibrary& library, const toolbox::Parts& parts,
                      const std::vector<std::string>& files) {
     toolbox::add_builtin(library, parts);
     for (const std::string& file : files) {
-        TRY(toolbox::load_toolbox(library, file, parts, read_project));
+        TRY(toolbox::load_toolbox(library, file, parts, read_project_events));
     }
     return Status::done();
 }

@@ -7,6 +7,7 @@
 #include "base/result.hpp"
 #include "run/code.hpp"
 #include "toolbox/parts.hpp"
+#include "toolbox/toolbox_file.hpp"
 
 namespace vagus::session {
 
@@ -14,5 +15,8 @@ namespace vagus::session {
 // as the program runs.
 Status add_toolboxes(run::CodeLibrary& library, const toolbox::Parts& parts,
                      const std::vector<std::string>& files);
+
+// The events that the project at this path declares.
+Result<toolbox::ProjectEvents> read_project_events(const std::string& path);
 
 }  // namespace vagus::session

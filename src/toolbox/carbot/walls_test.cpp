@@ -24,8 +24,8 @@ std::vector<Echo> scan_of(double distance, double normal, double from, double to
     return echoes;
 }
 
-// Worked out by hand: a wall 50 cm to the right. The look at -90 hears 50, that at -55 is 35 degrees
-// off, of which the cone takes 12: 50 / cos 23 = 54.32.
+// Worked out by hand: a wall 50 cm to the right. The look at -90 hears 50, that at -55 is 35
+// degrees off, of which the cone takes 12: 50 / cos 23 = 54.32.
 TEST(Walls, TwoLooksGiveDistanceAndDirection) {
     const auto wall = fit_wall({{-90, 50}, {-55, 54.32}});
     ASSERT_TRUE(wall.has_value());

@@ -73,7 +73,8 @@ public:
     void text(Text value) {
         u8(value.size);
         if (!room(value.size)) return;
-        memcpy(begin_ + size_, value.bytes, value.size);
+        // An empty text may have no bytes at all, which memcpy() must not be shown.
+        if (value.size > 0) memcpy(begin_ + size_, value.bytes, value.size);
         size_ = static_cast<uint16_t>(size_ + value.size);
     }
     uint16_t size() const { return size_; }

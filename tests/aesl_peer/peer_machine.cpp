@@ -65,7 +65,7 @@ public:
     // What the machine sends.
     void take(uint16_t type, const uint8_t* bytes, size_t size) {
         Words words(size / 2);
-        std::memcpy(words.data(), bytes, 2 * words.size());
+        if (!words.empty()) std::memcpy(words.data(), bytes, 2 * words.size());
         if (type < node_.common.events.size()) {
             outcome_.emitted.push_back({during_, node_.common.events[type].name, words});
         } else if (type == kOutOfBounds) {

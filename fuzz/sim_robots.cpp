@@ -1,5 +1,5 @@
-// Any stream of frames, programs among them, for a Thymio and an e-puck: their natives and their
-// glue stay inside their memories, and the world goes on.
+// Any stream of frames, programs among them, for a Thymio, an e-puck and a Carbot: their natives
+// and their glue stay inside their memories, and the world goes on.
 #include <cstddef>
 #include <cstdint>
 
@@ -13,8 +13,11 @@ constexpr size_t kFramesMax = 200;
 
 sim::World make() {
     sim::WorldDefinition definition;
-    definition.robots = {{.name = "t", .at = {0.3, 0.5}, .node = 1},
-                         {.name = "e", .type = sim::RobotType::Epuck, .at = {0.7, 0.5}, .node = 2}};
+    definition.height = 2;
+    definition.robots = {
+        {.name = "t", .at = {0.3, 0.5}, .node = 1},
+        {.name = "e", .type = sim::RobotType::Epuck, .at = {0.7, 0.5}, .node = 2},
+        {.name = "c", .type = sim::RobotType::Carbot, .at = {0.5, 1.3}, .node = 3}};
     return std::move(sim::World::create(std::move(definition)).value());
 }
 

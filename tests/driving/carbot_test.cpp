@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "pilot.hpp"
 
@@ -111,6 +112,37 @@ TEST(Carbot, SilenceStopsTheWheelsWithinHalfASecondAndTheSameTokenGoesOn) {
     pilot.keep_alive(7);
     ASSERT_TRUE(pilot.wait_for("drive.arrived", {7}, 10s));
     EXPECT_NEAR(pilot.pose().at.x, 3, 0.015);
+}
+
+TEST(Carbot, NoWayAtAllIsDoneAtOnce) {
+    Pilot pilot(room(), kScript);
+    pilot.send("drive.forward", {7, 0, 0, 200});
+    EXPECT_TRUE(pilot.wait_for("drive.arrived", {7}, 20ms));
+    pilot.send("drive.turn", {8, 0, 45});
+    EXPECT_TRUE(pilot.wait_for("drive.arrived", {8}, 20ms));
+    pilot.send("drive.curve", {9, 500, 0, 200});
+    EXPECT_TRUE(pilot.wait_for("drive.arrived", {9}, 20ms));
+}
+
+// Beyond the ranges the nearest value inside counts: 310 mm/s, 1 mm, 136 degrees a second.
+TEST(Carbot, WhatIsOutOfRangeIsTakenAsTheNearestInside) {
+    Pilot pilot(room(), kScript);
+    pilot.send("drive.forward", {7, 1000, 0, 32767});
+    pilot.step(200ms);
+    pilot.keep_alive(7);
+    pilot.step(1800ms);
+    EXPECT_EQ(pilot.variable("wheel.front.speed"), 310);
+    pilot.send("drive.turn", {8, 1800, 32767});
+    pilot.keep_alive(8);
+    pilot.step(1s);
+    EXPECT_LE(pilot.variable("wheel.front.speed"), 310);
+    ASSERT_TRUE(pilot.wait_for("drive.arrived", {8}, 3s));
+    pilot.send("drive.curve", {9, -32768, 900, -32768});
+    pilot.keep_alive(9);
+    EXPECT_TRUE(pilot.wait_for("drive.arrived", {9}, 5s));
+    pilot.send("drive.forward", {10, 3, 0, -5});
+    pilot.keep_alive(10);
+    EXPECT_TRUE(pilot.wait_for("drive.arrived", {10}, 5s)) << "the slowest speed, 1 mm/s";
 }
 
 TEST(Carbot, AnotherTokensSignOfLifeDoesNotCount) {
@@ -314,6 +346,38 @@ TEST(Carbot, TheSameSeedIsTheSameRunAndAnotherSlipsDifferently) {
     const std::string first = run(1);
     EXPECT_EQ(first, run(1));
     EXPECT_NE(first, run(2));
+}
+
+// FNV-1a over the bits of the poses, every 10 ms.
+uint64_t hash_of_drive() {
+    Pilot pilot(room_with_wall(), kScript, 3);
+    uint64_t hash = 0xcbf29ce484222325u;
+    const auto drive = [&](Duration span) {
+        for (Duration done{}; done < span; done += 10ms) {
+            pilot.step(10ms);
+            const sim::Pose pose = pilot.pose();
+            for (const double value : {pose.at.x, pose.at.y, pose.angle}) {
+                unsigned char bytes[sizeof value];
+                std::memcpy(bytes, &value, sizeof value);
+                for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
+            }
+        }
+    };
+    pilot.send("drive.curve", {7, 900, 600, 300});
+    pilot.keep_alive(7);
+    drive(5s);
+    pilot.send("drive.turn", {8, -1100, 90});
+    pilot.keep_alive(8);
+    drive(3s);
+    pilot.send("drive.forward", {9, 3000, 0, 310});
+    pilot.keep_alive(9);
+    drive(8s);
+    return hash;
+}
+
+// Changes when the way in which Carbot drives or slips changes: then look whether that was meant.
+TEST(Carbot, TheDriveOfSixteenSecondsIsTheGoldenOne) {
+    EXPECT_EQ(hash_of_drive(), 2245115350268015587u);
 }
 
 }  // namespace

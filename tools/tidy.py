@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # An arrow means "may include" (docs/ARCHITECTURE.md). Nothing else may.
-BELOW_SESSION = ["embed", "run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "vm", "base", "isa", "wire"]
+BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "vm", "base", "isa", "wire"]
 MAY_INCLUDE = {
     "base": [],
     "isa": [],
@@ -23,13 +23,13 @@ MAY_INCLUDE = {
     "aesl": ["isa", "base"],
     "run": ["plan", "base"],
     "toolbox": ["run", "plan", "wire", "base"],
-    "embed": ["toolbox", "run", "plan", "base"],
+    "embed": ["session"] + BELOW_SESSION,
     "sim": ["hub", "node", "vm", "isa", "wire", "base"],
     "debug": ["aesl", "wire", "base"],
     "net": ["hub", "wire", "base"],
     "session": BELOW_SESSION,
     "serve": ["session", "net", "base"],
-    "cli": ["serve", "session"] + BELOW_SESSION,
+    "cli": ["serve", "embed", "session"] + BELOW_SESSION,
 }
 # Modules that compile for a microcontroller: these headers and no others.
 FREESTANDING = ["isa", "vm", "wire", "node"]

@@ -143,7 +143,7 @@ Prompt::Prompt(PlanRun& run)
     : run_(run),
       debugger_(run.graph(), run::Debugger::At::Start),
       lines_(words_of(run.graph(), command_names())) {
-    run_.listen([this](const plan::TraceEvent& event) {
+    run_.prepared().listen([this](const plan::TraceEvent& event) {
         if (trace_on_) print(plan::format_trace(event) + "\n");
     });
 }

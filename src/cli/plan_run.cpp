@@ -7,10 +7,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "embed/loaded_plan.hpp"
-#include "run/real_time.hpp"
-#include "run/virtual_time.hpp"
 #include "session/toolboxes.hpp"
-#include "toolbox/needs_bus.hpp"
 
 namespace vagus::cli {
 
@@ -36,41 +33,21 @@ std::unique_ptr<PlanRun> PlanRun::prepare(const PlanRunOptions& options) {
     show_findings(made->checked_.findings);
     if (!made->checked_.ok()) return nullptr;
     made->graph_ = plan::make_graph(made->checked_);
-    const Status taken = made->take_options(options);
-    if (taken.ok()) return made;
-    complain(taken.error());
+    auto prepared = embed::PreparedRun::prepare(
+        {made->graph_, made->checked_.plans, made->library_}, options.words, made->parts_);
+    if (prepared.ok()) {
+        made->prepared_ = std::move(prepared.value());
+        return made;
+    }
+    complain(prepared.error());
     return nullptr;
 }
 
-Status PlanRun::take_options(const PlanRunOptions& options) {
-    const Status alone = toolbox::check_without_bus(graph_);
-    if (!alone.ok()) {
-        return Error{
-            alone.error().code,
-            alone.error().what + "; give it a world (--world FILE) or a bus (--bus TARGET)"};
-    }
-    virtual_time_ = options.clock == "virtual";
-    how_.seed = options.seed;
-    for (const std::string& text : options.set) {
-        how_.set.push_back(TRY(embed::parse_set(graph_.plans.front(), text)));
-    }
-    if (!options.max_time.empty()) how_.max_time = TRY(embed::parse_max_time(options.max_time));
-    sink_ = TRY(embed::TraceSink::open(options.trace));
-    how_.on_trace = [this](const plan::TraceEvent& event) {
-        sink_->write(event);
-        if (listener_) listener_(event);
-    };
-    return Status::done();
-}
-
-void PlanRun::listen(std::function<void(const plan::TraceEvent&)> listener) {
-    listener_ = std::move(listener);
-}
-
 run::Ended PlanRun::run(run::Debugger* debugger) {
-    how_.debugger = debugger;
-    return virtual_time_ ? run::VirtualTime(graph_, library_, how_).run()
-                         : run::RealTime(graph_, library_, how_).run();
+    Result<run::Ended> ended = prepared_->run(debugger);
+    if (ended.ok()) return ended.value();
+    complain(ended.error());
+    return {.result = plan::PlanResult::Error, .message = {}};
 }
 
 void add_plan_file(CLI::App& verb, std::string& file) {
@@ -81,14 +58,27 @@ void add_plan_file(CLI::App& verb, std::string& file) {
 void add_run_options(CLI::App& verb, PlanRunOptions& options) {
     add_plan_file(verb, options.file);
     add_toolbox_option(verb, options.toolboxes);
-    verb.add_option("--set", options.set, "NAME=VALUE: a variable's value at the start");
-    takes_one_of(*verb.add_option("--clock", options.clock, "real or virtual time (real)"),
+    embed::RunWords& words = options.words;
+    verb.add_option("--set", words.set, "NAME=VALUE: a variable's value at the start");
+    takes_one_of(*verb.add_option("--clock", words.clock, "real or virtual time (real)"),
                  {"real", "virtual"});
-    verb.add_option("--seed", options.seed, "of all that is random (1)")
+    verb.add_option("--seed", words.seed,
+                    "of all that is random (1; for the world that of its file)")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    verb.add_option("--max-time", options.max_time, "seconds after which the run is aborted");
-    takes_file(*verb.add_option("--trace", options.trace, "where its trace goes; - is stdout"),
+    verb.add_option("--max-time", words.max_time,
+                    "seconds after which the run is aborted (with --world: 3600)");
+    takes_file(*verb.add_option("--trace", words.trace, "where its trace goes; - is stdout"),
                {".jsonl"});
+    takes_file(*verb.add_option("--world", words.world, "a world whose robots the plan drives"),
+               {".world.json"});
+    takes_file(*verb.add_option("--trace-all", words.trace_all,
+                                "the trace with what happens in the world; - is stdout"),
+               {".jsonl"});
+    verb.add_option("--bus", words.bus, "a bus with nodes that the plan drives, in real time")
+        ->type_name("TARGET");
+    takes_file(*verb.add_option("--project", words.project,
+                                "what the nodes of --bus were loaded with: names of events"),
+               {".aesl"});
 }
 
 }  // namespace vagus::cli

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "embed/command_line.hpp"
+#include "embed/prepared_run.hpp"
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
 #include "run/code.hpp"
@@ -31,11 +31,7 @@ void show_findings(const plan::Findings& findings);
 struct PlanRunOptions {
     std::string file;
     std::vector<std::string> toolboxes;
-    std::vector<std::string> set;
-    std::string clock = "real";
-    uint64_t seed = 1;
-    std::string max_time;
-    std::string trace;
+    embed::RunWords words;
 };
 
 void add_plan_file(CLI::App& verb, std::string& file);
@@ -48,24 +44,19 @@ public:
     ~PlanRun();
 
     const plan::Graph& graph() const { return graph_; }
-    bool in_virtual_time() const { return virtual_time_; }
-    // Also hears the trace, on the deciding thread. Before a run.
-    void listen(std::function<void(const plan::TraceEvent&)> listener);
-    // Can be called again: each is a run of its own.
+    embed::PreparedRun& prepared() { return *prepared_; }
+    // Can be called again: each is a run of its own. One that cannot begin has complained, and is
+    // over with an error.
     run::Ended run(run::Debugger* debugger = nullptr);
 
 private:
     PlanRun();
-    Status take_options(const PlanRunOptions& options);
 
     toolbox::Parts parts_;  // before the library, whose code looks at them
     run::CodeLibrary library_;
     plan::Checked checked_;
     plan::Graph graph_;
-    run::RunOptions how_;
-    bool virtual_time_ = false;
-    std::unique_ptr<embed::TraceSink> sink_;
-    std::function<void(const plan::TraceEvent&)> listener_;
+    std::unique_ptr<embed::PreparedRun> prepared_;
 };
 
 }  // namespace vagus::cli

@@ -35,6 +35,7 @@ LoadedPlan::LoadedPlan(const plan::Checked& checked, const run::CodeLibrary& lib
     : findings_(checked.findings), library_(&library) {
     if (!checked.ok()) return;
     graph_ = std::make_shared<const plan::Graph>(plan::make_graph(checked));
+    plans_ = std::make_shared<const std::vector<plan::Plan>>(checked.plans);
     for (const plan::Variable& variable : checked.plans.front().configuration) {
         const bool input = plan::is_input(*variable.access);
         const bool output = plan::is_output(*variable.access);

@@ -44,6 +44,7 @@ public:
 
     // Only if ok().
     const plan::Graph& graph() const { return *graph_; }
+    const std::vector<plan::Plan>& plans() const { return *plans_; }  // what it was made of
     const std::vector<Parameter>& parameters() const { return parameters_; }
     const run::CodeLibrary& library() const { return *library_; }
 
@@ -54,6 +55,7 @@ private:
     std::vector<Parameter> parameters_;
     // Owners: all copies of this plan. Never changed, so that copies can run at the same time.
     std::shared_ptr<const plan::Graph> graph_;
+    std::shared_ptr<const std::vector<plan::Plan>> plans_;
     const run::CodeLibrary* library_;
 };
 

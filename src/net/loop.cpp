@@ -1,6 +1,7 @@
 #include "net/loop.hpp"
 
 #include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/post.hpp>
 #include <csignal>
 #include <cstring>
 #include <utility>
@@ -50,10 +51,16 @@ std::vector<Event> Network::Loop::poll(Time deadline) {
     received_ = 0;
     wait_inputs();
     flush();
-    while (events_.empty() && received_ == 0) {
+    while (events_.empty() && received_ == 0 && !woken_.exchange(false)) {
         if (run_some(deadline) == 0 && now() >= deadline) break;
     }
     return std::exchange(events_, {});
+}
+
+// The handler does nothing: that there is one ends the wait.
+void Network::Loop::wake() {
+    woken_ = true;
+    asio::post(io_, [] {});
 }
 
 // Waits for one handler, then runs those that are ready too, then writes what came of it.

@@ -5,6 +5,7 @@
 // look it up, so that closing is simply erasing.
 #pragma once
 
+#include <atomic>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -40,6 +41,7 @@ public:
     Status watch_input(int descriptor);
     void unwatch_input(int descriptor);
     std::vector<Event> poll(Time deadline);
+    void wake();
     Time now() const;
     bool has_unwritten() const;
 
@@ -139,6 +141,7 @@ private:
     uint32_t last_number_ = 0;  // of connections and places alike
 
     std::vector<Event> events_;
+    std::atomic<bool> woken_ = false;
     size_t unflushed_ = 0;  // bytes read since the last flush
     size_t received_ = 0;   // bytes read since poll() began
 };

@@ -34,6 +34,9 @@ void Network::unwatch_input(int descriptor) {
 std::vector<Event> Network::poll(Time deadline) {
     return loop_->poll(deadline);
 }
+void Network::wake() {
+    loop_->wake();
+}
 Time Network::now() const {
     return loop_->now();
 }

@@ -123,6 +123,9 @@ public:
     // deadline in the past: what is ready now.
     std::vector<Event> poll(Time deadline);
 
+    // From any other thread: the poll() that waits, or the next one, returns at once.
+    void wake();
+
     // Since this network was made; steady.
     Time now() const;
 

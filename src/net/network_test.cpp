@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <ctime>
 #include <functional>
+#include <thread>
 
 #include "base/rng.hpp"
 #include "net/client.hpp"
@@ -154,6 +155,17 @@ TEST(Network, PassesAFrameThatComesByteByByte) {
         net.step();
     }
     EXPECT_EQ(receive(net, b, 14), whole);
+}
+
+// Without wake() the poll would last until the test is given up.
+TEST(Network, AnotherThreadWakesAPoll) {
+    Switch host;
+    std::thread other([&host] { host.network.wake(); });
+    EXPECT_TRUE(host.network.poll(Time::max()).empty());
+    other.join();
+    // Also one that comes before the poll.
+    host.network.wake();
+    EXPECT_TRUE(host.network.poll(Time::max()).empty());
 }
 
 TEST(Network, ServesAPlaceInThisProcess) {

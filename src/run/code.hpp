@@ -83,7 +83,9 @@ public:
 
     // Since the start of the run.
     virtual Time now() const = 0;
-    // These three throw Stop when the actor is interrupted, also when it was before the call.
+    // These throw Stop when the actor is interrupted, also when it was before the call. Events of
+    // others that came since the last wait returned are looked at first, in their order; those that
+    // a wait does not wait for are over with it, so a sleep hears nothing.
     void sleep(Duration time);
     BusEvent wait_event(std::string_view name);
     // Gives nothing when the time is over first.

@@ -334,6 +334,7 @@ void RealTime::Engine::take(Heard& message) {
             watching.events.push_back(message.event);
         }
     }
+    if (message.own) return;  // code does not hear what it has said itself
     for (const auto& [activation, code] : code_) code->context->hear(message.event);
 }
 

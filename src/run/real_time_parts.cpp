@@ -57,6 +57,7 @@ void LiveContext::hear(const BusEvent& event) {
         const std::lock_guard lock(mutex_);
         const bool kept = kept_.offer(event);
         const bool waited_for = waiting_ && !heard_ && (event_.empty() || event_ == event.name);
+        if (!waiting_ || heard_) early_.push(event);
         if (!kept && !waited_for) return;
         if (waited_for) heard_ = event;
     }
@@ -88,7 +89,7 @@ ActorContext::Woken LiveContext::wait(Duration at_most, std::string_view event) 
     std::unique_lock lock(mutex_);
     event_ = std::string(event);
     waiting_ = true;
-    heard_.reset();
+    heard_ = early_.take(event);
     wait_for(lock, at_most, [this] { return heard_.has_value(); });
     waiting_ = false;
     return {.stop = stop_, .event = std::move(heard_)};

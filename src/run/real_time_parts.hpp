@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "run/code.hpp"
+#include "run/heard_events.hpp"
 #include "run/kept_events.hpp"
 #include "run/options.hpp"
 #include "run/real_time.hpp"
@@ -180,6 +181,7 @@ private:
     bool stop_ = false;
     bool held_ = false;
     bool waiting_ = false;
+    HeardEvents early_;  // while it did not wait
     std::string event_;
     std::optional<BusEvent> heard_;
     KeptEvents kept_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "run/debugger.hpp"
+#include "run/heard_events.hpp"
 #include "run/kept_events.hpp"
 #include "run/surroundings.hpp"
 
@@ -116,12 +117,13 @@ public:
 
     void wake_with(Woken woken) { woken_ = std::move(woken); }
     bool keep(const BusEvent& event) { return kept_.offer(event); }
+    void overhear(const BusEvent& event) { heard_.push(event); }
 
 protected:
     Woken wait(Duration at_most, std::string_view event) override {
-        code_.wake = after(run_.now_, at_most);
+        woken_ = {.stop = false, .event = heard_.take(event)};
+        code_.wake = woken_.event ? run_.now_ : after(run_.now_, at_most);
         code_.event = std::string(event);
-        woken_ = {};
         code_.thread->give_back();
         return std::move(woken_);
     }
@@ -140,6 +142,7 @@ private:
     VirtualTime& run_;
     Code& code_;
     Woken woken_;
+    HeardEvents heard_;  // at this instant, when its wait was over already
     KeptEvents kept_;
 };
 
@@ -430,7 +433,11 @@ void VirtualTime::meet_surroundings() {
     while (around && around->next() <= now_) {
         leave_surroundings();
         met_ = true;
-        for (const BusEvent& event : around->begin()) deliver(event);
+        for (const BusEvent& event : around->begin()) {
+            const bool to_come = code_ && !code_->ended && code_->wake <= now_;  // its turn
+            deliver(event);
+            if (to_come) code_->context->overhear(event);
+        }
     }
 }
 

@@ -2,6 +2,12 @@
 
 namespace vagus::session {
 
+BusEars::~BusEars() {
+    for (const auto& [node, known] : known_) {
+        if (known.there) nodes_.left(known.name);
+    }
+}
+
 std::optional<run::BusEvent> BusEars::hear(const debug::Event& event) {
     if (const auto* sent = std::get_if<debug::UserEvent>(&event.what)) {
         if (sent->name.empty()) return std::nullopt;

@@ -20,6 +20,10 @@ class BusEars {
 public:
     // `nodes` is kept as the bus says; borrowed.
     explicit BusEars(toolbox::BusNodes& nodes) : nodes_(nodes) {}
+    // Its nodes are no longer known to be there.
+    ~BusEars();
+    BusEars(const BusEars&) = delete;
+    BusEars& operator=(const BusEars&) = delete;
 
     // Nothing for what is not for plans: numbers without a name, and all that debuggers hear.
     std::optional<run::BusEvent> hear(const debug::Event& event);

@@ -53,11 +53,7 @@ Status BusNames::known(std::string_view event) const {
     const std::string near = nearest(event, names);
     const std::string quoted = "\"" + std::string(event) + "\"";
     std::string sentence = "the event " + quoted + " has no number: ";
-    if (names.empty()) {
-        sentence += source_ + " declare no events";
-    } else {
-        sentence += source_ + " do not declare it";
-    }
+    sentence += (names.empty() ? "no events are declared by " : "it is not declared by ") + source_;
     sentence += near.empty() ? "; add <event name=" + quoted + " size=\"…\"/> to the project"
                              : "; did you mean \"" + near + "\"?";
     return Error{Code::NotFound, sentence};

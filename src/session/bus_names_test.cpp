@@ -34,11 +34,11 @@ TEST(BusNames, AnEventNeedsANumberAndItsArguments) {
     EXPECT_EQ(refusal({"turning", {1}}), "");
     EXPECT_EQ(refusal({"any", {1, 2, 3}}), "");
     EXPECT_EQ(refusal({"turnin", {1}}),
-              "the event \"turnin\" has no number: the scripts of arena.world.json do not declare "
-              "it; did you mean \"turning\"?");
+              "the event \"turnin\" has no number: it is not declared by the scripts of "
+              "arena.world.json; did you mean \"turning\"?");
     EXPECT_EQ(refusal({"jump", {}}),
-              "the event \"jump\" has no number: the scripts of arena.world.json do not declare "
-              "it; add <event name=\"jump\" size=\"…\"/> to the project");
+              "the event \"jump\" has no number: it is not declared by the scripts of "
+              "arena.world.json; add <event name=\"jump\" size=\"…\"/> to the project");
     EXPECT_EQ(refusal({"clear", {1, 2}}),
               "the event \"clear\" takes 0 arguments, found 2; give it as many as the project "
               "declares");
@@ -49,7 +49,7 @@ TEST(BusNames, WithoutEventsTheSentenceSaysSo) {
     const Status status = none.may_emit({"go", {}});
     ASSERT_FALSE(status.ok());
     EXPECT_THAT(status.error().what,
-                HasSubstr("the scripts of arena.world.json declare no events"));
+                HasSubstr("no events are declared by the scripts of arena.world.json"));
 }
 
 TEST(BusNames, FindsWhatAPlanNamesOutrightAndNobodyDeclares) {

@@ -366,7 +366,8 @@ Result<SimSession> open_sim(const std::string& path, SimOptions options) {
     const auto views = session.world().robots();
     for (size_t i = 0; i < robots.size() && i < views.size(); i++) {
         if (robots[i].script.empty()) continue;
-        const std::string script = (fs::path(options.world.folder) / robots[i].script).string();
+        const std::string script =
+            (fs::path(options.world.folder) / robots[i].script).lexically_normal().string();
         const std::string source = TRY(read_file(script));
         session.load_for(views[i].id, script, source);
     }

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "embed/command_line.hpp"
+#include "embed/prepared_run.hpp"
 #include "embed/loaded_plan.hpp"
 #include "plan/check.hpp"
 #include "plan/generate.hpp"

@@ -58,10 +58,11 @@ protected:
     SurroundingsTest() { toolbox::add_core(library_); }
 
     // The plan's ends of actors and its events with their times, and what it emits, in the log.
-    run::Ended run(std::string_view actors, Clockwork& clockwork, run::RunOptions options = {}) {
-        const std::string text =
-            R"({ "format": "vagus-plan/1", "name": "P", "start": { "actor": "a" }, "actors": {)" +
-            std::string(actors) + "}}";
+    run::Ended run(std::string_view actors, Clockwork& clockwork, run::RunOptions options = {},
+                   const std::string& toolboxes = "[]") {
+        const std::string text = R"({ "format": "vagus-plan/1", "name": "P", "toolboxes": )" +
+                                 toolboxes + R"(, "start": { "actor": "a" }, "actors": {)" +
+                                 std::string(actors) + "}}";
         const plan::Checked checked =
             plan::check("p.plan.json", OneText(text), library_.templates());
         EXPECT_TRUE(checked.ok()) << plan::format_findings_json(checked.findings);
@@ -109,6 +110,34 @@ TEST_F(SurroundingsTest, WhatBeginGivesIsHeardAtThatInstant) {
     EXPECT_EQ(ended.result, plan::PlanResult::Ok);
     EXPECT_THAT(clockwork.log, ElementsAre("begin 1000", "end 1000", "begin 2000", "a 2000",
                                            "over 2000", "end 2000"));
+}
+
+// Waits for a, then at once for b.
+class AThenB final : public run::Actor {
+    void run(run::ActorContext& context) override {
+        context.wait_event("a");
+        context.wait_event("b");
+    }
+};
+
+// Of several events of one instant none is lost to code that waits for one after the other.
+TEST_F(SurroundingsTest, CodeHearsAllEventsOfAnInstantThatItWaitsForInTheirOrder) {
+    library_.add("test", "",
+                 {{.declared = {.name = "AThenB", .outcomes = {{"Done", ""}}},
+                   .actor = [] { return std::make_unique<AThenB>(); }}});
+    constexpr std::string_view kActor =
+        R"("a": { "template": "AThenB", "states": { "Done": "@terminate" } })";
+    Clockwork in_order(1ms);
+    in_order.at(1ms, {{"a", {}}, {"other", {}}, {"b", {}}});
+    run(kActor, in_order, {}, R"(["test"])");
+    EXPECT_THAT(in_order.log, ElementsAre("begin 1000", "a 1000", "over 1000", "end 1000"));
+    // What came before its time is over.
+    Clockwork reversed(1ms);
+    reversed.at(1ms, {{"b", {}}, {"a", {}}});
+    reversed.at(2ms, {{"b", {}}});
+    run(kActor, reversed, {}, R"(["test"])");
+    EXPECT_THAT(reversed.log, ElementsAre("begin 1000", "end 1000", "begin 2000", "a 2000",
+                                          "over 2000", "end 2000"));
 }
 
 // P21: what a supervisor hears ranks before what the actor hears, whichever came first.

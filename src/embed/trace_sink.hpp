@@ -1,0 +1,31 @@
+// Where the lines of `--trace` and `--trace-all` go: a file, `-` for stdout, nowhere for an empty
+// path.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "base/result.hpp"
+
+namespace vagus::embed {
+
+class TraceSink {
+public:
+    static Result<std::unique_ptr<TraceSink>> open(const std::string& path);
+    TraceSink() = default;
+    ~TraceSink();
+    TraceSink(const TraceSink&) = delete;
+    TraceSink& operator=(const TraceSink&) = delete;
+
+    explicit operator bool() const { return file_ != nullptr; }
+    // Whole lines, each with its newline.
+    void write(std::string_view lines);
+
+private:
+    std::FILE* file_ = nullptr;
+    bool owned_ = false;
+};
+
+}  // namespace vagus::embed

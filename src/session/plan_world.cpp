@@ -41,7 +41,10 @@ Result<std::unique_ptr<PlanWorld>> PlanWorld::open(const PlanWorldOptions& optio
 }
 
 PlanWorld::PlanWorld(SimSession session, BusNames names, toolbox::BusNodes& nodes)
-    : session_(std::move(session)), names_(std::move(names)), ears_(nodes) {
+    : session_(std::move(session)),
+      camera_(session_.world()),
+      names_(std::move(names)),
+      ears_(nodes) {
     (void)hear();  // who is there; what scripts said before time 0 is not for the plan
 }
 

@@ -24,6 +24,7 @@
 #include "session/bus_ears.hpp"
 #include "session/bus_names.hpp"
 #include "session/sim_session.hpp"
+#include "session/world_camera.hpp"
 
 namespace vagus::session {
 
@@ -42,6 +43,8 @@ public:
     const BusNames& names() const { return names_; }
     // Puts the world beside the run, and the run on its bus. Borrowed for the run.
     void join(run::RunOptions& options);
+    // That of the first robot that has one, for toolbox::Parts; nullptr if none has.
+    toolbox::Camera* camera() { return camera_.exists() ? &camera_ : nullptr; }
     // Called at each instant, on the deciding thread, before anything of it happens: to pace the
     // run, to look at it, to act on the world.
     void before_each(std::function<void(Time)> act) { before_each_ = std::move(act); }
@@ -60,6 +63,7 @@ private:
     std::vector<run::BusEvent> hear();
 
     SimSession session_;
+    WorldCamera camera_;
     BusNames names_;
     BusEars ears_;
     std::function<void(Time)> before_each_;

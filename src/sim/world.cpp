@@ -452,6 +452,11 @@ std::vector<Look> World::looks(RobotId robot) const {
     return insides_->robot(*index).looks(arena);
 }
 
+bool World::has_camera(RobotId robot) const {
+    const auto index = index_of(insides_->definition, robot);
+    return index && insides_->robot(*index).camera();
+}
+
 Result<Picture> World::render(RobotId robot) const {
     const auto index = index_of(insides_->definition, robot);
     if (!index) return no_robot();

@@ -179,6 +179,7 @@ public:
     std::vector<ObjectView> objects() const;    // in the order of their adding
     std::vector<Lamp> lamps(RobotId robot) const;
     std::vector<Look> looks(RobotId robot) const;  // distance sensors as they stand now
+    bool has_camera(RobotId robot) const;
     // What the robot's camera sees now (camera.hpp). Fails with NotFound if it has none.
     Result<Picture> render(RobotId robot) const;
     Colour ground_at(Point at) const;

@@ -101,6 +101,7 @@ Result<Ran> run_sample(const Start& start, const std::function<bool(const Moment
     const auto beside = TRY(session::PlanWorld::open(
         {.path = start.world, .seed = start.seed, .traced = start.traced}, nodes));
     sim::World& world = beside->session().world();
+    parts.camera = beside->camera();
     if (start.at) TRY(world.move(world.robots().front().id, *start.at));
 
     Watcher watcher(beside->session(), start.traced);

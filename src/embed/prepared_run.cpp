@@ -235,6 +235,7 @@ Result<std::unique_ptr<PreparedRun>> PreparedRun::prepare(const Runnable& what,
     auto insides = std::make_unique<Insides>(what, words);
     TRY(insides->take_options());
     if (insides->world || insides->bus) parts.bus = &insides->nodes;
+    if (insides->world) parts.camera = insides->world->camera();
     // make_unique cannot reach the constructor.
     return std::unique_ptr<PreparedRun>(new PreparedRun(std::move(insides)));
 }

@@ -4,8 +4,9 @@
 //
 //     WorldDefinition world;
 //     world.width = 2;
-//     world.objects.push_back({.id = "post", .kind = ObjectKind::Cylinder, .at = {1, 1}, .radius =
-//     0.05}); world.robots.push_back({.name = "thymio", .at = {0.5, 0.5}});
+//     world.objects.push_back(
+//         {.id = "post", .kind = ObjectKind::Cylinder, .at = {1, 1}, .radius = 0.05});
+//     world.robots.push_back({.name = "thymio", .at = {0.5, 0.5}});
 #pragma once
 
 #include <cstddef>

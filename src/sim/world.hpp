@@ -4,9 +4,9 @@
 //
 //     Result<World> loaded = World::load(text, "arena.world.json");
 //     World& world = loaded.value();
-//     const hub::LinkId host = world.bus().add({.name = "host"}).value();   // talk to the robots
-//     as any host does world.step(std::chrono::milliseconds(30));                           // at
-//     any speed for (const Happening& happening : world.happenings()) write(trace_line(happening));
+//     const hub::LinkId host = world.bus().add({.name = "host"}).value();  // a host like any other
+//     world.step(std::chrono::milliseconds(30));                           // at any speed
+//     for (const Happening& happening : world.happenings()) write(trace_line(happening));
 //     for (const RobotView& robot : world.robots()) draw(robot.outline, robot.pose);
 //
 // Time runs in milliseconds for the nodes and in steps of kPhysicsStep for the bodies. At one

@@ -176,22 +176,38 @@ TEST_F(CarbotTemplates, WallForwardKeepsItsDistance) {
                         R"({ "kind": "wall", "at": [5, 2.3], "size": [6, 0.1], "height": 0.5 })");
     EXPECT_THAT(ran.states, ElementsAre("a: ForwardSuccessful")) << ran.ended.message;
     EXPECT_NEAR(end_of(ran).at.x, 6, 0.15);
-    // The wall's face is at 2.35: 50 cm from it is 2.85.
-    EXPECT_NEAR(end_of(ran).at.y, 2.85, 0.06);
+    // The wall's face is at 2.35, half a hull is 17.5 cm: 50 cm between them is 3.025.
+    EXPECT_NEAR(end_of(ran).at.y, 3.025, 0.06);
 }
 
-TEST_F(CarbotTemplates, WallForwardEndsBeforeAWallAndWhereTheWallEnds) {
-    const std::string actor = R"("a": { "template": "WallForward",
-             "in": { "distance": 50, "ahead": 40, "length": 500 },
-             "states": { "ForwardSuccessful": "b", "LaneNotFree": "@terminate",
-               "WallLost": "@terminate" } },
-           "b": { "template": "Fail", "in": { "message": "'no'" } })";
-    const std::string beside =
-        R"({ "kind": "wall", "at": [4.5, 2.3], "size": [2, 0.1], "height": 0.5 })";
-    EXPECT_THAT(run(actor, beside).states, ElementsAre("a: WallLost"));
-    const std::string ahead =
-        R"(, { "kind": "wall", "at": [5.4, 3], "size": [0.1, 2], "height": 0.5 })";
-    EXPECT_THAT(run(actor, beside + ahead).states, ElementsAre("a: LaneNotFree"));
+constexpr std::string_view kAlongWall = R"("a": { "template": "WallForward",
+             "in": { "distance": 30, "ahead": 40, "length": 400 },
+             "states": { "ForwardSuccessful": "@terminate", "LaneNotFree": "@terminate",
+               "WallLost": "@terminate" } })";
+
+// Along a wall of 1.5 m that is 10 cm thick, around its end, and back at the other side: 4 m.
+TEST_F(CarbotTemplates, WallForwardGoesAroundTheEndOfTheWall) {
+    const Ran ran =
+        run(std::string(kAlongWall),
+            R"({ "kind": "wall", "at": [4.2, 2.45], "size": [1.5, 0.1], "height": 0.5 })");
+    EXPECT_THAT(ran.states, ElementsAre("a: ForwardSuccessful")) << ran.ended.message;
+    EXPECT_LT(end_of(ran).at.y, 2.4);
+    for (const Moment& moment : ran.way) EXPECT_NEAR(moment.gap, 0.3, 0.12) << moment.at.count();
+}
+
+// The wall's face is 30 cm ahead of the hull.
+TEST_F(CarbotTemplates, WallForwardEndsBeforeWhatIsInTheLane) {
+    const Ran ran = run(std::string(kAlongWall),
+                        R"({ "kind": "wall", "at": [4.55, 3], "size": [0.1, 2], "height": 0.5 })");
+    EXPECT_THAT(ran.states, ElementsAre("a: LaneNotFree"));
+}
+
+// The room's own walls are 3 m away: it looks for one at the right, around an end that may be
+// there.
+TEST_F(CarbotTemplates, WallForwardSaysWhenThereIsNoWall) {
+    const Ran ran = run(std::string(kAlongWall));
+    EXPECT_THAT(ran.states, ElementsAre("a: WallLost"));
+    EXPECT_NEAR(end_of(ran).at.x, 4, 1);
 }
 
 // The wheels are stopped by the nodes themselves; the plan hears of it, and backs off.

@@ -17,7 +17,8 @@ namespace {
 using plan::Type;
 using plan::Value;
 
-constexpr double kReachDeg = 120;  // the rotator turns no further
+constexpr double kReachDeg = 120;    // the rotator turns no further
+constexpr double kInTheWayDeg = 45;  // to both sides of ahead
 
 plan::Input spread_input() {
     return {.name = "spread",
@@ -49,14 +50,21 @@ const plan::Template& look_around_declared() {
 const plan::Template& search_wall_declared() {
     static const plan::Template kDeclared{
         .name = "SearchWall",
-        .help = "Looks around for the nearest wall.",
+        .help = "Looks around for the wall that is in the way, or else the nearest one.",
         .icon = "M4 3v18M10 10a4 4 0 1 0 8 0a4 4 0 1 0-8 0M17 13l4 4",
         .inputs = {spread_input(),
                    step_input(),
                    {.name = "side",
                     .type = Type::String,
                     .fallback = Value(std::string("right")),
-                    .help = "where the wall is to be: right, left, or nearer (turns less)"}},
+                    .help = "where the wall is to be: right, left, or nearer (turns less)"},
+                   {.name = "reach",
+                    .type = Type::Float,
+                    .fallback = Value(100.0),
+                    .unit = "cm",
+                    .help = "walls farther from the sensor do not count",
+                    .low = 0,
+                    .high = 300}},
         .outputs = {{.name = "angle",
                      .type = Type::Float,
                      .unit = "deg",
@@ -120,7 +128,11 @@ public:
             throw run::CodeError("the input \"side\" is \"" + side +
                                  "\", but must be right, left or nearer");
         }
-        const auto wall = nearest_wall(scan(context, parts_, search_wall_declared()));
+        const double reach = input_of(context, search_wall_declared(), 3);
+        const std::vector<Echo> echoes = scan(context, parts_, search_wall_declared());
+        // In a corner the wall ahead is the next one, however near that at the side is.
+        auto wall = nearest_wall(echoes, {.to_side_deg = kInTheWayDeg, .reach_cm = reach});
+        if (!wall) wall = nearest_wall(echoes, {.reach_cm = reach});
         context.end(wall ? 0 : 1);
         if (!wall) return;
         context.out(0, Value(turn_for(*wall, side)));

@@ -15,6 +15,7 @@
 
 #include "run/code.hpp"
 #include "toolbox/bus_talk.hpp"
+#include "toolbox/carbot/body.hpp"
 #include "toolbox/carbot/distance_map.hpp"
 #include "toolbox/parts.hpp"
 
@@ -23,17 +24,6 @@ namespace vagus::toolbox::carbot {
 constexpr Duration kSteerPeriod = std::chrono::milliseconds(100);
 constexpr Duration kAnswerWithin = std::chrono::seconds(30);  // a whole scan takes seconds
 constexpr size_t kEchoesMax = 720;                            // of a scan
-
-struct Steering {
-    double speed_cm = 0;  // a second
-    double rate_deg = 0;  // a second
-};
-
-struct Pose {
-    double x_cm = 0;
-    double y_cm = 0;
-    double heading_deg = 0;
-};
 
 // What the infrared sensor sees.
 struct Beacon {

@@ -1,14 +1,18 @@
-// WallForward: along a wall, at a distance. The sensor looks at the wall in two directions, which
-// give its distance and direction, and then ahead; after each round the steering is set anew.
+// WallForward: along a wall, at a distance. While it drives the sensor looks to and fro between the
+// wall and the lane ahead. What it has seen makes a map; of all curves that it could drive now it
+// takes the one along which the distance to the map's nearest spot stays best.
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/trig.hpp"
 #include "toolbox/carbot/inputs.hpp"
 #include "toolbox/carbot/rover.hpp"
 #include "toolbox/carbot/templates.hpp"
+#include "toolbox/carbot/wall_steering.hpp"
 #include "toolbox/carbot/walls.hpp"
 
 namespace vagus::toolbox::carbot {
@@ -18,50 +22,73 @@ namespace {
 using plan::Type;
 using plan::Value;
 
-constexpr double kBesideDeg = 90;     // the first look at the wall
-constexpr double kSlantDeg = 55;      // the second
-constexpr double kLostFactor = 2.5;   // a wall so many times too far away is lost
-constexpr double kApproachDeg = 30;   // steepest way to the wall and from it
-constexpr double kSettleSeconds = 1;  // a wrong heading is to be right after that
-constexpr double kRateMaxDeg = 40;    // a second
+// Directions in which it looks, to and fro: the wall beside, and what comes ahead.
+constexpr double kLookRightDeg = -105;
+constexpr double kLookStepDeg = 15;
+constexpr int kLooks = 10;
+
+// Where nothing is seen at first, the wall may just have ended: there, from the robot's middle.
+constexpr double kEndBehindCm = 12;
+constexpr double kRememberedTurns = 0.65;  // of a circle around an end, before the wall is lost
+
+constexpr double kDistanceMaxCm = kMapReachCm - kHalfWidthCm - 10;
+constexpr double kLaneMarginCm = 3;  // beside the hull
+constexpr double kMovedCm = 1;
+constexpr double kTurnedDeg = 2;
+constexpr Duration kPatience = std::chrono::seconds(3);  // while it does not move
 
 enum State { kForwardSuccessful, kLaneNotFree, kWallLost };
 
-plan::Input length_input(std::string name, std::string help) {
-    return {.name = std::move(name),
-            .type = Type::Float,
-            .unit = "cm",
-            .help = std::move(help),
-            .low = 0,
-            .high = 1e6};
-}
+struct Length {
+    std::string name;
+    std::string help;
+    double fallback;
+    double high;
+};
 
-plan::Input with_default(plan::Input input, double value) {
-    input.fallback = Value(value);
-    return input;
+plan::Input length_input(const Length& length) {
+    return {.name = length.name,
+            .type = Type::Float,
+            .fallback = Value(length.fallback),
+            .unit = "cm",
+            .help = length.help,
+            .low = 0,
+            .high = length.high};
 }
 
 const plan::Template& declared() {
     static const plan::Template kDeclared{
         .name = "WallForward",
-        .help = "Drives along the wall at the right, or else at the left.",
+        .help = "Drives along the wall at the right, around its corners too.",
         .icon = "M5 3v18M14 20V6M10 10l4-4l4 4",
-        .inputs = {with_default(length_input("distance", "to keep from the wall"), 30),
-                   with_default(length_input("ahead", "how much must be free ahead"), 30),
+        .inputs = {length_input({.name = "distance",
+                                 .help = "to keep between the wall and the side of the hull",
+                                 .fallback = 30,
+                                 .high = kDistanceMaxCm}),
+                   length_input({.name = "ahead",
+                                 .help = "how much must be free ahead of the hull",
+                                 .fallback = 30,
+                                 .high = 100}),
                    {.name = "gain",
                     .type = Type::Float,
                     .fallback = Value(1.0),
-                    .unit = "deg/cm",
-                    .help = "how steeply it goes to the right distance",
+                    .help = "how sharply it steers to keep the distance",
                     .low = 0.01,
                     .high = 20},
                    speed_input(),
-                   with_default(length_input("length", "how far to drive"), 100)},
+                   length_input({.name = "length",
+                                 .help = "how far to drive",
+                                 .fallback = 100,
+                                 .high = 1e6})},
         .outcomes = {{"ForwardSuccessful", "it has driven so far"},
                      {"LaneNotFree", "something is ahead"},
                      {"WallLost", "the wall has ended"}},
         .bus_events = Rover::events_of(Rover::Needs::DriveAndRange)};
     return kDeclared;
+}
+
+double direction_of_look(int number) {
+    return kLookRightDeg + number * kLookStepDeg;
 }
 
 class WallForward final : public run::Actor {
@@ -73,10 +100,10 @@ public:
         ahead_ = input_of(context, declared(), 1);
         gain_ = input_of(context, declared(), 2);
         speed_ = input_of(context, declared(), 3);
-        length_ = input_of(context, declared(), 4);
+        left_ = input_of(context, declared(), 4);
         Rover rover(context, parts_, Rover::Needs::DriveAndRange);
         try {
-            const State state = follow(rover);
+            const State state = follow(context, rover);
             rover.halt();
             context.end(state);
         } catch (const run::Stop&) {
@@ -86,44 +113,49 @@ public:
     }
 
 private:
-    State follow(Rover& rover) {
-        if (is_blocked(rover)) return kLaneNotFree;
-        side_ = side_of_wall(rover);
-        Pose last = rover.pose();
-        for (double driven = 0; driven < length_;) {
-            const Echo beside = rover.look(side_ * kBesideDeg);
-            const Echo slant = rover.look(side_ * kSlantDeg);
-            const std::optional<Wall> wall = fit_wall({beside, slant});
-            if (!wall || wall->distance_cm > kLostFactor * distance_) return kWallLost;
-            rover.steer({speed_, rate_for(*wall)});
-            if (is_blocked(rover)) return kLaneNotFree;
-            const Pose here = rover.pose();
-            driven += trig::hypot(here.x_cm - last.x_cm, here.y_cm - last.y_cm);
-            last = here;
+    State follow(run::ActorContext& context, Rover& rover) {
+        const double around = distance_ + kHalfWidthCm;
+        const AlongWall goal{.distance_cm = distance_, .speed_cm = speed_, .gain = gain_};
+        WallMap map(kRememberedTurns * 2 * trig::kPi * around);
+        Pose here = rover.pose();
+        moved_to(here, context.now());
+        for (bool to_left = true, first = true;; to_left = !to_left, first = false) {
+            std::vector<Sounding> sweep;
+            for (int i = 0; i < kLooks; ++i) {
+                const Echo echo = rover.look(direction_of_look(to_left ? i : kLooks - 1 - i));
+                const Pose before = std::exchange(here, rover.pose());
+                sweep.push_back({here, echo});
+                left_ -= trig::hypot(here.x_cm - before.x_cm, here.y_cm - before.y_cm);
+                if (left_ <= 0) return kForwardSuccessful;
+                if (is_in_lane(echo) || !moves(here, context.now())) return kLaneNotFree;
+                if (!first) rover.steer(steer_along(map, here, goal));
+            }
+            map.take(sweep);
+            const bool sees = map.distances_from(here).right_cm < kMapReachCm;
+            if (!sees && !first) return kWallLost;
+            if (!sees) map.assume(placed(here, {-kEndBehindCm, -around}));
         }
-        return kForwardSuccessful;
     }
 
-    bool is_blocked(Rover& rover) const {
-        const double free = rover.look(0).distance_cm;
-        return free > 0 && free < ahead_;
+    bool is_in_lane(const Echo& echo) const {
+        if (echo.distance_cm <= 0) return false;
+        const double ahead = kSensorAheadCm + echo.distance_cm * cosine(echo.angle_deg);
+        const double beside = echo.distance_cm * sine(echo.angle_deg);
+        return ahead > 0 && ahead - kHalfLengthCm < ahead_ &&
+               std::abs(beside) < kHalfWidthCm + kLaneMarginCm;
     }
 
-    // -1: the wall is at the right, as it is for SearchWall; 1: at the left, if nothing is there.
-    double side_of_wall(Rover& rover) const {
-        const double right = rover.look(-kBesideDeg).distance_cm;
-        return right > 0 && right <= kLostFactor * distance_ ? -1 : 1;
+    void moved_to(const Pose& pose, Time now) {
+        moved_to_ = pose;
+        moved_at_ = now;
     }
 
-    // So that the robot becomes parallel to the wall when it is at the right distance, and goes
-    // there at an angle otherwise.
-    double rate_for(const Wall& wall) const {
-        const double too_far = wall.distance_cm - distance_;
-        const double approach = std::clamp(gain_ * too_far, -kApproachDeg, kApproachDeg);
-        const double parallel =
-            side_ > 0 ? wall.turn_to_have_it_left() : wall.turn_to_have_it_right();
-        const double turn = parallel + side_ * approach;
-        return std::clamp(turn / kSettleSeconds, -kRateMaxDeg, kRateMaxDeg);
+    // False if it has been told to drive for a while and does not get away.
+    bool moves(const Pose& here, Time now) {
+        const double way = trig::hypot(here.x_cm - moved_to_.x_cm, here.y_cm - moved_to_.y_cm);
+        const double turn = normal_angle(here.heading_deg - moved_to_.heading_deg);
+        if (way > kMovedCm || std::abs(turn) > kTurnedDeg) moved_to(here, now);
+        return now - moved_at_ <= kPatience;
     }
 
     const Parts& parts_;
@@ -131,8 +163,9 @@ private:
     double ahead_ = 0;
     double gain_ = 0;
     double speed_ = 0;
-    double length_ = 0;
-    double side_ = 1;
+    double left_ = 0;  // of the way
+    Pose moved_to_;
+    Time moved_at_{0};
 };
 
 }  // namespace

@@ -10,7 +10,10 @@ namespace vagus::toolbox::carbot {
 
 namespace {
 
-constexpr double kReach = 1.5;    // echoes up to so many times the nearest distance are looked at
+// Echoes up to so many times the nearest distance are looked at: in a corner, farther ones come
+// before those of the other wall.
+constexpr double kReach = 1.15;
+constexpr double kNoise = 0.04;   // a wall gets no nearer to the side of its nearest point
 constexpr double kStepMax = 0.3;  // from one echo of a surface to the next, as a part of it
 constexpr double kFitStep = 0.5;  // directions that are tried, in degrees
 
@@ -41,6 +44,11 @@ Fit fit_at(const std::vector<Echo>& echoes, double normal_deg) {
     return {mean, spread};
 }
 
+bool is_in(const Sector& sector, const Echo& echo) {
+    return echo.distance_cm > 0 && echo.distance_cm <= sector.reach_cm &&
+           std::abs(echo.angle_deg) <= sector.to_side_deg;
+}
+
 // The echo at `index` and its neighbours on the same surface.
 std::vector<Echo> surface_around(const std::vector<Echo>& echoes, size_t index) {
     std::vector<Echo> surface = {echoes[index]};
@@ -52,6 +60,7 @@ std::vector<Echo> surface_around(const std::vector<Echo>& echoes, size_t index) 
             const double distance = echoes[i].distance_cm;
             if (distance <= 0 || distance > reach) break;
             if (std::abs(distance - last) > kStepMax * last) break;
+            if (distance < last * (1 - kNoise)) break;  // beyond a corner it is the next wall's
             surface.push_back(echoes[i]);
             last = distance;
         }
@@ -93,10 +102,10 @@ std::optional<Wall> fit_wall(const std::vector<Echo>& all) {
     return Wall{best->distance_cm, normal_angle((first + last) / 2)};
 }
 
-std::optional<Wall> nearest_wall(const std::vector<Echo>& echoes) {
+std::optional<Wall> nearest_wall(const std::vector<Echo>& echoes, const Sector& sector) {
     std::optional<size_t> nearest;
     for (size_t i = 0; i < echoes.size(); ++i) {
-        if (echoes[i].distance_cm <= 0) continue;
+        if (!is_in(sector, echoes[i])) continue;
         if (!nearest || echoes[i].distance_cm < echoes[*nearest].distance_cm) nearest = i;
     }
     return nearest ? fit_wall(surface_around(echoes, *nearest)) : std::nullopt;

@@ -28,9 +28,15 @@ struct Wall {
 // The wall that fits all of these echoes best. Nothing without two echoes that are something.
 std::optional<Wall> fit_wall(const std::vector<Echo>& echoes);
 
-// The wall that the nearest echo belongs to: it and its neighbours, as far as they are one surface.
-// Nothing where there is no echo, or the nearest one stands alone.
-std::optional<Wall> nearest_wall(const std::vector<Echo>& echoes);
+// Where a wall counts.
+struct Sector {
+    double to_side_deg = 180;  // off ahead, to both sides
+    double reach_cm = 300;
+};
+
+// The wall that the nearest echo in the sector belongs to: it and its neighbours, as far as they
+// are one surface. Nothing where there is no echo, or the nearest one stands alone.
+std::optional<Wall> nearest_wall(const std::vector<Echo>& echoes, const Sector& sector = {});
 
 // The same direction, above -180 to 180.
 double normal_angle(double degrees);

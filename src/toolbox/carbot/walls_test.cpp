@@ -69,6 +69,25 @@ TEST(Walls, InACornerTheNearerWallCounts) {
     EXPECT_NEAR(wall->distance_cm, 60, 3);
 }
 
+// The next wall ahead, 30 cm from the sensor, and that at the right, 28 cm from it.
+TEST(Walls, OnlyWallsInTheSectorCount) {
+    std::vector<Echo> echoes;
+    for (double angle = -120; angle <= 120; angle += 10) {
+        const Echo ahead = look_at(30, 0, angle);
+        const Echo right = look_at(28, -90, angle);
+        const bool nearer = ahead.distance_cm > 0 &&
+                            (right.distance_cm == 0 || ahead.distance_cm < right.distance_cm);
+        echoes.push_back(nearer ? ahead : right);
+    }
+    const auto any = nearest_wall(echoes);
+    ASSERT_TRUE(any.has_value());
+    EXPECT_NEAR(any->normal_deg, -90, 2);
+    const auto in_the_way = nearest_wall(echoes, {.to_side_deg = 45});
+    ASSERT_TRUE(in_the_way.has_value());
+    EXPECT_NEAR(in_the_way->normal_deg, 0, 2);
+    EXPECT_FALSE(nearest_wall(echoes, {.reach_cm = 27}).has_value());
+}
+
 TEST(Walls, NoEchoOrALonelyOneIsNoWall) {
     EXPECT_FALSE(nearest_wall({}).has_value());
     EXPECT_FALSE(nearest_wall({{0, 0}, {10, 0}}).has_value());

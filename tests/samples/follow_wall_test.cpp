@@ -1,0 +1,121 @@
+// The paper's plan of following a wall, examples/follow-wall, judged by what the robot did.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "sample_run.hpp"
+
+namespace vagus::samples {
+namespace {
+
+using namespace std::chrono_literals;
+using Seconds = std::chrono::duration<double>;
+
+const std::string kPlan = VAGUS_EXAMPLES "/follow-wall/WallFollow.plan.json";
+constexpr double kWallDistance = 0.3;  // m: `walldist` of the plan
+constexpr double kOffMax = 0.1;        // m, on average
+constexpr double kFollowMetres = 10;
+constexpr auto kContactMax = 2s;
+constexpr Duration kAtMost = 300s;
+constexpr double kStartClear = 0.45;  // m around the hull
+
+// From the first moment of WallForward on, whatever the plan does then.
+class Following {
+public:
+    // False when the robot has followed far enough.
+    bool look(const Moment& now) {
+        begun_ = begun_ || now.actor == "followWall";
+        if (!begun_) return true;
+        if (now.actor == "followWall" && moments_ > 0) {
+            metres_ += std::hypot(now.pose.at.x - last_.x, now.pose.at.y - last_.y);
+        }
+        last_ = now.pose.at;
+        off_ += std::abs(now.gap - kWallDistance);
+        ++moments_;
+        return metres_ < kFollowMetres;
+    }
+
+    double metres() const { return metres_; }
+    double off() const { return moments_ > 0 ? off_ / static_cast<double>(moments_) : 0; }
+
+private:
+    bool begun_ = false;
+    sim::Point last_;
+    double metres_ = 0;  // driven in WallForward
+    double off_ = 0;     // sum over all moments
+    size_t moments_ = 0;
+};
+
+struct Judged {
+    bool well = false;
+    double off = 0;
+    std::string what;  // for people
+};
+
+Judged judge(const std::string& world, uint64_t seed) {
+    SplitMix64 random(seed);
+    const auto at = free_pose(world, kStartClear, random);
+    if (!at.ok()) return {.what = at.error().what};
+    Following following;
+    const auto ran = run_sample(
+        {.plan = kPlan, .world = world, .seed = seed, .at = at.value(), .at_most = kAtMost},
+        [&following](const Moment& now) { return following.look(now); });
+    if (!ran.ok()) return {.what = ran.error().what};
+    Duration longest{};
+    for (const Contact& contact : ran.value().contacts) longest = std::max(longest, contact.length);
+    Judged judged;
+    judged.off = following.off();
+    judged.well =
+        following.metres() >= kFollowMetres && judged.off <= kOffMax && longest <= kContactMax;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "seed %llu: %.1f m followed, %.1f cm off on average, longest contact %.1f s %s",
+                  static_cast<unsigned long long>(seed), following.metres(), 100 * judged.off,
+                  Seconds(longest).count(), ran.value().ended.message.c_str());
+    judged.what = text;
+    return judged;
+}
+
+struct Room {
+    std::string name;  // worlds/NAME.world.json
+    uint64_t starts;
+    uint64_t least;  // so many must be well
+};
+
+void PrintTo(const Room& room, std::ostream* out) {
+    *out << room.name;
+}
+
+class FollowWall : public testing::TestWithParam<Room> {};
+
+// From any free place, looking anywhere; start and noise are those of the seed.
+TEST_P(FollowWall, FromRandomStarts) {
+    const Room& room = GetParam();
+    const std::string world = VAGUS_SAMPLE_WORLDS "/" + room.name + ".world.json";
+    uint64_t well = 0;
+    double off = 0;
+    for (uint64_t seed = 1; seed <= room.starts; ++seed) {
+        const Judged judged = judge(world, seed);
+        well += judged.well ? 1 : 0;
+        off += judged.off / static_cast<double>(room.starts);
+        if (!judged.well) std::printf("%s\n", judged.what.c_str());
+    }
+    std::printf(
+        "figure: a wall followed for 10 m in the %s room from %llu of %llu starts (seeds 1 to "
+        "%llu), %.1f cm off the distance on average\n",
+        room.name.c_str(), static_cast<unsigned long long>(well),
+        static_cast<unsigned long long>(room.starts), static_cast<unsigned long long>(room.starts),
+        100 * off);
+    EXPECT_GE(well, room.least);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, FollowWall,
+                         testing::Values(Room{"rectangular", 100, 99}, Room{"corners", 100, 99},
+                                         Room{"slanted", 100, 99}, Room{"unknown", 20, 19}),
+                         [](const auto& of) { return of.param.name; });
+
+}  // namespace
+}  // namespace vagus::samples

@@ -66,8 +66,10 @@ void takes_file(CLI::Option& option, std::vector<std::string> endings) {
 
 void add_toolbox_option(CLI::App& verb, std::vector<std::string>& files) {
     takes_file(
-        *verb.add_option("--toolbox", files,
-                         "more templates: a toolbox file or a shared library; again for more"),
+        *verb
+             .add_option("--toolbox", files,
+                         "more templates: a toolbox file or a shared library; again for more")
+             ->allow_extra_args(false),
         {".toolbox.json", ".so"});
 }
 

@@ -59,7 +59,8 @@ void add_run_options(CLI::App& verb, PlanRunOptions& options) {
     add_plan_file(verb, options.file);
     add_toolbox_option(verb, options.toolboxes);
     embed::RunWords& words = options.words;
-    verb.add_option("--set", words.set, "NAME=VALUE: a variable's value at the start");
+    verb.add_option("--set", words.set, "NAME=VALUE: a variable's value at the start")
+        ->allow_extra_args(false);
     takes_one_of(*verb.add_option("--clock", words.clock, "real or virtual time (real)"),
                  {"real", "virtual"});
     verb.add_option("--seed", words.seed,

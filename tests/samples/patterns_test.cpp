@@ -95,5 +95,12 @@ TEST(Patterns, TheSamePlanDrivesAFigureOfEightWithAThymio) {
     drive_eight(example("patterns/thymio.world.json"), 0.4, kThymio);
 }
 
+// A world and sizes for which the plans were not made; a longer way adds up more.
+TEST(Patterns, BothPlansRunElsewhereWithOtherSizes) {
+    constexpr Bounds kLonger{.corner_cm = 8, .end_cm = 8, .end_deg = 4};
+    drive_square(test_world("yard.world.json"), 1.7, kLonger);
+    drive_eight(test_world("yard.world.json"), 0.75, kLonger);
+}
+
 }  // namespace
 }  // namespace vagus::samples

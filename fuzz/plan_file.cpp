@@ -17,8 +17,12 @@ namespace {
 class OneText final : public plan::Files {
 public:
     explicit OneText(std::string_view text) : text_(text) {}
-    // Every sub-plan is the plan itself: plans may form circles.
-    Result<std::string> read(const std::string&) const override { return std::string(text_); }
+    // Every sub-plan in the same folder is the plan itself: plans may form circles. In others are
+    // none, or each would name one in a folder further inside.
+    Result<std::string> read(const std::string& path) const override {
+        if (path.find('/') == std::string::npos) return std::string(text_);
+        return Error{Code::NotFound, path + " does not exist"};
+    }
 
 private:
     std::string_view text_;

@@ -15,6 +15,7 @@ using namespace std::chrono_literals;
 using Seconds = std::chrono::duration<double>;
 
 const std::string kPlan = VAGUS_EXAMPLES "/follow-wall/WallFollow.plan.json";
+const std::string kHall = VAGUS_EXAMPLES "/follow-wall/hall.world.json";
 constexpr double kWallDistance = 0.3;  // m: `walldist` of the plan
 constexpr double kOffMax = 0.1;        // m, on average
 constexpr double kFollowMetres = 10;
@@ -116,6 +117,49 @@ INSTANTIATE_TEST_SUITE_P(Rooms, FollowWall,
                          testing::Values(Room{"rectangular", 100, 99}, Room{"corners", 100, 99},
                                          Room{"slanted", 100, 99}, Room{"unknown", 20, 19}),
                          [](const auto& of) { return of.param.name; });
+
+// The hall of the example, as a user sees it, with other noise for each seed. After 52 s a box stands
+// before the robot: it goes around it. From 80 s to 92 s a plank lies there that its sensor cannot
+// see: it bumps, and backs off. After 120 s the button is pressed.
+TEST(FollowWallInTheHall, WhatIsPutInItsWayIsPassedAndTheButtonEndsIt) {
+    constexpr Time kPlankGone = 92s;
+    for (uint64_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(seed);
+        Following following;
+        double after = 0;
+        sim::Point last;
+        const auto look = [&](const Moment& now) {
+            (void)following.look(now);
+            if (now.at > kPlankGone) {
+                after += std::hypot(now.pose.at.x - last.x, now.pose.at.y - last.y);
+            }
+            last = now.pose.at;
+            return true;
+        };
+        const auto tried =
+            run_sample({.plan = kPlan, .world = kHall, .seed = seed, .at_most = kAtMost}, look);
+        ASSERT_TRUE(tried.ok()) << tried.error().what;
+        const Ran& ran = tried.value();
+        EXPECT_EQ(ran.ended.result, plan::PlanResult::Interrupted);
+        EXPECT_FALSE(ran.ended.timed_out);
+        EXPECT_THAT(ran.states, testing::Contains("followWall! TouchSensorPressed"));
+        EXPECT_THAT(ran.states.back(), testing::EndsWith("! EscapeButtonPressed"));
+        EXPECT_GE(ran.way.back().at, Time(120s));
+        EXPECT_LE(ran.way.back().at, Time(120s) + 500ms);  // the wheels come to rest
+        EXPECT_LE(following.off(), kOffMax);
+        EXPECT_GE(after, 3);
+        for (const Contact& contact : ran.contacts) EXPECT_LE(contact.length, kContactMax);
+    }
+}
+
+TEST(FollowWallInTheHall, TheSameRunTwiceGivesTheSameBytes) {
+    const Start start{.plan = kPlan, .world = kHall, .seed = 3, .at_most = kAtMost, .traced = true};
+    const auto one = run_sample(start);
+    const auto other = run_sample(start);
+    ASSERT_TRUE(one.ok() && other.ok());
+    EXPECT_GT(one.value().trace.size(), 100'000u);
+    EXPECT_TRUE(one.value().trace == other.value().trace);
+}
 
 }  // namespace
 }  // namespace vagus::samples

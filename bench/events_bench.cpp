@@ -1,5 +1,6 @@
-// Obstacle avoidance by polling, by events, and by a reflex: what each puts on Carbot's bus, and
-// how long after a touch the wheels are told to stop. docs/events-and-polling.md explains the table.
+// Obstacle avoidance by polling, by events, and by a reflex: what each puts on the bus of a Carbot,
+// and how long after a touch the wheels are told to stop. docs/events-and-polling.md explains the
+// table.
 //
 //     build/release/bin/bench_events      the table, in simulated time: the same on every machine
 #include <fmt/format.h>

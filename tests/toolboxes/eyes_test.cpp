@@ -170,6 +170,17 @@ TEST_F(Eyes, FollowObjectDrivesToALowObject) {
     EXPECT_NEAR(gap(ran, 6, 3), 0.60, 0.1);
 }
 
+// Too wide to be seen whole and too low to be heard: the last 12 cm by what has been driven. Its face
+// is at 5.95 m, so the front stops at 5.65 and the middle of the robot at 5.45.
+TEST_F(Eyes, FollowObjectDrivesToALowWideObject) {
+    const Ran ran =
+        run({.actor = kFollow, .objects = R"({ "kind": "wall", "at": [6, 3], "size": [0.1, 1.2],
+                                         "height": 0.08, "colour": [0.9, 0.1, 0.1] })"});
+    EXPECT_THAT(ran.states, ElementsAre("a: ObjectReached"));
+    EXPECT_NEAR(end_of(ran).at.x, 5.45, 0.08);
+    EXPECT_TRUE(ran.contacts.empty());
+}
+
 // The post goes on by 10 cm twice a second: 20 cm/s, as fast as the robot may drive, from 1.5 to
 // 3.4 m ahead and to the left. When it stands, the robot catches up with it.
 TEST_F(Eyes, FollowObjectFollowsWhatMoves) {

@@ -73,7 +73,8 @@ std::vector<Lamp> Carbot::lamps() const {
 }
 
 std::vector<Look> Carbot::looks(const Arena& arena) const {
-    return {range_.look(arena.pose(body_))};
+    const std::optional<Look> look = range_.look(arena.pose(body_));
+    return look ? std::vector<Look>{*look} : std::vector<Look>{};
 }
 
 }  // namespace vagus::sim::carbot

@@ -167,11 +167,12 @@ TEST_F(Sounding, AnAngleThatItHasIsReachedAtOnce) {
 // The wall stands 1.0 m to the left of the rotator.
 TEST_F(Sounding, LooksWhereTheRotatorPoints) {
     add({.kind = ObjectKind::Wall, .at = {5, 6.05}, .width = 4, .length = 0.1, .height = 0.3});
+    EXPECT_FALSE(sonar_.look({{5, 5}, 0}));
     sonar_.turn(900);
     until([this] { return sonar_.take_reached(); });
     EXPECT_NEAR(mean_distance(), 1000, 2.5);
     EXPECT_EQ(sonar_.heard_angle(), 900);
-    const Look look = sonar_.look({{5, 5}, 0});
+    const Look look = *sonar_.look({{5, 5}, 0});
     EXPECT_NEAR(look.to.x, 5.18, 1e-9);
     EXPECT_NEAR(look.to.y, 6, 0.04);
     EXPECT_TRUE(look.hit);

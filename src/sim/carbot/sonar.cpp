@@ -90,6 +90,7 @@ void Sonar::step(const Arena& arena, BodyId body, Time now) {
     }
     if (ping_ == Ping::UnderWay && now >= due_) {
         heard_ = next_;
+        has_heard_ = true;
         echo_ = true;
         ping_ = Ping::None;
     }
@@ -111,12 +112,14 @@ bool Sonar::take_echo() {
     return std::exchange(echo_, false);
 }
 
-Look Sonar::look(const Pose& robot) const {
+std::optional<Look> Sonar::look(const Pose& robot) const {
+    if (!has_heard_) return std::nullopt;
     const Pose eye = eye_of(robot, heard_.angle);
     const double length = heard_.distance == 0 ? kSonarRange : heard_.distance / kMetre;
-    return {eye.at,
-            {eye.at.x + length * trig::cos(eye.angle), eye.at.y + length * trig::sin(eye.angle)},
-            heard_.distance != 0};
+    return Look{
+        eye.at,
+        {eye.at.x + length * trig::cos(eye.angle), eye.at.y + length * trig::sin(eye.angle)},
+        heard_.distance != 0};
 }
 
 }  // namespace vagus::sim::carbot

@@ -12,6 +12,8 @@
 // than the sensor are below its beam. The answer takes as long as the sound to there and back.
 #pragma once
 
+#include <optional>
+
 #include "base/time.hpp"
 #include "sim/arena.hpp"
 #include "sim/drawing.hpp"
@@ -48,7 +50,7 @@ public:
     bool take_reached();
     bool take_echo();
     // Where the last measurement went, for drawings; nothing before the first.
-    Look look(const Pose& robot) const;
+    std::optional<Look> look(const Pose& robot) const;
 
 private:
     struct Heard {
@@ -69,6 +71,7 @@ private:
     Time due_{};
     bool echo_ = false;
     Heard heard_;
+    bool has_heard_ = false;
 };
 
 }  // namespace vagus::sim::carbot

@@ -18,6 +18,7 @@ using plan::Type;
 using plan::Value;
 
 constexpr Duration kLookEvery = std::chrono::milliseconds(100);
+constexpr double kLookSeconds = 0.1;
 constexpr double kFrontCm = 20 - kCameraAheadCm;  // the hull's front before the camera
 constexpr double kSonarCm = 2;                    // the hull's front before the distance sensor
 constexpr double kNearCm = 60;      // what the distance sensor hears beyond is something else
@@ -97,7 +98,8 @@ private:
                 angle_ = seen->angle_deg;
                 distance_ = measure(rover, *seen);
                 if (distance_ <= near_) return kObjectReached;
-                rover.steer({speed_for(), rate_for()});
+                speed_cm_ = speed_for();
+                rover.steer({speed_cm_, rate_for()});
             } else {
                 if (context.now() - seen_at >= patience_) return kObjectLost;
                 rover.steer({0, angle_ < 0 ? -kSearchDeg : kSearchDeg});
@@ -119,7 +121,8 @@ private:
         // Too low to be heard: by how wide it has become.
         if (seen.whole && half_width_ > 0 && half > 0)
             return std::max(half_width_ / half - kFrontCm, 0.0);
-        return distance_;
+        // Nothing tells: as near as it was, less what has been driven since.
+        return std::max(distance_ - speed_cm_ * kLookSeconds, 0.0);
     }
 
     double speed_for() const {
@@ -137,6 +140,7 @@ private:
     double angle_ = 0;
     double distance_ = 0;
     double half_width_ = 0;  // cm, 0: not known
+    double speed_cm_ = 0;    // as told last
 };
 
 }  // namespace

@@ -37,8 +37,8 @@ inline plan::Input step_input() {
 inline double input_of(const run::ActorContext& context, const plan::Template& of, size_t index) {
     const plan::Input& input = of.inputs[index];
     const plan::Value& value = context.in(index);
-    const double number = input.type == plan::Type::Int ? static_cast<double>(value.integer())
-                                                        : value.number();
+    const double number =
+        input.type == plan::Type::Int ? static_cast<double>(value.integer()) : value.number();
     const double low = input.low.value_or(number);
     const double high = input.high.value_or(number);
     if (number >= low && number <= high) return number;

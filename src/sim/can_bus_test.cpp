@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+#include <map>
+
+#include "base/rng.hpp"
 #include "wire/protocol.hpp"
 
 using namespace vagus;
@@ -197,6 +201,46 @@ TEST(CanBus, ASaturatedBusServesTheLowestIdentifierAndStarvesTheRest) {
     EXPECT_GT(bus.load(two).dropped, 0u);
     // 256 in the queue and the one under way.
     EXPECT_LE(bus.load(one).latency_worst, (kCanQueueMax + 1) * 126us);
+}
+
+// Five ports send frames of random sizes at random times: nothing is lost, each port's frames come
+// in their order, and no two are on the bus at once.
+TEST(CanBus, RandomTrafficIsCarriedWholeAndOneAfterTheOther) {
+    constexpr uint64_t kSeed = 20240611;
+    SCOPED_TRACE(kSeed);
+    SplitMix64 random(kSeed);
+    CanBus bus;
+    std::vector<CanPort> ports;
+    for (int i = 0; i < 5; ++i) ports.push_back(bus.join(std::to_string(i)));
+    std::map<uint32_t, std::deque<uint16_t>> on_their_way;  // by port: the types of its frames
+    Time last{};
+    for (Time t{}; t < 3s; t += 1ms) {
+        for (uint64_t i = random.below(6); i > 0; --i) {
+            const auto port = static_cast<uint32_t>(random.below(ports.size()));
+            wire::Frame frame =
+                zeros(static_cast<uint16_t>(port + 1), static_cast<uint16_t>(random.below(30)));
+            frame.type = static_cast<uint16_t>(random.next());
+            if (bus.send(ports[port], frame, t) == CanSent::Queued)
+                on_their_way[port].push_back(frame.type);
+        }
+        bus.advance(t + 1ms);
+        while (const auto got = bus.take()) {
+            std::deque<uint16_t>& expected = on_their_way[got->from.index];
+            ASSERT_FALSE(expected.empty());
+            ASSERT_EQ(got->frame.type, expected.front());
+            expected.pop_front();
+            // The last part has one byte at least: 44 + 8 bits.
+            ASSERT_GE(got->received, last + (44us + 8us) + kCanIntermissionBits * 1us);
+            last = got->received;
+        }
+    }
+    bus.advance(60s);
+    uint64_t left = 0;
+    while (bus.take()) ++left;
+    uint64_t expected = 0;
+    for (const auto& [port, types] : on_their_way) expected += types.size();
+    EXPECT_EQ(left, expected);
+    EXPECT_EQ(bus.load().waiting, 0u);
 }
 
 // ---- counting ----

@@ -170,8 +170,8 @@ TEST_F(Eyes, FollowObjectDrivesToALowObject) {
     EXPECT_NEAR(gap(ran, 6, 3), 0.60, 0.1);
 }
 
-// Too wide to be seen whole and too low to be heard: the last 12 cm by what has been driven. Its face
-// is at 5.95 m, so the front stops at 5.65 and the middle of the robot at 5.45.
+// Too wide to be seen whole and too low to be heard: the last 12 cm by what has been driven. Its
+// face is at 5.95 m, so the front stops at 5.65 and the middle of the robot at 5.45.
 TEST_F(Eyes, FollowObjectDrivesToALowWideObject) {
     const Ran ran =
         run({.actor = kFollow, .objects = R"({ "kind": "wall", "at": [6, 3], "size": [0.1, 1.2],

@@ -13,6 +13,7 @@
 #include "cli/plan_debug.hpp"
 #include "cli/plan_generate.hpp"
 #include "cli/plan_run.hpp"
+#include "cli/plan_show.hpp"
 #include "cli/verbs.hpp"
 #include "plan/check.hpp"
 #include "plan/file.hpp"
@@ -49,6 +50,14 @@ int check(const CheckOptions& options) {
 int run_plan(const PlanRunOptions& options) {
     const std::unique_ptr<PlanRun> run = PlanRun::prepare(options);
     if (!run) return kExitUsage;
+    switch (how_to_show(options)) {
+        case PlanShown::Screen:
+            return run_on_screen(*run);
+        case PlanShown::Lines:
+            return run_in_lines(*run);
+        case PlanShown::Nowhere:
+            break;
+    }
     const run::Ended ended = run->run();
     if (!ended.message.empty()) complain(ended.message);
     return run::exit_status(ended);
@@ -101,10 +110,14 @@ void add_run(CLI::App& plan, int& exit_code) {
     CLI::App* verb = plan.add_subcommand("run", "runs a plan");
     verb->footer(
         "Exit codes: 0 the plan ended well, 3 it was interrupted, 4 it failed, 5 --max-time came, "
-        "2 it is not valid.\n\nExample:\n  vagus plan run Square.plan.json --clock virtual "
-        "--trace - --set side=40");
+        "2 it is not valid.\n\nBeside a world, on a terminal, it shows the plan and the world; the "
+        "keys stand at the bottom. Without\na terminal, or with --clock virtual, it prints plain "
+        "lines of what happens.\n\nExample:\n  vagus plan run Square.plan.json --clock virtual "
+        "--trace - --set side=40\n  vagus plan run Square.plan.json --world thymio.world.json");
     auto options = std::make_shared<PlanRunOptions>();  // owners: CLI11's options, the callback
     add_run_options(*verb, *options);
+    verb->add_flag("--headless", options->headless,
+                   "beside a world: plain lines also on a terminal");
     verb->callback([options, &exit_code] { exit_code = run_plan(*options); });
 }
 

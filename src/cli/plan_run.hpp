@@ -32,6 +32,7 @@ struct PlanRunOptions {
     std::string file;
     std::vector<std::string> toolboxes;
     embed::RunWords words;
+    bool headless = false;  // plain lines also on a terminal
 };
 
 void add_plan_file(CLI::App& verb, std::string& file);
@@ -44,6 +45,7 @@ public:
     ~PlanRun();
 
     const plan::Graph& graph() const { return graph_; }
+    const plan::Plan& plan() const { return checked_.plans.front(); }  // the outermost
     embed::PreparedRun& prepared() { return *prepared_; }
     // Can be called again: each is a run of its own. One that cannot begin has complained, and is
     // over with an error.

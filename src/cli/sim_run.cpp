@@ -322,6 +322,7 @@ void SimRun::act(Key key) {
         case Key::LastRobot:
             selected_ = nodes > 0 ? (selected_ + nodes - 1) % nodes : 0;
             break;
+        case Key::Escape:
         case Key::Centre:
             press(has_button("escape") ? "escape" : "center");
             break;

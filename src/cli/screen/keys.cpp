@@ -24,6 +24,8 @@ std::optional<Key> plain_key(char byte) {
             return Key::Centre;
         case 't':
             return Key::Tap;
+        case 'e':
+            return Key::Escape;
         case 'q':
         case 'Q':
         case '\x03':

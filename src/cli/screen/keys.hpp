@@ -21,6 +21,7 @@ enum class Key {
     Left,
     Right,
     Tap,
+    Escape,  // the robot's button of that name
     Quit,
     Redraw
 };

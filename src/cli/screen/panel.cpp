@@ -5,79 +5,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "cli/screen/page.hpp"
+
 namespace vagus::cli {
 namespace {
 
-constexpr Rgb kHead{120, 170, 255};
-constexpr Rgb kDim{140, 140, 150};
-constexpr Rgb kGood{110, 200, 120};
-constexpr Rgb kBad{255, 100, 90};
-constexpr Rgb kFresh{255, 210, 90};
-constexpr Rgb kBar{90, 190, 200};
 constexpr Duration kFlash = std::chrono::milliseconds(300);  // an event is shown bright for so long
 constexpr int kSpare = 2;  // rows that a list leaves for the next one at least
-
-// Writes lines from the top until the area is full.
-class Page {
-public:
-    Page(Grid& grid, Area area) : grid_(grid), area_(area) {}
-
-    bool full() const { return row_ >= area_.rows; }
-    int rows_left() const { return area_.rows - row_; }
-    int columns() const { return area_.columns; }
-    // Appends to the current line.
-    void add(std::string_view words, const Ink& ink) {
-        if (full()) return;
-        column_ = grid_.text(area_.column + column_, area_.row + row_, area_.column + area_.columns,
-                             words, ink) -
-                  area_.column;
-    }
-    void add_right(std::string_view words, const Ink& ink) {
-        const int start = area_.columns - text_width(words);
-        if (start <= column_) return;
-        column_ = start;
-        add(words, ink);
-    }
-    void jump(int column) { column_ = std::max(column_, std::min(column, area_.columns)); }
-    int column() const { return column_; }
-    void next() {
-        row_++;
-        column_ = 0;
-    }
-
-private:
-    Grid& grid_;
-    Area area_;
-    int row_ = 0;
-    int column_ = 0;
-};
-
-std::string fixed(double value, int decimals) {
-    const auto scale = static_cast<int64_t>(std::pow(10, decimals));
-    const int64_t whole = std::llround(std::abs(value) * static_cast<double>(scale));
-    std::string digits = std::to_string(whole % scale);
-    digits.insert(0, static_cast<size_t>(decimals) - digits.size(), '0');
-    const bool minus = value < 0 && whole != 0;
-    return (minus ? "-" : "") + std::to_string(whole / scale) + "." + digits;
-}
 
 std::string words_of(const std::vector<int16_t>& values) {
     std::string text;
     for (const int16_t value : values) text += (text.empty() ? "" : " ") + std::to_string(value);
     return text;
-}
-
-std::string shortened(const std::string& text, int columns, Charset charset) {
-    if (text_width(text) <= columns || columns < 2) return text;
-    // Words here are figures and spaces, or names: cut at a character, never inside one.
-    size_t end = 0;
-    int width = 0;
-    while (end < text.size() && width < columns - 1) {
-        do end++;
-        while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u);
-        width = text_width(std::string_view(text).substr(0, end));
-    }
-    return text.substr(0, end) + (charset == Charset::Ascii ? "~" : "…");
 }
 
 // A bar of one cell, eight heights.
@@ -90,16 +29,6 @@ std::string_view bar(int value, int full, Charset charset) {
     const auto index = static_cast<size_t>(std::ceil(part * 8));
     if (charset == Charset::Ascii) return kLetters.at(index);
     return index == 0 ? "▁" : kBlocks.at(index);
-}
-
-void heading(Page& page, std::string_view words, Charset charset) {
-    if (page.rows_left() < 2) return;
-    const std::string rule = charset == Charset::Ascii ? "-" : "─";
-    page.add(rule + rule + " ", {kDim, {}, false});
-    page.add(words, {kHead, {}, true});
-    page.add(" ", {});
-    while (page.column() < page.columns()) page.add(rule, {kDim, {}, false});
-    page.next();
 }
 
 void add_robot(Page& page, const View& view, Charset charset) {

@@ -6,6 +6,7 @@
 
 #include "cli/screen/arena.hpp"
 #include "cli/screen/panel.hpp"
+#include "cli/screen/plan_panel.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -28,7 +29,7 @@ struct KeyHelp {
 };
 Grid too_small(Size size) {
     Grid grid(size);
-    const std::string words = "vagus sim needs " + std::to_string(kSizeMin.columns) + " x " +
+    const std::string words = "this view needs " + std::to_string(kSizeMin.columns) + " x " +
                               std::to_string(kSizeMin.rows) + " characters; this terminal has " +
                               std::to_string(size.columns) + " x " + std::to_string(size.rows) +
                               ". q quits.";
@@ -71,15 +72,18 @@ void draw_state(Grid& grid, int row, const View& view) {
 void draw_keys(Grid& grid, int row, const View& view) {
     const Size size = grid.size();
     int column = 1;
-    const KeyHelp keys[] = {{"space", view.paused ? "go on" : "pause"},
-                            {"q", "quit"},
-                            {"r", "reset"},
-                            {"+ -", "speed"},
-                            {"tab", view.tab_goes_to},
-                            {"t", "tap"},
-                            {"b", view.button_does},
-                            {"arrows", view.arrows_do}};
-    for (const auto& [key, does] : keys) {
+    const std::string pause = view.paused ? "go on" : "pause";
+    const std::vector<KeyHelp> of_plan = {
+        {"space", pause}, {"q", "quit"}, {"e", view.button_does}, {"+ -", "speed"}};
+    const std::vector<KeyHelp> of_world = {{"space", pause},
+                                           {"q", "quit"},
+                                           {"r", "reset"},
+                                           {"+ -", "speed"},
+                                           {"tab", view.tab_goes_to},
+                                           {"t", "tap"},
+                                           {"b", view.button_does},
+                                           {"arrows", view.arrows_do}};
+    for (const auto& [key, does] : view.plan ? of_plan : of_world) {
         const int width = text_width(key) + 1 + text_width(does);
         if (column + width > size.columns) return;
         column = grid.text(column, row, size.columns, key, {kKey, {}, true});
@@ -168,7 +172,11 @@ Grid draw(const View& view, Size size, const Look& look) {
     const Layout parts = layout(view, page);
     draw_state(grid, 0, view);
     draw_arena(grid, parts.arena, view, look);
-    draw_panel(grid, parts.panel, view, look);
+    if (view.plan) {
+        draw_plan_panel(grid, parts.panel, *view.plan, look);
+    } else {
+        draw_panel(grid, parts.panel, view, look);
+    }
     if (!parts.problems.empty())
         draw_problems(grid, 1 + parts.arena.rows, view.problems_title, parts.problems);
     draw_keys(grid, page.rows - 1, view);

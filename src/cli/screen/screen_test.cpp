@@ -86,7 +86,7 @@ TEST(Screen, BelowTheSmallestSizeItSaysWhatItNeeds) {
     EXPECT_THAT(text_of(draw(view, kSizeMin, kPlain)), HasSubstr("thymio-II"));
     for (const Size size : {Size{59, 16}, Size{60, 15}}) {
         const std::string page = text_of(draw(view, size, kPlain));
-        EXPECT_THAT(page, HasSubstr("vagus sim needs 60 x 16"));
+        EXPECT_THAT(page, HasSubstr("this view needs 60 x 16"));
         EXPECT_THAT(page, testing::Not(HasSubstr("thymio-II")));
     }
 }

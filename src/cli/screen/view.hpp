@@ -103,6 +103,53 @@ struct PanelView {
     std::vector<EventView> events;  // the latest first
 };
 
+// ---- a plan beside the world ----
+
+// A line of the list of actors: those of the outermost plan, and under one whose sub-plan runs the
+// actors that are active inside.
+struct ActorView {
+    std::string name;
+    int depth = 0;
+    bool active = false;
+    Duration for_so_long{};  // active
+};
+
+struct WatchView {
+    std::string name;
+    std::string events;
+    bool global = false;
+};
+
+struct PlanVariableView {
+    std::string name;
+    std::string value;
+    std::string unit;
+    bool fresh = false;  // changed a moment ago
+};
+
+struct HappeningView {
+    Time at{};
+    std::string text;
+    bool fresh = false;
+};
+
+struct NodeLoadView {
+    std::string name;
+    double share = 0;  // of the bus in the last second, 0 to 1
+};
+
+struct PlanPanelView {
+    std::string name;
+    std::string state;  // "running", "OK" …
+    bool wrong = false;
+    std::vector<ActorView> actors;
+    std::vector<WatchView> watching;
+    std::vector<PlanVariableView> variables;
+    std::vector<HappeningView> happenings;  // the latest first
+    std::vector<NodeLoadView> loads;        // empty: the bus has no model
+    double load = 0;                        // of all
+};
+
 struct View {
     std::string title;
     double width = 1;
@@ -113,6 +160,7 @@ struct View {
     std::vector<RobotView> robots;
     size_t selected = 0;  // the robot that the panel is about
     PanelView panel;
+    std::optional<PlanPanelView> plan;  // then it has the place of the panel
     Time now{};
     std::string speed;  // "x1", "x0.5", "max"
     bool paused = false;

@@ -36,12 +36,12 @@ class Missing(Exception):
 class Program:
     """A running program whose output is read line by line. Use it in a with statement."""
 
-    def __init__(self, *arguments, env=None, cwd=None):
+    def __init__(self, *arguments, env=None, cwd=None, typing=False):
         self.arguments = [str(argument) for argument in arguments]
         self.lines = []
         self._queue = queue.Queue()
         self.process = subprocess.Popen(self.arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                        errors="replace", stdin=subprocess.DEVNULL, cwd=cwd,
+                                        errors="replace", stdin=subprocess.PIPE if typing else subprocess.DEVNULL, cwd=cwd,
                                         env={**os.environ, **(env or {})})
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
@@ -56,12 +56,27 @@ class Program:
 
     def __exit__(self, *_):
         self.stop()
+        if self.process.stdin:
+            self.process.stdin.close()
         self._reader.join(timeout=5)  # whatever it started may hold its output open for longer
         if not self._reader.is_alive():
             self.process.stdout.close()
 
     def signal(self, number):
         self.process.send_signal(number)
+
+    def type(self, line):
+        self.process.stdin.write(line + "\n")
+        self.process.stdin.flush()
+
+    def drain(self):
+        """What it has printed by now counts as read."""
+        while not self._queue.empty():
+            line = self._queue.get()
+            if line is None:
+                self._queue.put(None)
+                return
+            self.lines.append(line)
 
     def wait_line(self, pattern):
         """The match of the next line in which the pattern is found."""
@@ -107,8 +122,8 @@ def listening(program):
     return int(program.wait_line(r"^listening tcp:127\.0\.0\.1:(\d+)$").group(1))
 
 
-def vagus(*arguments):
-    return Program(VAGUS, *arguments)
+def vagus(*arguments, **options):
+    return Program(VAGUS, *arguments, **options)
 
 
 def run_vagus(*arguments, status=0):

@@ -98,7 +98,7 @@ int format(const FormatOptions& options) {
 
 void add_check(CLI::App& plan, int& exit_code) {
     CLI::App* verb = plan.add_subcommand("check", "finds what is wrong with a plan");
-    verb->footer("Example:\n  vagus plan check examples/wall/WallFollow.plan.json");
+    verb->footer("Example:\n  vagus plan check examples/follow-wall/WallFollow.plan.json");
     auto options = std::make_shared<CheckOptions>();  // owners: CLI11's option and the callback
     add_plan_file(*verb, options->file);
     add_toolbox_option(*verb, options->toolboxes);

@@ -118,9 +118,9 @@ INSTANTIATE_TEST_SUITE_P(Rooms, FollowWall,
                                          Room{"slanted", 100, 99}, Room{"unknown", 20, 19}),
                          [](const auto& of) { return of.param.name; });
 
-// The hall of the example, as a user sees it, with other noise for each seed. After 52 s a box stands
-// before the robot: it goes around it. From 80 s to 92 s a plank lies there that its sensor cannot
-// see: it bumps, and backs off. After 120 s the button is pressed.
+// The hall of the example, as a user sees it, with other noise for each seed. After 52 s a box
+// stands before the robot: it goes around it. From 80 s to 92 s a plank lies there that its sensor
+// cannot see: it bumps, and backs off. After 120 s the button is pressed.
 TEST(FollowWallInTheHall, WhatIsPutInItsWayIsPassedAndTheButtonEndsIt) {
     constexpr Time kPlankGone = 92s;
     for (uint64_t seed = 1; seed <= 20; ++seed) {

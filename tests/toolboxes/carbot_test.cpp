@@ -202,6 +202,17 @@ TEST_F(CarbotTemplates, WallForwardEndsBeforeWhatIsInTheLane) {
     EXPECT_THAT(ran.states, ElementsAre("a: LaneNotFree"));
 }
 
+// A plank lies before it, too low for its sensor: the touch ends its driving without a word from the
+// plan, and it does not wait for ever.
+TEST_F(CarbotTemplates, WallForwardNoticesThatItDoesNotMove) {
+    const Ran ran = run(std::string(kAlongWall),
+                        R"({ "kind": "wall", "at": [4.5, 2.47], "size": [3, 0.1], "height": 0.5 },
+                           { "kind": "box", "at": [5, 3], "size": [0.1, 0.6], "height": 0.05 })");
+    EXPECT_THAT(ran.states, ElementsAre("a: LaneNotFree"));
+    ASSERT_EQ(ran.contacts.size(), 1u);
+    EXPECT_NEAR(end_of(ran).at.x, 4.75, 0.03);
+}
+
 // The room's own walls are 3 m away: it looks for one at the right, around an end that may be
 // there.
 TEST_F(CarbotTemplates, WallForwardSaysWhenThereIsNoWall) {

@@ -27,8 +27,8 @@ TEST(WallMap, TellsTheNearestOfEachSideAndWhatIsAheadAsRight) {
     EXPECT_NEAR(map.distances_from({}).right_cm, 30.41, 0.01);
 }
 
-// The looks at -105 and at 30 degrees bound what is in sight. Nothing is heard now: what is ahead is
-// not there any more, what is behind the sensor's sight stays.
+// The looks at -105 and at 30 degrees bound what is in sight. Nothing is heard now: what is ahead
+// is not there any more, what is behind the sensor's sight stays.
 TEST(WallMap, WhatIsInSightIsSeenAnewAndTheRestRemembered) {
     WallMap map(200);
     map.assume({60, -20});

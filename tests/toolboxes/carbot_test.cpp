@@ -202,8 +202,8 @@ TEST_F(CarbotTemplates, WallForwardEndsBeforeWhatIsInTheLane) {
     EXPECT_THAT(ran.states, ElementsAre("a: LaneNotFree"));
 }
 
-// A plank lies before it, too low for its sensor: the touch ends its driving without a word from the
-// plan, and it does not wait for ever.
+// A plank lies before it, too low for its sensor: the touch ends its driving without a word from
+// the plan, and it does not wait for ever.
 TEST_F(CarbotTemplates, WallForwardNoticesThatItDoesNotMove) {
     const Ran ran = run(std::string(kAlongWall),
                         R"({ "kind": "wall", "at": [4.5, 2.47], "size": [3, 0.1], "height": 0.5 },

@@ -195,6 +195,20 @@ TEST_F(CarbotTemplates, WallForwardGoesAroundTheEndOfTheWall) {
     for (const Moment& moment : ran.way) EXPECT_NEAR(moment.gap, 0.3, 0.12) << moment.at.count();
 }
 
+// The same with the wall at the left; any other side is a mistake.
+TEST_F(CarbotTemplates, WallForwardFollowsAWallAtTheLeftToo) {
+    const std::string wall =
+        R"({ "kind": "wall", "at": [4.2, 3.55], "size": [1.5, 0.1], "height": 0.5 })";
+    std::string actor(kAlongWall);
+    actor.replace(actor.find("400"), 3, R"(400, "side": "'left'")");
+    const Ran ran = run(actor, wall);
+    EXPECT_THAT(ran.states, ElementsAre("a: ForwardSuccessful")) << ran.ended.message;
+    EXPECT_GT(end_of(ran).at.y, 3.6);
+    for (const Moment& moment : ran.way) EXPECT_NEAR(moment.gap, 0.3, 0.12) << moment.at.count();
+    actor.replace(actor.find("left"), 4, "top");
+    EXPECT_THAT(run(actor, wall).ended.message, HasSubstr("\"side\" is \"top\", but must be"));
+}
+
 // The wall's face is 30 cm ahead of the hull.
 TEST_F(CarbotTemplates, WallForwardEndsBeforeWhatIsInTheLane) {
     const Ran ran = run(std::string(kAlongWall),

@@ -32,6 +32,13 @@ inline plan::Input step_input() {
             .high = 90};
 }
 
+inline plan::Input side_input(std::string choices) {
+    return {.name = "side",
+            .type = plan::Type::String,
+            .fallback = plan::Value(std::string("right")),
+            .help = "where the wall is to be: " + std::move(choices)};
+}
+
 // A number of the input at `index`, within the declared range: outside of it is an internal error
 // that names both, as for templates of toolbox files.
 inline double input_of(const run::ActorContext& context, const plan::Template& of, size_t index) {

@@ -59,7 +59,7 @@ plan::Input length_input(const Length& length) {
 const plan::Template& declared() {
     static const plan::Template kDeclared{
         .name = "WallForward",
-        .help = "Drives along the wall at the right, around its corners too.",
+        .help = "Drives along a wall, around its corners too.",
         .icon = "M5 3v18M14 20V6M10 10l4-4l4 4",
         .inputs = {length_input({.name = "distance",
                                  .help = "to keep between the wall and the side of the hull",
@@ -79,7 +79,8 @@ const plan::Template& declared() {
                    length_input({.name = "length",
                                  .help = "how far to drive",
                                  .fallback = 100,
-                                 .high = 1e6})},
+                                 .high = 1e6}),
+                   side_input("right or left")},
         .outcomes = {{"ForwardSuccessful", "it has driven so far"},
                      {"LaneNotFree", "something is ahead"},
                      {"WallLost", "the wall has ended"}},
@@ -87,8 +88,10 @@ const plan::Template& declared() {
     return kDeclared;
 }
 
-double direction_of_look(int number) {
-    return kLookRightDeg + number * kLookStepDeg;
+double mirror_for(const std::string& side) {
+    if (side == "right") return 1;
+    if (side == "left") return -1;
+    throw run::CodeError("the input \"side\" is \"" + side + "\", but must be right or left");
 }
 
 class WallForward final : public run::Actor {
@@ -101,6 +104,7 @@ public:
         gain_ = input_of(context, declared(), 2);
         speed_ = input_of(context, declared(), 3);
         left_ = input_of(context, declared(), 4);
+        mirror_ = mirror_for(context.in(5).string());
         Rover rover(context, parts_, Rover::Needs::DriveAndRange);
         try {
             const State state = follow(context, rover);
@@ -117,24 +121,40 @@ private:
         const double around = distance_ + kHalfWidthCm;
         const AlongWall goal{.distance_cm = distance_, .speed_cm = speed_, .gain = gain_};
         WallMap map(kRememberedTurns * 2 * trig::kPi * around);
-        Pose here = rover.pose();
+        Pose here = pose(rover);
         moved_to(here, context.now());
         for (bool to_left = true, first = true;; to_left = !to_left, first = false) {
             std::vector<Sounding> sweep;
             for (int i = 0; i < kLooks; ++i) {
-                const Echo echo = rover.look(direction_of_look(to_left ? i : kLooks - 1 - i));
-                const Pose before = std::exchange(here, rover.pose());
+                const Echo echo = look(rover, to_left ? i : kLooks - 1 - i);
+                const Pose before = std::exchange(here, pose(rover));
                 sweep.push_back({here, echo});
                 left_ -= trig::hypot(here.x_cm - before.x_cm, here.y_cm - before.y_cm);
                 if (left_ <= 0) return kForwardSuccessful;
                 if (is_in_lane(echo) || !moves(here, context.now())) return kLaneNotFree;
-                if (!first) rover.steer(steer_along(map, here, goal));
+                if (!first) steer(rover, steer_along(map, here, goal));
             }
             map.take(sweep);
             const bool sees = map.distances_from(here).right_cm < kMapReachCm;
             if (!sees && !first) return kWallLost;
             if (!sees) map.assume(placed(here, {-kEndBehindCm, -around}));
         }
+    }
+
+    // A wall at the left is one at the right in a mirror: all that comes and goes is mirrored.
+    Echo look(Rover& rover, int number) const {
+        Echo echo = rover.look(mirror_ * (kLookRightDeg + number * kLookStepDeg));
+        echo.angle_deg *= mirror_;
+        return echo;
+    }
+
+    Pose pose(Rover& rover) const {
+        const Pose told = rover.pose();
+        return {told.x_cm, mirror_ * told.y_cm, mirror_ * told.heading_deg};
+    }
+
+    void steer(Rover& rover, const Steering& steering) const {
+        rover.steer({steering.speed_cm, mirror_ * steering.rate_deg});
     }
 
     bool is_in_lane(const Echo& echo) const {
@@ -163,7 +183,8 @@ private:
     double ahead_ = 0;
     double gain_ = 0;
     double speed_ = 0;
-    double left_ = 0;  // of the way
+    double left_ = 0;    // of the way
+    double mirror_ = 1;  // -1: the wall is at the left
     Pose moved_to_;
     Time moved_at_{0};
 };

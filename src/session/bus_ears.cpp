@@ -14,10 +14,11 @@ std::optional<run::BusEvent> BusEars::hear(const debug::Event& event) {
         return run::BusEvent{sent->name, sent->arguments};
     }
     if (const auto* described = std::get_if<debug::NodeDescribed>(&event.what)) {
-        const auto before = gone(event.node);  // it came back under another name
+        const auto before = gone(event.node);  // it came back, perhaps under another name
+        const bool renamed = known_[event.node].name != described->name;
         known_[event.node].name = described->name;
         there(event.node);
-        return before && !nodes_.has(described->name) ? before : std::nullopt;
+        return renamed ? before : std::nullopt;
     }
     if (std::holds_alternative<debug::NodeReconnected>(event.what)) there(event.node);
     if (std::holds_alternative<debug::NodeDisconnected>(event.what)) return gone(event.node);

@@ -247,6 +247,18 @@ class Install(unittest.TestCase):
         self.assertEqual((code, out), (2, ""))
         self.assertIn("the plan WallFollow needs a bus", err)
 
+    def test_a_generated_program_drives_a_robot_as_its_plan_does(self):
+        plan, source = ROOT / "examples/patterns/Square.plan.json", self.folder / "square"
+        code, _, err = run(self.vagus, "plan", "generate", plan, "-o", source)
+        self.assertEqual((code, err), (0, ""))
+        program = self.build(source) / "Square"
+        for robot in ["carbot", "thymio"]:
+            world = ROOT / f"examples/patterns/{robot}.world.json"
+            options = ["--clock", "virtual", "--world", world, "--trace-all", "-"]
+            theirs = run(self.vagus, "plan", "run", plan, *options)
+            self.assertEqual(run(program, *options), theirs)
+            self.assertIn('"kind":"pose"', theirs[1])
+
     def test_a_generated_program_takes_toolboxes(self):
         plan, library = self.example_toolbox()
         source = self.folder / "launch"

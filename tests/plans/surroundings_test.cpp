@@ -7,6 +7,7 @@
 
 #include "plan/graph.hpp"
 #include "run/debugger.hpp"
+#include "run/heard_events.hpp"
 #include "run/surroundings.hpp"
 #include "run/virtual_time.hpp"
 #include "toolbox/core.hpp"
@@ -138,6 +139,15 @@ TEST_F(SurroundingsTest, CodeHearsAllEventsOfAnInstantThatItWaitsForInTheirOrder
     run(kActor, reversed, {}, R"(["test"])");
     EXPECT_THAT(reversed.log, ElementsAre("begin 1000", "end 1000", "begin 2000", "a 2000",
                                           "over 2000", "end 2000"));
+}
+
+TEST(HeardEvents, OfMoreThanTheLimitTheOldestIsLost) {
+    run::HeardEvents heard;
+    for (size_t i = 0; i <= run::kKeptEventsMax; ++i) heard.push({std::to_string(i), {}});
+    EXPECT_EQ(heard.take("")->name, "1");
+    EXPECT_EQ(heard.take(std::to_string(run::kKeptEventsMax))->name,
+              std::to_string(run::kKeptEventsMax));
+    EXPECT_FALSE(heard.take("").has_value());
 }
 
 // P21: what a supervisor hears ranks before what the actor hears, whichever came first.

@@ -255,6 +255,13 @@ class WhoDrivesDies(unittest.TestCase):
         debugger.type("run &")
         self.wait_until_it_drives()
 
+    def test_the_robot_leaves_and_the_plan_says_so(self):
+        plan = self.enterContext(vagus("plan", "run", *self.words(f"tcp:127.0.0.1:{self.port}")))
+        self.wait_until_it_drives()
+        self.simulation.kill()
+        self.assertEqual(plan.wait_end(), 4)
+        self.assertRegex("\n".join(plan.lines), r'vagus: .*ahead.*"drive".* has left the bus')
+
     def test_its_terminal_ends_it(self):
         plan = self.enterContext(vagus("plan", "run", *self.words(f"tcp:127.0.0.1:{self.port}")))
         self.wait_until_it_drives()

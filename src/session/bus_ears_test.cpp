@@ -1,0 +1,69 @@
+#include "session/bus_ears.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vagus::session {
+namespace {
+
+debug::Event event(debug::NodeId node, debug::Happening what) {
+    return {Time{}, node, std::move(what)};
+}
+
+TEST(BusEars, APlanHearsEventsThatHaveNames) {
+    toolbox::BusNodes nodes;
+    BusEars ears(nodes);
+    const auto heard = ears.hear(event(3, debug::UserEvent{7, "touched", {450}}));
+    ASSERT_TRUE(heard.has_value());
+    EXPECT_EQ(heard->name, "touched");
+    EXPECT_EQ(heard->arguments, std::vector<int16_t>{450});
+    EXPECT_FALSE(ears.hear(event(3, debug::UserEvent{8, "", {}})).has_value());
+    EXPECT_FALSE(ears.hear(event(3, debug::NodeAppeared{5})).has_value());
+}
+
+TEST(BusEars, ANodeIsThereFromItsDescriptionUntilItLeaves) {
+    toolbox::BusNodes nodes;
+    BusEars ears(nodes);
+    EXPECT_FALSE(ears.hear(event(1, debug::NodeDescribed{"drive"})).has_value());
+    EXPECT_TRUE(nodes.has("drive"));
+    const auto left = ears.hear(event(1, debug::NodeDisconnected{}));
+    ASSERT_TRUE(left.has_value());
+    EXPECT_EQ(left->name, toolbox::node_left("drive"));
+    EXPECT_FALSE(nodes.has("drive"));
+    EXPECT_FALSE(ears.hear(event(1, debug::NodeDisconnected{true})).has_value());  // once
+    EXPECT_FALSE(ears.hear(event(1, debug::NodeReconnected{})).has_value());
+    EXPECT_TRUE(nodes.has("drive"));
+}
+
+// Two drives: one of them can go.
+TEST(BusEars, OnlyTheLastOfANameLeaves) {
+    toolbox::BusNodes nodes;
+    BusEars ears(nodes);
+    (void)ears.hear(event(1, debug::NodeDescribed{"drive"}));
+    (void)ears.hear(event(9, debug::NodeDescribed{"drive"}));
+    EXPECT_FALSE(ears.hear(event(1, debug::NodeDisconnected{})).has_value());
+    EXPECT_TRUE(nodes.has("drive"));
+    EXPECT_TRUE(ears.hear(event(9, debug::NodeDisconnected{})).has_value());
+}
+
+TEST(BusEars, ANodeThatComesBackUnderAnotherNameHasLeftUnderTheOld) {
+    toolbox::BusNodes nodes;
+    BusEars ears(nodes);
+    (void)ears.hear(event(1, debug::NodeDescribed{"drive"}));
+    const auto left = ears.hear(event(1, debug::NodeDescribed{"range"}));
+    ASSERT_TRUE(left.has_value());
+    EXPECT_EQ(left->name, toolbox::node_left("drive"));
+    EXPECT_TRUE(nodes.has("range"));
+    EXPECT_FALSE(nodes.has("drive"));
+}
+
+TEST(BusEars, ItsNodesGoWithIt) {
+    toolbox::BusNodes nodes;
+    {
+        BusEars ears(nodes);
+        (void)ears.hear(event(1, debug::NodeDescribed{"drive"}));
+    }
+    EXPECT_FALSE(nodes.has("drive"));
+}
+
+}  // namespace
+}  // namespace vagus::session

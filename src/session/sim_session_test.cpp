@@ -262,5 +262,22 @@ TEST(SimSession, NotesThatNobodyTakesEndAtTheLimit) {
     EXPECT_EQ(session.take_notes().size(), kNotesMax);
 }
 
+TEST(SimSession, OfMoreThanTheLimitThatIsHeardAtOnceTheNewestIsDropped) {
+    sim::WorldDefinition world;
+    world.robots = {robot("one", 3, 0.5)};
+    SimOptions options;
+    options.heard = true;
+    SimSession session(std::move(sim::World::create(world).value()), options);
+    session.step(100ms);
+    (void)session.take_heard();
+    const hub::LinkId host = session.world().bus().add({.name = "host"}).value();
+    wire::Frame frame{};
+    for (size_t i = 0; i <= kHeardMax; ++i) session.world().bus().receive(host, frame);
+    session.step(1ms);
+    EXPECT_EQ(session.take_heard().size(), kHeardMax);
+    session.step(1ms);
+    EXPECT_THAT(session.take_heard(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace vagus::session

@@ -180,7 +180,7 @@ class Install(unittest.TestCase):
         # Its code is stopped at a wait, by an exception that the program throws.
         code, out, err = run(*run_it, "--toolbox", library, "--max-time", "1.5")
         self.assertEqual((code, self.texts(out)), (5, ["3", "2"]), err)
-        code, out, err = run(self.vagus, "plan", "run", plan, "--toolbox", library, "--trace", "-", "--max-time", "0.01")
+        code, out, err = run(self.vagus, "plan", "run", plan, "--toolbox", library, "--trace", "-", "--max-time", "0.7")
         self.assertEqual((code, self.texts(out)), (5, ["3"]), err)
 
     def test_a_plan_whose_toolbox_is_not_given_says_so(self):

@@ -44,9 +44,12 @@ public:
     // The moment, at the instants at which there is one.
     const Moment* look(Time now) {
         if (now % kLookEvery != Duration::zero()) return nullptr;
-        const sim::RobotView robot = session_.world().robots().front();
+        const std::vector<sim::RobotView> robots = session_.world().robots();
+        const sim::RobotView& robot = robots.front();
         const double gap = clearance(session_.world(), robot, robot.pose);
-        ran_.way.push_back({now, robot.pose, gap, actor_});
+        Moment moment{now, robot.pose, gap, actor_};
+        for (size_t i = 1; i < robots.size(); ++i) moment.others.push_back(robots[i].pose);
+        ran_.way.push_back(std::move(moment));
         note_contact(ran_.way.back());
         return &ran_.way.back();
     }

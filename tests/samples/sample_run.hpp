@@ -46,6 +46,7 @@ struct Moment {
     double gap = 0;  // m: from the hull to the nearest thing
     std::string_view
         actor;  // the innermost that runs; valid as long as the Ran is, wherever it is moved
+    std::vector<sim::Pose> others = {};  // of the other robots, in the order of the world file
 };
 
 // The hull was on something, without a pause.

@@ -40,7 +40,7 @@ TEST(Obstacle, CarbotGetsPastBoxes) {
 }
 
 TEST(Obstacle, TheSamePlanTakesAThymioPastBoxes) {
-    drive_to_line({.world = example("obstacle/thymio.world.json"), .length = 1.5});
+    drive_to_line({.world = example("obstacle/thymio.world.json"), .length = 3});
 }
 
 // A post, a wall at the left where it would go aside, and a pocket between it and a slanting block:

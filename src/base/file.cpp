@@ -41,6 +41,24 @@ Error too_large(const std::string& path) {
                              " MB, the most that is read; use a smaller file"};
 }
 
+// A pipe that this process was handed (`vagus plan check <(maker)`), not one that a file names.
+bool is_handed_over(const std::string& path) {
+    return path.starts_with("/dev/fd/") || path.starts_with("/proc/") || path == "/dev/stdin";
+}
+
+// Opening a pipe by its name would wait until somebody writes: a path in a plan could hang us. So
+// it is opened without waiting, looked at, and only then read as any file.
+Status refuse_pipe(const OpenFile& file, const std::string& path) {
+    struct stat opened = {};
+    if (::fstat(file.get(), &opened) != 0) return failure(path, "read");
+    if (S_ISFIFO(opened.st_mode) && !is_handed_over(path)) {
+        return Error{Code::Unavailable,
+                     path + ": cannot be read: it is a pipe; name a file, or - for standard input"};
+    }
+    if (::fcntl(file.get(), F_SETFL, O_RDONLY) != 0) return failure(path, "read");
+    return Status::done();
+}
+
 Result<std::string> read_all(const OpenFile& file, const std::string& path) {
     std::string content;
     std::string piece(kReadBytes, '\0');
@@ -108,8 +126,9 @@ Status fill(const std::string& beside, std::string_view content, mode_t rights,
 
 Result<std::string> read_file(const std::string& path) {
     if (path == "-") return read_all(OpenFile(STDIN_FILENO), "standard input");
-    const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.get() < 0) return failure(path, "read");
+    TRY(refuse_pipe(file, path));
     return read_all(file, path);
 }
 

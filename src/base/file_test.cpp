@@ -33,6 +33,24 @@ TEST_F(FileTest, ReadsWhatWasWritten) {
     EXPECT_EQ(read_file(path("x")).value(), content);
 }
 
+TEST_F(FileTest, APipeThatIsNamedIsRefusedWithoutWaiting) {
+    ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+    const Result<std::string> read = read_file(path("pipe"));
+    ASSERT_FALSE(read.ok());
+    EXPECT_EQ(read.error().what, path("pipe") +
+                                     ": cannot be read: it is a pipe; name a file, or - "
+                                     "for standard input");
+}
+
+TEST_F(FileTest, APipeThatWasHandedOverIsRead) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    ASSERT_EQ(::write(ends[1], "text", 4), 4);
+    ::close(ends[1]);
+    EXPECT_EQ(read_file("/dev/fd/" + std::to_string(ends[0])).value(), "text");
+    ::close(ends[0]);
+}
+
 TEST_F(FileTest, ReplacesTheFileAndLeavesNothingBeside) {
     ASSERT_TRUE(write_file(path("x"), "long old content").ok());
     ASSERT_TRUE(write_file(path("x"), "new").ok());

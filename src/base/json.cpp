@@ -247,7 +247,7 @@ private:
 // What the library lets pass or would judge later than we want.
 std::optional<JsonError> refuse_text(std::string_view text) {
     if (text.size() > kJsonBytesMax)
-        return JsonError{{},
+        return JsonError{{1, 1},
                          "the text is larger than " + std::to_string(kJsonBytesMax >> 20) +
                              " MB, the most that is read; split it"};
     if (text.starts_with("\xef\xbb\xbf"))

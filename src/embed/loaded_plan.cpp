@@ -69,12 +69,32 @@ std::string LoadedPlan::report() const {
     return format_findings(findings_);
 }
 
+namespace {
+
+// One line, and nothing that a terminal would obey: names of a wrong file may hold anything.
+std::string visible(std::string_view text) {
+    std::string shown;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte == 0x7f) {
+            shown += fmt::format("\\u{:04x}", byte);
+        } else {
+            shown += c;
+        }
+    }
+    return shown;
+}
+
+}  // namespace
+
 std::string format_findings(const plan::Findings& findings) {
     std::string lines;
     for (const plan::Finding& finding : findings) {
         const bool error = finding.severity == plan::Severity::Error;
+        const std::string element = finding.element.empty() ? "" : finding.element + ": ";
         lines += fmt::format("{}:{}: {}: {} [{}]\n", finding.file, finding.line,
-                             error ? "error" : "warning", finding.message, finding.rule);
+                             error ? "error" : "warning", visible(element + finding.message),
+                             finding.rule);
     }
     return lines;
 }

@@ -59,7 +59,7 @@ private:
     const run::CodeLibrary* library_;
 };
 
-// As lines: FILE:LINE: error: sentence [RULE]
+// As lines: FILE:LINE: error: ELEMENT: sentence [RULE]; without ELEMENT where it is the plan's own.
 std::string format_findings(const plan::Findings& findings);
 
 }  // namespace vagus::embed

@@ -80,6 +80,19 @@ TEST_F(PlanRunTest, ATextThatIsNoPlanIsReported) {
     EXPECT_THAT(plan.report(), HasSubstr("test.plan.json:1: error: "));
 }
 
+TEST_F(PlanRunTest, AReportNamesTheElementAndHoldsNothingThatATerminalObeys) {
+    const std::string file = R"({ "format": "vagus-plan/1", "name": "P", "start": { "actor": "a" },
+  "actors": {
+    "a": { "template": "Wait", "in": { "seconds": "1 €" }, "states": { "Done": "\u001b[" } } } })";
+    const LoadedPlan plan = load(file);
+    EXPECT_EQ(
+        plan.report(),
+        "test.plan.json:3: error: a: the formula for \"seconds\": expected an operator (+ - & * "
+        "/ %) or the end at position 3, found \"€\" [P8]\n"
+        "test.plan.json:3: error: a: the state \"Done\" leads to \"\\u001b[\", which does not "
+        "exist; there are a and @terminate [P17]\n");
+}
+
 // From a listener, and from another thread in real time: the event ends the first actor, the write
 // is seen by the supervisor of the second.
 TEST_F(PlanRunTest, ARunInRealTimeHearsIsWrittenAndRead) {

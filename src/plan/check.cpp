@@ -25,8 +25,12 @@ std::vector<std::string_view> names_of(const List& list) {
     return names;
 }
 
+// Among more a guess takes too long when thousands of names are wrong.
+constexpr size_t kGuessAmongMax = 1000;
+
 // "; did you mean "x"?", or what there is, or nothing.
 std::string hint(std::string_view word, const std::vector<std::string_view>& known) {
+    if (known.size() > kGuessAmongMax) return "";
     const std::string near = nearest(word, known);
     if (!near.empty()) return fmt::format("; did you mean \"{}\"?", near);
     if (known.empty() || known.size() > 20) return "";
@@ -41,7 +45,7 @@ struct Element {
 class Checker {
 public:
     Checker(const Checked& checked, const Plan& plan, Findings& findings)
-        : checked_(checked), plan_(plan), findings_(findings) {}
+        : checked_(checked), plan_(plan), actors_(plan), findings_(findings) {}
 
     void check_plan() {
         check_toolboxes();
@@ -187,6 +191,14 @@ private:
         }
     }
 
+    void say_unlisted(std::string_view element, int line, std::string_view name,
+                      std::string_view toolbox) {
+        say("P2", element, line,
+            fmt::format("the template \"{}\" is in the toolbox {}, which this plan does not list; "
+                        "add \"{}\" to \"toolboxes\"",
+                        name, toolbox, toolbox));
+    }
+
     void say_unknown_template(std::string_view element, int line, const std::string& name,
                               bool supervisor) {
         const std::string_view wanted = supervisor ? "supervisor" : "actor";
@@ -199,7 +211,9 @@ private:
         std::vector<std::string_view> known;
         for (const Toolbox& toolbox : checked_.library->toolboxes()) {
             for (const Template& one : toolbox.templates) {
-                if ((one.kind == Kind::Supervisor) == supervisor) known.push_back(one.name);
+                if ((one.kind == Kind::Supervisor) != supervisor) continue;
+                if (one.name == name) return say_unlisted(element, line, name, toolbox.name);
+                known.push_back(one.name);
             }
         }
         say("P2", element, line,
@@ -406,7 +420,7 @@ private:
 
     void check_target(const Element& element, const Rule& rule, std::string_view number,
                       std::string_view what) {
-        if (rule.target == kTerminate || find_actor(plan_, rule.target) >= 0) return;
+        if (rule.target == kTerminate || actors_.find(rule.target) >= 0) return;
         if (rule.target == kIgnore) {
             if (what == "event") return;
             say(number, element.name, rule.line,
@@ -415,16 +429,22 @@ private:
                             rule.name));
             return;
         }
-        auto known = names_of(plan_.actors);
-        known.push_back(kTerminate);
-        if (what == "event") known.push_back(kIgnore);
         say(number, element.name, rule.line,
             fmt::format("the {} \"{}\" leads to \"{}\", which does not exist{}", what, rule.name,
-                        rule.target, hint(rule.target, known)));
+                        rule.target, hint_of_target(rule.target, what == "event")));
+    }
+
+    std::string hint_of_target(std::string_view target, bool of_event) const {
+        if (plan_.actors.size() > kGuessAmongMax) return "; name an actor, or @terminate";
+        auto known = names_of(plan_.actors);
+        known.push_back(kTerminate);
+        if (of_event) known.push_back(kIgnore);
+        return hint(target, known);
     }
 
     const Checked& checked_;
     const Plan& plan_;
+    const ActorNames actors_;
     Findings& findings_;
 };
 

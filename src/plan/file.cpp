@@ -20,6 +20,10 @@ namespace {
 
 constexpr std::string_view kFormat = "vagus-plan/1";
 
+std::string_view article(std::string_view what) {
+    return what == "actor" ? "an" : "a";
+}
+
 class Reader {
 public:
     explicit Reader(PlanFile& file) : file_(file) {}
@@ -84,9 +88,10 @@ public:
         if (is_name(name) && !(what == "variable" && (name == "true" || name == "false"))) return;
         const std::string_view element = what == "plan" ? std::string_view() : name;
         complain("P1", element, line,
-                 fmt::format("\"{}\" cannot be the name of a {}: use letters, digits and _, not "
+                 fmt::format("\"{}\" cannot be the name of {} {}: use letters, digits and _, not "
                              "beginning with a digit{}",
-                             name, what, what == "variable" ? ", and not true or false" : ""));
+                             name, article(what), what,
+                             what == "variable" ? ", and not true or false" : ""));
     }
 
     // Complains of the second of two equal names (P1); gives whether this is one.
@@ -94,8 +99,8 @@ public:
                       std::string_view what, int line) {
         if (seen.insert(std::string(name)).second) return false;
         complain("P1", name, line,
-                 fmt::format("there is a {} named \"{}\" already; give this one another name", what,
-                             name));
+                 fmt::format("there is {} {} named \"{}\" already; give this one another name",
+                             article(what), what, name));
         return true;
     }
 
@@ -377,7 +382,7 @@ void read_plan(Reader& reader, const Json& json) {
     }
     for (const std::string_view needed : {"format", "name", "actors"}) {
         if (json.find(needed)) continue;
-        reader.complain("P0", "", 1, fmt::format("the plan lacks the key \"{}\"", needed));
+        reader.complain("P0", "", 1, fmt::format("the plan lacks the key \"{}\"; add it", needed));
     }
 }
 

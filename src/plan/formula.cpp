@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
+
 namespace vagus::plan {
 
 namespace {
@@ -298,7 +300,7 @@ private:
             return wrong(
                 fmt::format("\"{}{}\" at position {} is not a number; leave a space or an "
                             "operator behind {}",
-                            digits, text_[end], at_ + 1, digits));
+                            digits, character_at(end), at_ + 1, digits));
         }
         if (found.whole) {
             const auto value = int_from_digits(digits);
@@ -340,9 +342,15 @@ private:
         if (text_.find_first_not_of(" \t\n\r") == std::string_view::npos) {
             return wrong("the formula is empty; write a number, a text in quotes or a variable");
         }
-        const std::string found = at_ < text_.size() ? fmt::format("\"{}\"", text_.substr(at_, 1))
+        const std::string found = at_ < text_.size() ? fmt::format("\"{}\"", character_at(at_))
                                                      : std::string("the end of the formula");
         return wrong(fmt::format("expected {} at position {}, found {}", what, at_ + 1, found));
+    }
+
+    // A whole one: a part of its bytes would make the sentence malformed.
+    std::string_view character_at(size_t at) const {
+        const std::string_view rest = text_.substr(at);
+        return rest.substr(0, std::max<size_t>(1, first_code_point(rest).bytes));
     }
 
     Error too_large(std::string_view digits, std::string_view what) const {

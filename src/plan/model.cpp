@@ -16,4 +16,15 @@ int find_actor(const Plan& plan, std::string_view name) {
     return -1;
 }
 
+ActorNames::ActorNames(const Plan& plan) {
+    for (size_t i = 0; i < plan.actors.size(); ++i) {
+        index_.emplace(plan.actors[i].name, static_cast<int>(i));  // keeps the first of several
+    }
+}
+
+int ActorNames::find(std::string_view name) const {
+    const auto found = index_.find(name);
+    return found == index_.end() ? -1 : found->second;
+}
+
 }  // namespace vagus::plan

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -121,5 +122,16 @@ struct Plan {
 // Indices; -1 if there is none of that name. The first of several.
 int find_variable(const Plan& plan, std::string_view name);
 int find_actor(const Plan& plan, std::string_view name);
+
+// find_actor() for whoever asks for every target of a plan: in a large one a search each time takes
+// minutes. The plan must outlive this, and its actors must stay as they are.
+class ActorNames {
+public:
+    explicit ActorNames(const Plan& plan);
+    int find(std::string_view name) const;
+
+private:
+    std::map<std::string_view, int> index_;
+};
 
 }  // namespace vagus::plan

@@ -20,7 +20,11 @@ struct Way {
 class Warner {
 public:
     Warner(const Checked& checked, const Plan& plan, Findings& findings)
-        : checked_(checked), plan_(plan), findings_(findings), ways_(plan.actors.size()) {
+        : checked_(checked),
+          plan_(plan),
+          actors_(plan),
+          findings_(findings),
+          ways_(plan.actors.size()) {
         for (size_t i = 0; i < plan.actors.size(); ++i) ways_[i] = ways_of(plan.actors[i]);
     }
 
@@ -45,7 +49,7 @@ private:
     void add_events(const Supervisor& supervisor, std::vector<Way>& ways) const {
         for (const Rule& event : supervisor.events) {
             if (event.target == kIgnore) continue;
-            Way way{.to = find_actor(plan_, event.target), .by_state = false, .writes = {}};
+            Way way{.to = actors_.find(event.target), .by_state = false, .writes = {}};
             for (const Output& output : supervisor.out) way.writes.push_back(output.variable);
             ways.push_back(std::move(way));
         }
@@ -54,7 +58,7 @@ private:
     std::vector<Way> ways_of(const Actor& actor) const {
         std::vector<Way> ways;
         for (const Rule& state : actor.states) {
-            Way way{.to = find_actor(plan_, state.target), .by_state = true, .writes = {}};
+            Way way{.to = actors_.find(state.target), .by_state = true, .writes = {}};
             const bool nothing = actor.plan && state.name == kStateError;
             for (const Output& output : actor.out) {
                 if (!nothing) way.writes.push_back(output.variable);
@@ -331,6 +335,7 @@ private:
 
     const Checked& checked_;
     const Plan& plan_;
+    const ActorNames actors_;
     Findings& findings_;
     std::vector<std::vector<Way>> ways_;
     std::vector<bool> reached_;

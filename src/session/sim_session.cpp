@@ -7,6 +7,7 @@
 #include "base/file.hpp"
 #include "session/diagnostic_text.hpp"
 #include "session/trace.hpp"
+#include "sim/world_file.hpp"
 
 namespace vagus::session {
 namespace {
@@ -368,8 +369,13 @@ Result<SimSession> open_sim(const std::string& path, SimOptions options) {
         if (robots[i].script.empty()) continue;
         const std::string script =
             (fs::path(options.world.folder) / robots[i].script).lexically_normal().string();
-        const std::string source = TRY(read_file(script));
-        session.load_for(views[i].id, script, source);
+        const Result<std::string> source = read_file(script);
+        if (!source.ok()) {
+            const Error& error = source.error();
+            const std::string element = "robots[" + std::to_string(i) + "].script: ";
+            return sim::error_in_world({error.code, element + error.what}, text, path);
+        }
+        session.load_for(views[i].id, script, source.value());
     }
     return session;
 }

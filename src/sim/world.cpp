@@ -67,7 +67,9 @@ struct World::Insides {
 };
 
 Result<World> World::load(std::string_view text, std::string_view file, WorldOptions options) {
-    return create(TRY(read_world(text, file)), std::move(options));
+    Result<World> world = create(TRY(read_world(text, file)), std::move(options));
+    if (world.ok()) return world;
+    return error_in_world(world.error(), text, file);
 }
 
 namespace {
@@ -95,6 +97,11 @@ Status check_can(const WorldDefinition& definition) {
     return Status::done();
 }
 
+Result<Picture> read_ground(const std::string& path) {
+    const std::string bytes = TRY(read_file(path));
+    return read_png(bytes, path);
+}
+
 }  // namespace
 
 Result<World> World::create(WorldDefinition definition, WorldOptions options) {
@@ -108,8 +115,9 @@ Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     Picture picture;
     if (!definition.ground_image.empty()) {
         const std::string path = options.folder + "/" + definition.ground_image;
-        const std::string bytes = TRY(read_file(path));
-        picture = TRY(read_png(bytes, path));
+        Result<Picture> read = read_ground(path);
+        if (!read.ok()) return Error{read.error().code, "ground.image: " + read.error().what};
+        picture = std::move(read.value());
     }
     auto insides =
         std::make_unique<Insides>(std::move(definition), std::move(picture), std::move(options));

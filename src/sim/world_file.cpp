@@ -237,6 +237,15 @@ Result<WorldDefinition> read_world(std::string_view text, std::string_view file)
     return world;
 }
 
+Error error_in_world(const Error& error, std::string_view text, std::string_view file) {
+    const Result<Json> json = parse_json(text, file);
+    if (!json.ok()) return json.error();
+    const std::string element = error.what.substr(0, error.what.find(": "));
+    Error placed = first_complaint({{place_of(json.value(), element), error.what}}, file);
+    placed.code = error.code;
+    return placed;
+}
+
 Status check_world(const WorldDefinition& world) {
     if (const auto problem = find_problem(world))
         return Error{Code::BadInput, problem->element + ": " + problem->what};

@@ -15,6 +15,10 @@ namespace vagus::sim {
 // `file` is for the sentences of errors.
 Result<WorldDefinition> read_world(std::string_view text, std::string_view file);
 
+// An error that was found after reading, with its place before it: its sentence begins with the
+// element ("robots[0].script: …"). `text` was read without an error.
+Error error_in_world(const Error& error, std::string_view text, std::string_view file);
+
 // The checks that need no file: sizes, numbers of things, names that differ. World::create() makes
 // them, too.
 Status check_world(const WorldDefinition& world);

@@ -96,6 +96,13 @@ TEST(WorldFile, ErrorsNamePlaceElementAndMend) {
     EXPECT_NE(typo.find("robots"), std::string::npos) << typo;
 }
 
+TEST(WorldFile, ErrorsAfterReadingHaveTheirPlace) {
+    const std::string text = with(R"("robots":[{"name":"r","type":"epuck","at":[1,1]}])");
+    const Error placed = error_in_world({Code::NotFound, "robots[0].at: is taken"}, text, "w.json");
+    EXPECT_EQ(placed.code, Code::NotFound);
+    EXPECT_EQ(placed.what, "w.json:2:43: robots[0].at: is taken");
+}
+
 struct Wrong {
     const char* member;
     const char* says;

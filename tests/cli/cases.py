@@ -186,6 +186,15 @@ class Cli(unittest.TestCase):
             self.assertIn(f"vagus {verb} ", page.stdout.split("Example")[1])
             self.assertEqual(page.stderr, "")
 
+    def test_a_file_that_a_world_names_and_that_is_not_there_is_named_with_its_place(self):
+        for member, place in [('"robots": [{ "name": "r", "type": "thymio2", "at": [1, 1], "script": "none.aesl" }]',
+                               "2:72: robots[0].script"),
+                              ('"ground": { "image": "none.png" }', "2:24: ground.image")]:
+            world = self.file("w.world.json", '{ "format": "vagus-world/1", "size": [2, 2],\n  ' + member + "}")
+            said = self.run_vagus("sim", world, "--headless", status=2).stderr
+            self.assertTrue(said.startswith(f"vagus: {world}:{place}: "), said)
+            self.assertIn("cannot be read: No such file or directory", said)
+
     def test_version_is_one_line(self):
         self.assertRegex(self.run_vagus("--version").stdout, r"^vagus \d+\.\d+\.\d+\n$")
 

@@ -98,6 +98,20 @@ class Toolboxes(unittest.TestCase):
         self.assertEqual((code, out), (2, ""))
         self.assertEqual(err, 'vagus: there is no toolbox or template "Forwart"; did you mean "Forward"?\n')
 
+    def test_a_template_of_a_toolbox_that_the_plan_does_not_list_is_found_there(self):
+        self.plan.write_text(PLAN.replace('"toolboxes": ["lamp"], ', ""))
+        code, _, err = vagus("plan", "check", self.plan, "--toolbox", self.lamp)
+        self.assertEqual(code, 2)
+        self.assertEqual(err, f'{self.plan}:2: error: shine: the template "Shine" is in the toolbox lamp, which this '
+                              'plan does not list; add "lamp" to "toolboxes" [P2]\n')
+
+    def test_a_large_plan_with_a_mistake_in_every_actor_is_checked(self):
+        actors = {f"a{i}": {"template": "Wait", "in": {"seconds": 1}, "states": {"Done": "b"}} for i in range(60000)}
+        self.plan.write_text(json.dumps({"format": "vagus-plan/1", "name": "P", "start": {"actor": "a0"},
+                                         "actors": actors}))
+        code, out, _ = vagus("plan", "check", "--json", self.plan)
+        self.assertEqual((code, len(json.loads(out))), (2, len(actors)))
+
     def test_plans_are_checked_with_the_toolboxes_that_are_given(self):
         code, _, err = vagus("plan", "check", self.plan)
         self.assertEqual(code, 2)

@@ -290,17 +290,23 @@ private:
 
     // Actors from which some way leads to one that is marked; `states_only` follows states alone.
     std::vector<bool> leading_to(std::vector<bool> marked, bool states_only) const {
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (size_t i = 0; i < ways_.size(); ++i) {
-                if (marked[i]) continue;
-                const bool leads = std::any_of(ways_[i].begin(), ways_[i].end(), [&](const Way& w) {
-                    if (states_only && !w.by_state) return false;
-                    return w.to < 0 || marked[static_cast<size_t>(w.to)];
-                });
-                if (!leads) continue;
-                marked[i] = true;
-                changed = true;
+        std::vector<std::vector<size_t>> sources(ways_.size());
+        std::vector<size_t> open;
+        for (size_t i = 0; i < ways_.size(); ++i) {
+            for (const Way& way : ways_[i]) {
+                if (states_only && !way.by_state) continue;
+                if (way.to < 0) marked[i] = true;
+                if (way.to >= 0) sources[static_cast<size_t>(way.to)].push_back(i);
+            }
+            if (marked[i]) open.push_back(i);
+        }
+        while (!open.empty()) {
+            const size_t at = open.back();
+            open.pop_back();
+            for (const size_t source : sources[at]) {
+                if (marked[source]) continue;
+                marked[source] = true;
+                open.push_back(source);
             }
         }
         return marked;

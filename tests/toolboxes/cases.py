@@ -112,6 +112,14 @@ class Toolboxes(unittest.TestCase):
         code, out, _ = vagus("plan", "check", "--json", self.plan)
         self.assertEqual((code, len(json.loads(out))), (2, len(actors)))
 
+    def test_a_long_chain_of_actors_is_checked(self):
+        actors = {f"a{i}": {"template": "Wait", "in": {"seconds": 1}, "states": {"Done": f"a{i + 1}"}}
+                  for i in range(60000)}
+        actors["a60000"] = {"template": "Wait", "in": {"seconds": 1}, "states": {"Done": "@terminate"}}
+        self.plan.write_text(json.dumps({"format": "vagus-plan/1", "name": "P", "start": {"actor": "a0"},
+                                         "actors": actors}))
+        self.assertEqual(vagus("plan", "check", "--json", self.plan), (0, "[]\n", ""))
+
     def test_plans_are_checked_with_the_toolboxes_that_are_given(self):
         code, _, err = vagus("plan", "check", self.plan)
         self.assertEqual(code, 2)

@@ -111,8 +111,9 @@ void add_run(CLI::App& plan, int& exit_code) {
     verb->footer(
         "Exit codes: 0 the plan ended well, 3 it was interrupted, 4 it failed, 5 --max-time came, "
         "2 it is not valid.\n\nBeside a world, on a terminal, it shows the plan and the world; the "
-        "keys stand at the bottom. Without\na terminal, or with --clock virtual, it prints plain "
-        "lines of what happens.\n\nExample:\n  vagus plan run Square.plan.json --clock virtual "
+        "keys stand at the bottom. The\nend stays on the screen until q, 30 s at most. Without a "
+        "terminal, or with --clock virtual, it prints\nplain lines of what happens.\n\nExample:\n  "
+        "vagus plan run Square.plan.json --clock virtual "
         "--trace - --set side=40\n  vagus plan run Square.plan.json --world thymio.world.json");
     auto options = std::make_shared<PlanRunOptions>();  // owners: CLI11's options, the callback
     add_run_options(*verb, *options);

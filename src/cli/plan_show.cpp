@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "cli/output.hpp"
 #include "cli/plan_story.hpp"
@@ -21,10 +22,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kFrameEvery = 40ms;     // of the screen, in real time
-constexpr Duration kBehindMax = 200ms;     // a machine that cannot keep up slows time down instead
-constexpr Duration kButtonFor = 200ms;     // simulated: how long a key holds a robot's button
-constexpr Duration kLastLookFor = 1500ms;  // the last page stays so long
+constexpr Duration kFrameEvery = 40ms;  // of the screen, in real time
+constexpr Duration kBehindMax = 200ms;  // a machine that cannot keep up slows time down instead
+constexpr Duration kButtonFor = 200ms;  // simulated: how long a key holds a robot's button
+constexpr Duration kLastLookFor = 30s;  // the last page stays so long, unless a person quits
 constexpr std::array<double, 9> kSpeeds = {0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50};
 constexpr size_t kRealTime = 3;  // among them
 
@@ -34,11 +35,6 @@ struct Held {
     std::string button;
     Time until{};
 };
-
-int end_of(const run::Ended& ended) {
-    if (!ended.message.empty()) complain(ended.message);
-    return end_as_asked(run::exit_status(ended));
-}
 
 // The screen is driven by the run: at each instant of the world it waits for the wall clock, and
 // meanwhile looks at the keys and paints.
@@ -51,12 +47,16 @@ public:
           view_(session()),
           look_(look_of_environment()) {}
 
+    // To the end of the plan, and until nobody looks any more.
     run::Ended run();
+    // "the plan is over: OK", and when; nothing if it did not begin.
+    const std::optional<HappeningView>& last_word() const { return last_word_; }
 
 private:
     session::SimSession& session() { return run_.prepared().world()->session(); }
+    void see(const plan::TraceEvent& event);
     void wait(Time at);
-    void set_speed(int direction);
+    void look_at_the_end(const run::Ended& ended);
     void turn();
     void keys();
     void act(Key key);
@@ -74,6 +74,8 @@ private:
     Grid shown_{Size{1, 1}};
     std::string keys_rest_;
     std::string notice_;
+    std::string problem_;                     // the error that ended it
+    std::optional<HappeningView> last_word_;  // it is over
     size_t speed_ = kRealTime;
     bool paused_ = false;
     bool quit_ = false;
@@ -84,14 +86,29 @@ private:
 };
 
 run::Ended PlanScreen::run() {
-    run_.prepared().listen([this](const plan::TraceEvent& event) { story_.see(event); });
+    run_.prepared().listen([this](const plan::TraceEvent& event) { see(event); });
     run_.prepared().pace([this](Time at) { wait(at); });
     real_before_ = clock_.now();
     const run::Ended ended = run_.run();
-    paint();
-    const Time close = clock_.now() + kLastLookFor;
-    while (!quit_ && !end_asked() && clock_.now() < close) (void)clock_.poll(close);
+    if (last_word_ && !quit_) look_at_the_end(ended);
     return ended;
+}
+
+void PlanScreen::see(const plan::TraceEvent& event) {
+    story_.see(event);
+    if (run::level_of(event) > 0 || !std::holds_alternative<plan::PlanEnded>(event.what)) return;
+    last_word_ = {event.at, sentence_of(event).value_or(""), true};
+}
+
+void PlanScreen::look_at_the_end(const run::Ended& ended) {
+    at_ = last_word_->at;
+    notice_ = last_word_->text;
+    problem_ = ended.message;
+    const Time close = clock_.now() + kLastLookFor;
+    while (!quit_ && !end_asked() && clock_.now() < close) {
+        turn();
+        (void)clock_.poll(std::min(close, next_frame_));
+    }
 }
 
 void PlanScreen::wait(Time at) {
@@ -122,6 +139,7 @@ void PlanScreen::keys() {
 }
 
 void PlanScreen::act(Key key) {
+    if (last_word_ && key != Key::Quit && key != Key::Redraw) return;
     switch (key) {
         case Key::Quit:
             quit_ = true;
@@ -179,7 +197,7 @@ void PlanScreen::release_buttons() {
 
 PlanPanelView PlanScreen::panel() {
     PlanPanelView panel = story_.panel(at_);
-    if (paused_) panel.state = "paused";
+    if (paused_ && !panel.over) panel.state = "paused";
     const auto load = session().world().bus_load();
     if (!load) return panel;
     panel.load = load->all.share_of_last_second;
@@ -198,6 +216,10 @@ void PlanScreen::paint() {
     view.speed = "x" + fmt::format("{}", kSpeeds.at(speed_));
     view.paused = paused_;
     view.notice = notice_;
+    if (!problem_.empty()) {
+        view.problems_title = notice_;
+        view.problems = {problem_};
+    }
     const Grid page = cli::draw(view, terminal_.size(), look_);
     const Grid* before = terminal_.take_lost() ? nullptr : &shown_;
     const bool open = terminal_.write(repaint(before, page, look_.depth));
@@ -224,6 +246,13 @@ void print_summary(const session::SimSession& session) {
     print_line(session.now(), text);
 }
 
+// Gives the exit code.
+int tell_end(PlanRun& run, const run::Ended& ended) {
+    print_summary(run.prepared().world()->session());
+    if (!ended.message.empty()) complain(ended.message);
+    return run::exit_status(ended);
+}
+
 }  // namespace
 
 PlanShown how_to_show(const PlanRunOptions& options) {
@@ -240,9 +269,13 @@ int run_on_screen(PlanRun& run) {
     watch_for_end();
     auto terminal = Terminal::open();
     if (!terminal.ok()) return complain(terminal.error());
-    const auto screen = std::make_unique<PlanScreen>(run, std::move(terminal.value()));
+    auto screen = std::make_unique<PlanScreen>(run, std::move(terminal.value()));
     const run::Ended ended = screen->run();
-    return end_of(ended);
+    const auto last_word = screen->last_word();
+    // What is said from here on stands on the normal screen.
+    screen.reset();
+    if (last_word) print_line(last_word->at, last_word->text);
+    return end_as_asked(tell_end(run, ended));
 }
 
 int run_in_lines(PlanRun& run) {
@@ -250,9 +283,7 @@ int run_in_lines(PlanRun& run) {
         if (const auto sentence = sentence_of(event)) print_line(event.at, *sentence);
     });
     const run::Ended ended = run.run();
-    print_summary(run.prepared().world()->session());
-    if (!ended.message.empty()) complain(ended.message);
-    return run::exit_status(ended);
+    return tell_end(run, ended);
 }
 
 }  // namespace vagus::cli

@@ -116,7 +116,9 @@ void PlanStory::note(const plan::TraceEvent& event) {
     const auto sentence = sentence_of(event);
     if (!sentence) return;
     happenings_.push_front({event.at, *sentence, false});
-    if (happenings_.size() > kHappeningsKept) happenings_.pop_back();
+    if (happenings_.size() <= kHappeningsKept) return;
+    happenings_.pop_back();
+    ++forgotten_;
 }
 
 // ---- showing ----
@@ -137,6 +139,8 @@ PlanPanelView PlanStory::panel(Time now) const {
     add_actors(panel, now);
     if (ended_.empty()) add_watching(panel);
     add_variables(panel, now);
+    panel.over = !ended_.empty();
+    panel.forgotten = forgotten_;
     for (HappeningView one : happenings_) {
         one.fresh = now - one.at < kFreshFor;
         panel.happenings.push_back(std::move(one));

@@ -54,7 +54,8 @@ private:
     run::TracedVariables variables_;
     std::vector<Level> levels_;  // the outermost first
     std::deque<HappeningView> happenings_;
-    std::string ended_;  // the result, once it is over
+    size_t forgotten_ = 0;  // earlier ones
+    std::string ended_;     // the result, once it is over
     bool failed_ = false;
 };
 

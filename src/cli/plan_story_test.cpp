@@ -76,6 +76,7 @@ TEST_F(PlanStoryTest, TellsWhoIsActiveSinceWhen) {
     const PlanPanelView panel = until(500ms).panel(600ms);
     EXPECT_EQ(panel.name, "Watchful");
     EXPECT_EQ(panel.state, "running");
+    EXPECT_FALSE(panel.over);
     ASSERT_EQ(panel.actors.size(), 4u);
     EXPECT_TRUE(panel.actors[0].active);
     EXPECT_EQ(panel.actors[0].for_so_long, 600ms);
@@ -103,6 +104,7 @@ TEST_F(PlanStoryTest, ShowsVariablesAndMarksThoseThatChangedAMomentAgo) {
 TEST_F(PlanStoryTest, TellsWhatHappenedTheLatestFirst) {
     const PlanPanelView panel = until(10s).panel(10s);
     EXPECT_EQ(panel.state, "OK");
+    EXPECT_TRUE(panel.over);
     std::vector<std::string> told;
     for (const HappeningView& one : panel.happenings) told.push_back(one.text);
     EXPECT_THAT(told,
@@ -110,6 +112,16 @@ TEST_F(PlanStoryTest, TellsWhatHappenedTheLatestFirst) {
                             "count: Done → last", "calm: Done → count", "alarm: Timeout → calm"));
     // What the variables held at the end stays.
     EXPECT_EQ(panel.variables[0].value, "7");
+}
+
+TEST_F(PlanStoryTest, CountsWhatItForgetsOfALongRun) {
+    PlanStory story = until(0s);
+    EXPECT_EQ(story.panel(0s).forgotten, 0u);
+    for (size_t i = 0; i < kHappeningsKept + 1; ++i) {
+        story.see({0s, "Watchful", plan::ErrorFound{"e", "wrong"}});
+    }
+    EXPECT_EQ(story.panel(0s).happenings.size(), kHappeningsKept);
+    EXPECT_EQ(story.panel(0s).forgotten, 1u);
 }
 
 TEST_F(PlanStoryTest, StandsBesideTheWorldOnThePage) {

@@ -9,7 +9,6 @@ namespace {
 constexpr Duration kTrailEvery = std::chrono::milliseconds(100);
 constexpr Duration kFreshFor = std::chrono::milliseconds(500);
 constexpr int kImageColumns = 240;   // of a floor with a picture on it
-constexpr double kBorder = 0.012;    // width of the walls around, as part of the longer side
 constexpr double kContrastMin = 45;  // luminance between a thing and the floor
 constexpr Rgb kBorderColour{105, 85, 70};
 constexpr Rgb kLampOn{255, 235, 120};
@@ -86,19 +85,6 @@ ShapeView shape_of(const sim::ObjectView& object, Rgb floor) {
     const bool lamp = shape.kind == ShapeKind::Light;
     if (lamp) shape.outline = {{}, {object.pose.at.x, object.pose.at.y}, 0.02};
     return shape;
-}
-
-void add_border(const sim::WorldDefinition& world, std::vector<ShapeView>& shapes) {
-    const double w = world.width;
-    const double h = world.height;
-    const double t = kBorder * std::max(w, h);
-    const auto add = [&](double x, double y, double width, double height) {
-        shapes.push_back({ShapeKind::Solid, rectangle({{x, y}, 0}, width, height), kBorderColour});
-    };
-    add(w / 2, t / 2, w, t);
-    add(w / 2, h - t / 2, w, t);
-    add(t / 2, h / 2, t, h);
-    add(w - t / 2, h / 2, t, h);
 }
 
 GroundImage image_of(const sim::World& world) {
@@ -274,7 +260,7 @@ View SimView::view(const session::SimSession& session, size_t selected) const {
         ShapeView shape = shape_of(object, view.ground);
         (shape.kind == ShapeKind::Patch ? view.shapes : standing).push_back(std::move(shape));
     }
-    if (!definition.open) add_border(definition, view.shapes);
+    if (!definition.open) view.border = kBorderColour;
     view.shapes.insert(view.shapes.end(), standing.begin(), standing.end());
     for (const sim::RobotView& robot : world.robots()) {
         view.robots.push_back(robot_view(world, robot, view.ground));

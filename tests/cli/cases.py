@@ -526,6 +526,54 @@ class Cli(unittest.TestCase):
             screen.wait_for("ended 0")
             self.assertTrue(screen.modes_are_back())
 
+    # ---- plan run on a terminal ----
+
+    def plan_that_waits(self, seconds):
+        return self.plan_of({"template": "Wait", "in": {"seconds": seconds}, "states": {"Done": "@terminate"}})
+
+    def plan_of(self, actor):
+        return self.file("one.plan.json", json.dumps({
+            "format": "vagus-plan/1", "name": "One", "toolboxes": ["drive"],
+            "configuration": {"fast": {"type": "float", "initial": 100}},
+            "start": {"actor": "only"}, "actors": {"only": actor}}))
+
+    def after_the_screen(self, screen):
+        """What stands on the normal screen after the view has gone."""
+        self.assertTrue(screen.given_back(), screen.bytes[-200:])
+        return screen.bytes[screen.bytes.rindex(b"\x1b[?1049l"):].decode()
+
+    def test_a_plan_that_is_over_stays_until_q_and_leaves_its_last_lines(self):
+        with Screen("plan", "run", self.plan_that_waits(0.1), "--world", self.world) as screen:
+            screen.wait_page("the plan is over: OK")
+            screen.bytes = b""
+            screen.wait_page("quit")
+            self.assertNotIn(b"pause", screen.bytes)
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 0)
+            left = self.after_the_screen(screen)
+            self.assertIn("0.100 s  the plan is over: OK", left)
+            self.assertIn("rob stands at", left)
+
+    def test_the_error_that_ends_a_plan_stands_on_the_normal_screen(self):
+        plan = self.plan_of({"template": "Forward", "in": {"distance": 10, "speed": "fast"},
+                             "states": {"ForwardSuccessful": "@terminate"}})
+        with Screen("plan", "run", plan, "--world", ROOT / "examples/follow-wall/hall.world.json") as screen:
+            screen.wait_page("the plan is over: Error")
+            screen.bytes = b""
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 4)
+            left = self.after_the_screen(screen)
+            self.assertIn("the plan is over: Error", left)
+            self.assertRegex(left, r"vagus: .*\"speed\" is 100")
+
+    def test_q_in_the_middle_of_a_plan_interrupts_it(self):
+        with Screen("plan", "run", self.plan_that_waits(1000), "--world", self.world) as screen:
+            screen.wait_page("running")
+            screen.bytes = b""
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 3)
+            self.assertIn("the plan is over: Interrupted", self.after_the_screen(screen))
+
     def test_a_terminal_that_cannot_draw_gets_lines(self):
         with Screen("sim", self.world, "--speed", "max", env={"TERM": "dumb"}) as screen:
             screen.wait_for("20.000 s  rob  at")

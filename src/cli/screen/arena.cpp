@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace vagus::cli {
 namespace {
@@ -111,13 +112,25 @@ void mark_direction(Grid& grid, const Canvas& canvas, const RobotView& robot, co
     grid.put(column, row, cell);
 }
 
-void paint_things(Canvas& canvas, const View& view) {
-    for (const ShapeView& shape : view.shapes) {
+void paint_shapes(Canvas& canvas, std::span<const ShapeView> shapes) {
+    for (const ShapeView& shape : shapes) {
         const Stuff stuff = shape.kind == ShapeKind::Patch   ? Stuff::Mark
                             : shape.kind == ShapeKind::Solid ? Stuff::Solid
                                                              : Stuff::Lamp;
         canvas.shape(shape.outline, {shape.colour, stuff});
     }
+}
+
+// Marks lie under the walls around the world, all else stands before them.
+void paint_things(Canvas& canvas, const View& view) {
+    const auto standing =
+        std::find_if(view.shapes.begin(), view.shapes.end(),
+                     [](const ShapeView& shape) { return shape.kind != ShapeKind::Patch; });
+    const auto marks = static_cast<size_t>(standing - view.shapes.begin());
+    const std::span<const ShapeView> shapes(view.shapes);
+    paint_shapes(canvas, shapes.first(marks));
+    if (view.border) canvas.frame({*view.border, Stuff::Solid});
+    paint_shapes(canvas, shapes.subspan(marks));
 }
 
 void paint_lines(Canvas& canvas, const View& view) {

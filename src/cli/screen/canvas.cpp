@@ -80,6 +80,14 @@ Mix sum(const Quarters& quarters, unsigned set) {
     return mix;
 }
 
+int things_in(const Quarters& quarters, unsigned set) {
+    int things = 0;
+    for (unsigned i = 0; i < kQuadrants; i++) {
+        if (((set >> i) & 1u) != 0) things += quarters.things[i];
+    }
+    return things;
+}
+
 double cost_of(const Quarters& quarters, unsigned set) {
     const Mix inside = sum(quarters, set);
     const Mix outside = sum(quarters, 15u & ~set);
@@ -107,7 +115,12 @@ Cell coloured_block(const Quarters& quarters) {
     for (unsigned set = 1; set < 8; set++) {
         if (cost_of(quarters, set) + 1 < cost_of(quarters, best)) best = set;
     }
-    if (best == 0) return {U' ', {std::nullopt, sum(quarters, 15u).colour(), false}};
+    // Things are glyphs, the floor is what lies behind them: copied as mere text, a page shows the
+    // same picture.
+    if (best == 0 && quarters.things_all < quarters.seen) {
+        return {U' ', {std::nullopt, sum(quarters, 15u).colour(), false}};
+    }
+    if (things_in(quarters, best) < things_in(quarters, 15u & ~best)) best = 15u & ~best;
     return {kBlocks[best],
             {sum(quarters, best).colour(), sum(quarters, 15u & ~best).colour(), false}};
 }
@@ -194,15 +207,23 @@ Canvas::Canvas(Area area, double width, double height)
     : area_(area),
       width_(width),
       height_(height),
-      scale_(std::max(width / (area.columns * kAcross), height / (area.rows * kDown))),
-      left_((area.columns * kAcross - width / scale_) / 2),
-      top_((area.rows * kDown - height / scale_) / 2),
       samples_(static_cast<size_t>(area.columns * kAcross) * static_cast<size_t>(area.rows * kDown),
                Paint{{}, Stuff::Nothing}),
-      dots_(static_cast<size_t>(area.columns) * static_cast<size_t>(area.rows)) {}
+      dots_(static_cast<size_t>(area.columns) * static_cast<size_t>(area.rows)) {
+    const double scale = std::max(width / (area.columns * kAcross), height / (area.rows * kDown));
+    const auto cells = [scale](double metres, int samples, int most) {
+        return std::clamp(static_cast<int>(std::lround(metres / scale / samples)), 1, most);
+    };
+    columns_ = cells(width, kAcross, area.columns);
+    rows_ = cells(height, kDown, area.rows);
+    left_ = (area.columns - columns_) / 2 * kAcross;
+    top_ = (area.rows - rows_) / 2 * kDown;
+    scale_x_ = width / (columns_ * kAcross);
+    scale_y_ = height / (rows_ * kDown);
+}
 
 Point Canvas::place_of(int x, int y) const {
-    return {(x + 0.5 - left_) * scale_, height_ - (y + 0.5 - top_) * scale_};
+    return {(x + 0.5 - left_) * scale_x_, height_ - (y + 0.5 - top_) * scale_y_};
 }
 
 bool Canvas::inside(Point at) const {
@@ -211,8 +232,8 @@ bool Canvas::inside(Point at) const {
 
 void Canvas::shape(const Outline& outline, const Paint& paint) {
     const Box box = box_of(outline);
-    const auto across = [&](double x) { return x / scale_ + left_; };
-    const auto down = [&](double y) { return (height_ - y) / scale_ + top_; };
+    const auto across = [&](double x) { return x / scale_x_ + left_; };
+    const auto down = [&](double y) { return (height_ - y) / scale_y_ + top_; };
     const int from_x = static_cast<int>(std::clamp(across(box.low.x), 0.0, 1.0 * samples_across()));
     const int to_x =
         static_cast<int>(std::clamp(across(box.high.x) + 1, 0.0, 1.0 * samples_across()));
@@ -225,10 +246,21 @@ void Canvas::shape(const Outline& outline, const Paint& paint) {
     }
 }
 
+void Canvas::frame(const Paint& paint) {
+    const int right = left_ + columns_ * kAcross;
+    const int bottom = top_ + rows_ * kDown;
+    for (int y = top_; y < bottom; y++) {
+        const bool edge = y < top_ + kDown / 2 || y >= bottom - kDown / 2;
+        for (int x = left_; x < right; x++) {
+            if (edge || x < left_ + kAcross || x >= right - kAcross) sample(x, y) = paint;
+        }
+    }
+}
+
 void Canvas::dot(Point at, Rgb colour) {
     if (!inside(at)) return;
-    const double across = (at.x / scale_ + left_) / 2;
-    const double down = ((height_ - at.y) / scale_ + top_) / 2;
+    const double across = (at.x / scale_x_ + left_) / 2;
+    const double down = ((height_ - at.y) / scale_y_ + top_) / 2;
     const int x = std::clamp(static_cast<int>(across), 0, area_.columns * 2 - 1);
     const int y = std::clamp(static_cast<int>(down), 0, area_.rows * 4 - 1);
     Dots& dots = dots_[static_cast<size_t>(y / 4) * static_cast<size_t>(area_.columns) +
@@ -239,7 +271,8 @@ void Canvas::dot(Point at, Rgb colour) {
 
 void Canvas::line(Point from, Point to, Rgb colour) {
     const double length = std::hypot(to.x - from.x, to.y - from.y);
-    const double dots = std::min(length / (2 * scale_), 4.0 * (area_.columns + area_.rows));
+    const double apart = 2 * std::min(scale_x_, scale_y_);
+    const double dots = std::min(length / apart, 4.0 * (area_.columns + area_.rows));
     const int steps = 1 + static_cast<int>(dots);
     for (int i = 0; i <= steps; i++) {
         const double part = 1.0 * i / steps;
@@ -248,11 +281,11 @@ void Canvas::line(Point from, Point to, Rgb colour) {
 }
 
 int Canvas::column_of(Point at) const {
-    return area_.column + static_cast<int>(std::floor((at.x / scale_ + left_) / kAcross));
+    return area_.column + static_cast<int>(std::floor((at.x / scale_x_ + left_) / kAcross));
 }
 
 int Canvas::row_of(Point at) const {
-    return area_.row + static_cast<int>(std::floor(((height_ - at.y) / scale_ + top_) / kDown));
+    return area_.row + static_cast<int>(std::floor(((height_ - at.y) / scale_y_ + top_) / kDown));
 }
 
 Cell Canvas::cell(int column, int row, const Look& look) const {

@@ -36,7 +36,8 @@ struct Area {
 class Canvas {
 public:
     // Shows `width` by `height` metres in the middle of the area, as large as they fit; a cell is
-    // twice as high as wide.
+    // twice as high as wide. They cover whole cells, so that opposite edges look the same at every
+    // size: what is shown may be stretched by up to half a cell.
     Canvas(Area area, double width, double height);
 
     // Colours the floor by the place, in metres.
@@ -50,6 +51,8 @@ public:
         }
     }
     void shape(const Outline& outline, const Paint& paint);
+    // Along the four edges: a column wide, half a row high, which is the same on the screen.
+    void frame(const Paint& paint);
     void line(Point from, Point to, Rgb colour);
     void dot(Point at, Rgb colour);
 
@@ -59,13 +62,13 @@ public:
     bool inside(Point at) const;
 
     // Metres that one column covers.
-    double column_metres() const { return 4 * scale_; }
+    double column_metres() const { return kAcross * scale_x_; }
 
     void draw(Grid& grid, const Look& look) const;
 
 private:
-    static constexpr int kAcross =
-        4;  // samples in a cell: squares, as a cell is twice as high as wide
+    // Samples in a cell: about squares, as a cell is twice as high as wide.
+    static constexpr int kAcross = 4;
     static constexpr int kDown = 8;
 
     struct Dots {
@@ -89,9 +92,12 @@ private:
     Area area_;
     double width_;
     double height_;
-    double scale_;  // metres a sample
-    double left_;   // samples of margin
-    double top_;
+    int columns_ = 1;  // cells that the world covers, in the middle of the area
+    int rows_ = 1;
+    int left_ = 0;  // samples of margin
+    int top_ = 0;
+    double scale_x_ = 1;  // metres a sample
+    double scale_y_ = 1;
     std::vector<Paint> samples_;
     std::vector<Dots> dots_;
 };

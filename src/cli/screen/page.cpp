@@ -26,6 +26,12 @@ std::string shortened(const std::string& text, int columns, Charset charset) {
     return text.substr(0, end) + (charset == Charset::Ascii ? "~" : "…");
 }
 
+void more(Page& page, size_t count, Charset charset) {
+    const std::string dots = charset == Charset::Ascii ? "... " : "… ";
+    page.add(dots + std::to_string(count) + " more", {kDim, {}, false});
+    page.next();
+}
+
 void heading(Page& page, std::string_view words, Charset charset) {
     if (page.rows_left() < 2) return;
     const std::string rule = charset == Charset::Ascii ? "-" : "─";

@@ -57,6 +57,9 @@ std::string fixed(double value, int decimals);
 // Cut at the end so that it takes so many columns, with a mark.
 std::string shortened(const std::string& text, int columns, Charset charset);
 
+// "… 3 more": the line under a list of which so many do not fit.
+void more(Page& page, size_t count, Charset charset);
+
 // "── words ────", if a line of its list has room under it.
 void heading(Page& page, std::string_view words, Charset charset);
 

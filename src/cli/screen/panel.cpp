@@ -91,11 +91,7 @@ void add_variables(Page& page, const PanelView& panel, Charset charset, int rows
         page.add_right(shortened(words_of(variable.values), room - 1, charset), ink);
         page.next();
     }
-    if (shown < panel.variables.size()) {
-        page.add("and " + std::to_string(panel.variables.size() - shown) + " more",
-                 {kDim, {}, false});
-        page.next();
-    }
+    if (shown < panel.variables.size()) more(page, panel.variables.size() - shown, charset);
 }
 
 void add_events(Page& page, const View& view, Charset charset) {
@@ -105,8 +101,13 @@ void add_events(Page& page, const View& view, Charset charset) {
         page.next();
         return;
     }
-    for (const EventView& event : view.panel.events) {
+    const auto& events = view.panel.events;
+    for (size_t i = 0; i < events.size(); i++) {
         if (page.full()) return;
+        if (page.rows_left() == 1 && i + 1 < events.size()) {
+            return more(page, events.size() - i, charset);
+        }
+        const EventView& event = events[i];
         const bool bright = view.now - event.last < kFlash;
         page.add(shortened(event.name, page.columns() / 2, charset),
                  {bright ? Colour(kFresh) : Colour(), {}, bright});

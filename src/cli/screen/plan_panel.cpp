@@ -1,5 +1,6 @@
 #include "cli/screen/plan_panel.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/screen/page.hpp"
@@ -8,11 +9,12 @@ namespace vagus::cli {
 
 namespace {
 
-constexpr int kActorsMax = 9;  // lines of each list at most
-constexpr int kWatchingMax = 5;
-constexpr int kVariablesMax = 6;
-constexpr int kLoadsMax = 6;
+constexpr size_t kActorsMax = 9;  // lines of each list at most
+constexpr size_t kWatchingMax = 5;
+constexpr size_t kVariablesMax = 6;
+constexpr size_t kLoadsMax = 6;
 constexpr int kHappeningsMin = 4;  // lines that the other lists leave
+constexpr size_t kListMin = 2;     // lines of a longer list at least: one of it, and how many more
 constexpr int kBarColumns = 10;
 constexpr double kBarFull = 0.01;  // of the bus: a full bar stands for the highest, at least this
 
@@ -40,33 +42,49 @@ public:
         page_.add(plan_.name, {kHead, {}, true});
         page_.add_right(plan_.state, {plan_.wrong ? kBad : kGood, {}, true});
         page_.next();
-        actors();
-        watching();
-        variables();
+        const int under_variables = least(plan_.loads.size());
+        const int under_watching = least(plan_.variables.size()) + under_variables;
+        const int under_actors = least(std::max<size_t>(plan_.watching.size(), 1)) + under_watching;
+        actors(room(plan_.actors.size(), kActorsMax, under_actors));
+        watching(under_watching);
+        variables(under_variables);
         loads();
         happenings();
     }
 
 private:
+    // Lines that a list takes in any case, with its heading.
+    static int least(size_t count) {
+        return count == 0 ? 0 : 1 + static_cast<int>(std::min(count, kListMin));
+    }
+
     // Lines for a list of `count`, so that what follows keeps some.
-    int room(size_t count, int most) const {
-        const int left = page_.rows_left() - 1 - kHappeningsMin - reserved_;
-        return std::max(1, std::min({static_cast<int>(count), most, left}));
+    size_t room(size_t count, size_t most, int follows) const {
+        const int left = page_.rows_left() - 1 - kHappeningsMin - follows;
+        const size_t rows = std::min(static_cast<size_t>(std::max(left, 0)), most);
+        return std::min(count, std::max(rows, kListMin));
+    }
+
+    // The lines of a list; where not all fit, the last says how many are left out.
+    template <typename List, typename Line>
+    void list(const List& all, size_t rows, const Line& line) {
+        const size_t shown = all.size() > rows ? rows - 1 : all.size();
+        for (size_t i = 0; i < shown; ++i) line(all[i]);
+        if (shown < all.size()) more(page_, all.size() - shown, charset_);
     }
 
     // A part around the active one, if there are more than fit.
-    void actors() {
+    void actors(size_t rows) {
         const auto& all = plan_.actors;
-        const int rows = room(all.size(), kActorsMax);
-        int active = 0;
+        const size_t shown = all.size() > rows ? rows - 1 : all.size();
+        size_t active = 0;
         for (size_t i = 0; i < all.size(); ++i) {
-            if (all[i].active) active = static_cast<int>(i);
+            if (all[i].active) active = i;
         }
-        const int last = static_cast<int>(all.size()) - rows;
-        const int first = std::clamp(active - rows / 2, 0, std::max(last, 0));
-        for (int i = first; i < first + rows && i < static_cast<int>(all.size()); ++i) {
-            actor(all[static_cast<size_t>(i)]);
-        }
+        const size_t before = std::min(active, shown / 2);
+        const size_t first = std::min(active - before, all.size() - shown);
+        for (size_t i = first; i < first + shown; ++i) actor(all[i]);
+        if (shown < all.size()) more(page_, all.size() - shown, charset_);
     }
 
     void actor(const ActorView& actor) {
@@ -82,26 +100,24 @@ private:
         page_.next();
     }
 
-    void watching() {
+    void watching(int follows) {
         heading(page_, "watching", charset_);
         if (plan_.watching.empty()) nothing("nobody");
-        const int rows = room(plan_.watching.size(), kWatchingMax);
-        for (int i = 0; i < rows && i < static_cast<int>(plan_.watching.size()); ++i) {
-            const WatchView& watch = plan_.watching[static_cast<size_t>(i)];
+        const size_t rows = room(plan_.watching.size(), kWatchingMax, follows);
+        list(plan_.watching, rows, [this](const WatchView& watch) {
             page_.add(watch.name, {kBar, {}, false});
             page_.add(watch.global ? " always " : " ", {kDim, {}, false});
             const int left = page_.columns() - page_.column();
             page_.add_right(shortened(watch.events, left, charset_), {kDim, {}, false});
             page_.next();
-        }
+        });
     }
 
-    void variables() {
+    void variables(int follows) {
         if (plan_.variables.empty()) return;
         heading(page_, "variables", charset_);
-        const int rows = room(plan_.variables.size(), kVariablesMax);
-        for (int i = 0; i < rows && i < static_cast<int>(plan_.variables.size()); ++i) {
-            const PlanVariableView& variable = plan_.variables[static_cast<size_t>(i)];
+        const size_t rows = room(plan_.variables.size(), kVariablesMax, follows);
+        list(plan_.variables, rows, [this](const PlanVariableView& variable) {
             page_.add(shortened(variable.name, page_.columns() / 2, charset_), {});
             page_.add(" ", {});
             const std::string unit = variable.unit.empty() ? "" : " " + variable.unit;
@@ -109,27 +125,26 @@ private:
             const Ink ink{variable.fresh ? Colour(kFresh) : Colour(), {}, variable.fresh};
             page_.add_right(shortened(variable.value, left, charset_) + unit, ink);
             page_.next();
-        }
+        });
     }
 
     void loads() {
         if (plan_.loads.empty()) return;
         heading(page_, "bus " + percent(plan_.load), charset_);
-        const int rows = room(plan_.loads.size(), kLoadsMax);
+        const size_t rows = room(plan_.loads.size(), kLoadsMax, 0);
         size_t width = 0;
         double highest = kBarFull;
         for (const NodeLoadView& load : plan_.loads) {
             width = std::max(width, load.name.size());
             highest = std::max(highest, load.share);
         }
-        for (int i = 0; i < rows && i < static_cast<int>(plan_.loads.size()); ++i) {
-            const NodeLoadView& load = plan_.loads[static_cast<size_t>(i)];
+        list(plan_.loads, rows, [&](const NodeLoadView& load) {
             page_.add(shortened(load.name, page_.columns() / 2, charset_), {});
             page_.jump(static_cast<int>(std::min<size_t>(width, 20)) + 1);
             bar(load.share / highest);
             page_.add_right(percent(load.share), {});
             page_.next();
-        }
+        });
     }
 
     void bar(double part) {
@@ -143,15 +158,21 @@ private:
     void happenings() {
         heading(page_, "what happened", charset_);
         if (plan_.happenings.empty()) nothing("nothing yet");
-        for (const HappeningView& one : plan_.happenings) {
-            if (page_.full()) return;
-            const double seconds = std::chrono::duration<double>(one.at).count();
-            page_.add(fixed(seconds, 1) + " ", {kDim, {}, false});
-            const Ink ink{one.fresh ? Colour(kFresh) : Colour(), {}, one.fresh};
-            const std::string text = in_charset(one.text, charset_);
-            page_.add(shortened(text, page_.columns() - page_.column(), charset_), ink);
-            page_.next();
-        }
+        const size_t all = plan_.happenings.size() + plan_.forgotten;
+        const auto rows = static_cast<size_t>(std::max(page_.rows_left(), 0));
+        if (rows == 0) return;
+        const size_t shown = std::min(plan_.happenings.size(), all > rows ? rows - 1 : all);
+        for (size_t i = 0; i < shown; ++i) happening(plan_.happenings[i]);
+        if (shown < all) more(page_, all - shown, charset_);
+    }
+
+    void happening(const HappeningView& one) {
+        const double seconds = std::chrono::duration<double>(one.at).count();
+        page_.add(fixed(seconds, 1) + " ", {kDim, {}, false});
+        const Ink ink{one.fresh ? Colour(kFresh) : Colour(), {}, one.fresh};
+        const std::string text = in_charset(one.text, charset_);
+        page_.add(shortened(text, page_.columns() - page_.column(), charset_), ink);
+        page_.next();
     }
 
     void nothing(std::string_view words) {
@@ -163,7 +184,6 @@ private:
     Page page_;
     const PlanPanelView& plan_;
     Charset charset_;
-    int reserved_ = 6;  // a heading and a line of each list that follows
 };
 
 }  // namespace

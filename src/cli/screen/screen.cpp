@@ -56,7 +56,9 @@ void draw_state(Grid& grid, int row, const View& view) {
     int column = grid.text(1, row, size.columns, view.title, bar_ink(kBarFore, true));
     column =
         grid.text(column + 2, row, size.columns, clock_text(view.now), bar_ink(kBarFore, false));
-    column = view.paused
+    const bool over = view.plan && view.plan->over;
+    column = over ? column
+             : view.paused
                  ? grid.text(column + 2, row, size.columns, "paused", bar_ink(kPaused, true))
                  : grid.text(column + 2, row, size.columns, view.speed, bar_ink(kBarFore, false));
     const int left = size.columns - 1 - text_width(view.listening);
@@ -75,6 +77,7 @@ void draw_keys(Grid& grid, int row, const View& view) {
     const std::string pause = view.paused ? "go on" : "pause";
     const std::vector<KeyHelp> of_plan = {
         {"space", pause}, {"q", "quit"}, {"e", view.button_does}, {"+ -", "speed"}};
+    const std::vector<KeyHelp> of_the_end = {{"q", "quit"}};
     const std::vector<KeyHelp> of_world = {{"space", pause},
                                            {"q", "quit"},
                                            {"r", "reset"},
@@ -83,7 +86,8 @@ void draw_keys(Grid& grid, int row, const View& view) {
                                            {"t", "tap"},
                                            {"b", view.button_does},
                                            {"arrows", view.arrows_do}};
-    for (const auto& [key, does] : view.plan ? of_plan : of_world) {
+    const auto& keys = !view.plan ? of_world : view.plan->over ? of_the_end : of_plan;
+    for (const auto& [key, does] : keys) {
         const int width = text_width(key) + 1 + text_width(does);
         if (column + width > size.columns) return;
         column = grid.text(column, row, size.columns, key, {kKey, {}, true});

@@ -113,6 +113,137 @@ TEST(Screen, AListThatDoesNotFitSaysHowMuchIsMissing) {
     EXPECT_THAT(text_of(draw(view, {80, 60}, kPlain)), HasSubstr("v39"));
 }
 
+// Where the world is shown, by the glyphs of its upper left and lower right corner.
+struct Frame {
+    int left = 0;
+    int top = 0;
+    int right = 0;
+    int bottom = 0;
+};
+
+bool is_border(const Cell& cell, Rgb colour, const Look& look) {
+    if (look.depth == ColourDepth::None) return cell.glyph == U'█';
+    return cell.glyph == U'█' && cell.ink.fore == Colour(colour);
+}
+
+Frame frame_of(const Grid& page, Rgb colour, const Look& look) {
+    Frame frame{page.size().columns, page.size().rows, -1, -1};
+    for (int row = 0; row < page.size().rows; row++) {
+        for (int column = 0; column < page.size().columns; column++) {
+            if (!is_border(page.at(column, row), colour, look)) continue;
+            frame.left = std::min(frame.left, column);
+            frame.top = std::min(frame.top, row);
+            frame.right = std::max(frame.right, column);
+            frame.bottom = std::max(frame.bottom, row);
+        }
+    }
+    return frame;
+}
+
+// Each edge once: a full column left and right, half a row above and below, floor inside.
+void expect_four_edges(const Grid& page, Rgb colour, const Look& look) {
+    const Frame at = frame_of(page, colour, look);
+    ASSERT_LT(at.left + 2, at.right) << text_of(page);
+    ASSERT_LT(at.top + 2, at.bottom) << text_of(page);
+    for (int row = at.top; row <= at.bottom; row++) {
+        EXPECT_TRUE(is_border(page.at(at.left, row), colour, look)) << text_of(page);
+        EXPECT_TRUE(is_border(page.at(at.right, row), colour, look)) << text_of(page);
+        EXPECT_EQ(page.at(at.left + 1, row).glyph, row == at.top      ? U'▀'
+                                                   : row == at.bottom ? U'▄'
+                                                                      : U' ');
+    }
+    for (int column = at.left + 1; column < at.right; column++) {
+        ASSERT_EQ(page.at(column, at.top).glyph, U'▀') << text_of(page);
+        ASSERT_EQ(page.at(column, at.top + 1).glyph, U' ') << text_of(page);
+        ASSERT_EQ(page.at(column, at.bottom).glyph, U'▄') << text_of(page);
+        ASSERT_EQ(page.at(column, at.bottom - 1).glyph, U' ') << text_of(page);
+    }
+}
+
+TEST(Screen, ShowsAllFourWallsAroundTheWorldAtEverySize) {
+    View view;
+    view.border = Rgb{105, 85, 70};
+    for (const Point metres : {Point{6, 4.5}, Point{2, 1}, Point{1, 1}, Point{1, 1.7}}) {
+        view.width = metres.x;
+        view.height = metres.y;
+        for (int columns = 60; columns <= 160; columns += 9) {
+            for (int rows = 16; rows <= 50; rows += 4) {
+                SCOPED_TRACE(std::to_string(columns) + " x " + std::to_string(rows));
+                for (const ColourDepth depth : {ColourDepth::None, ColourDepth::True}) {
+                    const Look look{Charset::Unicode, depth};
+                    expect_four_edges(draw(view, {columns, rows}, look), *view.border, look);
+                    if (HasFatalFailure()) return;
+                }
+            }
+        }
+    }
+}
+
+TEST(Screen, AnOpenWorldHasNoWallsAround) {
+    View view;
+    EXPECT_THAT(text_of(draw(view, {80, 24}, kPlain)), testing::Not(HasSubstr("█")));
+}
+
+PlanPanelView long_plan() {
+    PlanPanelView plan;
+    plan.name = "Long";
+    plan.state = "running";
+    const auto name = [](const char* letter, int i) { return letter + std::to_string(i); };
+    for (int i = 0; i < 20; i++) plan.actors.push_back({name("a", i), 0, i == 13, {}});
+    for (int i = 0; i < 7; i++) plan.watching.push_back({name("w", i), "Seen", false});
+    for (int i = 0; i < 8; i++) plan.variables.push_back({name("v", i), "1", "", false});
+    for (int i = 0; i < 9; i++) plan.loads.push_back({name("n", i), 0.001});
+    for (int i = 0; i < 30; i++) plan.happenings.push_back({{}, name("h", i), false});
+    plan.forgotten = 1000;
+    return plan;
+}
+
+// 60 x 20: the panel has 18 lines. The name, 2 of actors, three lists of a heading and 2 lines, a
+// heading and 4 lines + the one that is left over of what happened: of 1030, 3 and how many more.
+TEST(Screen, EachListOfAPlanSaysHowMuchOfItIsMissing) {
+    View view;
+    view.plan = long_plan();
+    const std::string page = text_of(draw(view, {60, 20}, kPlain));
+    EXPECT_THAT(page, HasSubstr("▶ a13"));
+    EXPECT_THAT(page, HasSubstr("… 18 more"));    // actors
+    EXPECT_THAT(page, HasSubstr("… 6 more"));     // watching
+    EXPECT_THAT(page, HasSubstr("… 7 more"));     // variables
+    EXPECT_THAT(page, HasSubstr("… 8 more"));     // the load of the bus
+    EXPECT_THAT(page, HasSubstr("… 1027 more"));  // what happened
+}
+
+TEST(Screen, AListOfAPlanThatFitsIsWhole) {
+    View view;
+    view.plan = long_plan();
+    view.plan->actors.resize(9);
+    view.plan->watching.resize(5);
+    view.plan->variables.resize(6);
+    view.plan->loads.resize(6);
+    view.plan->happenings.resize(4);
+    view.plan->forgotten = 0;
+    EXPECT_THAT(text_of(draw(view, {140, 40}, kPlain)), testing::Not(HasSubstr("more")));
+}
+
+TEST(Screen, EventsThatDoNotFitAreCounted) {
+    View view = small_world();
+    for (int i = 0; i < 40; i++) view.panel.events.push_back({"e" + std::to_string(i), 1, {}, {}});
+    EXPECT_THAT(text_of(draw(view, kSizeMin, kPlain)), HasSubstr("… 3"));  // more than 30
+}
+
+TEST(Screen, APlanThatIsOverLeavesNoKeyButQuit) {
+    View view;
+    view.plan = long_plan();
+    view.plan->over = true;
+    view.notice = "the plan is over: OK";
+    view.speed = "x1";
+    const Grid page = draw(view, {100, 30}, kPlain);
+    EXPECT_EQ(page.row_text(29), " q quit");
+    EXPECT_THAT(page.row_text(0), HasSubstr("the plan is over: OK"));
+    EXPECT_THAT(page.row_text(0), testing::Not(HasSubstr("x1")));
+    view.plan->over = false;
+    EXPECT_THAT(draw(view, {100, 30}, kPlain).row_text(29), HasSubstr("space pause"));
+}
+
 // Robots leave an open world, files hold odd sizes: whatever the values, the page is drawn.
 TEST(Screen, NoValueBreaksThePage) {
     const uint64_t seed = 20;

@@ -142,10 +142,12 @@ struct PlanPanelView {
     std::string name;
     std::string state;  // "running", "OK" …
     bool wrong = false;
+    bool over = false;  // nothing is left to do but to look
     std::vector<ActorView> actors;
     std::vector<WatchView> watching;
     std::vector<PlanVariableView> variables;
     std::vector<HappeningView> happenings;  // the latest first
+    size_t forgotten = 0;                   // earlier ones that are not among them
     std::vector<NodeLoadView> loads;        // empty: the bus has no model
     double load = 0;                        // of all
 };
@@ -156,7 +158,8 @@ struct View {
     double height = 1;
     Rgb ground{200, 200, 200};
     GroundImage image;
-    std::vector<ShapeView> shapes;  // painted in this order
+    std::vector<ShapeView> shapes;  // painted in this order, marks on the floor first
+    std::optional<Rgb> border;      // the walls around, if there are some
     std::vector<RobotView> robots;
     size_t selected = 0;  // the robot that the panel is about
     PanelView panel;

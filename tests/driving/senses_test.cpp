@@ -185,23 +185,25 @@ TEST(Range, WhoUnwatchesHearsNoMoreAndOthersDo) {
     EXPECT_GT(tokens(10, 1s), 5u);
 }
 
+// Of something right ahead, 0.4 m away.
+bool heard_ahead(const Pilot& pilot, int16_t token) {
+    for (int16_t distance = 380; distance <= 420; ++distance)
+        if (pilot.count("range.near", {token, 0, distance}) > 0) return true;
+    return false;
+}
+
 TEST(Range, AFifthWatcherTakesThePlaceOfTheOldest) {
     Pilot pilot(room_with_wall(0.4), kScript);
     for (int16_t token = 1; token <= 5; ++token)
         pilot.send("range.watch", {token, 500, 100, 100, 0});
     pilot.step(500ms);
-    const auto heard = [&pilot](int16_t token) {
-        for (int16_t distance = 380; distance <= 420; ++distance)
-            if (pilot.count("range.near", {token, 0, distance}) > 0) return true;
-        return false;
-    };
     pilot.step(500ms);
-    EXPECT_TRUE(heard(2));
-    EXPECT_TRUE(heard(5));
+    EXPECT_TRUE(heard_ahead(pilot, 2));
+    EXPECT_TRUE(heard_ahead(pilot, 5));
     // The first was in the list for the first measurements at most.
     const size_t all = pilot.count("range.near");
     EXPECT_GT(all, 40u);
-    EXPECT_FALSE(heard(1));
+    EXPECT_FALSE(heard_ahead(pilot, 1));
 }
 
 // Both get their turn.
@@ -225,6 +227,66 @@ TEST(Range, AScanIsNotInterruptedBySweeps) {
     pilot.send("range.scan", {5, -400, 400, 200});
     EXPECT_TRUE(pilot.wait_for("range.done", {5}, 1500ms));
     EXPECT_EQ(pilot.count("range.measured"), 5u);
+}
+
+// ---- guarding a distance ----
+
+// The face of a long wall lies 0.6 m to the left of the rotator, and nothing else within 2 m. Heard
+// at 90 degrees it is 600 mm away, at most 3.6 % less by noise; no direction hears it nearer.
+sim::WorldDefinition room_with_wall_beside() {
+    sim::WorldDefinition world = room();
+    world.objects.push_back({.at = {1.18, 2.65}, .width = 4, .length = 0.1, .height = 0.5});
+    return world;
+}
+
+TEST(Range, AGuardComparesTheDistanceItself) {
+    Pilot pilot(room_with_wall_beside(), kScript);
+    pilot.send("range.guard", {9, 500, 200, 900});
+    pilot.step(5s);
+    EXPECT_EQ(pilot.count("range.near"), 0u);
+    pilot.send("range.guard", {9, 700, 200, 900});
+    const auto near = pilot.next("range.near", 3s);
+    ASSERT_TRUE(near);
+    EXPECT_EQ((*near)[0], 9);
+    EXPECT_GT((*near)[1], 0);    // to the left
+    EXPECT_GE((*near)[2], 578);  // 600 - 3.6 %
+    EXPECT_LT((*near)[2], 700);
+}
+
+// The sweep goes as far as the second one wants; the wall is not in sight of the first: its nearest
+// spot within 12 degrees of 40 (30 and half a step) is 600 / sin 52 = 761 mm away.
+TEST(Range, AGuardHearsNothingOfWhatIsBesideItsSpread) {
+    Pilot pilot(room_with_wall_beside(), kScript);
+    pilot.send("range.guard", {9, 700, 200, 300});
+    pilot.send("range.guard", {10, 700, 200, 900});
+    for (int heard = 0; heard < 10; ++heard) {
+        const auto near = pilot.next("range.near", 3s);
+        ASSERT_TRUE(near);
+        EXPECT_EQ(near->front(), 10);
+    }
+}
+
+// Of a wall beside that lane: 600 mm to the left is more than 175 + 100.
+TEST(Range, WhoWatchesTheLaneAndWhoGuardsHearEachItsOwn) {
+    Pilot pilot(room_with_wall_beside(), kScript);
+    pilot.send("range.watch", {9, 700, 100, 200, 900});
+    pilot.send("range.guard", {10, 700, 200, 900});
+    const auto near = pilot.next("range.near", 3s);
+    ASSERT_TRUE(near);
+    EXPECT_EQ(near->front(), 10);
+    pilot.send("range.unwatch", {10});
+    pilot.step(10ms);
+    const size_t all = pilot.count("range.near");
+    pilot.step(3s);
+    EXPECT_EQ(pilot.count("range.near"), all);
+}
+
+TEST(Range, AFifthGuardTakesThePlaceOfTheOldest) {
+    Pilot pilot(room_with_wall(0.4), kScript);
+    for (int16_t token = 1; token <= 5; ++token) pilot.send("range.guard", {token, 500, 200, 0});
+    pilot.step(1s);
+    EXPECT_FALSE(heard_ahead(pilot, 1));
+    for (int16_t token = 2; token <= 5; ++token) EXPECT_TRUE(heard_ahead(pilot, token)) << token;
 }
 
 // ---- infrared ----
@@ -251,14 +313,14 @@ TEST(Head, TellsWhereTheBeaconIs) {
 TEST(Head, AWatcherHearsOnceOfABeaconAndAgainWhenItComesAnew) {
     Pilot pilot(room_with_beacon(), kScript);
     const sim::ObjectId beacon = *pilot.world().find_object("beacon");
-    pilot.send("infrared.watch", {5});
+    pilot.send("infrared.watch", {5, 1});
     EXPECT_TRUE(pilot.next("infrared.found", 200ms));
     EXPECT_FALSE(pilot.next("infrared.found", 500ms));
     ASSERT_TRUE(pilot.world().switch_light(beacon, false).ok());
     pilot.step(200ms);
     ASSERT_TRUE(pilot.world().switch_light(beacon, true).ok());
     EXPECT_TRUE(pilot.next("infrared.found", 200ms));
-    pilot.send("infrared.watch", {6});  // hears of what is there already
+    pilot.send("infrared.watch", {6, 1});  // hears of what is there already
     EXPECT_EQ(pilot.next("infrared.found", 200ms)->front(), 6);
     pilot.send("infrared.unwatch", {6});
     pilot.step(10ms);
@@ -269,9 +331,37 @@ TEST(Head, AWatcherHearsOnceOfABeaconAndAgainWhenItComesAnew) {
     EXPECT_FALSE(pilot.next("infrared.found", 200ms));
 }
 
+// The beacon's intensity is 646 (see above).
+TEST(Head, AWatcherHearsOnlyOfWhatIsBrightEnough) {
+    Pilot pilot(room_with_beacon(), kScript);
+    pilot.send("infrared.watch", {5, 647});
+    pilot.send("infrared.watch", {6, 646});
+    const auto found = pilot.next("infrared.found", 300ms);
+    ASSERT_TRUE(found);
+    EXPECT_EQ((*found)[0], 6);
+    EXPECT_EQ((*found)[2], 646);
+    pilot.step(500ms);
+    EXPECT_EQ(pilot.count("infrared.found"), 1u);
+    pilot.send("infrared.unwatch", {5});  // the second one moves up, with what it wants
+    pilot.step(200ms);
+    EXPECT_EQ(pilot.count("infrared.found"), 1u);
+}
+
+// Less than 1 and more than 1000 are taken as the nearest: nothing is no beacon.
+TEST(Head, TheLeastIntensityIsKeptWithinItsRange) {
+    Pilot pilot(room(), kScript);
+    pilot.send("infrared.watch", {5, 0});
+    pilot.send("infrared.watch", {6, 1001});
+    pilot.step(200ms);
+    EXPECT_EQ(pilot.count("infrared.found"), 0u);
+    ASSERT_TRUE(pilot.world().add({.kind = sim::ObjectKind::Infrared, .at = {1, 2}}).ok());
+    pilot.step(200ms);
+    EXPECT_EQ(pilot.count("infrared.found"), 2u);  // both: it is as bright as can be
+}
+
 TEST(Head, AFifthWatcherTakesThePlaceOfTheOldest) {
     Pilot pilot(room(), kScript);
-    for (int16_t token = 1; token <= 5; ++token) pilot.send("infrared.watch", {token});
+    for (int16_t token = 1; token <= 5; ++token) pilot.send("infrared.watch", {token, 1});
     pilot.step(100ms);
     ASSERT_TRUE(pilot.world().add({.kind = sim::ObjectKind::Infrared, .at = {2, 2}}).ok());
     pilot.step(200ms);

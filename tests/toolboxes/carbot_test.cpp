@@ -265,5 +265,73 @@ TEST_F(CarbotTemplates, CheckDrivingLaneSeesWhatIsInTheWay) {
     EXPECT_NEAR(end_of(ran).at.x, 5.35, 0.1);
 }
 
+// The robot stands for 5 s under this supervisor, whose event is called `event`.
+std::string standing(const std::string& supervisor, const std::string& event) {
+    return R"("a": { "template": "Wait", "in": { "seconds": 5 },
+             "states": { "Done": "@terminate" }, "supervisors": {
+               "s": { )" +
+           supervisor + R"(, "events": { ")" + event + R"(": "@terminate" } } } })";
+}
+
+// Noise is 1 % of the distance, at most 3.5 times that. The wall's face is 60 cm to the left of the
+// sensor's axis, which is at (4.18, 3).
+TEST_F(CarbotTemplates, CheckWallDistanceComparesTheDistanceFromTheSensor) {
+    const std::string wall =
+        R"({ "kind": "wall", "at": [4.18, 3.65], "size": [3, 0.1], "height": 0.5 })";
+    const auto with = [&](const std::string& distance) {
+        return run(standing(R"("template": "CheckWallDistance", "out": { "distance": "far" },
+                               "in": { "distance": )" +
+                                distance + " }",
+                            "WallTooNear"),
+                   wall, R"("far": { "type": "float", "initial": 0 })");
+    };
+    EXPECT_THAT(with("50").states, ElementsAre("a: Done"));
+    const Ran near = with("70");
+    EXPECT_THAT(near.states, ElementsAre("a! WallTooNear"));
+    EXPECT_GE(last_written(near, "far"), 57.8);
+    EXPECT_LT(last_written(near, "far"), 70);
+}
+
+// A post of 5 cm radius, 50 cm away at 115 degrees, at (4.18 - 0.5 cos 65, 3 + 0.5 sin 65). Its
+// edge is at 115 - 6, and the cone reaches 12 degrees beyond the 90 that it looks if nothing is
+// said.
+TEST_F(CarbotTemplates, CheckWallDistanceLooksAsFarAsTheSensorTurns) {
+    const std::string post =
+        R"({ "kind": "cylinder", "at": [3.969, 3.453], "radius": 0.05, "height": 0.5 })";
+    const auto with = [&](const std::string& spread) {
+        return run(standing(R"("template": "CheckWallDistance",
+                               "in": { "distance": 70, "spread": )" +
+                                spread + " }",
+                            "WallTooNear"),
+                   post);
+    };
+    EXPECT_THAT(with("90").states, ElementsAre("a: Done"));
+    EXPECT_THAT(with("120").states, ElementsAre("a! WallTooNear"));
+    EXPECT_THAT(with("120.5").ended.message, HasSubstr("120"));
+}
+
+TEST_F(CarbotTemplates, MeasureDistanceLooksAsFarAsTheSensorTurns) {
+    const auto with = [&](const std::string& angle) {
+        return run(R"("a": { "template": "MeasureDistance", "in": { "angle": )" + angle + R"( },
+                "out": { "direction": "direction" }, "states": { "Measured": "@terminate" } })",
+                   "", R"("direction": { "type": "float", "initial": 0 })");
+    };
+    EXPECT_EQ(last_written(with("-120"), "direction"), -120);
+    EXPECT_THAT(with("-120.1").ended.message, HasSubstr("from -120 to 120"));
+}
+
+// 2 m behind the robot: 1000 * (1 - 2 / 4) = 500.
+TEST_F(CarbotTemplates, CheckInfraredHearsOfWhatIsBrightEnough) {
+    const std::string beacon = R"({ "kind": "infrared", "at": [2, 3] })";
+    const auto with = [&](const std::string& in) {
+        return run(standing(R"("template": "CheckInfrared")" + in, "InfraredFound"), beacon);
+    };
+    EXPECT_THAT(with("").states, ElementsAre("a! InfraredFound"));
+    EXPECT_THAT(with(R"(, "in": { "intensity": 500 })").states, ElementsAre("a! InfraredFound"));
+    EXPECT_THAT(with(R"(, "in": { "intensity": 501 })").states, ElementsAre("a: Done"));
+    EXPECT_THAT(with(R"(, "in": { "intensity": 1001 })").ended.message,
+                HasSubstr("from 1 to 1000"));
+}
+
 }  // namespace
 }  // namespace vagus::samples

@@ -22,6 +22,10 @@ if(VAGUS_SANITIZE)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # The instrumented code of the standard library's own regex raises it; the sanitizer sees what is really uninitialised.
     list(APPEND VAGUS_WARNINGS -Wno-maybe-uninitialized)
+    # Boost.Asio has fences, which ThreadSanitizer does not follow.
+    if(VAGUS_SANITIZE STREQUAL "thread")
+      list(APPEND VAGUS_WARNINGS -Wno-tsan)
+    endif()
   endif()
   add_compile_options(-fsanitize=${VAGUS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${VAGUS_SANITIZE})

@@ -128,8 +128,9 @@ Status PreparedRun::Insides::take_options() {
     if (!words.world.empty()) TRY(open_world());
     if (!words.bus.empty()) TRY(open_bus());
     if (!world && !bus) TRY(check_alone());
-    sink = TRY(TraceSink::open(words.trace));
-    sink_all = TRY(TraceSink::open(words.trace_all));
+    const bool at_once = words.clock != "virtual";
+    sink = TRY(TraceSink::open(words.trace, at_once));
+    sink_all = TRY(TraceSink::open(words.trace_all, at_once));
     return Status::done();
 }
 

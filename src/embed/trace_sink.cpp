@@ -2,8 +2,9 @@
 
 namespace vagus::embed {
 
-Result<std::unique_ptr<TraceSink>> TraceSink::open(const std::string& path) {
+Result<std::unique_ptr<TraceSink>> TraceSink::open(const std::string& path, bool at_once) {
     auto sink = std::make_unique<TraceSink>();
+    sink->at_once_ = at_once;
     if (path == "-") sink->file_ = stdout;
     if (path.empty() || path == "-") return sink;
     sink->file_ = std::fopen(path.c_str(), "wb");
@@ -17,7 +18,9 @@ TraceSink::~TraceSink() {
 }
 
 void TraceSink::write(std::string_view lines) {
-    if (file_) std::fwrite(lines.data(), 1, lines.size(), file_);
+    if (!file_) return;
+    std::fwrite(lines.data(), 1, lines.size(), file_);
+    if (at_once_) std::fflush(file_);
 }
 
 }  // namespace vagus::embed

@@ -13,7 +13,9 @@ namespace vagus::embed {
 
 class TraceSink {
 public:
-    static Result<std::unique_ptr<TraceSink>> open(const std::string& path);
+    // `at_once`: every write has left the process when it returns, so that what a run in real time
+    // did is there even if the process is killed.
+    static Result<std::unique_ptr<TraceSink>> open(const std::string& path, bool at_once);
     TraceSink() = default;
     ~TraceSink();
     TraceSink(const TraceSink&) = delete;
@@ -26,6 +28,7 @@ public:
 private:
     std::FILE* file_ = nullptr;
     bool owned_ = false;
+    bool at_once_ = false;
 };
 
 }  // namespace vagus::embed

@@ -111,9 +111,10 @@ void add_run(CLI::App& plan, int& exit_code) {
     verb->footer(
         "Exit codes: 0 the plan ended well, 3 it was interrupted, 4 it failed, 5 --max-time came, "
         "2 it is not valid.\n\nBeside a world, on a terminal, it shows the plan and the world; the "
-        "keys stand at the bottom. Without\na terminal, or with --clock virtual, it prints plain "
-        "lines of what happens.\n\nExample:\n  vagus plan run Count.plan.json --clock virtual "
-        "--trace - --set last=40\n  vagus plan run Square.plan.json --world thymio.world.json");
+        "keys stand at the bottom. The\nend stays on the screen until q, 30 s at most. Without a "
+        "terminal, or with --clock virtual, it prints\nplain lines of what happens.\n\nExample:\n  "
+        "vagus plan run Count.plan.json --clock virtual --trace - "
+        "--set last=40\n  vagus plan run Square.plan.json --world thymio.world.json");
     auto options = std::make_shared<PlanRunOptions>();  // owners: CLI11's options, the callback
     add_run_options(*verb, *options);
     verb->add_flag("--headless", options->headless,
@@ -150,7 +151,9 @@ void add_plan(CLI::App& app, int& exit_code) {
     CLI::App* plan =
         app.add_subcommand("plan", "checks, runs, debugs and formats plans; programs of them");
     plan->require_subcommand(1);
-    plan->footer("Example:\n  vagus plan run Square.plan.json --world carbot.world.json --clock virtual --trace -");
+    plan->footer(
+        "Example:\n  vagus plan run Square.plan.json --world carbot.world.json --clock virtual "
+        "--trace -");
     add_check(*plan, exit_code);
     add_run(*plan, exit_code);
     add_debug(*plan, exit_code);

@@ -134,8 +134,8 @@ class WorldPlans(unittest.TestCase):
         self.assertRegex(said, r"answer\.aesl:5:1: error: .* did you mean \"emit\"\?")
         self.write("answer.aesl", SCRIPT.replace("gone", "went"))
         said = self.refused("--world", self.world)
-        self.assertRegex(said, r"count\.plan\.json:1: error: the event \"gone\" has no number: it is not declared by the "
-                               r"scripts of .*room\.world\.json")
+        self.assertRegex(said, r"count\.plan\.json:1: error: hear: the event \"gone\" has no number: it is not declared by "
+                               r"the scripts of .*room\.world\.json")
         self.write("room.world.json", json.dumps({**WORLD, "siz": [1, 1]}))
         self.assertRegex(self.refused("--world", self.world), r"room\.world\.json:1:\d+: .*siz")
 

@@ -111,14 +111,45 @@ Status write_through(const std::string& path, std::string_view content) {
     return write_all(file, content, path);
 }
 
-Status fill(const std::string& beside, std::string_view content, mode_t rights,
-            const std::string& path, int descriptor) {
-    const OpenFile file(descriptor);
+// A new file in the folder of another. Without a name where the system has such files: whoever is
+// killed while writing leaves nothing behind.
+struct Beside {
+    int descriptor = -1;
+    std::string name;    // what it is called, or will be
+    bool named = false;  // is it called so already?
+};
+
+Beside open_beside(const std::string& target) {
+    std::string folder = std::filesystem::path(target).parent_path().string();
+    if (folder.empty()) folder = ".";
+    Beside beside{::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600), ""};
+    // No other open file has these two numbers.
+    beside.name =
+        target + "." + std::to_string(::getpid()) + "." + std::to_string(beside.descriptor);
+    if (beside.descriptor >= 0) return beside;
+    beside.name = target + ".XXXXXX";
+    beside.descriptor = ::mkostemp(beside.name.data(), O_CLOEXEC);
+    beside.named = beside.descriptor >= 0;
+    return beside;
+}
+
+bool give_name(Beside& beside) {
+    if (beside.named) return true;
+    const std::string open = "/proc/self/fd/" + std::to_string(beside.descriptor);
+    ::unlink(beside.name.c_str());  // of a process that had both numbers and ended right here
+    beside.named =
+        ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, beside.name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    return beside.named;
+}
+
+Status fill(Beside& beside, std::string_view content, mode_t rights, const std::string& path) {
+    const OpenFile file(beside.descriptor);
     const Status written = write_all(file, content, path);
     if (!written.ok()) return written;
-    if (::fchmod(file.get(), rights) != 0) return failure(beside, "given its rights");
+    if (::fchmod(file.get(), rights) != 0) return failure(beside.name, "given its rights");
     // Without this a crash of the machine could leave the new name with no bytes in it.
     if (::fsync(file.get()) != 0) return failure(path, "written");
+    if (!give_name(beside)) return failure(path, "written");
     return Status::done();
 }
 
@@ -135,13 +166,12 @@ Result<std::string> read_file(const std::string& path) {
 Status write_file(const std::string& path, std::string_view content) {
     const std::string target = final_path(path);
     if (!is_replaceable(target)) return write_through(path, content);
-    std::string beside = target + ".XXXXXX";
-    const int descriptor = ::mkostemp(beside.data(), O_CLOEXEC);
-    if (descriptor < 0) return failure(path, "written");
-    Status filled = fill(beside, content, rights_for(target), path, descriptor);
-    if (filled.ok() && ::rename(beside.c_str(), target.c_str()) == 0) return Status::done();
+    Beside beside = open_beside(target);
+    if (beside.descriptor < 0) return failure(path, "written");
+    Status filled = fill(beside, content, rights_for(target), path);
+    if (filled.ok() && ::rename(beside.name.c_str(), target.c_str()) == 0) return Status::done();
     const Status failed = filled.ok() ? Status(failure(path, "written")) : filled;
-    ::unlink(beside.c_str());
+    if (beside.named) ::unlink(beside.name.c_str());
     return failed;
 }
 

@@ -58,6 +58,13 @@ TEST_F(FileTest, ReplacesTheFileAndLeavesNothingBeside) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
+TEST_F(FileTest, LeavesNothingBesideTheFile) {
+    ASSERT_TRUE(write_file(path("x"), "old").ok());
+    ASSERT_TRUE(write_file(path("x"), "new").ok());
+    EXPECT_EQ(read_file(path("x")).value(), "new");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
 TEST_F(FileTest, KeepsTheRightsOfTheFile) {
     ASSERT_TRUE(write_file(path("x"), "#!/bin/sh").ok());
     fs::permissions(path("x"), fs::perms(0750));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/json_slips.hpp"
 #include "base/text.hpp"
 
 namespace vagus {
@@ -152,6 +153,10 @@ public:
     bool parse_error(std::size_t position, const std::string& token,
                      const nlohmann::detail::exception& error) override {
         if (error.id == kOutOfRange) return refuse_out_of_range(token);
+        if (const auto slip = find_json_slip(text_)) {
+            error_ = JsonError{place_of(text_, slip->offset), "this is not JSON: " + slip->what};
+            return false;
+        }
         const std::string reason = reason_of(error.what());
         error_ = JsonError{place_of_error(position, reason), "this is not JSON: " + reason};
         return false;
@@ -295,10 +300,15 @@ std::variant<Json, JsonError> read_json(std::string_view text) {
     return builder.take_result();
 }
 
+std::string at_file(std::string_view file, Place at) {
+    std::string text(file);
+    if (at.line > 0) text += ":" + std::to_string(at.line);
+    if (at.line > 0 && at.column > 0) text += ":" + std::to_string(at.column);
+    return text;
+}
+
 std::string at_place(std::string_view file, Place at, std::string_view sentence) {
-    std::string line(file);
-    if (at.line > 0) line += ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
-    return line + ": " + std::string(sentence);
+    return at_file(file, at) + ": " + std::string(sentence);
 }
 
 Result<Json> parse_json(std::string_view text, std::string_view file) {

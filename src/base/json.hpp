@@ -75,6 +75,9 @@ struct JsonError {
 // surrogates refused).
 std::variant<Json, JsonError> read_json(std::string_view text);
 
+// "FILE:LINE:COL"; without the column, or both, if they are 0.
+std::string at_file(std::string_view file, Place at);
+
 // "FILE:LINE:COL: sentence": how every error in a text file begins.
 std::string at_place(std::string_view file, Place at, std::string_view sentence);
 
@@ -87,8 +90,8 @@ Result<Json> parse_json(std::string_view text, std::string_view file);
 // its value. A newline at the end.
 std::string format_json(const Json& value);
 
-// A string as JSON, quotes included: `"`, `\` and characters below U+0020 escaped, all else as it
-// is.
+// A string as JSON, quotes included: `"`, `\` and characters below U+0020 escaped, bytes that are
+// no UTF-8 (names that came over a bus) as U+FFFD, all else as it is.
 std::string json_quote(std::string_view text);
 
 }  // namespace vagus

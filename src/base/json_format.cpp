@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/json.hpp"
+#include "base/json_part.hpp"
 #include "base/text.hpp"
 
 namespace vagus {
@@ -87,6 +88,13 @@ public:
         out_ += std::string(depth * 2, ' ') + (is_array ? "]" : "}") + std::string(suffix) + "\n";
     }
 
+    std::string take_part(const Json& json, size_t depth, std::string_view prefix,
+                          std::string_view suffix) {
+        write(json, depth, std::string(depth * 2, ' ') + std::string(prefix), suffix);
+        out_.pop_back();
+        return out_.substr(depth * 2);
+    }
+
     std::string take(const Json& root) {
         is_root_array_ = root.kind == JsonKind::Array;
         write(root, 0, "", "");
@@ -155,19 +163,34 @@ std::string format_json(const Json& value) {
     return Formatter().take(value);
 }
 
+std::string format_json_part(const Json& value, size_t depth, std::string_view prefix,
+                             std::string_view suffix) {
+    return Formatter().take_part(value, depth, prefix, suffix);
+}
+
+std::string format_json_line(const Json& value) {
+    return one_line(value);
+}
+
 std::string json_quote(std::string_view text) {
     constexpr std::string_view kEscaped = "\"\\\b\f\n\r\t";
+    constexpr std::string_view kReplacement = "\ufffd";
     constexpr std::string_view kLetters = "\"\\bfnrt";
     std::string quoted = "\"";
-    for (const char byte : text) {
-        const size_t escape = kEscaped.find(byte);
+    while (!text.empty()) {
+        const CodePoint point = first_code_point(text);
+        const size_t bytes = std::max<size_t>(point.bytes, 1);
+        const size_t escape = kEscaped.find(text[0]);
         if (escape != kEscaped.npos) {
             quoted += {'\\', kLetters[escape]};
-        } else if (static_cast<unsigned char>(byte) < 0x20) {
-            quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
+        } else if (point.bytes == 0) {
+            quoted += kReplacement;
+        } else if (point.value < 0x20) {
+            quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(point.value));
         } else {
-            quoted += byte;
+            quoted += text.substr(0, bytes);
         }
+        text.remove_prefix(bytes);
     }
     return quoted + '"';
 }

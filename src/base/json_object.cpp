@@ -56,8 +56,9 @@ JsonObject::JsonObject(const Json& json, std::string name, Complaints& complaint
 const Json* JsonObject::find(std::string_view key, Need need) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
     const Json* value = json_.find(key);
-    if (value == nullptr && need == Need::Required && is_object_)
-        complain(json_.at, fmt::format("{} has no \"{}\"; add it", name_, key));
+    const bool lacks = value == nullptr && need == Need::Required && is_object_;
+    if (lacks && std::find(missing_.begin(), missing_.end(), key) == missing_.end())
+        missing_.emplace_back(key);
     return value;
 }
 
@@ -118,6 +119,7 @@ std::string JsonObject::word(std::string_view key, const std::vector<std::string
 void JsonObject::finish() {
     const std::vector<std::string_view> known(known_.begin(), known_.end());
     std::set<std::string_view> seen;
+    std::set<std::string> meant;  // by keys that are unknown
     for (const JsonMember& member : json_.members) {
         const std::string key = json_quote(member.key.substr(0, kShownMax));
         if (!seen.insert(member.key).second) {
@@ -126,11 +128,16 @@ void JsonObject::finish() {
         } else if (member.key != kForeignKey &&
                    std::find(known.begin(), known.end(), member.key) == known.end()) {
             const std::string guess = nearest(member.key, known_);
+            meant.insert(guess);
             const std::string mend =
                 guess.empty() ? fmt::format("remove it, or use one of {}", list_of(known))
                               : fmt::format("did you mean \"{}\"?", guess);
             complain(member.at, fmt::format("{} has the unknown key {}; {}", name_, key, mend));
         }
+    }
+    for (const std::string& key : missing_) {
+        if (!meant.contains(key))
+            complain(json_.at, fmt::format("{} has no \"{}\"; add it", name_, key));
     }
 }
 

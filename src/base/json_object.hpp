@@ -21,8 +21,8 @@ namespace vagus {
 
 struct Complaint {
     Place at;
-    std::string
-        what;  // names the element, what was expected and found, and the mend; without the place
+    // Names the element, what was expected and found, and the mend; without the place.
+    std::string what;
 };
 constexpr size_t kComplaintsMax = 1000;  // more are not kept
 using Complaints = std::vector<Complaint>;
@@ -72,8 +72,8 @@ public:
     std::string word(std::string_view key, const std::vector<std::string_view>& words, Need need,
                      std::string_view fallback = "");
 
-    // Complains of every key that was never asked for, except "x", and of every key that stands
-    // twice.
+    // Complains of every key that was never asked for, except "x", of every key that stands twice,
+    // and of those that are needed and missing, unless an unknown one seems to be meant for it.
     void finish();
 
     // For checks that only the caller can make.
@@ -87,6 +87,7 @@ private:
     Complaints& complaints_;
     bool is_object_;
     std::vector<std::string> known_;
+    std::vector<std::string> missing_;  // needed, and not there
 };
 
 }  // namespace vagus

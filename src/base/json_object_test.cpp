@@ -67,6 +67,12 @@ TEST(JsonObject, NamesMissingKeysWrongKindsAndRanges) {
               Lines{"f:1:21: \"kind\" of the world is \"sphere\"; write one of wall and box"});
 }
 
+// A needed key that is misspelt is one mistake, at the place where it stands.
+TEST(JsonObject, AMisspeltKeyIsNotAlsoMissing) {
+    EXPECT_EQ(complaints_of(R"({"szie": 1})"),
+              Lines{"f:1:2: the world has the unknown key \"szie\"; did you mean \"size\"?"});
+}
+
 TEST(JsonObject, ValuesThatWereComplainedOfFallBack) {
     const Json json = parse_json(R"({"size": 10, "scale": "x"})", "f").value();
     Complaints complaints;

@@ -1,4 +1,5 @@
 #include "base/json.hpp"
+#include "base/test_places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -62,11 +63,16 @@ TEST(Json, RefusesNumbersBeyondTheirLimits) {
 
 TEST(Json, SaysWhereAndWhyTextIsNotJson) {
     EXPECT_EQ(error_of("{\"a\": 1,}"),
-              "f:1:9: this is not JSON: unexpected '}'; expected string literal");
+              "f:1:9: this is not JSON: there is a comma before this }, and nothing behind the "
+              "comma; remove the comma of line 1, column 8");
     EXPECT_EQ(error_of("{\n \"a\" 1}"),
-              "f:2:6: this is not JSON: unexpected number literal; expected ':'");
-    EXPECT_EQ(error_of("[1, 2"), "f:1:6: this is not JSON: unexpected end of input; expected ']'");
-    EXPECT_EQ(error_of("[1] x"), "f:1:5: this is not JSON: invalid literal; expected end of input");
+              "f:2:6: this is not JSON: there is no colon behind the key \"a\"; write \"a\": …");
+    EXPECT_EQ(
+        error_of("[1, 2"),
+        "f:1:6: this is not JSON: the text ends, but the [ of line 1, column 1 is not closed; "
+        "add ]");
+    EXPECT_EQ(error_of("[1] x"),
+              "f:1:5: this is not JSON: the value is over, but more stands behind it; remove that");
     EXPECT_EQ(error_of("[1,,2]").substr(0, 6), "f:1:4:");
     EXPECT_EQ(error_of("{1234: 1}").substr(0, 6), "f:1:2:");
     EXPECT_EQ(error_of("{\"a\" \"b\"}").substr(0, 6), "f:1:6:");
@@ -109,7 +115,7 @@ TEST(Json, SizeAndNumberOfValuesAreLimited) {
 }
 
 TEST(Json, FormattingTheExampleChangesNoByte) {
-    const std::string text = read_file(VAGUS_TESTDATA "/plans/WallFollow.plan.json").value();
+    const std::string text = read_file(test::testdata("plans/WallFollow.plan.json")).value();
     EXPECT_EQ(format_json(parse_json(text, "f").value()), text);
 }
 
@@ -150,6 +156,10 @@ TEST(Json, FormatsWhatAProgramBuilt) {
 
 TEST(Json, QuotesOnlyWhatMustBe) {
     EXPECT_EQ(json_quote("a/\"\\\b\f\n\r\t\x1f\x7f€"), "\"a/\\\"\\\\\\b\\f\\n\\r\\t\\u001f\x7f€\"");
+    EXPECT_EQ(json_quote("a\xff\x9b"
+                         "b"),
+              "\"a\ufffd\ufffdb\"")
+        << "JSON is UTF-8, whatever came";
 }
 
 }  // namespace

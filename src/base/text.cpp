@@ -1,8 +1,10 @@
 // UTF-8, splitting and lists: see text.hpp.
 #include "base/text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdint>
+#include <charconv>
 
 namespace vagus {
 namespace {
@@ -25,6 +27,24 @@ bool is_allowed(char32_t value, size_t bytes) {
     if (value > 0x10ffff) return false;
     constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};  // below it the form is overlong
     return value >= kSmallest[bytes];
+}
+
+std::string escaped(std::string_view text, std::string_view passing) {
+    std::string shown;
+    shown.reserve(text.size());
+    while (!text.empty()) {
+        const CodePoint point = first_code_point(text);
+        const size_t bytes = std::max<size_t>(point.bytes, 1);
+        if (point.bytes == 0) {
+            shown += fmt::format("\\x{:02x}", static_cast<uint8_t>(text[0]));
+        } else if (is_obeyed(point.value) && passing.find(text[0]) == passing.npos) {
+            shown += fmt::format("\\u{:04x}", static_cast<uint32_t>(point.value));
+        } else {
+            shown += text.substr(0, bytes);
+        }
+        text.remove_prefix(bytes);
+    }
+    return shown;
 }
 
 }  // namespace
@@ -67,6 +87,21 @@ size_t count_code_points(std::string_view text) {
         std::count_if(text.begin(), text.end(), [](char byte) { return !is_continuation(byte); }));
 }
 
+bool is_obeyed(char32_t c) {
+    const bool control = c < 0x20 || (c >= 0x7f && c < 0xa0);
+    const bool direction = c == 0x061c || c == 0x200e || c == 0x200f ||
+                           (c >= 0x202a && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
+    return control || direction || c == 0x2028 || c == 0x2029 || c == 0xfeff;
+}
+
+std::string visible(std::string_view text) {
+    return escaped(text, "");
+}
+
+std::string visible_lines(std::string_view text) {
+    return escaped(text, "\n\t");
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
     size_t start = 0;
@@ -76,6 +111,21 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
     parts.push_back(text.substr(start));
     return parts;
+}
+
+std::string small_letters(std::string_view text) {
+    std::string small(text);
+    for (char& c : small) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return small;
+}
+
+std::optional<uint64_t> decimal_number(std::string_view text) {
+    uint64_t number = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+    return number;
 }
 
 std::string list_of(const std::vector<std::string_view>& words) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,8 +30,25 @@ std::optional<size_t> malformed_utf8_at(std::string_view text);
 // Number of code points; every byte of malformed text that is no continuation byte counts as one.
 size_t count_code_points(std::string_view text);
 
+// A character that a terminal or the eye obeys instead of showing it: controls (C0, DEL, C1), what
+// turns the direction of text (U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069), line
+// and paragraph separators, a byte order mark.
+bool is_obeyed(char32_t code_point);
+
+// Text from outside for people's eyes, on one line: what is_obeyed() is written as JSON would,
+// "\u001b", a byte that is no UTF-8 as "\x9b". So it may be used on JSON, too, and changes nothing
+// in its meaning. visible_lines() lets line ends and tabs pass: for texts of several lines of ours.
+std::string visible(std::string_view text);
+std::string visible_lines(std::string_view text);
+
 // The parts between the separators: one more than there are separators.
 std::vector<std::string_view> split(std::string_view text, char separator);
+
+// With a to z for A to Z; all else stays.
+std::string small_letters(std::string_view text);
+
+// The number below 2^64 that the text writes with digits 0 to 9 and nothing else.
+std::optional<uint64_t> decimal_number(std::string_view text);
 
 // "a, b and c"
 std::string list_of(const std::vector<std::string_view>& words);

@@ -38,6 +38,32 @@ TEST(Text, EncodesWhatItDecodes) {
     }
 }
 
+TEST(Text, ShowsWhatATerminalWouldObey) {
+    EXPECT_EQ(visible("\x1b[31mred\x07"), "\\u001b[31mred\\u0007");
+    EXPECT_EQ(visible("a\x7f\xc2\x9b"
+                      "b"),
+              "a\\u007f\\u009b"
+              "b");
+    EXPECT_EQ(visible("\u202eabc\u202c \u2066x\u2069 \u200e\u200f\u061c"),
+              "\\u202eabc\\u202c \\u2066x\\u2069 \\u200e\\u200f\\u061c");
+    EXPECT_EQ(visible("a\xef\xbb\xbf"
+                      "b\u2028\u2029"),
+              "a\\ufeffb\\u2028\\u2029");
+    EXPECT_EQ(visible("a\nb\tc\r"), "a\\u000ab\\u0009c\\u000d");
+    // 0x9b alone is what an eight-bit terminal takes for ESC [.
+    EXPECT_EQ(visible("\x9b"
+                      "31m"),
+              "\\x9b31m");
+}
+
+// The neighbours of each range, and the writing systems that must stay legible.
+TEST(Text, LeavesAllOtherTextAsItIs) {
+    const std::string text =
+        " ~\u00a0\u061b\u061d\u200d\u2010\u2027\u202f\u2065\u206a\ufefeé世שלום🤖";
+    EXPECT_EQ(visible(text), text);
+    EXPECT_EQ(visible_lines("a\n\tb\r\x1b\n"), "a\n\tb\\u000d\\u001b\n");
+}
+
 TEST(Text, SplitsAtEverySeparator) {
     EXPECT_EQ(split("a;;b;", ';'), (std::vector<std::string_view>{"a", "", "b", ""}));
     EXPECT_EQ(split("", ';'), (std::vector<std::string_view>{""}));

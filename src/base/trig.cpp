@@ -64,6 +64,39 @@ Reduced reduce(double radians) {
     return {{high, (second.high - high) + tail}, static_cast<int>(static_cast<int64_t>(n) & 3)};
 }
 
+constexpr Pair kDegree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};   // pi / 180
+constexpr Pair kRadian = {0x1.ca5dc1a63c1f8p+5, -0x1.1e7ab456405f9p-49};  // 180 / pi
+
+// A double as two with 26 bits each at most, whose products are exact (Veltkamp).
+Pair split(double value) {
+    const double spread = value * 0x1.000002p+27;
+    const double high = spread - (spread - value);
+    return {high, value - high};
+}
+
+// The exact product (Dekker).
+Pair product(double a, double b) {
+    const double most = a * b;
+    const Pair x = split(a);
+    const Pair y = split(b);
+    const double rest =
+        ((x.high * y.high - most) + x.high * y.low + x.low * y.high) + x.low * y.low;
+    return {most, rest};
+}
+
+Pair product(const Pair& a, const Pair& b) {
+    const Pair most = product(a.high, b.high);
+    return two_sum(most.high, most.low + (a.high * b.low + a.low * b.high));
+}
+
+// Every step is exact but the last, from degrees to radians.
+Reduced reduce_degrees(double degrees) {
+    const double turn = std::fmod(degrees, 360);
+    const double n = (turn / 90 + kRounder) - kRounder;
+    const double rest = turn - 90 * n;
+    return {product({rest, 0}, kDegree), static_cast<int>(static_cast<int64_t>(n) & 3)};
+}
+
 // 1/3!, 1/5!, … with signs: sin x = x + x^3 (kSine[0] + x^2 (kSine[1] + …)).
 constexpr std::array<double, 8> kSine = {-1.0 / 6,
                                          1.0 / 120,
@@ -100,6 +133,16 @@ double cosine_of(const Pair& x) {
     const double most = 1 - half;
     const double rest = (1 - most) - half;  // what `most` lost in rounding, exactly
     return most + (rest + (square * square * polynomial(kCosine, square) - x.high * x.low));
+}
+
+double sine_in(const Reduced& x) {
+    const double value = x.quadrant % 2 == 0 ? sine_of(x.angle) : cosine_of(x.angle);
+    return x.quadrant < 2 ? value : -value;
+}
+
+double cosine_in(const Reduced& x) {
+    const double value = x.quadrant % 2 == 0 ? cosine_of(x.angle) : sine_of(x.angle);
+    return x.quadrant == 0 || x.quadrant == 3 ? value : -value;
 }
 
 // atan(k / 8), k = 0 … 8.
@@ -172,16 +215,12 @@ Pair first_quadrant(double y, double x) {
 double sin(double radians) {
     if (is_nan(radians) || std::fabs(radians) == kInfinity) return kNaN;
     if (std::fabs(radians) < 0x1p-27) return radians;  // also keeps the sign of zero
-    const Reduced x = reduce(radians);
-    const double value = x.quadrant % 2 == 0 ? sine_of(x.angle) : cosine_of(x.angle);
-    return x.quadrant < 2 ? value : -value;
+    return sine_in(reduce(radians));
 }
 
 double cos(double radians) {
     if (is_nan(radians) || std::fabs(radians) == kInfinity) return kNaN;
-    const Reduced x = reduce(radians);
-    const double value = x.quadrant % 2 == 0 ? cosine_of(x.angle) : sine_of(x.angle);
-    return x.quadrant == 0 || x.quadrant == 3 ? value : -value;
+    return cosine_in(reduce(radians));
 }
 
 double tan(double radians) {
@@ -201,6 +240,47 @@ double atan2(double y, double x) {
     if (!left) return with_sign_of(acute.high + acute.low, y);
     const Pair obtuse = two_sum(kPi, -acute.high);
     return with_sign_of(obtuse.high + (obtuse.low + (kPiLow - acute.low)), y);
+}
+
+double sin_degrees(double degrees) {
+    if (is_nan(degrees) || std::fabs(degrees) == kInfinity) return kNaN;
+    return sine_in(reduce_degrees(degrees)) + 0.0;  // no negative zero
+}
+
+double cos_degrees(double degrees) {
+    if (is_nan(degrees) || std::fabs(degrees) == kInfinity) return kNaN;
+    return cosine_in(reduce_degrees(degrees)) + 0.0;
+}
+
+double tan_degrees(double degrees) {
+    if (is_nan(degrees) || std::fabs(degrees) == kInfinity) return kNaN;
+    const double turn = std::fmod(degrees, 180);
+    if (std::fabs(turn) == 90) return kInfinity;
+    if (std::fabs(turn) == 45) return turn < 0 ? -1 : 1;
+    if (std::fabs(turn) == 135) return turn < 0 ? 1 : -1;
+    const Reduced x = reduce_degrees(degrees);
+    return sine_in(x) / cosine_in(x) + 0.0;
+}
+
+double asin_degrees(double sine) {
+    if (!(std::fabs(sine) <= 1)) return kNaN;
+    const double size = std::fabs(sine);
+    const Pair angle = first_quadrant(size, std::sqrt((1 - size) * (1 + size)));
+    return with_sign_of(product(angle, kRadian).high, sine);
+}
+
+double acos_degrees(double cosine) {
+    if (!(std::fabs(cosine) <= 1)) return kNaN;
+    return atan2_degrees(std::sqrt((1 - cosine) * (1 + cosine)), cosine);
+}
+
+double atan2_degrees(double y, double x) {
+    if (is_nan(y) || is_nan(x)) return kNaN;
+    if (y == 0 && x == 0) return 0;
+    const Pair acute = product(first_quadrant(std::fabs(y), std::fabs(x)), kRadian);
+    if (!std::signbit(x)) return with_sign_of(acute.high, y);
+    const Pair obtuse = two_sum(180, -acute.high);
+    return with_sign_of(obtuse.high + (obtuse.low - acute.low), y);
 }
 
 double sqrt(double value) {

@@ -20,6 +20,18 @@ double tan(double radians);
 // The angle of the vector (x, y), -pi to pi; signs of zeros and infinities as in the C library.
 double atan2(double y, double x);
 
+// The same in degrees, which are reduced exactly: sine and cosine are 0, 1 and -1 where they should
+// be, and a zero is never negative. The tangent of 90 degrees and its like is infinite. The error
+// is below 3 units in the last place.
+double sin_degrees(double degrees);
+double cos_degrees(double degrees);
+double tan_degrees(double degrees);
+// -1 to 1 only; else not a number.
+double asin_degrees(double sine);
+double acos_degrees(double cosine);
+// 0 if both are 0, whatever their signs.
+double atan2_degrees(double y, double x);
+
 double sqrt(double value);
 
 // Length of the vector (x, y), without overflow in between.

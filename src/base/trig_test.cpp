@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "base/rng.hpp"
 
@@ -131,6 +134,82 @@ TEST(Trig, BitsNeverChange) {
             mix(value);
     }
     EXPECT_EQ(hash, 8790433546533371253u);
+}
+
+// ---- degrees ----
+
+constexpr long double kDegree = 3.14159265358979323846264338327950288L / 180;
+
+TEST(TrigDegrees, AreExactWhereTheTrueValueIs) {
+    const auto bits = [](double value) { return std::pair(value, std::signbit(value)); };
+    for (int turns = -3; turns <= 3; ++turns) {
+        const double start = 360.0 * turns;
+        const std::tuple<double, double, double> cases[] = {
+            {0, 0, 1}, {90, 1, 0}, {180, 0, -1}, {270, -1, 0}};
+        for (const auto& [angle, sine, cosine] : cases) {
+            EXPECT_EQ(bits(trig::sin_degrees(start + angle)), bits(sine)) << start + angle;
+            EXPECT_EQ(bits(trig::cos_degrees(start + angle)), bits(cosine)) << start + angle;
+        }
+        EXPECT_EQ(trig::sin_degrees(start + 30), 0.5);
+        EXPECT_EQ(trig::sin_degrees(start + 150), 0.5);
+        EXPECT_EQ(trig::cos_degrees(start + 60), 0.5);
+        EXPECT_EQ(trig::cos_degrees(start + 240), -0.5);
+        EXPECT_EQ(trig::tan_degrees(start + 45), 1);
+        EXPECT_EQ(trig::tan_degrees(start + 135), -1);
+        EXPECT_EQ(bits(trig::tan_degrees(start + 180)), bits(0));
+        EXPECT_TRUE(std::isinf(trig::tan_degrees(start + 90)));
+        EXPECT_TRUE(std::isinf(trig::tan_degrees(start - 90)));
+    }
+    EXPECT_EQ(trig::sin_degrees(360e15), 0);  // a multiple of 360, exactly
+    EXPECT_TRUE(std::isnan(trig::sin_degrees(kInfinity)));
+    EXPECT_TRUE(std::isnan(trig::cos_degrees(kNaN)));
+}
+
+TEST(TrigDegrees, AnglesOfRoundValuesAreRound) {
+    const std::pair<double, double> sines[] = {{0, 0}, {0.5, 30}, {1, 90}, {-0.5, -30}, {-1, -90}};
+    for (const auto& [sine, angle] : sines) EXPECT_EQ(trig::asin_degrees(sine), angle);
+    const std::pair<double, double> cosines[] = {
+        {1, 0}, {0.5, 60}, {0, 90}, {-0.5, 120}, {-1, 180}};
+    for (const auto& [cosine, angle] : cosines) EXPECT_EQ(trig::acos_degrees(cosine), angle);
+    const std::tuple<double, double, double> vectors[] = {
+        {1, 1, 45},   {1, -1, 135}, {-1, -1, -135}, {-1, 1, -45}, {1, 0, 90},
+        {-1, 0, -90}, {0, -1, 180}, {0, 1, 0},      {0, 0, 0},    {-0.0, -0.0, 0}};
+    for (const auto& [y, x, angle] : vectors) EXPECT_EQ(trig::atan2_degrees(y, x), angle);
+    EXPECT_TRUE(std::isnan(trig::asin_degrees(1.0000001)));
+    EXPECT_TRUE(std::isnan(trig::acos_degrees(-1.0000001)));
+    EXPECT_TRUE(std::isnan(trig::acos_degrees(kNaN)));
+}
+
+// The sine, from -45 to 45 degrees: turning the rest into radians costs nothing near a zero.
+long double sine_of(double degrees) {
+    const long double quarters = std::nearbyint(static_cast<long double>(degrees) / 90);
+    const long double rest = (static_cast<long double>(degrees) - 90 * quarters) * kDegree;
+    const auto quadrant = (static_cast<int64_t>(quarters) % 4 + 4) % 4;
+    const long double size = quadrant % 2 == 0 ? std::sin(rest) : std::cos(rest);
+    return quadrant < 2 ? size : -size;
+}
+
+TEST(TrigDegrees, AreWithinThreeUnits) {
+    SplitMix64 random(5);
+    for (int i = 0; i < kSamples; ++i) {
+        // With 20 bits behind the point, so that x + 90 is exact.
+        const double x = std::ldexp(std::round(std::ldexp(sample(random, -8, 20), 20)), -20);
+        const long double sine = sine_of(x);
+        const long double cosine = sine_of(x + 90);
+        ASSERT_LT(ulps(trig::sin_degrees(x), sine), 2) << x;
+        ASSERT_LT(ulps(trig::cos_degrees(x), cosine), 2) << x;
+        if (cosine != 0) {
+            ASSERT_LT(ulps(trig::tan_degrees(x), sine / cosine), 3) << x;
+        }
+        const double part = random.unit() * 2 - 1;
+        const auto wide = static_cast<long double>(part);
+        ASSERT_LT(ulps(trig::asin_degrees(part), std::asin(wide) / kDegree), 3) << part;
+        ASSERT_LT(ulps(trig::acos_degrees(part), std::acos(wide) / kDegree), 3) << part;
+        const double y = sample(random, -40, 40);
+        const long double truth =
+            std::atan2(static_cast<long double>(y), static_cast<long double>(x)) / kDegree;
+        ASSERT_LT(ulps(trig::atan2_degrees(y, x), truth), 3) << y << " " << x;
+    }
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ struct Abo {
 // CRC-16/XMODEM (polynomial 0x1021, initial 0, not reflected) over what is fed to it.
 class Crc16 {
 public:
-    void word(uint16_t value);           // low byte first
-    void name(std::string_view name);    // its UTF-8 bytes, a zero byte behind an odd number
+    void word(uint16_t value);         // low byte first
+    void name(std::string_view name);  // its UTF-8 bytes, a zero byte behind an odd number
     uint16_t value() const { return crc_; }
 
 private:

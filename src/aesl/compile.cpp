@@ -54,7 +54,7 @@ void check_tree(Tree& tree, const Target& target, Diagnostics& diagnostics) {
 
 Compilation compile(std::string_view source, const Target& target, const CommonDefinitions& common,
                     const Options& options) {
-    Diagnostics diagnostics;
+    Diagnostics diagnostics(options.first_line);
     Compilation done;
     const auto failed = [&diagnostics] { return diagnostics.errors_found() > 0; };
     if (check_input(source, target, diagnostics)) {
@@ -69,6 +69,7 @@ Compilation compile(std::string_view source, const Target& target, const CommonD
         }
     }
     if (failed()) done.program = {};
+    done.first = diagnostics.first_of();
     done.errors = diagnostics.take_errors();
     if (done.ok()) done.warnings = diagnostics.take_warnings();
     return done;
@@ -76,12 +77,13 @@ Compilation compile(std::string_view source, const Target& target, const CommonD
 
 CheckedTree parse_and_check(std::string_view source, const Target& target,
                             const CommonDefinitions& common, const Options& options) {
-    Diagnostics diagnostics;
+    Diagnostics diagnostics(options.first_line);
     CheckedTree checked;
     if (check_input(source, target, diagnostics)) {
         checked.tree = parse(source, target, common, options, diagnostics);
         check_tree(checked.tree, target, diagnostics);
     }
+    checked.first = diagnostics.first_of();
     checked.errors = diagnostics.take_errors();
     return checked;
 }

@@ -31,7 +31,7 @@ std::string fill(std::string_view wording, std::initializer_list<std::string_vie
 }
 
 bool stands_before(const Diagnostic& a, const Diagnostic& b) {
-    return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
+    return a.at < b.at;
 }
 
 }  // namespace
@@ -53,21 +53,35 @@ std::string catalogue_page() {
     return page;
 }
 
-void Diagnostics::report(Diag what, Mark mark, std::initializer_list<std::string_view> words) {
+void Diagnostics::report(Diag what, Mark mark, std::initializer_list<std::string_view> words,
+                         Extra extra) {
     const CatalogueEntry& entry = kCatalogue[static_cast<size_t>(what)];
     if (!entry.is_warning()) ++errors_found_;
     std::vector<Diagnostic>& list = entry.is_warning() ? warnings_ : errors_;
     if (list.size() >= (entry.is_warning() ? kWarningsMax : kErrorsMax)) return;
-    list.push_back(
-        {std::string(entry.code), entry.number, mark.at, mark.end, fill(entry.wording, words)});
+    list.push_back({.code = std::string(entry.code),
+                    .number = entry.number,
+                    .at = mark.at,
+                    .end = mark.end,
+                    .message = fill(entry.wording, words),
+                    .fix = std::move(extra.fix),
+                    .formal = extra.formal});
 }
 
 bool Diagnostics::full() const {
     return errors_.size() >= kErrorsMax;
 }
 
+size_t Diagnostics::first_of() const {
+    if (errors_.empty()) return 0;
+    const auto goes_before = [&](const Diagnostic& other) {
+        return stands_before(other, errors_.front());
+    };
+    return static_cast<size_t>(std::count_if(errors_.begin(), errors_.end(), goes_before));
+}
+
 std::vector<Diagnostic> Diagnostics::take_errors() {
-    if (!errors_.empty()) std::stable_sort(errors_.begin() + 1, errors_.end(), stands_before);
+    std::stable_sort(errors_.begin(), errors_.end(), stands_before);
     return std::move(errors_);
 }
 

@@ -2,15 +2,18 @@
 // entry of that list, a place and the words to fill in.
 //
 //     diagnostics.report(Diag::UnknownVariable, mark, {"speed"});
+//     diagnostics.report(Diag::UnknownVariableGuess, mark, {"sped", "speed"}, {.fix = fix});
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "aesl/compile.hpp"
+#include "aesl/diagnostic.hpp"
 
 namespace vagus::aesl {
 
@@ -35,29 +38,38 @@ std::span<const CatalogueEntry> catalogue();
 // The table docs/diagnostics.md.
 std::string catalogue_page();
 
-// A range of the text; all zero for an error without position.
-struct Mark {
-    Position at;
-    Position end;
+// What a report may carry beside its words.
+struct Extra {
+    std::optional<Fix> fix = std::nullopt;
+    std::optional<Position> formal = std::nullopt;  // see Diagnostic::formal
 };
 
 // Collects what one run finds, in the order in which it is found.
 class Diagnostics {
 public:
-    void report(Diag what, Mark mark, std::initializer_list<std::string_view> words = {});
+    explicit Diagnostics(int first_line = 1) : first_line_(first_line) {}
+
+    void report(Diag what, Mark mark, std::initializer_list<std::string_view> words = {},
+                Extra extra = {});
+
+    // A line of the script in the words of a sentence: as the file counts it (Options::first_line).
+    std::string line_text(int line) const { return std::to_string(line + first_line_ - 1); }
 
     // Errors so far, also those beyond kErrorsMax, which are counted only.
     size_t errors_found() const { return errors_found_; }
     bool full() const;
 
-    // The first error found, then the others by position; warnings by position.
+    // By position. Where the error that was found first has gone is what first_of() says, which
+    // must be asked before.
     std::vector<Diagnostic> take_errors();
     std::vector<Diagnostic> take_warnings();
+    size_t first_of() const;
 
 private:
     std::vector<Diagnostic> errors_;
     std::vector<Diagnostic> warnings_;
     size_t errors_found_ = 0;
+    int first_line_;
 };
 
 // "1 word", "3 words".

@@ -46,9 +46,9 @@ bool assigns(TokenKind kind) {
 }
 
 // One pass over the tokens that keeps track of where an item can begin.
-class Look {
+class DialectGuess {
 public:
-    Look(const Tree& tree, bool is_name) : tree_(tree), is_name_(is_name) {}
+    DialectGuess(const Tree& tree, bool is_name) : tree_(tree), is_name_(is_name) {}
 
     bool finds_2007() {
         for (TokenId i = 0; i + 1 < tree_.tokens.size(); ++i) {
@@ -104,7 +104,7 @@ private:
 bool is_year_2007(const Tree& tree, const Target& target, const CommonDefinitions& common,
                   Dialect dialect) {
     if (dialect != Dialect::Auto) return dialect == Dialect::Year2007;
-    return Look(tree, is_ontimer_a_name(tree, target, common)).finds_2007();
+    return DialectGuess(tree, is_ontimer_a_name(tree, target, common)).finds_2007();
 }
 
 }  // namespace vagus::aesl

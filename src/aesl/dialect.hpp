@@ -3,7 +3,8 @@
 
 #include <string_view>
 
-#include "aesl/compile.hpp"
+#include "aesl/options.hpp"
+#include "aesl/target.hpp"
 #include "aesl/tree.hpp"
 
 namespace vagus::aesl {

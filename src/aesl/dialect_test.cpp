@@ -66,7 +66,7 @@ TEST(Dialect, ModernRefusesWhatThePaperWrites) {
     List found;
     for (const Diagnostic& d : done.errors)
         found.push_back(std::to_string(d.at.line) + " " + d.code);
-    EXPECT_EQ(found, (List{"5 VARIABLE_NOT_DEFINED", "3 ARRAY_SIZE_MISMATCH", "14 EXPECTING",
+    EXPECT_EQ(found, (List{"3 ARRAY_SIZE_MISMATCH", "5 VARIABLE_NOT_DEFINED", "14 EXPECTING",
                            "16 VARIABLE_NOT_DEFINED"}));
 }
 

@@ -42,8 +42,8 @@ public:
         if (out_.longest_branch() > kBranchDistanceMax && out_.here() <= kProgramWordsMax) {
             diagnostics_.report(
                 Diag::BlockTooLong, {},
-                {std::to_string(out_.longest_branch_line()), std::to_string(out_.longest_branch()),
-                 std::to_string(kBranchDistanceMax)});
+                {diagnostics_.line_text(out_.longest_branch_line()),
+                 std::to_string(out_.longest_branch()), std::to_string(kBranchDistanceMax)});
         }
     }
 

@@ -9,12 +9,13 @@
 #include "aesl/node_file.hpp"
 #include "base/file.hpp"
 #include "base/json.hpp"
+#include "base/test_places.hpp"
 #include "gtest/gtest.h"
 
 namespace vagus::aesl {
 namespace {
 
-const std::string kFolder = std::string(VAGUS_TESTDATA) + "/golden/aesl/";
+const std::string kFolder = test::testdata("golden/aesl/");
 
 struct Case {
     std::string name;
@@ -73,10 +74,10 @@ TEST(Golden, EveryCaseHasTheErrorItMustHaveOrNone) {
             continue;
         }
         ASSERT_FALSE(done.ok()) << golden.name;
-        EXPECT_EQ(category(done.errors[0].code), category(error->find("code")->text))
+        EXPECT_EQ(category(done.first_error().code), category(error->find("code")->text))
             << golden.name;
-        EXPECT_EQ(done.errors[0].at.line, error->find("line")->integer)
-            << golden.name << ": " << done.errors[0].message;
+        EXPECT_EQ(done.first_error().formal_place().line, error->find("line")->integer)
+            << golden.name << ": " << done.first_error().message;
     }
 }
 
@@ -122,7 +123,7 @@ TEST(Golden, ColumnsAreThoseOfTheReferenceOrRight) {
         const auto expected = right != kRightColumns.end()
                                   ? right->second
                                   : golden.expected.find("error")->find("column")->integer;
-        EXPECT_EQ(done.errors[0].at.column, expected) << golden.name;
+        EXPECT_EQ(done.first_error().formal_place().column, expected) << golden.name;
     }
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "aesl/code.hpp"
-#include "aesl/compile.hpp"
 #include "aesl/diagnostics.hpp"
+#include "aesl/program.hpp"
 #include "aesl/target.hpp"
 #include "aesl/tree.hpp"
 

@@ -73,7 +73,55 @@ public:
         return std::move(text_);
     }
 
+    std::vector<ListedInstruction> instructions() {
+        std::vector<ListedInstruction> list;
+        if (program_.bytecode.empty()) return list;
+        add(list, 1, "event table of " + std::to_string(word(0)) + " words");
+        while (at_ + 1 < program_.bytecode.size() && at_ < word(0)) {
+            add(list, 2, handler_name(word(at_)) + " at " + std::to_string(word(at_ + 1)));
+        }
+        while (at_ < program_.bytecode.size()) {
+            const Instruction one = instruction_at();
+            add(list, one.words, one.operand.empty() ? one.name : one.name + " " + one.operand);
+        }
+        return list;
+    }
+
+    std::vector<Part> parts() const {
+        std::vector<Part> list;
+        for (size_t entry = 1; entry + 1 < word(0) && entry + 1 < program_.bytecode.size();
+             entry += 2) {
+            const uint16_t id = word(entry);
+            const bool init = id == isa::kInitEvent;
+            list.push_back({init ? Part::Kind::Init : Part::Kind::Event, init ? "" : event_name(id),
+                            word(entry + 1), 0});
+        }
+        for (const SubroutinePlace& sub : program_.subroutines) {
+            list.push_back({Part::Kind::Sub, sub.name, sub.address, 0});
+        }
+        std::sort(list.begin(), list.end(),
+                  [](const Part& a, const Part& b) { return a.address < b.address; });
+        for (size_t i = 0; i < list.size(); ++i) {
+            const size_t end = i + 1 < list.size() ? list[i + 1].address : program_.bytecode.size();
+            list[i].words = static_cast<uint16_t>(end - list[i].address);
+        }
+        return list;
+    }
+
 private:
+    struct Instruction {
+        std::string name, operand;
+        size_t words = 1;
+        bool known = false;
+    };
+
+    void add(std::vector<ListedInstruction>& list, size_t words, std::string text) {
+        const int line = at_ < program_.lines.size() ? program_.lines[at_] : 0;
+        list.push_back(
+            {line, static_cast<uint16_t>(at_), static_cast<uint16_t>(words), std::move(text)});
+        at_ += words;
+    }
+
     template <typename... Values>
     void print(const char* format, Values... values) {
         char line[200];
@@ -97,26 +145,33 @@ private:
         at_ = 1;
         while (at_ + 1 < program_.bytecode.size() && at_ < word(0)) {
             print("%5zu  %04x %04x       ", at_, word(at_), word(at_ + 1));
-            text_ += event_name(word(at_));
+            text_ += handler_name(word(at_));
             print(" at %u\n", word(at_ + 1));
             at_ += 2;
         }
     }
 
-    std::string event_name(uint16_t id) const {
-        if (id == isa::kInitEvent) return "initialisation";
-        if (id < common_.events.size()) return "onevent " + common_.events[id].name;
+    const std::string* known_event(uint16_t id) const {
+        if (id < common_.events.size()) return &common_.events[id].name;
         const size_t local = size_t{isa::kLocalEventFirst} - id;
-        if (local < target_.local_events.size())
-            return "onevent " + target_.local_events[local].name;
-        return "event " + std::to_string(id);
+        return local < target_.local_events.size() ? &target_.local_events[local].name : nullptr;
+    }
+
+    std::string event_name(uint16_t id) const {
+        const std::string* name = known_event(id);
+        return name ? *name : "event " + std::to_string(id);
+    }
+
+    std::string handler_name(uint16_t id) const {
+        if (id == isa::kInitEvent) return "initialisation";
+        return (known_event(id) ? "onevent " : "") + event_name(id);
     }
 
     // A title where the code of an event or sub begins.
     void section_header() {
         for (size_t entry = 1; entry + 1 < word(0) && entry < program_.bytecode.size();
              entry += 2) {
-            if (word(entry + 1) == at_) title(event_name(word(entry)));
+            if (word(entry + 1) == at_) title(handler_name(word(entry)));
         }
         for (const SubroutinePlace& sub : program_.subroutines) {
             if (sub.address == at_) title("sub " + sub.name);
@@ -137,29 +192,35 @@ private:
         text_ += '\n';
     }
 
-    void instruction() {
+    Instruction instruction_at() const {
         const uint16_t first = word(at_);
         const auto code = static_cast<size_t>(isa::opcode_of(first));
         const bool is_known = code < isa::kOpcodeCount;
         const size_t left = program_.bytecode.size() - at_;
         const size_t words = is_known ? std::min(kOpcodes[code].words, left) : 1;
+        if (!is_known || words != kOpcodes[code].words) return {"no instruction", "", words, false};
+        return {kOpcodes[code].name, operand(first), words, true};
+    }
+
+    void instruction() {
+        const Instruction one = instruction_at();
         print("%5zu ", at_);
         for (size_t i = 0; i < 3; ++i) {
-            if (i < words) {
+            if (i < one.words) {
                 print(" %04x", word(at_ + i));
             } else {
                 text_ += "     ";
             }
         }
-        if (is_known && words == kOpcodes[code].words) {
-            print("  %-10s ", kOpcodes[code].name);
-            text_ += operand(first);
+        if (one.known) {
+            print("  %-10s ", one.name.c_str());
+            text_ += one.operand;
             while (text_.ends_with(' ')) text_.pop_back();
         } else {
             text_ += "  no instruction";
         }
         text_ += '\n';
-        at_ += words;
+        at_ += one.words;
     }
 
     std::string operand(uint16_t first) const {
@@ -272,6 +333,16 @@ private:
 std::string listing(const Program& program, std::string_view source, const Target& target,
                     const CommonDefinitions& common, int first_line) {
     return Listing(program, source, target, common, first_line).run();
+}
+
+std::vector<ListedInstruction> instructions(const Program& program, const Target& target,
+                                            const CommonDefinitions& common) {
+    return Listing(program, "", target, common, 1).instructions();
+}
+
+std::vector<Part> parts_of(const Program& program, const Target& target,
+                           const CommonDefinitions& common) {
+    return Listing(program, "", target, common, 1).parts();
 }
 
 }  // namespace vagus::aesl

@@ -1,5 +1,7 @@
 #include "aesl/listing.hpp"
 
+#include "aesl/compile.hpp"
+
 #include <gtest/gtest.h>
 
 namespace vagus::aesl {

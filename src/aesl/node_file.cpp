@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "base/file_format.hpp"
 #include "base/json_object.hpp"
 
 namespace vagus::aesl {
@@ -167,7 +168,7 @@ Json write_native(const NativeFunction& native) {
 }  // namespace
 
 Result<NodeFile> parse_node_file(std::string_view text, std::string_view file) {
-    const Json json = TRY(parse_json(text, file));
+    const Json json = TRY(parse_format(text, file, FileFormat::Node));
     Complaints complaints;
     NodeFile node = read_node(json, complaints);
     if (!complaints.empty()) return first_complaint(complaints, file);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 
 namespace vagus::aesl {
 namespace {
@@ -38,7 +39,7 @@ std::string error_with(std::string_view from, std::string_view to) {
 }
 
 TEST(NodeFile, ReadsTheGoldenNode) {
-    const std::string text = read_file(VAGUS_TESTDATA "/golden/aesl/node.json").value();
+    const std::string text = read_file(test::testdata("golden/aesl/node.json")).value();
     const NodeFile node = parse_node_file(text, "node.json").value();
     EXPECT_EQ(node.target.name, "goldnode");
     EXPECT_EQ(node.target.protocol_version, 5);
@@ -84,8 +85,8 @@ TEST(NodeFile, MistakesHavePlaceAndMend) {
               "n.json:8:29: \"name\" of local event 1 is empty; give it a name");
     EXPECT_EQ(error_of("[]"), "n.json:1:1: the node is an array; it must be an object: { … }");
     EXPECT_EQ(error_of("{"),
-              "n.json:1:2: this is not JSON: unexpected end of input; expected "
-              "string literal");
+              "n.json:1:2: this is not JSON: the text ends, but the { of line 1, column 1 is not "
+              "closed; add }");
 }
 
 TEST(NodeFile, LimitsHoldAtOneMore) {

@@ -1,18 +1,25 @@
 #include "aesl/parse.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "aesl/dialect.hpp"
+#include "aesl/fix.hpp"
 #include "aesl/limits.hpp"
 #include "aesl/parser.hpp"
-#include "aesl/suggest.hpp"
-#include "base/nearest.hpp"
 
 namespace vagus::aesl {
 
 namespace {
 
-// Keywords at which the next statement, header or declaration begins, or a block ends.
+int bracket_step(TokenKind kind) {
+    if (kind == TokenKind::SignParenOpen || kind == TokenKind::SignBracketOpen) return 1;
+    if (kind == TokenKind::SignParenClose || kind == TokenKind::SignBracketClose) return -1;
+    return 0;
+}
+
+}  // namespace
+
 bool begins_anew(TokenKind kind) {
     switch (kind) {
         case TokenKind::Call:
@@ -38,14 +45,6 @@ bool begins_anew(TokenKind kind) {
     }
 }
 
-int bracket_step(TokenKind kind) {
-    if (kind == TokenKind::SignParenOpen || kind == TokenKind::SignBracketOpen) return 1;
-    if (kind == TokenKind::SignParenClose || kind == TokenKind::SignBracketClose) return -1;
-    return 0;
-}
-
-}  // namespace
-
 Tree parse(std::string_view source, const Target& target, const CommonDefinitions& common,
            const Options& options, Diagnostics& diagnostics) {
     Tree tree;
@@ -69,6 +68,7 @@ void Parser::program() {
     while (at(TokenKind::Const) || at(TokenKind::Var)) {
         add_item(at(TokenKind::Var) ? var_definition() : misplaced_declaration());
     }
+    first_item_ = position_;
     items();
     begin_section({});  // closes the last one
     tree_.sections.pop_back();
@@ -114,51 +114,6 @@ void Parser::define_common_names() {
         known.constant = static_cast<int32_t>(constants_.size());
         constants_.push_back({.value = constant.value});
     }
-}
-
-bool Parser::belongs_to(const Symbol& known, NameSpace space) const {
-    const bool is_variable = known.variable >= 0 && !known.is_implicit;
-    switch (space) {
-        case NameSpace::Value:
-            return is_variable || known.constant >= 0;
-        case NameSpace::Variable:
-            return is_variable;
-        case NameSpace::Constant:
-            return known.constant >= 0;
-        case NameSpace::GlobalEvent:
-            return known.global_event >= 0;
-        case NameSpace::AnyEvent:
-            return known.global_event >= 0 || known.local_event >= 0;
-        case NameSpace::Native:
-            return known.native >= 0;
-        case NameSpace::Sub:
-            return known.sub >= 0;
-    }
-    return false;
-}
-
-// The known name that is closest to a token, or nothing.
-std::string Parser::guess(TokenId name, NameSpace space) const {
-    if (diagnostics_.full()) return {};
-    std::vector<std::string_view> candidates;
-    for (NameId id = 0; id < symbols_.size(); ++id) {
-        if (belongs_to(symbols_[id], space)) candidates.push_back(tree_.names.text(id));
-    }
-    return shown(closest(tree_.text(name), candidates));
-}
-
-// A keyword that the first word of a statement may have been meant as: with capital letters, or one
-// slip away.
-std::string Parser::misspelt_keyword(TokenId name) const {
-    std::vector<std::string_view> keywords;
-    for (auto kind = kFirstKeyword; kind <= kLastKeyword;
-         kind = static_cast<TokenKind>(static_cast<int>(kind) + 1)) {
-        if (begins_anew(kind)) keywords.push_back(spelling_of(kind));
-    }
-    std::string lower(name_text(name));
-    for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
-    if (std::find(keywords.begin(), keywords.end(), lower) != keywords.end()) return lower;
-    return nearest(lower, keywords);
 }
 
 // 2007: `args` and `source` where there is no such variable (section 6, rule 3).
@@ -254,13 +209,10 @@ void Parser::begin_handler(TokenId keyword, TokenId name) {
     const bool is_known = event.local_event >= 0 || event.global_event >= 0;
     const bool is_second = event.handler >= 0;
     if (is_second) {
-        const auto line = tree_.tokens[static_cast<size_t>(event.handler)].line;
-        error(Diag::HandlerTwice, name, {name_text(name), std::to_string(line)});
+        error(Diag::HandlerTwice, name,
+              {name_text(name), line_of(static_cast<TokenId>(event.handler))});
     } else if (!is_known && !event.is_event_unknown) {
-        event.is_event_unknown = true;
-        const std::string similar = guess(name, NameSpace::AnyEvent);
-        error(similar.empty() ? Diag::UnknownEvent : Diag::UnknownEventGuess, name,
-              {name_text(name), similar});
+        unknown_event(name, NameSpace::AnyEvent);
     }
     if (is_known && !is_second) event.handler = static_cast<int32_t>(keyword);
     // A local event hides a global one of its name (section 3.3).
@@ -277,7 +229,8 @@ void Parser::begin_handler(TokenId keyword, TokenId name) {
 // `onevent tick do … end` is one mistake: the `end` belongs to it.
 void Parser::refuse_block() {
     if (!at(TokenKind::Do) && !at(TokenKind::Then)) return;
-    error(Diag::HeaderOpensBlock, position_, {found()});
+    error(Diag::HeaderOpensBlock, position_, {found()},
+          {.fix = deleting(mark(position_), tree_.text(position_))});
     advance();
     ++late_ends_;
 }
@@ -285,11 +238,16 @@ void Parser::refuse_block() {
 // `sub turn()` and `callsub turn()`, also with words between the parentheses.
 void Parser::refuse_parentheses(TokenId name) {
     if (!at(TokenKind::SignParenOpen)) return;
-    error(Diag::SubWithParentheses, position_, {name_text(name)});
-    const int line = token().line;
-    while (!at(TokenKind::EndOfText) && !at(TokenKind::SignParenClose) && token().line == line)
-        advance();
-    accept(TokenKind::SignParenClose);
+    TokenId close = position_;
+    const auto goes_on = [this, &close] {
+        const Token& it = tree_.tokens[close];
+        return it.kind != TokenKind::SignParenClose && it.kind != TokenKind::EndOfText &&
+               tree_.tokens[close + 1].line == it.line;
+    };
+    while (goes_on()) ++close;
+    error(Diag::SubWithParentheses, position_, {name_text(name)},
+          {.fix = deleting(marks(position_, close), "()")});
+    while (position_ <= close && !at(TokenKind::EndOfText)) advance();
 }
 
 // 2007: `ontimer` (section 6, rule 1): a header if it is no variable or constant or a colon
@@ -318,8 +276,8 @@ void Parser::ontimer_header() {
         section.number = isa::kLocalEventFirst - static_cast<int32_t>(*event);
         section.is_ignored = known.handler >= 0;
         if (section.is_ignored) {
-            const auto line = tree_.tokens[static_cast<size_t>(known.handler)].line;
-            error(Diag::HandlerTwice, keyword, {shown(name), std::to_string(line)});
+            error(Diag::HandlerTwice, keyword,
+                  {shown(name), line_of(static_cast<TokenId>(known.handler))});
         } else {
             known.handler = static_cast<int32_t>(keyword);
         }
@@ -370,8 +328,7 @@ void Parser::sub_header() {
                     .number = static_cast<int32_t>(tree_.subs.size())};
     if (known.sub >= 0) {
         const TokenId old = tree_.subs[static_cast<size_t>(known.sub)].token;
-        const std::string line = std::to_string(tree_.tokens[old].line);
-        error(Diag::SubTwice, name, {name_text(name), line});
+        error(Diag::SubTwice, name, {name_text(name), line_of(old)});
         section.is_ignored = true;
     } else {
         known.sub = section.number;
@@ -408,10 +365,11 @@ bool Parser::accept(TokenKind wanted) {
 }
 
 // Moves over the wanted token; otherwise reports, and the rest of the statement is skipped.
-bool Parser::expect(TokenKind wanted, Diag what, std::initializer_list<std::string_view> words) {
+bool Parser::expect(TokenKind wanted, Diag what, std::initializer_list<std::string_view> words,
+                    Extra extra) {
     if (panic_) return false;
     if (accept(wanted)) return true;
-    syntax_error(what, words);
+    syntax_error(what, words, std::move(extra));
     return false;
 }
 
@@ -432,26 +390,41 @@ bool Parser::touches_bad(TokenId token) const {
     return before || behind;
 }
 
-void Parser::error(Diag what, TokenId token, std::initializer_list<std::string_view> words) {
+void Parser::error(Diag what, TokenId token, std::initializer_list<std::string_view> words,
+                   Extra extra) {
     if (touches_bad(token)) {
         ++silent_errors_;
         return;
     }
-    diagnostics_.report(what, mark(token), words);
+    diagnostics_.report(what, mark(token), words, std::move(extra));
     if (diagnostics_.full()) give_up();
 }
 
-// At the current token. Only the first one of a statement, and only one for each token, is
-// reported. Beside a character that the scanner has refused nothing is: the mistake is known.
-void Parser::syntax_error(Diag what, std::initializer_list<std::string_view> words) {
-    if (panic_) return;
+// At the current token.
+void Parser::syntax_error(Diag what, std::initializer_list<std::string_view> words, Extra extra) {
+    if (begin_panic()) error(what, position_, words, std::move(extra));
+}
+
+// At the current token, while a person is better shown another place.
+void Parser::error_elsewhere(Diag what, Mark place, std::initializer_list<std::string_view> words,
+                             std::optional<Fix> fix) {
+    if (!begin_panic()) return;
+    diagnostics_.report(what, place, words, {.fix = std::move(fix), .formal = mark(position_).at});
+    if (diagnostics_.full()) give_up();
+}
+
+// Whether an error of syntax at the current token is worth a report. Only the first one of a
+// statement, and only one for each token, is. Beside a character that the scanner has refused
+// nothing is: the mistake is known.
+bool Parser::begin_panic() {
+    if (panic_) return false;
     panic_ = true;
     const bool is_beside_bad =
         at(TokenKind::Bad) || (position_ > 0 && tree_.tokens[position_ - 1].kind == TokenKind::Bad);
     const bool is_known = last_syntax_error_ == position_ || tree_.is_partial;
     last_syntax_error_ = position_;
     ++silent_errors_;
-    if (!is_beside_bad && !is_known) error(what, position_, words);
+    return !is_beside_bad && !is_known;
 }
 
 bool Parser::is_first_of_line(TokenId token) const {

@@ -8,8 +8,9 @@
 
 #include <string_view>
 
-#include "aesl/compile.hpp"
 #include "aesl/diagnostics.hpp"
+#include "aesl/options.hpp"
+#include "aesl/target.hpp"
 #include "aesl/tree.hpp"
 
 namespace vagus::aesl {
@@ -21,7 +22,8 @@ Tree parse(std::string_view source, const Target& target, const CommonDefinition
 // trees. It is whole only if `errors` is empty.
 struct CheckedTree {
     Tree tree;
-    std::vector<Diagnostic> errors;
+    std::vector<Diagnostic> errors;  // by position
+    size_t first = 0;                // among them: the one that section 3.2 selects
 };
 CheckedTree parse_and_check(std::string_view source, const Target& target,
                             const CommonDefinitions& common, const Options& options);

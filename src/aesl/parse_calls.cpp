@@ -1,6 +1,7 @@
 // Events, native functions and subs: emit, call, callsub, with the checks of their arguments
 // (docs/spec/aesl-language.md, sections 2.2, 3.2 and 3.8).
 #include "aesl/expand.hpp"
+#include "aesl/fix.hpp"
 #include "aesl/limits.hpp"
 #include "aesl/parser.hpp"
 #include "aesl/places.hpp"
@@ -20,10 +21,7 @@ NodeId Parser::emit_statement() {
     if (event.global_event < 0 && event.local_event >= 0) {
         error(Diag::EmitLocalEvent, name, {name_text(name)});
     } else if (event.global_event < 0 && !event.is_event_unknown) {
-        event.is_event_unknown = true;
-        const std::string similar = guess(name, NameSpace::GlobalEvent);
-        error(similar.empty() ? Diag::UnknownEvent : Diag::UnknownEventGuess, name,
-              {name_text(name), similar});
+        unknown_event(name, NameSpace::GlobalEvent);
     }
     const NodeId node =
         add({.kind = NodeKind::Emit, .token = keyword, .value = event.global_event});
@@ -90,8 +88,8 @@ bool Parser::reserve(int32_t words, int32_t already, TokenId at) {
 }
 
 struct Parser::ArgumentSizes {
-    std::vector<std::pair<int32_t, size_t>>
-        templates;  // words, position of the argument; by template number
+    // Words, position of the argument; by template number.
+    std::vector<std::pair<int32_t, size_t>> templates;
     int32_t temporaries = 0;
     bool is_bad = false;
 };
@@ -121,15 +119,20 @@ NodeId Parser::call_statement() {
 }
 
 void Parser::unknown_native(TokenId keyword, TokenId name) {
-    const std::string similar = guess(name, NameSpace::Native);
     const std::string text = name_text(name);
     symbol(name).is_native_unknown = true;
-    if (symbol(name).sub >= 0) {
-        error(Diag::SubNotNative, keyword, {text});
-    } else if (similar.empty()) {
-        error(Diag::UnknownNative, keyword, {text, shown(target_.name)});
+    if (is_sub_somewhere(name)) {
+        Fix fix = replacing(mark(keyword), "callsub");
+        const bool is_call = at(TokenKind::SignParenOpen);
+        if (is_call && kind_ahead(1) == TokenKind::SignParenClose)
+            fix.edits.push_back({marks(position_, position_ + 1), ""});
+        error(Diag::SubNotNative, keyword, {text}, {.fix = fix});
+        if (!is_call) panic_ = true;  // its missing parentheses are no second mistake
+    } else if (const NativeFunction* const meant = native_meant(name)) {
+        error(Diag::UnknownNativeGuess, keyword, {text, shown(meant->name)},
+              {.fix = replacing(mark(name), meant->name)});
     } else {
-        error(Diag::UnknownNativeGuess, keyword, {text, similar});
+        error(Diag::UnknownNative, keyword, {text, shown(target_.name)});
     }
 }
 
@@ -170,7 +173,8 @@ void Parser::arguments(TokenId keyword, const NativeFunction& native, ChildList&
         advance();
         return arguments_unchecked(list);
     }
-    expect(TokenKind::SignParenClose, Diag::ExpectedCallEnd, {found(), shown(native.name)});
+    expect(TokenKind::SignParenClose, Diag::ExpectedCallEnd, {found(), shown(native.name)},
+           {.fix = write_behind_last(position_, ")")});
 }
 
 // The element with which the argument begins and the sizes inside it, then room for its temporary,

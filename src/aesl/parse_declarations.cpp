@@ -12,7 +12,7 @@ void Parser::const_definition() {
     const size_t before = errors();
     advance();
     const TokenId name = position_;
-    if (!expect(TokenKind::Identifier, Diag::ExpectedDeclaredName, {found(), "const"})) {
+    if (!declared_name("const")) {
         recover();
         return;
     }
@@ -20,18 +20,24 @@ void Parser::const_definition() {
                                     ? nullptr
                                     : &constants_[static_cast<size_t>(symbol(name).constant)];
     if (old != nullptr) {
-        const std::string where = old->token == 0
-                                      ? " for the whole network"
-                                      : " in line " + std::to_string(tree_.tokens[old->token].line);
+        const std::string where =
+            old->token == 0 ? " for the whole network" : " in line " + line_of(old->token);
         error(Diag::ConstantTwice, name, {name_text(name), where});
     }
     std::optional<int32_t> value;
-    if (expect(TokenKind::SignAssign, Diag::ExpectedConstAssign, {found(), name_text(name)})) {
+    if (expect(TokenKind::SignAssign, Diag::ExpectedConstAssign, {found(), name_text(name)},
+               {.fix = write_before(position_, "= ")})) {
         const NodeId expression_node = expression();
         if (!panic_) value = constant_for(name, expression_node);
     }
     if (old == nullptr) define_constant(name, value);
     finish_simple(kNoNode, before);
+}
+
+bool Parser::declared_name(std::string_view keyword) {
+    if (accept(TokenKind::Identifier)) return true;
+    report_no_name(keyword);
+    return false;
 }
 
 void Parser::define_constant(TokenId name, std::optional<int32_t> value) {
@@ -57,7 +63,7 @@ NodeId Parser::var_definition() {
     const size_t before = errors();
     advance();
     const TokenId name = position_;
-    if (!expect(TokenKind::Identifier, Diag::ExpectedDeclaredName, {found(), "var"})) {
+    if (!declared_name("var")) {
         return recover();
     }
     DeclaredSize size = array_size(name);
@@ -100,8 +106,7 @@ Parser::DeclaredSize Parser::array_size(TokenId name) {
     DeclaredSize size{.is_given = true};
     const NodeId words = expression();
     if (!panic_) size.words = checked_size(name, bracket, words);
-    expect(TokenKind::SignBracketClose, Diag::ExpectedBracketClose,
-           {found(), std::to_string(tree_.tokens[bracket].line)});
+    expect(TokenKind::SignBracketClose, Diag::ExpectedBracketClose, {found(), line_of(bracket)});
     return size;
 }
 
@@ -125,8 +130,7 @@ bool Parser::name_is_free(TokenId name) {
     const Symbol& known = symbol(name);
     if (known.variable >= 0 && !known.is_implicit) {
         const TokenId old = tree_.variables[static_cast<size_t>(known.variable)].token;
-        const std::string where =
-            old == 0 ? " by the node" : " in line " + std::to_string(tree_.tokens[old].line);
+        const std::string where = old == 0 ? " by the node" : " in line " + line_of(old);
         error(Diag::VariableTwice, name, {name_text(name), where});
         return false;
     }

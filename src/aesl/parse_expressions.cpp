@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "aesl/expand.hpp"
+#include "aesl/fix.hpp"
 #include "aesl/limits.hpp"
 #include "aesl/parser.hpp"
 
@@ -175,29 +176,6 @@ NodeId Parser::name_in_expression() {
     return reference(name, static_cast<VariableId>(known.variable));
 }
 
-// The sentence that helps most with a name that nobody knows.
-void Parser::report_unknown_variable(TokenId name, NameSpace space) {
-    const std::string text = name_text(name);
-    const std::string similar = guess(name, space);
-    const bool begins = name == statement_start_ && !assigns_next(name);
-    const std::string keyword = begins ? misspelt_keyword(name) : "";
-    const bool names_next = begins && at(TokenKind::Identifier) && !is_first_of_line(position_);
-    if (symbol(name).native >= 0) {
-        error(Diag::NativeAsValue, name, {text});
-    } else if (!keyword.empty()) {
-        error(Diag::MisspeltKeyword, name, {text, keyword});
-    } else if (names_next) {
-        error(Diag::UnknownWord, name, {text, name_text(position_)});
-    } else if (text == "true" || text == "false") {
-        error(Diag::TruthValue, name, {text});
-    } else if (!similar.empty()) {
-        error(Diag::UnknownVariableGuess, name, {text, similar});
-    } else {
-        error(space == NameSpace::Variable ? Diag::UnknownLoopVariable : Diag::UnknownVariable,
-              name, {text});
-    }
-}
-
 NodeId Parser::unknown_variable(TokenId name, NameSpace space) {
     advance();
     if (const auto meant = alias(tree_.text(name))) return reference(name, *meant);
@@ -220,7 +198,7 @@ NodeId Parser::reference(TokenId name, VariableId variable) {
 }
 
 NodeId Parser::index(TokenId name, VariableId variable) {
-    const std::string line = std::to_string(token().line);
+    const std::string line = line_of(position_);
     advance();
     if (++nesting_ > kNestingMax) give_up();
     const NodeId first = expression();
@@ -231,7 +209,8 @@ NodeId Parser::index(TokenId name, VariableId variable) {
                                   first, kNoNode);
     const NodeId whole = at(TokenKind::SignColon) && !panic_ ? slice(node, first) : node;
     --nesting_;
-    expect(TokenKind::SignBracketClose, Diag::ExpectedBracketClose, {found(), line});
+    expect(TokenKind::SignBracketClose, Diag::ExpectedBracketClose, {found(), line},
+           {.fix = write_behind_last(position_, "]")});
     return whole;
 }
 
@@ -269,7 +248,7 @@ NodeId Parser::slice(NodeId element, NodeId first) {
 
 NodeId Parser::tuple() {
     const TokenId open = position_;
-    const std::string line = std::to_string(token().line);
+    const std::string line = line_of(position_);
     advance();
     if (++nesting_ > kNestingMax) give_up();
     ChildList elements;
@@ -298,38 +277,21 @@ NodeId Parser::element() {
 }
 
 NodeId Parser::parenthesised() {
-    const std::string line = std::to_string(token().line);
+    const std::string line = line_of(position_);
     advance();
     if (++nesting_ > kNestingMax) give_up();
     const NodeId inside = condition();
     --nesting_;
     const bool assigns = at(TokenKind::SignAssign);
+    const Fix fix = assigns ? replacing(mark(position_), "==") : write_behind_last(position_, ")");
     expect(TokenKind::SignParenClose, assigns ? Diag::ParenAssign : Diag::ExpectedParenClose,
-           {found(), line});
+           {found(), line}, {.fix = fix});
     return inside;
 }
 
 NodeId Parser::missing_operand() {
     const TokenId here = position_;
-    switch (kind()) {
-        case TokenKind::SignAdd:
-            syntax_error(Diag::UnaryPlus);
-            break;
-        case TokenKind::Not:
-            syntax_error(Diag::NotInExpression);
-            break;
-        case TokenKind::SignBracketClose:
-            syntax_error(Diag::EmptyTuple);
-            break;
-        default:
-            if (position_ > 0 && kind() == tree_.tokens[position_ - 1].kind &&
-                (at(TokenKind::SignBitAnd) || at(TokenKind::SignBitOr))) {
-                const bool is_and = at(TokenKind::SignBitAnd);
-                syntax_error(Diag::DoubledOperator, {is_and ? "&" : "|", is_and ? "and" : "or"});
-                break;
-            }
-            syntax_error(Diag::ExpectedOperand, {found()});
-    }
+    report_no_operand();
     return error_node(here);
 }
 

@@ -1,6 +1,7 @@
 // Statements (docs/spec/aesl-language.md, chapter 2 and section 3.8).
 #include <algorithm>
 
+#include "aesl/fix.hpp"
 #include "aesl/limits.hpp"
 #include "aesl/parser.hpp"
 
@@ -83,30 +84,9 @@ NodeId Parser::statement_by_keyword() {
 
 // A token that cannot begin a statement.
 NodeId Parser::unexpected_statement() {
-    const std::string what = found();
-    const bool is_same_line = !is_first_of_line(position_);
-    const TokenKind before =
-        position_ == 0 ? TokenKind::EndOfText : tree_.tokens[position_ - 1].kind;
     const auto sent_nothing = sent_nothing_;
     sent_nothing_.reset();
-    if (at(TokenKind::End)) {
-        syntax_error(Diag::StrayEnd);
-    } else if (at(TokenKind::Else) || at(TokenKind::ElseIf)) {
-        syntax_error(Diag::StrayElse, {what});
-    } else if (is_same_line && sent_nothing && can_begin_operand()) {
-        const std::string event = name_text(static_cast<TokenId>(*sent_nothing));
-        syntax_error(Diag::EventTakesNoArgument, {what, event});
-    } else if (at(TokenKind::SignBracketOpen) && before == TokenKind::SignBracketClose) {
-        syntax_error(Diag::IndexOfExpression, {what});
-    } else if (at(TokenKind::SignBracketOpen)) {
-        syntax_error(Diag::LeftTuple, {what});
-    } else if (at(TokenKind::SignDivide) && !is_same_line) {
-        syntax_error(Diag::SlashComment);
-    } else if (kind() >= TokenKind::SignEqual) {
-        syntax_error(Diag::ComparedInAssignment, {what});
-    } else {
-        syntax_error(Diag::ExpectedStatement, {what});
-    }
+    report_no_statement(sent_nothing);
     return recover();
 }
 
@@ -117,9 +97,9 @@ NodeId Parser::misplaced_declaration() {
     if (!is_var) {
         syntax_error(Diag::MisplacedConst);
     } else if (is_top) {
-        error(Diag::MisplacedVar, position_);
+        error(Diag::MisplacedVar, position_, {}, {.fix = moved_var()});
     } else {
-        syntax_error(Diag::VarInBlock);
+        syntax_error(Diag::VarInBlock, {}, {.fix = moved_var()});
     }
     panic_ = false;
     if (is_var) return var_definition();
@@ -185,9 +165,9 @@ NodeId Parser::clause() {
 
 void Parser::else_branches(NodeId node, ChildList& branches) {
     const TokenId keyword = tree_[node].token;
-    const std::string line = std::to_string(tree_.tokens[keyword].line);
+    const std::string line = line_of(keyword);
     bool had_else = false;
-    bool has_else_if = false;
+    std::optional<TokenId> two_words;  // the `else` of an `else if`
     while (at(TokenKind::Else) || at(TokenKind::ElseIf)) {
         if (had_else) {
             syntax_error(Diag::ElseAfterElse, {found(), line});
@@ -199,12 +179,12 @@ void Parser::else_branches(NodeId node, ChildList& branches) {
             continue;
         }
         advance();
-        has_else_if = at(TokenKind::If) && !is_first_of_line(position_);
+        if (at(TokenKind::If) && !is_first_of_line(position_)) two_words = position_ - 1;
         const NodeId branch = block();
         if (!had_else) append(branches, branch);
         had_else = true;
     }
-    expect_end(keyword, has_else_if);
+    expect_end(keyword, two_words);
     tree_[node].value = static_cast<int32_t>(position_) - 1;
 }
 
@@ -228,9 +208,9 @@ NodeId Parser::for_statement() {
     const size_t before = errors();
     advance();
     const NodeId variable = loop_variable();
-    expect(TokenKind::In, Diag::ExpectedIn, {found()});
+    expect(TokenKind::In, Diag::ExpectedIn, {found()}, {.fix = instead_of_word("in")});
     const Bound first = loop_bound("first bound");
-    expect(TokenKind::SignColon, Diag::ExpectedLoopColon, {found()});
+    expect(TokenKind::SignColon, Diag::ExpectedLoopColon, {found()}, {.fix = instead_of_word(":")});
     const Bound last = loop_bound("last bound");
     const bool has_step = !panic_ && accept(TokenKind::Step);
     const Bound step = has_step ? loop_bound("step") : Bound{.token = keyword, .value = 1};
@@ -302,12 +282,15 @@ std::optional<int32_t> Parser::named_bound() {
     advance();
     if (known.constant < 0) {
         const std::string similar = guess(name, NameSpace::Constant);
-        if (known.variable >= 0) {
+        if (tree_.text(name) == "range" && at(TokenKind::SignParenOpen)) {
+            error(Diag::RangeAsBound, name);
+        } else if (known.variable >= 0) {
             error(Diag::VariableAsBound, name, {name_text(name)});
         } else if (similar.empty()) {
             error(Diag::UnknownConstant, name, {name_text(name)});
         } else {
-            error(Diag::UnknownConstantGuess, name, {name_text(name), similar});
+            error(Diag::UnknownConstantGuess, name, {name_text(name), similar},
+                  {.fix = replacing(mark(name), similar)});
         }
         return std::nullopt;
     }
@@ -335,7 +318,7 @@ bool Parser::check_bounds(const Bound& first, const Bound& last, const Bound& st
     } else if (!rises && *first.value < *last.value) {
         error(Diag::LoopStartTooLow, first.token, {from, to});
     } else if (rises && *last.value == kInt16Max) {
-        error(Diag::LoopEndMax, last.token);
+        error(Diag::LoopEndMax, last.token, {}, {.fix = replacing(mark(last.token), "32766")});
     } else if (!rises && *last.value == -kInt16Max - 1) {
         error(Diag::LoopEndMin, last.token);
     } else {
@@ -352,13 +335,13 @@ NodeId Parser::loop_body(TokenId opener) {
     // An `else` here belongs to an `if` around, whose inner block lacks its `end`; without one it
     // is out of place.
     while (open_ifs_ == 0 && (at(TokenKind::Else) || at(TokenKind::ElseIf))) {
-        const std::string line = std::to_string(tree_.tokens[opener].line);
+        const std::string line = line_of(opener);
         syntax_error(Diag::ElseInLoop, {found(), tree_.text(opener), line});
         panic_ = false;
         skip_branch_head();
         statements(list);
     }
-    expect_end(opener, false);
+    expect_end(opener, std::nullopt);
     return add({.kind = NodeKind::Block, .token = before, .first = list.first});
 }
 
@@ -366,12 +349,7 @@ NodeId Parser::loop_body(TokenId opener) {
 // before another statement, or right here.
 void Parser::expect_opener(TokenKind opener, Diag what, TokenId keyword) {
     if (!panic_ && accept(opener)) return;
-    const std::string word = shown(tree_.text(keyword));
-    if (at(TokenKind::SignAssign) && what != Diag::ExpectedDoOrStep) {
-        syntax_error(Diag::ThenAfterAssign, {found(), spelling_of(opener)});
-    } else {
-        syntax_error(what, {found(), word});
-    }
+    report_no_opener(opener, what, keyword);
     panic_ = false;
     for (TokenId ahead = position_;; ++ahead) {
         const TokenKind next = tree_.tokens[ahead].kind;
@@ -392,11 +370,20 @@ void Parser::expect_opener(TokenKind opener, Diag what, TokenId keyword) {
     }
 }
 
-void Parser::expect_end(TokenId opener, bool has_else_if) {
+void Parser::expect_end(TokenId opener, std::optional<TokenId> two_words) {
     if (accept(TokenKind::End)) return;
-    const std::string line = std::to_string(tree_.tokens[opener].line);
-    syntax_error(has_else_if ? Diag::ElseIfInTwoWords : Diag::MissingEnd,
-                 {found(), shown(tree_.text(opener)), line});
+    const std::string line = line_of(opener);
+    const std::string word = shown(tree_.text(opener));
+    if (two_words) {
+        const Mark place = marks(*two_words, *two_words + 1);
+        error_elsewhere(Diag::ElseIfInTwoWords, place, {found(), word, line},
+                        replacing(place, "elseif"));
+    } else {
+        const bool is_in_line = !is_first_of_line(position_) || at(TokenKind::EndOfText);
+        syntax_error(Diag::MissingEnd, {found(), word, line},
+                     {.fix = is_in_line ? write_behind_last(position_, "\nend")
+                                        : write_before(position_, "end\n")});
+    }
     panic_ = false;
     ++missing_ends_;
 }
@@ -427,20 +414,6 @@ NodeId Parser::assignment() {
     }
     node.bad = node.bad || errors() > before;
     return finish_simple(add(node), before);
-}
-
-void Parser::missing_assignment(TokenId start) {
-    const std::string name = name_text(start);
-    const Symbol& known = symbol(start);
-    const bool is_call = at(TokenKind::SignParenOpen) && known.native >= 0;
-    const bool compares = kind() == TokenKind::SignEqual;
-    if (compares) {
-        syntax_error(Diag::ComparisonAsStatement, {found(), name});
-    } else if (is_call) {
-        syntax_error(Diag::CallWithoutKeyword, {found(), name, "call"});
-    } else {
-        syntax_error(Diag::ExpectedAssignment, {found(), name});
-    }
 }
 
 }  // namespace vagus::aesl

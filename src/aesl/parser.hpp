@@ -1,9 +1,12 @@
-// The parser's inside: state and helpers shared by its five files. The interface is parse.hpp.
+// The parser's inside: state and helpers shared by its seven files. The interface is parse.hpp.
 //
-// parse.cpp               program, headers, names, recovery parse_declarations.cpp  const, var
+// parse.cpp               program, headers, names, recovery
+// parse_declarations.cpp  const, var
 // parse_statements.cpp    if, when, while, for, return, assignment
 // parse_calls.cpp         emit, call, callsub
 // parse_expressions.cpp   conditions and expressions
+// parse_hints.cpp         what an unknown name was probably meant as, and the fix
+// parse_slips.cpp         the same for statements, heads and declarations
 //
 // Recovery. The first error of syntax in a statement sets `panic_`; while it is set, nothing more
 // is reported. The statement then skips to where the next one can begin, which clears it. What was
@@ -16,8 +19,8 @@
 #include <string_view>
 #include <vector>
 
-#include "aesl/compile.hpp"
 #include "aesl/diagnostics.hpp"
+#include "aesl/options.hpp"
 #include "aesl/scan.hpp"
 #include "aesl/tree.hpp"
 
@@ -49,6 +52,9 @@ struct ChildList {
     NodeId last = kNoNode;
 };
 
+// Keywords at which the next statement, header or declaration begins, or a block ends.
+bool begins_anew(TokenKind kind);
+
 class Parser {
 public:
     Parser(Tree& tree, const Target& target, const CommonDefinitions& common,
@@ -63,9 +69,6 @@ private:
     void define_node_names();
     void define_common_names();
     Symbol& symbol(TokenId name) { return symbols_[static_cast<size_t>(tree_.tokens[name].value)]; }
-    bool belongs_to(const Symbol& symbol, NameSpace space) const;
-    std::string guess(TokenId name, NameSpace space) const;
-    std::string misspelt_keyword(TokenId name) const;
     std::optional<VariableId> alias(std::string_view name) const;
     VariableId declare_implicitly(TokenId name);
 
@@ -92,13 +95,22 @@ private:
         if (!at(TokenKind::EndOfText)) ++position_;
     }
     bool accept(TokenKind wanted);
-    bool expect(TokenKind wanted, Diag what, std::initializer_list<std::string_view> words);
+    bool expect(TokenKind wanted, Diag what, std::initializer_list<std::string_view> words,
+                Extra extra = {});
     Mark mark(TokenId token) const { return mark_of(tree_.source, tree_.tokens[token]); }
     std::string name_text(TokenId token) const { return shown(tree_.text(token)); }
     std::string found() const;
+    std::string line_of(TokenId token) const {
+        return diagnostics_.line_text(tree_.tokens[token].line);
+    }
     bool touches_bad(TokenId token) const;
-    void error(Diag what, TokenId token, std::initializer_list<std::string_view> words = {});
-    void syntax_error(Diag what, std::initializer_list<std::string_view> words = {});
+    void error(Diag what, TokenId token, std::initializer_list<std::string_view> words = {},
+               Extra extra = {});
+    void syntax_error(Diag what, std::initializer_list<std::string_view> words = {},
+                      Extra extra = {});
+    void error_elsewhere(Diag what, Mark place, std::initializer_list<std::string_view> words,
+                         std::optional<Fix> fix = std::nullopt);
+    bool begin_panic();
     // Mistakes met so far, also those that are not worth a second report.
     size_t errors() const { return diagnostics_.errors_found() + silent_errors_; }
     bool is_first_of_line(TokenId token) const;
@@ -112,6 +124,7 @@ private:
 
     // parse_declarations.cpp
     void const_definition();
+    bool declared_name(std::string_view keyword);
     void define_constant(TokenId name, std::optional<int32_t> value);
     std::optional<int32_t> constant_for(TokenId name, NodeId value);
     NodeId var_definition();
@@ -133,7 +146,6 @@ private:
     NodeId statement();
     NodeId statement_by_keyword();
     NodeId assignment();
-    void missing_assignment(TokenId start);
     NodeId unexpected_statement();
     NodeId misplaced_declaration();
     void statements(ChildList& list);
@@ -153,7 +165,8 @@ private:
     bool check_bounds(const Bound& first, const Bound& last, const Bound& step);
     NodeId loop_body(TokenId opener);
     void expect_opener(TokenKind opener, Diag what, TokenId keyword);
-    void expect_end(TokenId opener, bool has_else_if);
+    void expect_end(TokenId opener, std::optional<TokenId> two_words);
+    std::optional<Fix> instead_of_word(std::string text) const;
 
     // parse_calls.cpp
     NodeId emit_statement();
@@ -188,9 +201,43 @@ private:
     NodeId parenthesised();
     NodeId element();
     NodeId missing_operand();
-    void report_unknown_variable(TokenId name, NameSpace space);
     NodeId unknown_variable(TokenId name, NameSpace space);
     bool can_begin_operand() const;
+
+    // parse_hints.cpp
+    Mark marks(TokenId first, TokenId last) const;
+    Fix write_before(TokenId token, std::string text) const;
+    Fix write_behind_last(TokenId token, std::string text) const;
+    Fix declare_first(std::string declaration) const;
+    bool touches_next(TokenId token) const;
+    bool belongs_to(const Symbol& symbol, NameSpace space) const;
+    std::string guess(TokenId name, NameSpace space) const;
+    void unknown_event(TokenId name, NameSpace space);
+    bool is_sub_somewhere(TokenId name) const;
+    std::string call_of(const NativeFunction& native) const;
+    const NativeFunction* native_meant(TokenId name) const;
+    std::string misspelt_keyword(TokenId name) const;
+    std::string repeating_event() const;
+    std::string advice_of(std::string_view text) const;
+    std::vector<std::string> parts_of(std::string_view name) const;
+    bool hint_native(TokenId name);
+    bool hint_sub(TokenId name);
+    bool hint_word(TokenId name);
+    bool hint_call(TokenId name);
+    bool hint_truth(TokenId name);
+    bool hint_parts(TokenId name);
+    void report_unknown_variable(TokenId name, NameSpace space);
+    void report_no_statement(std::optional<int32_t> sent_nothing);
+    bool hint_sign_first();
+    bool hint_rest_of_line(TokenKind before);
+    void hint_brackets(TokenId name);
+    void missing_assignment(TokenId start);
+    void report_no_opener(TokenKind opener, Diag what, TokenId keyword);
+    bool hint_slip();
+    bool hint_end_of_kind();
+    void report_no_operand();
+    void report_no_name(std::string_view keyword);
+    std::optional<Fix> moved_var() const;
 
     // Nodes
     NodeId add(Node node);
@@ -210,6 +257,7 @@ private:
 
     TokenId position_ = 0;
     TokenId statement_start_ = 0;
+    std::optional<TokenId> first_item_;  // behind the declarations; none while they are read
     bool panic_ = false;
     size_t silent_errors_ = 0;
     std::optional<TokenId> last_syntax_error_;
@@ -220,8 +268,8 @@ private:
     bool code_began_ = false;
 
     ChildList current_;  // statements of the section that is being read
-    std::optional<int32_t>
-        sent_nothing_;  // the token of an `emit` without argument that has just been read
+    // The token of an `emit` without argument that has just been read.
+    std::optional<int32_t> sent_nothing_;
 };
 
 }  // namespace vagus::aesl

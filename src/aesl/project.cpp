@@ -11,13 +11,14 @@
 #include <pugixml.hpp>
 
 #include "aesl/node_file.hpp"
+#include "aesl/unicode.hpp"
+#include "aesl/xml_scan.hpp"
 #include "base/json.hpp"
 #include "base/text.hpp"
 
 namespace vagus::aesl {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 constexpr size_t kUuidLength = 36;
 constexpr std::string_view kMendMarkup =
     "in a script write &lt; for < and &amp; for &, or put the script into <![CDATA[ … ]]>";
@@ -56,41 +57,6 @@ bool is_reference(std::string_view name) {
         std::from_chars(name.data(), name.data() + name.size(), value, is_hexadecimal ? 16 : 10);
     return error == std::errc() && end == name.data() + name.size() && !name.empty() &&
            is_xml_character(value);
-}
-
-// Behind the > that ends the start tag at `offset`; a > in an attribute's value does not count.
-size_t behind_start_tag(std::string_view text, size_t offset) {
-    char quote = '\0';
-    for (; offset < text.size(); ++offset) {
-        const char character = text[offset];
-        if (quote != '\0') {
-            if (character == quote) quote = '\0';
-        } else if (character == '"' || character == '\'') {
-            quote = character;
-        } else if (character == '>') {
-            return offset + 1;
-        } else {
-            // Part of the tag.
-        }
-    }
-    return offset;
-}
-
-// Comments, CDATA, processing instructions: in them an & means nothing.
-struct Opaque {
-    std::string_view opening;
-    std::string_view closing;
-};
-constexpr Opaque kOpaque[] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
-
-// Behind the opaque part that begins at `offset`; `offset` itself if none does.
-size_t skip_opaque(std::string_view text, size_t offset) {
-    for (const Opaque& part : kOpaque) {
-        if (!text.substr(offset).starts_with(part.opening)) continue;
-        const size_t end = text.find(part.closing, offset + part.opening.size());
-        return end == text.npos ? text.size() : end + part.closing.size();
-    }
-    return offset;
 }
 
 std::optional<Mistake> refuse_reference(std::string_view text, size_t offset) {
@@ -395,19 +361,37 @@ Result<Project> parse_project(std::string_view xml, std::string_view file) {
     return Error{Code::BadInput, at_place(file, place_of(text, mistake->offset), mistake->what)};
 }
 
-int script_for(const Project& project, std::string_view node_name, uint16_t node_id,
-               std::vector<bool>& used) {
-    used.resize(project.scripts.size(), false);
-    int found = -1;
+namespace {
+
+// The first script of that name for which `fits` is true; -1 if there is none.
+template <typename Fits>
+int first_script(const Project& project, std::string_view name, const Fits& fits) {
     for (size_t i = 0; i < project.scripts.size(); ++i) {
-        const Script& script = project.scripts[i];
-        if (used[i] || script.node != node_name) continue;
-        if (found < 0) found = static_cast<int>(i);
-        if (script.node_id != node_id) continue;
-        found = static_cast<int>(i);
-        break;
+        if (project.scripts[i].node == name && fits(i)) return static_cast<int>(i);
     }
-    if (found >= 0) used[static_cast<size_t>(found)] = true;
+    return -1;
+}
+
+}  // namespace
+
+std::vector<int> scripts_for(const Project& project, std::span<const NodeName> nodes) {
+    std::vector<bool> used(project.scripts.size());
+    std::vector<int> found;
+    for (const NodeName& node : nodes) {
+        found.push_back(first_script(project, node.name, [&](size_t i) {
+            return project.scripts[i].node_id == node.id && !used[i];
+        }));
+        if (found.back() >= 0) used[static_cast<size_t>(found.back())] = true;
+    }
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        if (found[n] >= 0) continue;
+        found[n] = first_script(project, nodes[n].name, [&](size_t i) { return !used[i]; });
+        if (found[n] >= 0) {
+            used[static_cast<size_t>(found[n])] = true;
+        } else {
+            found[n] = first_script(project, nodes[n].name, [](size_t) { return true; });
+        }
+    }
     return found;
 }
 

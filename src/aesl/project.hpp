@@ -10,6 +10,7 @@
 // tools) is kept and written again; only XML comments and the layout between elements are not.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,9 +47,15 @@ Result<Project> parse_project(std::string_view xml, std::string_view file);
 // constants, keywords, nodes.
 std::string format_project(const Project& project);
 
-// Index into `scripts` for a connected node: same name, same id preferred, else the first with the
-// name that `used` does not mark; -1 if none. Marks what it gives.
-int script_for(const Project& project, std::string_view node_name, uint16_t node_id,
-               std::vector<bool>& used);
+// A node that is there, as it calls itself.
+struct NodeName {
+    std::string_view name;
+    uint16_t id = 0;
+};
+// Indices into `scripts`, one for each of the nodes; -1 where no script has the node's name. A node
+// whose name and id are those of a script gets that one. Each other gets the first of its name that
+// no node has yet, and, when all are given away, the first of its name: thirty robots of one name
+// all get the one script that there is for it.
+std::vector<int> scripts_for(const Project& project, std::span<const NodeName> nodes);
 
 }  // namespace vagus::aesl

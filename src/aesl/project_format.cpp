@@ -1,6 +1,8 @@
 // Writing projects in the layout of the classic tools.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "aesl/project.hpp"
 
 namespace vagus::aesl {
@@ -65,14 +67,11 @@ std::string in_comment(std::string_view text) {
     return safe.ends_with('-') ? safe + ' ' : safe;
 }
 
-std::string event_line(const GlobalEvent& event) {
-    const std::string size = event.size ? fmt::format("size=\"{}\" ", *event.size) : "";
-    return fmt::format("<event {}name=\"{}\"/>\n", size, escaped_attribute(event.name));
-}
-
-std::string constant_line(const Constant& constant) {
-    return fmt::format("<constant value=\"{}\" name=\"{}\"/>\n", constant.value,
-                       escaped_attribute(constant.name));
+// `<event size="1" name="turning"/>`, on a line of its own; without the number where there is none.
+std::string element(std::string_view kind, std::string_view key, std::optional<int32_t> number,
+                    std::string_view name) {
+    const std::string attribute = number ? fmt::format("{}=\"{}\" ", key, *number) : "";
+    return fmt::format("<{} {}name=\"{}\"/>\n", kind, attribute, escaped_attribute(name));
 }
 
 std::string script_lines(const Script& script) {
@@ -88,9 +87,11 @@ std::string format_project(const Project& project) {
     constexpr std::string_view kGap = "\n\n";
     std::string xml = "<!DOCTYPE aesl-source>\n<network>\n";
     xml += fmt::format("{}<!--list of global events-->\n", kGap);
-    for (const GlobalEvent& event : project.common.events) xml += event_line(event);
+    for (const GlobalEvent& event : project.common.events)
+        xml += element("event", "size", event.size, event.name);
     xml += fmt::format("{}<!--list of constants-->\n", kGap);
-    for (const Constant& constant : project.common.constants) xml += constant_line(constant);
+    for (const Constant& constant : project.common.constants)
+        xml += element("constant", "value", constant.value, constant.name);
     if (!project.keywords.empty())
         xml += fmt::format("{}<!--show keywords state-->\n<keywords flag=\"{}\"/>\n", kGap,
                            escaped_attribute(project.keywords));

@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 
 namespace vagus::aesl {
 namespace {
 
 // The worked example of section 5.2, byte for byte.
 std::string rover() {
-    return read_file(VAGUS_TESTDATA "/projects/rover.aesl").value();
+    return read_file(test::testdata("projects/rover.aesl")).value();
 }
 
 std::string error_of(std::string_view xml) {
@@ -192,17 +193,18 @@ TEST(Project, DepthAndSizeAreLimited) {
     EXPECT_NE(error_of(padded(kProjectBytesMax + 1)).find("larger than 8 MB"), std::string::npos);
 }
 
-TEST(Project, ScriptsAreFoundByNameThenId) {
+TEST(Project, EachNodeGetsAScriptOfItsName) {
     const Project project =
         parsed(network("<node name=\"a\" nodeId=\"1\">1</node>"
                        "<node name=\"b\">2</node>"
                        "<node name=\"a\" nodeId=\"3\">3</node>"));
-    std::vector<bool> used;
-    EXPECT_EQ(script_for(project, "a", 3, used), 2) << "the id is preferred";
-    EXPECT_EQ(script_for(project, "a", 9, used), 0) << "else the first that is not used";
-    EXPECT_EQ(script_for(project, "a", 1, used), -1) << "both are used";
-    EXPECT_EQ(script_for(project, "c", 0, used), -1);
-    EXPECT_EQ(used, (std::vector<bool>{true, false, true}));
+    const auto of = [&project](std::vector<NodeName> nodes) { return scripts_for(project, nodes); };
+    EXPECT_EQ(of({{"a", 3}}), std::vector<int>{2}) << "the id is preferred";
+    EXPECT_EQ(of({{"a", 9}}), std::vector<int>{0}) << "else the first of the name";
+    EXPECT_EQ(of({{"a", 9}, {"a", 1}}), (std::vector<int>{2, 0})) << "whose id fits chooses first";
+    EXPECT_EQ(of({{"c", 0}, {"b", 7}}), (std::vector<int>{-1, 1}));
+    EXPECT_EQ(of({{"a", 7}, {"a", 8}, {"a", 9}}), (std::vector<int>{0, 2, 0}))
+        << "when all are given away, the first again";
 }
 
 }  // namespace

@@ -23,14 +23,16 @@ TEST(Recovery, EachOfSixMistakesIsReportedOnce) {
                     "10:1 ARRAY_OUT_OF_BOUND"}));
 }
 
-TEST(Recovery, TheFirstErrorIsThatOfTheEarliestPhaseTheOthersAreByPosition) {
-    EXPECT_EQ(errors_of("var v[2]\n"
-                        "callsub nope\n"
-                        "v = 1\n"
-                        "emit nothing\n"
-                        "v[0] = $ 3\n"),
-              (List{"5:8 INVALID_IDENTIFIER", "2:1 SUBROUTINE_NOT_DEFINED",
-                    "3:3 ARRAY_SIZE_MISMATCH", "4:6 EVENT_NOT_DEFINED"}));
+TEST(Recovery, ErrorsStandInTheOrderOfTheTextAndTheFirstIsThatOfTheEarliestPhase) {
+    const std::string source =
+        "var v[2]\n"
+        "callsub nope\n"
+        "v = 1\n"
+        "emit nothing\n"
+        "v[0] = $ 3\n";
+    EXPECT_EQ(errors_of(source), (List{"2:1 SUBROUTINE_NOT_DEFINED", "3:3 ARRAY_SIZE_MISMATCH",
+                                       "4:6 EVENT_NOT_DEFINED", "5:8 INVALID_IDENTIFIER"}));
+    EXPECT_EQ(first_error_of(source), "5:8 INVALID_IDENTIFIER");
 }
 
 TEST(Recovery, AnUnknownNameIsReportedOnceHoweverOftenItIsUsed) {

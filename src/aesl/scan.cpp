@@ -1,7 +1,9 @@
 #include "aesl/scan.hpp"
 
 #include <cstdio>
+#include <optional>
 
+#include "aesl/fix.hpp"
 #include "aesl/limits.hpp"
 #include "aesl/unicode.hpp"
 
@@ -43,6 +45,38 @@ TokenKind sign_of(std::string_view text, size_t length) {
 #undef SIGN
     }
     return TokenKind::Bad;
+}
+
+// What a character that looks like a sign stands for; empty for all others.
+std::string_view sign_that_looks_like(uint32_t character) {
+    switch (character) {
+#define LOOKS_LIKE(code_point, sign) \
+    case code_point:                 \
+        return sign;
+#include "aesl/characters.def"
+#undef LOOKS_LIKE
+    }
+    return {};
+}
+
+// The quote that ends what begins with this one; 0 if it is no quote.
+uint32_t closing_quote(uint32_t character) {
+    switch (character) {
+        case '"':
+        case '\'':
+        case '`':
+            return character;
+        case 0x201c:  // English double, single, German double, single, French
+        case 0x201e:
+            return 0x201d;
+        case 0x2018:
+        case 0x201a:
+            return 0x2019;
+        case 0x00ab:
+            return 0x00bb;
+        default:
+            return 0;
+    }
 }
 
 class Scanner {
@@ -212,9 +246,21 @@ private:
 
     void bad_number(Diag what) {
         token_.value = kBadNumber;
-        const int width = count_code_points(token_text());
-        const Position end{token_.line, token_.column + width};
-        diagnostics_.report(what, {token_position(), end}, {shown(token_text())});
+        const std::string_view text = token_text();
+        const size_t dot = text.find('.');
+        const bool is_dotted = dot != text.npos && dot + 1 < text.size() &&
+                               text.find_first_not_of("0123456789.") == text.npos;
+        const bool is_range = is_dotted && text[dot + 1] == '.';
+        Extra extra;
+        if (is_range) {
+            what = what == Diag::BadBase ? Diag::DotsFromZero : Diag::Dots;
+            const std::string bounds = std::string(text.substr(0, dot)) + ":" +
+                                       std::string(text.substr(text.find_last_of('.') + 1));
+            extra.fix = replacing(token_mark(), bounds);
+        } else if (is_dotted) {
+            what = what == Diag::BadBase ? Diag::FractionBelowOne : Diag::Fraction;
+        }
+        diagnostics_.report(what, token_mark(), {shown(text)}, std::move(extra));
     }
 
     // The longest sign that fits here. `=`, `<`, `>` lead to the signs of several characters.
@@ -229,43 +275,93 @@ private:
         bad_character();
     }
 
+    Mark token_mark() const {
+        const int width = count_code_points(token_text());
+        return {token_position(), {token_.line, token_.column + width}};
+    }
+
     void bad_character() {
         const CodePoint point = decode(source_, at_);
+        if (point.valid && closing_quote(point.value) != 0) return quoted_text(point.value);
         step();
-        Position end = token_position();
-        end.column += 1;
-        const Mark mark{token_position(), end};
+        const Mark mark = token_mark();
+        const std::string_view sign = sign_that_looks_like(point.value);
         char code[24];
         std::snprintf(code, sizeof code, point.valid ? "U+%04X" : "0x%02X", point.value);
         if (!point.valid) {
             diagnostics_.report(Diag::BadUtf8, mark, {code});
+        } else if (!sign.empty()) {
+            return look_alike(sign, code);
         } else if (point.value == '!') {
-            diagnostics_.report(Diag::LoneBang, mark);
+            diagnostics_.report(Diag::LoneBang, mark, {}, {.fix = replacing(mark, "not ")});
         } else if (point.value == '.') {
-            diagnostics_.report(Diag::LeadingDot, mark);
+            const bool is_number = is_digit(peek());
+            diagnostics_.report(is_number ? Diag::FractionWithoutZero : Diag::LeadingDot, mark);
         } else {
-            const bool printable = point.value > ' ' && point.value != 0x7f && point.value < 0x2000;
-            const std::string name =
-                printable ? "\"" + std::string(token_text()) + "\" (" + code + ")" : code;
-            diagnostics_.report(Diag::BadCharacter, mark, {name, advice(point.value)});
+            const std::string name = name_of(point.value, code);
+            diagnostics_.report(Diag::BadCharacter, mark, {name, advice(point.value)},
+                                {.fix = fix_of(point.value, mark)});
         }
         finish(TokenKind::Bad);
+    }
+
+    std::string name_of(uint32_t character, const std::string& code) const {
+        const bool printable = character > ' ' && character != 0x7f && character < 0x2000;
+        return printable ? "\"" + std::string(token_text()) + "\" (" + code + ")" : code;
+    }
+
+    // `≥` is reported, and then read as the `>=` that it was meant as: one mistake stays one.
+    void look_alike(std::string_view sign, const std::string& code) {
+        const Mark mark = token_mark();
+        const bool is_blank = sign == " ";
+        const Fix fix =
+            is_blank ? Fix{"Write a space", {{mark, " "}}} : replacing(mark, std::string(sign));
+        const std::string shown_sign = is_blank ? code : std::string(token_text());
+        diagnostics_.report(is_blank ? Diag::StrangeSpace : Diag::StrangeSign, mark,
+                            {shown_sign, code, sign}, {.fix = fix});
+        if (is_blank) return;
+        TokenKind kind = sign_of(sign, sign.size());
+        if (kind == TokenKind::Bad) kind = keyword_of(names_.intern(sign));
+        finish(kind);
+    }
+
+    // A text in quotes, to its end or that of the line, is one mistake.
+    void quoted_text(uint32_t quote) {
+        const uint32_t closing = closing_quote(quote);
+        step();
+        while (at_ < source_.size() && source_[at_] != '\n') {
+            const bool is_end = decode(source_, at_).value == closing;
+            step();
+            if (is_end) break;
+        }
+        diagnostics_.report(Diag::QuotedText, token_mark(), {shown(token_text())});
+        finish(TokenKind::Bad);
+    }
+
+    static std::optional<Fix> fix_of(uint32_t character, Mark mark) {
+        if (character == ';') return deleting(mark, ";");
+        if (character == '}') return replacing(mark, "end");
+        return std::nullopt;
     }
 
     static std::string_view advice(uint32_t character) {
         switch (character) {
             case ';':
-                return ": statements need no separator";
+                return ": statements need no separator; delete it";
             case '{':
+                return ": a block begins with \"then\" or \"do\"; write that word instead";
             case '}':
-                return ": blocks begin with \"then\" or \"do\" and end with \"end\"";
-            case '"':
-            case '\'':
-                return ": there are no texts in this language";
+                return ": a block ends with \"end\"; write that word instead";
+            case '?':
+                return ": there is no choice inside an expression; write \"if … then … else … "
+                       "end\"";
+            case 0x00b2:
+            case 0x00b3:
+                return ": there are no powers; multiply, as in \"x * x\"";
             case 0xfeff:
-                return ": it is a byte-order mark; save the file as UTF-8 without one";
+                return ": it is a byte-order mark inside the text; delete it";
             default:
-                return "";
+                return "; delete it";
         }
     }
 

@@ -1,6 +1,8 @@
 #include "aesl/stack.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "aesl/scan.hpp"
@@ -12,6 +14,28 @@ struct Need {
     int32_t words = 0;
     int32_t line = 0;  // where the stack is deepest
 };
+
+// A sub that calls one of those on the way to it, perhaps itself.
+struct Circle {
+    size_t caller = 0;
+    size_t callee = 0;
+};
+
+// The `callsub` by which a circle closes; the header of the sub if folding has removed it.
+Mark place_of(const Circle& circle, const Tree& tree) {
+    const TokenId header = tree.subs[circle.caller].token;
+    TokenId end = static_cast<TokenId>(tree.tokens.size());
+    for (const Section& section : tree.sections)
+        if (section.token > header) end = std::min(end, section.token);
+    TokenId call = header;
+    for (const Node& node : tree.nodes) {
+        const bool is_it = node.kind == NodeKind::CallSub && node.token > header &&
+                           node.token < end && node.value == static_cast<int32_t>(circle.callee);
+        if (is_it && (call == header || node.token < call)) call = node.token;
+    }
+    return {mark_of(tree.source, tree.tokens[call]).at,
+            mark_of(tree.source, tree.tokens[call + 1]).end};
+}
 
 class StackCheck {
 public:
@@ -32,8 +56,8 @@ public:
     }
 
     // Depth first over the calls, without recursion: a chain of calls may be as long as the
-    // program. Gives a sub that calls itself, if there is one.
-    std::optional<size_t> resolve(size_t root) {
+    // program. Gives a call that leads back to where it came from, if there is one.
+    std::optional<Circle> resolve(size_t root) {
         if (needs_[root]) return std::nullopt;
         std::vector<Visit> path{{root, 0}};
         is_open_[root] = true;
@@ -47,7 +71,7 @@ public:
                 continue;
             }
             const auto callee = static_cast<size_t>(calls[visit.next_call++].sub);
-            if (is_open_[callee]) return callee;
+            if (is_open_[callee]) return Circle{visit.sub, callee};
             if (needs_[callee]) continue;
             is_open_[callee] = true;
             path.push_back({callee, 0});
@@ -73,11 +97,18 @@ int32_t check_stack(const Tree& tree, const Code& code, const Target& target,
                     Diagnostics& diagnostics) {
     StackCheck check(tree, code);
     for (size_t sub = 0; sub < tree.subs.size(); ++sub) {
-        const auto recursive = check.resolve(sub);
-        if (!recursive) continue;
-        const TreeSub& found = tree.subs[*recursive];
-        diagnostics.report(Diag::Recursion, {},
-                           {shown(found.name), std::to_string(tree.tokens[found.token].line)});
+        const auto circle = check.resolve(sub);
+        if (!circle) continue;
+        const TreeSub& found = tree.subs[circle->callee];
+        const std::string through =
+            circle->caller == circle->callee
+                ? ""
+                : " through \"" + shown(tree.subs[circle->caller].name) + "\"";
+        // The reference gives no position (section 3.8), so neither does `exec`.
+        diagnostics.report(
+            Diag::Recursion, place_of(*circle, tree),
+            {shown(found.name), diagnostics.line_text(tree.tokens[found.token].line), through},
+            {.formal = Position{}});
         return 0;
     }
     Need deepest;
@@ -88,7 +119,7 @@ int32_t check_stack(const Tree& tree, const Code& code, const Target& target,
     if (deepest.words > target.stack_size) {
         diagnostics.report(Diag::StackOverflow, {},
                            {std::to_string(deepest.words), std::to_string(target.stack_size),
-                            std::to_string(deepest.line)});
+                            diagnostics.line_text(deepest.line)});
     }
     return deepest.words;
 }

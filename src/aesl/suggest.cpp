@@ -46,6 +46,12 @@ int distance(const std::u32string& a, const std::u32string& b, int limit) {
 
 }  // namespace
 
+std::string in_small_letters(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
+    return lower;
+}
+
 std::string_view closest(std::string_view name, std::span<const std::string_view> candidates) {
     constexpr size_t kBytesOfCodePointMax = 4;
     const std::u32string wanted = code_points(name);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace vagus::aesl {
@@ -9,5 +10,8 @@ namespace vagus::aesl {
 // The candidate with the smallest edit distance to `name`, of distance 1 or 2; the first in
 // code-point order on a tie; empty if there is none.
 std::string_view closest(std::string_view name, std::span<const std::string_view> candidates);
+
+// ASCII capitals made small.
+std::string in_small_letters(std::string_view text);
 
 }  // namespace vagus::aesl

@@ -52,11 +52,13 @@ struct Target {
 struct GlobalEvent {
     std::string name;
     std::optional<uint16_t> size;  // argument words; absent in files of 2007 (section 6, rule 5)
+    friend bool operator==(const GlobalEvent&, const GlobalEvent&) = default;
 };
 
 struct Constant {
     std::string name;
     int32_t value = 0;  // may lie outside 16 bits; then its use is an error
+    friend bool operator==(const Constant&, const Constant&) = default;
 };
 
 // The names that all nodes of a network share. The position of an event in the list is its number
@@ -64,6 +66,7 @@ struct Constant {
 struct CommonDefinitions {
     std::vector<GlobalEvent> events;
     std::vector<Constant> constants;
+    friend bool operator==(const CommonDefinitions&, const CommonDefinitions&) = default;
 };
 
 }  // namespace vagus::aesl

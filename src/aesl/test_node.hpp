@@ -24,7 +24,8 @@ inline Target test_target() {
     target.natives = {{"math.fill", "", {{"dest", -1}, {"value", 1}}},
                       {"math.copy", "", {{"dest", -1}, {"src", -1}}},
                       {"sys.sum", "", {{"dest", 1}, {"src", 0}}},
-                      {"sys.nop", "", {}}};
+                      {"sys.nop", "", {}},
+                      {"math.sqrt", "", {{"dest", -1}, {"x", -1}}}};
     return target;
 }
 
@@ -37,14 +38,24 @@ inline Compilation compile_here(std::string_view source, const Options& options 
     return compile(source, test_target(), test_common(), options);
 }
 
-// "3:5 ARRAY_SIZE_MISMATCH" for each error, in the order of the compilation.
+inline std::string place_and_code(const Diagnostic& diagnostic) {
+    return std::to_string(diagnostic.at.line) + ":" + std::to_string(diagnostic.at.column) + " " +
+           diagnostic.code;
+}
+
+// "3:5 ARRAY_SIZE_MISMATCH" for each error, in the order of the text.
 inline std::vector<std::string> errors_of(std::string_view source) {
     std::vector<std::string> errors;
     for (const Diagnostic& error : compile_here(source).errors) {
-        errors.push_back(std::to_string(error.at.line) + ":" + std::to_string(error.at.column) +
-                         " " + error.code);
+        errors.push_back(place_and_code(error));
     }
     return errors;
+}
+
+// The one that section 3.2 selects.
+inline std::string first_error_of(std::string_view source) {
+    const Compilation done = compile_here(source);
+    return done.ok() ? "none" : place_and_code(done.first_error());
 }
 
 inline std::vector<std::string> warnings_of(std::string_view source) {
@@ -52,8 +63,7 @@ inline std::vector<std::string> warnings_of(std::string_view source) {
     EXPECT_TRUE(done.ok()) << done.errors[0].message;
     std::vector<std::string> warnings;
     for (const Diagnostic& warning : done.warnings) {
-        warnings.push_back(std::to_string(warning.at.line) + ":" +
-                           std::to_string(warning.at.column) + " " + warning.code);
+        warnings.push_back(place_and_code(warning));
     }
     return warnings;
 }
@@ -61,7 +71,7 @@ inline std::vector<std::string> warnings_of(std::string_view source) {
 // The sentence of the first error.
 inline std::string sentence_of(std::string_view source) {
     const Compilation done = compile_here(source);
-    return done.ok() ? "no error" : done.errors[0].message;
+    return done.ok() ? "no error" : done.first_error().message;
 }
 
 using List = std::vector<std::string>;

@@ -5,8 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "aesl/compile.hpp"
-
 namespace vagus::aesl {
 
 using TokenId = uint32_t;

@@ -101,8 +101,8 @@ struct TreeSub {
 };
 
 struct Tree {
-    std::string_view
-        source;  // borrowed: the text must outlive the tree, as must target and common definitions
+    // Borrowed: the text must outlive the tree, as must target and common definitions.
+    std::string_view source;
     Tokens tokens;
     Names names;
     std::vector<Node> nodes;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "aesl/fix.hpp"
 #include "aesl/scan.hpp"
 #include "aesl/suggest.hpp"
 
@@ -115,8 +116,9 @@ private:
         const Type found = type_of(operand, strictness);
         if (failed_ || found == Type::Unknown || found == wanted) return;
         if (wanted == Type::Number && strictness == Strictness::Lenient) return;
-        report(wanted == Type::Number ? Diag::NumberExpected : Diag::ConditionExpected, at,
-               {shown(tree_.text(at))});
+        if (wanted == Type::Number)
+            return report(Diag::NumberExpected, at, {shown(tree_.text(at))});
+        report(Diag::ConditionExpected, at, {shown(tree_.text(at))}, {.fix = compared(operand)});
     }
 
     // Each unknown sub is reported once.
@@ -136,12 +138,24 @@ private:
         const Diag what = is_native         ? Diag::NativeNotSub
                           : similar.empty() ? Diag::UnknownSub
                                             : Diag::UnknownSubGuess;
-        report(what, node.token, {shown(name), similar});
+        const Mark place = mark_of(tree_.source, tree_.tokens[node.token + 1]);
+        report(what, node.token, {shown(name), similar},
+               {.fix = what == Diag::UnknownSubGuess ? std::optional(replacing(place, similar))
+                                                     : std::nullopt});
     }
 
-    void report(Diag what, TokenId token, std::initializer_list<std::string_view> words) {
+    // `if near then` means `if near != 0 then`.
+    std::optional<Fix> compared(NodeId operand) const {
+        if (tree_[operand].kind != NodeKind::Variable) return std::nullopt;
+        const Mark name = mark_of(tree_.source, tree_.token_of(operand));
+        return inserting(name.end, " != 0");
+    }
+
+    void report(Diag what, TokenId token, std::initializer_list<std::string_view> words,
+                Extra extra = {}) {
         failed_ = true;
-        diagnostics_.report(what, mark_of(tree_.source, tree_.tokens[token]), words);
+        diagnostics_.report(what, mark_of(tree_.source, tree_.tokens[token]), words,
+                            std::move(extra));
     }
 
     Tree& tree_;

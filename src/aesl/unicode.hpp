@@ -8,6 +8,9 @@
 
 namespace vagus::aesl {
 
+// U+FEFF in UTF-8. At the start of a file it says nothing and is skipped.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 struct CodePoint {
     uint32_t value = 0;
     uint32_t length = 1;  // bytes

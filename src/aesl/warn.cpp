@@ -41,7 +41,7 @@ private:
         NodeId left_by = kNoNode;  // the `return` that ends the block
         for (NodeId child = tree_[id].first; child != kNoNode; child = tree_[child].next) {
             if (left_by != kNoNode) {
-                const std::string line = std::to_string(tree_.line_of(left_by));
+                const std::string line = diagnostics_.line_text(tree_.line_of(left_by));
                 report(Diag::Unreachable, first_token(child), {line});
                 left_by = kNoNode;
             }

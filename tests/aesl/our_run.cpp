@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 #include "session/execute.hpp"
 
 namespace vagus::aesl {
@@ -12,20 +13,11 @@ namespace {
 
 constexpr uint32_t kStepsPerEvent = 2'000'000;
 constexpr uint64_t kLongFactor = 20;
-const std::string kGoldenFolder = VAGUS_TESTDATA "/golden/aesl/";
+const std::string kGoldenFolder = test::testdata("golden/aesl/");
 
-session::Stimulus converted(const Stimulus& stimulus) {
-    session::Stimulus other;
-    for (const auto& [name, words] : stimulus.set) other.set.push_back({name, words});
-    other.event = stimulus.event;
-    other.arguments = stimulus.arguments;
-    other.source = stimulus.source;
-    return other;
-}
-
-FaultKind converted(session::FaultKind kind) {
-    if (kind == session::FaultKind::DivisionByZero) return FaultKind::DivisionByZero;
-    if (kind == session::FaultKind::ArrayOutOfBounds) return FaultKind::ArrayOutOfBounds;
+FaultKind converted(session::StopKind kind) {
+    if (kind == session::StopKind::DivisionByZero) return FaultKind::DivisionByZero;
+    if (kind == session::StopKind::ArrayOutOfBounds) return FaultKind::ArrayOutOfBounds;
     return FaultKind::NodeSpecific;
 }
 
@@ -39,7 +31,7 @@ Outcome converted(const session::Execution& execution, const Target& target) {
         outcome.emitted.push_back(
             {static_cast<size_t>(emission.during), emission.event, emission.arguments});
     if (!execution.error) return outcome;
-    outcome.gave_up = execution.error->kind == session::FaultKind::StepLimit;
+    outcome.gave_up = execution.error->kind == session::StopKind::StepLimit;
     outcome.fault = Fault{converted(execution.error->kind),
                           static_cast<size_t>(execution.error->during), execution.error->line};
     return outcome;
@@ -50,17 +42,16 @@ Outcome converted(const session::Execution& execution, const Target& target) {
 OurRun run_ours(const Case& program, const NodeFile& node, Dialect dialect) {
     OurRun run;
     const Compilation compiled =
-        compile(program.source, node.target, node.common, {.dialect = dialect, .ontimer = {}});
+        compile(program.source, node.target, node.common, {.dialect = dialect});
     if (!compiled.ok()) {
-        const Diagnostic& first = compiled.errors.front();
-        run.outcome.error = CompileError{without_guess(first.code), first.at.line};
+        const Diagnostic& first = compiled.first_error();
+        run.outcome.error = CompileError{without_guess(first.code), first.formal_place().line};
         run.message = first.message;
         return run;
     }
     run.bytecode_words = compiled.program.bytecode.size();
-    std::vector<session::Stimulus> stimuli;
-    for (const Stimulus& stimulus : program.stimuli) stimuli.push_back(converted(stimulus));
-    const auto execution = session::execute(compiled.program, node, stimuli, kStepsPerEvent);
+    const auto execution =
+        session::execute(compiled.program, node, program.stimuli, kStepsPerEvent);
     if (execution.ok()) {
         run.outcome = converted(execution.value(), node.target);
     } else {

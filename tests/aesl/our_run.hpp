@@ -8,7 +8,7 @@
 
 #include "aesl/compile.hpp"
 #include "aesl/node_file.hpp"
-#include "aesl/outcome.hpp"
+#include "aesl/reference/outcome.hpp"
 
 namespace vagus::aesl {
 

@@ -2,8 +2,8 @@
 // evaluator on programs made up from seeds. VAGUS_LONG runs 20 times as many; VAGUS_SEED=N one.
 #include <gtest/gtest.h>
 
-#include "aesl/evaluate.hpp"
-#include "aesl/generate.hpp"
+#include "aesl/reference/evaluate.hpp"
+#include "aesl/reference/generate.hpp"
 #include "our_run.hpp"
 
 namespace vagus::aesl {

@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "aesl/compile.hpp"
-#include "aesl/evaluate.hpp"
 #include "aesl/project.hpp"
+#include "aesl/reference/evaluate.hpp"
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 #include "our_run.hpp"
 
 namespace vagus::aesl {
@@ -26,7 +27,7 @@ NodeFile rover(const Project& project) {
 }
 
 Project project() {
-    const std::string path = VAGUS_TESTDATA "/projects/rover.aesl";
+    const std::string path = test::testdata("projects/rover.aesl");
     return parse_project(read_file(path).value(), path).value();
 }
 

@@ -2,7 +2,7 @@
 // Debian's. VAGUS_LONG runs 20 times as many; VAGUS_SEED=N one.
 #include <gtest/gtest.h>
 
-#include "aesl/generate.hpp"
+#include "aesl/reference/generate.hpp"
 #include "our_run.hpp"
 #include "peer.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <regex>
 
-#include "aesl/generate.hpp"
+#include "aesl/reference/generate.hpp"
 #include "base/text.hpp"
 #include "mutate.hpp"
 #include "our_run.hpp"

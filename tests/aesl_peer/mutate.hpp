@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "aesl/generate_expression.hpp"
+#include "aesl/reference/generate_expression.hpp"
 
 namespace vagus::aesl {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "aesl/node_file.hpp"
-#include "aesl/outcome.hpp"
+#include "aesl/reference/outcome.hpp"
 
 namespace vagus::aesl {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "aesl/outcome.hpp"
+#include "aesl/reference/outcome.hpp"
 
 namespace vagus::aesl {
 

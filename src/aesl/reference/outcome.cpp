@@ -1,5 +1,5 @@
 // Comparing and reading outcomes: see outcome.hpp.
-#include "aesl/outcome.hpp"
+#include "aesl/reference/outcome.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,16 +41,6 @@ std::map<std::string, Words> words_by_name(const Json* json) {
     if (json == nullptr) return named;
     for (const JsonMember& member : json->members) named[member.key] = words_of(member.value);
     return named;
-}
-
-Stimulus stimulus_of(const Json& json) {
-    Stimulus stimulus;
-    stimulus.set = words_by_name(json.find("set"));
-    stimulus.event = text_in(json, "event");
-    if (const Json* source = json.find("source"))
-        stimulus.source = static_cast<int16_t>(source->integer);
-    if (const Json* arguments = json.find("args")) stimulus.arguments = words_of(*arguments);
-    return stimulus;
 }
 
 Emission emission_of(const Json& json) {
@@ -99,8 +89,7 @@ Result<Golden> parse_golden(std::string source, std::string_view expected, std::
                                             static_cast<int>(integer_in(*error, "line"))};
         return golden;
     }
-    if (const Json* stimuli = json.find("stimuli"))
-        for (const Json& item : stimuli->items) golden.program.stimuli.push_back(stimulus_of(item));
+    golden.program.stimuli = TRY(parse_stimuli(expected, file));
     golden.outcome.memory = words_by_name(json.find("memory"));
     if (const Json* emitted = json.find("events_emitted"))
         for (const Json& item : emitted->items) golden.outcome.emitted.push_back(emission_of(item));

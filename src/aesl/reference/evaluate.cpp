@@ -1,12 +1,12 @@
 // The evaluator: see evaluate.hpp. Statement by statement, element by element.
-#include "aesl/evaluate.hpp"
+#include "aesl/reference/evaluate.hpp"
 
 #include <bit>
 #include <cassert>
 
-#include "aesl/evaluate_fold.hpp"
-#include "aesl/evaluate_natives.hpp"
 #include "aesl/parse.hpp"
+#include "aesl/reference/evaluate_fold.hpp"
+#include "aesl/reference/evaluate_natives.hpp"
 
 namespace vagus::aesl {
 namespace {
@@ -446,8 +446,8 @@ Outcome evaluate(const Case& program, const NodeFile& node) {
     Outcome outcome;
     const CheckedTree checked = parse_and_check(program.source, node.target, node.common, {});
     if (!checked.errors.empty()) {
-        const Diagnostic& first = checked.errors.front();
-        outcome.error = CompileError{without_guess(first.code), first.at.line};
+        const Diagnostic& first = checked.errors[checked.first];
+        outcome.error = CompileError{without_guess(first.code), first.formal_place().line};
         return outcome;
     }
     for (const Section& section : checked.tree.sections)

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "aesl/outcome.hpp"
+#include "aesl/reference/outcome.hpp"
 #include "aesl/tree.hpp"
 
 namespace vagus::aesl {

@@ -1,5 +1,5 @@
 // Constant folding by the rules of section 3.6: see evaluate_fold.hpp.
-#include "aesl/evaluate_fold.hpp"
+#include "aesl/reference/evaluate_fold.hpp"
 
 #include <cstdlib>
 
@@ -8,8 +8,6 @@ namespace {
 
 using isa::BinaryOperator;
 using isa::UnaryOperator;
-
-constexpr int64_t kSmallest32 = INT32_MIN;
 
 int32_t wrap32(int64_t value) {
     return static_cast<int32_t>(static_cast<uint32_t>(static_cast<uint64_t>(value)));

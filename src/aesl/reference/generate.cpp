@@ -1,11 +1,11 @@
 // Programs made up from a seed: see generate.hpp.
-#include "aesl/generate.hpp"
+#include "aesl/reference/generate.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "aesl/generate_expression.hpp"
+#include "aesl/reference/generate_expression.hpp"
 
 namespace vagus::aesl {
 namespace {
@@ -271,7 +271,7 @@ private:
 
     Stimulus stimulus() {
         Stimulus made;
-        if (dice_.chance(30)) made.set["sensor.prox"] = words(4);
+        if (dice_.chance(30)) made.set.push_back({"sensor.prox", words(4)});
         if (dice_.chance(70)) {
             made.event = dice_.pick(node_.target.local_events).name;
             return made;

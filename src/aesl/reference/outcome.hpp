@@ -9,19 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "aesl/stimuli.hpp"
 #include "base/result.hpp"
 
 namespace vagus::aesl {
 
 using Words = std::vector<int16_t>;
-
-// Sets variables of the node, or sends an event; as in testdata/golden/aesl.
-struct Stimulus {
-    std::map<std::string, Words> set;
-    std::string event;  // empty: none
-    std::optional<int16_t> source;
-    Words arguments;
-};
 
 struct Case {
     std::string source;

@@ -60,13 +60,13 @@ public:
     }
     void check() const {
         for (const auto& [link, reading] : readings_) {
-            if (hub_.output(link).size() > hub::kQueueBytesMax) std::abort();
+            if (hub_.waiting(link) > hub::kQueueBytesMax) std::abort();
             if (reading.reader.dropped() != 0) std::abort();
         }
     }
     void read_all() {
         for (auto& [link, reading] : readings_) {
-            read(link, hub_.output(link).size());
+            while (hub_.waiting(link) > 0) read(link, hub_.waiting(link));
             const hub::LinkStats stats = hub_.stats(link);
             const uint64_t gone = stats.dropped.events + stats.dropped.messages;
             if (reading.frames + gone != stats.frames_queued) std::abort();

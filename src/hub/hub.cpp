@@ -21,7 +21,25 @@ bool comes_from_a_node(const wire::Frame& frame) {
 
 constexpr uint16_t kDisconnected = static_cast<uint16_t>(wire::MessageType::Disconnected);
 
+// What nodes tell hosts, boot loaders' answers included.
+bool is_for_hosts(uint16_t type) {
+    return (type >= 0x8004 && type <= 0x8006) || (type >= 0x9000 && type <= 0x9fff);
+}
+
 }  // namespace
+
+bool is_for_node(const wire::Frame& frame, uint16_t node) {
+    if (wire::is_user_event(frame.type)) return true;
+    if (wire::is_command(frame.type)) return frame.first_word() == node;
+    return !is_for_hosts(frame.type);
+}
+
+std::string sentence(const SharedId& shared) {
+    return "node " + std::to_string(shared.node) + " is heard on two links, " + shared.first +
+           " and " + shared.second +
+           ": two nodes share this id, or the links make a ring; give one node another id, or "
+           "take one link away";
+}
 
 void Hub::receive(LinkId from, const wire::Frame& frame) {
     Link& link = get(from);
@@ -44,6 +62,7 @@ void Hub::send_to_others(const Link& from, const wire::Frame& frame) {
     const bool command = wire::is_command(frame.type);
     for (const auto& link : links_) {
         if (link.get() == &from && !link->options.echo) continue;
+        if (link->options.only_node && !is_for_node(frame, *link->options.only_node)) continue;
         const std::optional<Remap>& remap = link->options.remap;
         if (command && remap) {
             // A command without a destination matches none: first_word() is then kInvalidId.
@@ -74,6 +93,9 @@ void Hub::remove(LinkId link) {
     assert(at != links_.end());
     const std::unique_ptr<Link> gone = std::move(*at);
     links_.erase(at);
+    std::erase_if(told_shared_, [link](const auto& told) {
+        return std::get<1>(told) == link || std::get<2>(told) == link;
+    });
     for (const uint16_t node : gone->nodes) {
         if (heard_elsewhere(node)) continue;
         wire::Frame farewell;
@@ -93,8 +115,22 @@ void Hub::note_node(Link& link, const wire::Frame& frame) {
         return;
     }
     if (link.nodes.size() >= kNodesPerLinkMax && !link.nodes.contains(frame.source)) return;
-    link.nodes.insert(frame.source);
+    if (link.nodes.insert(frame.source).second) note_shared_id(link, frame.source);
     link.last_node = frame.source;
+}
+
+void Hub::note_shared_id(const Link& link, uint16_t node) {
+    for (const auto& other : links_) {
+        if (other.get() == &link || !other->nodes.contains(node)) continue;
+        if (shared_ids_.size() >= kSharedIdsMax) return;
+        const auto [first, second] = std::minmax(other->id, link.id);
+        if (!told_shared_.emplace(node, first, second).second) continue;
+        shared_ids_.push_back({node, other->options.name, link.options.name});
+    }
+}
+
+std::vector<SharedId> Hub::take_shared_ids() {
+    return std::exchange(shared_ids_, {});
 }
 
 bool Hub::heard_elsewhere(uint16_t node) const {
@@ -106,7 +142,11 @@ bool Hub::take(LinkId link, wire::Frame& frame) {
     return get(link).queue.pop(frame);
 }
 
-std::span<const uint8_t> Hub::output(LinkId link) const {
+std::span<const uint8_t> Hub::output(LinkId link) {
+    return get(link).queue.batch();
+}
+
+size_t Hub::waiting(LinkId link) const {
     return get(link).queue.bytes();
 }
 

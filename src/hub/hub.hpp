@@ -23,6 +23,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/result.hpp"
@@ -35,6 +36,8 @@ constexpr size_t kLinksMax = 1024;
 // Node ids that one link may be remembered for. A foreign network has fewer; a peer that makes up
 // more is ignored.
 constexpr size_t kNodesPerLinkMax = 256;
+// Shared ids that wait to be taken; further ones are not told.
+constexpr size_t kSharedIdsMax = 256;
 
 // Never used twice in the life of a hub.
 struct LinkId {
@@ -53,7 +56,23 @@ struct LinkOptions {
     std::string name;  // for messages to people: "tcp:127.0.0.1:33333", "robot 1"
     std::optional<Remap> remap = std::nullopt;
     bool echo = false;  // the link gets its own frames back (asebaswitch -l)
+    // The link ends at the node of this id, and nobody is behind it: it gets what is_for_node().
+    std::optional<uint16_t> only_node = std::nullopt;
 };
+
+// Would a node of this id look at the frame: a user event, a request to all, a command to it, or a
+// type that we do not know? What others tell hosts is nothing to it.
+bool is_for_node(const wire::Frame& frame, uint16_t node);
+
+// Two links on which the same node id was heard: two nodes that share an id, or links that make a
+// ring. Events and answers of such nodes cannot be told apart.
+struct SharedId {
+    uint16_t node = 0;
+    std::string first, second;  // names of the links, in the order in which it was heard on them
+    bool operator==(const SharedId&) const = default;
+};
+// "node 3 is heard on two links, A and B: …", with the way out.
+std::string sentence(const SharedId& shared);
 
 struct LinkStats {
     uint64_t frames_received = 0;
@@ -75,10 +94,12 @@ public:
 
     // What waits for a link: whole frames for those who live in this process …
     bool take(LinkId link, wire::Frame& frame);
-    // … or bytes for those who write to a stream: `output` is borrowed until the hub is used again,
-    // `sent` says how many of its bytes have left.
-    std::span<const uint8_t> output(LinkId link) const;
+    // … or bytes for those who write to a stream: `output` is the next batch, borrowed until the
+    // hub is used again, `sent` says how many of its bytes have left.
+    std::span<const uint8_t> output(LinkId link);
     void sent(LinkId link, size_t bytes);
+    // All bytes that wait for it.
+    size_t waiting(LinkId link) const;
 
     LinkStats stats(LinkId link) const;
     const std::string& name(LinkId link) const;
@@ -86,6 +107,8 @@ public:
     std::vector<LinkId> links() const;
     // Nodes heard on a link, under the ids that the others know them by, in ascending order.
     std::vector<uint16_t> nodes(LinkId link) const;
+    // Found since the last call; each pair of links once for each node.
+    std::vector<SharedId> take_shared_ids();
 
 private:
     struct Link {
@@ -101,10 +124,13 @@ private:
     Link* find(LinkId link) const;
     Link& get(LinkId link) const;
     void note_node(Link& link, const wire::Frame& frame);
+    void note_shared_id(const Link& link, uint16_t node);
     void send_to_others(const Link& from, const wire::Frame& frame);
     bool heard_elsewhere(uint16_t node) const;
 
-    std::vector<std::unique_ptr<Link>> links_;  // by ascending id
+    std::vector<std::unique_ptr<Link>> links_;                    // by ascending id
+    std::vector<SharedId> shared_ids_;                            // not taken yet
+    std::set<std::tuple<uint16_t, LinkId, LinkId>> told_shared_;  // of links that are there
     uint32_t last_number_ = 0;
 };
 

@@ -21,9 +21,11 @@ wire::Frame frame_of(const Hex& bytes) {
 
 // All that waits for a link, and takes it away.
 Hex received(Hub& hub, LinkId link) {
-    const auto bytes = hub.output(link);
-    Hex copy(bytes.begin(), bytes.end());
-    hub.sent(link, bytes.size());
+    Hex copy;
+    for (auto bytes = hub.output(link); !bytes.empty(); bytes = hub.output(link)) {
+        copy.insert(copy.end(), bytes.begin(), bytes.end());
+        hub.sent(link, bytes.size());
+    }
     return copy;
 }
 
@@ -270,6 +272,67 @@ TEST(Hub, RandomTrafficAgreesWithThePlainRule) {
             ASSERT_EQ(received(hub, link), link == from ? Hex{} : expected) << "step " << step;
         }
     }
+}
+
+// What nodes tell hosts fills no queue of a node, however many nodes there are.
+TEST(Hub, GivesALinkThatEndsAtANodeOnlyWhatTheNodeLooksAt) {
+    Hub hub;
+    const LinkId host = add(hub), other = add(hub);
+    const LinkId node = add(hub, {.name = "node", .only_node = 5});
+    const Hex run5{2, 0, 0, 0, 3, 0xa0, 5, 0};
+    const Hex unknown{2, 0, 0, 0, 0x16, 0xa0, 6, 0};
+    const Hex present{2, 0, 1, 0, 0x0c, 0x90, 5, 0};
+    for (const Hex& each : {kEvent, kListNodes, kRunNode1, run5, unknown, present}) {
+        hub.receive(host, frame_of(each));
+        EXPECT_EQ(received(hub, other), each);
+    }
+    Hex expected;
+    for (const Hex& each : {kEvent, kListNodes, run5, unknown}) {
+        expected.insert(expected.end(), each.begin(), each.end());
+    }
+    EXPECT_EQ(received(hub, node), expected);
+}
+
+TEST(Hub, SaysOnceOnWhichLinksAnIdIsShared) {
+    Hub hub;
+    const LinkId a = add(hub, {.name = "a"}), b = add(hub, {.name = "b"});
+    const LinkId c = add(hub, {.name = "c", .remap = Remap{1, 2}});
+    const Hex from1{0, 0, 1, 0, 9, 0}, from2{0, 0, 2, 0, 9, 0};
+    hub.receive(a, frame_of(from1));
+    hub.receive(b, frame_of(from2));
+    hub.receive(a, frame_of(kListNodes));  // hosts all have the id 0
+    hub.receive(b, frame_of(kListNodes));
+    EXPECT_TRUE(hub.take_shared_ids().empty());
+    hub.receive(b, frame_of(from1));
+    hub.receive(b, frame_of(from1));
+    hub.receive(a, frame_of(from1));
+    EXPECT_EQ(hub.take_shared_ids(), (std::vector<SharedId>{{1, "a", "b"}}));
+    hub.receive(c, frame_of(from2));  // known to the others as node 1
+    EXPECT_EQ(hub.take_shared_ids(), (std::vector<SharedId>{{1, "a", "c"}, {1, "b", "c"}}));
+    hub.remove(b);
+    const LinkId again = add(hub, {.name = "again"});
+    hub.receive(again, frame_of(from1));
+    EXPECT_EQ(hub.take_shared_ids(), (std::vector<SharedId>{{1, "a", "again"}, {1, "c", "again"}}));
+}
+
+TEST(Hub, ANodeThatMovesToAnotherLinkSharesNothing) {
+    Hub hub;
+    const LinkId a = add(hub, {.name = "a"}), b = add(hub, {.name = "b"});
+    const Hex from1{0, 0, 1, 0, 9, 0}, gone1{0, 0, 1, 0, 4, 0x90};
+    hub.receive(a, frame_of(from1));
+    hub.receive(a, frame_of(gone1));
+    hub.receive(b, frame_of(from1));
+    EXPECT_TRUE(hub.take_shared_ids().empty());
+}
+
+TEST(Hub, OneSharedIdTooManyIsNotTold) {
+    Hub hub;
+    const LinkId a = add(hub, {.name = "a"}), b = add(hub, {.name = "b"}), c = add(hub);
+    for (uint16_t node = 1; node <= kSharedIdsMax / 2 + 1; node++) {
+        const auto id = static_cast<uint8_t>(node);
+        for (const LinkId link : {a, b, c}) hub.receive(link, frame_of({0, 0, id, 0, 9, 0}));
+    }
+    EXPECT_EQ(hub.take_shared_ids().size(), kSharedIdsMax);
 }
 
 }  // namespace

@@ -27,6 +27,17 @@ std::vector<uint16_t> sources(OutputQueue& queue) {
     return found;
 }
 
+// Everything that waits, as it would be written; all of it has left then.
+std::vector<uint8_t> all_of(OutputQueue& queue) {
+    std::vector<uint8_t> bytes;
+    while (!queue.empty()) {
+        const auto batch = queue.batch();
+        bytes.insert(bytes.end(), batch.begin(), batch.end());
+        queue.sent(batch.size());
+    }
+    return bytes;
+}
+
 void fill(OutputQueue& queue, uint16_t type) {
     for (size_t i = 0; i < kQueueFramesMax; ++i) queue.push(frame(type, static_cast<uint16_t>(i)));
 }
@@ -36,14 +47,15 @@ TEST(OutputQueue, GivesTheBytesInTheOrderTheyCame) {
     queue.push(frame(kEvent, 1, 0));
     queue.push(frame(kReply, 2, 1));
     const std::vector<uint8_t> expected{0, 0, 1, 0, 7, 0, 1, 0, 2, 0, 5, 0x90, 0};
-    EXPECT_EQ(std::vector<uint8_t>(queue.bytes().begin(), queue.bytes().end()), expected);
     EXPECT_EQ(queue.frames(), 2u);
+    EXPECT_EQ(all_of(queue), expected);
 }
 
 TEST(OutputQueue, AFrameOfWhichAPartHasLeftStillCounts) {
     OutputQueue queue;
     queue.push(frame(kEvent, 1));  // 8 bytes
     queue.push(frame(kEvent, 2));
+    EXPECT_EQ(queue.batch().size(), 16u);
     queue.sent(3);
     EXPECT_EQ(queue.frames(), 2u);
     queue.sent(5);
@@ -76,7 +88,7 @@ TEST(OutputQueue, OneByteAboveTheLimitDropsToo) {
     ASSERT_EQ(rest, 100u);
     queue.push(frame(kEvent, 2, static_cast<uint16_t>(rest - wire::kHeaderSize)));
     EXPECT_EQ(queue.dropped(), (Dropped{0, 0}));
-    EXPECT_EQ(queue.bytes().size(), kQueueBytesMax);
+    EXPECT_EQ(queue.bytes(), kQueueBytesMax);
     queue.push(frame(kEvent, 3, 0));
     EXPECT_EQ(queue.dropped(), (Dropped{63, 0}));  // 63 * 522 >= 32768 > 62 * 522
 }
@@ -121,16 +133,26 @@ TEST(OutputQueue, AReplyTakesThePlaceOfTheLastEventButAnEventDoesNot) {
     EXPECT_EQ(queue.dropped(), (Dropped{2, 1}));
 }
 
-TEST(OutputQueue, TheFrameThatIsHalfwayOutIsNeverDropped) {
+// A batch of 8-byte frames ends with the 512th: 4096 bytes. It stays as it is.
+TEST(OutputQueue, TheBatchThatIsOnItsWayIsNeverDroppedNorPassed) {
     OutputQueue queue;
     fill(queue, kEvent);
+    const auto batch = queue.batch();
+    ASSERT_EQ(batch.size(), kBatchBytes);
+    const std::vector<uint8_t> begun(batch.begin(), batch.end());
     queue.sent(3);
     queue.push(frame(kEvent, 0xabc));
+    queue.push(frame(kReply, 0xabd));
     ASSERT_EQ(queue.dropped(), (Dropped{kDropFramesAtOnce, 0}));
-    // The five last bytes of frame 0, then the first that was not dropped.
-    const auto bytes = queue.bytes();
-    const std::vector<uint8_t> begin(bytes.begin(), bytes.begin() + 9);
-    EXPECT_EQ(begin, (std::vector<uint8_t>{0, 7, 0, 0, 0, 2, 0, 1, 0x08}));  // 1 + 2048 = 0x801
+    const auto rest = queue.batch();
+    EXPECT_EQ(std::vector<uint8_t>(rest.begin(), rest.end()),
+              std::vector<uint8_t>(begun.begin() + 3, begun.end()));
+    queue.sent(rest.size());
+    // Then the reply, which passes all events, and the first event that was not dropped.
+    const auto next = queue.batch();
+    const std::vector<uint8_t> begin(next.begin(), next.begin() + 12);
+    EXPECT_EQ(begin, (std::vector<uint8_t>{2, 0, 0xbd, 0x0a, 5, 0x90, 0, 0,  //
+                                           2, 0, 0, 0x0a}));                 // 512 + 2048 = 0xa00
 }
 
 TEST(OutputQueue, ManyRoundsOfFillingAndPartialSendingLoseNothing) {
@@ -140,14 +162,74 @@ TEST(OutputQueue, ManyRoundsOfFillingAndPartialSendingLoseNothing) {
         const auto bytes = frame(kEvent, round, static_cast<uint16_t>(round % 517));
         in.insert(in.end(), bytes.begin(), bytes.end());
         queue.push(bytes);
-        const size_t part = std::min<size_t>(queue.bytes().size(), 1 + (round * 7919u) % 600);
-        out.insert(out.end(), queue.bytes().begin(),
-                   queue.bytes().begin() + static_cast<long>(part));
+        const auto batch = queue.batch();
+        const size_t part = std::min<size_t>(batch.size(), 1 + (round * 7919u) % 600);
+        out.insert(out.end(), batch.begin(), batch.begin() + static_cast<long>(part));
         queue.sent(part);
     }
-    out.insert(out.end(), queue.bytes().begin(), queue.bytes().end());
+    const auto rest = all_of(queue);
+    out.insert(out.end(), rest.begin(), rest.end());
     EXPECT_EQ(queue.dropped(), (Dropped{0, 0}));
     EXPECT_TRUE(in == out);
+}
+
+TEST(OutputQueue, SixtyFourEventsKeepTheirPlaceBeforeAMessage) {
+    OutputQueue queue;
+    for (uint16_t i = 0; i < kEventsAhead; ++i) queue.push(frame(kEvent, i));
+    queue.push(frame(kReply, 1000));
+    const std::vector<uint16_t> order = sources(queue);
+    EXPECT_EQ(order.front(), 0);
+    EXPECT_EQ(order.back(), 1000);
+}
+
+TEST(OutputQueue, MessagesPassAFloodButNoOtherMessage) {
+    OutputQueue queue;
+    for (uint16_t i = 0; i < 5000; ++i) queue.push(frame(kEvent, i));
+    for (uint16_t i = 0; i < 3; ++i) {
+        queue.push(frame(kReply, static_cast<uint16_t>(6000 + i)));
+        queue.push(frame(kEvent, static_cast<uint16_t>(5000 + i)));
+    }
+    std::vector<uint16_t> expected = {6000, 6001, 6002};
+    for (uint16_t i = 0; i < 5003; ++i) expected.push_back(i);
+    EXPECT_EQ(sources(queue), expected);
+}
+
+// The one that the kernel has not taken yet is the most that a command waits for.
+TEST(OutputQueue, AMessageLeavesWithTheNextBatch) {
+    OutputQueue queue;
+    fill(queue, kEvent);
+    queue.sent(queue.batch().size());
+    queue.push(frame(kReply, 7));
+    const auto next = queue.batch();
+    EXPECT_EQ(next[2], 7);
+    EXPECT_EQ(next[5], 0x90);
+}
+
+// A script whose handlers never end tells of one kill with each event.
+TEST(OutputQueue, NoticesOfKilledEventsAreDroppedAndPassedLikeEvents) {
+    OutputQueue queue;
+    fill(queue, 0x9008);
+    queue.push(frame(kReply, 7));
+    EXPECT_EQ(queue.dropped(), (Dropped{kDropFramesAtOnce, 0}));
+    wire::Frame first;
+    ASSERT_TRUE(queue.pop(first));
+    EXPECT_EQ(first.type, kReply);
+}
+
+TEST(OutputQueue, FewFramesLeaveInTheirOrderHoweverTheyAreMixed) {
+    OutputQueue queue;
+    std::vector<uint16_t> expected;
+    for (uint16_t i = 0; i < 100; ++i) {
+        queue.push(frame(i % 3 == 0 ? kReply : kEvent, i));
+        if (i % 2 == 1) continue;
+        wire::Frame out;
+        ASSERT_TRUE(queue.pop(out));
+        expected.push_back(out.source);
+    }
+    for (const uint16_t rest : sources(queue)) expected.push_back(rest);
+    std::vector<uint16_t> sorted(100);
+    for (uint16_t i = 0; i < 100; ++i) sorted[i] = i;
+    EXPECT_EQ(expected, sorted);
 }
 
 }  // namespace

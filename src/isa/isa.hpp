@@ -69,7 +69,9 @@ constexpr uint16_t argument_of(uint16_t word) {
     return static_cast<uint16_t>(word & kArgumentMask);
 }
 // The operator of a Unary, Binary or Branch instruction; may be none that exists.
-constexpr uint8_t operator_of(uint16_t word) { return static_cast<uint8_t>(word & 0xff); }
+constexpr uint8_t operator_of(uint16_t word) {
+    return static_cast<uint8_t>(word & 0xff);
+}
 // The 12-bit argument as a signed number: -2048 … 2047.
 constexpr int16_t signed_argument_of(uint16_t word) {
     return static_cast<int16_t>(static_cast<int16_t>(static_cast<uint16_t>(word << 4)) >> 4);

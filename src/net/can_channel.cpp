@@ -29,7 +29,7 @@ public:
     CanChannel& operator=(const CanChannel&) = delete;
 
     int descriptor() const override { return descriptor_; }
-    Transfer read(hub::Hub& hub, hub::LinkId link) override;
+    Transfer read(hub::Hub& hub, hub::LinkId link, Time now) override;
     Transfer write(hub::Hub& hub, hub::LinkId link) override;
     bool has_unwritten() const override { return next_ < count_; }
 
@@ -54,7 +54,7 @@ bool to_part(const can_frame& frame, wire::CanFrame& part) {
     return true;
 }
 
-Transfer CanChannel::read(hub::Hub& hub, hub::LinkId link) {
+Transfer CanChannel::read(hub::Hub& hub, hub::LinkId link, Time) {
     Transfer done;
     for (int i = 0; i < kReadsAtOnce; ++i) {
         can_frame frame{};

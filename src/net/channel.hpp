@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/result.hpp"
+#include "base/time.hpp"
 #include "hub/hub.hpp"
 #include "net/target.hpp"
 
@@ -32,19 +33,29 @@ public:
     virtual ~Channel() = default;
     virtual int descriptor() const = 0;  // owned by the channel
     // Reads once and hands all whole frames to the hub.
-    virtual Transfer read(hub::Hub& hub, hub::LinkId link) = 0;
+    virtual Transfer read(hub::Hub& hub, hub::LinkId link, Time now) = 0;
     // Writes what the hub has for the link, as far as it goes.
     virtual Transfer write(hub::Hub& hub, hub::LinkId link) = 0;
     // Tells the other side that nothing more will be written; false if this kind of line cannot say
     // so.
     virtual bool end_writing() { return false; }
+    // When look() wants to be called, at the latest: what has arrived may become frames by the
+    // silence behind it.
+    virtual Time next_look() const { return Time::max(); }
+    // `bytes`: of the frames that it gave.
+    virtual Transfer look(hub::Hub&, hub::LinkId, Time) { return {}; }
+    // Bytes that belonged to no frame, since the beginning, as far as it is over: see
+    // wire/line_reader.hpp.
+    virtual uint32_t skipped() const { return 0; }
     // Something taken from the hub still waits in the channel.
     virtual bool has_unwritten() const { return false; }
 };
 
-// The channel owns the descriptor from here on; it must be non-blocking.
-enum class StreamKind { Socket, Terminal };
-std::unique_ptr<Channel> make_stream_channel(int descriptor, StreamKind kind);
+// These own the descriptor from here on; it must be non-blocking.
+// A socket loses no byte: what is no frame ends the connection.
+std::unique_ptr<Channel> make_socket_channel(int descriptor);
+// A terminal line may lose bytes, and finds the next frame again.
+std::unique_ptr<Channel> make_line_channel(int descriptor, uint32_t baud);
 // A raw CAN socket, or in tests a SOCK_SEQPACKET of `struct can_frame`.
 std::unique_ptr<Channel> make_can_channel(int descriptor);
 

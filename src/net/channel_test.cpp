@@ -72,7 +72,7 @@ TEST_F(Can, ReadsTheMeasuredDescription) {
     put(0x001, {0x6e, 0x6f, 0x64, 0x65, 0x2d, 0x30, 0x05, 0x00});
     put(0x001, {0x00, 0x02, 0x40, 0x00, 0x24, 0x04, 0x05, 0x00});
     put(0x201, {0x01, 0x00, 0x1e, 0x00});
-    EXPECT_EQ(channel_->read(hub_, can_).flow, Flow::Moved);
+    EXPECT_EQ(channel_->read(hub_, can_, Time{}).flow, Flow::Moved);
     EXPECT_EQ(at_host(), (Hex{0x1a, 0,    1,    0,    0,    0x90, 0x0b, 0x64, 0x75, 0x6d, 0x6d,
                               0x79, 0x6e, 0x6f, 0x64, 0x65, 0x2d, 0x30, 5,    0,    0,    2,
                               0x40, 0,    0x24, 4,    5,    0,    1,    0,    0x1e, 0}));
@@ -113,7 +113,7 @@ TEST_F(Can, DoesNotReadExtendedRemoteAndErrorFrames) {
     for (const canid_t flag : {CAN_EFF_FLAG, CAN_RTR_FLAG, CAN_ERR_FLAG}) put(0x301 | flag, {4, 0});
     EXPECT_EQ(::send(bus_, "short", 5, 0), 5);
     put(0x302, {4, 0});
-    EXPECT_EQ(channel_->read(hub_, can_).flow, Flow::Moved);
+    EXPECT_EQ(channel_->read(hub_, can_, Time{}).flow, Flow::Moved);
     EXPECT_EQ(at_host(), (Hex{0, 0, 2, 0, 4, 0}));
 }
 
@@ -142,7 +142,7 @@ TEST_F(Can, APacketThatDoesNotFitNowIsFinishedLater) {
 
 TEST_F(Can, EndsWhenTheBusIsGone) {
     close_bus();
-    EXPECT_EQ(channel_->read(hub_, can_).flow, Flow::Ended);
+    EXPECT_EQ(channel_->read(hub_, can_, Time{}).flow, Flow::Ended);
 }
 
 // What a machine without CAN says must help; one with CAN has no interface of that name.

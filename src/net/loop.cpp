@@ -19,6 +19,7 @@ constexpr size_t kReturnAfterBytes = 64 * 1024;
 // How often the last words of a peer are read when writing to it has failed.
 constexpr int kLastReadsMax = 64;
 constexpr Duration kRetryWrites = 1ms;
+constexpr Duration kTellSkippedEvery = 1s;
 constexpr Duration kWaitMax = 1h;  // then it looks at the clock and waits on
 
 }  // namespace
@@ -69,6 +70,7 @@ size_t Network::Loop::run_some(Time deadline) {
     Time until = deadline;
     for (const auto& [number, connection] : connections_) {
         if (connection.read_paused) until = std::min(until, now() + kPacePeriod);
+        until = std::min(until, connection.channel->next_look());
     }
     // Time::max() is more than the nanoseconds of the system's clock can hold.
     until = std::min(until, now() + kWaitMax);
@@ -78,8 +80,29 @@ size_t Network::Loop::run_some(Time deadline) {
         ran += more;
         if (more == 0) break;
     }
+    look_at_lines();
     flush();
     return ran;
+}
+
+void Network::Loop::look_at_lines() {
+    for (auto& [number, connection] : connections_) {
+        if (connection.channel->next_look() > now()) continue;
+        received_ += connection.channel->look(*connection.hub, connection.link, now()).bytes;
+        tell_skipped(connection);
+    }
+}
+
+void Network::Loop::tell_skipped(Connection& connection) {
+    const uint32_t skipped = connection.channel->skipped();
+    if (skipped == connection.skipped_told || now() < connection.tell_skipped_after) return;
+    const uint32_t more = skipped - connection.skipped_told;
+    connection.skipped_told = skipped;
+    connection.tell_skipped_after = now() + kTellSkippedEvery;
+    events_.push_back({EventKind::Skipped, connection.place, connection.link, 0,
+                       connection.name + ": skipped " + std::to_string(more) +
+                           (more == 1 ? " byte" : " bytes") +
+                           " that belonged to no frame; bytes get lost or damaged on this line"});
 }
 
 Result<Done> Network::Loop::open_link(PlaceId place, hub::Hub& hub, hub::LinkOptions options,
@@ -112,7 +135,7 @@ void Network::Loop::on_readable(uint32_t number) {
     const auto at = connections_.find(number);
     if (at == connections_.end()) return;
     Connection& connection = at->second;
-    const Transfer done = connection.channel->read(*connection.hub, connection.link);
+    const Transfer done = connection.channel->read(*connection.hub, connection.link, now());
     // The first to be heard is passed on at once; those who are heard in the same turn share the
     // writes.
     const bool first = received_ == 0;
@@ -125,6 +148,7 @@ void Network::Loop::on_readable(uint32_t number) {
     }
     // The flush may have found that this peer is gone.
     if (!connections_.contains(number)) return;
+    tell_skipped(connection);
     pause_if_ahead(connection, done.bytes);
     if (!connection.read_paused) wait_readable(number, connection);
 }
@@ -134,7 +158,7 @@ void Network::Loop::flush() {
     for (auto at = connections_.begin(); at != connections_.end();) {
         auto& [number, connection] = *at++;  // the connection may be erased below
         const bool waiting =
-            !connection.hub->output(connection.link).empty() || connection.channel->has_unwritten();
+            connection.hub->waiting(connection.link) > 0 || connection.channel->has_unwritten();
         if (waiting && !connection.write_blocked) write(number, connection);
     }
 }
@@ -161,7 +185,7 @@ void Network::Loop::write(uint32_t number, Connection& connection) {
 // The peer may have sent something before it went.
 void Network::Loop::read_last_words(Connection& connection) {
     for (int i = 0; i < kLastReadsMax; ++i) {
-        const Transfer done = connection.channel->read(*connection.hub, connection.link);
+        const Transfer done = connection.channel->read(*connection.hub, connection.link, now());
         received_ += done.bytes;
         if (done.bytes == 0) return;
     }
@@ -227,7 +251,7 @@ bool Network::Loop::somebody_to_wait_for(const Connection& sender) {
     bool found = false;
     for (auto& [number, other] : connections_) {
         if (other.hub != sender.hub || &other == &sender) continue;
-        const size_t waiting = other.hub->output(other.link).size();
+        const size_t waiting = other.hub->waiting(other.link);
         found = other.pace.worth_waiting_for(now(), waiting) || found;
     }
     return found;
@@ -243,7 +267,7 @@ void Network::Loop::resume_paused() {
 
 bool Network::Loop::has_unwritten() const {
     for (const auto& [number, connection] : connections_) {
-        if (!connection.hub->output(connection.link).empty()) return true;
+        if (connection.hub->waiting(connection.link) > 0) return true;
         if (connection.channel->has_unwritten()) return true;
     }
     return false;

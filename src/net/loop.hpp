@@ -55,11 +55,13 @@ private:
         hub::LinkId link;
         std::string name;
         std::unique_ptr<Channel> channel;
-        asio::posix::stream_descriptor
-            waiter;  // waits on the channel's descriptor, does not own it
+        // Waits on the channel's descriptor, does not own it.
+        asio::posix::stream_descriptor waiter;
         Pace pace;
         bool write_blocked = false;  // a wait for writability is under way
         bool read_paused = false;    // no wait for readability is under way
+        uint32_t skipped_told = 0;
+        Time tell_skipped_after{};
     };
 
     struct Listener {
@@ -100,6 +102,8 @@ private:
     void wait_readable(uint32_t number, Connection& connection);
     void wait_writable(uint32_t number, Connection& connection);
     void on_readable(uint32_t number);
+    void look_at_lines();
+    void tell_skipped(Connection& connection);
     void drop(uint32_t number, const Transfer& last);
     void pause_if_ahead(Connection& connection, size_t bytes);
     void resume_paused();

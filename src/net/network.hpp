@@ -20,8 +20,9 @@
 //   and counted there.
 // - Only a peer that sends much at once is slowed down, and only by receivers that keep up
 //   (docs/decisions/0052-who-waits-for-whom.md), so that two fast programs lose nothing.
-// - A peer that announces kOversizedFramesMax frames of illegal size does not speak this protocol:
-//   it is closed.
+// - A serial line on which bytes were lost finds the next frame again (wire/line_reader.hpp).
+// - A peer that announces kOversizedFramesMax frames of illegal size over TCP does not speak this
+//   protocol: it is closed.
 #pragma once
 
 #include <cstddef>
@@ -59,12 +60,13 @@ enum class EventKind {
     Failed,    // a connection could not be made or accepted; said once an outage
     Readable,  // a descriptor given to watch_input()
     Signal,    // SIGINT or SIGTERM, after watch_signals()
+    Skipped,   // bytes of a serial line were no frame; said once they are over, once a second
 };
 
 struct Event {
     EventKind kind;
-    PlaceId place;              // Opened, Closed, Failed
-    hub::LinkId link;           // Opened, Closed
+    PlaceId place;              // Opened, Closed, Failed, Skipped
+    hub::LinkId link;           // Opened, Closed, Skipped
     int number = 0;             // Readable: the descriptor. Signal: its number
     std::string what;           // a name (Opened) or a sentence for a person that names the peer
     hub::LinkStats stats = {};  // Closed: what the link did

@@ -19,6 +19,10 @@ constexpr int kKeepAliveIdle_s = 10;
 constexpr int kKeepAliveInterval_s = 5;
 constexpr int kKeepAliveProbes = 3;
 
+// What the kernel has taken, no message can pass any more: so it takes little
+// (docs/decisions/0054-messages-pass-events.md). It doubles the number for its own needs.
+constexpr int kSendBufferBytes = 64 * 1024;
+
 void set_option(int descriptor, int level, int option, int value) {
     // A socket without the option still works.
     (void)::setsockopt(descriptor, level, option, &value, sizeof value);
@@ -29,11 +33,12 @@ std::unique_ptr<Channel> channel_of(Tcp::socket& socket) {
     socket.native_non_blocking(true, error);
     const int descriptor = socket.release(error);
     set_option(descriptor, IPPROTO_TCP, TCP_NODELAY, 1);
+    set_option(descriptor, SOL_SOCKET, SO_SNDBUF, kSendBufferBytes);
     set_option(descriptor, SOL_SOCKET, SO_KEEPALIVE, 1);
     set_option(descriptor, IPPROTO_TCP, TCP_KEEPIDLE, kKeepAliveIdle_s);
     set_option(descriptor, IPPROTO_TCP, TCP_KEEPINTVL, kKeepAliveInterval_s);
     set_option(descriptor, IPPROTO_TCP, TCP_KEEPCNT, kKeepAliveProbes);
-    return make_stream_channel(descriptor, StreamKind::Socket);
+    return make_socket_channel(descriptor);
 }
 
 std::string name_of(const Tcp::endpoint& endpoint) {

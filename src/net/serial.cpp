@@ -132,7 +132,7 @@ Result<std::unique_ptr<Channel>> open_serial(const SerialPlace& place) {
     const std::string device = TRY(device_of(place));
     const int descriptor = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return cannot(line, "open it", errno);
-    auto channel = make_stream_channel(descriptor, StreamKind::Terminal);
+    auto channel = make_line_channel(descriptor, place.baud);
     if (::isatty(descriptor) == 0) {
         return Error{Code::BadInput, line + ": " + device + " is not a serial line"};
     }

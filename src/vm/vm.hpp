@@ -4,14 +4,15 @@
 //
 //     int16_t variables[600], stack[32];
 //     uint16_t bytecode[1500], breakpoints[kBreakpointsMax];
-//     const Config config = {3, 1500, 600, 32, 32, bytecode, variables, stack, breakpoints, &host,
-//     &node}; Vm vm; init(vm, config);
+//     const Config config = {3,         1500,  600,         32,    32,   bytecode,
+//                            variables, stack, breakpoints, &host, &node};
+//     Vm vm;
+//     init(vm, config);
 //
-//     receive(vm, type, words, count);                    // a command from the bus: SetBytecode,
-//     Run, Step … receive_event(vm, source, type, arguments, count);  // a user event from the bus
-//     local_event(vm, 0);                                 // the node's own: the first local event
-//     has happened run(vm, 1000);                                      // then: at most 1000
-//     instructions, never blocks
+//     receive(vm, type, words, count);  // a command from the bus: SetBytecode, Run, Step …
+//     receive_event(vm, source, type, arguments, count);  // a user event from the bus
+//     local_event(vm, 0);  // the node's own: the first local event has happened
+//     run(vm, 1000);       // then: at most 1000 instructions, never blocks
 //
 // The machine is safe by itself: whatever bytecode it holds and whatever messages come, it reads
 // and writes only the four memories of its Config. A script that tries more is stopped with
@@ -138,10 +139,13 @@ inline bool is_paused_in_event(const Vm& vm) {
 // sizes:
 //
 //     void copy(Vm& vm) {
-//         const uint16_t dest = pop(vm), src = pop(vm), size = pop(vm);   // one statement each:
-//         order matters int16_t* to = memory(vm, dest, size); const int16_t* from = memory(vm, src,
-//         size); if (!to || !from) return;                                       // the fault has
-//         been raised for (uint16_t i = 0; i < size; ++i) to[i] = from[i];
+//         const uint16_t dest = pop(vm);  // one statement each: the order matters
+//         const uint16_t src = pop(vm);
+//         const uint16_t size = pop(vm);
+//         int16_t* to = memory(vm, dest, size);
+//         const int16_t* from = memory(vm, src, size);
+//         if (!to || !from) return;  // the fault has been raised
+//         for (uint16_t i = 0; i < size; ++i) to[i] = from[i];
 //     }
 
 // Takes the top of the stack. On an empty stack: raises a fault, gives 0.

@@ -1,4 +1,5 @@
 """The verbs of `vagus net` as a person or a script uses them: what they print, and how they end."""
+import contextlib
 import json
 import pathlib
 import sys
@@ -60,9 +61,9 @@ class Net(unittest.TestCase):
         return self.json("get", "rover", "ticks", "--project", self.project)["ticks"][0]
 
     def test_list_names_state_protocol_and_program(self):
-        entry = {"id": 1, "name": "rover", "state": "running", "protocol": 5, "program": "none"}
+        entry = {"id": 1, "name": "rover", "state": "running", "protocol": 5, "program": "unknown"}
         self.assertEqual(self.json("list"), [entry])
-        self.assertEqual(self.net("list"), "1  rover  running  protocol 5  program none")
+        self.assertEqual(self.net("list"), "1  rover  running  protocol 5  program unknown")
         self.load()
         self.assertEqual(self.json("list")[0]["program"], "present")
 
@@ -77,7 +78,7 @@ class Net(unittest.TestCase):
         self.project.write_text(PROJECT.replace("emit status", "emit statsu"), encoding="utf-8")
         told = self.net("load", self.project, "rover", status=1)
         self.assertRegex(told, rf'^{self.project}:{EMIT_LINE}:8: error: .*"statsu".*\[EVENT_NOT_DEFINED_GUESS\]')
-        self.assertEqual(self.json("list")[0]["program"], "none")
+        self.assertEqual(self.json("list")[0]["program"], "unknown")
         self.assertIn("cannot be read", self.net("load", self.folder / "none.aesl", status=2))
 
     def test_get_and_set_take_ranges(self):
@@ -115,7 +116,8 @@ class Net(unittest.TestCase):
 
     def test_pause_reset_step_and_run_name_the_line(self):
         self.load()
-        self.assertIn("stopped", self.net("pause", "all"))
+        self.assertEqual(self.net("pause", "all"), "1  rover  paused  protocol 5  program present")
+        self.assertEqual(self.net("list"), "1  rover  paused  protocol 5  program present")
         known = ("--project", self.project)
         self.assertIn(f"paused at {self.project}:7", self.net("reset", "rover", *known))
         self.assertIn(f"paused at {self.project}:8", self.net("step", "rover", *known))
@@ -169,6 +171,51 @@ class Net(unittest.TestCase):
     def test_a_node_that_cannot_save_says_so(self):
         self.load()
         self.assertIn("did not save its program", self.net("save", "rover", status=1))
+
+
+    def test_list_of_an_empty_bus_says_so_and_fails(self):
+        with vagus("switch", "--listen", "tcp:127.0.0.1:0") as empty:
+            target = f"tcp:127.0.0.1:{listening(empty)}"
+            self.assertEqual(run_vagus("net", target, "list", status=1), f"vagus: no node answers on {target}")
+            self.assertEqual(run_vagus("net", target, "list", "--json", status=1),
+                             f"[]\nvagus: no node answers on {target}")
+
+    def test_two_nodes_with_one_id_are_noticed_by_the_switch_and_by_list(self):
+        with vagus("switch", "--listen", "tcp:127.0.0.1:0") as switch:
+            target = f"tcp:127.0.0.1:{listening(switch)}"
+            with vagus("node", "--id", 7, "--name", "twin", "--connect", target), \
+                    vagus("node", "--id", 7, "--name", "twin", "--connect", target):
+                while "two nodes have the id 7" not in (told := self.listed(target)):
+                    pass  # until both are there
+                self.assertIn("7  twin  running", told)
+                links = switch.wait_line(r"^vagus: node 7 is heard on two links, (tcp:\S+) and (tcp:\S+): ")
+                self.assertNotEqual(links.group(1), links.group(2))
+
+    def listed(self, target):
+        with vagus("net", target, "list") as program:
+            program.wait_end()
+            return "\n".join(program.lines)
+
+    def test_a_project_that_does_not_compile_is_said(self):
+        self.project.write_text(PROJECT.replace("emit status", "emit statsu"), encoding="utf-8")
+        told = self.net("list", "--project", self.project).split("\n")
+        self.assertRegex(told[0], rf"^{self.project}:{EMIT_LINE}:8: error: ")
+        self.assertEqual(told[-2:], [f'vagus: {self.project}: the script for "rover" does not compile: '
+                                     "its variables and lines are not known",
+                                     "1  rover  running  protocol 5  program unknown"])
+
+    def test_a_project_is_for_each_node_of_its_name(self):
+        with contextlib.ExitStack() as others:
+            for number in range(2, 6):
+                others.enter_context(vagus("node", "--id", number, "--name", "rover", "--connect", self.target))
+                self.net("describe", str(number), "--wait", "60")
+            loaded = self.json("load", self.project, "all")
+            self.assertEqual([node["id"] for node in loaded], [1, 2, 3, 4, 5])
+            self.assertEqual([node["id"] for node in self.json("load", self.project, "4")], [4])
+            self.send("count")
+            for number in range(1, 6):
+                ticks = self.json("get", str(number), "ticks", "--project", self.project)
+                self.assertEqual(ticks, {"ticks": [3]}, number)
 
 
 if __name__ == "__main__":

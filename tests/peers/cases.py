@@ -8,7 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from harness import (BREAKPOINT_SET_RESULT, GET_NODE_DESCRIPTION, GET_VARIABLES, LIST_NODES, LOCAL_EVENT, NAMED_VARIABLE, NATIVE_FUNCTION,
-                     NODE_PRESENT, ROOT, RUN, SET_BYTECODE, VARIABLES, Bus, Display, Program, free_port, listening,
+                     NODE_PRESENT, ROOT, RUN, SET_BYTECODE, VARIABLES, Bus, Display, Program, free_port, list_nodes, listening,
                      playground, run_vagus, simulated, vagus, variable_names)
 
 # Line 7 is that of `onevent ping`; ping is event 0, pong is event 1.
@@ -75,14 +75,13 @@ class Peers(unittest.TestCase):
         return ports
 
     def net(self, port, *arguments):
-        # A robot under Xvfb on a busy machine may take its time to answer; `list` waits by its own rule.
-        patience = () if arguments[0] == "list" else ("--wait", 30)
-        return run_vagus("net", f"tcp:127.0.0.1:{port}", *arguments, *patience)
+        # A robot under Xvfb on a busy machine may take its time to answer.
+        return run_vagus("net", f"tcp:127.0.0.1:{port}", *arguments, "--wait", 30)
 
     def wait_for_nodes(self, port, names):
         """Asks until the network lists exactly these names."""
         for _ in range(60):
-            found = json.loads(self.net(port, "list", "--json"))
+            found = list_nodes(port)
             if sorted(node["name"] for node in found) == sorted(names):
                 return found
         self.fail(f"port {port} never had the nodes {names}; last: {found}")
@@ -244,7 +243,7 @@ class Peers(unittest.TestCase):
         log.wait_line('"node": 8, .*"event": "described"')
         node.kill()
         log.wait_line('"node": 8, .*"event": "disconnected"')
-        self.assertEqual(json.loads(self.net(foreign, "list", "--json")), [])
+        self.assertEqual(list_nodes(foreign), [])
 
     # asebaplayground -----------------------------------------------------------------------------
 

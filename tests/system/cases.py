@@ -14,7 +14,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from harness import (BREAKPOINT_SET, BREAKPOINT_SET_RESULT, DESCRIPTION, DISCONNECTED, GET_EXECUTION_STATE,
                      GET_NODE_DESCRIPTION, GIVE_UP_AFTER, LIST_NODES, NODE_PRESENT, RESET, RUN, SET_BYTECODE, STATE,
-                     Bus, Missing, free_port, listening, run_vagus, simulated, vagus)
+                     Bus, Missing, free_port, list_nodes, listening, run_vagus, simulated, vagus)
 
 SEED = int(os.environ.get("VAGUS_SEED", "20"))
 ROUNDS = 40 if os.environ.get("VAGUS_LONG") else 8
@@ -80,7 +80,7 @@ class System(unittest.TestCase):
 
     def listed(self, port):
         """Ids of the nodes that the network names as connected."""
-        nodes = json.loads(run_vagus("net", f"tcp:127.0.0.1:{port}", "list", "--json"))
+        nodes = list_nodes(port)
         return sorted(node["id"] for node in nodes if node["state"] != "disconnected")
 
     def wait_listed(self, port, expected):

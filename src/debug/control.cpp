@@ -7,6 +7,7 @@
 namespace vagus::debug {
 namespace {
 
+constexpr uint16_t kInitEvent = 0xffff;  // wire spec, 3.3
 constexpr std::string_view kFlashing = "Flashing ";
 constexpr std::string_view kFlashed =
     "Flashing OK";  // how a dsPIC says that WriteBytecode worked (2.3)
@@ -18,6 +19,15 @@ bool is_stepping_state(const wire::ExecutionStateChanged& state) {
 // What every SetBytecode and Reset leaves: STEP, ACTIVE with an init event, never RUNNING.
 bool is_reset_state(const wire::ExecutionStateChanged& state) {
     return (state.flags & (wire::kFlagStep | wire::kFlagRunning)) == wire::kFlagStep;
+}
+
+// Its table of handlers, words [size, event, address, …], has the code before the first handler.
+bool runs_at_start(const aesl::Program& program) {
+    const std::vector<uint16_t>& words = program.bytecode;
+    for (size_t i = 1; !words.empty() && i + 1 < words[0] && i < words.size(); i += 2) {
+        if (words[i] == kInitEvent) return true;
+    }
+    return false;
 }
 
 size_t fragments_of(const aesl::Program& program) {
@@ -67,7 +77,7 @@ Result<RequestId> Control::load(const aesl::Program& program) {
     const size_t words = program.bytecode.size();
     if (words == 0) {
         return Error{Code::BadInput, "the program for " + who() +
-                                         " is empty: compile it, and mend its errors first"};
+                                         " is empty: compile it, and fix its errors first"};
     }
     if (words > view_.target.bytecode_size) {
         return Error{Code::Limit, "the program has " + std::to_string(words) + " words, but " +
@@ -96,8 +106,14 @@ Result<RequestId> Control::enqueue(Request request) {
 // One after the other; a request that ends at once lets the next begin.
 void Control::start_next() {
     if (started_ || requests_.empty()) return;
+    if (out_.requests.enter(view_.id, out_.now)) begin_turn();
+}
+
+void Control::begin_turn() {
+    if (started_ || requests_.empty()) return out_.requests.leave(view_.id);
     started_ = true;
     requests_.front().deadline = out_.now + kAnswerWithin;
+    ask_again_ = out_.now + kAskAgain;
     start(requests_.front());
 }
 
@@ -106,6 +122,7 @@ void Control::finish(Outcome outcome) {
               RequestDone{requests_.front().id, std::move(outcome.error), std::move(outcome.note)});
     requests_.pop_front();
     started_ = false;
+    out_.requests.leave(view_.id);
     start_next();
 }
 
@@ -150,6 +167,29 @@ void Control::start(Request& request) {
             return finish(
                 {Error{Code::Refused, "the breakpoint was removed before it was set"}, ""});
         }
+    }
+}
+
+// The node, or somebody on the way, may have had too much to do. Only what is the same twice is
+// said twice: a step is not, nor is what the user would see happen again.
+void Control::repeat(Request& request) {
+    switch (request.kind) {
+        case Kind::Load:
+            if (!uploading()) return out_.command<wire::Run>(view_.id);
+            request.sent = request.acked = 0;  // the fragment that is missing may be any of them
+            return send_fragments(request);
+        case Kind::Run:
+            if (!request.stepping) out_.command<wire::Run>(view_.id);
+            return;
+        case Kind::Pause:
+        case Kind::Stop:
+        case Kind::Query:
+            return start(request);
+        case Kind::Reset:
+        case Kind::Step:
+        case Kind::Save:
+        case Kind::Break:
+            return;
     }
 }
 
@@ -210,11 +250,12 @@ void Control::receive(const wire::ExecutionStateChanged& state) {
     if (done) finish(std::move(*done));
 }
 
-// A node that was away and stands as after power-up (3.1), although it had run: its program is
-// gone.
+// A node that was away and stands as after power-up (3.1), although it had run, or would have run
+// the code before the first handler: its program is gone.
 void Control::note_restart(const wire::ExecutionStateChanged& state) {
-    const bool fresh = state.pc == 0 && state.flags == 0 && view_.at.pc != 0;
-    if (std::exchange(restart_check_, false) && fresh && view_.program) {
+    const bool fresh = state.pc == 0 && state.flags == 0;
+    const bool lost = fresh && view_.program && (view_.at.pc != 0 || runs_at_start(*view_.program));
+    if (std::exchange(restart_check_, false) && lost) {
         view_.program.reset();
         out_.tell(view_.id, ProgramReplaced{});
     }
@@ -259,6 +300,8 @@ Control::Answer Control::answer_load(Request& request, const wire::ExecutionStat
     if (!is_reset_state(state)) return {};  // of what ran before
     request.acked++;
     request.deadline = out_.now + kAnswerWithin;
+    ask_again_ = out_.now + kAskAgain;
+    out_.requests.progress(view_.id, out_.now);
     send_fragments(request);
     if (request.acked < all) return {};
     view_.program = request.program;
@@ -371,10 +414,16 @@ void Control::disconnected(const std::string& why) {
         out_.tell(view_.id, RequestDone{request.id, Error{Code::Unavailable, why}, ""});
     }
     started_ = false;
+    out_.requests.leave(view_.id);
 }
 
 void Control::tick() {
-    if (!started_ || out_.now < requests_.front().deadline) return;
+    if (!started_) return;
+    if (out_.now < requests_.front().deadline) {
+        if (out_.now < ask_again_) return;
+        ask_again_ = out_.now + kAskAgain;
+        return repeat(requests_.front());
+    }
     finish({Error{Code::Timeout,
                   who() + " did not answer the request to " + act_of(requests_.front().kind) +
                       " within " + std::to_string(kAnswerWithin / std::chrono::seconds(1)) + " s"},
@@ -383,7 +432,7 @@ void Control::tick() {
 
 std::optional<Time> Control::next_tick() const {
     if (!started_) return std::nullopt;
-    return requests_.front().deadline;
+    return std::min(requests_.front().deadline, ask_again_);
 }
 
 void Control::tell_state() {

@@ -1,6 +1,6 @@
 // The program of one node: loads it, runs and stops it, steps by lines, keeps its breakpoints.
 // Knows the node by its state messages, which do not say what they answer; so one request is under
-// way at a time and the others wait.
+// way at a time and the others wait, also for the turn of the node (debug/turns.hpp).
 #pragma once
 
 #include <deque>
@@ -54,6 +54,8 @@ public:
     // Described, or back after an absence: breakpoints are set anew, the state is asked for.
     void connected(const std::vector<aesl::Constant>& constants);
     void disconnected(const std::string& why);
+    // It waited for its turn, which has come.
+    void begin_turn();
     void tick();
     // When tick() has something to do; nothing if no request is under way.
     std::optional<Time> next_tick() const;
@@ -87,6 +89,7 @@ private:
     bool uploading();
 
     void start(Request& request);
+    void repeat(Request& request);
     void start_run(Request& request);
     void send_fragments(Request& request);
     void place_breakpoints();
@@ -111,6 +114,7 @@ private:
     Outbox& out_;
     std::deque<Request> requests_;  // the first is under way
     bool started_ = false;          // the first was sent
+    Time ask_again_{};              // when it may have been lost
     uint16_t flags_ = 0;            // as told last
     bool left_by_step_ = false;  // we stepped to where the node stands: a breakpoint there was seen
     bool restart_check_ = false;  // the next state tells whether the node kept its program

@@ -348,6 +348,17 @@ TEST_F(Program, ANodeThatComesBackFreshHasLostItsProgram) {
     EXPECT_FALSE(bus.network.node(1)->program.has_value());
 }
 
+TEST_F(Program, ANodeIsAskedAnewWhatIsLeftWhenItsLinkWasLost) {
+    load();
+    bus.network.link_lost();
+    ASSERT_EQ(bus.told<NodeDisconnected>().size(), 1u);
+    bus.node_says("02 00 01 00 0c 90 05 00");
+    EXPECT_EQ(bus.told<NodeReconnected>().size(), 1u);
+    bus.describe_robot(1);
+    bus.state(1, 0, 0);
+    EXPECT_EQ(bus.told<ProgramReplaced>().size(), 1u);
+}
+
 TEST_F(Program, WhatAnotherHostLoadsIsNoticed) {
     load();
     bus.node_says(kUpload);  // the same words: our own, come back

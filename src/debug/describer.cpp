@@ -13,10 +13,16 @@ void Describer::start(Outbox& out, uint16_t protocol) {
     mode_ = protocol < kNodeRequestsSince ? Mode::Broadcast
             : protocol < kFragmentsSince  ? Mode::Whole
                                           : Mode::Fragments;
-    state_ = State::Asking;
+    state_ = State::Waiting;
     tries_ = 0;
     description_ = Description();
     why_.clear();
+    if (out.descriptions.enter(id_, out.now)) begin_turn(out);
+}
+
+void Describer::begin_turn(Outbox& out) {
+    if (state_ != State::Waiting) return out.descriptions.leave(id_);
+    state_ = State::Asking;
     ask(out);
 }
 
@@ -37,8 +43,8 @@ void Describer::foreign_fragment(Outbox& out) {
     ask(out);
 }
 
-void Describer::refuse(std::string why) {
-    if (state_ == State::Asking) fail(std::move(why));
+void Describer::refuse(Outbox& out, std::string why) {
+    if (state_ == State::Asking) fail(out, std::move(why));
 }
 
 void Describer::tick(Outbox& out) {
@@ -48,8 +54,8 @@ void Describer::tick(Outbox& out) {
         tries_ = 0;
     }
     if (tries_ < kDescriptionTriesMax) return ask(out);
-    fail("it was asked " + std::to_string(tries_) + " times and sent " +
-         std::to_string(description_.items()) + " parts, not all that it announced");
+    fail(out, "it was asked " + std::to_string(tries_) + " times and sent " +
+                  std::to_string(description_.items()) + " parts, not all that it announced");
 }
 
 void Describer::ask(Outbox& out) {
@@ -79,20 +85,22 @@ void Describer::take(Outbox& out, Progress progress) {
         case Progress::Ignored:
             return;
         case Progress::Impossible:
-            return fail(description_.why());
+            return fail(out, description_.why());
         case Progress::Complete:
             state_ = State::Done;
-            return;
+            return out.descriptions.leave(id_);
         case Progress::More:
             break;
     }
     tries_ = 0;
     deadline_ = out.now + kDescriptionRetry;
+    out.descriptions.progress(id_, out.now);
     if (mode_ == Mode::Fragments) ask(out);
 }
 
-void Describer::fail(std::string why) {
+void Describer::fail(Outbox& out, std::string why) {
     state_ = State::Failed;
+    out.descriptions.leave(id_);
     why_ = std::move(why);
     description_ = Description();
 }

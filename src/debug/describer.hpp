@@ -13,6 +13,7 @@ class Describer {
 public:
     enum class State {
         Idle,
+        Waiting,  // for its turn: see debug/turns.hpp
         Asking,
         Done,
         Failed,  // why() says why; a header that arrives all the same begins anew
@@ -23,6 +24,7 @@ public:
     // How nodes of that version want to be asked: 4 by broadcast, 5 to 7 for the whole, from 8 on
     // part by part.
     void start(Outbox& out, uint16_t protocol);
+    void begin_turn(Outbox& out);
     void receive(Outbox& out, const wire::Description& header);
     template <typename Part>  // NamedVariable-, LocalEvent- or NativeFunctionDescription
     void receive(Outbox& out, const Part& part) {
@@ -32,7 +34,7 @@ public:
     // for.
     void foreign_fragment(Outbox& out);
     // Too much in all: kDescriptionBytesTotalMax.
-    void refuse(std::string why);
+    void refuse(Outbox& out, std::string why);
     void tick(Outbox& out);
 
     State state() const { return state_; }
@@ -46,7 +48,7 @@ private:
     void ask(Outbox& out);
     void ask_fragment(Outbox& out);
     void take(Outbox& out, Progress progress);
-    void fail(std::string why);
+    void fail(Outbox& out, std::string why);
 
     State state_ = State::Idle;
     Mode mode_ = Mode::Whole;

@@ -10,6 +10,7 @@
 
 #include "base/result.hpp"
 #include "base/time.hpp"
+#include "wire/reports.hpp"
 
 namespace vagus::debug {
 
@@ -55,6 +56,10 @@ struct NodeReconnected {};
 struct ProtocolMismatch {
     uint16_t protocol = 0;
 };
+// Two nodes have this id: one of them needs another. `other_name` if they have two names.
+struct NodeIdShared {
+    std::string other_name;
+};
 // More nodes than kNodesMax: those after them are ignored. Told once.
 struct TooManyNodes {};
 
@@ -63,7 +68,7 @@ struct StateChanged {
     ProgramState state = ProgramState::Unknown;
     CodePlace at;
 };
-enum class FaultKind { ArrayAccess, DivisionByZero, Killed, NodeSpecific };
+using wire::FaultKind;
 // "array_access", "division_by_zero", "killed", "node_specific".
 const char* name_of(FaultKind kind);
 struct Fault {
@@ -115,10 +120,11 @@ struct RequestDone {
     std::string note;            // what a person may want to know although it worked
 };
 
-using Happening = std::variant<NodeAppeared, NodeDescribed, DescriptionFailed, NodeDisconnected,
-                               NodeReconnected, ProtocolMismatch, TooManyNodes, StateChanged, Fault,
-                               BreakpointResult, BreakpointHit, ConditionFailed, ProgramReplaced,
-                               VariablesArrived, VariableChanged, UserEvent, RequestDone>;
+using Happening =
+    std::variant<NodeAppeared, NodeDescribed, DescriptionFailed, NodeDisconnected, NodeReconnected,
+                 ProtocolMismatch, NodeIdShared, TooManyNodes, StateChanged, Fault,
+                 BreakpointResult, BreakpointHit, ConditionFailed, ProgramReplaced,
+                 VariablesArrived, VariableChanged, UserEvent, RequestDone>;
 
 struct Event {
     Time at{};

@@ -1,10 +1,14 @@
 #include "debug/network.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "debug/names.hpp"
 #include "debug/peer.hpp"
+#include "debug/presence.hpp"
+#include "debug/text.hpp"
 
 namespace vagus::debug {
 
@@ -51,8 +55,13 @@ public:
     aesl::CommonDefinitions common;
     std::map<NodeId, std::unique_ptr<Peer>> peers;
     uint64_t malformed = 0;
+    Presences presences;
 
 private:
+    void note_name(NodeId id, const wire::Description& header);
+    void tell_shared(NodeId id, std::string other_name);
+    // Those that waited for their turn and have it now.
+    void give_turns();
     void receive_event(const wire::Frame& frame);
     void receive_command(const wire::Frame& frame);
     void receive_node(const wire::Frame& frame);
@@ -77,7 +86,10 @@ void Network::Impl::receive(Time now, const wire::Frame& frame) {
     out.now = std::max(out.now, now);
     if (wire::is_user_event(frame.type)) return receive_event(frame);
     if (wire::is_command(frame.type)) return receive_command(frame);
-    if (frame.source != wire::kHostId && frame.source != wire::kInvalidId) receive_node(frame);
+    if (frame.type == static_cast<uint16_t>(wire::MessageType::ListNodes)) presences.asked();
+    if (frame.source == wire::kHostId || frame.source == wire::kInvalidId) return;
+    receive_node(frame);
+    give_turns();
 }
 
 void Network::Impl::receive_event(const wire::Frame& frame) {
@@ -85,10 +97,7 @@ void Network::Impl::receive_event(const wire::Frame& frame) {
     UserEvent event;
     event.number = frame.type;
     if (frame.type < common.events.size()) event.name = common.events[frame.type].name;
-    for (uint16_t at = 0; at + 1 < frame.size; at = static_cast<uint16_t>(at + 2)) {
-        const int word = frame.payload[at] | (frame.payload[at + 1] << 8);
-        event.arguments.push_back(static_cast<int16_t>(word));
-    }
+    event.arguments = wire::arguments_of<std::vector<int16_t>>(frame);
     out.tell(frame.source, std::move(event));
 }
 
@@ -104,6 +113,7 @@ void Network::Impl::receive_node(const wire::Frame& frame) {
             malformed++;
         } else if (Peer* met = meet(frame.source, present.version)) {
             met->seen();
+            if (presences.answered(frame.source)) tell_shared(frame.source, "");
         }
         return;
     }
@@ -117,6 +127,7 @@ void Network::Impl::receive_node(const wire::Frame& frame) {
             return;
         }
         from = meet(frame.source, header.protocol_version);
+        if (from != nullptr) note_name(frame.source, header);
     }
     if (from == nullptr) return;  // all else from unknown sources is ignored (2.6, 3)
     const bool was_described = from->view().described;
@@ -136,6 +147,25 @@ void Network::Impl::receive_node(const wire::Frame& frame) {
         from->control().restore_breakpoints(known->second.breakpoints);
     }
     farewells_.erase(known);
+}
+
+void Network::Impl::note_name(NodeId id, const wire::Description& header) {
+    const std::string other = presences.named(id, clean_text(header.name), out.now);
+    if (!other.empty()) tell_shared(id, other);
+}
+
+void Network::Impl::tell_shared(NodeId id, std::string other_name) {
+    peer(id)->share_id(other_name);
+    out.tell(id, NodeIdShared{std::move(other_name)});
+}
+
+void Network::Impl::give_turns() {
+    while (const auto next = out.descriptions.next(out.now)) {
+        if (Peer* const whose = peer(*next)) whose->ask_description();
+    }
+    while (const auto next = out.requests.next(out.now)) {
+        if (Peer* const whose = peer(*next)) whose->control().begin_turn();
+    }
 }
 
 Peer* Network::Impl::meet(NodeId id, uint16_t protocol) {
@@ -164,6 +194,7 @@ void Network::Impl::forget(NodeId id) {
     }
     description_bytes_ -= peer_left->description_bytes();
     peers.erase(id);
+    presences.forget(id);
     out.tell(id, NodeDisconnected{.forgotten = true});
 }
 
@@ -175,10 +206,12 @@ void Network::Impl::tick(Time now) {
         known->tick();
         description_bytes_ += known->description_bytes() - before;
     }
+    give_turns();
 }
 
 void Network::Impl::list_nodes() {
     next_list_ = out.now + kListEvery;
+    presences.asked();
     wire::ListNodes list{};
     list.version = wire::kProtocolVersion;
     out.send(list);
@@ -196,7 +229,7 @@ bool Network::Impl::anybody_connected() const {
 }
 
 Time Network::Impl::next_tick() const {
-    Time next = next_list_;
+    Time next = std::min({next_list_, out.descriptions.next_tick(), out.requests.next_tick()});
     for (const auto& [id, known] : peers) next = std::min(next, known->next_tick());
     return next;
 }
@@ -261,6 +294,14 @@ Result<NodeId> Network::find(std::string_view name_or_id) const {
 
 void Network::list_nodes() {
     impl_->list_nodes();
+}
+
+void Network::link_lost() {
+    for (const auto& [id, known] : impl_->peers) known->lost();
+}
+
+bool Network::doubts_an_id() const {
+    return impl_->presences.doubtful();
 }
 
 void Network::set_common(aesl::CommonDefinitions common) {
@@ -358,10 +399,7 @@ Status Network::emit(std::string_view event, std::span<const int16_t> arguments)
     wire::Frame frame{};
     frame.source = wire::kHostId;
     frame.type = shape.number;
-    for (const int16_t word : arguments) {
-        frame.payload[frame.size++] = static_cast<uint8_t>(word & 0xff);
-        frame.payload[frame.size++] = static_cast<uint8_t>((word >> 8) & 0xff);
-    }
+    for (const int16_t word : arguments) wire::add_argument(frame, word);
     impl_->out.send_frame(frame);
     return Status::done();
 }

@@ -4,10 +4,10 @@
 //
 //     Network network;
 //     network.set_common(project.common);
-//     for (;;) {                                              // the caller's loop, around a link
+//     for (;;) {  // the caller's loop, around a link
 //         for (const wire::Frame& frame : arrived) network.receive(now, frame);
-//         network.tick(now);                                  // at the latest at
-//         network.next_tick() for (const wire::Frame& frame : network.take_frames()) send(frame);
+//         network.tick(now);  // at the latest at network.next_tick()
+//         for (const wire::Frame& frame : network.take_frames()) send(frame);
 //         for (const Event& event : network.take_events()) show(event);
 //     }
 //
@@ -17,8 +17,9 @@
 //     // … until RequestDone{load} comes: the program is there and runs, breakpoints set.
 //
 // What is asked is sent with the next take_frames(). A request fails after kAnswerWithin without an
-// answer, and when its node disconnects. Everything that a hostile bus can make grow has a limit
-// below.
+// answer, and when its node disconnects; what does no harm twice is asked again meanwhile. Only
+// kTurnsAtOnce nodes are talked to at a time. Everything that a hostile bus can make grow has a
+// limit below.
 #pragma once
 
 #include <cstdint>
@@ -45,6 +46,7 @@ constexpr Duration kDescriptionRetry =
 constexpr int kDescriptionTriesMax =
     5;  // in a row without progress; fork fragments: then the whole
 constexpr Duration kAnswerWithin = std::chrono::milliseconds(3000);  // for requests
+constexpr Duration kAskAgain = std::chrono::milliseconds(1000);      // what may be repeated
 constexpr Duration kWatchEveryMin = std::chrono::milliseconds(10);
 constexpr Duration kWatchEvery = std::chrono::milliseconds(100);  // polling while someone watches
 
@@ -75,6 +77,8 @@ struct NodeView {
     uint16_t protocol = 0;
     bool connected = false;
     bool described = false;
+    bool id_shared = false;  // another node has the same id: what is told here is of either
+    std::string other_name;  // of the other one, if it has another
     ProgramState state = ProgramState::Unknown;
     CodePlace at;                          // as the node told last
     aesl::Target target;                   // empty until described
@@ -124,6 +128,12 @@ public:
     Result<NodeId> find(std::string_view name_or_id) const;
     // Asks all nodes who is there now, not only at the next second.
     void list_nodes();
+    // The link to the bus is lost: everybody counts as disconnected until heard again, and is asked
+    // then what is left of its program.
+    void link_lost();
+    // A node answered twice where once was expected: after another list_nodes() it is certain
+    // whether two nodes share its id (NodeIdShared).
+    bool doubts_an_id() const;
 
     // ---- names ----
     // Names and numbers of events and constants that all nodes share; for compile(), emit() and

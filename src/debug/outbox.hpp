@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "debug/network.hpp"
+#include "debug/turns.hpp"
 #include "wire/messages.hpp"
 
 namespace vagus::debug {
@@ -19,7 +20,9 @@ Message message_to(NodeId id) {
 
 class Outbox {
 public:
-    Time now{};  // as receive() or tick() were told last
+    Time now{};          // as receive() or tick() were told last
+    Turns descriptions;  // of nodes that are asked what they are
+    Turns requests;      // of nodes of which something is asked
 
     template <typename Message>
     void send(const Message& message) {

@@ -19,12 +19,6 @@ bool with(const wire::Frame& frame, Use use) {
     return true;
 }
 
-std::string sentence(const wire::ArrayAccessOutOfBounds& fault) {
-    if (fault.size == 0) return "array access out of bounds";
-    return "array access out of bounds: index " + std::to_string(fault.index) + " in an array of " +
-           std::to_string(fault.size);
-}
-
 }  // namespace
 
 Peer::Peer(NodeId id, uint16_t protocol, Outbox& out, const aesl::CommonDefinitions& common)
@@ -44,7 +38,7 @@ void Peer::seen() {
     out_.tell(view_.id, NodeReconnected{});
     // It may have been started anew with other firmware: what it says now counts.
     describer_.start(out_, view_.protocol);
-    told_describer_ = Describer::State::Asking;
+    told_describer_ = describer_.state();
 }
 
 bool Peer::receive(const wire::Frame& frame) {
@@ -70,26 +64,17 @@ bool Peer::receive(const wire::Frame& frame) {
 }
 
 bool Peer::receive_fault(const wire::Frame& frame) {
-    switch (static_cast<wire::MessageType>(frame.type)) {
-        case wire::MessageType::ArrayAccessOutOfBounds:
-            return with<wire::ArrayAccessOutOfBounds>(frame, [this](const auto& m) {
-                control_.fault(FaultKind::ArrayAccess, m.pc, sentence(m));
-            });
-        case wire::MessageType::DivisionByZero:
-            return with<wire::DivisionByZero>(frame, [this](const auto& m) {
-                control_.fault(FaultKind::DivisionByZero, m.pc, "division by zero");
-            });
-        case wire::MessageType::EventExecutionKilled:
-            return with<wire::EventExecutionKilled>(frame, [this](const auto& m) {
-                control_.fault(FaultKind::Killed, m.pc,
-                               "the event was still being worked on when the next one came");
-            });
-        case wire::MessageType::NodeSpecificError:
-            return with<wire::NodeSpecificError>(
-                frame, [this](const auto& m) { control_.node_specific(clean_text(m.text), m.pc); });
-        default:  // see receive()
-            return false;
+    wire::Fault fault;
+    if (!wire::read_fault(frame, fault)) return false;
+    char text[wire::kFaultTextMax];
+    const uint16_t size = wire::write_fault_text(fault, text);
+    const std::string sentence = clean_text({text, static_cast<uint8_t>(size)});
+    if (fault.kind == FaultKind::NodeSpecific) {
+        control_.node_specific(sentence, fault.pc);
+    } else {
+        control_.fault(fault.kind, fault.pc, sentence);
     }
+    return true;
 }
 
 bool Peer::receive_description(const wire::Frame& frame) {
@@ -133,8 +118,8 @@ void Peer::described() {
 }
 
 void Peer::refuse_description() {
-    describer_.refuse("the descriptions of all nodes together have more than " +
-                      std::to_string(kDescriptionBytesTotalMax) + " bytes");
+    describer_.refuse(out_, "the descriptions of all nodes together have more than " +
+                                std::to_string(kDescriptionBytesTotalMax) + " bytes");
     describe_progress();
 }
 
@@ -149,6 +134,7 @@ void Peer::foreign_command(const wire::Frame& frame) {
 
 void Peer::leave(const std::string& why) {
     view_.connected = false;
+    out_.descriptions.leave(view_.id);
     const std::string reason = who() + " " + why;
     control_.disconnected(reason);
     for (const Reading& reading : std::exchange(readings_, {})) {
@@ -156,6 +142,12 @@ void Peer::leave(const std::string& why) {
         out_.tell(view_.id, RequestDone{reading.request, Error{Code::Unavailable, reason}, ""});
     }
     for (Watch& watch : watches_) watch.asked = false;
+}
+
+void Peer::lost() {
+    if (!view_.connected) return;
+    leave("is disconnected: the connection to its bus is lost");
+    out_.tell(view_.id, NodeDisconnected{});
 }
 
 void Peer::tick() {

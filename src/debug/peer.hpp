@@ -23,9 +23,17 @@ public:
     void seen();
     // A command of another host to this node.
     void foreign_command(const wire::Frame& frame);
+    // Nothing comes from it any more: its link is gone.
+    void lost();
     void leave(const std::string& why);
     void tick();
     Time next_tick() const;
+    // It waited for its turn, which has come.
+    void ask_description() { describer_.begin_turn(out_); }
+    void share_id(const std::string& other_name) {
+        view_.id_shared = true;
+        if (!other_name.empty()) view_.other_name = other_name;
+    }
 
     const NodeView& view() const { return view_; }
     Control& control() { return control_; }

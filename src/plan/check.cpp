@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <functional>
 
-#include "base/json.hpp"
 #include "base/nearest.hpp"
 #include "base/text.hpp"
 #include "plan/file.hpp"
+#include "plan/guess.hpp"
 #include "plan/interface.hpp"
 
 namespace vagus::plan {
@@ -25,21 +25,9 @@ std::vector<std::string_view> names_of(const List& list) {
     return names;
 }
 
-// Among more a guess takes too long when thousands of names are wrong.
-constexpr size_t kGuessAmongMax = 1000;
-
-// "; did you mean "x"?", or what there is, or nothing.
-std::string hint(std::string_view word, const std::vector<std::string_view>& known) {
-    if (known.size() > kGuessAmongMax) return "";
-    const std::string near = nearest(word, known);
-    if (!near.empty()) return fmt::format("; did you mean \"{}\"?", near);
-    if (known.empty() || known.size() > 20) return "";
-    return fmt::format("; there {} {}", known.size() == 1 ? "is" : "are", list_of(known));
-}
-
 struct Element {
     std::string_view name;
-    int line = 0;
+    Place line;
 };
 
 class Checker {
@@ -58,9 +46,11 @@ public:
     }
 
 private:
-    void say(std::string_view rule, std::string_view element, int line, std::string message) {
+    void say(std::string_view rule, std::string_view element, Place line, std::string message,
+             std::optional<Meant> meant = std::nullopt) {
         findings_.push_back({Severity::Error, std::string(rule), plan_.file, plan_.name,
-                             std::string(element), line, std::move(message)});
+                             std::string(element), line.line, std::move(message), line.column,
+                             std::move(meant)});
     }
 
     // ---- the plan's own parts ----
@@ -71,7 +61,8 @@ private:
             say("P2", "", toolbox.line,
                 fmt::format("there is no toolbox \"{}\"{}; one of your own is given with --toolbox",
                             toolbox.name,
-                            hint(toolbox.name, names_of(checked_.library->toolboxes()))));
+                            hint(toolbox.name, names_of(checked_.library->toolboxes()))),
+                meant_by(toolbox.name, names_of(checked_.library->toolboxes())));
         }
     }
 
@@ -85,13 +76,14 @@ private:
                             v.access_word));
         }
         if (!v.type) {
-            const bool missing = v.type_line == 0;
+            const bool missing = v.type_line.line == 0;
             say("P7", v.name, missing ? v.line : v.type_line,
                 missing ? fmt::format("the variable \"{}\" has no type; add \"type\": bool, int, "
                                       "float, string or object",
                                       v.name)
                         : fmt::format("the type \"{}\" is not known{}", v.type_word,
-                                      hint(v.type_word, kTypes)));
+                                      hint(v.type_word, kTypes)),
+                missing ? std::nullopt : meant_by(v.type_word, kTypes));
             return;
         }
         if (v.initial && !fits_initial(v)) {
@@ -111,12 +103,13 @@ private:
 
     void check_start() {
         if (!plan_.start_actor) {
-            say("P15", "", plan_.start_line > 0 ? plan_.start_line : 1,
+            say("P15", "", plan_.start_line.line > 0 ? plan_.start_line : Place{1, 1},
                 "the plan has no start actor; add \"start\": { \"actor\": … }");
         } else if (find_actor(plan_, *plan_.start_actor) < 0) {
             say("P15", "", plan_.start_actor_line,
                 fmt::format("the start actor \"{}\" does not exist{}", *plan_.start_actor,
-                            hint(*plan_.start_actor, names_of(plan_.actors))));
+                            hint(*plan_.start_actor, names_of(plan_.actors))),
+                meant_by(*plan_.start_actor, names_of(plan_.actors)));
         }
     }
 
@@ -159,10 +152,14 @@ private:
     std::optional<Interface> interface_of_sub_plan(const Actor& actor) {
         const std::string path = path_of_sub_plan(plan_.file, *actor.plan);
         if (!checked_.files.contains(path)) {
+            const auto refused = checked_.unreadable.find(path);
+            const bool outside =
+                refused != checked_.unreadable.end() && refused->second.code == Code::Refused;
             say("P2", actor.name, actor.plan_line,
-                fmt::format("the plan file \"{}\" cannot be read; the path counts from the folder "
-                            "of this file",
-                            *actor.plan));
+                outside ? refused->second.what
+                        : fmt::format("the plan file \"{}\" cannot be read; the path counts from "
+                                      "the folder of this file",
+                                      *actor.plan));
             return std::nullopt;
         }
         const Plan* sub = checked_.sub_plan(plan_, actor);
@@ -191,7 +188,7 @@ private:
         }
     }
 
-    void say_unlisted(std::string_view element, int line, std::string_view name,
+    void say_unlisted(std::string_view element, Place line, std::string_view name,
                       std::string_view toolbox) {
         say("P2", element, line,
             fmt::format("the template \"{}\" is in the toolbox {}, which this plan does not list; "
@@ -199,7 +196,7 @@ private:
                         name, toolbox, toolbox));
     }
 
-    void say_unknown_template(std::string_view element, int line, const std::string& name,
+    void say_unknown_template(std::string_view element, Place line, const std::string& name,
                               bool supervisor) {
         const std::string_view wanted = supervisor ? "supervisor" : "actor";
         if (const Template* other = find_template(plan_, *checked_.library, name, !supervisor)) {
@@ -218,7 +215,8 @@ private:
         }
         say("P2", element, line,
             fmt::format("there is no {} template \"{}\" in core or the listed toolboxes{}", wanted,
-                        name, hint(name, known)));
+                        name, hint(name, known)),
+            meant_by(name, known));
     }
 
     void check_supervisor(const Supervisor& supervisor) {
@@ -272,7 +270,8 @@ private:
             if (at == inputs.end()) {
                 say("P3", element.name, entry.line,
                     fmt::format("\"{}\" has no input \"{}\"{}", element.name, entry.name,
-                                hint(entry.name, names_of(inputs))));
+                                hint(entry.name, names_of(inputs))),
+                    key_meant_by(entry.name, names_of(inputs)));
                 continue;
             }
             const auto index = static_cast<size_t>(at - inputs.begin());
@@ -303,7 +302,8 @@ private:
                 say("P8", element.name, entry.line,
                     fmt::format("the formula for \"{}\" uses the variable \"{}\", which does not "
                                 "exist{}",
-                                entry.name, name, hint(name, names_of(plan_.configuration))));
+                                entry.name, name, hint_of_variable(name)),
+                    meant_by(name, names_of(plan_.configuration)));
                 return std::nullopt;
             }
             const auto type = plan_.configuration[static_cast<size_t>(index)].type;
@@ -313,26 +313,40 @@ private:
         return check_type(element, entry, input, types);
     }
 
+    // What was meant may be a function or a word of the language, too.
+    std::string hint_of_variable(const std::string& name) const {
+        if (const FormulaFunction* function = find_function(name)) {
+            return fmt::format("; the function is written {}", function->form);
+        }
+        auto known = names_of(plan_.configuration);
+        if (nearest(name, known).empty()) {
+            const auto reserved = reserved_words();
+            const std::vector<std::string_view> words(reserved.begin(), reserved.end());
+            const std::string word = nearest(small_letters(name), words);
+            if (!word.empty()) return fmt::format("; did you mean \"{}\"?", word);
+        }
+        return hint(name, known);
+    }
+
     std::optional<Type> check_type(const Element& element, const Entry& entry, const Input& input,
                                    const std::vector<Type>& types) {
         const auto type = entry.formula->type(types);
-        if (!type) {
+        if (!type.ok()) {
             say("P11", element.name, entry.line,
-                fmt::format("the formula for \"{}\" computes with an object; only actors can",
-                            entry.name));
+                fmt::format("the formula for \"{}\": {}", entry.name, type.error().what));
             return std::nullopt;
         }
         if (types.empty() && !check_constant(element, entry, input)) return std::nullopt;
-        if (input.type && (*input.type == Type::Object) != (*type == Type::Object)) {
+        if (input.type && (*input.type == Type::Object) != (type.value() == Type::Object)) {
             say("P11", element.name, entry.line,
                 fmt::format("the input \"{}\" is of type {}, what feeds it of type {}: an object "
                             "cannot become anything else, nor anything else an object",
-                            entry.name, name_of(*input.type), name_of(*type)));
+                            entry.name, name_of(*input.type), name_of(type.value())));
         }
-        return type;
+        return type.value();
     }
 
-    // A formula without variables must have a value that fits its input.
+    // A formula without variables must have a value that fits its input, and its range.
     bool check_constant(const Element& element, const Entry& entry, const Input& input) {
         const Result<Value> value = entry.formula->evaluate({});
         if (!value.ok()) {
@@ -343,10 +357,20 @@ private:
         }
         if (!input.type || *input.type == Type::Object) return true;
         const Result<Value> converted = convert(value.value(), *input.type);
-        if (converted.ok()) return true;
+        if (converted.ok()) return check_range(element, entry, input, converted.value());
         say("P11", element.name, entry.line,
             fmt::format("the input \"{}\" is of type {}: {}", entry.name, name_of(*input.type),
                         converted.error().what));
+        return false;
+    }
+
+    bool check_range(const Element& element, const Entry& entry, const Input& input,
+                     const Value& value) {
+        const bool number = value.type() == Type::Int || value.type() == Type::Float;
+        if (!number || is_within(input, convert(value, Type::Float).value().number())) return true;
+        say("P11", element.name, entry.line,
+            fmt::format("the input \"{}\" must be {}, but is {}", entry.name, range_of(input),
+                        text_of(value).value()));
         return false;
     }
 
@@ -360,7 +384,8 @@ private:
             if (at == declared.end()) {
                 say("P4", element.name, output.line,
                     fmt::format("\"{}\" has no output \"{}\"{}", element.name, output.name,
-                                hint(output.name, names_of(declared))));
+                                hint(output.name, names_of(declared))),
+                    key_meant_by(output.name, names_of(declared)));
                 continue;
             }
             auto type = at->type;
@@ -371,7 +396,7 @@ private:
 
     void check_output(const Element& element, const Output& output, std::optional<Type> type) {
         const std::string& name = output.variable;
-        if (!is_name(name) || name == "true" || name == "false") {
+        if (!is_variable_name(name)) {
             say("P13", element.name, output.line,
                 fmt::format("the output \"{}\" must name one variable, but leads to \"{}\"",
                             output.name, name));
@@ -382,7 +407,8 @@ private:
             say("P4", element.name, output.line,
                 fmt::format(
                     "the output \"{}\" leads to the variable \"{}\", which does not exist{}",
-                    output.name, name, hint(name, names_of(plan_.configuration))));
+                    output.name, name, hint(name, names_of(plan_.configuration))),
+                meant_by(name, names_of(plan_.configuration)));
             return;
         }
         const auto to = plan_.configuration[static_cast<size_t>(index)].type;
@@ -401,7 +427,8 @@ private:
             if (std::find(known.begin(), known.end(), rule.name) == known.end()) {
                 say(number, element.name, rule.line,
                     fmt::format("\"{}\" has no {} \"{}\"{}", element.name, what, rule.name,
-                                hint(rule.name, known)));
+                                hint(rule.name, known)),
+                    key_meant_by(rule.name, known));
                 continue;
             }
             check_target(element, rule, number, what);
@@ -431,15 +458,20 @@ private:
         }
         say(number, element.name, rule.line,
             fmt::format("the {} \"{}\" leads to \"{}\", which does not exist{}", what, rule.name,
-                        rule.target, hint_of_target(rule.target, what == "event")));
+                        rule.target, hint_of_target(rule.target, what == "event")),
+            meant_by(rule.target, targets(what == "event")));
     }
 
     std::string hint_of_target(std::string_view target, bool of_event) const {
         if (plan_.actors.size() > kGuessAmongMax) return "; name an actor, or @terminate";
+        return hint(target, targets(of_event));
+    }
+
+    std::vector<std::string_view> targets(bool of_event) const {
         auto known = names_of(plan_.actors);
         known.push_back(kTerminate);
         if (of_event) known.push_back(kIgnore);
-        return hint(target, known);
+        return known;
     }
 
     const Checked& checked_;
@@ -458,9 +490,12 @@ void read_all(const std::string& path, const Files& files, Checked& checked,
         if (checked.files.contains(next)) continue;
         const Result<std::string> text = files.read(next);
         if (!text.ok()) {
-            if (next != path) continue;  // the actor that names it has the finding
+            if (next != path) {  // the actor that names it has the finding
+                checked.unreadable[next] = text.error();
+                continue;
+            }
             findings_of_file.push_back(
-                {{Severity::Error, "P0", path, "", "", 1, text.error().what}});
+                {{Severity::Error, "P0", path, "", "", 1, text.error().what, 0}});
             checked.files[next] = -1;
             return;
         }
@@ -475,11 +510,6 @@ void read_all(const std::string& path, const Files& files, Checked& checked,
         }
         checked.plans.push_back(std::move(file.plan));
     }
-}
-
-void sort_by_line(Findings& findings) {
-    std::stable_sort(findings.begin(), findings.end(),
-                     [](const Finding& a, const Finding& b) { return a.line < b.line; });
 }
 
 }  // namespace
@@ -512,32 +542,6 @@ const Plan* Checked::sub_plan(const Plan& plan, const Actor& actor) const {
 
 namespace {
 
-// The findings about one file, by line: those of the outermost file first, then in the order in
-// which the files were met.
-Findings by_file(const std::vector<Findings>& found, const std::string& first) {
-    std::vector<std::string> order;
-    for (const Findings& findings : found) {
-        for (const Finding& finding : findings) {
-            if (std::find(order.begin(), order.end(), finding.file) == order.end()) {
-                order.push_back(finding.file);
-            }
-        }
-    }
-    std::stable_partition(order.begin(), order.end(),
-                          [&first](const std::string& file) { return file == first; });
-    Findings sorted;
-    for (const std::string& file : order) {
-        Findings of_file;
-        for (const Findings& findings : found) {
-            std::copy_if(findings.begin(), findings.end(), std::back_inserter(of_file),
-                         [&file](const Finding& finding) { return finding.file == file; });
-        }
-        sort_by_line(of_file);
-        sorted.insert(sorted.end(), of_file.begin(), of_file.end());
-    }
-    return sorted;
-}
-
 // Checks what has been read; `found` is what reading found.
 void check_read(Checked& checked, std::vector<Findings> found, const std::string& first) {
     for (const auto& [file, index] : checked.files) {
@@ -552,7 +556,7 @@ void check_read(Checked& checked, std::vector<Findings> found, const std::string
             warn(checked, plan, found.back());
         }
     }
-    checked.findings = by_file(found, first);
+    checked.findings = sorted(found, first);
 }
 
 }  // namespace
@@ -577,19 +581,6 @@ Checked check(std::vector<Plan> plans, Findings found, const Library& library) {
     }
     check_read(checked, {std::move(found)}, checked.plans.front().file);
     return checked;
-}
-
-std::string format_findings_json(const Findings& findings) {
-    std::string text = "[";
-    for (const Finding& finding : findings) {
-        text += fmt::format(
-            "{}\n  {{\"severity\": \"{}\", \"rule\": {}, \"file\": {}, \"plan\": {}, \"element\": "
-            "{}, \"line\": {}, \"message\": {}}}",
-            text.size() > 1 ? "," : "", finding.severity == Severity::Error ? "error" : "warning",
-            json_quote(finding.rule), json_quote(finding.file), json_quote(finding.plan),
-            json_quote(finding.element), finding.line, json_quote(finding.message));
-    }
-    return text + (findings.empty() ? "]\n" : "\n]\n");
 }
 
 }  // namespace vagus::plan

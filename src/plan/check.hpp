@@ -36,8 +36,9 @@ std::string path_of_sub_plan(const std::string& file, const std::string& named);
 struct Checked {
     std::vector<Plan> plans;           // the outermost first; only files without a P0 finding
     std::map<std::string, int> files;  // path to index in `plans`; -1: unreadable
-    Findings findings;                 // sorted by line in each file, the outermost's first
-    const Library* library = nullptr;  // borrowed
+    std::map<std::string, Error> unreadable;  // sub-plan files, by path, and why
+    Findings findings;                        // sorted by line in each file, the outermost's first
+    const Library* library = nullptr;         // borrowed
 
     bool ok() const { return !has_error(findings); }
     // The plan that an actor uses, or nullptr.
@@ -49,8 +50,5 @@ Checked check(const std::string& path, const Files& files, const Library& librar
 // The same for plans that a program has made, the outermost first; each has a `file` of its own.
 // `found` is what making them found already.
 Checked check(std::vector<Plan> plans, Findings found, const Library& library);
-
-// What an editor asks for: the same, with one file's text as it stands on the screen.
-std::string format_findings_json(const Findings& findings);
 
 }  // namespace vagus::plan

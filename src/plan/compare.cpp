@@ -8,20 +8,12 @@ namespace vagus::plan {
 
 namespace {
 
-int64_t integer_of(const Value& value) {
-    return value.type() == Type::Bool ? int64_t{value.boolean()} : value.integer();
-}
-
-bool is_whole(const Value& value) {
-    return value.type() == Type::Bool || value.type() == Type::Int;
-}
-
 Result<std::partial_ordering> order(const Value& left, const Value& right) {
     if (left.type() == Type::String && right.type() == Type::String) {
         return std::partial_ordering(left.string().compare(right.string()) <=> 0);
     }
     if (is_whole(left) && is_whole(right)) {
-        return std::partial_ordering(integer_of(left) <=> integer_of(right));
+        return std::partial_ordering(whole_of(left) <=> whole_of(right));
     }
     const Value left_number = TRY(convert(left, Type::Float));
     const Value right_number = TRY(convert(right, Type::Float));

@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 
+#include "base/file_format.hpp"
 #include "base/json.hpp"
 #include "base/nearest.hpp"
 #include "base/text.hpp"
@@ -28,16 +29,18 @@ class Reader {
 public:
     explicit Reader(PlanFile& file) : file_(file) {}
 
-    void complain(std::string_view rule, std::string_view element, int line, std::string message) {
+    void complain(std::string_view rule, std::string_view element, Place at, std::string message,
+                  std::optional<Meant> meant = std::nullopt) {
         file_.findings.push_back({Severity::Error, std::string(rule), file_.plan.file, "",
-                                  std::string(element), line, std::move(message)});
+                                  std::string(element), at.line, std::move(message), at.column,
+                                  std::move(meant)});
     }
 
     // Complains of a value that is not of the kind; gives whether it is.
     bool is(const JsonMember& member, JsonKind kind, std::string_view element) {
         const bool number = kind == JsonKind::Float && member.value.is_number();
         if (member.value.kind == kind || number) return true;
-        complain("P0", element, member.at.line,
+        complain("P0", element, member.at,
                  fmt::format("\"{}\" must be {}, but is {}", member.key,
                              kind == JsonKind::Float ? "a number" : name_of(kind),
                              name_of(member.value.kind)));
@@ -59,10 +62,11 @@ public:
             }
             const std::vector<std::string_view> known(keys.begin(), keys.end());
             const std::string near = nearest(member.key, known);
-            complain("P0", element, member.at.line,
+            complain("P0", element, member.at,
                      fmt::format("{} has no key \"{}\"{}; its keys are {}", what, member.key,
                                  near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near),
-                                 list_of(known)));
+                                 list_of(known)),
+                     near.empty() ? std::nullopt : std::optional(Meant{member.key, near, true}));
         }
         return kept;
     }
@@ -77,26 +81,25 @@ public:
                 kept.push_back(member);
                 continue;
             }
-            complain("P0", element, member.at.line,
+            complain("P0", element, member.at,
                      fmt::format("the key \"{}\" stands twice here; keep one of them", member.key));
         }
         return kept;
     }
 
     // Whether a name is well-formed; complains if not (P1).
-    void check_name(std::string_view name, std::string_view what, int line) {
-        if (is_name(name) && !(what == "variable" && (name == "true" || name == "false"))) return;
+    void check_name(std::string_view name, std::string_view what, Place line) {
+        if (what == "variable" ? is_variable_name(name) : is_name(name)) return;
         const std::string_view element = what == "plan" ? std::string_view() : name;
         complain("P1", element, line,
                  fmt::format("\"{}\" cannot be the name of {} {}: use letters, digits and _, not "
                              "beginning with a digit{}",
-                             name, article(what), what,
-                             what == "variable" ? ", and not true or false" : ""));
+                             name, article(what), what, what == "variable" ? kNotReserved : ""));
     }
 
     // Complains of the second of two equal names (P1); gives whether this is one.
     bool check_double(std::set<std::string, std::less<>>& seen, std::string_view name,
-                      std::string_view what, int line) {
+                      std::string_view what, Place line) {
         if (seen.insert(std::string(name)).second) return false;
         complain("P1", name, line,
                  fmt::format("there is {} {} named \"{}\" already; give this one another name",
@@ -136,7 +139,7 @@ bool is_constant(const Json& json) {
 // ---- the parts of an actor or supervisor ----
 
 Entry read_entry(const JsonMember& member) {
-    Entry entry{.name = member.key, .line = member.at.line, .text = {}, .formula = {}, .error = {}};
+    Entry entry{.name = member.key, .line = member.at, .text = {}, .formula = {}, .error = {}};
     if (member.value.kind != JsonKind::String) {
         entry.formula = Formula(value_of(member.value));
         entry.text = member.value.kind == JsonKind::Bool ? (member.value.boolean ? "true" : "false")
@@ -161,7 +164,7 @@ std::vector<Entry> read_entries(Reader& reader, const JsonMember& in, std::strin
             entries.push_back(read_entry(member));
             continue;
         }
-        reader.complain("P0", element, member.at.line,
+        reader.complain("P0", element, member.at,
                         fmt::format("the input \"{}\" must be a formula in quotes, a number, true "
                                     "or false, but is {}",
                                     member.key, name_of(member.value.kind)));
@@ -176,7 +179,7 @@ std::vector<Item> read_texts(Reader& reader, const JsonMember& list, std::string
     if (!reader.is(list, JsonKind::Object, element)) return items;
     for (const JsonMember& member : reader.once(list.value, element)) {
         if (!reader.is(member, JsonKind::String, element)) continue;
-        items.push_back(Item{member.key, member.at.line, member.value.text});
+        items.push_back(Item{member.key, member.at, member.value.text});
     }
     return items;
 }
@@ -186,19 +189,19 @@ std::vector<Item> read_texts(Reader& reader, const JsonMember& list, std::string
 Supervisor read_supervisor(Reader& reader, const JsonMember& member) {
     Supervisor supervisor;
     supervisor.name = member.key;
-    supervisor.line = member.at.line;
+    supervisor.line = member.at;
     if (!reader.is(member, JsonKind::Object, member.key)) return supervisor;
     const std::string_view name = member.key;
     for (const JsonMember* part :
          reader.members(member.value, kSupervisorKeys, "a supervisor", name)) {
         if (part->key == "template") {
             supervisor.template_name = reader.text(*part, name);
-            supervisor.template_line = part->at.line;
+            supervisor.template_line = part->at;
         } else if (part->key == "period_ms") {
             if (reader.is(*part, JsonKind::Float, name)) {
                 supervisor.period_ms = value_of(part->value);
             }
-            supervisor.period_line = part->at.line;
+            supervisor.period_line = part->at;
         } else if (part->key == "in") {
             supervisor.in = read_entries(reader, *part, name);
         } else if (part->key == "out") {
@@ -225,16 +228,16 @@ std::vector<Supervisor> read_supervisors(Reader& reader, const JsonMember& list,
 Actor read_actor(Reader& reader, const JsonMember& member) {
     Actor actor;
     actor.name = member.key;
-    actor.line = member.at.line;
+    actor.line = member.at;
     if (!reader.is(member, JsonKind::Object, member.key)) return actor;
     const std::string_view name = member.key;
     for (const JsonMember* part : reader.members(member.value, kActorKeys, "an actor", name)) {
         if (part->key == "template") {
             actor.template_name = reader.text(*part, name);
-            actor.template_line = part->at.line;
+            actor.template_line = part->at;
         } else if (part->key == "plan") {
             actor.plan = reader.text(*part, name);
-            actor.plan_line = part->at.line;
+            actor.plan_line = part->at;
         } else if (part->key == "in") {
             actor.in = read_entries(reader, *part, name);
         } else if (part->key == "out") {
@@ -259,12 +262,12 @@ std::optional<Access> access_named(std::string_view word) {
 }
 
 void read_initial(Reader& reader, const JsonMember& part, Variable& variable) {
-    variable.initial_line = part.at.line;
+    variable.initial_line = part.at;
     if (is_constant(part.value)) {
         variable.initial = value_of(part.value);
         return;
     }
-    reader.complain("P0", variable.name, part.at.line,
+    reader.complain("P0", variable.name, part.at,
                     fmt::format("\"initial\" must be a number, a text, true or false, but is {}",
                                 name_of(part.value.kind)));
 }
@@ -272,14 +275,14 @@ void read_initial(Reader& reader, const JsonMember& part, Variable& variable) {
 Variable read_variable(Reader& reader, const JsonMember& member) {
     Variable variable;
     variable.name = member.key;
-    variable.line = member.at.line;
+    variable.line = member.at;
     if (!reader.is(member, JsonKind::Object, member.key)) return variable;
     const std::string_view name = member.key;
     for (const JsonMember* part : reader.members(member.value, kVariableKeys, "a variable", name)) {
         if (part->key == "type") {
             variable.type_word = reader.text(*part, name);
             variable.type = type_named(variable.type_word);
-            variable.type_line = part->at.line;
+            variable.type_line = part->at;
         } else if (part->key == "initial") {
             read_initial(reader, *part, variable);
         } else if (part->key == "unit") {
@@ -289,7 +292,7 @@ Variable read_variable(Reader& reader, const JsonMember& member) {
         } else if (part->key == "access") {
             variable.access_word = reader.text(*part, name);
             variable.access = access_named(variable.access_word);
-            variable.access_line = part->at.line;
+            variable.access_line = part->at;
         }
     }
     return variable;
@@ -299,12 +302,12 @@ Variable read_variable(Reader& reader, const JsonMember& member) {
 
 void read_start(Reader& reader, const JsonMember& member) {
     Plan& plan = reader.plan();
-    plan.start_line = member.at.line;
+    plan.start_line = member.at;
     if (!reader.is(member, JsonKind::Object, "")) return;
     for (const JsonMember* part : reader.members(member.value, kStartKeys, "\"start\"", "")) {
         if (part->key == "actor") {
             plan.start_actor = reader.text(*part, "");
-            plan.start_actor_line = part->at.line;
+            plan.start_actor_line = part->at;
         } else if (part->key == "supervisors") {
             plan.globals = read_supervisors(reader, *part, "");
         }
@@ -315,11 +318,11 @@ void read_toolboxes(Reader& reader, const JsonMember& member) {
     if (!reader.is(member, JsonKind::Array, "")) return;
     for (const Json& item : member.value.items) {
         if (item.kind == JsonKind::String) {
-            reader.plan().toolboxes.push_back({item.text, item.at.line});
+            reader.plan().toolboxes.push_back({item.text, item.at});
             continue;
         }
         reader.complain(
-            "P0", "", item.at.line,
+            "P0", "", item.at,
             fmt::format("a toolbox is named by a text in quotes, not by {}", name_of(item.kind)));
     }
 }
@@ -334,7 +337,7 @@ void read_layout(Reader& reader, const JsonMember& member) {
             continue;
         }
         reader.complain(
-            "P0", "", spot.at.line,
+            "P0", "", spot.at,
             fmt::format("the place of \"{}\" must be two numbers, as [120, 80]", spot.key));
     }
 }
@@ -345,7 +348,7 @@ void read_part(Reader& reader, const JsonMember& part) {
         const std::string format = reader.text(part, "");
         if (part.value.kind == JsonKind::String && format != kFormat) {
             reader.complain(
-                "P0", "", part.at.line,
+                "P0", "", part.at,
                 fmt::format("the format must be \"{}\", but is \"{}\"", kFormat, format));
         }
     } else if (part.key == "name") {
@@ -373,7 +376,7 @@ void read_part(Reader& reader, const JsonMember& part) {
 
 void read_plan(Reader& reader, const Json& json) {
     if (json.kind != JsonKind::Object) {
-        reader.complain("P0", "", json.at.line,
+        reader.complain("P0", "", json.at,
                         fmt::format("a plan file holds one object, not {}", name_of(json.kind)));
         return;
     }
@@ -382,7 +385,8 @@ void read_plan(Reader& reader, const Json& json) {
     }
     for (const std::string_view needed : {"format", "name", "actors"}) {
         if (json.find(needed)) continue;
-        reader.complain("P0", "", 1, fmt::format("the plan lacks the key \"{}\"; add it", needed));
+        reader.complain("P0", "", {1, 1},
+                        fmt::format("the plan lacks the key \"{}\"; add it", needed));
     }
 }
 
@@ -400,7 +404,7 @@ void check_supervisor_names(Reader& reader, std::vector<Supervisor>& supervisors
 void check_names(Reader& reader, const Json& json) {
     Plan& plan = reader.plan();
     for (const JsonMember& part : json.members) {
-        if (part.key == "name") reader.check_name(plan.name, "plan", part.at.line);
+        if (part.key == "name") reader.check_name(plan.name, "plan", part.at);
     }
     std::set<std::string, std::less<>> variables, actors, supervisors;
     std::vector<Variable> kept;
@@ -421,16 +425,33 @@ void check_names(Reader& reader, const Json& json) {
 
 }  // namespace
 
+namespace {
+
+const JsonMember* find_member(const Json& json, std::string_view key) {
+    for (const JsonMember& member : json.members) {
+        if (member.key == key) return &member;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
 PlanFile parse_plan(std::string_view text, std::string_view path) {
     PlanFile file;
     file.plan.file = std::string(path);
     Reader reader(file);
     const std::variant<Json, JsonError> parsed = read_json(text);
     if (const JsonError* error = std::get_if<JsonError>(&parsed)) {
-        reader.complain("P0", "", error->at.line, error->what);
+        const auto other = other_format(text, FileFormat::Plan);
+        reader.complain("P0", "", error->at, other.value_or(error->what));
         return file;
     }
     const Json& json = std::get<Json>(parsed);
+    if (const auto other = other_format(json, FileFormat::Plan)) {
+        const JsonMember* const format = find_member(json, "format");
+        reader.complain("P0", "", format == nullptr ? json.at : format->at, *other);
+        return file;
+    }
     read_plan(reader, json);
     file.readable = file.findings.empty();
     if (file.readable) check_names(reader, json);

@@ -56,8 +56,7 @@ Result<std::string> format_plan(std::string_view text, std::string_view path) {
     const PlanFile file = parse_plan(text, path);
     if (!file.readable) {
         const Finding& first = file.findings.front();
-        return Error{Code::BadInput,
-                     std::string(path) + ":" + std::to_string(first.line) + ": " + first.message};
+        return Error{Code::BadInput, at_place(path, {first.line, first.column}, first.message)};
     }
     Json json = TRY(parse_json(text, path));
     order_plan(json);

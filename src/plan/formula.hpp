@@ -1,10 +1,14 @@
-// Formulas: what feeds the inputs of actors and supervisors (docs/plans.md, rules P8 to P10).
+// Formulas: what feeds the inputs of actors and supervisors, and what a person asks a debugger
+// (docs/plans.md, rules P8 to P10; all operators and functions: docs/formulas.md).
 //
-//     const Formula formula = parse_formula("speed * 2 + 1").value();
+//     const Formula formula = parse_formula("if(far, speed * 2, 0) + 1").value();
 //     const Result<Value> value = formula.evaluate(values);  // one Value for each of names()
 //
 // A formula is kept as steps for a small stack machine, so that evaluating needs no recursion,
-// however long the formula is.
+// however long the formula is. What need not be evaluated is jumped over:
+//
+//     a or b         a Or(2) b Truth                 Or: a holds: leaves true, goes behind Truth
+//     if(c, a, b)    c Branch(2) a Else(1) b EndIf   Branch: c does not hold: goes to b
 #pragma once
 
 #include <cstdint>
@@ -15,25 +19,14 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "plan/formula_words.hpp"
 #include "plan/value.hpp"
 
 namespace vagus::plan {
 
-constexpr int kFormulaDepthMax = 256;           // parentheses and unary minuses together (P8a)
+// Parentheses, functions, `not` and unary minuses together (P8a).
+constexpr int kFormulaDepthMax = 256;
 constexpr size_t kFormulaBytesMax = 64 * 1024;  // of one formula
-constexpr size_t kTextBytesMax = 1u << 20;      // of one string that a formula makes
-
-enum class FormulaOp : uint8_t {
-    Constant,
-    Variable,
-    Negate,
-    Add,
-    Subtract,
-    Join,
-    Multiply,
-    Divide,
-    Modulo
-};
 
 class Formula {
 public:
@@ -46,9 +39,8 @@ public:
     // With the values of names(), in that order. The Error says what failed, without a place (P9).
     Result<Value> evaluate(std::span<const Value> values) const;
 
-    // The type of the result, given the types of names(). A type error of an object as an operand
-    // gives no type.
-    std::optional<Type> type(std::span<const Type> types) const;
+    // The type of the result, given the types of names(). An Error: an object where none can be.
+    Result<Type> type(std::span<const Type> types) const;
 
     // The name, if the formula is nothing but one variable.
     const std::string* single_name() const;
@@ -59,21 +51,32 @@ private:
 
     struct Step {
         FormulaOp op;
-        uint32_t index = 0;  // of a constant or a name
+        uint32_t index =
+            0;  // of a constant, name or function; number of an `if`; where a jump goes
+        uint32_t count = 0;  // of a function's arguments
     };
+    struct Types {
+        Type result;
+        std::vector<Type> of_ifs;  // by the numbers of their EndIf
+    };
+    class Evaluator;
+    class Typist;
+
+    Result<Types> types_of(std::span<const Type> types) const;
 
     std::vector<Step> steps_;  // operands before their operator
     std::vector<Value> constants_;
     std::vector<std::string> names_;
+    uint32_t ifs_ = 0;
 };
 
-// The Error's sentence says what was expected where (a position counted in bytes from 1).
+// The Error's sentence says what was expected where (a position counted in bytes from 1), and what
+// to write instead of what other languages have.
 Result<Formula> parse_formula(std::string_view text);
 
 // [A-Za-z_][A-Za-z0-9_]* (P1).
 bool is_name(std::string_view text);
-
-// One operation on values (P9), for those who compute like formulas do.
-Result<Value> apply(FormulaOp op, const Value& left, const Value& right);
+// The same, and none of reserved_words().
+bool is_variable_name(std::string_view text);
 
 }  // namespace vagus::plan

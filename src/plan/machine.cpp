@@ -11,8 +11,9 @@ namespace {
 // Whether a global supervisor watches (P23).
 enum class Rest : uint8_t {
     No,
-    Remedy,  // its event has been taken; the activation that follows is its remedy
-    Resting  // the remedy is active; it starts anew with the activation after it
+    Remedy,  // its event has been taken, or only computations have followed: what comes next is
+             // its remedy
+    Resting  // an actor that is no computation is active; it starts anew with the activation after
 };
 
 }  // namespace
@@ -129,10 +130,12 @@ void Machine::activate(int level, int actor, Time now) {
 
 void Machine::restart_globals(int level) {
     Level& l = at(level);
+    const Template* of = l.active().of;
+    const bool is_computation = of && of->kind == Kind::Computation;
     for (size_t i = 0; i < l.globals.size(); ++i) {
         Watch& watch = l.globals[i];
         if (watch.rest == Rest::Remedy) {
-            watch.rest = Rest::Resting;
+            if (!is_computation) watch.rest = Rest::Resting;
         } else if (watch.rest == Rest::Resting) {
             start_watch(level, true, static_cast<int>(i));
         }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/json.hpp"
 #include "plan/formula.hpp"
 #include "plan/value.hpp"
 
@@ -25,16 +26,16 @@ inline bool is_output(Access access) {
 
 struct Variable {
     std::string name;
-    int line = 0;
+    Place line;
     std::optional<Type> type;  // empty: missing or unknown (P7)
     std::string type_word;     // as written; empty if missing
-    int type_line = 0;
+    Place type_line;
     std::optional<Value> initial;  // as written: not yet of the variable's type (P6)
     bool initial_is_text = false;
-    int initial_line = 0;
+    Place initial_line;
     std::optional<Access> access = Access::Local;  // empty: an unknown word (P5)
     std::string access_word;
-    int access_line = 0;
+    Place access_line;
     std::string unit;
     std::string help;
 };
@@ -42,7 +43,7 @@ struct Variable {
 // What feeds one input: a formula (P3).
 struct Entry {
     std::string name;
-    int line = 0;
+    Place line;
     std::string text;                // the formula as written; a JSON constant as its text
     std::optional<Formula> formula;  // empty: `error` says why
     std::string error;
@@ -51,7 +52,7 @@ struct Entry {
 // What an output writes to (P4, P13).
 struct Output {
     std::string name;
-    int line = 0;
+    Place line;
     std::string variable;
 };
 
@@ -61,18 +62,18 @@ inline constexpr std::string_view kIgnore = "@ignore";
 
 struct Rule {
     std::string name;  // of the state or event
-    int line = 0;
+    Place line;
     std::string target;
 };
 
 struct Supervisor {
     std::string name;
-    int line = 0;
+    Place line;
     bool doubled = false;  // its name stood before: not checked further (P1)
     std::optional<std::string> template_name;
-    int template_line = 0;
+    Place template_line;
     std::optional<Value> period_ms;  // any JSON number (P22a)
-    int period_line = 0;
+    Place period_line;
     std::vector<Entry> in;
     std::vector<Output> out;
     std::vector<Rule> events;
@@ -81,12 +82,12 @@ struct Supervisor {
 
 struct Actor {
     std::string name;
-    int line = 0;
+    Place line;
     bool doubled = false;
     std::optional<std::string> template_name;
-    int template_line = 0;
+    Place template_line;
     std::optional<std::string> plan;  // path as written, relative to the file
-    int plan_line = 0;
+    Place plan_line;
     std::vector<Entry> in;
     std::vector<Output> out;
     std::vector<Rule> states;
@@ -96,7 +97,7 @@ struct Actor {
 
 struct ToolboxName {
     std::string name;
-    int line = 0;
+    Place line;
 };
 
 struct Spot {  // where the editor draws an element
@@ -112,8 +113,8 @@ struct Plan {
     std::vector<ToolboxName> toolboxes;
     std::vector<Variable> configuration;
     std::optional<std::string> start_actor;
-    int start_line = 0;        // of the key `start`; 0 if it is missing
-    int start_actor_line = 0;  // of its key `actor`
+    Place start_line;        // of the key `start`; 0 if it is missing
+    Place start_actor_line;  // of its key `actor`
     std::vector<Supervisor> globals;
     std::vector<Actor> actors;
     std::vector<Spot> layout;

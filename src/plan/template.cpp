@@ -1,5 +1,7 @@
 #include "plan/template.hpp"
 
+#include <fmt/format.h>
+
 namespace vagus::plan {
 
 namespace {
@@ -29,6 +31,16 @@ std::string_view name_of(Kind kind) {
 const Toolbox* Library::find(std::string_view toolbox) const {
     const int index = find_in(toolboxes_, toolbox);
     return index < 0 ? nullptr : &toolboxes_[static_cast<size_t>(index)];
+}
+
+bool is_within(const Input& input, double number) {
+    return number >= input.low.value_or(number) && number <= input.high.value_or(number);
+}
+
+std::string range_of(const Input& input) {
+    if (!input.high) return "at least " + text_of(input.low.value_or(0));
+    if (!input.low) return "at most " + text_of(*input.high);
+    return fmt::format("from {} to {}", text_of(*input.low), text_of(*input.high));
 }
 
 int find_input(const Template& of, std::string_view name) {

@@ -43,6 +43,14 @@ constexpr int64_t kPeriodDefaultMs = 10;  // P22
 constexpr int64_t kPeriodMaxMs = 1'000'000;
 constexpr int64_t kGraceDefaultMs = 2000;  // P27
 
+// What a template's code does on the bus: with any events, it needs one. (What the templates of
+// `core` send is named by their inputs, and heard without a bus too.)
+struct BusUse {
+    std::vector<std::string> events = {};              // sent or waited for
+    std::vector<std::string> starts = {};              // those of them that begin work on a node
+    std::vector<std::vector<std::string>> nodes = {};  // that do it: one of each list, by name
+};
+
 struct Template {
     std::string name;
     Kind kind = Kind::Actor;
@@ -53,15 +61,15 @@ struct Template {
     std::vector<Outcome> outcomes = {};
     int64_t period_ms = kPeriodDefaultMs;  // supervisors; 0: it waits for events itself (P22b)
     int64_t grace_ms = kGraceDefaultMs;    // actors
-    // Events that its code sends or waits for on the bus: with any, it needs a bus. (What the
-    // templates of `core` send is named by their inputs, and heard without a bus too.)
-    std::vector<std::string> bus_events = {};
+    BusUse bus = {};
+    int line = 0;  // in the file of its toolbox; 0: declared in C++
 };
 
 struct Toolbox {
     std::string name;
     std::string help = {};
     std::vector<Template> templates = {};
+    std::string file = {};  // that it was read from; empty: built in
 };
 
 // All toolboxes that a program has. Templates keep their addresses as long as the library lives.
@@ -76,6 +84,11 @@ private:
 };
 
 inline constexpr std::string_view kCoreToolbox = "core";
+
+// Whether the number is in the range that the input declares, and the range in words: "from 0 to
+// 10", "at least 0", "at most 10".
+bool is_within(const Input& input, double number);
+std::string range_of(const Input& input);
 
 // Indices into a template's lists; -1 if there is none of that name.
 int find_input(const Template& of, std::string_view name);

@@ -55,6 +55,14 @@ private:
     std::variant<bool, int64_t, double, std::string, Object> state_;  // in the order of Type
 };
 
+// Bool counts as int (P9).
+inline bool is_whole(const Value& value) {
+    return value.type() == Type::Bool || value.type() == Type::Int;
+}
+inline int64_t whole_of(const Value& value) {
+    return value.type() == Type::Bool ? int64_t{value.boolean()} : value.integer();
+}
+
 // What a variable without `initial` holds (P6).
 Value default_of(Type type);
 

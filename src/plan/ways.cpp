@@ -39,9 +39,9 @@ public:
     }
 
 private:
-    void say(std::string_view rule, std::string_view element, int line, std::string message) {
+    void say(std::string_view rule, std::string_view element, Place line, std::string message) {
         findings_.push_back({Severity::Warning, std::string(rule), plan_.file, plan_.name,
-                             std::string(element), line, std::move(message)});
+                             std::string(element), line.line, std::move(message), line.column});
     }
 
     // ---- ways ----
@@ -195,7 +195,7 @@ private:
         return (from == Type::String && number) || (from == Type::Float && to == Type::Int);
     }
 
-    void say_conversion(std::string_view element, int line, std::string_view what,
+    void say_conversion(std::string_view element, Place line, std::string_view what,
                         std::string_view name, Type from, Type to) {
         say("W4", element, line,
             fmt::format(
@@ -211,7 +211,7 @@ private:
     Type type_of(const Formula& formula) const {
         std::vector<Type> types;
         for (const std::string& name : formula.names()) types.push_back(type_of(name));
-        return *formula.type(types);
+        return formula.type(types).value();
     }
 
     void warn_of_element(std::string_view element, const Interface& face,

@@ -58,9 +58,12 @@ void Supervisor::started(const std::vector<plan::Value>&, SupervisorContext&) {}
 
 void Supervisor::stopped(SupervisorContext&) noexcept {}
 
-void CodeLibrary::add(std::string toolbox, std::string help, std::vector<Coded> templates) {
-    plan::Toolbox declared{.name = std::move(toolbox), .help = std::move(help), .templates = {}};
-    for (const Coded& coded : templates) declared.templates.push_back(coded.declared);
+void CodeLibrary::add(std::string toolbox, std::string help, std::vector<Coded> templates,
+                      std::string file) {
+    plan::Toolbox declared{std::move(toolbox), std::move(help), {}, std::move(file)};
+    for (const Coded& coded : templates) {
+        declared.templates.push_back(coded.declared);
+    }
     library_.add(std::move(declared));
     const plan::Toolbox& kept = library_.toolboxes().back();
     for (size_t i = 0; i < templates.size(); ++i) {

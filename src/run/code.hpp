@@ -55,18 +55,25 @@ private:
     std::string what_;
 };
 
-// The running numbers of a run, one for each running of code and each watching of a supervisor,
-// from 1 on. Those whose low 15 bits are 0 are left out: the scripts of nodes know an activation by
-// these bits, and 0 is nobody's.
+// The running numbers of a run, one for each running of code and each watching of a supervisor.
+// Their low 15 bits are the tokens by which the scripts of nodes know an activation. Those with
+// token 0 are left out, for 0 is nobody's.
+constexpr uint16_t kTokenMax = 0x7fff;
+
 class Numbers {
 public:
+    // The token of the first one, 1 to kTokenMax.
+    explicit Numbers(uint16_t first_token = 1) : last_(first_token - 1u) {}
+
     uint64_t next() {
-        if ((++last_ & 0x7fff) == 0) ++last_;
+        if ((++last_ & kTokenMax) == 0) ++last_;
         return last_;
     }
+    // The next one has this token, 1 to kTokenMax; no number comes twice.
+    void move_to(uint16_t token) { last_ = (((last_ >> 15) + 1) << 15) + token - 1u; }
 
 private:
-    uint64_t last_ = 0;
+    uint64_t last_;
 };
 
 // What one running of an actor's code can do. Used by that code's thread only.
@@ -175,7 +182,8 @@ public:
     virtual void started(const std::vector<plan::Value>& in, SupervisorContext& context);
     // The event to raise, or nothing.
     virtual std::optional<plan::Given> check(const Check& check) = 0;
-    // The watching is over, for whatever reason. Follows each started(), also one that threw.
+    // The watching is over, for whatever reason. Follows each started(), also one that threw, but
+    // not one whose check has not returned when the run is over (P18b).
     virtual void stopped(SupervisorContext& context) noexcept;
 };
 
@@ -196,7 +204,9 @@ public:
     CodeLibrary(const CodeLibrary&) = delete;
     CodeLibrary& operator=(const CodeLibrary&) = delete;
 
-    void add(std::string toolbox, std::string help, std::vector<Coded> templates);
+    // `file` is what it was read from, if it was.
+    void add(std::string toolbox, std::string help, std::vector<Coded> templates,
+             std::string file = {});
     // What checks and graphs need.
     const plan::Library& templates() const { return library_; }
     // Fresh code for one activation, one watching.

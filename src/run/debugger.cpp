@@ -127,7 +127,7 @@ public:
         machine_->abort(now_);
         return Reply(Done{});
     }
-    Result<Reply> answer(Look&) { return Reply(where()); }
+    Result<Reply> answer(AskWhere&) { return Reply(where()); }
     Result<Reply> answer(Evaluate& asked) {
         return as_reply(evaluate(*machine_, asked.level, asked.expression));
     }

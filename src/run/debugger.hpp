@@ -51,7 +51,7 @@ struct Continue {};
 struct Step {};
 // The run ends as by an abort from outside (P28).
 struct Abort {};
-struct Look {};  // answer: Where
+struct AskWhere {};  // answer: Where
 // An Expression over the variables of the plan at `level`. Answer: its value.
 struct Evaluate {
     int level = 0;
@@ -69,8 +69,9 @@ struct RaiseEvent {
     std::string event;
     std::vector<std::pair<std::string, plan::Value>> outputs = {};
 };
-using Request = std::variant<AddBreakpoint, RemoveBreakpoint, EnableBreakpoint, ListBreakpoints,
-                             Pause, Continue, Step, Abort, Look, Evaluate, SetVariable, RaiseEvent>;
+using Request =
+    std::variant<AddBreakpoint, RemoveBreakpoint, EnableBreakpoint, ListBreakpoints, Pause,
+                 Continue, Step, Abort, AskWhere, Evaluate, SetVariable, RaiseEvent>;
 
 // ---- reports ----
 struct VariableNow {

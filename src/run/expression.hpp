@@ -1,13 +1,11 @@
-// What a person or a studio asks about the variables of a plan: a formula, or two formulas with an
-// operator of comparison between them (formulas of plans have none).
+// What a person or a studio asks about the variables of a plan: a formula (docs/formulas.md) and
+// where its variables are.
 //
 //     const Result<Expression> near = Expression::parse("distance < walldist / 2", plan);
 //     near.value().evaluate(values)             // one Value for each of slots()
 #pragma once
 
-#include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -24,18 +22,16 @@ public:
 
     // The variables in it.
     const std::vector<int>& slots() const { return slots_; }
-    // With the values of slots(), in that order. A comparison gives a bool.
+    // With the values of slots(), in that order.
     Result<plan::Value> evaluate(std::span<const plan::Value> values) const;
     // The value as a bool (P11).
     Result<bool> holds(std::span<const plan::Value> values) const;
 
 private:
-    explicit Expression(plan::Formula left) : left_(std::move(left)) {}
+    explicit Expression(plan::Formula formula) : formula_(std::move(formula)) {}
 
-    plan::Formula left_;
-    std::string op_;  // empty: no comparison
-    std::optional<plan::Formula> right_;
-    std::vector<int> slots_;  // those of left_ first
+    plan::Formula formula_;
+    std::vector<int> slots_;
 };
 
 }  // namespace vagus::run

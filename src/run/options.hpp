@@ -19,17 +19,25 @@ namespace vagus::run {
 class Debugger;
 class Surroundings;
 
+// So long at most a supervisor's running check is waited for in real time (P18b).
+constexpr Duration kCheckEndsWithin = std::chrono::milliseconds(100);
+
 struct RunOptions {
     uint64_t seed = 1;
-    std::optional<Duration> max_time;              // then the run is aborted (plans.md, section 6)
-    std::vector<std::pair<int, plan::Value>> set;  // slots of the outermost plan
+    // Of the first running of code (see Numbers). On a bus that others command too it is to be a
+    // random one: plans that all began at 1 would end each other's actors.
+    uint16_t first_token = 1;
+    Duration check_ends_within = kCheckEndsWithin;  // for tests
+    // Then the run is aborted (plans.md, section 6).
+    std::optional<Duration> max_time = {};
+    std::vector<std::pair<int, plan::Value>> set = {};  // slots of the outermost plan
     // Called on the deciding thread between two decisions.
-    std::function<void(const plan::TraceEvent&)> on_trace;
+    std::function<void(const plan::TraceEvent&)> on_trace = {};
     // What the plan emits, for a bus beyond this run; called on the deciding thread.
-    std::function<void(const BusEvent&)> on_emit;
+    std::function<void(const BusEvent&)> on_emit = {};
     // Whether the bus can carry it; the Error is the failure of the code that emits it. Called on
     // the thread of that code. What supervisors emit as they stop goes out in any case.
-    std::function<Status(const BusEvent&)> may_emit;
+    std::function<Status(const BusEvent&)> may_emit = {};
     // In virtual time: what shares the run's clock (surroundings.hpp). Borrowed for the run.
     Surroundings* surroundings = nullptr;
     Debugger* debugger = nullptr;  // borrowed for the run

@@ -7,6 +7,8 @@
 
 #include "run/debugger.hpp"
 #include "run/real_time_parts.hpp"
+#include "run/real_time_watch.hpp"
+#include "run/traced_variables.hpp"
 #include "run/workers.hpp"
 
 namespace vagus::run {
@@ -14,47 +16,17 @@ namespace vagus::run {
 class RealTime::Engine {
 public:
     Engine(const plan::Graph& graph, const CodeLibrary& library, const RunOptions& options)
-        : library_(library), options_(options), machine_(graph), random_(options.seed) {}
+        : library_(library),
+          options_(options),
+          machine_(graph),
+          random_(options.seed),
+          numbers_(options.first_token) {}
 
     Ended run();
     Lateness lateness() const;
     Inbox& inbox() { return inbox_; }
 
 private:
-    // Used on the deciding thread only.
-    class WatchContext final : public SupervisorContext {
-    public:
-        explicit WatchContext(Engine& engine) : engine_(&engine), number_(engine.numbers_.next()) {}
-        void emit(BusEvent event) override {
-            if (!over_) throw_if_refused(engine_->options_, event);
-            engine_->inbox_.post(Heard{std::move(event), true});
-        }
-        uint64_t number() const override { return number_; }
-        // The watching is over: from now on there is nobody to throw to.
-        void end() { over_ = true; }
-
-    private:
-        Engine* engine_;
-        uint64_t number_;
-        bool over_ = false;
-    };
-    struct Watching {
-        plan::WatchId id;
-        int level;
-        const plan::GraphSupervisor* of;
-        std::shared_ptr<Supervisor> code;  // owners: this, and the check that runs
-        WatchContext context;
-        Time started;
-        Time next;
-        bool waits_for_events = false;  // period 0, its inputs are read
-        bool begun = false;             // its code knows that it watches
-        bool busy = false;              // a check runs
-        bool first_done = false;
-        std::vector<plan::Value> in;
-        std::deque<BusEvent> events;
-
-        Duration period() const { return Duration{of->period_us}; }
-    };
     struct Code {
         plan::ActivationId activation = 0;
         std::unique_ptr<Actor> actor;
@@ -69,7 +41,7 @@ private:
     void obey();
     void obey(plan::StartWatch& command);
     void obey(plan::StopWatch& command);
-    void obey(plan::Activate& command) { begin_due_ = command.activation; }
+    void obey(plan::Activate& command);
     void obey(plan::StartCode& command);
     void obey(plan::StopCode& command);
     void obey(plan::SubPlanOver& command) { machine_.end_sub_plan(command.activation, now()); }
@@ -80,6 +52,7 @@ private:
     void take(Heard& message);
     void take(Written& message);
     void take(Aborted&) { machine_.abort(now()); }
+    void take(TokensMoved& message) { numbers_.move_to(message.token); }
 
     void start_due_checks();
     void start_check(Watching& watching);
@@ -88,28 +61,36 @@ private:
     void run_check(Watching& watching, Check check, std::optional<BusEvent> event, Time deadline);
     void begin_if_checked();
     void check_deadlines();
+    void leave_checks();
+    bool has_to_wait(const plan::Command& command) const;
+    bool may_start(const Watching& watching) const;
     bool may_check(const Watching& watching) const;
     std::optional<Time> next_deadline() const;
     void let_debug();
     void stand_still();
     void go_on();
     Ended decide();
+    void finish();
     void note_lateness(Duration late);
     void hand_out_trace();
+    void hand_out(const plan::TraceEvent& event);
 
     const CodeLibrary& library_;
     const RunOptions& options_;
     plan::Machine machine_;
     SplitMix64 random_;
     Numbers numbers_;
-    Inbox inbox_;
-    RunClock clock_;
+    const std::shared_ptr<Doors> doors_ = std::make_shared<Doors>();
+    Inbox& inbox_ = doors_->inbox;
+    RunClock& clock_ = doors_->clock;
     bool timed_out_ = false;
+    std::deque<plan::Command> commands_;  // not yet obeyed
     std::map<plan::WatchId, Watching> watching_;
-    std::map<plan::WatchId, Watching> ending_;  // over, but a check of theirs still runs
+    EndingChecks ending_;
     plan::ActivationId begin_due_ = 0;
+    bool begin_waits_ = false;  // for first checks
+    std::optional<plan::TraceEvent> last_line_;
     std::map<plan::ActivationId, std::shared_ptr<Code>> code_;  // owners: this, and its thread
-    int checks_running_ = 0;
     std::vector<uint32_t> lateness_us_;
     size_t lateness_next_ = 0;
     Workers workers_;  // last: its threads end before what they use
@@ -136,8 +117,8 @@ Ended RealTime::Engine::decide() {
         start_due_checks();
         obey();
         std::deque<Message> messages = inbox_.take();
-        if (messages.empty() && begin_due_ == 0 && !machine_.over()) {
-            machine_.time_passed();
+        if (messages.empty() && (begin_due_ == 0 || begin_waits_) && !machine_.over()) {
+            if (begin_due_ == 0) machine_.time_passed();
             const std::optional<Time> next = next_deadline();
             inbox_.wait_until(next ? std::optional(clock_.point_of(*next)) : std::nullopt);
             messages = inbox_.take();
@@ -150,20 +131,34 @@ Ended RealTime::Engine::decide() {
         check_deadlines();
         obey();
     }
-    // Nothing of the run may outlive it: what still runs is told to stop and waited for.
+    finish();
+    return {machine_.result(), machine_.message(), timed_out_};
+}
+
+// Nothing of the run may outlive it: what still runs is told to stop and waited for; a check only
+// as P18b says. The line of the plan's end is the last one.
+void RealTime::Engine::finish() {
     for (const auto& [activation, code] : code_) code->context->tell_to_stop();
-    while (checks_running_ > 0 || !code_.empty()) {
-        inbox_.wait_until(std::nullopt);
+    while (!watching_.empty()) {
+        plan::StopWatch stop{watching_.begin()->first};
+        obey(stop);
+    }
+    const auto take_all = [this] {
         for (Message& message : inbox_.take()) {
             std::visit([this](auto& one) { take(one); }, message);
         }
-    }
-    // What was emitted last, as supervisors stopped, belongs to the bus too.
-    for (Message& message : inbox_.take()) {
-        std::visit([this](auto& one) { take(one); }, message);
+    };
+    for (take_all(); ending_.waits(); leave_checks()) {
+        inbox_.wait_until(clock_.point_of(*ending_.until()));
+        take_all();
     }
     hand_out_trace();
-    return {machine_.result(), machine_.message(), timed_out_};
+    if (last_line_) hand_out(*last_line_);
+    while (!code_.empty()) {
+        inbox_.wait_until(std::nullopt);
+        take_all();
+    }
+    take_all();  // what was emitted last, as supervisors stopped, belongs to the bus too
 }
 
 // ---- debugging ----
@@ -198,36 +193,56 @@ void RealTime::Engine::go_on() {
 
 void RealTime::Engine::obey() {
     hand_out_trace();
-    for (auto commands = machine_.take_commands(); !commands.empty();
-         commands = machine_.take_commands()) {
-        for (plan::Command& command : commands) {
-            std::visit([this](auto& one) { obey(one); }, command);
+    for (;;) {
+        for (plan::Command& command : machine_.take_commands()) {
+            commands_.push_back(std::move(command));
         }
+        if (commands_.empty() || has_to_wait(commands_.front())) return;
+        plan::Command command = std::move(commands_.front());
+        commands_.pop_front();
+        std::visit([this](auto& one) { obey(one); }, command);
         hand_out_trace();
     }
 }
 
+// What begins after supervisors have stopped: not while a check of theirs is waited for (P18b).
+bool RealTime::Engine::has_to_wait(const plan::Command& command) const {
+    const bool ends = std::holds_alternative<plan::StopWatch>(command) ||
+                      std::holds_alternative<plan::StopCode>(command);
+    return !ends && ending_.waits() && !machine_.over();
+}
+
 void RealTime::Engine::obey(plan::StartWatch& command) {
-    Watching watching{.id = command.watch,
-                      .level = command.level,
-                      .of = command.supervisor,
-                      .code = library_.make_supervisor(*command.supervisor->of),
-                      .context = WatchContext(*this),
-                      .started = now(),
-                      .next = now(),
-                      .in = {},
-                      .events = {}};
-    watching_.emplace(command.watch, std::move(watching));
+    if (!machine_.watching(command.watch)) return;  // stopped again while the command waited
+    watching_.emplace(command.watch,
+                      Watching{.id = command.watch,
+                               .level = command.level,
+                               .path = machine_.path_at(command.level),
+                               .of = command.supervisor,
+                               .code = library_.make_supervisor(*command.supervisor->of),
+                               .context = WatchContext(options_, inbox_, numbers_.next()),
+                               .started = now(),
+                               .next = now(),
+                               .checked_at = now(),
+                               .in = {},
+                               .events = {},
+                               .job = {}});
+}
+
+void RealTime::Engine::obey(plan::Activate& command) {
+    begin_due_ = command.activation;
+    begin_waits_ = false;
 }
 
 void RealTime::Engine::obey(plan::StopWatch& command) {
     const auto found = watching_.find(command.watch);
     if (found == watching_.end()) return;
-    auto over = watching_.extract(found);
-    if (over.mapped().busy) {
-        ending_.insert(std::move(over));
+    Watching over = std::move(found->second);
+    watching_.erase(found);
+    if (over.busy) {
+        ending_.add(std::move(over), now() + options_.check_ends_within);
     } else {
-        end_watching(over.mapped());
+        end_watching(over);
     }
 }
 
@@ -298,12 +313,10 @@ void RealTime::Engine::take(CodeOver& message) {
 }
 
 void RealTime::Engine::take(Checked& message) {
-    --checks_running_;
     note_lateness(message.late);
     const auto found = watching_.find(message.watch);
     if (found == watching_.end()) {  // it has been stopped meanwhile: dropped (P18)
-        const auto over = ending_.extract(message.watch);
-        if (!over.empty()) end_watching(over.mapped());
+        if (auto over = ending_.take(message.watch)) end_watching(*over);
         return;
     }
     Watching& watching = found->second;
@@ -347,6 +360,11 @@ void RealTime::Engine::take(Written& message) {
 
 // ---- checks ----
 
+// Never beside an earlier check of the same supervisor.
+bool RealTime::Engine::may_start(const Watching& watching) const {
+    return !watching.busy && may_check(watching) && !ending_.runs(watching.level, *watching.of);
+}
+
 bool RealTime::Engine::may_check(const Watching& watching) const {
     const int stopping = machine_.stopping_level();
     return stopping < 0 || watching.level < stopping;
@@ -356,7 +374,7 @@ void RealTime::Engine::start_due_checks() {
     std::vector<plan::WatchId> due;
     const Time at = now();
     for (const auto& [id, watching] : watching_) {
-        if (watching.busy || !may_check(watching)) continue;
+        if (!may_start(watching)) continue;
         const bool timed = !watching.waits_for_events && watching.next <= at;
         if (timed || !watching.events.empty()) due.push_back(id);
     }
@@ -409,29 +427,31 @@ bool RealTime::Engine::begin_watching(Watching& watching, const std::vector<plan
 void RealTime::Engine::run_check(Watching& watching, Check check, std::optional<BusEvent> event,
                                  Time deadline) {
     watching.busy = true;
-    ++checks_running_;
-    workers_.start([watch = watching.id, code = watching.code, check = std::move(check),
-                    event = std::move(event), deadline, &clock = clock_,
-                    &inbox = inbox_]() mutable {
-        Checked checked{watch, std::nullopt, false, {}, {}};
-        checked.late = clock.now() - deadline;
-        if (event) check.event = &*event;
-        try {
-            checked.given = code->check(check);
-        } catch (const std::exception& error) {
-            checked.failed = true;
-            checked.failure = error.what();
-        }
-        inbox.post(std::move(checked));
-    });
+    watching.checked_at = deadline;
+    watching.job =
+        workers_.start([watch = watching.id, code = watching.code, check = std::move(check),
+                        event = std::move(event), deadline, doors = doors_]() mutable {
+            Checked checked{watch, std::nullopt, false, {}, {}};
+            checked.late = doors->clock.now() - deadline;
+            if (event) check.event = &*event;
+            try {
+                checked.given = code->check(check);
+            } catch (const std::exception& error) {
+                checked.failed = true;
+                checked.failure = error.what();
+            }
+            code.reset();
+            doors->inbox.post(std::move(checked));
+        });
 }
 
 // The actor's code starts only after the first check of each of its supervisors (P16).
 void RealTime::Engine::begin_if_checked() {
-    if (begin_due_ == 0) return;
+    if (begin_due_ == 0 || ending_.waits()) return;
     start_due_checks();
     for (const auto& [id, watching] : watching_) {
-        if (!watching.first_done) return;
+        begin_waits_ = !watching.first_done;
+        if (begin_waits_) return;
     }
     if (options_.debugger && options_.debugger->stops_before_begin()) return;
     machine_.begin(std::exchange(begin_due_, 0), now());
@@ -442,6 +462,7 @@ void RealTime::Engine::begin_if_checked() {
 
 void RealTime::Engine::check_deadlines() {
     const Time at = now();
+    leave_checks();
     for (const auto& [activation, code] : code_) {
         if (code->grace_ends && *code->grace_ends < at) {
             code->grace_ends.reset();
@@ -457,16 +478,26 @@ void RealTime::Engine::check_deadlines() {
     }
 }
 
+// Those that have been waited for long enough.
+void RealTime::Engine::leave_checks() {
+    const Time at = now();
+    for (const Watching* const left : ending_.leave(at)) {
+        workers_.leave(left->job);
+        hand_out_trace();
+        hand_out({at, left->path, plan::CheckLate{left->of->name, at - left->checked_at}});
+        if (last_line_) last_line_->at = at;
+    }
+}
+
 std::optional<Time> RealTime::Engine::next_deadline() const {
     std::optional<Time> next;
     const auto consider = [&next](Time at) {
         if (!next || at < *next) next = at;
     };
     for (const auto& [id, watching] : watching_) {
-        if (!watching.busy && !watching.waits_for_events && may_check(watching)) {
-            consider(watching.next);
-        }
+        if (!watching.waits_for_events && may_start(watching)) consider(watching.next);
     }
+    if (ending_.waits()) consider(*ending_.until());
     for (const auto& [activation, code] : code_) {
         if (code->grace_ends) consider(*code->grace_ends);
     }
@@ -497,10 +528,20 @@ Lateness RealTime::Engine::lateness() const {
 }
 
 void RealTime::Engine::hand_out_trace() {
-    for (const plan::TraceEvent& event : machine_.take_trace()) {
-        if (options_.debugger) options_.debugger->see(event);
-        if (options_.on_trace) options_.on_trace(event);
+    for (plan::TraceEvent& event : machine_.take_trace()) {
+        const bool last =
+            std::holds_alternative<plan::PlanEnded>(event.what) && level_of(event) == 0;
+        if (last) {
+            last_line_ = std::move(event);
+        } else {
+            hand_out(event);
+        }
     }
+}
+
+void RealTime::Engine::hand_out(const plan::TraceEvent& event) {
+    if (options_.debugger) options_.debugger->see(event);
+    if (options_.on_trace) options_.on_trace(event);
 }
 
 RealTime::RealTime(const plan::Graph& graph, const CodeLibrary& library, const RunOptions& options)
@@ -526,6 +567,10 @@ void RealTime::set(int slot, plan::Value value) {
 
 void RealTime::hear(BusEvent event) {
     engine_->inbox().post_bounded(Heard{std::move(event), false});
+}
+
+void RealTime::move_tokens(uint16_t token) {
+    engine_->inbox().post(TokensMoved{token});
 }
 
 }  // namespace vagus::run

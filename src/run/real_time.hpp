@@ -7,6 +7,10 @@
 //
 // Checks come at whole multiples of their period from the start of the watching, by absolute
 // deadlines. One that begins late, or is still busy when the next is due, is told in the trace.
+//
+// A supervisor has stopped when its check has returned; what comes next waits for that, 100 ms at
+// most (P18b). A check that takes longer is left to itself, with its thread: it may outlive the
+// run, so what the code of a supervisor uses must live as long as the program, or be its own.
 #pragma once
 
 #include <memory>
@@ -35,7 +39,8 @@ public:
     RealTime(const plan::Graph& graph, const CodeLibrary& library, const RunOptions& options);
     ~RealTime();
 
-    // Returns when the plan has ended and no code of it runs any more.
+    // Returns when the plan has ended and no code of it runs any more, but for checks that were
+    // left to themselves.
     Ended run();
     // After run(); over the last kLatenessSamples checks.
     Lateness lateness() const;
@@ -47,6 +52,8 @@ public:
     void set(int slot, plan::Value value);
     // An event has come from the bus.
     void hear(BusEvent event);
+    // From now on tokens count from this one (RunOptions::first_token).
+    void move_tokens(uint16_t token);
 
 private:
     class Engine;

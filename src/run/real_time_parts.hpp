@@ -67,7 +67,10 @@ struct Written {
     plan::Value value;
 };
 struct Aborted {};
-using Message = std::variant<CodeOver, Checked, Logged, Heard, Written, Aborted>;
+struct TokensMoved {  // see Numbers::move_to()
+    uint16_t token;
+};
+using Message = std::variant<CodeOver, Checked, Logged, Heard, Written, Aborted, TokensMoved>;
 
 // The one door to the deciding thread.
 class Inbox {
@@ -121,6 +124,12 @@ private:
     std::condition_variable filled_;
     std::deque<Message> messages_;
     bool nudged_ = false;
+};
+
+// What also a check reaches that nobody waits for any more. Owners: the run, and each check.
+struct Doors {
+    Inbox inbox;
+    RunClock clock;
 };
 
 // One running of an actor's code. While the run is paused its waits hold it (decision 0090).

@@ -23,9 +23,9 @@ void TracedVariables::see(const plan::TraceEvent& event) {
         const auto& variables = at(level).plan->variables;
         for (size_t slot = 0; slot < variables.size(); ++slot) {
             if (variables[slot].name != written->variable) continue;
-            const Place place = place_of({level, static_cast<int>(slot)});
-            levels_[static_cast<size_t>(place.level)].values[static_cast<size_t>(place.slot)] =
-                written->value;
+            last_write_ = place_of({level, static_cast<int>(slot)});
+            Level& keeper = levels_[static_cast<size_t>(last_write_.level)];
+            keeper.values[static_cast<size_t>(last_write_.slot)] = written->value;
         }
     }
 }
@@ -41,7 +41,7 @@ void TracedVariables::start_plan(int level) {
     levels_.push_back(std::move(started));
 }
 
-TracedVariables::Place TracedVariables::place_of(Place place) const {
+VariablePlace TracedVariables::place_of(VariablePlace place) const {
     while (place.level > 0) {
         const auto& shared = at(place.level - 1).actor->shared;
         const auto found =
@@ -54,7 +54,7 @@ TracedVariables::Place TracedVariables::place_of(Place place) const {
 }
 
 const plan::Value& TracedVariables::value(int level, int slot) const {
-    const Place place = place_of({level, slot});
+    const VariablePlace place = place_of({level, slot});
     return at(place.level).values[static_cast<size_t>(place.slot)];
 }
 

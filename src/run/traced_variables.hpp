@@ -12,6 +12,12 @@ namespace vagus::run {
 // The number of plans around the one that a line of the trace tells of; 0: the outermost.
 int level_of(const plan::TraceEvent& event);
 
+// Where a variable's value is kept: that of a shared one by an outer plan.
+struct VariablePlace {
+    int level = 0;
+    int slot = 0;
+};
+
 class TracedVariables {
 public:
     explicit TracedVariables(const plan::Graph& graph) : graph_(&graph) {}
@@ -21,6 +27,8 @@ public:
     int depth() const { return static_cast<int>(levels_.size()); }
     const plan::GraphPlan& plan_at(int level) const { return *at(level).plan; }
     const plan::Value& value(int level, int slot) const;
+    // Of the write that was seen last.
+    VariablePlace last_write() const { return last_write_; }
 
 private:
     struct Level {
@@ -28,18 +36,13 @@ private:
         std::vector<plan::Value> values;          // of shared variables: the caller's count
         const plan::GraphActor* actor = nullptr;  // the one that started last
     };
-    // Where a variable's value is kept: that of a shared one by an outer plan.
-    struct Place {
-        int level;
-        int slot;
-    };
-
     const Level& at(int level) const { return levels_[static_cast<size_t>(level)]; }
-    Place place_of(Place place) const;
+    VariablePlace place_of(VariablePlace place) const;
     void start_plan(int level);
 
     const plan::Graph* graph_;
     std::vector<Level> levels_;
+    VariablePlace last_write_;
 };
 
 }  // namespace vagus::run

@@ -148,7 +148,11 @@ private:
 
 VirtualTime::VirtualTime(const plan::Graph& graph, const CodeLibrary& library,
                          const RunOptions& options)
-    : library_(library), options_(options), machine_(graph), random_(options.seed) {}
+    : library_(library),
+      options_(options),
+      machine_(graph),
+      random_(options.seed),
+      numbers_(options.first_token) {}
 
 VirtualTime::~VirtualTime() = default;
 
@@ -168,7 +172,7 @@ Ended VirtualTime::decide() {
     for (let_debug(); !machine_.over(); let_debug()) {
         write_from_outside();
         meet_surroundings();
-        if (std::exchange(abort_asked_, false)) {
+        if (abort_asked_.exchange(false)) {
             machine_.abort(now_);
         } else if (!take_first_due() && !advance()) {
             timed_out_ = true;

@@ -7,6 +7,7 @@
 //     const Ended ended = run.run();
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -27,8 +28,7 @@ public:
     ~VirtualTime();
 
     Ended run();
-    // Ends the run as soon as what is being taken is done (P28). For on_trace, actors' code and
-    // surroundings.
+    // Ends the run as soon as what is being taken is done (P28). From any thread.
     void abort() { abort_asked_ = true; }
     // Writes a variable of the outermost plan as soon as what is being taken is done (P29); a value
     // that does not fit its type is dropped. For on_trace and for actors' code.
@@ -77,7 +77,7 @@ private:
     Time now_{0};
     bool timed_out_ = false;
     bool met_ = false;  // an instant of the surroundings has begun and not ended
-    bool abort_asked_ = false;
+    std::atomic<bool> abort_asked_ = false;
     std::vector<std::pair<int, plan::Value>> sets_asked_;
     std::vector<std::unique_ptr<Watching>> watching_;  // in the order of P21
     std::optional<plan::Activate> begin_due_;

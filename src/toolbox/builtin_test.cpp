@@ -55,11 +55,11 @@ TEST_F(Builtin, CarbotHasTheTemplatesOfDrive) {
     EXPECT_THAT(names_of("drive"),
                 testing::IsSupersetOf({"Forward", "Turn", "Curve", "CheckTouchSensor"}));
     EXPECT_THAT(names_of("carbot"), testing::IsSupersetOf(names_of("drive")));
-    EXPECT_THAT(
-        names_of("carbot"),
-        testing::IsSupersetOf({"SearchWall", "WallForward", "LookAround", "FindInfrared",
-                               "ReadColour", "FindObject", "FollowObject", "NavigateTo",
-                               "CheckDrivingLane", "CheckEscapeButton", "CheckWallDistance"}));
+    EXPECT_THAT(names_of("carbot"),
+                testing::IsSupersetOf({"SearchWall", "WallForward", "LookAround", "FindInfrared",
+                                       "ReadColour", "FindObject", "FollowObject", "NavigateTo",
+                                       "CheckDrivingLane", "CheckEscapeButton", "CheckProgress",
+                                       "CheckWallDistance"}));
 }
 
 TEST_F(Builtin, EveryTemplateHasCode) {

@@ -49,7 +49,7 @@ std::optional<Given> outcome_of(const Work& work, const BusEvent& event) {
         const size_t end = at + static_cast<size_t>(as.words);
         if (end > event.arguments.size()) {
             throw CodeError(
-                fmt::format("the event \"{}\" came with {} words behind its token, too "
+                fmt::format("the event \"{}\" came with {} words after its token, too "
                             "few for its outputs; look at the script of the node",
                             event.name, event.arguments.size()));
         }
@@ -160,7 +160,7 @@ std::vector<run::Coded> code_of(const ToolboxFile& file, const Parts& parts) {
         // Owners: the makers in the library, which outlive the code that they make.
         const auto work = std::make_shared<const Work>(Work{one, parts});
         run::Coded coded{.declared = one.declared};
-        coded.declared.bus_events = events_of(one);
+        coded.declared.bus = {events_of(one), {one.start}, {one.nodes}};
         if (one.declared.kind == plan::Kind::Supervisor) {
             coded.supervisor = [work] { return std::make_unique<BusSupervisor>(*work); };
         } else {

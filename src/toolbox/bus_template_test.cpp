@@ -113,7 +113,8 @@ TEST_F(BusTemplates, ScaledValuesAreRoundedHalfAwayFromZero) {
 
 TEST_F(BusTemplates, AValueOutsideItsRangeIsAnInternalErrorThatNamesIt) {
     ScriptedNodes nodes([](ScriptedNodes&, const BusEvent&) {});
-    const Driven driven = drive(go_plan(R"({ "far": 1, "speed": "31.1" })"), library_, nodes);
+    // A constant outside of the range would be refused before the run; `way` begins at 0.
+    const Driven driven = drive(go_plan(R"({ "far": 1, "speed": "way + 31.1" })"), library_, nodes);
     EXPECT_EQ(driven.ended.result, plan::PlanResult::Error);
     EXPECT_THAT(driven.ended.message,
                 HasSubstr("the input \"speed\" is 31.1, but must be from 0.1 to 31"));
@@ -375,6 +376,21 @@ TEST(Numbers, LeaveOutThoseThatNoScriptCanTellFromNobody) {
     EXPECT_EQ(numbers.next(), 0x8001u);  // 0x8000 has the token 0
     EXPECT_EQ(token_of(0x8001), 1);
     EXPECT_EQ(token_of(0x7fff), 0x7fff);
+}
+
+// Tokens of a run on a bus begin anywhere; those after the last one begin again at 1.
+TEST(Numbers, BeginAndGoOnWhereTheyAreTold) {
+    run::Numbers numbers(0x7ffe);
+    EXPECT_EQ(token_of(numbers.next()), 0x7ffe);
+    EXPECT_EQ(token_of(numbers.next()), 0x7fff);
+    EXPECT_EQ(token_of(numbers.next()), 1);
+    numbers.move_to(0x1234);
+    const uint64_t moved = numbers.next();
+    EXPECT_EQ(token_of(moved), 0x1234);
+    numbers.move_to(1);
+    const uint64_t again = numbers.next();
+    EXPECT_EQ(token_of(again), 1);
+    EXPECT_GT(again, moved);  // no number comes twice
 }
 
 // ---- in real time ----

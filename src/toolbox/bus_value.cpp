@@ -36,12 +36,9 @@ double highest(int words) {
 Status encode(const plan::Input& input, const BusValue& as, const Value& value,
               std::vector<int16_t>& words) {
     const double number = number_of(value);
-    const double low = input.low.value_or(number);
-    const double high = input.high.value_or(number);
-    if (number < low || number > high) {
+    if (!plan::is_within(input, number)) {
         return Error{Code::BadInput,
-                     fmt::format("{}, but must be from {} to {}", said(input, number),
-                                 plan::text_of(low), plan::text_of(high))};
+                     fmt::format("{}, but must be {}", said(input, number), plan::range_of(input))};
     }
     const double scaled = std::round(number * as.scale);  // half away from zero
     if (!(scaled >= lowest(as.words) && scaled <= highest(as.words))) {

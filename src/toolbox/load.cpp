@@ -25,13 +25,36 @@ Error refused(const std::string& path, std::string_view sentence) {
     return {Code::Refused, fmt::format("the toolbox {}: {}", path, sentence)};
 }
 
+// Plans look in `core` first: what has the name of one of its templates could never be used.
+Status check_reachable(const run::CodeLibrary& library, const std::string& path,
+                       const Plugin& plugin) {
+    const plan::Toolbox* core = library.templates().find(plan::kCoreToolbox);
+    if (!core) return Status::done();
+    for (const run::Coded& coded : plugin.templates) {
+        const plan::Template& mine = coded.declared;
+        const bool supervisor = mine.kind == plan::Kind::Supervisor;
+        for (const plan::Template& other : core->templates) {
+            if (other.name != mine.name || (other.kind == plan::Kind::Supervisor) != supervisor) {
+                continue;
+            }
+            const std::string place = mine.line > 0 ? fmt::format("in line {} ", mine.line) : "";
+            return refused(path, fmt::format("its template \"{}\" {}can never be used: the toolbox "
+                                             "core has one of that name, and plans look there "
+                                             "first; give it another name",
+                                             mine.name, place));
+        }
+    }
+    return Status::done();
+}
+
 Status add(run::CodeLibrary& library, const std::string& path, Plugin plugin) {
     if (library.templates().find(plugin.name)) {
         return refused(path, fmt::format("there is a toolbox named \"{}\" already; give this one "
                                          "another name",
                                          plugin.name));
     }
-    library.add(std::move(plugin.name), std::move(plugin.help), std::move(plugin.templates));
+    TRY(check_reachable(library, path, plugin));
+    library.add(std::move(plugin.name), std::move(plugin.help), std::move(plugin.templates), path);
     return Status::done();
 }
 
@@ -56,7 +79,7 @@ Status check_version(const std::string& path, PluginVersionFunction tell) {
         return Status::done();
     }
     return refused(path, fmt::format("it was built for another Vagus ({}) than this one ({}); "
-                                     "build it anew against the package installed with this one",
+                                     "rebuild it with the package installed with this one",
                                      theirs.version, ours.version));
 }
 
@@ -65,7 +88,7 @@ Result<Plugin> make_plugin(const std::string& path, PluginMakeFunction make, con
     try {
         make(plugin, parts);
     } catch (const std::exception& error) {
-        return refused(path, fmt::format("its code failed: {}; mend it there", error.what()));
+        return refused(path, fmt::format("its code failed: {}; fix it there", error.what()));
     }
     const Status checked = check_declared(plugin.name, plugin.templates);
     if (!checked.ok()) return refused(path, checked.error().what);
@@ -172,7 +195,11 @@ Status load_toolbox(run::CodeLibrary& library, const std::string& path, const Pa
     if (!path.ends_with(kFileEnding)) {
         return refused(path, "expected a file NAME.toolbox.json or a shared library NAME.so");
     }
-    const std::string text = TRY(read_file(path));
+    return load_toolbox_text(library, TRY(read_file(path)), path, parts, read_project);
+}
+
+Status load_toolbox_text(run::CodeLibrary& library, std::string_view text, const std::string& path,
+                         const Parts& parts, const ReadProject& read_project) {
     const ToolboxFile file = TRY(read_toolbox(text, path, read_project));
     return add(library, path, {file.name, file.help, code_of(file, parts)});
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "base/result.hpp"
 #include "run/code.hpp"
@@ -18,6 +19,10 @@ namespace vagus::toolbox {
 // borrowed as long as the program runs. `read_project`: see toolbox_file.hpp.
 Status load_toolbox(run::CodeLibrary& library, const std::string& path, const Parts& parts,
                     const ReadProject& read_project);
+
+// The same for the text of a file NAME.toolbox.json that was not saved.
+Status load_toolbox_text(run::CodeLibrary& library, std::string_view text, const std::string& path,
+                         const Parts& parts, const ReadProject& read_project);
 
 // Whether what code declares can be a toolbox: names well-formed and not taken twice, defaults of
 // their types, code for each template. The Error's sentence does not name the file.

@@ -2,35 +2,73 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace vagus::toolbox {
 
 namespace {
 
-template <typename Element>
-Status check(const plan::GraphPlan& plan, const Element& element) {
-    if (!element.of || element.of->bus_events.empty()) return Status::done();
-    return Error{Code::Unavailable,
-                 fmt::format("the plan {} needs a bus: the template {} of \"{}\" works on a node",
-                             plan.name, element.of->name, element.name)};
+// Calls `look(plan, actor or supervisor)` for each that is made of a template.
+template <typename Look>
+void for_each_element(const plan::Graph& graph, const Look& look) {
+    for (const plan::GraphPlan& plan : graph.plans) {
+        for (const plan::GraphSupervisor& supervisor : plan.globals) look(plan, supervisor);
+        for (const plan::GraphActor& actor : plan.actors) {
+            if (actor.of) look(plan, actor);
+            for (const plan::GraphSupervisor& supervisor : actor.supervisors) {
+                look(plan, supervisor);
+            }
+        }
+    }
 }
 
-template <typename List>
-Status check_all(const plan::GraphPlan& plan, const List& list) {
-    for (const auto& element : list) TRY(check(plan, element));
-    return Status::done();
+bool share_one(const NodeNames& names, const std::vector<NodeNames>& nodes) {
+    return std::any_of(nodes.begin(), nodes.end(), [&names](const NodeNames& others) {
+        return std::find_first_of(names.begin(), names.end(), others.begin(), others.end()) !=
+               names.end();
+    });
 }
 
 }  // namespace
 
 Status check_without_bus(const plan::Graph& graph) {
-    for (const plan::GraphPlan& plan : graph.plans) {
-        TRY(check_all(plan, plan.globals));
-        for (const plan::GraphActor& actor : plan.actors) {
-            TRY(check(plan, actor));
-            TRY(check_all(plan, actor.supervisors));
+    Status found = Status::done();
+    for_each_element(graph, [&found](const plan::GraphPlan& plan, const auto& element) {
+        if (element.of->bus.events.empty() || !found.ok()) return;
+        found = Error{Code::Unavailable,
+                      fmt::format("the plan {} needs a bus: the template {} of \"{}\" works on a "
+                                  "node",
+                                  plan.name, element.of->name, element.name)};
+    });
+    return found;
+}
+
+std::vector<NodeNames> nodes_needed(const plan::Graph& graph) {
+    std::vector<NodeNames> needed;
+    for_each_element(graph, [&needed](const plan::GraphPlan&, const auto& element) {
+        for (const NodeNames& names : element.of->bus.nodes) {
+            if (std::find(needed.begin(), needed.end(), names) == needed.end()) {
+                needed.push_back(names);
+            }
+        }
+    });
+    return needed;
+}
+
+std::set<std::string> starts_on(const std::vector<NodeNames>& nodes, const plan::Library& library) {
+    std::set<std::string> starts;
+    for (const plan::Toolbox& toolbox : library.toolboxes()) {
+        for (const plan::Template& one : toolbox.templates) {
+            // Of a template that works on other nodes, too, nobody says which event is for which;
+            // what it begins here, a template that works here alone begins as well.
+            const bool works_there =
+                !one.bus.nodes.empty() &&
+                std::all_of(one.bus.nodes.begin(), one.bus.nodes.end(),
+                            [&nodes](const NodeNames& names) { return share_one(names, nodes); });
+            if (works_there) starts.insert(one.bus.starts.begin(), one.bus.starts.end());
         }
     }
-    return Status::done();
+    return starts;
 }
 
 }  // namespace vagus::toolbox

@@ -6,13 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
+#include "base/file_format.hpp"
 #include "base/json.hpp"
 #include "base/json_object.hpp"
 #include "base/nearest.hpp"
+#include "base/project_border.hpp"
 #include "plan/formula.hpp"
+#include "plan/icon.hpp"
 #include "toolbox/toolbox_events.hpp"
 
 namespace vagus::toolbox {
@@ -23,7 +25,6 @@ using plan::Kind;
 using plan::Type;
 using plan::Value;
 
-constexpr std::string_view kFormat = "vagus-toolbox/1";
 constexpr double kScaleMin = 1e-6;
 constexpr double kScaleMax = 1e6;
 
@@ -77,7 +78,7 @@ std::vector<const JsonMember*> named_members(Reading& reading, const Json* objec
                                                     what, json_quote(member.key)));
         } else if (kept.size() == max) {
             reading.complain(member.at, fmt::format("this is {} more than the {} there can be; "
-                                                    "take some away",
+                                                    "remove some",
                                                     what, max));
             break;
         } else {
@@ -182,7 +183,7 @@ void read_inputs(Reading& reading, JsonObject& in, BusTemplate& made) {
         if (words > static_cast<int>(run::kEventArgumentsMax)) {
             reading.complain(member->at,
                              fmt::format("the token and the inputs of {} up to this one need {} "
-                                         "words, but an event carries {}; take inputs away",
+                                         "words, but an event carries {}; remove inputs",
                                          in.name(), words, run::kEventArgumentsMax));
             return;
         }
@@ -239,7 +240,7 @@ std::vector<size_t> read_brought(Reading& reading, JsonObject& in, const BusTemp
                                          near.empty() ? "declare it in \"out\" of the template"
                                                       : fmt::format("did you mean \"{}\"?", near)));
         } else if (std::find(brought.begin(), brought.end(), index) != brought.end()) {
-            reading.complain(item.at, fmt::format("\"{}\" stands twice in \"out\" of {}; keep one",
+            reading.complain(item.at, fmt::format("\"{}\" is twice in \"out\" of {}; keep one",
                                                   item.text, in.name()));
         } else {
             words += static_cast<size_t>(made.outputs[index].words);
@@ -317,7 +318,7 @@ void read_nodes(Reading& reading, JsonObject& in, BusTemplate& made) {
                                                    in.name(), kNameBytesMax));
         } else if (std::find(made.nodes.begin(), made.nodes.end(), item->text) !=
                    made.nodes.end()) {
-            reading.complain(item->at, fmt::format("the node {} stands twice in {}; keep one",
+            reading.complain(item->at, fmt::format("the node {} is twice in {}; keep one",
                                                    json_quote(item->text), in.name()));
         } else {
             made.nodes.push_back(item->text);
@@ -363,16 +364,28 @@ void read_commands(Reading& reading, JsonObject& in, BusTemplate& made) {
     }
 }
 
+void read_icon(Reading& reading, JsonObject& in, plan::Template& declared) {
+    const Json* icon = in.find("icon", JsonKind::String, Need::Optional);
+    if (!icon) return;
+    declared.icon = icon->text;
+    if (plan::is_path_data(icon->text)) return;
+    reading.complain(icon->at,
+                     fmt::format("\"icon\" of {} must be SVG path data on a field of 24 x 24, {} "
+                                 "bytes at most, as \"M4 12h16M12 4v16\"",
+                                 in.name(), plan::kIconBytesMax));
+}
+
 BusTemplate read_template(Reading& reading, const JsonMember& member) {
     JsonObject in(member.value, fmt::format("template \"{}\"", member.key), reading.complaints);
     BusTemplate made;
     made.declared.name = member.key;
+    made.declared.line = member.at.line;
     const std::string kind = in.word("kind", {"actor", "supervisor"}, Need::Required, "actor");
     const bool actor = kind == "actor";
     made.declared.kind = actor ? Kind::Actor : Kind::Supervisor;
     if (!actor) made.declared.period_ms = 0;
     made.declared.help = in.text("help", Need::Optional);
-    made.declared.icon = in.text("icon", Need::Optional);
+    read_icon(reading, in, made.declared);
     read_nodes(reading, in, made);
     read_inputs(reading, in, made);
     read_outputs(reading, in, made);
@@ -392,15 +405,6 @@ BusTemplate read_template(Reading& reading, const JsonMember& member) {
     return made;
 }
 
-void read_format(Reading& reading, JsonObject& in) {
-    const std::string format = in.text("format", Need::Required);
-    const Json* json = in.find("format", Need::Optional);
-    if (json == nullptr || json->kind != JsonKind::String || format == kFormat) return;
-    reading.complain(json->at, fmt::format("\"format\" must be \"{}\", but is {}; this program "
-                                           "reads no other",
-                                           kFormat, json_quote(format.substr(0, kNameBytesMax))));
-}
-
 void check_toolbox_name(Reading& reading, JsonObject& in, const std::string& name) {
     const Json* json = in.find("name", Need::Optional);
     if (!json || json->kind != JsonKind::String) return;
@@ -416,7 +420,7 @@ ToolboxFile read_all(Reading& reading, const Json& json, const std::string& path
                      const ReadProject& read_project) {
     JsonObject in(json, "the toolbox", reading.complaints);
     ToolboxFile file;
-    read_format(reading, in);
+    check_format(in, FileFormat::Toolbox);
     file.name = in.text("name", Need::Required);
     check_toolbox_name(reading, in, file.name);
     file.help = in.text("help", Need::Optional);
@@ -429,8 +433,12 @@ ToolboxFile read_all(Reading& reading, const Json& json, const std::string& path
     in.finish();
     const Json* project = in.find("project", Need::Optional);
     if (!read_project || !project || project->kind != JsonKind::String) return file;
-    const auto beside = std::filesystem::path(path).parent_path() / file.project;
-    check_events(reading.events, beside.string(), project->at, read_project, reading.complaints);
+    const Result<std::string> beside = path_beside(path, file.project);
+    if (!beside.ok()) {
+        in.complain(project->at, beside.error().what);
+        return file;
+    }
+    check_events(reading.events, beside.value(), project->at, read_project, reading.complaints);
     return file;
 }
 
@@ -442,7 +450,7 @@ Result<ToolboxFile> read_toolbox(std::string_view text, const std::string& file,
         return Error{Code::Limit, fmt::format("{} has {} bytes; a toolbox file has at most {}",
                                               file, text.size(), kToolboxBytesMax)};
     }
-    const Json json = TRY(parse_json(text, file));
+    const Json json = TRY(parse_format(text, file, FileFormat::Toolbox));
     Reading reading;
     ToolboxFile read = read_all(reading, json, file, read_project);
     if (!reading.complaints.empty()) return first_complaint(reading.complaints, file);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include <algorithm>
 
 #include "toolbox/builtin.hpp"
@@ -109,6 +111,11 @@ struct Mistake {
     const char* sentence;  // a part of it
 };
 
+// Names of tests are the same in every run.
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+    *out << mistake.place << " " << mistake.sentence;
+}
+
 class Mistakes : public testing::TestWithParam<Mistake> {};
 
 TEST_P(Mistakes, AreToldWithTheirPlaceAndMend) {
@@ -120,15 +127,15 @@ TEST_P(Mistakes, AreToldWithTheirPlaceAndMend) {
 }
 
 constexpr Mistake kMistakes[] = {
-    {"{\n", "[\n", "2:11", "expected ']'"},
+    {"{\n", "[\n", "2:11", "stand in an object, { … }, not in an array"},
     {"vagus-toolbox/1", "vagus-toolbox/2", "2:13",
-     "must be \"vagus-toolbox/1\", but is \"vagus-toolbox/2\""},
+     "\"format\" is \"vagus-toolbox/2\"; write \"vagus-toolbox/1\""},
     {"\"lamp\",\n  \"project\"", "\"la mp\",\n  \"project\"", "3:11",
      "\"la mp\" cannot be the name of a toolbox"},
     {"\"lamp\",\n  \"project\"", "\"core\",\n  \"project\"", "3:11", "always there"},
     {"\"lamp\",\n  \"project\"", "7,\n  \"project\"", "3:11", "write a string"},
     {"  \"project\": \"lamp.aesl\",\n", "", "1:1", "has no \"project\""},
-    {"\"project\"", "\"projekt\"", "1:1", "has no \"project\""},
+    {"\"project\"", "\"projekt\"", "4:3", "unknown key \"projekt\"; did you mean \"project\"?"},
     {"\"name\"", "\"nome\": 1, \"name\"", "3:3", "unknown key \"nome\"; did you mean \"name\"?"},
     {"\"name\"", "\"name\": \"a\", \"name\"", "3:16", "has the key \"name\" a second time"},
     {"\"templates\": {", "\"templates\": [], \"x\": {", "5:16", "write an object"},
@@ -140,7 +147,7 @@ constexpr Mistake kMistakes[] = {
     {"[\"lamp\", \"torch\"]", "[]", "6:41", "a list of 1 to 8 names"},
     {"[\"lamp\", \"torch\"]", "7", "6:41", "must be the name of a node"},
     {"[\"lamp\", \"torch\"]", "[\"lamp\", true]", "6:50", "must be the name of a node"},
-    {"[\"lamp\", \"torch\"]", "[\"lamp\", \"lamp\"]", "6:50", "stands twice"},
+    {"[\"lamp\", \"torch\"]", "[\"lamp\", \"lamp\"]", "6:50", "is twice in"},
     {"\"help\": \"Shines.\"", "\"help\": 3", "6:68", "write a string"},
     {"\"in\": {\n", "\"in\": 3, \"x\": {\n", "7:13", "write an object"},
     {"\"colour\"", "\"col-our\"", "8:9", "cannot be the name of an input"},
@@ -162,6 +169,8 @@ constexpr Mistake kMistakes[] = {
     {"\"scale\": 1000, \"words\": 2", "\"default\": 40000", "9:62", "does not fit one word"},
     {"\"scale\": 10 }", "\"default\": 1 }", "10:56", "has what its event brings"},
     {"\"start\": \"lamp.on\", ", "", "6:14", "has no \"start\""},
+    {"\"start\": \"lamp.on\"", "\"strat\": \"lamp.on\"", "11:7",
+     "unknown key \"strat\"; did you mean \"start\"?"},
     {"\"lamp.on\"", "\"lamp..on\"", "11:16", "which cannot be the name of an event"},
     {"\"lamp.on\"", "\"lamp on\"", "11:16", "which cannot be the name of an event"},
     {"\"lamp.on\"", "\"\"", "11:16", "which cannot be the name of an event"},
@@ -178,7 +187,7 @@ constexpr Mistake kMistakes[] = {
     {"\"lamp.broken\"", "\"lamp.on\"", "14:30", "is its template's \"start\" too"},
     {"\"out\": [\"warmth\"]", "\"out\": [\"warm\"]", "13:49", "did you mean \"warmth\"?"},
     {"\"out\": [\"warmth\"]", "\"out\": [3]", "13:49", "no output of that name"},
-    {"\"out\": [\"warmth\"]", "\"out\": [\"warmth\", \"warmth\"]", "13:59", "stands twice"},
+    {"\"out\": [\"warmth\"]", "\"out\": [\"warmth\", \"warmth\"]", "13:59", "is twice in"},
     {"\"out\": [\"warmth\"]", "\"out\": \"warmth\"", "13:48", "write an array"},
     {"\"stop\": \"eye.leave\"", "\"stopped\": \"eye.left\"", "17:40",
      "nobody waits until a supervisor"},
@@ -210,7 +219,7 @@ TEST(ToolboxFile, AnEventThatCarriesTooLittleIsTold) {
         error,
         "box/lamp.toolbox.json:11:16: the event \"lamp.on\", \"start\" of template \"Shine\", "
         "carries 4 words with its token, but the project box/lamp.aesl declares 3; let it "
-              "declare 4");
+        "declare 4");
 }
 
 // What is sent has as many arguments as the project declares; an answer may have more.

@@ -7,8 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "embed/prepared_run.hpp"
+#include "base/test_places.hpp"
 #include "embed/loaded_plan.hpp"
+#include "embed/prepared_run.hpp"
 #include "plan/check.hpp"
 #include "plan/generate.hpp"
 #include "run/virtual_time.hpp"
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-const fs::path kFolder = fs::path(VAGUS_TESTDATA) / "golden" / "plans";
+const fs::path kFolder = test::testdata("golden/plans");
 
 std::vector<GeneratedCase> all_cases() {
     std::vector<GeneratedCase> cases;
@@ -101,7 +102,7 @@ std::string test_name(const testing::TestParamInfo<GeneratedCase>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, Generated, testing::ValuesIn(all_cases()), test_name);
 
-// Of 54 golden plans those without errors run.
+// Of the golden plans those without errors run.
 TEST(GeneratedPlans, AreAllThere) {
     run::CodeLibrary library;
     toolbox::add_core(library);

@@ -10,6 +10,7 @@
 #include "aesl/node_file.hpp"
 #include "base/file.hpp"
 #include "base/json.hpp"
+#include "base/test_places.hpp"
 #include "session/execute.hpp"
 
 namespace vagus {
@@ -17,7 +18,7 @@ namespace {
 
 constexpr size_t kCases = 266;
 constexpr std::string_view kEnding = ".expected.json";
-const std::string kFolder = VAGUS_TESTDATA "/golden/aesl/";
+const std::string kFolder = test::testdata("golden/aesl/");
 
 using Words = std::vector<int16_t>;
 
@@ -78,8 +79,10 @@ protected:
     }
     static void expect_compile_error(const aesl::Compilation& done, const Json& expected) {
         ASSERT_FALSE(done.ok()) << "expected " << expected.find("code")->text;
-        EXPECT_EQ(done.errors[0].at.line, expected.find("line")->integer) << done.errors[0].message;
-        EXPECT_EQ(without_guess(done.errors[0].code), without_guess(expected.find("code")->text))
+        EXPECT_EQ(done.first_error().formal_place().line, expected.find("line")->integer)
+            << done.first_error().message;
+        EXPECT_EQ(without_guess(done.first_error().code),
+                  without_guess(expected.find("code")->text))
             << done.errors[0].message;
     }
     static void expect_run(const session::Execution& execution, const Json& expected) {
@@ -103,7 +106,7 @@ TEST_P(Golden, IsAsExpected) {
     if (const Json* error = expected.find("error")) return expect_compile_error(done, *error);
     ASSERT_TRUE(done.ok()) << done.errors[0].at.line << ": " << done.errors[0].message << " ["
                            << done.errors[0].code << "]";
-    const auto stimuli = good(session::parse_stimuli(expected_text, GetParam()));
+    const auto stimuli = good(aesl::parse_stimuli(expected_text, GetParam()));
     expect_run(good(session::execute(done.program, node, stimuli, session::kStepsPerEvent)),
                expected);
 }

@@ -335,8 +335,9 @@ TEST(PlanDebugger, TakesTenThousandRequestsAndNoMore) {
     const auto checked = plan::check("main.plan.json", files, library.templates());
     const plan::Graph graph = plan::make_graph(checked);
     run::Debugger debugger(graph, run::Debugger::At::Run);
-    for (size_t i = 0; i < run::kDebugQueueMax; ++i) ASSERT_TRUE(debugger.post(run::Look{}).ok());
-    EXPECT_FALSE(debugger.post(run::Look{}).ok());
+    for (size_t i = 0; i < run::kDebugQueueMax; ++i)
+        ASSERT_TRUE(debugger.post(run::AskWhere{}).ok());
+    EXPECT_FALSE(debugger.post(run::AskWhere{}).ok());
 }
 
 // The promise: pausing changes nothing. Stepped through, random plans give the trace of a run
@@ -446,15 +447,15 @@ TEST(PlanDebugger, InRealTimeTheRunsClockStandsWhilePaused) {
         "actors": { "rest": { "template": "WaitForever", "states": {} } } })");
     session.start_real_time();
     session.step();
-    const auto first = std::get<run::Where>(session.ask(run::Look{}).value());
+    const auto first = std::get<run::Where>(session.ask(run::AskWhere{}).value());
     // Far longer by the clock on the wall than a check is late on a busy machine.
     const auto before = std::chrono::steady_clock::now();
     auto paused = before - before;
     while (paused < 1s) {
-        EXPECT_TRUE(session.ask(run::Look{}).ok());
+        EXPECT_TRUE(session.ask(run::AskWhere{}).ok());
         paused = std::chrono::steady_clock::now() - before;
     }
-    const auto second = std::get<run::Where>(session.ask(run::Look{}).value());
+    const auto second = std::get<run::Where>(session.ask(run::AskWhere{}).value());
     EXPECT_EQ(first.at, second.at);
     session.expect_done(run::SetVariable{0, "x", plan::Value(int64_t{1})});
     EXPECT_EQ(session.finish().result, plan::PlanResult::Interrupted);

@@ -11,6 +11,7 @@
 
 #include "base/file.hpp"
 #include "base/json.hpp"
+#include "base/test_places.hpp"
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
 #include "run/virtual_time.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(VAGUS_TESTDATA) / "golden" / "plans";
+const fs::path kFolder = test::testdata("golden/plans");
 
 class Disk final : public plan::Files {
 public:
@@ -185,7 +186,7 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 INSTANTIATE_TEST_SUITE_P(All, GoldenPlan, testing::ValuesIn(cases()), test_name);
 
 TEST(GoldenPlans, AreAllThere) {
-    EXPECT_EQ(cases().size(), 54u);
+    EXPECT_EQ(cases().size(), 62u);
 }
 
 }  // namespace

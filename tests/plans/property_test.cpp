@@ -1,4 +1,4 @@
-// What always holds, over plans made at random (docs/plans.md, P14, P17, P18, P20).
+// What always holds, over plans made at random (docs/plans.md, P14, P17, P18, P20, P23).
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -54,7 +54,7 @@ TEST(RandomPlans, KeepTheRulesInVirtualTimeAndRunTheSameTwice) {
         ASSERT_TRUE(checked.ok()) << "seed " << seed << "\n"
                                   << plan::format_findings_json(checked.findings);
         const plan::Graph graph = plan::make_graph(checked);
-        TraceRules rules, again;
+        TraceRules rules(graph), again(graph);
         const std::string trace = virtual_trace(graph, library, rules);
         ASSERT_EQ(rules.finish(), std::vector<std::string>()) << "seed " << seed << "\n" << trace;
         ASSERT_EQ(virtual_trace(graph, library, again), trace) << "seed " << seed;
@@ -115,7 +115,7 @@ TEST(RealTime, TwentyThousandInterruptionsLeaveNothingBehind) {
 
     const uint64_t wanted = long_or(20'000, 1'000'000);
     uint64_t interrupted = 0;
-    TraceRules rules;
+    TraceRules rules(graph);
     run::RealTime* running = nullptr;
     run::RunOptions options;
     options.on_trace = [&](const plan::TraceEvent& event) {
@@ -143,7 +143,7 @@ TEST(RealTime, RandomPlansKeepTheRules) {
         const RandomPlans plans(seed);
         const plan::Checked checked = plan::check("main.plan.json", plans, library.templates());
         const plan::Graph graph = plan::make_graph(checked);
-        TraceRules rules;
+        TraceRules rules(graph);
         uint64_t events = 0;
         run::RealTime* running = nullptr;
         run::RunOptions options;

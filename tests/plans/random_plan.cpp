@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/rng.hpp"
+#include "plan/formula.hpp"
 
 namespace vagus {
 
@@ -41,6 +42,66 @@ private:
         return fmt::format("{}", kTimes[below(8)]);
     }
 
+    // ---- formulas: of each type, with all operators and functions; some fail at run time ----
+
+    template <size_t N>
+    std::string one_of(const char* const (&words)[N]) {
+        return words[below(N)];
+    }
+
+    std::string number(int depth) {
+        if (depth == 0) {
+            constexpr const char* kNumbers[] = {"n", "f", "b", "0", "1", "2.5", "7", "'3'"};
+            return one_of(kNumbers);
+        }
+        const std::string a = number(depth - 1);
+        switch (below(6)) {
+            case 0:
+                return fmt::format("({} {} {})", a, "+-*"[below(3)], number(depth - 1));
+            case 1:
+                return fmt::format("({} % (1 + abs({})))", a, number(depth - 1));
+            case 2:
+                return fmt::format("if({}, {}, {})", condition(depth - 1), a, number(depth - 1));
+            case 3: {
+                constexpr const char* kFolds[] = {"min", "max"};
+                return fmt::format("{}({}, {}, {})", one_of(kFolds), a, number(depth - 1),
+                                   number(0));
+            }
+            case 4:
+                return fmt::format("clamp({}, -9, {})", a, number(0));
+            default: {
+                constexpr const char* kFunctions[] = {"abs",  "sign", "floor", "ceil", "round",
+                                                      "sqrt", "sin",  "cos",   "tan",  "-"};
+                return fmt::format("{}({})", one_of(kFunctions), a);
+            }
+        }
+    }
+
+    std::string condition(int depth) {
+        if (depth == 0) return below(2) == 0 ? "b" : "n";
+        constexpr const char* kCompare[] = {"==", "!=", "<", "<=", ">", ">="};
+        constexpr const char* kJoin[] = {"and", "or"};
+        switch (below(4)) {
+            case 0:
+                return fmt::format("({} {} {})", condition(depth - 1), one_of(kJoin),
+                                   condition(depth - 1));
+            case 1:
+                return fmt::format("(not {})", condition(depth - 1));
+            case 2:
+                return fmt::format("(s & {} {} s)", number(0), one_of(kCompare));
+            default:
+                return fmt::format("({} {} {})", number(depth - 1), one_of(kCompare),
+                                   number(depth - 1));
+        }
+    }
+
+    // With a variable in it: a constant one that fails is an error of the plan (P11).
+    std::string formula() { return with_variable(below(2) == 0 ? number(2) : condition(2)); }
+
+    static std::string with_variable(std::string text) {
+        return plan::parse_formula(text).value().names().empty() ? "n" : text;
+    }
+
     std::string target(bool event) {
         const uint64_t pick = below(10);
         if (pick == 0) return "@terminate";
@@ -60,9 +121,10 @@ private:
                     R"("out": {{ "count": "n" }}, "events": {{ "Tick": "{}" }})",
                     1 + below(30), seconds(), target(true));
             case 2:
-                return fmt::format(R"("template": "Watch", "in": {{ "left": "n", "op": "'>'", )"
+                return fmt::format(R"("template": "Watch", "in": {{ "left": "{}", "op": "'>'", )"
                                    R"("right": {} }}, "events": {{ "True": "{}" }})",
-                                   below(6), target(true));
+                                   below(2) == 0 ? "n" : with_variable(number(1)), below(6),
+                                   target(true));
             default:
                 return fmt::format(R"("template": "OnEvent", "in": {{ "event": "'e{}'" }}, )"
                                    R"("out": {{ "arg0": "f" }}, "events": {{ "Received": "{}" }})",
@@ -108,9 +170,10 @@ private:
                              fmt::format(R"("Done": "{}")", next));
             case 5:
                 return fmt::format(
-                    R"({{ "template": "Assign", "in": {{ "value": "n + {}" }}, )"
+                    R"({{ "template": "Assign", "in": {{ "value": "{}" }}, )"
                     R"("out": {{ "result": "{}" }}, "states": {{ "Done": "{}" }} }})",
-                    below(3), "nfbs"[below(4)], next);
+                    below(2) == 0 ? fmt::format("n + {}", below(3)) : formula(), "nfbs"[below(4)],
+                    next);
             case 6:
                 return fmt::format(
                     R"({{ "template": "Compare", "in": {{ "left": "n", "op": "'<'", )"

@@ -1,5 +1,6 @@
 // Makes plans at random, from a seed: valid ones, of actors that take time, linger when stopped,
-// compute and fail; of supervisors that raise and are ignored; of sub-plans. For property tests.
+// compute and fail, with formulas of every operator and function; of supervisors that raise and are
+// ignored; of sub-plans. For property tests.
 #pragma once
 
 #include <cstdint>

@@ -2,10 +2,55 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/text.hpp"
+
 namespace vagus {
 
 void TraceRules::complain(const plan::TraceEvent& event, const std::string& what) {
     breaches_.push_back(what + ": " + plan::format_trace(event));
+}
+
+bool TraceRules::is_computation(const std::string& path, std::string_view actor) const {
+    const auto find = [](const plan::GraphPlan& plan, std::string_view name) {
+        return std::find_if(plan.actors.begin(), plan.actors.end(),
+                            [name](const plan::GraphActor& one) { return one.name == name; });
+    };
+    const plan::GraphPlan* plan = &graph_.plans.front();
+    const auto names = split(path, '/');
+    for (size_t i = 1; i < names.size(); ++i) {
+        plan = &graph_.plans[static_cast<size_t>(find(*plan, names[i])->sub_plan)];
+    }
+    const plan::Template* of = find(*plan, actor)->of;
+    return of && of->kind == plan::Kind::Computation;
+}
+
+// An activation that began, or was over before it could.
+void TraceRules::note_activation(const plan::TraceEvent& event, std::string_view actor,
+                                 uint64_t activation) {
+    auto& resting = plans_[event.plan].resting;
+    std::erase_if(resting, [activation](const auto& one) {
+        return one.second.remedy != 0 && activation > one.second.remedy;
+    });
+    for (auto& [supervisor, rest] : resting) {
+        const bool follows = rest.remedy == 0 && activation > rest.since;
+        if (follows && !is_computation(event.plan, actor)) rest.remedy = activation;
+    }
+}
+
+void TraceRules::note_raised(const plan::TraceEvent& event, const plan::EventRaised& raised) {
+    auto& resting = plans_[event.plan].resting;
+    const std::string supervisor(raised.supervisor);
+    const auto found = resting.find(supervisor);
+    if (raised.global && found != resting.end()) {
+        const Rest& rest = found->second;
+        const bool anew = rest.remedy != 0 && raised.activation > rest.remedy;
+        if (!anew) complain(event, "a global supervisor raised while it rests");
+        resting.erase(found);
+    }
+    const bool rests = raised.global && raised.target != plan::kIgnore;
+    if (rests) resting[supervisor] = {.since = raised.activation, .remedy = 0};
 }
 
 void TraceRules::see(const plan::TraceEvent& event) {
@@ -27,6 +72,7 @@ void TraceRules::see(const plan::TraceEvent& event) {
         plan.active = plan.last_begun = e->activation;
         highest_ = std::max(highest_, e->activation);
         plan.writer.clear();
+        note_activation(event, e->actor, e->activation);
     } else if (const auto* e2 = std::get_if<plan::ActorEnded>(&event.what)) {
         if (plan.active != e2->activation) complain(event, "an actor ended that did not run");
         if (!over_.insert(e2->activation).second) complain(event, "two winners");
@@ -37,8 +83,10 @@ void TraceRules::see(const plan::TraceEvent& event) {
         if (!over_.insert(e3->activation).second) complain(event, "two winners");
         plan.active = 0;
         plan.writer.clear();
+        if (!e3->ran) note_activation(event, e3->actor, e3->activation);
     } else if (const auto* e4 = std::get_if<plan::EventRaised>(&event.what)) {
         if (over_.contains(e4->activation)) complain(event, "an event for what is over");
+        note_raised(event, *e4);
         plan.writer = e4->target == "@ignore" ? std::string() : std::string(e4->supervisor);
     } else if (const auto* e5 = std::get_if<plan::VariableWritten>(&event.what)) {
         const bool from_outside = e5->by == "initial" || e5->by == "outside";

@@ -6,26 +6,40 @@
 #include <string>
 #include <vector>
 
+#include "plan/graph.hpp"
 #include "plan/trace.hpp"
 
 namespace vagus {
 
 class TraceRules {
 public:
+    // Borrowed: of the plan whose trace it is.
+    explicit TraceRules(const plan::Graph& graph) : graph_(graph) {}
+
     void see(const plan::TraceEvent& event);
     // After the run; sentences, empty if all held.
     const std::vector<std::string>& finish();
 
 private:
+    // A global supervisor that raised (P23): from its event until an activation after its remedy.
+    struct Rest {
+        uint64_t since = 0;   // activation that its event ended
+        uint64_t remedy = 0;  // the first one after it that is no computation; 0: yet to come
+    };
     struct Running {              // one plan
         uint64_t active = 0;      // activation whose code runs; 0: none
         uint64_t last_begun = 0;  // highest activation that began here
-        bool may_write_actor = false;
-        std::string writer;  // who may write now
+        std::string writer;       // who may write now
+        std::map<std::string, Rest> resting;
     };
 
     void complain(const plan::TraceEvent& event, const std::string& what);
+    bool is_computation(const std::string& path, std::string_view actor) const;
+    void note_activation(const plan::TraceEvent& event, std::string_view actor,
+                         uint64_t activation);
+    void note_raised(const plan::TraceEvent& event, const plan::EventRaised& raised);
 
+    const plan::Graph& graph_;
     std::map<std::string, Running> plans_;
     std::set<uint64_t> over_;  // activations that ended or were interrupted
     int64_t last_us_ = 0;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 #include "sample_run.hpp"
 
 namespace vagus::samples {
@@ -44,13 +45,17 @@ protected:
                                   objects +
                                   R"(], "robots": [{ "name": "carbot", "type": "carbot",
                 "at": [4, 3], "script": ")" +
-                                  VAGUS_EXAMPLES + R"(/carbot/carbot.aesl" }] })";
+                                  test::examples() + R"(/carbot/carbot.aesl" }] })";
         Result<Ran> ran = run_sample({.plan = write("p.plan.json", plan),
                                       .world = write("w.world.json", world),
                                       .at_most = 120s,
                                       .traced = true});
-        EXPECT_TRUE(ran.ok()) << ran.error().what;
-        return ran.ok() ? std::move(ran.value()) : Ran{};
+        if (ran.ok()) return std::move(ran.value());
+        // It was refused before the run.
+        Ran refused;
+        refused.ended.result = plan::PlanResult::Error;
+        refused.ended.message = ran.error().what;
+        return refused;
     }
 
 private:
@@ -318,6 +323,19 @@ TEST_F(CarbotTemplates, MeasureDistanceLooksAsFarAsTheSensorTurns) {
     };
     EXPECT_EQ(last_written(with("-120"), "direction"), -120);
     EXPECT_THAT(with("-120.1").ended.message, HasSubstr("from -120 to 120"));
+}
+
+// The robot stands for 5 s.
+TEST_F(CarbotTemplates, CheckProgressHearsThatItDoesNotGetOn) {
+    const auto with = [&](const std::string& seconds) {
+        return run(standing(R"("template": "CheckProgress", "in": { "seconds": )" + seconds + " }",
+                            "NoProgress"));
+    };
+    const Ran early = with("4.5");
+    EXPECT_THAT(early.states, ElementsAre("a! NoProgress"));
+    EXPECT_NEAR(std::chrono::duration<double>(early.way.back().at).count(), 4.5, 0.1);
+    EXPECT_THAT(with("5.5").states, ElementsAre("a: Done"));
+    EXPECT_THAT(with("601").ended.message, HasSubstr("from 0.1 to 600"));
 }
 
 // 2 m behind the robot: 1000 * (1 - 2 / 4) = 500.

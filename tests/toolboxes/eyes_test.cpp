@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 #include "sample_run.hpp"
 
 namespace vagus::samples {
@@ -50,7 +51,7 @@ protected:
         const std::string world =
             R"({ "format": "vagus-world/1", "size": [8, 6], "objects": [)" + scene.objects +
             R"(], "timeline": [)" + scene.timeline + R"(], "robots": [{ "name": "r", "type": ")" +
-            scene.type + R"(", "at": [4, 3], "script": ")" + VAGUS_EXAMPLES +
+            scene.type + R"(", "at": [4, 3], "script": ")" + test::examples() +
             (scene.type == "carbot" ? "/carbot/carbot.aesl" : "/thymio/drive.aesl") + R"(" }] })";
         Result<Ran> ran = run_sample({.plan = write("p.plan.json", plan),
                                       .world = write("w.world.json", world),

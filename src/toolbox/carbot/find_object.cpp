@@ -43,7 +43,7 @@ const plan::Template& declared() {
                                  "to be in the picture"}},
             .outcomes = {{"ObjectFound", "it is straight ahead"},
                          {"NoObjectFound", "it was not seen"}},
-            .bus_events = Rover::events_of(Rover::Needs::Drive)};
+            .bus = Rover::bus_of(Rover::Needs::Drive)};
         of.inputs.push_back({.name = "turn",
                              .type = Type::Float,
                              .fallback = Value(360.0),

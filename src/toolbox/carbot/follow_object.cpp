@@ -47,7 +47,7 @@ const plan::Template& declared() {
                                        .help = "from the front of the robot"}},
                           .outcomes = {{"ObjectReached", "it is so near"},
                                        {"ObjectLost", "it was lost from sight"}},
-                          .bus_events = Rover::events_of(Rover::Needs::DriveAndRange)};
+                          .bus = Rover::bus_of(Rover::Needs::DriveAndRange)};
         of.inputs.push_back({.name = "distance",
                              .type = Type::Float,
                              .fallback = Value(40.0),

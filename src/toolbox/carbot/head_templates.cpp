@@ -51,7 +51,7 @@ const plan::Template& find_infrared_declared() {
                     {.name = "intensity", .type = Type::Int, .help = "how bright it is"}},
         .outcomes = {{"InfraredReached", "the source is so near"},
                      {"NoInfraredFound", "no source is seen"}},
-        .bus_events = Rover::events_of(Rover::Needs::DriveAndHead)};
+        .bus = Rover::bus_of(Rover::Needs::DriveAndHead)};
     return kDeclared;
 }
 
@@ -124,7 +124,7 @@ const plan::Template& read_colour_declared() {
                      .help = "the nearest of black, white, grey, red, yellow, green, cyan, blue, "
                              "magenta"}},
         .outcomes = {{"ColourRead", "something is there"}, {"NoColour", "nothing is within 15 cm"}},
-        .bus_events = Rover::events_of(Rover::Needs::Head)};
+        .bus = Rover::bus_of(Rover::Needs::Head)};
     return kDeclared;
 }
 

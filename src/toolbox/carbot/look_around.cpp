@@ -43,7 +43,7 @@ const plan::Template& look_around_declared() {
                      .help = "the smallest of them; 0 if nothing is in reach"},
                     {.name = "angle", .type = Type::Float, .unit = "deg", .help = "where that is"}},
         .outcomes = {{"Done", "it has looked"}},
-        .bus_events = Rover::events_of(Rover::Needs::Range)};
+        .bus = Rover::bus_of(Rover::Needs::Range)};
     return kDeclared;
 }
 
@@ -71,7 +71,7 @@ const plan::Template& search_wall_declared() {
                      .unit = "cm",
                      .help = "from the sensor to the wall"}},
         .outcomes = {{"WallFound", "there is one"}, {"NoWallFound", "nothing is in reach"}},
-        .bus_events = Rover::events_of(Rover::Needs::Range)};
+        .bus = Rover::bus_of(Rover::Needs::Range)};
     return kDeclared;
 }
 

@@ -40,7 +40,7 @@ const plan::Template& declared() {
         .inputs = {place("x", "ahead from where the robot started"),
                    place("y", "to the left of that"), speed_input()},
         .outcomes = {{"Arrived", "it is there"}, {"Stuck", "it does not come nearer"}},
-        .bus_events = Rover::events_of(Rover::Needs::Drive)};
+        .bus = Rover::bus_of(Rover::Needs::Drive)};
     return kDeclared;
 }
 

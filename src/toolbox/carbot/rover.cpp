@@ -38,7 +38,7 @@ std::vector<NodeNames> nodes_of(Rover::Needs needs) {
 
 double number(const BusEvent& event, size_t at, const BusValue& as) {
     if (at + static_cast<size_t>(as.words) > event.arguments.size()) {
-        throw CodeError(fmt::format("the event \"{}\" came with {} words behind its token, too few",
+        throw CodeError(fmt::format("the event \"{}\" came with {} words after its token, too few",
                                     event.name, event.arguments.size()));
     }
     return decode(plan::Type::Float, as, event.arguments.data() + at).number();
@@ -61,20 +61,24 @@ Rover::Rover(run::ActorContext& context, const Parts& parts, Needs needs)
              "colour.told"}),
       ranges_(needs == Needs::Range || needs == Needs::DriveAndRange) {}
 
-std::vector<std::string> Rover::events_of(Needs needs) {
-    std::vector<std::string> events;
-    const auto add = [&events](std::initializer_list<const char*> names) {
-        events.insert(events.end(), names.begin(), names.end());
+plan::BusUse Rover::bus_of(Needs needs) {
+    plan::BusUse use;
+    use.nodes = nodes_of(needs);
+    const auto add = [&use](std::initializer_list<const char*> starts,
+                            std::initializer_list<const char*> others) {
+        use.starts.insert(use.starts.end(), starts.begin(), starts.end());
+        use.events.insert(use.events.end(), starts.begin(), starts.end());
+        use.events.insert(use.events.end(), others.begin(), others.end());
     };
-    for (const NodeNames& node : nodes_of(needs)) {
+    for (const NodeNames& node : use.nodes) {
         if (node.front() == "drive")
-            add({"drive.steer", "drive.stop", "drive.ask", "drive.stopped", "drive.odometry"});
+            add({"drive.steer"}, {"drive.stop", "drive.ask", "drive.stopped", "drive.odometry"});
         if (node.front() == "range")
-            add({"range.look", "range.scan", "range.unwatch", "range.measured", "range.done"});
+            add({"range.look", "range.scan"}, {"range.unwatch", "range.measured", "range.done"});
         if (node.front() == "head")
-            add({"infrared.ask", "infrared.told", "colour.ask", "colour.told"});
+            add({"infrared.ask", "colour.ask"}, {"infrared.told", "colour.told"});
     }
-    return events;
+    return use;
 }
 
 void Rover::steer(const Steering& steering) {

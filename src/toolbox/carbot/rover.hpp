@@ -45,8 +45,8 @@ public:
 
     Rover(run::ActorContext& context, const Parts& parts, Needs needs);
 
-    // What is said and heard on the bus: `bus_events` of a template.
-    static std::vector<std::string> events_of(Needs needs);
+    // What is said and heard on the bus.
+    static plan::BusUse bus_of(Needs needs);
 
     // Drives so until told otherwise.
     void steer(const Steering& steering);

@@ -84,7 +84,7 @@ const plan::Template& declared() {
         .outcomes = {{"ForwardSuccessful", "it has driven so far"},
                      {"LaneNotFree", "something is ahead"},
                      {"WallLost", "the wall has ended"}},
-        .bus_events = Rover::events_of(Rover::Needs::DriveAndRange)};
+        .bus = Rover::bus_of(Rover::Needs::DriveAndRange)};
     return kDeclared;
 }
 

@@ -1,0 +1,42 @@
+#include "debug/presence.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace vagus::debug {
+namespace {
+
+constexpr int kDueMax = 3;  // answers that were lost do not hide later ones for long
+constexpr int kSurplusRounds = 2;
+
+}  // namespace
+
+void Presences::asked() {
+    ++round_;
+    doubtful_ = false;
+    for (auto& [id, presence] : nodes_) presence.due = std::min(presence.due + 1, kDueMax);
+}
+
+bool Presences::answered(NodeId id) {
+    Presence& presence = nodes_[id];
+    if (presence.due > 0) {
+        --presence.due;
+        return false;
+    }
+    if (presence.certain || presence.round == round_) return false;
+    presence.round = round_;
+    presence.certain = ++presence.surplus >= kSurplusRounds;
+    doubtful_ = doubtful_ || !presence.certain;
+    return presence.certain;
+}
+
+std::string Presences::named(NodeId id, const std::string& name, Time now) {
+    Presence& presence = nodes_[id];
+    const std::string before = std::exchange(presence.name, name);
+    const bool close = now - std::exchange(presence.named_at, now) < kNamesWithin;
+    if (presence.certain || before.empty() || before == name || !close) return "";
+    presence.certain = true;
+    return before;
+}
+
+}  // namespace vagus::debug

@@ -1,0 +1,222 @@
+// A supervisor's running check when what it watched over ends (docs/plans.md, P18b). How long it is
+// waited for is injected: hours where it returns, a millisecond where it hangs.
+#include "run/real_time.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+
+#include "run/test_plans.hpp"
+
+namespace vagus::run {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Shared with threads that may outlive the run.
+struct Hanging {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool released = false;
+    int alive = 0;  // supervisors
+    std::atomic<int> checks = 0;
+    std::atomic<bool> inside = false;  // the second check, which hangs
+    std::atomic<int> at_once = 0;
+    std::atomic<int> most_at_once = 0;
+    std::atomic<int> stopped = 0;
+    std::atomic<int> stopped_beside_a_check = 0;
+
+    void release() {
+        const std::lock_guard lock(mutex);
+        released = true;
+        changed.notify_all();
+    }
+    void wait_until_gone() {
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [this] { return alive == 0; });
+    }
+    void count(int by) {
+        const std::lock_guard lock(mutex);
+        alive += by;
+        changed.notify_all();
+    }
+};
+
+// Its second check of all hangs until it is released, and then raises its event.
+class Hangs final : public Supervisor {
+public:
+    explicit Hangs(std::shared_ptr<Hanging> hanging) : hanging_(std::move(hanging)) {
+        hanging_->count(1);
+    }
+    ~Hangs() override { hanging_->count(-1); }
+
+    std::optional<plan::Given> check(const Check&) override {
+        Hanging& all = *hanging_;
+        const int now = ++all.at_once;
+        all.most_at_once = std::max(all.most_at_once.load(), now);
+        std::optional<plan::Given> given;
+        if (++all.checks == 2) {
+            all.inside = true;
+            std::unique_lock lock(all.mutex);
+            all.changed.wait(lock, [&all] { return all.released; });
+            given = plan::Given{};
+        }
+        --all.at_once;
+        return given;
+    }
+    void stopped(SupervisorContext&) noexcept override {
+        ++hanging_->stopped;
+        if (hanging_->at_once > 0) ++hanging_->stopped_beside_a_check;
+    }
+
+private:
+    std::shared_ptr<Hanging> hanging_;  // owners: the test and all of these
+};
+
+// Calls a function at each check, each millisecond.
+class Beats final : public Supervisor {
+public:
+    explicit Beats(std::function<void()> beat) : beat_(std::move(beat)) {}
+    std::optional<plan::Given> check(const Check&) override {
+        beat_();
+        return std::nullopt;
+    }
+
+private:
+    std::function<void()> beat_;
+};
+
+class RealTimeChecks : public testing::Test {
+protected:
+    void SetUp() override {
+        library_.add(
+            "core", "",
+            {test_actor("UntilItHangs",
+                        [hanging = hanging_](ActorContext& context) {
+                            context.wait_until([&] { return hanging->inside.load(); }, 1ms);
+                            context.end(0);
+                        }),
+             test_actor("AtOnce", [](ActorContext& context) { context.end(0); }), twice(),
+             test_supervisor("Hangs", 1,
+                             [hanging = hanging_] { return std::make_unique<Hangs>(hanging); }),
+             test_supervisor("Beats", 1,
+                             [this] { return std::make_unique<Beats>([this] { beat(); }); })});
+        options_.max_time = 10min;
+        options_.on_trace = [this](const plan::TraceEvent& event) {
+            // Before that, and of others, it is the machine's load that makes checks late.
+            const auto* late = std::get_if<plan::CheckLate>(&event.what);
+            if (late && (late->supervisor != "slow" || !hanging_->inside)) return;
+            const std::lock_guard lock(mutex_);
+            lines_.push_back(test_line(event));
+        };
+    }
+    void TearDown() override {
+        hanging_->release();
+        hanging_->wait_until_gone();
+    }
+
+    // Ends in its first state, and then in its second one.
+    static Coded twice() {
+        Coded coded = test_actor("Twice", [n = std::make_shared<int>(0)](ActorContext& context) {
+            context.end((*n)++ == 0 ? 0 : 1);
+        });
+        coded.declared.outcomes = {{.name = "First"}, {.name = "Second"}};
+        return coded;
+    }
+
+    // On threads of checks. Releases the check when the last line has stood for some beats: long
+    // enough for what must not happen meanwhile.
+    void beat() {
+        const std::lock_guard lock(mutex_);
+        const bool stands = !lines_.empty() && lines_.back() == release_after_;
+        beats_ = stands ? beats_ + 1 : 0;
+        if (beats_ == 20) hanging_->release();
+    }
+
+    Ended run(const std::string& text) {
+        const plan::Graph graph = test_graph(text, library_);
+        return RealTime(graph, library_, options_).run();
+    }
+
+    std::shared_ptr<Hanging> hanging_ = std::make_shared<Hanging>();
+    CodeLibrary library_;
+    RunOptions options_;
+    std::string release_after_;
+    std::mutex mutex_;  // guards what follows
+    std::vector<std::string> lines_;
+    int beats_ = 0;
+};
+
+constexpr std::string_view kTwo = R"({ "format": "vagus-plan/1", "name": "P",
+  "start": { "actor": "a", "supervisors": { "beats": { "template": "Beats",
+                                                       "events": { "Seen": "@terminate" } } } },
+  "actors": {
+    "a": { "template": "UntilItHangs", "states": { "Done": "b" },
+           "supervisors": { "slow": { "template": "Hangs", "events": { "Seen": "@terminate" } } } },
+    "b": { "template": "AtOnce", "states": { "Done": "@terminate" } } } })";
+
+// The check is released only after the end of `a` has stood for 20 ms: had the plan not waited, `b`
+// would have started before. The global supervisor goes on meanwhile.
+TEST_F(RealTimeChecks, WhatComesNextWaitsForACheckThatReturns) {
+    options_.check_ends_within = 10min;
+    release_after_ = "actor-end a";
+    const Ended ended = run(std::string(kTwo));
+    EXPECT_EQ(ended.result, plan::PlanResult::Ok);
+    EXPECT_THAT(lines_, testing::ElementsAre("plan-start", "actor-start a", "actor-end a",
+                                             "actor-start b", "actor-end b", "plan-end"));
+    EXPECT_EQ(hanging_->stopped, 1);
+    EXPECT_EQ(hanging_->stopped_beside_a_check, 0);
+}
+
+TEST_F(RealTimeChecks, ACheckThatHangsIsToldAndLeftToItself) {
+    options_.check_ends_within = 1ms;
+    const Ended ended = run(std::string(kTwo));  // returns, although nobody has released it
+    EXPECT_EQ(ended.result, plan::PlanResult::Ok);
+    EXPECT_THAT(lines_,
+                testing::ElementsAre("plan-start", "actor-start a", "actor-end a", "late slow",
+                                     "actor-start b", "actor-end b", "plan-end"));
+    EXPECT_EQ(hanging_->stopped, 0);
+}
+
+TEST_F(RealTimeChecks, TheLineOfThePlansEndIsTheLastAlsoWhereAGlobalOneHangs) {
+    options_.check_ends_within = 1ms;
+    const Ended ended = run(R"({ "format": "vagus-plan/1", "name": "P",
+      "start": { "actor": "a", "supervisors": { "slow": { "template": "Hangs",
+                                                          "events": { "Seen": "@ignore" } } } },
+      "actors": { "a": { "template": "UntilItHangs", "states": { "Done": "@terminate" } } } })");
+    EXPECT_EQ(ended.result, plan::PlanResult::Ok);
+    EXPECT_THAT(lines_, testing::ElementsAre("plan-start", "actor-start a", "actor-end a",
+                                             "late slow", "plan-end"));
+}
+
+// `a` comes again while the check hangs that it was left with: its supervisor's first check, and so
+// its begin (P16), wait for that. What the old check gives is dropped.
+TEST_F(RealTimeChecks, NoTwoChecksOfOneSupervisorRunAtOnce) {
+    options_.check_ends_within = 1ms;
+    release_after_ = "actor-end again";
+    const Ended ended = run(R"({ "format": "vagus-plan/1", "name": "P",
+      "start": { "actor": "a", "supervisors": { "beats": { "template": "Beats",
+                                                           "events": { "Seen": "@ignore" } } } },
+      "actors": {
+        "a": { "template": "UntilItHangs", "states": { "Done": "again" },
+               "supervisors": { "slow": { "template": "Hangs", "events": { "Seen": "b" } } } },
+        "again": { "template": "Twice", "states": { "First": "a", "Second": "@terminate" } },
+        "b": { "template": "AtOnce", "states": { "Done": "@terminate" } } } })");
+    EXPECT_EQ(ended.result, plan::PlanResult::Ok);
+    // The first check of the second watching begins late, and is over late: two lines.
+    lines_.erase(std::unique(lines_.begin(), lines_.end()), lines_.end());
+    EXPECT_THAT(lines_, testing::ElementsAre("plan-start", "actor-start a", "actor-end a",
+                                             "late slow", "actor-start again", "actor-end again",
+                                             "late slow", "actor-start a", "actor-end a",
+                                             "actor-start again", "actor-end again", "plan-end"));
+    EXPECT_EQ(hanging_->most_at_once, 1);
+    EXPECT_EQ(hanging_->stopped, 2);  // both watchings: the old one when its check had returned
+    EXPECT_EQ(hanging_->stopped_beside_a_check, 0);
+}
+
+}  // namespace
+}  // namespace vagus::run

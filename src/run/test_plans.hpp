@@ -1,0 +1,84 @@
+// Plans for the tests of this module: a text, templates of the test's own, and the lines of the
+// trace without their times.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plan/check.hpp"
+#include "plan/graph.hpp"
+#include "plan/trace.hpp"
+#include "run/code.hpp"
+
+namespace vagus::run {
+
+class TestText final : public plan::Files {
+public:
+    explicit TestText(std::string text) : text_(std::move(text)) {}
+    Result<std::string> read(const std::string&) const override { return text_; }
+
+private:
+    std::string text_;
+};
+
+// An actor that does what the function says.
+class TestActor final : public Actor {
+public:
+    using Body = std::function<void(ActorContext&)>;
+    explicit TestActor(Body body) : body_(std::move(body)) {}
+    void run(ActorContext& context) override { body_(context); }
+
+private:
+    Body body_;
+};
+
+inline Coded test_actor(std::string name, TestActor::Body body) {
+    Coded coded{.declared = {.name = std::move(name), .outcomes = {{.name = "Done"}}}};
+    coded.actor = [body = std::move(body)] { return std::make_unique<TestActor>(body); };
+    return coded;
+}
+
+// A supervisor with the event "Seen", one check a period.
+inline Coded test_supervisor(std::string name, int64_t period_ms, MakeSupervisor make) {
+    Coded coded{.declared = {.name = std::move(name),
+                             .kind = plan::Kind::Supervisor,
+                             .outcomes = {{.name = "Seen"}},
+                             .period_ms = period_ms}};
+    coded.supervisor = std::move(make);
+    return coded;
+}
+
+// The graph of a plan that is right; a wrong one ends the test with the findings.
+inline plan::Graph test_graph(const std::string& text, const CodeLibrary& library) {
+    const plan::Checked checked =
+        plan::check("test.plan.json", TestText(text), library.templates());
+    if (!checked.ok()) throw CodeError(plan::format_findings_json(checked.findings));
+    return plan::make_graph(checked);
+}
+
+// "actor-end a", "late slow", "plan-end": the kind, and whom it names.
+inline std::string test_line(const plan::TraceEvent& event) {
+    const auto named = [](const std::string& kind, std::string_view name) {
+        return kind + " " + std::string(name);
+    };
+    if (std::holds_alternative<plan::PlanStarted>(event.what)) return "plan-start";
+    if (std::holds_alternative<plan::PlanEnded>(event.what)) return "plan-end";
+    if (const auto* one = std::get_if<plan::ActorStarted>(&event.what))
+        return named("actor-start", one->actor);
+    if (const auto* one = std::get_if<plan::ActorEnded>(&event.what))
+        return named("actor-end", one->actor);
+    if (const auto* one = std::get_if<plan::ActorInterrupted>(&event.what))
+        return named("interrupted", one->actor);
+    if (const auto* one = std::get_if<plan::EventRaised>(&event.what))
+        return named("event", one->supervisor);
+    if (const auto* one = std::get_if<plan::CheckLate>(&event.what))
+        return named("late", one->supervisor);
+    if (const auto* one = std::get_if<plan::ErrorFound>(&event.what))
+        return named("error", one->element);
+    return "other";
+}
+
+}  // namespace vagus::run

@@ -1,5 +1,7 @@
 #include "session/bus_ears.hpp"
 
+#include "wire/protocol.hpp"
+
 namespace vagus::session {
 
 BusEars::~BusEars() {
@@ -9,6 +11,8 @@ BusEars::~BusEars() {
 }
 
 std::optional<run::BusEvent> BusEars::hear(const debug::Event& event) {
+    const bool of_a_host = event.node == wire::kHostId;
+    if (!only_.empty() && !of_a_host && !only_.contains(event.node)) return std::nullopt;
     if (const auto* sent = std::get_if<debug::UserEvent>(&event.what)) {
         if (sent->name.empty()) return std::nullopt;
         return run::BusEvent{sent->name, sent->arguments};

@@ -8,7 +8,9 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "debug/event.hpp"
 #include "run/code.hpp"
@@ -18,8 +20,10 @@ namespace vagus::session {
 
 class BusEars {
 public:
-    // `nodes` is kept as the bus says; borrowed.
-    explicit BusEars(toolbox::BusNodes& nodes) : nodes_(nodes) {}
+    // `nodes` is kept as the bus says; borrowed. With `only`, other nodes are as if they were not
+    // there: of events, those of these nodes and of hosts are heard.
+    explicit BusEars(toolbox::BusNodes& nodes, std::set<debug::NodeId> only = {})
+        : nodes_(nodes), only_(std::move(only)) {}
     // Its nodes are no longer known to be there.
     ~BusEars();
     BusEars(const BusEars&) = delete;
@@ -37,6 +41,7 @@ private:
         bool there = false;
     };
     toolbox::BusNodes& nodes_;
+    std::set<debug::NodeId> only_;          // empty: all
     std::map<debug::NodeId, Known> known_;  // those that have described themselves
 };
 

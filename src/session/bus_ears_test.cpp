@@ -56,6 +56,20 @@ TEST(BusEars, ANodeThatComesBackUnderAnotherNameHasLeftUnderTheOld) {
     EXPECT_FALSE(nodes.has("drive"));
 }
 
+// A plan for the robot with the nodes 5 and 6, on a bus that others share.
+TEST(BusEars, OfSeveralRobotsOnlyTheNodesOfOneAreHeard) {
+    toolbox::BusNodes nodes;
+    BusEars ears(nodes, {5, 6});
+    (void)ears.hear(event(1, debug::NodeDescribed{"range"}));
+    (void)ears.hear(event(5, debug::NodeDescribed{"drive"}));
+    EXPECT_FALSE(nodes.has("range"));
+    EXPECT_TRUE(nodes.has("drive"));
+    const debug::UserEvent touched{7, "touched", {450}};
+    EXPECT_FALSE(ears.hear(event(1, touched)).has_value());
+    EXPECT_TRUE(ears.hear(event(6, touched)).has_value());
+    EXPECT_TRUE(ears.hear(event(0, touched)).has_value());  // a host, as a person may be
+}
+
 TEST(BusEars, ItsNodesGoWithIt) {
     toolbox::BusNodes nodes;
     {

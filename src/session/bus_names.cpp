@@ -4,13 +4,16 @@
 #include <array>
 
 #include "base/nearest.hpp"
+#include "base/text.hpp"
+#include "plan/check.hpp"
 
 namespace vagus::session {
 
 namespace {
 
 // The templates of `core` that name an event of the bus, each by its input "event".
-constexpr std::array<std::string_view, 3> kBusTemplates = {"Send", "Receive", "OnEvent"};
+constexpr std::string_view kSend = "Send";
+constexpr std::array<std::string_view, 3> kBusTemplates = {kSend, "Receive", "OnEvent"};
 constexpr std::string_view kEventInput = "event";
 constexpr std::string_view kRule = "bus";  // of the findings: they belong to no rule of plans.md
 
@@ -18,13 +21,13 @@ bool is_bus_template(std::string_view name) {
     return std::find(kBusTemplates.begin(), kBusTemplates.end(), name) != kBusTemplates.end();
 }
 
-// Calls `look(actor or supervisor)` for each that is made of a template.
+// Calls `look(element, whether it is a supervisor)` for each that is made of a template.
 template <typename Look>
 void for_each_template(const plan::Plan& plan, const Look& look) {
-    for (const plan::Supervisor& supervisor : plan.globals) look(supervisor);
+    for (const plan::Supervisor& supervisor : plan.globals) look(supervisor, true);
     for (const plan::Actor& actor : plan.actors) {
-        look(actor);
-        for (const plan::Supervisor& supervisor : actor.supervisors) look(supervisor);
+        look(actor, false);
+        for (const plan::Supervisor& supervisor : actor.supervisors) look(supervisor, true);
     }
 }
 
@@ -46,16 +49,21 @@ const aesl::GlobalEvent* BusNames::find(std::string_view event) const {
     return nullptr;
 }
 
-Status BusNames::known(std::string_view event) const {
-    if (find(event)) return Status::done();
+std::string BusNames::near(std::string_view event) const {
     std::vector<std::string> names;
     for (const aesl::GlobalEvent& one : common_.events) names.push_back(one.name);
-    const std::string near = nearest(event, names);
+    return nearest(event, names);
+}
+
+Status BusNames::known(std::string_view event) const {
+    if (find(event)) return Status::done();
+    const std::string guess = near(event);
     const std::string quoted = "\"" + std::string(event) + "\"";
     std::string sentence = "the event " + quoted + " has no number: ";
-    sentence += (names.empty() ? "no events are declared by " : "it is not declared by ") + source_;
-    sentence += near.empty() ? "; add <event name=" + quoted + " size=\"…\"/> to the project"
-                             : "; did you mean \"" + near + "\"?";
+    sentence += (common_.events.empty() ? "no events are declared by " : "it is not declared by ") +
+                source_;
+    sentence += guess.empty() ? "; add <event name=" + quoted + " size=\"…\"/> to the project"
+                              : "; did you mean \"" + guess + "\"?";
     return Error{Code::NotFound, sentence};
 }
 
@@ -69,18 +77,48 @@ Status BusNames::may_emit(const run::BusEvent& event) const {
                                      "; give it as many as the project declares"};
 }
 
-plan::Findings BusNames::check(const std::vector<plan::Plan>& plans) const {
+// The events by which the template works.
+Status BusNames::all_known(const plan::Template& of) const {
+    std::vector<std::string> missing;
+    for (const std::string& event : of.bus.events) {
+        if (!find(event)) missing.push_back(event);
+    }
+    if (missing.empty()) return Status::done();
+    const std::string needs = "the template " + of.name + " works by events, and ";
+    if (missing.size() == 1)
+        return Error{Code::NotFound, needs + known(missing.front()).error().what};
+    for (std::string& event : missing) event = "\"" + event + "\"";
+    return Error{Code::NotFound, needs + list_of({missing.begin(), missing.end()}) +
+                                     " are not declared by " + source_ +
+                                     "; load scripts that declare them, as the project of its "
+                                     "toolbox does"};
+}
+
+plan::Findings BusNames::check(const std::vector<plan::Plan>& plans,
+                               const plan::Library& library) const {
     plan::Findings findings;
     for (const plan::Plan& plan : plans) {
-        for_each_template(plan, [&](const auto& element) {
-            if (!element.template_name || !is_bus_template(*element.template_name)) return;
+        const auto expect = [&](const Status& status, const std::string& element, Place at,
+                                std::optional<plan::Meant> meant = std::nullopt) {
+            if (status.ok()) return;
+            findings.push_back({plan::Severity::Error, std::string(kRule), plan.file, plan.name,
+                                element, at.line, status.error().what, at.column,
+                                std::move(meant)});
+        };
+        const auto guess = [this](const std::string& event) {
+            std::string name = near(event);
+            return name.empty() ? std::nullopt : std::optional(plan::Meant{event, name});
+        };
+        for_each_template(plan, [&](const auto& element, bool supervisor) {
+            if (!element.template_name) return;
+            const plan::Template* of =
+                plan::find_template(plan, library, *element.template_name, supervisor);
+            if (of) expect(all_known(*of), element.name, element.template_line);
+            if (!is_bus_template(*element.template_name)) return;
             for (const plan::Entry& entry : element.in) {
-                if (entry.name != kEventInput) continue;
-                const auto event = constant_text(entry);
-                const Status status = event ? known(*event) : Status::done();
-                if (status.ok()) continue;
-                findings.push_back({plan::Severity::Error, std::string(kRule), plan.file, plan.name,
-                                    element.name, entry.line, status.error().what});
+                const auto event = entry.name == kEventInput ? constant_text(entry) : std::nullopt;
+                if (!event || known(*event).ok()) continue;
+                expect(known(*event), element.name, entry.line, guess(*event));
             }
         });
     }
@@ -95,13 +133,32 @@ bool uses_bus(const std::vector<plan::Plan>& plans, const plan::Library& library
                                    [&name](const plan::Template& one) { return one.name == name; });
     };
     for (const plan::Plan& plan : plans) {
-        for_each_template(plan, [&](const auto& element) {
+        for_each_template(plan, [&](const auto& element, bool) {
             if (!element.template_name) return;
             const std::string& name = *element.template_name;
             uses = uses || is_bus_template(name) || !in_core(name);
         });
     }
     return uses;
+}
+
+std::set<std::string> events_heard(const std::vector<plan::Plan>& plans,
+                                   const plan::Library& library) {
+    std::set<std::string> heard;
+    for (const plan::Plan& plan : plans) {
+        for_each_template(plan, [&](const auto& element, bool supervisor) {
+            if (!element.template_name) return;
+            const std::string& name = *element.template_name;
+            const plan::Template* of = plan::find_template(plan, library, name, supervisor);
+            if (of) heard.insert(of->bus.events.begin(), of->bus.events.end());
+            if (!is_bus_template(name) || name == kSend) return;
+            for (const plan::Entry& entry : element.in) {
+                const auto event = entry.name == kEventInput ? constant_text(entry) : std::nullopt;
+                if (event) heard.insert(*event);
+            }
+        });
+    }
+    return heard;
 }
 
 }  // namespace vagus::session

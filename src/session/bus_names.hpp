@@ -6,6 +6,7 @@
 //     options.may_emit = [names](const BusEvent& event) { return names.may_emit(event); };
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,12 +28,15 @@ public:
 
     // The Error names the event, a near one, and how to mend it.
     Status may_emit(const run::BusEvent& event) const;
-    // Errors for events that plans name outright (in `Send`, `Receive`, `OnEvent`) and that no
-    // project declares; what a formula makes of variables is known only in the run.
-    plan::Findings check(const std::vector<plan::Plan>& plans) const;
+    // Errors for events that plans name outright (in `Send`, `Receive`, `OnEvent`), or by which
+    // their templates work, and that no project declares; what a formula makes of variables is
+    // known only in the run.
+    plan::Findings check(const std::vector<plan::Plan>& plans, const plan::Library& library) const;
 
 private:
     Status known(std::string_view event) const;
+    std::string near(std::string_view event) const;
+    Status all_known(const plan::Template& of) const;
     const aesl::GlobalEvent* find(std::string_view event) const;
 
     aesl::CommonDefinitions common_;
@@ -41,5 +45,10 @@ private:
 
 // Whether the plans use a bus at all: those templates of `core` do, and those of other toolboxes.
 bool uses_bus(const std::vector<plan::Plan>& plans, const plan::Library& library);
+
+// Events that the plans wait for, as far as their names stand in them; those by which a template
+// works are among them, whichever way they go.
+std::set<std::string> events_heard(const std::vector<plan::Plan>& plans,
+                                   const plan::Library& library);
 
 }  // namespace vagus::session

@@ -73,11 +73,48 @@ TEST(BusNames, FindsWhatAPlanNamesOutrightAndNobodyDeclares) {
         plan::check("p.plan.json", OneText(std::string(kPlan)), library.templates());
     ASSERT_TRUE(checked.ok());
     std::vector<std::string> found;
-    for (const plan::Finding& finding : kNames.check(checked.plans)) {
+    for (const plan::Finding& finding : kNames.check(checked.plans, library.templates())) {
         found.push_back(finding.file + ":" + std::to_string(finding.line) + " " + finding.element);
     }
     EXPECT_THAT(found, ElementsAre("p.plan.json:7 s", "p.plan.json:12 c"));
     EXPECT_TRUE(uses_bus(checked.plans, library.templates()));
+}
+
+// At the line of the template, once for an element, however many events it misses.
+TEST(BusNames, FindsTemplatesWhoseEventsNobodyDeclares) {
+    constexpr std::string_view kPlan = R"({
+  "format": "vagus-plan/1", "name": "P", "toolboxes": ["arm"], "start": { "actor": "a" },
+  "actors": {
+    "a": {
+      "template": "Turn", "states": { "Done": "b" } },
+    "b": {
+      "template": "Grip", "states": { "Done": "@terminate" } } } })";
+    run::CodeLibrary library;
+    toolbox::add_core(library);
+    const auto make = [] { return std::unique_ptr<run::Actor>(); };  // never run here
+    library.add("arm", "",
+                {{.declared = {.name = "Turn",
+                               .outcomes = {{.name = "Done"}},
+                               .bus = {.events = {"turning", "turnin"}}},
+                  .actor = make},
+                 {.declared = {.name = "Grip",
+                               .outcomes = {{.name = "Done"}},
+                               .bus = {.events = {"grip", "clear", "gripped"}}},
+                  .actor = make}});
+    const plan::Checked checked =
+        plan::check("p.plan.json", OneText(std::string(kPlan)), library.templates());
+    ASSERT_TRUE(checked.ok());
+    const plan::Findings findings = kNames.check(checked.plans, library.templates());
+    ASSERT_EQ(findings.size(), 2u);
+    EXPECT_EQ(findings[0].element, "a");
+    EXPECT_EQ(findings[0].line, 5);
+    EXPECT_EQ(
+        findings[0].message,
+        "the template Turn works by events, and the event \"turnin\" has no number: it is not "
+        "declared by the scripts of arena.world.json; did you mean \"turning\"?");
+    EXPECT_EQ(findings[1].line, 7);
+    EXPECT_THAT(findings[1].message,
+                HasSubstr("\"grip\" and \"gripped\" are not declared by the scripts of arena"));
 }
 
 TEST(BusNames, APlanOfWaitsUsesNoBus) {
@@ -91,7 +128,7 @@ TEST(BusNames, APlanOfWaitsUsesNoBus) {
         plan::check("p.plan.json", OneText(std::string(kPlan)), library.templates());
     ASSERT_TRUE(checked.ok());
     EXPECT_FALSE(uses_bus(checked.plans, library.templates()));
-    EXPECT_THAT(kNames.check(checked.plans), IsEmpty());
+    EXPECT_THAT(kNames.check(checked.plans, library.templates()), IsEmpty());
 }
 
 }  // namespace

@@ -28,26 +28,14 @@ std::string flat(std::string_view line) {
     while (!line.empty() && shown++ < kLineShownMax) {
         const CodePoint point = first_code_point(line);
         const size_t bytes = std::max<size_t>(point.bytes, 1);
-        const bool control = point.bytes == 0 || point.value < 0x20 || point.value == 0x7f;
-        text += control ? std::string_view(point.value == '\t' ? " " : "?") : line.substr(0, bytes);
+        const bool obeyed = point.bytes == 0 || is_obeyed(point.value);
+        text += obeyed ? std::string_view(point.value == '\t' ? " " : "?") : line.substr(0, bytes);
         line.remove_prefix(bytes);
     }
     return text;
 }
 
-}  // namespace
-
-std::string diagnostic_line(const SourceText& text, const aesl::Diagnostic& diagnostic,
-                            Severity severity) {
-    std::string line = text.file + ":";
-    if (diagnostic.at.line > 0) {
-        line += std::to_string(diagnostic.at.line + text.first_line - 1) + ":" +
-                std::to_string(diagnostic.at.column) + ":";
-    }
-    line += severity == Severity::Error ? " error: " : " warning: ";
-    return line + diagnostic.message + " [" + diagnostic.code + "]";
-}
-
+// The line of the script and the marks under it; empty if there is no position.
 std::vector<std::string> marked_source(const SourceText& text, const aesl::Diagnostic& diagnostic) {
     const aesl::Position at = diagnostic.at;
     if (at.line <= 0 || at.column <= 0) return {};
@@ -65,17 +53,28 @@ std::vector<std::string> marked_source(const SourceText& text, const aesl::Diagn
             margin + " | " + std::string(from, ' ') + "^" + std::string(marks - 1, '~')};
 }
 
-std::vector<std::string> diagnostic_report(const SourceText& text, const aesl::Compilation& done) {
-    std::vector<std::string> lines;
-    const auto add = [&](const std::vector<aesl::Diagnostic>& list, Severity severity) {
-        for (const aesl::Diagnostic& diagnostic : list) {
-            lines.push_back(diagnostic_line(text, diagnostic, severity));
-            for (std::string& line : marked_source(text, diagnostic)) lines.push_back(line);
-        }
-    };
-    add(done.errors, Severity::Error);
-    add(done.warnings, Severity::Warning);
-    return lines;
+}  // namespace
+
+Diagnostic in_file(const SourceText& text, const aesl::Diagnostic& diagnostic, Severity severity) {
+    Place at;
+    if (diagnostic.at.line > 0) {
+        at = {diagnostic.at.line + text.first_line - 1, diagnostic.at.column};
+    }
+    return {.severity = severity,
+            .file = text.file,
+            .at = at,
+            .sentence = diagnostic.message,
+            .code = diagnostic.code,
+            .source = marked_source(text, diagnostic)};
+}
+
+std::vector<Diagnostic> diagnostics_of(const SourceText& text, const aesl::Compilation& done) {
+    std::vector<Diagnostic> list;
+    for (const auto& error : done.errors) list.push_back(in_file(text, error, Severity::Error));
+    for (const auto& warning : done.warnings) {
+        list.push_back(in_file(text, warning, Severity::Warning));
+    }
+    return list;
 }
 
 }  // namespace vagus::session

@@ -1,4 +1,5 @@
-// Diagnostics as people read them, the same on stderr and on the screen:
+// What the compiler finds in a script, placed in the file where the script stands. As text
+// (base/diagnostic.hpp):
 //
 //     explore.aesl:12:5: error: There is no speeed; did you mean speed? [VARIABLE_NOT_DEFINED]
 //        12 | speeed = 3
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "aesl/compile.hpp"
+#include "base/diagnostic.hpp"
 
 namespace vagus::session {
 
@@ -20,16 +22,11 @@ struct SourceText {
     int first_line = 1;
 };
 
-enum class Severity { Error, Warning };
+// A diagnostic of the compiler in its file, with the line of the script and the marks under it; it
+// has no source if it has no position.
+Diagnostic in_file(const SourceText& text, const aesl::Diagnostic& diagnostic, Severity severity);
 
-// "FILE:LINE:COL: error: sentence [CODE]"; without LINE:COL if the diagnostic has no position.
-std::string diagnostic_line(const SourceText& text, const aesl::Diagnostic& diagnostic,
-                            Severity severity);
-
-// The line of the script and the marks under it, without newlines; empty if there is no position.
-std::vector<std::string> marked_source(const SourceText& text, const aesl::Diagnostic& diagnostic);
-
-// Both, for all errors and then all warnings.
-std::vector<std::string> diagnostic_report(const SourceText& text, const aesl::Compilation& done);
+// All errors, then all warnings.
+std::vector<Diagnostic> diagnostics_of(const SourceText& text, const aesl::Compilation& done);
 
 }  // namespace vagus::session

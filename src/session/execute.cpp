@@ -5,7 +5,7 @@
 #include "base/nearest.hpp"
 #include "isa/isa.hpp"
 #include "session/software_node.hpp"
-#include "wire/messages.hpp"
+#include "wire/reports.hpp"
 
 namespace vagus::session {
 
@@ -29,11 +29,11 @@ public:
     Run(const aesl::Program& program, const aesl::NodeFile& file)
         : program_(program), file_(file) {}
 
-    Result<Execution> all(const std::vector<Stimulus>& stimuli, uint32_t steps_per_event);
+    Result<Execution> all(const std::vector<aesl::Stimulus>& stimuli, uint32_t steps_per_event);
 
 private:
     Status prepare();
-    Status apply(const Stimulus& stimulus);
+    Status apply(const aesl::Stimulus& stimulus);
     Status assign(const std::string& name, const Words& words);
     Status write_convention(size_t index, const Words& words);
     Status write(const aesl::VariablePlace& place, const Words& words);
@@ -41,7 +41,7 @@ private:
     void finish_event(uint16_t event, uint32_t steps);
     void hear(const wire::Frame& frame);
     void hear_emission(const wire::Frame& frame);
-    void fail(FaultKind kind, uint16_t pc);
+    void fail(StopKind kind, uint16_t pc);
     void collect_memory();
 
     const aesl::Program& program_;
@@ -58,10 +58,10 @@ Status Run::prepare() {
     return node_->load(program_.bytecode);
 }
 
-Result<Execution> Run::all(const std::vector<Stimulus>& stimuli, uint32_t steps_per_event) {
+Result<Execution> Run::all(const std::vector<aesl::Stimulus>& stimuli, uint32_t steps_per_event) {
     TRY(prepare());
     finish_event(isa::kInitEvent, steps_per_event);
-    for (const Stimulus& stimulus : stimuli) {
+    for (const aesl::Stimulus& stimulus : stimuli) {
         if (result_.error) break;
         ++during_;
         TRY(apply(stimulus));
@@ -73,8 +73,8 @@ Result<Execution> Run::all(const std::vector<Stimulus>& stimuli, uint32_t steps_
 }
 
 // All but the run of the handler.
-Status Run::apply(const Stimulus& stimulus) {
-    for (const Assignment& assignment : stimulus.set) {
+Status Run::apply(const aesl::Stimulus& stimulus) {
+    for (const aesl::Assignment& assignment : stimulus.set) {
         TRY(assign(assignment.variable, assignment.words));
     }
     if (stimulus.source) TRY(write_convention(1, {*stimulus.source}));
@@ -127,7 +127,7 @@ void Run::finish_event(uint16_t event, uint32_t steps) {
     while (node_->is_active()) {
         const uint32_t batch = std::min<uint32_t>(steps, kBatch);
         if (batch == 0 || result_.emitted.size() >= kEmissionsMax) {
-            return fail(FaultKind::StepLimit, node_->pc());
+            return fail(StopKind::StepLimit, node_->pc());
         }
         steps -= node_->run(static_cast<uint16_t>(batch));
     }
@@ -135,18 +135,22 @@ void Run::finish_event(uint16_t event, uint32_t steps) {
 
 void Run::hear(const wire::Frame& frame) {
     if (wire::is_user_event(frame.type)) return hear_emission(frame);
-    wire::DivisionByZero division;
-    wire::ArrayAccessOutOfBounds access;
-    wire::NodeSpecificError other;
-    if (wire::decode_message(frame, division) == wire::Error::None) {
-        fail(FaultKind::DivisionByZero, division.pc);
-    } else if (wire::decode_message(frame, access) == wire::Error::None) {
-        fail(FaultKind::ArrayOutOfBounds, access.pc);
-        result_.error->size = access.size;
-        result_.error->index = static_cast<int16_t>(access.index);
-    } else if (wire::decode_message(frame, other) == wire::Error::None) {
-        fail(FaultKind::NodeSpecific, other.pc);
-        result_.error->text.assign(other.text.bytes, other.text.size);
+    wire::Fault fault;
+    if (!wire::read_fault(frame, fault)) return;
+    switch (fault.kind) {
+        case wire::FaultKind::DivisionByZero:
+            return fail(StopKind::DivisionByZero, fault.pc);
+        case wire::FaultKind::ArrayAccess:
+            fail(StopKind::ArrayOutOfBounds, fault.pc);
+            result_.error->size = fault.size;
+            result_.error->index = fault.index;
+            return;
+        case wire::FaultKind::NodeSpecific:
+            fail(StopKind::NodeSpecific, fault.pc);
+            result_.error->text.assign(fault.text.bytes, fault.text.size);
+            return;
+        case wire::FaultKind::Killed:
+            return;
     }
 }
 
@@ -156,12 +160,11 @@ void Run::hear_emission(const wire::Frame& frame) {
     Emission emission{.during = during_, .event = {}, .arguments = {}};
     emission.event =
         frame.type < events.size() ? events[frame.type].name : std::to_string(frame.type);
-    wire::Reader in(frame.payload, frame.size);
-    while (in.left() >= 2) emission.arguments.push_back(in.i16());
+    emission.arguments = wire::arguments_of<std::vector<int16_t>>(frame);
     result_.emitted.push_back(std::move(emission));
 }
 
-void Run::fail(FaultKind kind, uint16_t pc) {
+void Run::fail(StopKind kind, uint16_t pc) {
     RuntimeError error;
     error.kind = kind;
     error.during = during_;
@@ -183,7 +186,7 @@ void Run::collect_memory() {
 }  // namespace
 
 Result<Execution> execute(const aesl::Program& program, const aesl::NodeFile& node,
-                          const std::vector<Stimulus>& stimuli, uint32_t steps_per_event) {
+                          const std::vector<aesl::Stimulus>& stimuli, uint32_t steps_per_event) {
     return Run(program, node).all(stimuli, steps_per_event);
 }
 

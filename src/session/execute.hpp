@@ -2,7 +2,7 @@
 // of it: the logic of `vagus exec`. What goes in and out is defined in
 // testdata/golden/aesl/README.md.
 //
-//     const auto stimuli = TRY(session::parse_stimuli(text, "case.json"));
+//     const auto stimuli = TRY(aesl::parse_stimuli(text, "case.json"));
 //     const auto execution = TRY(session::execute(program, node_file, stimuli, {}));
 //     print(session::format_execution(execution));
 #pragma once
@@ -15,30 +15,13 @@
 
 #include "aesl/compile.hpp"
 #include "aesl/node_file.hpp"
+#include "aesl/stimuli.hpp"
 #include "base/result.hpp"
 
 namespace vagus::session {
 
 constexpr uint32_t kStepsPerEvent = 1'000'000;  // unless the caller says otherwise
-constexpr size_t kStimuliMax = 100'000;
-constexpr size_t kEmissionsMax = 1'000'000;  // more end the run like too many steps
-
-struct Assignment {
-    std::string variable;
-    std::vector<int16_t> words;
-};
-
-// Applied in this order: variables are set, then the event happens.
-struct Stimulus {
-    std::vector<Assignment> set;
-    std::string event;               // empty: none
-    std::vector<int16_t> arguments;  // to the first words of the third variable, the rest stays
-    std::optional<int16_t> source;   // to the second variable
-};
-
-// Reads `stimuli` of an object; a whole expected file of the golden cases will do. None is no
-// stimuli.
-Result<std::vector<Stimulus>> parse_stimuli(std::string_view text, std::string_view file);
+constexpr size_t kEmissionsMax = 1'000'000;     // more end the run like too many steps
 
 struct VariableWords {
     std::string name;
@@ -53,11 +36,12 @@ struct Emission {
     friend bool operator==(const Emission&, const Emission&) = default;
 };
 
-enum class FaultKind { DivisionByZero, ArrayOutOfBounds, NodeSpecific, StepLimit };
-std::string_view name_of(FaultKind kind);  // "division_by_zero" …
+// Why a run stopped before its end.
+enum class StopKind { DivisionByZero, ArrayOutOfBounds, NodeSpecific, StepLimit };
+std::string_view name_of(StopKind kind);  // "division_by_zero" …
 
 struct RuntimeError {
-    FaultKind kind = FaultKind::NodeSpecific;
+    StopKind kind = StopKind::NodeSpecific;
     int during = 0;
     int line = 0;                  // of the script; 0 if the place belongs to no line
     std::optional<uint16_t> size;  // ArrayOutOfBounds
@@ -66,8 +50,8 @@ struct RuntimeError {
 };
 
 struct Execution {
-    std::vector<VariableWords>
-        memory;  // every variable of the script; those of the node that are not all zero
+    // Every variable of the script; those of the node that are not all zero.
+    std::vector<VariableWords> memory;
     std::vector<Emission> emitted;
     std::optional<RuntimeError> error;  // the run stopped there
 };
@@ -76,7 +60,7 @@ struct Execution {
 // the node, stimuli that name what does not exist. What goes wrong inside the script is in the
 // Execution.
 Result<Execution> execute(const aesl::Program& program, const aesl::NodeFile& node,
-                          const std::vector<Stimulus>& stimuli, uint32_t steps_per_event);
+                          const std::vector<aesl::Stimulus>& stimuli, uint32_t steps_per_event);
 
 // One JSON object, with a newline at the end.
 std::string format_execution(const Execution& execution);

@@ -37,23 +37,23 @@ aesl::Program program_of(std::vector<uint16_t> bytecode) {
     return program;
 }
 
-Stimulus happens(const std::string& event, std::vector<int16_t> arguments = {},
-                 std::optional<int16_t> source = {}) {
+aesl::Stimulus happens(const std::string& event, std::vector<int16_t> arguments = {},
+                       std::optional<int16_t> source = {}) {
     return {.set = {}, .event = event, .arguments = std::move(arguments), .source = source};
 }
 
-Stimulus sets(std::vector<Assignment> assignments) {
+aesl::Stimulus sets(std::vector<aesl::Assignment> assignments) {
     return {.set = std::move(assignments), .event = {}, .arguments = {}, .source = {}};
 }
 
-Execution run(const aesl::Program& program, const std::vector<Stimulus>& stimuli = {},
+Execution run(const aesl::Program& program, const std::vector<aesl::Stimulus>& stimuli = {},
               uint32_t steps = kStepsPerEvent) {
     auto execution = execute(program, node_file(), stimuli, steps);
     EXPECT_TRUE(execution.ok()) << execution.error().what;
     return execution.value();
 }
 
-std::string refusal(const std::vector<Stimulus>& stimuli) {
+std::string refusal(const std::vector<aesl::Stimulus>& stimuli) {
     const auto execution = execute(program_of({0}), node_file(), stimuli, kStepsPerEvent);
     return execution.ok() ? "" : execution.error().what;
 }
@@ -95,7 +95,7 @@ TEST(Execute, RuntimeErrorNamesItsLineAndStopsTheRun) {
     const auto program = program_of({3, 0xfffe, 3, 0x1001, 0x1000, 0x8005, 0x4008, 0});
     const Execution done = run(program, {happens("ping"), happens("tick"), sets({{"n", {5}}})});
     ASSERT_TRUE(done.error);
-    EXPECT_EQ(done.error->kind, FaultKind::DivisionByZero);
+    EXPECT_EQ(done.error->kind, StopKind::DivisionByZero);
     EXPECT_EQ(done.error->during, 2);
     EXPECT_EQ(done.error->line, 12);
     EXPECT_EQ(done.memory.at(0), (VariableWords{"n", {0}}));
@@ -104,7 +104,7 @@ TEST(Execute, RuntimeErrorNamesItsLineAndStopsTheRun) {
 TEST(Execute, OutOfBoundsTellsSizeAndSignedIndex) {
     const Execution done = run(program_of({3, 0xffff, 3, 0x1fff, 0x5009, 2, 0}));
     ASSERT_TRUE(done.error);
-    EXPECT_EQ(done.error->kind, FaultKind::ArrayOutOfBounds);
+    EXPECT_EQ(done.error->kind, StopKind::ArrayOutOfBounds);
     EXPECT_EQ(done.error->size, 2);
     EXPECT_EQ(done.error->index, -1);
     EXPECT_EQ(done.error->line, 11);
@@ -113,7 +113,7 @@ TEST(Execute, OutOfBoundsTellsSizeAndSignedIndex) {
 TEST(Execute, OtherFaultsBringTheirText) {
     const Execution done = run(program_of({3, 0xffff, 3, 0xc000, 0}));  // the node has no native
     ASSERT_TRUE(done.error);
-    EXPECT_EQ(done.error->kind, FaultKind::NodeSpecific);
+    EXPECT_EQ(done.error->kind, StopKind::NodeSpecific);
     EXPECT_THAT(done.error->text, HasSubstr("Native function"));
 }
 
@@ -127,14 +127,14 @@ TEST(Execute, EventBeyondTheStepLimitIsStopped) {
     const auto program = program_of({3, 0xffff, 3, 0x1001, 0x1001, 0x8002, 0});
     const Execution done = run(program, {}, 3);
     ASSERT_TRUE(done.error);
-    EXPECT_EQ(done.error->kind, FaultKind::StepLimit);
+    EXPECT_EQ(done.error->kind, StopKind::StepLimit);
     EXPECT_EQ(done.error->line, 13);
 }
 
 TEST(Execute, EndlessLoopIsStopped) {
     const Execution done = run(program_of({3, 0xffff, 3, 0x9000}));
     ASSERT_TRUE(done.error);
-    EXPECT_EQ(done.error->kind, FaultKind::StepLimit);
+    EXPECT_EQ(done.error->kind, StopKind::StepLimit);
     EXPECT_EQ(done.error->line, 10);
 }
 
@@ -154,12 +154,12 @@ TEST(Execute, MoreWordsThanAVariableHasAreRefused) {
 // ---- Stimuli ----
 
 std::string first_error(const std::string& text) {
-    const auto stimuli = parse_stimuli(text, "case.json");
+    const auto stimuli = aesl::parse_stimuli(text, "case.json");
     return stimuli.ok() ? "" : stimuli.error().what;
 }
 
 TEST(Stimuli, AreReadInTheirOrder) {
-    const auto stimuli = parse_stimuli(
+    const auto stimuli = aesl::parse_stimuli(
         R"({"stimuli": [{"set": {"a": [1, -2]}}, {"event": "go", "args": [3], "source": 5}]})",
         "f");
     ASSERT_TRUE(stimuli.ok());
@@ -193,7 +193,7 @@ TEST(FormatExecution, IsTheFormOfTheExpectedFiles) {
     Execution execution;
     execution.memory = {{"n", {1, -2}}};
     execution.emitted = {{0, "report", {4}}};
-    execution.error = RuntimeError{FaultKind::ArrayOutOfBounds, 1, 5, 2, -1, ""};
+    execution.error = RuntimeError{StopKind::ArrayOutOfBounds, 1, 5, 2, -1, ""};
     EXPECT_EQ(format_execution(execution),
               "{\n"
               " \"memory\": {\n"

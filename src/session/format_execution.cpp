@@ -47,15 +47,15 @@ std::string format_error(const RuntimeError& error) {
 
 }  // namespace
 
-std::string_view name_of(FaultKind kind) {
+std::string_view name_of(StopKind kind) {
     switch (kind) {
-        case FaultKind::DivisionByZero:
+        case StopKind::DivisionByZero:
             return "division_by_zero";
-        case FaultKind::ArrayOutOfBounds:
+        case StopKind::ArrayOutOfBounds:
             return "array_out_of_bounds";
-        case FaultKind::NodeSpecific:
+        case StopKind::NodeSpecific:
             return "node_specific";
-        case FaultKind::StepLimit:
+        case StopKind::StepLimit:
             return "step_limit";
     }
     return "";
@@ -72,9 +72,10 @@ std::string format_execution(const Execution& execution) {
 }
 
 std::string format_compile_error(const aesl::Diagnostic& error) {
+    const aesl::Position place = error.formal_place();
     return fmt::format(
         "{{\n \"error\": {{\"code\": {}, \"number\": {}, \"line\": {}, \"column\": {}}}\n}}\n",
-        json_quote(error.code), error.number, error.at.line, error.at.column);
+        json_quote(error.code), error.number, place.line, place.column);
 }
 
 }  // namespace vagus::session

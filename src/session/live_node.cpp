@@ -28,18 +28,24 @@ Result<std::unique_ptr<LiveNode>> LiveNode::make(aesl::Target target, LiveNodeOp
     inner.transmit = std::move(options.transmit);
     inner.notify = [raw = live.get()](vm::Notice notice) { raw->obey(notice); };
     live->node_ = TRY(SoftwareNode::make(std::move(target), std::move(inner)));
-    TRY(live->start());
+    live->start();
     return live;
 }
 
-Status LiveNode::start() {
+void LiveNode::start() {
     for (const char* name : {"id", "_id"}) {
         const auto place = node_->find_variable(name);
         if (place) node_->variables()[place->address] = static_cast<int16_t>(node_->id());
     }
-    if (flash_.empty()) return Status::done();
-    if (TRY(load_stored_program(*node_, flash_)) == Stored::Loaded) node_->start_program();
-    return Status::done();
+    if (flash_.empty()) return;
+    const Result<Stored> stored = load_stored_program(*node_, flash_);
+    if (!stored.ok()) {
+        flash_trouble_ = stored.error().what +
+                         "; the node starts without a program, and the next "
+                         "one that is saved replaces the file";
+    } else if (stored.value() == Stored::Loaded) {
+        node_->start_program();
+    }
 }
 
 void LiveNode::receive(const wire::Frame& frame) {

@@ -50,7 +50,8 @@ private:
 class LiveNode {
 public:
     // With a saved program the node starts it at once, in running mode, without a host. Fails as
-    // SoftwareNode::make() does, and if the file holds something else than a program for this node.
+    // SoftwareNode::make() does. A file that holds no program for this node costs the program, not
+    // the node: it starts empty, and flash_trouble() says why.
     static Result<std::unique_ptr<LiveNode>> make(aesl::Target target, LiveNodeOptions options);
 
     // Answers, and then lets the script run, so that a burst of events is not one long chain of
@@ -62,15 +63,18 @@ public:
     Time step(Time now);
 
     SoftwareNode& node() { return *node_; }
+    // Why the saved program was not started; empty if nothing is wrong.
+    const std::string& flash_trouble() const { return flash_trouble_; }
 
 private:
     explicit LiveNode(std::string flash) : flash_(std::move(flash)) {}
-    Status start();
+    void start();
     void obey(vm::Notice notice);
     void save();
     void look_at_period(Time now);
 
     const std::string flash_;
+    std::string flash_trouble_;
     std::unique_ptr<SoftwareNode> node_;
     NodeTimer timer_;
 };

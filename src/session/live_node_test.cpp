@@ -153,6 +153,37 @@ TEST_F(Live, SavedProgramRunsAgainAfterARestartWithoutAHost) {
     EXPECT_EQ(again->node().variables()[kCounter], 1);
 }
 
+TEST_F(Live, ADamagedFlashFileCostsTheProgramNotTheNode) {
+    const std::string flash = (folder_ / "three.abo").string();
+    {
+        const auto live = node(flash);
+        upload(*live, kCounting);
+        live->receive(command(kSave, {3}));
+    }
+    std::filesystem::resize_file(flash, 20);
+    const auto again = node(flash);
+    EXPECT_THAT(again->flash_trouble(), HasSubstr("three.abo"));
+    EXPECT_THAT(again->flash_trouble(), HasSubstr("starts without a program"));
+    EXPECT_EQ(again->step(0ms), Time::max());
+    upload(*again, kCounting);
+    again->receive(command(kSave, {3}));
+    EXPECT_EQ(last_text(), "Flashing OK");
+    EXPECT_EQ(node(flash)->flash_trouble(), "");
+}
+
+TEST_F(Live, SavingLeavesNothingBesideTheFlashFile) {
+    const std::string flash = (folder_ / "three.abo").string();
+    const auto live = node(flash);
+    upload(*live, kCounting);
+    for (int i = 0; i < 3; i++) live->receive(command(kSave, {3}));
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+        EXPECT_EQ(entry.path(), flash);
+        files++;
+    }
+    EXPECT_EQ(files, 1u);
+}
+
 TEST_F(Live, WithoutAFlashFileItSaysThatNothingIsKept) {
     const auto live = node();
     live->receive(command(kSave, {3}));

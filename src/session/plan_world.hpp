@@ -25,6 +25,7 @@
 #include "session/bus_names.hpp"
 #include "session/sim_session.hpp"
 #include "session/world_camera.hpp"
+#include "toolbox/bus_talk.hpp"
 
 namespace vagus::session {
 
@@ -32,18 +33,24 @@ struct PlanWorldOptions {
     std::string path = {};
     std::optional<uint64_t> seed = {};  // instead of that of the file
     bool traced = false;                // keep lines for session().take_trace()
+    std::string robot = {};             // of several that the plan could drive; empty: the only one
+    std::vector<toolbox::NodeNames> needs = {};  // nodes that the plan works on, one of each list
 };
 
 class PlanWorld final : public run::Surroundings {
 public:
     // Fails for a file that is wrong, and for scripts that are: the Error has the compiler's lines.
+    // A plan is for one robot: fails too if the plan could drive several and none is named, or if
+    // the named one lacks a node.
     static Result<std::unique_ptr<PlanWorld>> open(const PlanWorldOptions& options,
                                                    toolbox::BusNodes& nodes);
 
     const BusNames& names() const { return names_; }
     // Puts the world beside the run, and the run on its bus. Borrowed for the run.
     void join(run::RunOptions& options);
-    // That of the first robot that has one, for toolbox::Parts; nullptr if none has.
+    // The robot that the plan drives; the first one of the world if the plan asks for no node.
+    sim::RobotId robot() const { return robot_.value_or(sim::RobotId{1}); }
+    // That of the robot, for toolbox::Parts; nullptr if it has none.
     toolbox::Camera* camera() { return camera_.exists() ? &camera_ : nullptr; }
     // Called at each instant, on the deciding thread, before anything of it happens: to pace the
     // run, to look at it, to act on the world.
@@ -59,10 +66,12 @@ public:
     void end() override { session_.end_instant(); }
 
 private:
-    PlanWorld(SimSession session, BusNames names, toolbox::BusNodes& nodes);
+    PlanWorld(SimSession session, BusNames names, toolbox::BusNodes& nodes,
+              std::optional<sim::RobotId> robot);
     std::vector<run::BusEvent> hear();
 
     SimSession session_;
+    std::optional<sim::RobotId> robot_;  // empty: what the plan emits is for all
     WorldCamera camera_;
     BusNames names_;
     BusEars ears_;

@@ -80,14 +80,17 @@ class PlanWorldTest : public ::testing::Test {
 protected:
     PlanWorldTest() { toolbox::add_core(library_); }
 
-    Result<std::unique_ptr<PlanWorld>> open(std::string_view world, std::string_view script) {
+    Result<std::unique_ptr<PlanWorld>> open(std::string_view world, std::string_view script,
+                                            PlanWorldOptions options = {}) {
         folder_.write("answer.aesl", script);
-        return PlanWorld::open({.path = folder_.write("room.world.json", world), .traced = true},
-                               nodes_);
+        options.path = folder_.write("room.world.json", world);
+        options.traced = true;
+        return PlanWorld::open(options, nodes_);
     }
 
-    Ran run(std::string_view actors, std::string_view world = kWorld) {
-        auto opened = open(world, kScript);
+    Ran run(std::string_view actors, std::string_view world = kWorld,
+            const PlanWorldOptions& how = {}) {
+        auto opened = open(world, kScript, how);
         EXPECT_TRUE(opened.ok()) << opened.error().what;
         PlanWorld& beside = *opened.value();
         const plan::Checked checked =
@@ -111,6 +114,47 @@ protected:
     run::CodeLibrary library_;
     toolbox::BusNodes nodes_;
 };
+
+// Both have the nodes that the plan needs, and scripts that obey.
+constexpr std::string_view kTwoRobots = R"({
+  "format": "vagus-world/1", "name": "Room", "size": [2, 1], "robots": [
+    { "name": "left", "type": "thymio2", "at": [0.5, 0.5], "node": 1, "script": "answer.aesl" },
+    { "name": "right", "type": "thymio2", "at": [1.5, 0.5], "node": 2, "script": "answer.aesl" }]
+})";
+const std::vector<toolbox::NodeNames> kNeedsThymio = {{"drive", "thymio-II"}};
+
+TEST_F(PlanWorldTest, OfTwoRobotsOneMustBeChosen) {
+    const auto none = open(kTwoRobots, kScript, {.needs = kNeedsThymio});
+    ASSERT_FALSE(none.ok());
+    EXPECT_THAT(none.error().what, HasSubstr("could drive 2 robots of "));
+    EXPECT_THAT(none.error().what, HasSubstr("left and right; choose one, as --robot left"));
+    EXPECT_EQ(open(kWorld, kScript, {.needs = kNeedsThymio}).value()->robot(), sim::RobotId{1});
+    EXPECT_EQ(open(kTwoRobots, kScript, {.robot = "right"}).value()->robot(), sim::RobotId{2});
+    const auto unknown = open(kTwoRobots, kScript, {.robot = "rihgt"});
+    ASSERT_FALSE(unknown.ok());
+    EXPECT_THAT(unknown.error().what, HasSubstr("did you mean right?"));
+    const auto lacking = open(kTwoRobots, kScript, {.robot = "left", .needs = {{"head"}}});
+    ASSERT_FALSE(lacking.ok());
+    EXPECT_THAT(lacking.error().what, HasSubstr("needs a node \"head\", and that robot has only "
+                                                "thymio-II"));
+}
+
+// The right one answers go, the left one does not take it. Both emit pulse at 21 ms; of these the
+// plan hears one, the other is not due before 41 ms.
+TEST_F(PlanWorldTest, OnlyTheChosenRobotHearsAndIsHeard) {
+    const Ran ran = run(R"(
+        "a": { "template": "Send", "in": { "event": "'go'", "args": "'41'" },
+               "states": { "Sent": "b" } },
+        "b": { "template": "Receive", "in": { "event": "'pulse'" }, "states": { "Received": "c" } },
+        "c": { "template": "Receive", "in": { "event": "'pulse'" }, "out": { "arg0": "n" },
+               "states": { "Received": "@terminate" } })",
+                        kTwoRobots, {.robot = "right", .needs = kNeedsThymio});
+    EXPECT_EQ(ran.ended.result, plan::PlanResult::Ok) << ran.ended.message;
+    EXPECT_THAT(ran.all, HasSubstr(R"("node":2,"name":"gone","args":[42])"));
+    EXPECT_THAT(ran.all, testing::Not(HasSubstr(R"("node":1,"name":"gone")")));
+    EXPECT_THAT(ran.all, HasSubstr(R"("node":1,"name":"pulse")"));
+    EXPECT_THAT(ran.trace.back(), HasSubstr(R"({"t":0.042000,)"));
+}
 
 // 0 ms: the plan emits go. 1 ms: the node hears it and answers. 2 ms: the plan hears that.
 // The timer's period of 20 ms counts from its first look, at 1 ms: at 21 ms the node emits pulse,

@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/file_format.hpp"
+
 namespace vagus::session {
 namespace {
+
+// Some editors of Windows begin each file with it. It says nothing.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 constexpr size_t kEmittedMax = 1000;  // names; a script has room for far fewer
 
@@ -45,9 +50,13 @@ std::vector<std::string> emitted_names(std::string_view source) {
 }  // namespace
 
 Result<ScriptFile> read_script_file(std::string_view text, const std::string& path) {
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     const size_t start = text.find_first_not_of(" \t\r\n");
     if (start != std::string_view::npos && text[start] == '<') {
         return ScriptFile{path, false, TRY(aesl::parse_project(text, path))};
+    }
+    if (const auto other = other_format(text, FileFormat::Script)) {
+        return Error{Code::BadInput, at_place(path, {1, 1}, *other)};
     }
     ScriptFile file{path, true, {}};
     file.project.scripts.emplace_back();

@@ -19,7 +19,8 @@ struct ScriptFile {
     aesl::Project project;  // of a plain script: without events and constants, one script
 };
 
-// The Error is that of parse_project(); a plain text is always accepted here.
+// The Error is that of parse_project(); a plain text is always accepted here. A byte-order mark at
+// the start is skipped.
 Result<ScriptFile> read_script_file(std::string_view text, const std::string& path);
 
 // `common` and the names that the plain script emits and that are neither in it nor local events.

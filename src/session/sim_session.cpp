@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <filesystem>
+#include <set>
 
 #include "base/file.hpp"
+#include "base/project_border.hpp"
 #include "session/diagnostic_text.hpp"
 #include "session/trace.hpp"
 #include "sim/world_file.hpp"
@@ -63,6 +65,9 @@ void SimSession::end_instant() {
     world_.end_instant();
     if (options_.traced) trace_happenings(told);
     speak();
+    for (const hub::SharedId& shared : world_.bus().take_shared_ids()) {
+        note(NoteKind::Trouble, sentence(shared));
+    }
 }
 
 bool SimSession::settle() {
@@ -99,7 +104,13 @@ void SimSession::speak() {
 }
 
 void SimSession::send_frames() {
-    for (const wire::Frame& out : network_.take_frames()) world_.bus().receive(link_, out);
+    for (const wire::Frame& out : network_.take_frames()) {
+        if (emits_to_ && wire::is_user_event(out.type)) {
+            world_.send_to(*emits_to_, link_, out);
+        } else {
+            world_.bus().receive(link_, out);
+        }
+    }
 }
 
 // ---- a plan beside it ----
@@ -251,6 +262,13 @@ void SimSession::note(NoteKind kind, std::string text) {
     if (notes_.size() < kNotesMax && !again) notes_.push_back({now(), kind, std::move(text)});
 }
 
+void SimSession::warn(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    hints_ = lines;
+    if (!text.empty()) note(NoteKind::Warnings, text);
+}
+
 // ---- looking ----
 
 std::vector<NodeState> SimSession::nodes() const {
@@ -309,18 +327,27 @@ std::vector<EventCount> SimSession::events() const {
     return list;
 }
 
-std::vector<std::string> SimSession::mistakes() const {
-    std::vector<std::string> lines;
-    for (const auto& [path, sentence] : file_mistakes_) lines.push_back(sentence);
+std::vector<Diagnostic> SimSession::mistakes() const {
+    std::vector<Diagnostic> list;
+    std::set<std::string> said;
+    for (const auto& [path, why] : file_mistakes_) list.push_back(why);
     for (const Node& node : nodes_) {
-        if (!node.script) continue;
+        if (!node.script || node.script->mistakes.empty()) continue;
         const auto& more = node.script->mistakes;
         // The same script on several nodes has the same mistakes: said once.
-        const bool known =
-            !more.empty() && std::find(lines.begin(), lines.end(), more.front()) != lines.end();
-        if (!known) lines.insert(lines.end(), more.begin(), more.end());
+        if (said.insert(text_of(more.front())).second) {
+            list.insert(list.end(), more.begin(), more.end());
+        }
     }
-    return lines;
+    return list;
+}
+
+std::vector<std::string> SimSession::without_script() const {
+    std::vector<std::string> names;
+    for (const Node& node : nodes_) {
+        if (node.script && node.script->stage != Stage::Runs) names.push_back(label(node));
+    }
+    return names;
 }
 
 std::vector<std::string> SimSession::script_paths() const {
@@ -365,17 +392,18 @@ Result<SimSession> open_sim(const std::string& path, SimOptions options) {
     SimSession session(TRY(sim::World::load(text, path, options.world)), options);
     const auto& robots = session.world().definition().robots;
     const auto views = session.world().robots();
+    session.warn(sim::hints_of_world(text, path));
     for (size_t i = 0; i < robots.size() && i < views.size(); i++) {
         if (robots[i].script.empty()) continue;
-        const std::string script =
-            (fs::path(options.world.folder) / robots[i].script).lexically_normal().string();
-        const Result<std::string> source = read_file(script);
+        const Result<std::string> script = path_beside(path, robots[i].script);
+        const Result<std::string> source =
+            script.ok() ? read_file(script.value()) : Result<std::string>(script.error());
         if (!source.ok()) {
             const Error& error = source.error();
             const std::string element = "robots[" + std::to_string(i) + "].script: ";
             return sim::error_in_world({error.code, element + error.what}, text, path);
         }
-        session.load_for(views[i].id, script, source.value());
+        session.load_for(views[i].id, script.value(), source.value());
     }
     return session;
 }

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "aesl/compile.hpp"
+#include "base/diagnostic.hpp"
 #include "base/result.hpp"
 #include "debug/network.hpp"
 #include "session/script_file.hpp"
@@ -49,7 +50,7 @@ struct SimOptions {
 enum class NoteKind {
     Loaded,    // a script runs
     Mistakes,  // a script does not compile, or its file is no project; what ran before runs on
-    Warnings,  // it compiles, with remarks
+    Warnings,  // it compiles, with remarks; or remarks about the world file
     Event,     // someone sent a user event
     Fault,     // a script was stopped by what it did
     Trouble,   // a script could not be sent
@@ -58,8 +59,8 @@ enum class NoteKind {
 struct Note {
     Time at{};
     NoteKind kind = NoteKind::Event;
-    std::string
-        text;  // Mistakes and Warnings: several lines, each with its newline; else one sentence
+    // Mistakes and Warnings: several lines, each with its newline; else one sentence.
+    std::string text;
 };
 
 struct EventCount {
@@ -116,6 +117,8 @@ public:
     // Fails for an event that no project of the robots declares, and for another number of
     // arguments than is declared.
     Status emit(const std::string& event, std::span<const int16_t> arguments, Time at);
+    // From now on only this robot takes what is emitted: a plan is for one robot.
+    void emit_to(sim::RobotId robot) { emits_to_ = robot; }
     // What the bus told since, user events and all else, in its order; with SimOptions::heard.
     std::vector<debug::Event> take_heard();
     // Names of events and constants, by the projects that the robots load.
@@ -137,11 +140,18 @@ public:
     const aesl::Target* target(uint16_t node) const;
     // The latest first.
     std::vector<EventCount> events() const;
-    // Lines for people: the mistakes of the scripts as they stand now.
-    std::vector<std::string> mistakes() const;
+    // What runs: the sources that were compiled for the nodes, by node.
+    std::map<uint16_t, std::string> running_scripts() const;
+    // The mistakes of the scripts as they stand now.
+    std::vector<Diagnostic> mistakes() const;
+    // Names of the nodes that are to have a script and do not run it.
+    std::vector<std::string> without_script() const;
 
     std::vector<Note> take_notes();
     std::string take_trace();
+    // What is doubtful about the world file: FILE:LINE:COL: warning: sentence. Also a note.
+    const std::vector<std::string>& hints() const { return hints_; }
+    void warn(const std::vector<std::string>& lines);
 
 private:
     // A script on its way to a node, or there.
@@ -153,7 +163,7 @@ private:
         Stage stage = Stage::Waiting;
         aesl::Program program;  // the last that compiled
         debug::RequestId request;
-        std::vector<std::string> mistakes;  // of the text as it is now; `program` may be older
+        std::vector<Diagnostic> mistakes;  // of the text as it is now; `program` may be older
     };
     struct Node {
         sim::RobotId robot;
@@ -163,6 +173,16 @@ private:
         uint16_t places = 1;  // how many nodes the robot has
         std::optional<Assignment> script;
         std::string fault;
+    };
+    struct Compiled {  // a script for a kind of node
+        std::string path;
+        std::string source;
+        int first_line = 1;
+        aesl::CommonDefinitions common;
+        aesl::Target target;
+        aesl::Program program;
+        bool good = false;
+        std::vector<Diagnostic> mistakes;
     };
     struct WaitingFile {
         ScriptFile file;
@@ -186,8 +206,10 @@ private:
     size_t place_project(const ScriptFile& file);
     size_t place_plain(const ScriptFile& file);
     size_t place_for(sim::RobotId robot, const ScriptFile& file);
+    size_t place_among(std::span<Node* const> nodes, const ScriptFile& file);
+    const Compiled& compiled(const Node& node);
     void give(Node& node, const ScriptFile& file, const aesl::Script& script);
-    void refuse_file(const std::string& path, const std::string& sentence);
+    void refuse_file(const std::string& path, Diagnostic why);
     const aesl::CommonDefinitions& names_without(const std::string& path) const;
     bool agree_on_names(const std::string& path, const aesl::CommonDefinitions& common);
     void compile(Node& node);
@@ -201,17 +223,20 @@ private:
     SimOptions options_;
     debug::Network network_;
     hub::LinkId link_;  // ours on the bus
-    bool over_can_;     // frames cross a modelled bus
-    Time clock_{};      // of the network: goes on over reset()
-    Duration rest_{};   // of step()
+    std::optional<sim::RobotId> emits_to_;
+    bool over_can_;    // frames cross a modelled bus
+    Time clock_{};     // of the network: goes on over reset()
+    Duration rest_{};  // of step()
     std::vector<Node> nodes_;
     std::vector<WaitingFile> waiting_;
+    std::vector<Compiled> compiled_;  // while files are placed
     std::vector<std::pair<std::string, std::optional<sim::RobotId>>> sources_;  // as loaded
-    std::map<std::string, std::string> file_mistakes_;  // by path: what keeps a whole file out
-    std::map<std::string, aesl::CommonDefinitions>
-        names_;  // by path: events of the scripts that run
+    std::map<std::string, Diagnostic> file_mistakes_;  // by path: what keeps a whole file out
+    // By path: events of the scripts that run.
+    std::map<std::string, aesl::CommonDefinitions> names_;
     std::map<std::string, EventCount> events_;
     std::vector<Note> notes_;
+    std::vector<std::string> hints_;
     std::vector<debug::Event> heard_;
     std::string trace_;
 };

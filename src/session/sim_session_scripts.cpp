@@ -7,6 +7,17 @@
 #include "session/sim_session.hpp"
 
 namespace vagus::session {
+namespace {
+
+// About the whole file.
+Diagnostic of_file(const std::string& path, std::string sentence) {
+    Diagnostic diagnostic;
+    diagnostic.file = path;
+    diagnostic.sentence = std::move(sentence);
+    return diagnostic;
+}
+
+}  // namespace
 
 void SimSession::load(const std::string& path, std::string_view text) {
     take(path, std::nullopt, text);
@@ -21,14 +32,14 @@ void SimSession::take(const std::string& path, std::optional<sim::RobotId> only,
     const std::pair source{path, only};
     if (std::find(sources_.begin(), sources_.end(), source) == sources_.end()) {
         if (sources_.size() >= kScriptFilesMax) {
-            return refuse_file(path, path + ": error: more than " +
-                                         std::to_string(kScriptFilesMax) +
-                                         " script files in one world; join some of them");
+            return refuse_file(path, of_file(path, "more than " + std::to_string(kScriptFilesMax) +
+                                                       " script files in one world; join some of "
+                                                       "them"));
         }
         sources_.push_back(source);
     }
     auto file = read_script_file(text, path);
-    if (!file.ok()) return refuse_file(path, file.error().what);
+    if (!file.ok()) return refuse_file(path, of_file("", file.error().what));
     std::erase_if(waiting_, [&](const WaitingFile& other) {
         return other.file.path == path && other.only == only;
     });
@@ -52,6 +63,7 @@ bool SimSession::all_described() const {
 void SimSession::place_files() {
     const std::vector<WaitingFile> files = std::exchange(waiting_, {});
     for (const WaitingFile& waiting : files) place(waiting);
+    compiled_.clear();  // the next text is another, and its mistakes are told anew
 }
 
 void SimSession::place(const WaitingFile& waiting) {
@@ -77,11 +89,11 @@ void SimSession::place(const WaitingFile& waiting) {
     const auto list = [](const std::vector<std::string>& words) {
         return words.empty() ? "none" : list_of({words.begin(), words.end()});
     };
-    refuse_file(file.path,
-                file.path +
-                    ": error: no script in it is for a robot of this world; it has scripts for " +
-                    list(wanted) + ", the world has " + list(there) +
-                    "; give the script's node the name of a robot's node");
+    refuse_file(
+        file.path,
+        of_file(file.path, "no script in it is for a robot of this world; it has scripts for " +
+                               list(wanted) + ", the world has " + list(there) +
+                               "; give the script's node the name of a robot's node"));
 }
 
 // A script without a node's name is for the first node of each robot.
@@ -95,52 +107,51 @@ size_t SimSession::place_plain(const ScriptFile& file) {
     return placed;
 }
 
-// Nodes whose name and number both fit come first, so that none takes the script of another.
 size_t SimSession::place_project(const ScriptFile& file) {
-    std::vector<bool> used(file.project.scripts.size());
-    std::vector<bool> served(nodes_.size());
-    for (const bool exact : {true, false}) {
-        for (size_t i = 0; i < nodes_.size(); i++) {
-            Node& node = nodes_[i];
-            if (served[i]) continue;
-            const std::string& name = network_.node(node.id)->name;
-            std::vector<bool> marks = used;
-            const int index = aesl::script_for(file.project, name, node.id, marks);
-            if (index < 0) continue;
-            const aesl::Script& script = file.project.scripts[static_cast<size_t>(index)];
-            if (exact && script.node_id != node.id) continue;
-            used = marks;
-            give(node, file, script);
-            served[i] = true;
-        }
+    std::vector<Node*> all;
+    for (Node& node : nodes_) all.push_back(&node);
+    return place_among(all, file);
+}
+
+size_t SimSession::place_among(std::span<Node* const> nodes, const ScriptFile& file) {
+    std::vector<aesl::NodeName> names;
+    for (const Node* node : nodes) names.push_back({network_.node(node->id)->name, node->id});
+    const std::vector<int> scripts = aesl::scripts_for(file.project, names);
+    size_t placed = 0;
+    for (size_t i = 0; i < nodes.size(); i++) {
+        if (scripts[i] < 0) continue;
+        give(*nodes[i], file, file.project.scripts[static_cast<size_t>(scripts[i])]);
+        placed++;
     }
-    return static_cast<size_t>(std::count(served.begin(), served.end(), true));
+    return placed;
 }
 
 // For a robot of its own: the scripts for its nodes, or, for its first one, the only one of the
 // file.
 size_t SimSession::place_for(sim::RobotId robot, const ScriptFile& file) {
-    std::vector<bool> used(file.project.scripts.size());
-    size_t placed = 0;
+    std::vector<Node*> its;
     for (Node& node : nodes_) {
-        if (node.robot != robot) continue;
-        const std::string& name = network_.node(node.id)->name;
-        const int index = aesl::script_for(file.project, name, node.id, used);
-        if (index < 0) continue;
-        give(node, file, file.project.scripts[static_cast<size_t>(index)]);
-        placed++;
+        if (node.robot == robot) its.push_back(&node);
     }
-    if (placed > 0 || file.project.scripts.size() != 1) return placed;
-    const auto first = std::find_if(nodes_.begin(), nodes_.end(),
-                                    [robot](const Node& node) { return node.robot == robot; });
-    if (first == nodes_.end()) return 0;
-    give(*first, file, file.project.scripts.front());
+    const size_t placed = place_among(its, file);
+    if (placed > 0 || file.project.scripts.size() != 1 || its.empty()) return placed;
+    give(*its.front(), file, file.project.scripts.front());
     return 1;
 }
 
-void SimSession::refuse_file(const std::string& path, const std::string& sentence) {
-    file_mistakes_[path] = sentence;
-    note(NoteKind::Mistakes, sentence + "\n");
+std::map<uint16_t, std::string> SimSession::running_scripts() const {
+    std::map<uint16_t, std::string> running;
+    for (const Node& node : nodes_) {
+        if (node.script && node.script->stage == Stage::Runs) {
+            running.emplace(node.id, node.script->script.source);
+        }
+    }
+    return running;
+}
+
+void SimSession::refuse_file(const std::string& path, Diagnostic why) {
+    note(NoteKind::Mistakes, report_of(why));
+    file_mistakes_[path] = std::move(why);
 }
 
 // The longest list of events among the other files: all agree as far as they go.
@@ -159,11 +170,12 @@ bool SimSession::agree_on_names(const std::string& path, const aesl::CommonDefin
         const size_t both = std::min(names.events.size(), common.events.size());
         for (size_t i = 0; i < both; i++) {
             if (names.events[i].name == common.events[i].name) continue;
-            refuse_file(path, path + ": error: event " + std::to_string(i) + " is \"" +
-                                  common.events[i].name + "\" here and \"" + names.events[i].name +
-                                  "\" in " + other +
-                                  "; robots on one bus share the numbers of events: declare the "
-                                  "same events in the same order in both");
+            refuse_file(
+                path,
+                of_file(path, "event " + std::to_string(i) + " is \"" + common.events[i].name +
+                                  "\" here and \"" + names.events[i].name + "\" in " + other +
+                                  "; robots on one bus share the numbers of events: "
+                                  "declare the same events in the same order in both"));
             return false;
         }
     }
@@ -186,23 +198,45 @@ void SimSession::give(Node& node, const ScriptFile& file, const aesl::Script& sc
     compile(node);
 }
 
+// Many robots of one kind have one script: it is compiled, and its mistakes are told, once.
+const SimSession::Compiled& SimSession::compiled(const Node& node) {
+    const Assignment& script = *node.script;
+    const aesl::Target& target = network_.node(node.id)->target;
+    for (const Compiled& known : compiled_) {
+        if (known.path == script.path && known.first_line == script.script.first_line &&
+            known.source == script.script.source && known.common == script.common &&
+            known.target == target) {
+            return known;
+        }
+    }
+    aesl::Options how = options_for(script.common, options_.compile);
+    how.first_line = script.script.first_line;
+    const aesl::Compilation done = aesl::compile(script.script.source, target, script.common, how);
+    const SourceText text{script.path, script.script.source, script.script.first_line};
+    Compiled made{script.path,
+                  script.script.source,
+                  script.script.first_line,
+                  script.common,
+                  target,
+                  done.program,
+                  done.ok(),
+                  diagnostics_of(text, done)};
+    std::string report;
+    for (const Diagnostic& one : made.mistakes) report += report_of(one);
+    if (!report.empty()) note(made.good ? NoteKind::Warnings : NoteKind::Mistakes, report);
+    compiled_.push_back(std::move(made));
+    return compiled_.back();
+}
+
 void SimSession::compile(Node& node) {
     Assignment& script = *node.script;
-    const aesl::Compilation done =
-        aesl::compile(script.script.source, network_.node(node.id)->target, script.common,
-                      options_for(script.common, options_.compile));
-    const SourceText text{script.path, script.script.source, script.script.first_line};
-    std::string report;
-    const std::vector<std::string> lines = diagnostic_report(text, done);
-    for (const std::string& line : lines) report += line + "\n";
-    if (!done.ok()) {
-        script.mistakes = lines;
+    const Compiled& done = compiled(node);
+    if (!done.good) {
+        script.mistakes = done.mistakes;
         script.stage = Stage::Failed;
-        note(NoteKind::Mistakes, report);
         return;
     }
     script.mistakes.clear();
-    if (!report.empty()) note(NoteKind::Warnings, report);
     script.program = done.program;
     script.stage = Stage::Ready;
 }

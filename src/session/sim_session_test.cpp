@@ -38,6 +38,15 @@ std::string node(const std::string& name, int id, const std::string& source) {
            "</node>";
 }
 
+std::vector<std::string> texts(const std::vector<Diagnostic>& list) {
+    std::vector<std::string> lines;
+    for (const Diagnostic& one : list) {
+        lines.push_back(text_of(one));
+        lines.insert(lines.end(), one.source.begin(), one.source.end());
+    }
+    return lines;
+}
+
 // Passes simulated time until all scripts are placed and run or have mistakes.
 void settle(SimSession& session) {
     while (!session.settled() && session.now() < 10s) session.step(1ms);
@@ -69,7 +78,58 @@ TEST(SimSession, EachScriptGoesToTheNodeOfItsNameAndNumber) {
     EXPECT_EQ(value(session, 0, "x"), 30);
     EXPECT_EQ(value(session, 1, "x"), 70);
     EXPECT_THAT(texts(session, NoteKind::Loaded), testing::SizeIs(2));
-    EXPECT_THAT(session.mistakes(), IsEmpty());
+    EXPECT_TRUE(session.mistakes().empty());
+}
+
+SimSession many_robots(size_t count) {
+    sim::WorldDefinition world;
+    world.width = world.height = 20;
+    for (size_t i = 0; i < count; i++) {
+        sim::RobotDefinition& made = world.robots.emplace_back(
+            robot("t" + std::to_string(i), static_cast<uint16_t>(i + 1), 0));
+        made.at = {0.3 + 0.3 * static_cast<double>(i % 60),
+                   0.3 + 0.3 * static_cast<double>(i / 60)};
+    }
+    return SimSession(std::move(sim::World::create(world).value()), {});
+}
+
+// From 48 robots on, what all of them told hosts filled the queues of the nodes, and the first
+// programs were lost there.
+TEST(SimSession, AProjectIsForEveryRobotOfItsNameHoweverMany) {
+    constexpr size_t kMany = 200;
+    SimSession session = many_robots(kMany);
+    session.load("a.aesl", project("", node("thymio-II", 1, "var x = 1000 + _id")));
+    settle(session);
+    for (size_t i = 0; i < kMany; i++) {
+        ASSERT_EQ(value(session, i, "x"), 1001 + static_cast<int>(i));
+    }
+    EXPECT_THAT(session.without_script(), IsEmpty());
+    EXPECT_TRUE(session.mistakes().empty());
+}
+
+TEST(SimSession, AMistakeInAScriptForManyIsToldOnce) {
+    SimSession session = two_robots();
+    session.load("a.aesl", project("", node("thymio-II", 1, "x = 1")));
+    settle(session);
+    EXPECT_THAT(texts(session, NoteKind::Mistakes), testing::SizeIs(1));
+    EXPECT_EQ(session.mistakes().size(), 1u);
+    EXPECT_THAT(session.without_script(), ElementsAre("left", "right"));
+}
+
+// A host that calls itself as a robot does.
+TEST(SimSession, ANodeFromOutsideWithTheIdOfARobotIsToldWithBothLinks) {
+    SimSession session = two_robots();
+    settle(session);
+    session.step(5ms);
+    const hub::LinkId guest = session.world().bus().add({.name = "tcp:guest"}).value();
+    wire::Frame present{};
+    present.source = 7;
+    present.type = 0x900c;
+    present.size = 2;
+    session.world().bus().receive(guest, present);
+    session.step(5ms);
+    EXPECT_THAT(texts(session, NoteKind::Trouble),
+                ElementsAre(HasSubstr("node 7 is heard on two links, right and tcp:guest")));
 }
 
 // A Carbot with the nodes 2 to 5 and a Thymio with node 9.
@@ -138,21 +198,21 @@ TEST(SimSession, WithMistakesTheOldProgramRunsOnUntilABetterTextComes) {
     settle(session);
     session.reload("a.txt", "var n = 1\nnn = 2");
     settle(session);
-    EXPECT_THAT(session.mistakes(), Contains(HasSubstr("a.txt:2:1: error: ")));
+    EXPECT_THAT(texts(session.mistakes()), Contains(HasSubstr("a.txt:2:1: error: ")));
     EXPECT_EQ(value(session, 0, "n"), 1);
     session.reload("a.txt", "var n = 5");
     settle(session);
-    EXPECT_THAT(session.mistakes(), IsEmpty());
+    EXPECT_TRUE(session.mistakes().empty());
     EXPECT_EQ(value(session, 0, "n"), 5);
 }
 
 TEST(SimSession, AFileThatIsNoProjectIsAMistakeThatCanBeMended) {
     SimSession session = two_robots();
     session.load("a.aesl", "<network><node>");
-    EXPECT_THAT(session.mistakes(), Contains(HasSubstr("a.aesl:1:")));
+    EXPECT_THAT(texts(session.mistakes()), Contains(HasSubstr("a.aesl:1:")));
     session.reload("a.aesl", project("", node("thymio-II", 3, "var x = 1")));
     settle(session);
-    EXPECT_THAT(session.mistakes(), IsEmpty());
+    EXPECT_TRUE(session.mistakes().empty());
     EXPECT_EQ(value(session, 0, "x"), 1);
 }
 
@@ -160,7 +220,7 @@ TEST(SimSession, AProjectForNobodyHereNamesWhoIsHere) {
     SimSession session = two_robots();
     session.load("a.aesl", project("", node("rover", 9, "var x")));
     settle(session);
-    EXPECT_THAT(session.mistakes(),
+    EXPECT_THAT(texts(session.mistakes()),
                 ElementsAre(testing::AllOf(HasSubstr("\"rover\" (node 9)"),
                                            HasSubstr("\"thymio-II\" (node 3)"))));
 }
@@ -175,7 +235,7 @@ TEST(SimSession, ProjectsThatNumberEventsDifferentlyAreRefused) {
                      project("<event name=\"halt\" size=\"0\"/>", node("thymio-II", 7, "var x")));
     settle(session);
     EXPECT_THAT(
-        session.mistakes(),
+        texts(session.mistakes()),
         ElementsAre(HasSubstr("b.aesl: error: event 0 is \"halt\" here and \"go\" in a.aesl")));
 }
 
@@ -235,10 +295,10 @@ TEST(SimSession, AHundredRobotsGetTheirPrograms) {
 TEST(SimSession, MoreFilesThanTheLimitAreRefused) {
     SimSession session = two_robots();
     for (size_t i = 0; i < kScriptFilesMax; i++) session.load("f" + std::to_string(i), "var x");
-    EXPECT_THAT(session.mistakes(), IsEmpty());
+    EXPECT_TRUE(session.mistakes().empty());
     EXPECT_EQ(session.script_paths().size(), kScriptFilesMax);
     session.load("one more", "var x");
-    EXPECT_THAT(session.mistakes(), ElementsAre(HasSubstr("more than 1001 script files")));
+    EXPECT_THAT(texts(session.mistakes()), ElementsAre(HasSubstr("more than 1001 script files")));
     EXPECT_EQ(session.script_paths().size(), kScriptFilesMax);
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 #include "toolbox/builtin.hpp"
 #include "toolbox/load.hpp"
 #include "toolbox/toolbox_file.hpp"
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const fs::path kExamples = fs::path(VAGUS_TESTDATA).parent_path() / "examples";
+const fs::path kExamples = test::examples();
 
 // ---- what is built in fits the scripts that come with it ----
 
@@ -46,8 +47,8 @@ TEST(Toolboxes, CarbotsTemplatesUseEventsOfItsProject) {
     run::CodeLibrary library;
     toolbox::add_builtin(library, parts);
     for (const plan::Template& one : library.templates().find("carbot")->templates) {
-        EXPECT_FALSE(one.bus_events.empty()) << one.name;
-        for (const std::string& event : one.bus_events) {
+        EXPECT_FALSE(one.bus.events.empty()) << one.name;
+        for (const std::string& event : one.bus.events) {
             EXPECT_TRUE(events.value().contains(event)) << one.name << ": " << event;
         }
     }
@@ -118,6 +119,18 @@ TEST_F(OwnToolboxes, CannotHaveANameThatIsTaken) {
     EXPECT_EQ(error_of({path, path}), "the toolbox " + path +
                                           ": there is a toolbox named \"lamp\" already; give this "
                                           "one another name");
+}
+
+// "Wait" is found in core, by every plan and before anything else.
+TEST_F(OwnToolboxes, CannotHaveATemplateThatNoPlanCouldUse) {
+    write("lamp.aesl", kProject);
+    std::string text(kLamp);
+    text.replace(text.find("Shine"), 5, "Wait");
+    const std::string path = write("lamp.toolbox.json", text);
+    EXPECT_EQ(error_of({path}), "the toolbox " + path +
+                                    ": its template \"Wait\" in line 3 can never be used: the "
+                                    "toolbox core has one of that name, and plans look there "
+                                    "first; give it another name");
 }
 
 TEST_F(OwnToolboxes, ThatDoNotExistAreAnError) {

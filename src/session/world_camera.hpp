@@ -11,11 +11,12 @@ namespace vagus::session {
 
 class WorldCamera final : public toolbox::Camera {
 public:
-    // That of the first robot that has one. The world is borrowed, and stands still while a picture
-    // is taken: the code of templates runs between its instants.
-    explicit WorldCamera(const sim::World& world) : world_(world) {}
+    // That of the robot, or else of the first one that has one. The world is borrowed, and stands
+    // still while a picture is taken: the code of templates runs between its instants.
+    explicit WorldCamera(const sim::World& world, std::optional<sim::RobotId> only = {})
+        : world_(world), only_(only) {}
 
-    // Whether any robot has one.
+    // Whether there is one.
     bool exists() const { return robot().has_value(); }
 
     toolbox::Image take() override {
@@ -28,12 +29,15 @@ public:
 
 private:
     std::optional<sim::RobotId> robot() const {
-        for (const sim::RobotView& each : world_.robots())
-            if (world_.has_camera(each.id)) return each.id;
+        for (const sim::RobotView& each : world_.robots()) {
+            const bool meant = !only_ || *only_ == each.id;
+            if (meant && world_.has_camera(each.id)) return each.id;
+        }
         return std::nullopt;
     }
 
     const sim::World& world_;
+    std::optional<sim::RobotId> only_;
 };
 
 }  // namespace vagus::session

@@ -15,6 +15,7 @@
 
 #include "base/file.hpp"
 #include "base/rng.hpp"
+#include "base/test_places.hpp"
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
 #include "run/surroundings.hpp"
@@ -98,7 +99,7 @@ private:
 
 // Carbot's scripts; where the reflex is not what is measured, without it.
 std::string scripts(Way way) {
-    std::string text = must(read_file(VAGUS_EXAMPLES "/carbot/carbot.aesl"));
+    std::string text = must(read_file(test::examples("carbot/carbot.aesl")));
     if (way == Way::Reflex) return text;
     const std::string reflex = "onevent touched\n\ttouch_ended = 1\n\tcall drive.brake()\n";
     const size_t at = text.find(reflex);

@@ -22,6 +22,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     Result<sim::World> world = sim::World::create(definition);
     if (!world.ok()) std::abort();  // what was read has been checked
     world.value().step(std::chrono::milliseconds(60));
-    for (const sim::RobotView& robot : world.value().robots()) (void)world.value().looks(robot.id);
+    for (const sim::RobotView& robot : world.value().robots()) (void)world.value().beams(robot.id);
     return 0;
 }

@@ -1,38 +1,45 @@
 #include "embed/loaded_plan.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "base/project_border.hpp"
+#include "toolbox/shadowed.hpp"
 
 namespace vagus::embed {
 
 namespace {
 
-class Disk final : public plan::Files {
-public:
-    Result<std::string> read(const std::string& path) const override { return read_file(path); }
-};
-
 // One file whose text is here; the others are on the disk.
 class TextAndDisk final : public plan::Files {
 public:
-    TextAndDisk(std::string path, std::string text)
-        : path_(std::move(path)), text_(std::move(text)) {}
+    TextAndDisk(const std::string& path, std::string text)
+        : path_(path), text_(std::move(text)), disk_(path) {}
     Result<std::string> read(const std::string& path) const override {
-        return path == path_ ? Result<std::string>(text_) : read_file(path);
+        return path == path_ ? Result<std::string>(text_) : disk_.read(path);
     }
 
 private:
     std::string path_;
     std::string text_;
+    PlanDisk disk_;
 };
 
 }  // namespace
 
+PlanDisk::PlanDisk(const std::string& path)
+    : first_(std::filesystem::path(path).lexically_normal().string()),
+      border_(project_border(path)) {}
+
+Result<std::string> PlanDisk::read(const std::string& path) const {
+    if (path != first_) TRY(check_inside(border_, path));
+    return read_file(path);
+}
+
 LoadedPlan::LoadedPlan(const plan::Checked& checked, const run::CodeLibrary& library)
     : findings_(checked.findings), library_(&library) {
+    const plan::Findings shadowed = toolbox::find_shadowed(checked.plans, library.templates());
+    findings_.insert(findings_.end(), shadowed.begin(), shadowed.end());
     if (!checked.ok()) return;
     graph_ = std::make_shared<const plan::Graph>(plan::make_graph(checked));
     plans_ = std::make_shared<const std::vector<plan::Plan>>(checked.plans);
@@ -48,7 +55,7 @@ LoadedPlan::LoadedPlan(const plan::Checked& checked, const run::CodeLibrary& lib
 }
 
 LoadedPlan LoadedPlan::from_file(const std::string& path, const run::CodeLibrary& library) {
-    return LoadedPlan(plan::check(path, Disk(), library.templates()), library);
+    return LoadedPlan(plan::check(path, PlanDisk(path), library.templates()), library);
 }
 
 LoadedPlan LoadedPlan::from_text(std::string text, const std::string& path,
@@ -69,32 +76,17 @@ std::string LoadedPlan::report() const {
     return format_findings(findings_);
 }
 
-namespace {
-
-// One line, and nothing that a terminal would obey: names of a wrong file may hold anything.
-std::string visible(std::string_view text) {
-    std::string shown;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7f) {
-            shown += fmt::format("\\u{:04x}", byte);
-        } else {
-            shown += c;
-        }
-    }
-    return shown;
-}
-
-}  // namespace
-
 std::string format_findings(const plan::Findings& findings) {
     std::string lines;
     for (const plan::Finding& finding : findings) {
-        const bool error = finding.severity == plan::Severity::Error;
         const std::string element = finding.element.empty() ? "" : finding.element + ": ";
-        lines += fmt::format("{}:{}: {}: {} [{}]\n", finding.file, finding.line,
-                             error ? "error" : "warning", visible(element + finding.message),
-                             finding.rule);
+        lines += text_of(Diagnostic{.severity = finding.severity,
+                                    .file = finding.file,
+                                    .at = {finding.line, finding.column},
+                                    .sentence = element + finding.message,
+                                    .code = finding.rule,
+                                    .source = {}}) +
+                 "\n";
     }
     return lines;
 }

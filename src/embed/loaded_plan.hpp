@@ -26,6 +26,19 @@ struct Parameter {
     bool has_default = false;  // an input with `initial` (P5a)
 };
 
+// Plan files on the disk, for one plan and the sub-plans that it names: those do not lead out of
+// its project.
+class PlanDisk final : public plan::Files {
+public:
+    // `path`: the outermost plan, which whoever runs it has named and which may stand anywhere.
+    explicit PlanDisk(const std::string& path);
+    Result<std::string> read(const std::string& path) const override;
+
+private:
+    std::string first_;
+    std::string border_;
+};
+
 class LoadedPlan {
 public:
     // The library is borrowed by the plan and by its runs. Sub-plans are found beside the file.

@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "base/text.hpp"
 #include "debug/network.hpp"
 #include "hub/hub.hpp"
 #include "net/network.hpp"
 #include "session/bus_ears.hpp"
+#include "session/rival_plans.hpp"
 
 namespace vagus::embed {
 
@@ -31,6 +35,7 @@ public:
         : names(its_options.common, its_options.project),
           options(std::move(its_options)),
           ears(nodes),
+          rivals(options.starts, SplitMix64(options.seed)),
           own(hub.add({.name = "plan"}).value()) {
         network.set_common(options.common);
     }
@@ -38,7 +43,9 @@ public:
     Status connect();
     void discover();
     void emit(const run::BusEvent& event);
-    void work(const std::function<void(run::BusEvent)>& hear);
+    void work(run::RealTime& run);
+    Status check_single() const;
+    uint16_t first_token() { return rivals.random_token(); }
     void wake() { net.wake(); }
 
     session::BusNames names;
@@ -47,12 +54,15 @@ public:
 
 private:
     std::vector<run::BusEvent> turn(Time deadline);
+    void look_for_rivals(const debug::Event& event);
     void note(const std::vector<net::Event>& happened);
     void take_unsent();
     void farewell();
 
     PlanBusOptions options;
     session::BusEars ears;
+    session::RivalPlans rivals;
+    std::optional<uint16_t> moved_to;  // our tokens are to count from here on
     debug::Network network;
     hub::Hub hub;
     net::Network net;  // after the hub: it goes first
@@ -99,9 +109,48 @@ std::vector<run::BusEvent> PlanBus::Insides::turn(Time deadline) {
     std::vector<run::BusEvent> heard;
     for (const debug::Event& event : network.take_events()) {
         if (!std::holds_alternative<debug::UserEvent>(event.what)) last_answer = net.now();
+        look_for_rivals(event);
         if (auto one = ears.hear(event)) heard.push_back(std::move(*one));
     }
     return heard;
+}
+
+// Another host starts work on the nodes of this plan.
+void PlanBus::Insides::look_for_rivals(const debug::Event& event) {
+    const auto* sent = std::get_if<debug::UserEvent>(&event.what);
+    if (!sent || event.node != wire::kHostId) return;
+    const auto rival = rivals.hear({sent->name, sent->arguments});
+    if (!rival) return;
+    if (rival->move_to) moved_to = rival->move_to;
+    if (!rival->is_news) return;
+    options.tell("another plan or host on " + options.target +
+                 " commands the same nodes as this plan: it sent \"" + sent->name +
+                 "\"; a node does one thing at a time, so end one of the two");
+}
+
+// A plan is for one robot.
+Status PlanBus::Insides::check_single() const {
+    for (const toolbox::NodeNames& need : options.needs) {
+        for (const std::string& name : need) {
+            std::vector<std::string> ids;
+            for (const debug::NodeId id : network.nodes()) {
+                const debug::NodeView& node = *network.node(id);
+                if (node.connected && node.described && node.name == name) {
+                    ids.push_back(std::to_string(id));
+                }
+            }
+            if (ids.size() > 1) {
+                return Error{Code::Refused, "the plan needs one node \"" + name + "\", but on " +
+                                                options.target + " there are " +
+                                                std::to_string(ids.size()) + ", with the ids " +
+                                                list_of({ids.begin(), ids.end()}) +
+                                                "; a plan is for one robot, and a robot has a bus "
+                                                "of its own: connect to that of the robot"};
+            }
+            if (!ids.empty()) break;  // the first that is there does the work
+        }
+    }
+    return Status::done();
 }
 
 void PlanBus::Insides::note(const std::vector<net::Event>& happened) {
@@ -135,12 +184,16 @@ void PlanBus::Insides::take_unsent() {
         events.swap(unsent);
     }
     // Refused is only what a supervisor emits as it stops: may_emit() was not asked.
-    for (const auto& event : events) (void)network.emit(event.name, event.arguments).ok();
+    for (const auto& event : events) {
+        rivals.said(event);
+        (void)network.emit(event.name, event.arguments).ok();
+    }
 }
 
-void PlanBus::Insides::work(const std::function<void(run::BusEvent)>& hear) {
+void PlanBus::Insides::work(run::RealTime& run) {
     while (!stopping) {
-        for (run::BusEvent& event : turn(Time::max())) hear(std::move(event));
+        for (run::BusEvent& event : turn(Time::max())) run.hear(std::move(event));
+        if (const auto token = std::exchange(moved_to, std::nullopt)) run.move_tokens(*token);
     }
     farewell();
 }
@@ -168,6 +221,7 @@ Result<std::unique_ptr<PlanBus>> PlanBus::open(PlanBusOptions options, toolbox::
     auto insides = std::make_unique<Insides>(std::move(options), nodes);
     TRY(insides->connect());
     insides->discover();
+    TRY(insides->check_single());
     // make_unique cannot reach the constructor.
     return std::unique_ptr<PlanBus>(new PlanBus(std::move(insides)));
 }
@@ -178,16 +232,16 @@ const session::BusNames& PlanBus::names() const {
 
 void PlanBus::join(run::RunOptions& options) {
     Insides& insides = *insides_;
+    options.first_token = insides.first_token();
     options.may_emit = [&insides](const run::BusEvent& event) {
         return insides.names.may_emit(event);
     };
     options.on_emit = [&insides](const run::BusEvent& event) { insides.emit(event); };
 }
 
-void PlanBus::start(std::function<void(run::BusEvent)> hear) {
+void PlanBus::start(run::RealTime& run) {
     insides_->stopping = false;
-    insides_->thread =
-        std::thread([&insides = *insides_, hear = std::move(hear)] { insides.work(hear); });
+    insides_->thread = std::thread([&insides = *insides_, &run] { insides.work(run); });
 }
 
 void PlanBus::stop() {

@@ -5,20 +5,25 @@
 //     PlanBus& bus = *opened.value();
 //     bus.join(options);
 //     run::RealTime run(graph, library, options);
-//     bus.start([&run](run::BusEvent event) { run.hear(std::move(event)); });
+//     bus.start(run);
 //     const run::Ended ended = run.run();
 //     bus.stop();
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "aesl/target.hpp"
 #include "base/result.hpp"
 #include "run/options.hpp"
+#include "run/real_time.hpp"
 #include "session/bus_names.hpp"
 #include "toolbox/bus.hpp"
+#include "toolbox/bus_talk.hpp"
 
 namespace vagus::embed {
 
@@ -28,24 +33,29 @@ struct PlanBusOptions {
     std::string target;
     aesl::CommonDefinitions common;  // names and numbers of events
     std::string project;             // where they come from, for sentences
-    // When the connection is lost or there again: a sentence, on the thread of the bus.
+    // When the connection is lost or there again, or another plan commands the same nodes: a
+    // sentence, on the thread of the bus.
     std::function<void(const std::string&)> tell;
+    uint64_t seed = 0;                      // of where tokens begin (session/rival_plans.hpp)
+    std::vector<toolbox::NodeNames> needs;  // the nodes that the plan works on …
+    std::set<std::string> starts;           // … and the events by which work begins there
 };
 
 class PlanBus {
 public:
     // Connects, and waits until the nodes that are there have said who they are; from then on
-    // `nodes` tells. The Error says who is not there.
+    // `nodes` tells. The Error says who is not there, or of which node that the plan needs there
+    // are two: a robot has a bus of its own.
     static Result<std::unique_ptr<PlanBus>> open(PlanBusOptions options, toolbox::BusNodes& nodes);
     ~PlanBus();
 
     const session::BusNames& names() const;
-    // The run emits on this bus. Borrowed for the run.
+    // The run emits on this bus, with tokens from a random place on. Borrowed for the run.
     void join(run::RunOptions& options);
 
-    // From now on `hear` is called for each event of the bus, on the thread of the bus. A lost
-    // connection is tried again, and its nodes are gone meanwhile.
-    void start(std::function<void(run::BusEvent)> hear);
+    // From now on the run hears each event of the bus. A lost connection is tried again, and its
+    // nodes are gone meanwhile. Borrowed until stop().
+    void start(run::RealTime& run);
     // What was emitted has left when this returns, if somebody takes it.
     void stop();
 

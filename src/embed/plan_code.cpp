@@ -10,8 +10,8 @@ namespace vagus::embed {
 
 namespace {
 
-int line_of(std::source_location at) {
-    return static_cast<int>(at.line());
+vagus::Place line_of(std::source_location at) {
+    return {static_cast<int>(at.line()), 0};
 }
 
 template <typename Model>
@@ -110,23 +110,22 @@ Plan::Plan(std::string name, const std::vector<std::string>& toolboxes, Place at
     check_name(model_.name, "plan", line_of(at));
 }
 
-void Plan::complain(std::string_view rule, std::string_view element, int line,
+void Plan::complain(std::string_view rule, std::string_view element, vagus::Place line,
                     std::string message) {
     findings_.push_back({plan::Severity::Error, std::string(rule), model_.file, model_.name,
-                         std::string(element), line, std::move(message)});
+                         std::string(element), line.line, std::move(message), line.column});
 }
 
-void Plan::check_name(const std::string& name, std::string_view what, int line) {
-    const bool constant = what == "variable" && (name == "true" || name == "false");
-    if (plan::is_name(name) && !constant) return;
+void Plan::check_name(const std::string& name, std::string_view what, vagus::Place line) {
+    if (what == "variable" ? plan::is_variable_name(name) : plan::is_name(name)) return;
     complain("P1", what == "plan" ? "" : name, line,
              fmt::format("\"{}\" cannot be the name of a {}: use letters, digits and _, not "
                          "beginning with a digit{}",
-                         name, what, what == "variable" ? ", and not true or false" : ""));
+                         name, what, what == "variable" ? plan::kNotReserved : ""));
 }
 
 void Plan::variable(std::string name, Type type, const VariableOptions& options, Place at) {
-    const int line = line_of(at);
+    const vagus::Place line = line_of(at);
     check_name(name, "variable", line);
     if (plan::find_variable(model_, name) >= 0) {
         complain("P1", name, line,
@@ -195,7 +194,7 @@ void Plan::add_state(const ActorObject& actor, std::string_view state, Target ta
 
 void Plan::add_event(size_t owner, const SupervisorObject& supervisor, std::string_view event,
                      Target target, Place at) {
-    if (owner == kGlobal && model_.start_line == 0) model_.start_line = line_of(at);
+    if (owner == kGlobal && model_.start_line.line == 0) model_.start_line = line_of(at);
     plan::Rule rule{std::string(event), line_of(at), word_of(target)};
     plan::Supervisor& model = supervisor_in(owner, supervisor);
     add_rule(model.events, std::move(rule), model.name);

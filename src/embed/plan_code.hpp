@@ -191,8 +191,9 @@ private:
     plan::Supervisor& supervisor_in(size_t owner, const SupervisorObject& supervisor);
     void add_rule(std::vector<plan::Rule>& rules, plan::Rule rule, const std::string& element);
     std::string word_of(Target target);
-    void check_name(const std::string& name, std::string_view what, int line);
-    void complain(std::string_view rule, std::string_view element, int line, std::string message);
+    void check_name(const std::string& name, std::string_view what, vagus::Place line);
+    void complain(std::string_view rule, std::string_view element, vagus::Place line,
+                  std::string message);
 
     plan::Plan model_;
     // Which object each actor and supervisor was; only compared, never followed.

@@ -5,45 +5,22 @@
 #include <cassert>
 #include <mutex>
 
-#include "base/text.hpp"
-#include "run/real_time.hpp"
-#include "run/virtual_time.hpp"
+#include "run/traced_variables.hpp"
 
 namespace vagus::embed {
 
-namespace {
-
-// The outermost plan's variable that a plan inside means, where each plan on the way shares it
-// (P5); -1 if it is another. `path` is an instance path: "Main/calibrate".
-int outermost_slot(const plan::Graph& graph, std::string_view path, std::string_view variable) {
-    const plan::GraphPlan* plan = &graph.plans.front();
-    const std::vector<std::string_view> names = split(path, '/');
-    const auto slot_in = [variable](const plan::GraphPlan& in) {
-        for (size_t slot = 0; slot < in.variables.size(); ++slot) {
-            if (in.variables[slot].name == variable) return static_cast<int>(slot);
-        }
-        return -1;
-    };
-    for (size_t level = 1; level < names.size(); ++level) {
-        for (const plan::GraphActor& actor : plan->actors) {
-            if (actor.name != names[level] || actor.sub_plan < 0) continue;
-            plan = &graph.plans[static_cast<size_t>(actor.sub_plan)];
-            break;
-        }
-        const int slot = slot_in(*plan);
-        if (slot < 0 || !plan->variables[static_cast<size_t>(slot)].shared) return -1;
-    }
-    return slot_in(graph.plans.front());
-}
-
-}  // namespace
-
 class PlanRun::Run {
 public:
-    Run(const LoadedPlan& plan, const RunSettings& settings) : plan_(plan), clock_(settings.clock) {
+    Run(const LoadedPlan& plan, const RunSettings& settings)
+        : plan_(plan),
+          options_{.seed = settings.seed},
+          variables_(plan_.graph()),
+          execution_(plan_.graph(), plan_.library(), options_, settings.clock) {
         assert(plan.ok());
-        options_.seed = settings.seed;
-        options_.max_time = settings.max_time;
+        // One that never comes is none: virtual time must not jump there.
+        if (settings.max_time && *settings.max_time < run::kNever) {
+            options_.max_time = settings.max_time;
+        }
         options_.on_trace = [this](const plan::TraceEvent& event) { see(event); };
         for (const auto& variable : outermost().variables) values_.push_back(variable.initial);
     }
@@ -57,13 +34,14 @@ public:
 
     run::Ended run() {
         assert(!started_);
-        started_ = true;
-        if (clock_ == Clock::Virtual) {
-            run::VirtualTime run(plan_.graph(), plan_.library(), options_);
-            return run_as(virtual_, run);
+        {
+            const std::lock_guard guard(mutex_);
+            started_ = true;
         }
-        run::RealTime run(plan_.graph(), plan_.library(), options_);
-        return run_as(real_, run);
+        const run::Ended ended = execution_.run();
+        const std::lock_guard guard(mutex_);
+        over_ = true;
+        return ended;
     }
 
     Result<plan::Value> read(std::string_view variable) const {
@@ -81,10 +59,8 @@ public:
         }
         const std::lock_guard guard(mutex_);
         const int index = static_cast<int>(slot);
-        if (real_) {
-            real_->set(index, std::move(fit.value()));
-        } else if (virtual_) {
-            virtual_->set(index, std::move(fit.value()));
+        if (started_ && !over_) {
+            execution_.set(index, std::move(fit.value()));
         } else if (over_) {
             return Error{
                 Code::Refused,
@@ -100,19 +76,18 @@ public:
 
     void abort() {
         const std::lock_guard guard(mutex_);
-        if (real_) real_->abort();
-        if (virtual_) virtual_->abort();
+        if (started_) execution_.abort();
     }
 
     Status hear(run::BusEvent event) {
         const std::lock_guard guard(mutex_);
-        if (!real_) {
+        if (!execution_.real_time() || !started_ || over_) {
             return Error{Code::Refused,
                          fmt::format("the event {} cannot be heard: a run hears events from "
                                      "outside while it runs in real time",
                                      event.name)};
         }
-        real_->hear(std::move(event));
+        execution_.real_time()->hear(std::move(event));
         return Status::done();
     }
 
@@ -120,50 +95,35 @@ private:
     const plan::GraphPlan& outermost() const { return plan_.graph().plans.front(); }
 
     Result<size_t> find(std::string_view variable) const {
-        const int slot = outermost_slot(plan_.graph(), outermost().name, variable);
-        if (slot >= 0) return static_cast<size_t>(slot);
+        const auto& variables = outermost().variables;
+        for (size_t slot = 0; slot < variables.size(); ++slot) {
+            if (variables[slot].name == variable) return slot;
+        }
         return Error{Code::NotFound,
                      fmt::format("the plan {} has no variable \"{}\"", outermost().name, variable)};
     }
 
-    // While it runs, other threads find it through `door`.
-    template <typename Executor>
-    run::Ended run_as(Executor*& door, Executor& executor) {
-        open(door, &executor);
-        const run::Ended ended = executor.run();
-        open(door, static_cast<Executor*>(nullptr));
-        close();
-        return ended;
-    }
-    template <typename Executor>
-    void open(Executor*& door, Executor* executor) {
-        const std::lock_guard guard(mutex_);
-        door = executor;
-    }
-
-    void close() {
-        const std::lock_guard guard(mutex_);
-        over_ = true;
-    }
-
     void see(const plan::TraceEvent& event) {
-        if (const auto* written = std::get_if<plan::VariableWritten>(&event.what)) {
-            const int slot = outermost_slot(plan_.graph(), event.plan, written->variable);
+        variables_.see(event);
+        if (std::holds_alternative<plan::VariableWritten>(event.what)) {
+            const run::VariablePlace place = variables_.last_write();
             const std::lock_guard guard(mutex_);
-            if (slot >= 0) values_[static_cast<size_t>(slot)] = written->value;
+            if (place.level == 0) {
+                const auto slot = static_cast<size_t>(place.slot);
+                values_[slot] = variables_.value(0, place.slot);
+            }
         }
         for (const auto& listener : listeners_) listener(event);
     }
 
     LoadedPlan plan_;
-    Clock clock_;
     run::RunOptions options_;
     std::vector<std::function<void(const plan::TraceEvent&)>> listeners_;
-    bool started_ = false;
+    run::TracedVariables variables_;
+    run::Execution execution_;
     mutable std::mutex mutex_;         // guards what follows
     std::vector<plan::Value> values_;  // of the outermost plan's variables, by slot
-    run::RealTime* real_ = nullptr;    // while it runs
-    run::VirtualTime* virtual_ = nullptr;
+    bool started_ = false;
     bool over_ = false;
 };
 

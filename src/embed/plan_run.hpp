@@ -27,11 +27,12 @@
 #include "base/result.hpp"
 #include "embed/loaded_plan.hpp"
 #include "plan/trace.hpp"
+#include "run/execution.hpp"
 #include "run/options.hpp"
 
 namespace vagus::embed {
 
-enum class Clock : uint8_t { Real, Virtual };
+using run::Clock;
 
 struct RunSettings {
     Clock clock = Clock::Real;

@@ -77,7 +77,7 @@ TEST_F(PlanRunTest, ACallSaysWhatIsWrongWithItsInputs) {
 TEST_F(PlanRunTest, ATextThatIsNoPlanIsReported) {
     const LoadedPlan plan = load("{ }");
     EXPECT_FALSE(plan.ok());
-    EXPECT_THAT(plan.report(), HasSubstr("test.plan.json:1: error: "));
+    EXPECT_THAT(plan.report(), HasSubstr("test.plan.json:1:1: error: "));
 }
 
 TEST_F(PlanRunTest, AReportNamesTheElementAndHoldsNothingThatATerminalObeys) {
@@ -87,9 +87,9 @@ TEST_F(PlanRunTest, AReportNamesTheElementAndHoldsNothingThatATerminalObeys) {
     const LoadedPlan plan = load(file);
     EXPECT_EQ(
         plan.report(),
-        "test.plan.json:3: error: a: the formula for \"seconds\": expected an operator (+ - & * "
-        "/ %) or the end at position 3, found \"€\" [P8]\n"
-        "test.plan.json:3: error: a: the state \"Done\" leads to \"\\u001b[\", which does not "
+        "test.plan.json:3:40: error: a: the formula for \"seconds\": expected an operator or "
+        "the end at position 3, found \"€\" [P8]\n"
+        "test.plan.json:3:72: error: a: the state \"Done\" leads to \"\\u001b[\", which does not "
         "exist; there are a and @terminate [P17]\n");
 }
 

@@ -4,14 +4,16 @@
 
 #include <algorithm>
 #include <mutex>
+#include <random>
 
 #include "base/file.hpp"
+#include "base/line_sink.hpp"
+#include "base/text.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/plan_bus.hpp"
-#include "embed/trace_sink.hpp"
 #include "net/network.hpp"
-#include "run/real_time.hpp"
-#include "run/virtual_time.hpp"
+#include "run/execution.hpp"
+#include "run/firing.hpp"
 #include "session/plan_world.hpp"
 #include "toolbox/bus.hpp"
 #include "toolbox/core_values.hpp"
@@ -24,6 +26,12 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kBehindMax = 200ms;  // a machine that cannot keep up slows time down instead
+
+constexpr int kExitTraceLost = 1;  // the plan ended well, but not all of its trace is written
+
+void tell_on_stderr(const std::string& sentence) {
+    write_to_stderr(sentence + "\n");
+}
 
 Error usage(std::string sentence) {
     return {Code::BadInput, std::move(sentence)};
@@ -41,10 +49,21 @@ Status check_words(const RunWords& words) {
             "--bus with --clock virtual: what is on a bus lives in real time; leave "
             "--clock out, or let a --world stand for it");
     }
+    if (!words.listen.empty() && words.world.empty()) {
+        return usage("--listen goes with --world: it opens the bus of the world to others");
+    }
+    if (!words.listen.empty() && words.clock == "virtual") {
+        return usage(
+            "--listen with --clock virtual: who joins a bus lives in real time; leave one "
+            "of them out");
+    }
     if (!words.project.empty() && words.bus.empty()) {
         return usage(
             "--project goes with --bus; beside a world, names of events are those of the "
             "scripts that its robots load");
+    }
+    if (!words.robot.empty() && words.world.empty()) {
+        return usage("--robot goes with --world: it names one of its robots");
     }
     if (!words.trace_all.empty() && words.world.empty()) {
         return usage("--trace-all goes with --world; for the plan alone there is --trace");
@@ -52,8 +71,12 @@ Status check_words(const RunWords& words) {
     return Status::done();
 }
 
-Status check_names(const session::BusNames& names, const Runnable& what) {
-    const plan::Findings findings = names.check(what.plans);
+plan::Findings missing_names(const session::BusNames& names, const LoadedPlan& what) {
+    return names.check(what.plans(), what.library().templates());
+}
+
+Status check_names(const session::BusNames& names, const LoadedPlan& what) {
+    const plan::Findings findings = missing_names(names, what);
     if (findings.empty()) return Status::done();
     std::string lines = format_findings(findings);
     lines.pop_back();  // the last newline
@@ -63,6 +86,9 @@ Status check_names(const session::BusNames& names, const Runnable& what) {
 // Time that follows the wall clock from the first call on.
 class Pace {
 public:
+    // Those who have joined the bus are served meanwhile.
+    explicit Pace(net::Network& net) : net_(net) {}
+
     void wait(Time at) {
         const Time now = net_.now();
         // The first instant, and one that came much too late: a pause, or too slow a machine.
@@ -72,52 +98,72 @@ public:
     }
 
 private:
-    net::Network net_;
+    net::Network& net_;
     std::optional<Duration> origin_;
 };
+
+Result<session::BusNames> names_of_project(const std::string& path) {
+    const std::string text = TRY(read_file(path));
+    return session::BusNames(TRY(aesl::parse_project(text, path)).common, path);
+}
 
 }  // namespace
 
 class PreparedRun::Insides {
 public:
-    Insides(const Runnable& its_what, RunWords its_words)
-        : what(its_what), words(std::move(its_words)) {}
+    Insides(const LoadedPlan& its_what, RunWords its_words, toolbox::Parts& its_parts)
+        : what(its_what), words(std::move(its_words)), parts(its_parts) {}
 
     Status take_options();
     Status open_world();
+    Status listen();
     Status open_bus();
     Status check_alone() const;
     void trace(const plan::TraceEvent& event);
+    void write(LineSink& to, std::string_view lines);
+    bool complete(LineSink& one);
     Result<run::Ended> run_beside_world();
-    run::Ended run_in_virtual_time();
-    run::Ended run_in_real_time();
+    run::Ended run_on_bus();
+    run::Ended run_with(run::Clock clock, const std::function<run::Ended(run::Execution&)>& go);
     void abort();
+    void abort_this();
+    bool abort_asked() {
+        const std::lock_guard lock(mutex_);
+        return abort_asked_;
+    }
 
-    const Runnable what;
+    const LoadedPlan what;
     const RunWords words;
+    toolbox::Parts& parts;
+    std::optional<uint64_t> seed;
     run::RunOptions how;
     std::vector<std::function<void(const plan::TraceEvent&)>> listeners;
+    run::Firing firing;  // of this run
     std::function<void(Time)> wait;
     toolbox::BusNodes nodes;
     std::unique_ptr<session::PlanWorld> world;
     bool world_used = false;
+    std::unique_ptr<net::Network> hosts;  // after the world: its links leave that bus first
+    std::string listening;
     std::unique_ptr<PlanBus> bus;
-    std::unique_ptr<TraceSink> sink;
-    std::unique_ptr<TraceSink> sink_all;
+    LineSink sink;
+    LineSink sink_all;
+    std::function<void(const std::string&)> tell = tell_on_stderr;
 
 private:
     std::mutex mutex_;  // guards what follows
-    run::VirtualTime* virtual_ = nullptr;
-    run::RealTime* real_ = nullptr;
+    run::Execution* execution_ = nullptr;
+    bool abort_asked_ = false;  // before the run has begun
 };
 
 // ---- making it ready ----
 
 Status PreparedRun::Insides::take_options() {
     TRY(check_words(words));
-    how.seed = words.seed.value_or(1);
+    if (!words.seed.empty()) seed = TRY(parse_seed(words.seed));
+    how.seed = seed.value_or(1);
     for (const std::string& text : words.set) {
-        how.set.push_back(TRY(parse_set(what.graph.plans.front(), text)));
+        how.set.push_back(TRY(parse_set(what.graph().plans.front(), text)));
     }
     if (!words.max_time.empty()) {
         how.max_time = TRY(parse_max_time(words.max_time));
@@ -128,39 +174,66 @@ Status PreparedRun::Insides::take_options() {
     if (!words.world.empty()) TRY(open_world());
     if (!words.bus.empty()) TRY(open_bus());
     if (!world && !bus) TRY(check_alone());
-    const bool at_once = words.clock != "virtual";
-    sink = TRY(TraceSink::open(words.trace, at_once));
-    sink_all = TRY(TraceSink::open(words.trace_all, at_once));
+    // In real time what a run did is there even if the process is killed.
+    const auto when =
+        words.clock == "virtual" ? LineSink::When::WithinASecond : LineSink::When::AtOnce;
+    sink = TRY(LineSink::open(words.trace, when));
+    sink_all = TRY(LineSink::open(words.trace_all, when));
     return Status::done();
 }
 
 Status PreparedRun::Insides::open_world() {
-    world = TRY(session::PlanWorld::open(
-        {.path = words.world, .seed = words.seed, .traced = !words.trace_all.empty()}, nodes));
+    hosts.reset();
+    world = TRY(session::PlanWorld::open({.path = words.world,
+                                          .seed = seed,
+                                          .traced = !words.trace_all.empty(),
+                                          .robot = words.robot,
+                                          .needs = toolbox::nodes_needed(what.graph())},
+                                         nodes));
+    if (!world_used) {  // said once, however often it is run
+        for (const std::string& hint : world->session().hints()) tell_on_stderr(hint);
+    }
     world_used = false;
+    parts.bus = &nodes;
+    parts.camera = world->camera();
+    hosts = std::make_unique<net::Network>();
+    TRY(listen());
     return check_names(world->names(), what);
 }
 
+// Again where it was, if this is not the first world.
+Status PreparedRun::Insides::listen() {
+    if (words.listen.empty()) return Status::done();
+    const net::Target target = TRY(net::parse_target(listening.empty() ? words.listen : listening));
+    const auto opened = TRY(hosts->listen(world->session().world().bus(), target));
+    listening = net::to_string(opened.target);
+    return Status::done();
+}
+
 Status PreparedRun::Insides::open_bus() {
-    PlanBusOptions options{words.bus, {}, "", [](const std::string& sentence) {
-                               std::fputs((sentence + "\n").c_str(), stderr);
-                           }};
+    PlanBusOptions options;
+    options.target = words.bus;
+    options.tell = tell_on_stderr;
+    options.seed = std::random_device()();
+    options.needs = toolbox::nodes_needed(what.graph());
+    options.starts = toolbox::starts_on(options.needs, what.library().templates());
     if (!words.project.empty()) {
         const std::string text = TRY(read_file(words.project));
         options.common = TRY(aesl::parse_project(text, words.project)).common;
         options.project = words.project;
-    } else if (session::uses_bus(what.plans, what.library.templates())) {
+    } else if (session::uses_bus(what.plans(), what.library().templates())) {
         return usage(
             "--bus without --project: the plan uses events, and only a project gives them "
             "their numbers; name the one that the nodes were loaded with, as --project "
             "arm.aesl");
     }
     bus = TRY(PlanBus::open(std::move(options), nodes));
+    parts.bus = &nodes;
     return check_names(bus->names(), what);
 }
 
 Status PreparedRun::Insides::check_alone() const {
-    const Status alone = toolbox::check_without_bus(what.graph);
+    const Status alone = toolbox::check_without_bus(what.graph());
     if (alone.ok()) return alone;
     return Error{alone.error().code,
                  alone.error().what + "; give it a world (--world FILE) or a bus (--bus TARGET)"};
@@ -168,61 +241,84 @@ Status PreparedRun::Insides::check_alone() const {
 
 // ---- running ----
 
+void PreparedRun::Insides::write(LineSink& to, std::string_view lines) {
+    const bool good = to.state().ok();
+    to.write(lines);
+    if (good && !to.state().ok()) tell(to.state().error().what);
+}
+
+// Writes what waits; false if a line was lost, now or before.
+bool PreparedRun::Insides::complete(LineSink& one) {
+    const bool good = one.state().ok();
+    const Status written = one.flush();
+    if (good && !written.ok()) tell(written.error().what);
+    return written.ok();
+}
+
 void PreparedRun::Insides::trace(const plan::TraceEvent& event) {
-    if (*sink || *sink_all) {
+    if (sink || sink_all) {
         const std::string line = plan::format_trace(event) + "\n";
-        sink->write(line);
-        if (*sink_all) sink_all->write(world->session().take_trace() + line);
+        write(sink, line);
+        if (sink_all) write(sink_all, world->session().take_trace() + line);
     }
     for (const auto& listener : listeners) listener(event);
+    if (const auto sentence = firing.see(event)) tell("note: " + *sentence);
 }
 
 Result<run::Ended> PreparedRun::Insides::run_beside_world() {
     if (world_used) TRY(open_world());
     world_used = true;
-    Pace pace;
-    if (wait) {
-        world->before_each(wait);
-    } else if (words.clock != "virtual") {
-        world->before_each([&pace](Time at) { pace.wait(at); });
-    }
+    Pace pace(*hosts);
+    const bool paced = words.clock != "virtual";
+    world->before_each([this, &pace, paced](Time at) {
+        if (!listening.empty()) (void)hosts->poll(hosts->now());
+        if (wait) {
+            wait(at);
+        } else if (paced) {
+            pace.wait(at);
+        }
+    });
     world->join(how);
-    const run::Ended ended = run_in_virtual_time();
-    sink_all->write(world->session().take_trace());
+    const run::Ended ended =
+        run_with(run::Clock::Virtual, [](run::Execution& run) { return run.run(); });
+    write(sink_all, world->session().take_trace());
     return ended;
 }
 
-run::Ended PreparedRun::Insides::run_in_virtual_time() {
-    run::VirtualTime run(what.graph, what.library, how);
+run::Ended PreparedRun::Insides::run_on_bus() {
+    bus->join(how);
+    return run_with(run::Clock::Real, [this](run::Execution& run) {
+        bus->start(*run.real_time());
+        const run::Ended ended = run.run();
+        bus->stop();
+        return ended;
+    });
+}
+
+// While it runs, abort() reaches it.
+run::Ended PreparedRun::Insides::run_with(run::Clock clock,
+                                          const std::function<run::Ended(run::Execution&)>& go) {
+    run::Execution execution(what.graph(), what.library(), how, clock);
     {
         const std::lock_guard lock(mutex_);
-        virtual_ = &run;
+        execution_ = &execution;
+        if (abort_asked_) execution.abort();
     }
-    const run::Ended ended = run.run();
+    const run::Ended ended = go(execution);
     const std::lock_guard lock(mutex_);
-    virtual_ = nullptr;
+    execution_ = nullptr;
     return ended;
 }
 
-run::Ended PreparedRun::Insides::run_in_real_time() {
-    if (bus) bus->join(how);
-    run::RealTime run(what.graph, what.library, how);
-    {
-        const std::lock_guard lock(mutex_);
-        real_ = &run;
-    }
-    if (bus) bus->start([&run](run::BusEvent event) { run.hear(std::move(event)); });
-    const run::Ended ended = run.run();
-    if (bus) bus->stop();
+void PreparedRun::Insides::abort_this() {
     const std::lock_guard lock(mutex_);
-    real_ = nullptr;
-    return ended;
+    if (execution_) execution_->abort();
 }
 
 void PreparedRun::Insides::abort() {
     const std::lock_guard lock(mutex_);
-    if (virtual_) virtual_->abort();
-    if (real_) real_->abort();
+    abort_asked_ = true;
+    if (execution_) execution_->abort();
 }
 
 // ---- the public side ----
@@ -230,13 +326,11 @@ void PreparedRun::Insides::abort() {
 PreparedRun::PreparedRun(std::unique_ptr<Insides> insides) : insides_(std::move(insides)) {}
 PreparedRun::~PreparedRun() = default;
 
-Result<std::unique_ptr<PreparedRun>> PreparedRun::prepare(const Runnable& what,
+Result<std::unique_ptr<PreparedRun>> PreparedRun::prepare(const LoadedPlan& what,
                                                           const RunWords& words,
                                                           toolbox::Parts& parts) {
-    auto insides = std::make_unique<Insides>(what, words);
+    auto insides = std::make_unique<Insides>(what, words, parts);
     TRY(insides->take_options());
-    if (insides->world || insides->bus) parts.bus = &insides->nodes;
-    if (insides->world) parts.camera = insides->world->camera();
     // make_unique cannot reach the constructor.
     return std::unique_ptr<PreparedRun>(new PreparedRun(std::move(insides)));
 }
@@ -259,15 +353,78 @@ void PreparedRun::pace(std::function<void(Time)> wait) {
 
 Result<run::Ended> PreparedRun::run(run::Debugger* debugger) {
     insides_->how.debugger = debugger;
+    insides_->firing = {};
     if (insides_->world) return insides_->run_beside_world();
-    return in_virtual_time() ? insides_->run_in_virtual_time() : insides_->run_in_real_time();
+    if (insides_->bus) return insides_->run_on_bus();
+    return insides_->run_with(in_virtual_time() ? run::Clock::Virtual : run::Clock::Real,
+                              [](run::Execution& run) { return run.run(); });
 }
 
 void PreparedRun::abort() {
     insides_->abort();
 }
 
+void PreparedRun::tell(std::function<void(const std::string&)> tell) {
+    insides_->tell = std::move(tell);
+}
+
+int PreparedRun::exit_status(const run::Ended& ended) {
+    const bool traced = insides_->complete(insides_->sink);
+    const bool all_traced = insides_->complete(insides_->sink_all);
+    const int status = run::exit_status(ended);
+    return status == 0 && !(traced && all_traced) ? kExitTraceLost : status;
+}
+
+void PreparedRun::abort_this() {
+    insides_->abort_this();
+}
+
+bool PreparedRun::abort_asked() const {
+    return insides_->abort_asked();
+}
+
+std::string PreparedRun::listening() const {
+    return insides_->listening;
+}
+
+void PreparedRun::serve_hosts() {
+    if (!insides_->listening.empty()) (void)insides_->hosts->poll(insides_->hosts->now());
+}
+
+std::vector<std::string> PreparedRun::files() const {
+    const RunWords& words = insides_->words;
+    std::vector<std::string> files = words.toolboxes;
+    for (const std::string& one : {words.world, words.project}) {
+        if (!one.empty()) files.push_back(one);
+    }
+    if (insides_->world) {
+        const auto scripts = insides_->world->session().script_paths();
+        files.insert(files.end(), scripts.begin(), scripts.end());
+    }
+    return files;
+}
+
+// ---- before a run ----
+
+Result<plan::Findings> check_bus(const LoadedPlan& plan, const RunWords& words) {
+    if (!words.project.empty()) {
+        return missing_names(TRY(names_of_project(words.project)), plan);
+    }
+    if (words.world.empty()) return plan::Findings();
+    toolbox::BusNodes nodes;
+    const auto world = TRY(session::PlanWorld::open(
+        {.path = words.world, .robot = words.robot, .needs = toolbox::nodes_needed(plan.graph())},
+        nodes));
+    return missing_names(world->names(), plan);
+}
+
 // ---- options ----
+
+Result<uint64_t> parse_seed(const std::string& text) {
+    if (const auto seed = decimal_number(text)) return *seed;
+    return usage(
+        fmt::format("--seed {}: expected a whole number from 0 to {} in digits", text, UINT64_MAX));
+}
 
 Result<std::pair<int, plan::Value>> parse_set(const plan::GraphPlan& plan,
                                               const std::string& text) {
@@ -287,11 +444,11 @@ Result<std::pair<int, plan::Value>> parse_set(const plan::GraphPlan& plan,
                                              plan.name, name)};
 }
 
-Result<Duration> parse_max_time(const std::string& text) {
+Result<std::optional<Duration>> parse_max_time(const std::string& text) {
     const Result<double> seconds = plan::float_from_text(text);
-    if (seconds.ok() && toolbox::duration_of(seconds.value()).count() > 0) {
-        return toolbox::duration_of(seconds.value());
-    }
+    const Duration time = seconds.ok() ? toolbox::duration_of(seconds.value()) : Duration{0};
+    if (time == run::kNever) return std::optional<Duration>();
+    if (time.count() > 0) return std::optional(time);
     return usage(fmt::format("--max-time {}: expected seconds above 0, as --max-time 2.5", text));
 }
 

@@ -4,7 +4,7 @@
 //     RunWords words;
 //     words.world = "arena.world.json";
 //     toolbox::Parts parts;                                   // the library's
-//     auto prepared = PreparedRun::prepare({graph, plans, library}, words, parts);
+//     auto prepared = PreparedRun::prepare(plan, words, parts);        // a LoadedPlan
 //     const Result<run::Ended> ended = prepared.value()->run();
 #pragma once
 
@@ -18,6 +18,9 @@
 
 #include "base/result.hpp"
 #include "base/time.hpp"
+#include "embed/loaded_plan.hpp"
+#include "embed/run_words.hpp"
+#include "plan/finding.hpp"
 #include "plan/graph.hpp"
 #include "run/code.hpp"
 #include "run/options.hpp"
@@ -31,31 +34,13 @@ namespace vagus::embed {
 
 constexpr Duration kWorldMaxTime = std::chrono::seconds(3600);  // beside a world, unless told
 
-// As they stand on the command line; empty: not given.
-struct RunWords {
-    std::vector<std::string> set = {};
-    std::string clock = {};             // real or virtual (real)
-    std::optional<uint64_t> seed = {};  // of the plan (1) and of the world (that of its file)
-    std::string max_time = {};
-    std::string trace = {};      // a file, or - for stdout
-    std::string trace_all = {};  // the same, with what happens in the world
-    std::string world = {};
-    std::string bus = {};      // a target (docs/formats.md)
-    std::string project = {};  // an .aesl: names of events for `bus`
-};
-
-// All borrowed. `plans` is what the graph was made of.
-struct Runnable {
-    const plan::Graph& graph;
-    const std::vector<plan::Plan>& plans;
-    const run::CodeLibrary& library;
-};
-
 class PreparedRun {
 public:
-    // Reads the world, lets its scripts settle, connects to the bus, opens the traces. `parts` are
-    // those that the library borrows; they are filled in. The Error is for exit status 2.
-    static Result<std::unique_ptr<PreparedRun>> prepare(const Runnable& what, const RunWords& words,
+    // Reads the world, lets its scripts settle, connects to the bus, opens the traces. The plan is
+    // borrowed; `parts` are those that its library borrows; they are filled in. The Error is for
+    // exit status 2.
+    static Result<std::unique_ptr<PreparedRun>> prepare(const LoadedPlan& plan,
+                                                        const RunWords& words,
                                                         toolbox::Parts& parts);
     ~PreparedRun();
 
@@ -63,6 +48,15 @@ public:
     bool in_virtual_time() const;
     // nullptr without one. Valid until the next run().
     session::PlanWorld* world();
+
+    // Where others can join the bus of the world: "tcp:127.0.0.1:33333"; empty without --listen.
+    std::string listening() const;
+    // Moves the bytes of those who have joined; for a pace() that waits long. It is done at each
+    // instant anyway.
+    void serve_hosts();
+    // The files that were read besides those of the plan: toolboxes, the world, its scripts, the
+    // project.
+    std::vector<std::string> files() const;
 
     // Before run(). Also hears the trace, on the deciding thread.
     void listen(std::function<void(const plan::TraceEvent&)> listener);
@@ -73,8 +67,19 @@ public:
     // Can be called again: each is a run of its own, in a world of its own. Fails only where that
     // world cannot be opened any more.
     Result<run::Ended> run(run::Debugger* debugger = nullptr);
-    // Ends the run (P28). From the deciding thread; on a bus from any.
+    // Before run(): who is told, in a sentence, what a person should know while it runs, on the
+    // deciding thread; stderr unless this is called. That a trace cannot be written any more, once
+    // for each: the run goes on, a robot does not stop for a full disk. That the plan does nothing
+    // but fire (run/firing.hpp).
+    void tell(std::function<void(const std::string&)> tell);
+    // After run(): the exit status of docs/plans.md, section 6, or 1 for a plan that ended well
+    // but whose trace is not complete. Writes what of the traces still waits.
+    int exit_status(const run::Ended& ended);
+    // Ends the run (P28), and each that would follow. From any thread, also before run().
     void abort();
+    bool abort_asked() const;
+    // Ends this run only; the next one begins as usual.
+    void abort_this();
 
 private:
     class Insides;
@@ -82,10 +87,17 @@ private:
     std::unique_ptr<Insides> insides_;
 };
 
+// What the scripts of a world (--world, --robot) or of a project (--project) lack of what the plan
+// needs: findings like those of the plan's own check. The Error says what is wrong with the files.
+Result<plan::Findings> check_bus(const LoadedPlan& plan, const RunWords& words);
+
 // NAME=VALUE of `--set`: a slot of the plan, and the value converted as a string.
 Result<std::pair<int, plan::Value>> parse_set(const plan::GraphPlan& plan, const std::string& text);
 
-// The seconds of `--max-time`.
-Result<Duration> parse_max_time(const std::string& text);
+// The number of `--seed`.
+Result<uint64_t> parse_seed(const std::string& text);
+
+// The seconds of `--max-time`; empty: it never comes.
+Result<std::optional<Duration>> parse_max_time(const std::string& text);
 
 }  // namespace vagus::embed

@@ -134,8 +134,8 @@ struct WorldDefinition {
     double height = 1;
     bool open = false;  // no walls around
     Colour ground = {1, 1, 1};
-    std::string
-        ground_image;  // a PNG, path from the folder of the world file; empty: `ground` everywhere
+    // A PNG, path from the folder of the world file; empty: `ground` everywhere.
+    std::string ground_image;
     std::vector<ObjectDefinition> objects;
     std::vector<RobotDefinition> robots;
     std::vector<TimelineEntry> timeline;  // by ascending time
@@ -149,5 +149,7 @@ std::string_view name_of(RobotType type);
 uint16_t nodes_of(RobotType type);
 // The names of the buttons of a robot, in the order of its variables.
 std::span<const std::string_view> buttons_of(RobotType type);
+// Whether a knock on its body means something to it.
+bool feels_knocks(RobotType type);
 
 }  // namespace vagus::sim

@@ -1,13 +1,16 @@
 // What robots have beside bodies: the memory card, the ground under them, energy; and the worlds
 // that users open first.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
-#include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "base/file.hpp"
 #include "base/json.hpp"
+#include "base/test_places.hpp"
 #include "sim/ground.hpp"
 #include "sim/sd_card.hpp"
 #include "sim/world.hpp"
@@ -19,14 +22,20 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// A file of a card of its own for each test, gone before and after it.
+// Each test has a folder of its own: tests run side by side.
 class Card : public testing::Test {
 protected:
-    Card() { std::remove(path().c_str()); }
-    ~Card() override { std::remove(path().c_str()); }
-    static std::string folder() { return testing::TempDir(); }
+    Card() { std::filesystem::create_directories(folder_); }
+    ~Card() override { std::filesystem::remove_all(folder_); }
+    std::string folder() const { return folder_.string(); }
     static constexpr int16_t kNumber = 31415;
-    static std::string path() { return folder() + "/U31415.DAT"; }
+    std::string path() const { return folder() + "/U31415.DAT"; }
+
+private:
+    const std::filesystem::path folder_ =
+        std::filesystem::path(testing::TempDir()) /
+        fmt::format("card-{}-{}", ::getpid(),
+                    testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(Card, WhatIsWrittenIsReadAgainAndLiesInTheFileLowByteFirst) {
@@ -90,7 +99,7 @@ TEST(Ground, LaterPatchesLieOnEarlierOnesAndTurnWithTheirAngle) {
 
 // The picture is red and green in its upper row, blue and white in its lower one.
 TEST(Ground, APictureIsStretchedOverTheWorldWithItsFirstRowOnTop) {
-    const std::string path = std::string(VAGUS_TESTDATA) + "/fuzz/sim_png/rgb";
+    const std::string path = test::testdata("fuzz/sim_png/rgb");
     Result<Picture> picture = read_png(read_file(path).value(), "rgb");
     ASSERT_TRUE(picture.ok()) << picture.error().what;
     Ground ground(4, 2, {1, 1, 1});
@@ -109,7 +118,7 @@ TEST(Ground, WhatIsNoPngIsRefusedWithItsName) {
 }
 
 TEST(Ground, APictureWithOnePixelTooManyIsRefused) {
-    const std::string folder = std::string(VAGUS_TESTDATA) + "/fuzz/sim_png/";
+    const std::string folder = test::testdata("fuzz/sim_png/");
     EXPECT_TRUE(read_png(read_file(folder + "widest").value(), "widest.png").ok());
     const Result<Picture> picture = read_png(read_file(folder + "wide").value(), "wide.png");
     ASSERT_FALSE(picture.ok());
@@ -134,7 +143,7 @@ TEST(Epuck, EnergyIsSpentEachSecondAndSharedThroughThePool) {
 TEST(Examples, EveryWorldCanBeOpenedAndIsInTheSavedForm) {
     for (const char* name :
          {"thymio/arena.world.json", "thymio/line.world.json", "epuck/colours.world.json"}) {
-        const std::string path = std::string(VAGUS_TESTDATA) + "/../examples/" + name;
+        const std::string path = test::examples(name);
         const std::string text = read_file(path).value();
         const Result<WorldDefinition> world = read_world(text, name);
         ASSERT_TRUE(world.ok()) << world.error().what;

@@ -16,8 +16,8 @@ struct Lamp {
     Colour colour;
 };
 
-// One look of a distance sensor, in the world.
-struct Look {
+// What a distance sensor looks along, in the world.
+struct Beam {
     Point from;
     Point to;  // where it ends: on what was hit, or at the end of its range
     bool hit = false;

@@ -48,7 +48,7 @@ constexpr std::array<Ray, kCount * kRaysPerSensor> rays_of(
 }
 
 // The middle rays in the world, given how far all rays get.
-std::vector<Look> middle_looks(std::span<const Ray> rays, std::span<const double> distances,
+std::vector<Beam> middle_beams(std::span<const Ray> rays, std::span<const double> distances,
                                const Pose& pose);
 
 }  // namespace vagus::sim

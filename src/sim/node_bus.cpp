@@ -25,12 +25,12 @@ void NodeBus::advance(Time now) {
     while (const auto delivery = can_.take()) hand_out(delivery->from, delivery->frame);
 }
 
-// To all but the sender.
+// To all but the sender, as far as they would look at it.
 void NodeBus::hand_out(CanPort from, const wire::Frame& frame) {
     std::array<uint8_t, wire::kFrameMax> bytes;
     const std::span<const uint8_t> encoded(bytes.data(), wire::encode(frame, bytes.data()));
     for (Place& place : places_)
-        if (place.port != from) place.inbox.push(encoded);
+        if (place.port != from && hub::is_for_node(frame, place.node)) place.inbox.push(encoded);
     if (from != main_) hub_.receive(link_, frame);
 }
 

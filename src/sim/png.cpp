@@ -10,7 +10,7 @@ namespace {
 
 Error wrong(const std::string& file, const std::string& why) {
     return {Code::BadInput, file + ": is no PNG image that can be used: " + why +
-                                "; save it anew as a PNG of at most " +
+                                "; save it again as a PNG of at most " +
                                 std::to_string(kImageSideMax) + " pixels a side"};
 }
 

@@ -52,7 +52,7 @@ public:
     }
     virtual std::vector<Lamp> lamps() const = 0;
     // Its distance sensors as they stand.
-    virtual std::vector<Look> looks(const Arena& arena) const = 0;
+    virtual std::vector<Beam> beams(const Arena& arena) const = 0;
     // The colour that cameras see.
     virtual Colour colour() const = 0;
     // Where its camera is, in its frame; it looks ahead. Nothing: it has none.

@@ -4,9 +4,11 @@
 #include <array>
 
 #include "base/file.hpp"
+#include "base/project_border.hpp"
 #include "base/trig.hpp"
 #include "sim/camera.hpp"
 #include "sim/frame_notes.hpp"
+#include "sim/frames_for_others.hpp"
 #include "sim/inhabitants.hpp"
 #include "sim/node_bus.hpp"
 #include "sim/world_check.hpp"
@@ -20,6 +22,7 @@ struct Berth {
     size_t place = 0;          // among its machines
     hub::LinkId link;          // on the bus of all, if that is ideal
     hub::LinkId private_link;  // on that behind the robot's own port, if it has one
+    FramesForOthers for_others = {};
 };
 
 // How a frame leaves its node when the bus is modelled.
@@ -97,7 +100,8 @@ Status check_can(const WorldDefinition& definition) {
     return Status::done();
 }
 
-Result<Picture> read_ground(const std::string& path) {
+Result<Picture> read_ground(const std::string& folder, const std::string& named) {
+    const std::string path = TRY(path_beside(folder + "/.", named));
     const std::string bytes = TRY(read_file(path));
     return read_png(bytes, path);
 }
@@ -114,8 +118,7 @@ Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     }
     Picture picture;
     if (!definition.ground_image.empty()) {
-        const std::string path = options.folder + "/" + definition.ground_image;
-        Result<Picture> read = read_ground(path);
+        Result<Picture> read = read_ground(options.folder, definition.ground_image);
         if (!read.ok()) return Error{read.error().code, "ground.image: " + read.error().what};
         picture = std::move(read.value());
     }
@@ -143,10 +146,11 @@ Status World::Insides::join_bus() {
         const RobotDefinition& robot = definition.robots[index];
         if (robot.port) private_buses[index] = std::make_unique<hub::Hub>();
         for (size_t place = 0; place < nodes_of(robot.type); ++place) {
-            Berth berth{index, place, {}, {}};
-            if (!node_bus) berth.link = TRY(bus.add({.name = robot.name}));
-            if (robot.port)
-                berth.private_link = TRY(private_buses[index]->add({.name = robot.name}));
+            Berth berth{index, place, {}, {}, {}};
+            const auto id = static_cast<uint16_t>(robot.node + place);
+            const hub::LinkOptions link{.name = robot.name, .only_node = id};
+            if (!node_bus) berth.link = TRY(bus.add(link));
+            if (robot.port) berth.private_link = TRY(private_buses[index]->add(link));
             berths.push_back(berth);
         }
     }
@@ -286,14 +290,16 @@ void World::Insides::act(const Action& action) {
 // ---- The bus ----
 
 void World::Insides::deliver(size_t index) {
-    const Berth& berth = berths[index];
+    Berth& berth = berths[index];
     Machine& node = machine(berth);
     node.begin_millisecond();
     wire::Frame frame;
     const auto take = [&] {
         return node_bus ? node_bus->take(index, frame) : bus.take(berth.link, frame);
     };
-    while (node.wants_frame() && take()) node.receive(frame);
+    while (node.wants_frame() && take()) {
+        if (!berth.for_others.take(frame)) node.receive(frame);
+    }
     hub::Hub* const own_bus = private_buses[berth.robot].get();
     if (own_bus == nullptr) return;
     while (node.wants_frame() && own_bus->take(berth.private_link, frame)) node.receive(frame);
@@ -365,7 +371,8 @@ Time World::now() const {
 
 void World::reset() {
     wire::Frame frame;
-    for (const Berth& berth : insides_->berths) {
+    for (Berth& berth : insides_->berths) {
+        berth.for_others.clear();
         while (!insides_->node_bus && insides_->bus.take(berth.link, frame)) {
         }
         hub::Hub* const own_bus = insides_->private_buses[berth.robot].get();
@@ -386,6 +393,13 @@ uint64_t World::happenings_lost() const {
 
 hub::Hub& World::bus() {
     return insides_->bus;
+}
+
+void World::send_to(RobotId robot, hub::LinkId host, const wire::Frame& frame) {
+    for (Berth& berth : insides_->berths) {
+        if (berth.robot + 1 != robot.number) berth.for_others.add(frame);
+    }
+    insides_->bus.receive(host, frame);
 }
 
 std::optional<BusLoad> World::bus_load() const {
@@ -452,12 +466,12 @@ std::vector<Lamp> World::lamps(RobotId robot) const {
     return index ? insides_->robot(*index).lamps() : std::vector<Lamp>{};
 }
 
-std::vector<Look> World::looks(RobotId robot) const {
+std::vector<Beam> World::beams(RobotId robot) const {
     const auto index = index_of(insides_->definition, robot);
     if (!index) return {};
     Arena& arena = insides_->inhabitants->arena();
     arena.prepare_looks();
-    return insides_->robot(*index).looks(arena);
+    return insides_->robot(*index).beams(arena);
 }
 
 bool World::has_camera(RobotId robot) const {

@@ -75,8 +75,8 @@ struct RobotView {
     uint16_t nodes = 1;  // how many it has, with neighbouring ids
     Pose pose;
     Colour paint;
-    std::span<const Point>
-        outline;  // a convex polygon in the frame of the robot, counter-clockwise
+    // A convex polygon in the frame of the robot, counter-clockwise.
+    std::span<const Point> outline;
 };
 
 struct ObjectView {
@@ -164,6 +164,9 @@ public:
     // transmission, never before the next one. What a host sends begins its way at the time of the
     // last step; what the bus has no room for waits in the hub, bounded as for any link.
     hub::Hub& bus();
+    // What a host says to one robot of several: the frame goes over the bus as any other, hosts see
+    // it, but the nodes of other robots do not take it.
+    void send_to(RobotId robot, hub::LinkId host, const wire::Frame& frame);
     // Empty if the bus is ideal.
     std::optional<BusLoad> bus_load() const;
     // The private switch behind the robot's `port`: that robot alone is on it. nullptr if it has no
@@ -178,7 +181,7 @@ public:
     std::vector<RobotView> robots() const;      // in the order of the file
     std::vector<ObjectView> objects() const;    // in the order of their adding
     std::vector<Lamp> lamps(RobotId robot) const;
-    std::vector<Look> looks(RobotId robot) const;  // distance sensors as they stand now
+    std::vector<Beam> beams(RobotId robot) const;  // distance sensors as they stand now
     bool has_camera(RobotId robot) const;
     // What the robot's camera sees now (camera.hpp). Fails with NotFound if it has none.
     Result<Picture> render(RobotId robot) const;

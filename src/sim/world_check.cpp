@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "sim/standing.hpp"
@@ -11,6 +12,9 @@ namespace vagus::sim {
 namespace {
 
 using Found = std::optional<Problem>;
+
+constexpr double kFullTurn = 2 * std::numbers::pi;
+constexpr double kDegree = std::numbers::pi / 180;
 
 std::string text_of(double value) {
     char text[32];
@@ -34,7 +38,7 @@ Found check_range(const std::string& element, double value, Range range, const c
 Found check_count(const std::string& element, size_t count, size_t max) {
     if (count <= max) return std::nullopt;
     return Problem{element, "expected at most " + std::to_string(max) + " of them, found " +
-                                std::to_string(count) + "; take some away"};
+                                std::to_string(count) + "; remove some"};
 }
 
 Found check_colour(const std::string& element, const Colour& colour) {
@@ -54,8 +58,31 @@ Found check_point(const std::string& element, const Point& point, double low, do
     return std::nullopt;
 }
 
+// "angles are in radians: 90 degrees are 1.5708"
+std::string radians_hint(double angle) {
+    char radians[32];
+    std::snprintf(radians, sizeof radians, "%.4f", std::fmod(angle, 360) * kDegree);
+    return "angles are in radians: " + text_of(angle) + " degrees are " + radians;
+}
+
 Found check_angle(const std::string& element, double angle) {
-    return check_range(element, angle, {-kAngleMax, kAngleMax, "rad"}, "angles are in radians");
+    return check_range(element, angle, {-kAngleMax, kAngleMax, "rad"}, radians_hint(angle).c_str());
+}
+
+// More than a full turn (rounded up in its third decimal) is rarely meant.
+Found hint_of_angle(const std::string& element, double angle) {
+    if (std::fabs(angle) <= kFullTurn + 0.001) return std::nullopt;
+    return Problem{element, text_of(angle) + " is more than a full turn; " + radians_hint(angle)};
+}
+
+// Outside of the walls nothing can be seen or touched, and nobody comes in.
+Found check_inside(const Point& at, const std::string& element, const WorldDefinition& world) {
+    const bool inside = at.x >= 0 && at.x <= world.width && at.y >= 0 && at.y <= world.height;
+    if (inside || world.open) return std::nullopt;
+    return Problem{element, "[" + text_of(at.x) + ", " + text_of(at.y) +
+                                "] is outside of the walls around the world; place it from 0 to " +
+                                text_of(world.width) + " and from 0 to " + text_of(world.height) +
+                                ", or write \"open\": true"};
 }
 
 bool is_rectangle(const ObjectDefinition& object) {
@@ -140,7 +167,9 @@ public:
 
 private:
     Found apply(const AddObject& add) {
-        if (auto found = find_problem(add.object, *element_ + ".object")) return found;
+        const std::string element = *element_ + ".object";
+        if (auto found = find_problem(add.object, element)) return found;
+        if (auto found = check_inside(add.object.at, element + ".at", world_)) return found;
         if (add.object.id.empty()) return std::nullopt;
         if (ids_.contains(add.object.id) || robots_.contains(add.object.id)) {
             return Problem{*element_ + ".object.id",
@@ -157,6 +186,7 @@ private:
     Found apply(const MoveObject& move) {
         if (auto found = check_point(*element_ + ".at", move.at, -kWorldSizeMax, 2 * kWorldSizeMax))
             return found;
+        if (auto found = check_inside(move.at, *element_ + ".at", world_)) return found;
         if (move.angle) {
             if (auto found = check_angle(*element_ + ".angle", *move.angle)) return found;
         }
@@ -191,24 +221,13 @@ Found check_objects(const WorldDefinition& world) {
         const ObjectDefinition& object = world.objects[i];
         const std::string element = "objects[" + std::to_string(i) + "]";
         if (auto found = find_problem(object, element)) return found;
+        if (auto found = check_inside(object.at, element + ".at", world)) return found;
         if (!object.id.empty() && !ids.insert(object.id).second) {
             return Problem{element + ".id",
                            "\"" + object.id + "\" is the id of an earlier object; choose another"};
         }
     }
     return std::nullopt;
-}
-
-// A robot outside the walls could never come in.
-Found check_inside(const RobotDefinition& robot, const std::string& element,
-                   const WorldDefinition& world) {
-    const bool inside = robot.at.x >= 0 && robot.at.x <= world.width && robot.at.y >= 0 &&
-                        robot.at.y <= world.height;
-    if (inside || world.open) return std::nullopt;
-    return Problem{element, "[" + text_of(robot.at.x) + ", " + text_of(robot.at.y) +
-                                "] is outside of the walls around the world; place it from 0 to " +
-                                text_of(world.width) + " and from 0 to " + text_of(world.height) +
-                                ", or write \"open\": true"};
 }
 
 Found check_robot(const RobotDefinition& robot, const std::string& element,
@@ -222,7 +241,7 @@ Found check_robot(const RobotDefinition& robot, const std::string& element,
     }
     const double margin = kWorldSizeMax;
     if (auto found = check_point(element + ".at", robot.at, -margin, 2 * margin)) return found;
-    if (auto found = check_inside(robot, element + ".at", world)) return found;
+    if (auto found = check_inside(robot.at, element + ".at", world)) return found;
     if (auto found = check_angle(element + ".angle", robot.angle)) return found;
     if (auto found = check_colour(element + ".paint", robot.paint)) return found;
     return check_range(
@@ -295,6 +314,32 @@ std::optional<Problem> find_problem(const ObjectDefinition& object, const std::s
         return found;
     if (auto found = check_mass(object, element)) return found;
     return check_colour(element + ".colour", object.colour);
+}
+
+std::vector<Problem> find_hints(const WorldDefinition& world) {
+    std::vector<Problem> hints;
+    const auto look = [&hints](const std::string& element, double angle) {
+        const Found hint = hint_of_angle(element + ".angle", angle);
+        if (hint && hints.size() < kHintsMax) hints.push_back(*hint);
+    };
+    const auto numbered = [](const char* list, size_t i) {
+        return std::string(list) + "[" + std::to_string(i) + "]";
+    };
+    for (size_t i = 0; i < world.objects.size(); ++i) {
+        look(numbered("objects", i), world.objects[i].angle);
+    }
+    for (size_t i = 0; i < world.robots.size(); ++i) {
+        look(numbered("robots", i), world.robots[i].angle);
+    }
+    for (size_t i = 0; i < world.timeline.size(); ++i) {
+        const Action& action = world.timeline[i].action;
+        if (const auto* add = std::get_if<AddObject>(&action)) {
+            look(numbered("timeline", i) + ".object", add->object.angle);
+        } else if (const auto* move = std::get_if<MoveObject>(&action)) {
+            look(numbered("timeline", i), move->angle.value_or(0));
+        }
+    }
+    return hints;
 }
 
 std::optional<Problem> find_problem(const WorldDefinition& world) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/file_format.hpp"
 #include "base/json.hpp"
 #include "base/json_object.hpp"
 #include "sim/world_check.hpp"
@@ -156,22 +157,14 @@ const std::vector<Json>& read_list(JsonObject& in, std::string_view key, size_t 
     if (items.size() <= max) return items;
     in.complain(in.find(key, Need::Optional)->at,
                 std::string(key) + ": expected at most " + std::to_string(max) +
-                    " of them, found " + std::to_string(items.size()) + "; take some away");
+                    " of them, found " + std::to_string(items.size()) + "; remove some");
     return kNothing;
-}
-
-void read_format(JsonObject& in) {
-    const std::string format = in.text("format", Need::Required);
-    const Json* json = in.find("format", Need::Optional);
-    if (json == nullptr || json->kind != JsonKind::String || format == "vagus-world/1") return;
-    in.complain(json->at, "format: expected \"vagus-world/1\", found \"" + format +
-                              "\"; this program reads no other");
 }
 
 WorldDefinition read_all(const Json& json, Complaints& complaints) {
     JsonObject in(json, "the world", complaints);
     WorldDefinition world;
-    read_format(in);
+    check_format(in, FileFormat::World);
     world.name = in.text("name", Need::Optional);
     world.help = in.text("help", Need::Optional);
     world.seed = static_cast<uint64_t>(in.integer("seed", {.low = 0, .fallback = 1}));
@@ -224,7 +217,7 @@ Place place_of(const Json& top, std::string_view name) {
 }  // namespace
 
 Result<WorldDefinition> read_world(std::string_view text, std::string_view file) {
-    const Json json = TRY(parse_json(text, file));
+    const Json json = TRY(parse_format(text, file, FileFormat::World));
     Complaints complaints;
     WorldDefinition world = read_all(json, complaints);
     if (complaints.empty()) {
@@ -235,6 +228,18 @@ Result<WorldDefinition> read_world(std::string_view text, std::string_view file)
     }
     if (!complaints.empty()) return first_complaint(complaints, file);
     return world;
+}
+
+std::vector<std::string> hints_of_world(std::string_view text, std::string_view file) {
+    std::vector<std::string> lines;
+    const Result<Json> json = parse_json(text, file);
+    if (!json.ok()) return lines;
+    Complaints complaints;
+    for (const Problem& hint : find_hints(read_all(json.value(), complaints))) {
+        lines.push_back(at_place(file, place_of(json.value(), hint.element),
+                                 "warning: " + hint.element + ": " + hint.what));
+    }
+    return lines;
 }
 
 Error error_in_world(const Error& error, std::string_view text, std::string_view file) {

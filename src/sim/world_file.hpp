@@ -5,7 +5,9 @@
 // `ground.image` stay as they are written; they are paths from the folder of the world file.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/result.hpp"
 #include "sim/definitions.hpp"
@@ -14,6 +16,10 @@ namespace vagus::sim {
 
 // `file` is for the sentences of errors.
 Result<WorldDefinition> read_world(std::string_view text, std::string_view file);
+
+// What is allowed, but looks like a slip (an angle in degrees): "FILE:LINE:COL: warning: sentence".
+// `text` was read without an error.
+std::vector<std::string> hints_of_world(std::string_view text, std::string_view file);
 
 // An error that was found after reading, with its place before it: its sentence begins with the
 // element ("robots[0].script: …"). `text` was read without an error.

@@ -189,6 +189,48 @@ TEST(WorldFile, RobotsMayStandAnywhereWhereThereAreNoWalls) {
               "");
 }
 
+TEST(WorldFile, WhatStandsOutsideOfTheWallsIsRefused) {
+    const auto lamp = [](const char* at) {
+        return std::string(R"({"id":"l","kind":"light","at":)") + at + "}";
+    };
+    const std::string sentence =
+        " is outside of the walls around the world; place it from 0 to 2 and from 0 to 1, or write "
+        "\"open\": true";
+    EXPECT_EQ(error_of(with(R"("objects":[)" + lamp("[2.001,1]") + "]")),
+              "w.json:2:42: objects[0].at: [2.001, 1]" + sentence);
+    EXPECT_EQ(error_of(with(R"("objects":[)" + lamp("[2,0]") + "]")), "") << "in the wall itself";
+    EXPECT_NE(error_of(with(R"("timeline":[{"t":1,"do":"add","object":)" + lamp("[1,-0.1]") + "}]"))
+                  .find("timeline[0].object.at: [1, -0.1]" + sentence),
+              std::string::npos);
+    EXPECT_NE(error_of(with(R"("objects":[)" + lamp("[1,1]") +
+                            R"(],"timeline":[{"t":1,"do":"move","id":"l","at":[3,1]}])"))
+                  .find("timeline[0].at: [3, 1]" + sentence),
+              std::string::npos);
+    EXPECT_EQ(error_of(with(R"("open":true,"objects":[)" + lamp("[5,5]") + "]")), "");
+}
+
+TEST(WorldFile, AnAngleOfMoreThanAFullTurnGetsAHint) {
+    const auto hints = [](const std::string& angle) {
+        return hints_of_world(
+            with(R"("objects":[{"kind":"box","at":[1,1],"size":[1,1],"angle":)" + angle + "}]"),
+            "w.json");
+    };
+    EXPECT_TRUE(hints("6.284").empty()) << "a full turn, rounded";
+    EXPECT_TRUE(hints("-6.2832").empty());
+    // 45 degrees are 0.7853981…
+    EXPECT_EQ(
+        hints("45"),
+        (std::vector<std::string>{
+            "w.json:2:58: warning: objects[0].angle: 45 is more than a full turn; angles are in "
+            "radians: 45 degrees are 0.7854"}));
+    EXPECT_EQ(
+        hints_of_world(with(R"("objects":[{"id":"b","kind":"box","at":[1,1],"size":[0.1,0.1]}],)"
+                            R"("timeline":[{"t":1,"do":"move","id":"b","at":[1,1],"angle":-180}])"),
+                       "w.json")
+            .size(),
+        1u);
+}
+
 TEST(WorldFile, PortZeroIsAPortToo) {
     const auto world =
         read_world(with(R"("robots":[{"name":"a","type":"epuck","at":[0.5,0.5],"port":0},)"

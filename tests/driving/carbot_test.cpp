@@ -319,6 +319,68 @@ TEST(Carbot, TheEscapeButtonIsToldToEverybodyAndToItsWatchers) {
     EXPECT_EQ(pilot.count("escape.pressed", {11}), 1u);
 }
 
+// ---- the way: so many millimetres, within so many tenths of a second ----
+
+TEST(Carbot, WhoWatchesTheWayHearsEachTimeThatItStays) {
+    Pilot pilot(room(), kScript);
+    pilot.send("way.watch", {9, 200, 10});
+    pilot.step(950ms);
+    EXPECT_EQ(pilot.count("way.none"), 0u);
+    EXPECT_TRUE(pilot.wait_for("way.none", {9}, 100ms));
+    pilot.step(2s);
+    EXPECT_EQ(pilot.count("way.none", {9}), 3u);
+    pilot.send("way.unwatch", {9});
+    pilot.step(2s);
+    EXPECT_EQ(pilot.count("way.none"), 3u);
+}
+
+// 60 cm at 20 cm/s, 20 cm within 2 s each; then it stands.
+TEST(Carbot, WhatGetsOnHasMadeItsWay) {
+    Pilot pilot(room(), kScript);
+    pilot.send("way.watch", {9, 200, 20});
+    pilot.send("drive.forward", {7, 600, 0, 200});
+    pilot.keep_alive(7);
+    ASSERT_TRUE(pilot.wait_for("drive.arrived", {7}, 5s));
+    EXPECT_EQ(pilot.count("way.none"), 0u);
+    EXPECT_TRUE(pilot.wait_for("way.none", {9}, 2100ms));
+}
+
+// 15 cm to and 15 cm fro take about 2 s: a way, but it does not lead 20 cm away.
+TEST(Carbot, GoingToAndFroIsNoWay) {
+    Pilot pilot(room(), kScript);
+    pilot.send("way.watch", {9, 200, 30});
+    constexpr int16_t kForwardToken = 11;
+    constexpr int16_t kBackToken = 12;
+    for (int times = 0; times < 2; ++times) {
+        pilot.keep_alive(kForwardToken);
+        pilot.send("drive.forward", {kForwardToken, 150, 0, 200});
+        ASSERT_TRUE(pilot.wait_for("drive.arrived", {kForwardToken}, 2s));
+        pilot.keep_alive(kBackToken);
+        pilot.send("drive.forward", {kBackToken, -150, -1, 200});
+        ASSERT_TRUE(pilot.wait_for("drive.arrived", {kBackToken}, 2s));
+    }
+    EXPECT_EQ(pilot.count("way.none", {9}), 1u);
+}
+
+TEST(Carbot, APlaceThatIsSetIsNoWay) {
+    Pilot pilot(room(), kScript);
+    pilot.send("way.watch", {9, 200, 10});
+    pilot.step(600ms);
+    pilot.send("drive.place", {5000, 0, 0, 0, 0});
+    pilot.step(900ms);
+    EXPECT_EQ(pilot.count("way.none"), 0u) << "it counts from there";
+    EXPECT_TRUE(pilot.wait_for("way.none", {9}, 150ms));
+}
+
+TEST(Carbot, AFifthWatcherOfTheWayTakesThePlaceOfTheOldest) {
+    Pilot pilot(room(), kScript);
+    for (int16_t token = 11; token <= 15; ++token) pilot.send("way.watch", {token, 200, 10});
+    pilot.step(1500ms);
+    EXPECT_EQ(pilot.count("way.none", {11}), 0u);
+    for (int16_t token = 12; token <= 15; ++token)
+        EXPECT_EQ(pilot.count("way.none", {token}), 1u) << token;
+}
+
 TEST(Carbot, ItSaysWhereItBelievesToBe) {
     Pilot pilot(room(), kScript);
     // 70 m are 70000 mm: 1 * 65536 + 4464.

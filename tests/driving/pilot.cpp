@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 
 namespace vagus {
 namespace {
@@ -27,12 +28,12 @@ session::SimSession make(sim::WorldDefinition world, uint64_t seed) {
 
 Pilot::Pilot(sim::WorldDefinition world, const std::string& script, uint64_t seed)
     : session_(make(std::move(world), seed)) {
-    const std::string path = std::string(VAGUS_EXAMPLES) + "/" + script;
+    const std::string path = test::examples(script);
     const auto text = read_file(path);
     EXPECT_TRUE(text.ok()) << path;
     session_.load_for(session_.nodes().front().robot, path, text.value());
     EXPECT_TRUE(session_.settle());
-    EXPECT_EQ(session_.mistakes(), std::vector<std::string>{});
+    EXPECT_TRUE(session_.mistakes().empty());
 }
 
 void Pilot::send(const std::string& event, const std::vector<int16_t>& arguments) {

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sample_run.hpp"
+#include "base/test_places.hpp"
+#include "trial.hpp"
 
 namespace vagus::samples {
 namespace {
@@ -14,14 +15,39 @@ namespace {
 using namespace std::chrono_literals;
 using Seconds = std::chrono::duration<double>;
 
-const std::string kPlan = VAGUS_EXAMPLES "/follow-wall/WallFollow.plan.json";
-const std::string kHall = VAGUS_EXAMPLES "/follow-wall/hall.world.json";
+const std::string kPlan = test::examples("follow-wall/WallFollow.plan.json");
+const std::string kHall = test::examples("follow-wall/hall.world.json");
 constexpr double kWallDistance = 0.3;  // m: `walldist` of the plan
 constexpr double kOffMax = 0.1;        // m, on average
 constexpr double kFollowMetres = 10;
 constexpr auto kContactMax = 2s;
 constexpr Duration kAtMost = 300s;
 constexpr double kStartClear = 0.45;  // m around the hull
+
+constexpr double kSpotMetres = 0.5;
+constexpr double kSpotSecondsMax = 60;  // on one spot; a corner takes up to 25 s
+
+// How long the robot stays on one spot at most.
+class Staying {
+public:
+    void look(const Moment& now) {
+        const bool away = std::abs(now.pose.at.x - spot_.x) >= kSpotMetres ||
+                          std::abs(now.pose.at.y - spot_.y) >= kSpotMetres;
+        if (away || !begun_) {
+            begun_ = true;
+            spot_ = now.pose.at;
+            since_ = now.at;
+        }
+        longest_ = std::max(longest_, now.at - since_);
+    }
+    double longest_seconds() const { return Seconds(longest_).count(); }
+
+private:
+    bool begun_ = false;
+    sim::Point spot_;
+    Time since_{};
+    Duration longest_{};
+};
 
 // From the first moment of WallForward on, whatever the plan does then.
 class Following {
@@ -95,7 +121,7 @@ class FollowWall : public testing::TestWithParam<Room> {};
 // From any free place, looking anywhere; start and noise are those of the seed.
 TEST_P(FollowWall, FromRandomStarts) {
     const Room& room = GetParam();
-    const std::string world = VAGUS_SAMPLE_WORLDS "/" + room.name + ".world.json";
+    const std::string world = test::sample_worlds(room.name + ".world.json");
     uint64_t well = 0;
     double off = 0;
     for (uint64_t seed = 1; seed <= room.starts; ++seed) {
@@ -115,8 +141,36 @@ TEST_P(FollowWall, FromRandomStarts) {
 
 INSTANTIATE_TEST_SUITE_P(Rooms, FollowWall,
                          testing::Values(Room{"rectangular", 100, 99}, Room{"corners", 100, 99},
-                                         Room{"slanted", 100, 99}, Room{"unknown", 20, 19}),
+                                         Room{"slanted", 100, 99}, Room{"unknown", 20, 19},
+                                         Room{"niches", 20, 20}, Room{"dead_ends", 20, 20}),
                          [](const auto& of) { return of.param.name; });
+
+// From the depth of a niche, where the world file puts the robot, looking anywhere.
+class FollowWallOutOfANiche : public testing::TestWithParam<const char*> {};
+
+TEST_P(FollowWallOutOfANiche, ItNoticesThatItMakesNoWay) {
+    const std::string world = test_world(std::string(GetParam()) + ".world.json");
+    Worst stays("longest on one spot, s"), contact("longest contact of the hull, s");
+    try_seeds({.plan = kPlan,
+               .world = world,
+               .off_metres = 0.05,
+               .off_radians = 3.14,
+               .at_most = kAtMost},
+              [&](const Trial& trial) {
+                  Following following;
+                  Staying staying;
+                  for (const Moment& moment : trial.ran.way) {
+                      (void)following.look(moment);
+                      staying.look(moment);
+                  }
+                  EXPECT_GE(following.metres(), kFollowMetres);
+                  EXPECT_LE(stays.note(staying.longest_seconds()), kSpotSecondsMax);
+                  EXPECT_LE(contact.note(seconds(trial.longest_contact())), 2);
+              });
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, FollowWallOutOfANiche, testing::Values("niches", "dead_ends"),
+                         [](const auto& of) { return std::string(of.param); });
 
 // The hall of the example, as a user sees it, with other noise for each seed. After 52 s a box
 // stands before the robot: it goes around it. From 80 s to 92 s a plank lies there that its sensor

@@ -28,6 +28,14 @@ TEST(Infrared, CarbotFindsTheBeaconBehindAWall) {
     drive_to_beacon(example("infrared/room.world.json"), {5.2, 3});
 }
 
+TEST(Infrared, CarbotGoesAroundAWallThatHidesTheBeacon) {
+    drive_to_beacon(test_world("barrier.world.json"), {4.6, 2});
+}
+
+TEST(Infrared, CarbotComesOutOfAPocketBeforeTheBeacon) {
+    drive_to_beacon(test_world("pocket.world.json"), {5.5, 3.2});
+}
+
 // The world for which the plan was not made.
 TEST(Infrared, CarbotFindsTheBeaconInAStoreroom) {
     drive_to_beacon(test_world("storeroom.world.json"), {1, 4.2});

@@ -44,8 +44,8 @@ struct Moment {
     Time at{};
     sim::Pose pose;
     double gap = 0;  // m: from the hull to the nearest thing
-    std::string_view
-        actor;  // the innermost that runs; valid as long as the Ran is, wherever it is moved
+    // The innermost that runs; valid as long as the Ran is, wherever it is moved.
+    std::string_view actor;
     std::vector<sim::Pose> others = {};  // of the other robots, in the order of the world file
 };
 

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 #include "clearance.hpp"
 
 namespace vagus::samples {
@@ -22,7 +23,7 @@ std::string room(std::string_view objects) {
   "objects": [)" +
            std::string(objects) + R"(],
   "robots": [{ "name": "carbot", "type": "carbot", "at": [1, 1.5], "script": ")" +
-           VAGUS_EXAMPLES + R"(/carbot/carbot.aesl" }] })";
+           test::examples() + R"(/carbot/carbot.aesl" }] })";
 }
 
 class SampleRunTest : public ::testing::Test {

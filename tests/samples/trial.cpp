@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "base/file.hpp"
+#include "base/test_places.hpp"
 #include "base/trig.hpp"
 
 namespace vagus::samples {
@@ -25,11 +26,11 @@ double around_zero(SplitMix64& random, double most) {
 }  // namespace
 
 std::string example(const std::string& path) {
-    return std::string(VAGUS_EXAMPLES) + "/" + path;
+    return test::examples(path);
 }
 
 std::string test_world(const std::string& name) {
-    return std::string(VAGUS_SAMPLE_WORLDS) + "/" + name;
+    return test::sample_worlds(name);
 }
 
 sim::Pose Trial::from_begin(const sim::Pose& pose) const {

@@ -5,23 +5,10 @@
 namespace vagus::sim::carbot {
 namespace {
 
-constexpr size_t kWord = sizeof(int16_t);
-
-// Addresses are offsets in here; the memory itself is that of the machine.
-struct Layout {
-#define VARIABLE(field, name, words) int16_t field[words];
-#include "sim/carbot/bumper_variables.def"
-#undef VARIABLE
-};
+#define VAGUS_VARIABLES "sim/carbot/bumper_variables.def"
+#include "sim/node_variables.inl"
 static_assert(sizeof(Layout) == 48 * kWord, "docs/carbot.md: 48 words are described");
 static_assert(sizeof(Layout::touch_sectors) == kSectors * kWord, "one word for each sector");
-#define ADDRESS(field) static_cast<uint16_t>(offsetof(Layout, field) / kWord)
-
-constexpr node::Variable kVariables[] = {
-#define VARIABLE(field, name, words) {words, name},
-#include "sim/carbot/bumper_variables.def"
-#undef VARIABLE
-};
 
 enum Event : uint8_t { kTouch, kButton, kTickEvent };
 constexpr node::LocalEvent kEvents[] = {{"touch", "A sector was pressed or released"},

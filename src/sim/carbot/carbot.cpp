@@ -72,9 +72,9 @@ std::vector<Lamp> Carbot::lamps() const {
     return {head_.lamp()};
 }
 
-std::vector<Look> Carbot::looks(const Arena& arena) const {
-    const std::optional<Look> look = range_.look(arena.pose(body_));
-    return look ? std::vector<Look>{*look} : std::vector<Look>{};
+std::vector<Beam> Carbot::beams(const Arena& arena) const {
+    const std::optional<Beam> look = range_.look(arena.pose(body_));
+    return look ? std::vector<Beam>{*look} : std::vector<Beam>{};
 }
 
 }  // namespace vagus::sim::carbot

@@ -27,7 +27,7 @@ public:
     void drive(Arena& arena) override;
     void set_button(std::string_view button, bool pressed) override;
     std::vector<Lamp> lamps() const override;
-    std::vector<Look> looks(const Arena& arena) const override;
+    std::vector<Beam> beams(const Arena& arena) const override;
     Colour colour() const override { return paint_; }
     std::optional<Point> camera() const override;
 

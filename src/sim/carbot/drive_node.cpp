@@ -9,7 +9,6 @@
 namespace vagus::sim::carbot {
 namespace {
 
-constexpr size_t kWord = sizeof(int16_t);
 constexpr double kMetre = 1000;               // mm
 constexpr double kTenths = 1800 / trig::kPi;  // tenths of a degree in a radian
 constexpr double kDegrees = 180 / trig::kPi;  // degrees in a radian
@@ -18,20 +17,9 @@ constexpr int kSpeedLimit = 310;              // mm/s
 constexpr int kTurnLimit = 136;               // deg/s in place
 constexpr int kRateLimit = 1360;              // 0.1 deg/s
 
-// Addresses are offsets in here; the memory itself is that of the machine.
-struct Layout {
-#define VARIABLE(field, name, words) int16_t field[words];
-#include "sim/carbot/drive_variables.def"
-#undef VARIABLE
-};
+#define VAGUS_VARIABLES "sim/carbot/drive_variables.def"
+#include "sim/node_variables.inl"
 static_assert(sizeof(Layout) == 47 * kWord, "docs/carbot.md: 47 words are described");
-#define ADDRESS(field) static_cast<uint16_t>(offsetof(Layout, field) / kWord)
-
-constexpr node::Variable kVariables[] = {
-#define VARIABLE(field, name, words) {words, name},
-#include "sim/carbot/drive_variables.def"
-#undef VARIABLE
-};
 
 enum Event : uint8_t { kArrived, kTurned, kHalted, kTickEvent };
 constexpr node::LocalEvent kEvents[] = {{"arrived", "A move or a curve is done, the wheels stand"},

@@ -8,25 +8,13 @@
 namespace vagus::sim::carbot {
 namespace {
 
-constexpr size_t kWord = sizeof(int16_t);
 constexpr Duration kSenseEvery = std::chrono::milliseconds(50);
 constexpr int kLightMax = 32;
 constexpr Point kLightPlace = {-0.08, 0};
 
-// Addresses are offsets in here; the memory itself is that of the machine.
-struct Layout {
-#define VARIABLE(field, name, words) int16_t field[words];
-#include "sim/carbot/head_variables.def"
-#undef VARIABLE
-};
+#define VAGUS_VARIABLES "sim/carbot/head_variables.def"
+#include "sim/node_variables.inl"
 static_assert(sizeof(Layout) == 40 * kWord, "docs/carbot.md: 40 words are described");
-#define ADDRESS(field) static_cast<uint16_t>(offsetof(Layout, field) / kWord)
-
-constexpr node::Variable kVariables[] = {
-#define VARIABLE(field, name, words) {words, name},
-#include "sim/carbot/head_variables.def"
-#undef VARIABLE
-};
 
 enum Event : uint8_t { kInfrared, kColour, kTickEvent };
 constexpr node::LocalEvent kEvents[] = {{"infrared", "New values of the infrared sensor"},

@@ -5,22 +5,9 @@
 namespace vagus::sim::carbot {
 namespace {
 
-constexpr size_t kWord = sizeof(int16_t);
-
-// Addresses are offsets in here; the memory itself is that of the machine.
-struct Layout {
-#define VARIABLE(field, name, words) int16_t field[words];
-#include "sim/carbot/range_variables.def"
-#undef VARIABLE
-};
+#define VAGUS_VARIABLES "sim/carbot/range_variables.def"
+#include "sim/node_variables.inl"
 static_assert(sizeof(Layout) == 37 * kWord, "docs/carbot.md: 37 words are described");
-#define ADDRESS(field) static_cast<uint16_t>(offsetof(Layout, field) / kWord)
-
-constexpr node::Variable kVariables[] = {
-#define VARIABLE(field, name, words) {words, name},
-#include "sim/carbot/range_variables.def"
-#undef VARIABLE
-};
 
 enum Event : uint8_t { kReached, kEcho, kTickEvent };
 constexpr node::LocalEvent kEvents[] = {{"reached", "The rotator stands where it was told"},

@@ -16,7 +16,7 @@ public:
     // Each millisecond.
     void sense(const Surroundings& around, BodyId body);
     // Where it looked last, for drawings.
-    std::optional<Look> look(const Pose& robot) const { return sonar_.look(robot); }
+    std::optional<Beam> look(const Pose& robot) const { return sonar_.look(robot); }
 
 private:
     Sonar sonar_;

@@ -172,7 +172,7 @@ TEST_F(Sounding, LooksWhereTheRotatorPoints) {
     until([this] { return sonar_.take_reached(); });
     EXPECT_NEAR(mean_distance(), 1000, 2.5);
     EXPECT_EQ(sonar_.heard_angle(), 900);
-    const Look look = *sonar_.look({{5, 5}, 0});
+    const Beam look = *sonar_.look({{5, 5}, 0});
     EXPECT_NEAR(look.to.x, 5.18, 1e-9);
     EXPECT_NEAR(look.to.y, 6, 0.04);
     EXPECT_TRUE(look.hit);

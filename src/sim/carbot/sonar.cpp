@@ -112,11 +112,11 @@ bool Sonar::take_echo() {
     return std::exchange(echo_, false);
 }
 
-std::optional<Look> Sonar::look(const Pose& robot) const {
+std::optional<Beam> Sonar::look(const Pose& robot) const {
     if (!has_heard_) return std::nullopt;
     const Pose eye = eye_of(robot, heard_.angle);
     const double length = heard_.distance == 0 ? kSonarRange : heard_.distance / kMetre;
-    return Look{
+    return Beam{
         eye.at,
         {eye.at.x + length * trig::cos(eye.angle), eye.at.y + length * trig::sin(eye.angle)},
         heard_.distance != 0};

@@ -50,7 +50,7 @@ public:
     bool take_reached();
     bool take_echo();
     // Where the last measurement went, for drawings; nothing before the first.
-    std::optional<Look> look(const Pose& robot) const;
+    std::optional<Beam> look(const Pose& robot) const;
 
 private:
     struct Heard {

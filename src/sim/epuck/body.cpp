@@ -103,10 +103,10 @@ std::array<int16_t, kProxCount> Body::look(const Arena& arena, Noise& noise) con
     return seen;
 }
 
-std::vector<Look> Body::looks(const Arena& arena) const {
+std::vector<Beam> Body::beams(const Arena& arena) const {
     std::array<double, kRays.size()> distances;
     arena.look(id_, fan_of_all(), kEyeHeight, distances);
-    return middle_looks(kRays, distances, arena.pose(id_));
+    return middle_beams(kRays, distances, arena.pose(id_));
 }
 
 std::array<Column, kCameraCount> Body::look_ahead(const Arena& arena) const {

@@ -30,7 +30,7 @@ public:
     BodyId id() const { return id_; }
     void drive(Arena& arena, int16_t left, int16_t right);
     std::array<int16_t, kProxCount> look(const Arena& arena, Noise& noise) const;
-    std::vector<Look> looks(const Arena& arena) const;
+    std::vector<Beam> beams(const Arena& arena) const;
     // The body that each pixel sees.
     std::array<Column, kCameraCount> look_ahead(const Arena& arena) const;
 

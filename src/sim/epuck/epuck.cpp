@@ -9,7 +9,6 @@
 namespace vagus::sim::epuck {
 namespace {
 
-constexpr size_t kWord = sizeof(int16_t);
 static_assert(sizeof(Layout) == 229 * kWord, "docs/spec 5.3: 229 words are described");
 
 // Sizes in words (docs/spec, 5.3).
@@ -21,12 +20,6 @@ constexpr Duration kControlStep = std::chrono::milliseconds(30);
 constexpr Duration kEnergyEvery = std::chrono::seconds(1);  // one unit is used up
 constexpr double kColourMax = 100;
 constexpr Colour kBorderColour = {0.9, 0.9, 0.9};
-
-constexpr node::Variable kVariables[] = {
-#define VARIABLE(field, name, words) {words, name},
-#include "sim/epuck/variables.def"
-#undef VARIABLE
-};
 
 enum Event : uint8_t { kIrSensors, kCamera };
 constexpr node::LocalEvent kEvents[] = {{"ir_sensors", "New values of the distance sensors"},
@@ -90,7 +83,6 @@ std::string name_for(uint16_t node) {
 
 }  // namespace
 
-#define ADDRESS(field) static_cast<uint16_t>(offsetof(Layout, field) / kWord)
 #define VARIABLE_OF(field) machine_.variable(ADDRESS(field))
 
 Epuck::Epuck(Arena& arena, const RobotDefinition& definition, EnergyPool& pool, uint64_t seed)
@@ -158,8 +150,8 @@ std::vector<Lamp> Epuck::lamps() const {
     return {{"color", {0, 0}, shown == paint_ ? Colour{} : shown}};
 }
 
-std::vector<Look> Epuck::looks(const Arena& arena) const {
-    return body_.looks(arena);
+std::vector<Beam> Epuck::beams(const Arena& arena) const {
+    return body_.beams(arena);
 }
 
 }  // namespace vagus::sim::epuck

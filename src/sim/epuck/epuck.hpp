@@ -11,12 +11,8 @@
 
 namespace vagus::sim::epuck {
 
-// Addresses are offsets in here; the memory itself is that of the machine.
-struct Layout {
-#define VARIABLE(field, name, words) int16_t field[words];
-#include "sim/epuck/variables.def"
-#undef VARIABLE
-};
+#define VAGUS_VARIABLES "sim/epuck/variables.def"
+#include "sim/node_variables.inl"
 
 // The energy of one e-puck and of all of them together.
 struct Energy {
@@ -35,7 +31,7 @@ public:
     void sense(const Surroundings& around) override;
     void drive(Arena& arena) override;
     std::vector<Lamp> lamps() const override;
-    std::vector<Look> looks(const Arena& arena) const override;
+    std::vector<Beam> beams(const Arena& arena) const override;
     Colour colour() const override;
 
 private:

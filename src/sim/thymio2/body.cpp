@@ -96,10 +96,10 @@ const RayFan& fan_of_all() {
 
 }  // namespace
 
-std::vector<Look> Body::looks(const Arena& arena) const {
+std::vector<Beam> Body::beams(const Arena& arena) const {
     std::array<double, kRays.size()> distances;
     arena.look(id_, fan_of_all(), kEyeHeight, distances);
-    return middle_looks(kRays, distances, arena.pose(id_));
+    return middle_beams(kRays, distances, arena.pose(id_));
 }
 
 Horizontal Body::look(const Arena& arena, Noise& noise) const {

@@ -47,7 +47,7 @@ public:
     int16_t right_speed() const;
 
     // The middle rays as they end now, for drawing.
-    std::vector<Look> looks(const Arena& arena) const;
+    std::vector<Beam> beams(const Arena& arena) const;
     Horizontal look(const Arena& arena, Noise& noise) const;
     GroundReadings look_down(const Pose& pose, const Ground& ground, Noise& noise) const;
 

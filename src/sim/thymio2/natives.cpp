@@ -7,12 +7,6 @@
 namespace vagus::sim::thymio2 {
 namespace {
 
-constexpr node::Variable kVariables[] = {
-#define VARIABLE(field, name, words) {words, name},
-#include "sim/thymio2/variables.def"
-#undef VARIABLE
-};
-
 constexpr node::LocalEvent kEvents[] = {
 #define EVENT(enumerator, name, doc) {name, doc},
 #include "sim/thymio2/events.def"

@@ -5,7 +5,6 @@
 namespace vagus::sim::thymio2 {
 namespace {
 
-constexpr size_t kWord = sizeof(int16_t);
 static_assert(sizeof(Layout) == 74 * kWord, "docs/spec 5.2: 74 words are described");
 
 // Sizes in words (docs/spec, 5.2).
@@ -26,8 +25,6 @@ constexpr int64_t kTemperatureRate = 1;
 
 }  // namespace
 
-// The address of a field, and the variable itself.
-#define ADDRESS(field) static_cast<uint16_t>(offsetof(Layout, field) / kWord)
 #define VARIABLE_OF(field) machine_.variable(ADDRESS(field))
 
 Thymio2::Thymio2(Arena& arena, const RobotDefinition& definition, const std::string& sd_folder,
@@ -179,8 +176,8 @@ std::vector<Lamp> Thymio2::lamps() const {
     return all;
 }
 
-std::vector<Look> Thymio2::looks(const Arena& arena) const {
-    return body_.looks(arena);
+std::vector<Beam> Thymio2::beams(const Arena& arena) const {
+    return body_.beams(arena);
 }
 
 }  // namespace vagus::sim::thymio2

@@ -11,12 +11,8 @@
 
 namespace vagus::sim::thymio2 {
 
-// Addresses are offsets in here; the memory itself is that of the machine.
-struct Layout {
-#define VARIABLE(field, name, words) int16_t field[words];
-#include "sim/thymio2/variables.def"
-#undef VARIABLE
-};
+#define VAGUS_VARIABLES "sim/thymio2/variables.def"
+#include "sim/node_variables.inl"
 
 // Numbers of the local events.
 namespace event {
@@ -65,7 +61,7 @@ public:
     void knock() override;
     void set_button(std::string_view button, bool pressed) override;
     std::vector<Lamp> lamps() const override;
-    std::vector<Look> looks(const Arena& arena) const override;
+    std::vector<Beam> beams(const Arena& arena) const override;
     Colour colour() const override { return paint_; }
 
 private:

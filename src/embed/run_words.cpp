@@ -1,0 +1,76 @@
+#include "embed/run_words.hpp"
+
+#include <fmt/format.h>
+
+namespace vagus::embed {
+
+const std::vector<RunOption>& run_options() {
+    using Words = RunWords;
+    static const std::vector<RunOption> kOptions = {
+        {.name = "--toolbox",
+         .value = "FILE",
+         .help = "more templates: a toolbox file or a shared library; again for more",
+         .many = &Words::toolboxes,
+         .endings = {".toolbox.json", ".so"}},
+        {.name = "--set",
+         .value = "NAME=VALUE",
+         .help = "a variable's value at the start; again for more",
+         .many = &Words::set},
+        {.name = "--clock",
+         .value = "real|virtual",
+         .help = "real or virtual time (real)",
+         .one = &Words::clock,
+         .choices = {"real", "virtual"}},
+        {.name = "--seed",
+         .value = "N",
+         .help = "of all that is random (1; for the world that of its file)",
+         .one = &Words::seed},
+        {.name = "--max-time",
+         .value = "SECONDS",
+         .help = "seconds after which the run is aborted (with --world: 3600)",
+         .one = &Words::max_time},
+        {.name = "--trace",
+         .value = "FILE",
+         .help = "where its trace goes; - is stdout",
+         .one = &Words::trace,
+         .endings = {".jsonl"}},
+        {.name = "--world",
+         .value = "FILE",
+         .help = "a world of which the plan drives a robot",
+         .one = &Words::world,
+         .endings = {".world.json"}},
+        {.name = "--robot",
+         .value = "NAME",
+         .help = "which robot of the world, if the plan could drive several",
+         .one = &Words::robot},
+        {.name = "--trace-all",
+         .value = "FILE",
+         .help = "the trace with what happens in the world; - is stdout",
+         .one = &Words::trace_all,
+         .endings = {".jsonl"}},
+        {.name = "--listen",
+         .value = "TARGET",
+         .help = "opens the bus of the world to others, as tcp:127.0.0.1:33333",
+         .one = &Words::listen},
+        {.name = "--bus",
+         .value = "TARGET",
+         .help = "a bus with nodes that the plan drives, in real time",
+         .one = &Words::bus},
+        {.name = "--project",
+         .value = "FILE",
+         .help = "what the nodes of --bus were loaded with: names of events",
+         .one = &Words::project,
+         .endings = {".aesl"}}};
+    return kOptions;
+}
+
+std::string describe_run_options() {
+    std::string lines;
+    for (const RunOption& option : run_options()) {
+        lines += fmt::format("  {:<21}  {}\n", fmt::format("{} {}", option.name, option.value),
+                             option.help);
+    }
+    return lines;
+}
+
+}  // namespace vagus::embed

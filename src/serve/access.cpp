@@ -1,0 +1,65 @@
+#include "serve/access.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace vagus::serve {
+
+namespace {
+
+// Looks at every byte of the secret, whatever was given.
+bool same(std::string_view given, std::string_view secret) {
+    unsigned different = given.size() == secret.size() ? 0 : 1;
+    for (size_t i = 0; i < secret.size(); ++i) {
+        const char letter = given.empty() ? '\0' : given[i % given.size()];
+        different |= static_cast<unsigned>(static_cast<unsigned char>(letter) ^
+                                           static_cast<unsigned char>(secret[i]));
+    }
+    return different == 0;
+}
+
+}  // namespace
+
+std::string token_of(const std::array<uint8_t, 16>& random) {
+    std::string token;
+    for (const uint8_t byte : random) token += fmt::format("{:02x}", byte);
+    return token;
+}
+
+Result<std::string> token_in(std::string_view text, const std::string& file) {
+    const std::string token(text.substr(0, text.find_first_of("\r\n")));
+    const bool plain = std::all_of(token.begin(), token.end(), [](char letter) {
+        return std::isalnum(static_cast<unsigned char>(letter)) || letter == '-' || letter == '_';
+    });
+    if (plain && token.size() >= 16 && token.size() <= 200) return token;
+    return Error{Code::BadInput,
+                 file +
+                     ": expected a token of 16 to 200 letters and digits in the first line; "
+                     "delete the file to have one made"};
+}
+
+Access::Grade Access::grade(std::string_view token) const {
+    const bool drive = same(token, drive_);
+    const bool look = look_ && same(token, *look_);
+    return drive ? Grade::Drive : look ? Grade::Look : Grade::Refused;
+}
+
+Time Access::wrong(const std::string& address, Time now) {
+    if (wrong_.size() >= kWrongAddressesMax && !wrong_.contains(address)) {
+        wrong_.erase(wrong_.begin());
+    }
+    Wrong& wrong = wrong_[address];
+    wrong.wait =
+        wrong.wait == Duration{} ? kWrongTokenWait : std::min(wrong.wait * 2, kWrongTokenWaitMax);
+    wrong.until = now + wrong.wait;
+    return wrong.until;
+}
+
+Time Access::wait_until(const std::string& address) const {
+    const auto found = wrong_.find(address);
+    return found == wrong_.end() ? Time{} : found->second.until;
+}
+
+}  // namespace vagus::serve

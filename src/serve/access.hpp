@@ -1,0 +1,50 @@
+// Tokens: who has one may look, or drive. Made of 128 random bits, kept in files that only their
+// owner reads, compared in a time that does not tell how much was right.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/result.hpp"
+#include "base/time.hpp"
+
+namespace vagus::serve {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kWrongTokenWait = 500ms;  // after the first wrong one; doubles
+constexpr Duration kWrongTokenWaitMax = 30s;
+constexpr size_t kWrongAddressesMax = 1000;  // that are remembered
+
+// 32 hexadecimal digits from random bytes.
+std::string token_of(const std::array<uint8_t, 16>& random);
+// The first line of a token file: 16 to 200 letters, digits, "-" or "_".
+Result<std::string> token_in(std::string_view text, const std::string& file);
+
+class Access {
+public:
+    Access(std::string drive, std::optional<std::string> look)
+        : drive_(std::move(drive)), look_(std::move(look)) {}
+
+    enum class Grade { Refused, Look, Drive };
+    Grade grade(std::string_view token) const;
+
+    // Wrong tokens make their address wait: until then its answers are held back.
+    Time wrong(const std::string& address, Time now);
+    Time wait_until(const std::string& address) const;
+    void right(const std::string& address) { wrong_.erase(address); }
+
+private:
+    struct Wrong {
+        Duration wait{};
+        Time until{};
+    };
+    std::string drive_;
+    std::optional<std::string> look_;
+    std::map<std::string, Wrong> wrong_;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,188 @@
+#include "serve/edit/file_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "aesl/project.hpp"
+#include "serve/edit/named_paths.hpp"
+#include "serve/edit/plan_findings.hpp"
+#include "serve/project/paths.hpp"
+#include "session/project_file.hpp"
+#include "sim/world_file.hpp"
+#include "toolbox/builtin.hpp"
+#include "toolbox/load.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const toolbox::Parts kNoParts;
+
+class PlanTexts final : public plan::Files {
+public:
+    explicit PlanTexts(const CheckedTexts& texts) : texts_(texts) {}
+    Result<std::string> read(const std::string& path) const override { return texts_.read(path); }
+
+private:
+    const CheckedTexts& texts_;
+};
+
+// Sentences of readers that were given a path on the disk.
+std::string without_root(std::string sentence, const std::string& root) {
+    const std::string prefix = root + "/";
+    for (size_t at = sentence.find(prefix); at != sentence.npos; at = sentence.find(prefix)) {
+        sentence.erase(at, prefix.size());
+    }
+    return sentence;
+}
+
+toolbox::ReadProject reader_of(const CheckedTexts& texts) {
+    return [&texts](const std::string& path) -> Result<toolbox::ProjectEvents> {
+        const std::string text = TRY(texts.read_absolute(path));
+        const aesl::Project project = TRY(aesl::parse_project(text, path));
+        toolbox::ProjectEvents events;
+        for (const aesl::GlobalEvent& event : project.common.events) {
+            events[event.name] = event.size ? std::optional<size_t>(*event.size) : std::nullopt;
+        }
+        return events;
+    };
+}
+
+// One document under check.
+struct Subject {
+    Files& files;
+    std::string path, text;
+    Checkup& checkup;
+
+    std::string on_disk() const { return (files.root() / path).string(); }
+    void say(const Error& error, const std::string& code) const {
+        checkup.findings.push_back(finding_of_sentence(
+            path, text, Severity::Error, code, without_root(error.what, files.root().string())));
+    }
+};
+
+// Files that it names and that are not there.
+void check_named(const Subject& subject) {
+    for (const NamedPath& named : named_paths(subject.path, subject.text)) {
+        const std::string path = path_from(subject.path, named.text);
+        const bool inside = check_path(path).ok();
+        if (inside && subject.files.exists(path)) continue;
+        Finding finding{subject.path, Severity::Error, "named_file", {},
+                        named.place,  named.place,     {},           {}};
+        finding.end = end_of_word(subject.text, named.place);
+        finding.what = inside
+                           ? fmt::format(
+                                 "there is no file {}; the path counts from the folder of this "
+                                 "file",
+                                 path)
+                           : fmt::format(
+                                 "“{}” leads out of the project; copy the file into it, and name "
+                                 "that copy",
+                                 named.text);
+        subject.checkup.findings.push_back(std::move(finding));
+    }
+}
+
+// Reads the document and lets `look` find what is wrong with it.
+template <typename Look>
+Checkup checkup_of(Files& files, const std::string& path, const Look& look) {
+    CheckedTexts texts(files);
+    Checkup checkup;
+    const auto text = texts.read(path);
+    if (text.ok()) {
+        look(Subject{files, path, text.value(), checkup}, texts);
+    } else {
+        checkup.findings.push_back(
+            finding_of_sentence(path, "", Severity::Error, "unreadable", text.error().what));
+    }
+    checkup.read = texts.take_read();
+    return checkup;
+}
+
+}  // namespace
+
+Result<std::string> CheckedTexts::read(const std::string& path) const {
+    read_[path] = 0;
+    DocumentView view = TRY(files_.open(path));
+    read_[path] = view.version;
+    return std::move(view.text);
+}
+
+Result<std::string> CheckedTexts::read_absolute(const std::string& path) const {
+    return read(fs::path(path).lexically_relative(files_.root()).generic_string());
+}
+
+Toolboxes load_toolboxes(Files& files, const std::vector<std::string>& paths) {
+    Toolboxes loaded;
+    loaded.library = std::make_unique<run::CodeLibrary>();
+    toolbox::add_builtin(*loaded.library, kNoParts);
+    for (const std::string& path : paths) {
+        if (path.ends_with(".so")) {
+            loaded.incomplete = true;
+            continue;
+        }
+        Checkup one = checkup_of(files, path, [&](const Subject& subject, const auto& texts) {
+            const Status added = toolbox::load_toolbox_text(
+                *loaded.library, subject.text, subject.on_disk(), kNoParts, reader_of(texts));
+            if (added.ok()) return;
+            loaded.incomplete = true;  // what it declares is not known
+            subject.say(added.error(), "toolbox");
+        });
+        loaded.checkup.read.merge(one.read);
+        std::move(one.findings.begin(), one.findings.end(),
+                  std::back_inserter(loaded.checkup.findings));
+    }
+    return loaded;
+}
+
+Checkup check_plan(Files& files, const std::string& path, const Toolboxes& toolboxes,
+                   const std::optional<session::BusNames>& names) {
+    const CheckedTexts texts(files);
+    CheckedTexts reading(files);
+    const plan::Checked checked =
+        plan::check(path, PlanTexts(reading), toolboxes.library->templates());
+    plan::Findings found = checked.findings;
+    if (checked.ok()) add_warnings(checked, names, found);
+    // Nobody knows what a toolbox declares that is not loaded.
+    if (toolboxes.incomplete) {
+        std::erase_if(found, [](const plan::Finding& one) { return one.rule == "P2"; });
+    }
+    Checkup checkup;
+    checkup.read = reading.take_read();
+    checkup.findings =
+        plan_findings(found, [&](const std::string& file) { return texts.read(file); });
+    return checkup;
+}
+
+Checkup check_world_file(Files& files, const std::string& path) {
+    return checkup_of(files, path, [&](const Subject& subject, const auto&) {
+        const auto world = sim::read_world(subject.text, path);
+        if (!world.ok()) return subject.say(world.error(), "world");
+        for (const std::string& hint : sim::hints_of_world(subject.text, path)) {
+            subject.checkup.findings.push_back(
+                finding_of_sentence(path, subject.text, Severity::Warning, "world", hint));
+        }
+        check_named(subject);
+    });
+}
+
+Checkup check_toolbox_file(Files& files, const std::string& path) {
+    return checkup_of(files, path, [&](const Subject& subject, const CheckedTexts& texts) {
+        const auto read = toolbox::read_toolbox(subject.text, subject.on_disk(), reader_of(texts));
+        if (!read.ok()) subject.say(read.error(), "toolbox");
+    });
+}
+
+Checkup check_project_file(Files& files, const std::string& path) {
+    return checkup_of(files, path, [&](const Subject& subject, const auto&) {
+        const auto project = session::read_project_file(subject.text, path);
+        if (!project.ok()) return subject.say(project.error(), "project");
+        check_named(subject);
+    });
+}
+
+}  // namespace vagus::serve

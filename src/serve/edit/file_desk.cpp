@@ -1,0 +1,225 @@
+#include "serve/edit/file_desk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "serve/edit/named_paths.hpp"
+#include "serve/project/paths.hpp"
+#include "sim/world_file.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+constexpr size_t kFollowedMax = 100;  // in the answer
+
+std::string base64(std::string_view bytes) {
+    static constexpr std::string_view kLetters =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (size_t at = 0; at < bytes.size(); at += 3) {
+        uint32_t group = 0;
+        for (size_t i = 0; i < 3; ++i) {
+            group = group << 8 |
+                    (at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0u);
+        }
+        for (size_t i = 0; i < 4; ++i) {
+            const bool filled = at + i <= bytes.size();
+            text += filled ? kLetters[group >> (18 - 6 * i) & 63] : '=';
+        }
+    }
+    return text;
+}
+
+// The ending that makes a file of that kind; empty: any.
+std::string_view ending_of(const std::string& kind) {
+    if (kind == "script") return ".aesl";
+    if (kind == "plan") return ".plan.json";
+    if (kind == "world") return ".world.json";
+    if (kind == "toolbox") return ".toolbox.json";
+    return "";
+}
+
+std::string moved(const std::string& path, const std::string& from, const std::string& to) {
+    return is_below(from, path) ? to + path.substr(from.size()) : path;
+}
+
+std::string args_of(sim::RobotType type) {
+    return type == sim::RobotType::Epuck ? "args" : "event.args";
+}
+
+std::string node_name_of(sim::RobotType type) {
+    switch (type) {
+        case sim::RobotType::Thymio2:
+            return "thymio-II";
+        case sim::RobotType::Epuck:
+            return "e-puck";
+        case sim::RobotType::Carbot:
+            return "drive";
+    }
+    return "thymio-II";
+}
+
+}  // namespace
+
+FileDesk::FileDesk(Desk& desk, Files& files, const EditedProject& project,
+                   const EditListeners& listeners)
+    : files_(files), project_(project), listeners_(listeners) {
+    desk.command("file.new", [this](const Call& call) { make(call); });
+    desk.command("file.rename", [this](const Call& call) { rename(call); });
+    desk.command("file.delete", [this](const Call& call) { remove(call); });
+    desk.command("file.bytes", [this](const Call& call) { bytes(call); });
+}
+
+// ---- new ones ----
+
+void FileDesk::make(const Call& call) {
+    const std::string path = call.in["path"];
+    const std::string kind = call.in["kind"];
+    const Status made = kind == "folder" ? files_.make_folder(path) : make_file(path, kind);
+    if (!made.ok()) return call.fail(made.error());
+    call.done();
+}
+
+Status FileDesk::make_file(const std::string& path, const std::string& kind) {
+    const std::string_view ending = ending_of(kind);
+    const size_t slash = path.rfind('/');
+    const size_t name_size = path.size() - (slash == path.npos ? 0 : slash + 1);
+    if (!path.ends_with(ending) || name_size <= ending.size()) {
+        return Error{Code::BadInput,
+                     fmt::format("{}: the name of a {} must end in {}", path, kind, ending)};
+    }
+    const std::string name = name_of_file(path);
+    if (kind == "script") return files_.make(path, new_script(node_of_project()));
+    if (kind == "plan") return files_.make(path, new_plan(name));
+    if (kind == "world") return files_.make(path, new_world(name));
+    if (kind == "toolbox") return make_toolbox(path);
+    return files_.make(path, "");
+}
+
+// With the script that does its work, and vagus.json told of it: else no plan could use it.
+Status FileDesk::make_toolbox(const std::string& path) {
+    const std::string name = name_of_file(path);
+    const std::string ending(ending_of("toolbox"));
+    const std::string script = path.substr(0, path.size() - ending.size()) + ".aesl";
+    for (const std::string& one : {path, script}) {
+        if (files_.exists(one)) {
+            return Error{Code::Refused, one + ": there is such a file already; take another name"};
+        }
+    }
+    const NewNode node = node_of_project();
+    TRY(files_.make(script, new_toolbox_script(name, node)));
+    TRY(files_.make(path, new_toolbox(name, name_from(path, script), node)));
+    const std::string& file = project_.project_file;
+    if (file.empty()) return Status::done();
+    const auto text = files_.text(file);
+    if (!text.ok()) return Status::done();
+    const auto json = read_json(text.value());
+    const auto* root = std::get_if<Json>(&json);
+    if (!root) return Status::done();  // its finding says so
+    const Json* listed = root->find("toolboxes");
+    Follower follower{file, {}};
+    const Json value = json_string(name_from(file, path));
+    if (listed && listed->kind == JsonKind::Array) {
+        follower.steps.push_back(
+            {JsonStep::Do::Insert, {"toolboxes", listed->items.size()}, value});
+    } else {
+        follower.steps.push_back({JsonStep::Do::Set, {"toolboxes"}, json_array({value})});
+    }
+    return follow(follower, 0);
+}
+
+// The first node of the first robot of the project's world.
+NewNode FileDesk::node_of_project() const {
+    const auto text = files_.text(project_.world);
+    if (project_.world.empty() || !text.ok()) return {};
+    const auto world = sim::read_world(text.value(), project_.world);
+    if (!world.ok() || world.value().robots.empty()) return {};
+    const sim::RobotDefinition& robot = world.value().robots.front();
+    return {node_name_of(robot.type), robot.node, args_of(robot.type)};
+}
+
+// ---- other names ----
+
+void FileDesk::rename(const Call& call) {
+    const std::string from = call.in["path"];
+    const std::string to = call.in["to"];
+    const std::vector<Follower> after = followers(from, to);
+    const Status renamed = files_.rename(from, to);
+    if (!renamed.ok()) return call.fail(renamed.error());
+    listeners_.renamed(from, to);
+    nlohmann::json followed = nlohmann::json::array();
+    for (const Follower& follower : after) {
+        const Status done = follow(follower, call.member);
+        if (!done.ok()) {
+            listeners_.say("warning", fmt::format("{} still names the old place: {}", follower.path,
+                                                  done.error().what));
+        } else if (followed.size() < kFollowedMax) {
+            followed.push_back(follower.path);
+        }
+    }
+    call.done({{"followed", std::move(followed)}});
+}
+
+// Paths in a file count from its folder, so a file that moves names others anew, too.
+std::vector<FileDesk::Follower> FileDesk::followers(const std::string& from,
+                                                    const std::string& to) {
+    std::vector<Follower> found;
+    bool more = false;
+    for (const FileInfo& file : files_.list(more)) {
+        if (ending_of(file.kind).empty() && file.kind != "project") continue;
+        if (file.size > kTextBytesMax) continue;
+        const auto text = files_.text(file.path);
+        if (!text.ok()) continue;
+        Follower follower{moved(file.path, from, to), {}};
+        for (const NamedPath& named : named_paths(file.path, text.value())) {
+            const std::string before = path_from(file.path, named.text);
+            const std::string after = moved(before, from, to);
+            const bool same = before == after && follower.path == file.path;
+            if (same || !check_path(before).ok()) continue;
+            const std::string name = name_from(follower.path, after);
+            if (name == named.text) continue;
+            follower.steps.push_back({JsonStep::Do::Set, named.at, json_string(name)});
+        }
+        if (!follower.steps.empty()) found.push_back(std::move(follower));
+    }
+    return found;
+}
+
+// A file that had nothing unsaved is saved, so that the folder is whole for others, too.
+Status FileDesk::follow(const Follower& follower, uint32_t by) {
+    const DocumentView view = TRY(files_.open(follower.path));
+    const std::string kind = kind_of_file(follower.path);
+    const std::string text = TRY(patched(view.text, {kind, follower.path}, follower.steps));
+    (void)TRY(files_.replace(follower.path, text, by));
+    if (view.unsaved) return Status::done();
+    TRY(files_.save(follower.path));
+    listeners_.saved(follower.path);
+    return Status::done();
+}
+
+// ---- the rest ----
+
+void FileDesk::remove(const Call& call) {
+    const Status removed = files_.remove(call.in["path"]);
+    if (!removed.ok()) return call.fail(removed.error());
+    call.done();
+}
+
+void FileDesk::bytes(const Call& call) {
+    const std::string path = call.in["path"];
+    const auto size = files_.size(path);
+    if (!size.ok()) return call.fail(size.error());
+    if (size.value() > kBytesMax) {
+        return call.fail("limit", fmt::format("{}: {} bytes; at most {} are sent", path,
+                                              size.value(), kBytesMax));
+    }
+    const auto read = files_.bytes(path);
+    if (!read.ok()) return call.fail(read.error());
+    call.done({{"base64", base64(read.value())}});
+}
+
+}  // namespace vagus::serve

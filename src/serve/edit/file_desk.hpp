@@ -1,0 +1,46 @@
+// Files of the project: file.new, file.rename, file.delete, file.bytes. What names a file follows
+// when it moves.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "serve/edit/edited_project.hpp"
+#include "serve/edit/json_patch.hpp"
+#include "serve/edit/templates.hpp"
+#include "serve/project/files.hpp"
+#include "serve/studio/desk.hpp"
+
+namespace vagus::serve {
+
+constexpr size_t kBytesMax = 4u << 20;  // of file.bytes: less than a page may leave unread
+
+class FileDesk {
+public:
+    // All borrowed.
+    FileDesk(Desk& desk, Files& files, const EditedProject& project,
+             const EditListeners& listeners);
+
+private:
+    // A file that names others, with what it must be told.
+    struct Follower {
+        std::string path;  // after the renaming
+        std::vector<JsonStep> steps;
+    };
+
+    void make(const Call& call);
+    Status make_file(const std::string& path, const std::string& kind);
+    Status make_toolbox(const std::string& path);
+    NewNode node_of_project() const;
+    void rename(const Call& call);
+    std::vector<Follower> followers(const std::string& from, const std::string& to);
+    Status follow(const Follower& follower, uint32_t by);
+    void remove(const Call& call);
+    void bytes(const Call& call);
+
+    Files& files_;
+    const EditedProject& project_;
+    const EditListeners& listeners_;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,337 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "serve/edit/test_page.hpp"
+
+namespace vagus::serve {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::string project(const std::string& script, const std::string& events = "") {
+    return "<!DOCTYPE aesl-source>\n<network>\n" + events +
+           "<node nodeId=\"1\" name=\"thymio-II\">" + script + "</node>\n</network>\n";
+}
+
+// Without a variable: a plan whose actors use none.
+std::string bare_plan(const std::string& actors, const std::string& more = "") {
+    return "{\n  \"format\": \"vagus-plan/1\",\n  \"name\": \"P\",\n" + more +
+           "  \"start\": {\n    \"actor\": \"a\"\n  },\n  \"actors\": {\n" + actors + "\n  }\n}\n";
+}
+
+std::string plan(const std::string& actors, const std::string& more = "") {
+    return "{\n  \"format\": \"vagus-plan/1\",\n  \"name\": \"P\",\n" + more +
+           "  \"configuration\": {\n    \"speed\": { \"type\": \"float\", \"initial\": 1.0 }\n  "
+           "},\n"
+           "  \"start\": {\n    \"actor\": \"a\"\n  },\n  \"actors\": {\n" +
+           actors + "\n  }\n}\n";
+}
+
+const std::string kGoodActor = R"(    "a": { "template": "Wait", "in": { "seconds": "speed" }, )"
+                               R"("states": { "Done": "@terminate" } })";
+
+TEST_F(EditTest, EveryErrorAndWarningOfAScriptIsAFinding) {
+    write("a.aesl", project("var unused\nonevent buttons\n  zzzz = 1\n  unused = 3\n😀\n"));
+    write("plain.aesl", "onevent buton\n");
+    enter();
+    const std::vector<std::string> found = findings();
+    EXPECT_THAT(found, ElementsAre("error VARIABLE_NOT_DEFINED a.aesl#1:3:3",
+                                   "error INVALID_IDENTIFIER a.aesl#1:5:1",
+                                   "error EVENT_NOT_DEFINED plain.aesl:1:9"));
+    const Json seen = document("findings");
+    EXPECT_EQ(seen["findings"].size(), found.size());
+    EXPECT_EQ(seen["versions"]["a.aesl#1"], 1);
+    EXPECT_EQ(seen["more"], 0);
+    put("a.aesl#1", "zzzz = 1", "unused = 1");
+    EXPECT_EQ(document("findings")["versions"]["a.aesl#1"], 2);
+    EXPECT_THAT(findings(), testing::Not(testing::Contains(HasSubstr("a.aesl#1:3:"))));
+}
+
+TEST_F(EditTest, DidYouMeanIsOneClick) {
+    write("a.aesl", project("var speed\nonevent buttons\n  speed = 1\n# 😀\n  sped = 2\n"));
+    enter();
+    const Finding guess = finding("VARIABLE_NOT_DEFINED_GUESS");
+    ASSERT_EQ(guess.fixes.size(), 1u);
+    EXPECT_EQ(guess.fixes[0].label, "Write \"speed\"");
+    apply(guess.fixes[0]);
+    EXPECT_EQ(text("a.aesl#1"), "var speed\nonevent buttons\n  speed = 1\n# 😀\n  speed = 2\n");
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
+TEST_F(EditTest, AnEventIsDeclaredByOneClick) {
+    write("a.aesl", project("onevent zebra\n  motor.left.target = 1\n"));
+    enter();
+    const Finding unknown = finding("EVENT_NOT_DEFINED");
+    ASSERT_EQ(unknown.fixes.size(), 1u);
+    EXPECT_EQ(unknown.fixes[0].label, "Declare the event \"zebra\"");
+    EXPECT_EQ(unknown.fixes[0].edits.at(0).doc, "a.aesl");
+    apply(unknown.fixes[0]);
+    EXPECT_THAT(text("a.aesl"), HasSubstr("<event size=\"0\" name=\"zebra\"/>"));
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
+TEST_F(EditTest, TheMissingEndIsAddedByOneClick) {
+    write("a.aesl",
+          project("onevent buttons\nif button.left == 1 then\n  motor.left.target = 5\n"));
+    enter();
+    const Finding open = finding("EXPECTING");
+    ASSERT_EQ(open.fixes.size(), 1u);
+    apply(open.fixes[0]);
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
+TEST_F(EditTest, AProjectFileThatCannotBeReadIsAFinding) {
+    write("a.aesl", project("motor.left.target = 1\n"));
+    enter();
+    EXPECT_THAT(findings(), IsEmpty());
+    put("a.aesl", "</network>", "</netwrk>");
+    const Finding broken = finding("aesl_file");
+    EXPECT_EQ(broken.doc, "a.aesl");
+    EXPECT_GT(broken.at.line, 1);
+    put("a.aesl", "</netwrk>", "</network>");
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
+TEST_F(EditTest, PlansAreCheckedAsTheyAreEdited) {
+    write("P.plan.json", plan(kGoodActor));
+    enter({.plan = "P.plan.json"});
+    EXPECT_THAT(findings(), IsEmpty());
+    put("P.plan.json", "\"seconds\": \"speed\"", "\"seconds\": \"sped * 2 + sped\"");
+    const Finding unknown = finding("P8");
+    EXPECT_EQ(unknown.doc, "P.plan.json");
+    EXPECT_EQ(unknown.element, "a");
+    EXPECT_EQ(unknown.at, (aesl::Position{11, 40}));  // "seconds"
+    ASSERT_EQ(unknown.fixes.size(), 1u);
+    apply(unknown.fixes[0]);
+    EXPECT_THAT(text("P.plan.json"), HasSubstr("\"seconds\": \"speed * 2 + speed\""));
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
+TEST_F(EditTest, MistypedNamesOfPlansAreMendedByOneClick) {
+    const std::string good = plan(kGoodActor);
+    write("P.plan.json", good);
+    enter({.plan = "P.plan.json"});
+    const std::vector<std::tuple<const char*, const char*, const char*>> slips = {
+        {"\"Wait\"", "\"Wiat\"", "P2"},
+        {"\"seconds\":", "\"secnds\":", "P3"},
+        {"\"Done\":", "\"Doen\":", "P17"},
+        {"\"@terminate\"", "\"@termnate\"", "P17"},
+        {"\"float\"", "\"flaot\"", "P7"},
+        {"\"configuration\"", "\"configuraton\"", "P0"},
+        {"\"actor\": \"a\"", "\"actor\": \"b\"", "P15"},
+    };
+    for (const auto& [right, wrong, rule] : slips) {
+        put("P.plan.json", right, wrong);
+        const Finding slip = finding(rule);
+        ASSERT_EQ(slip.fixes.size(), 1u) << wrong << slip.what;
+        apply(slip.fixes[0]);
+        EXPECT_EQ(text("P.plan.json"), good) << wrong;
+    }
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
+TEST_F(EditTest, SubPlansAreCheckedWithTheirUnsavedTexts) {
+    const std::string calls =
+        R"(    "a": { "plan": "sub/Q.plan.json", "in": { "speed": "speed" }, "states": )"
+        R"({ "OK": "@terminate", "Interrupted": "@terminate", "Error": "@terminate" } })";
+    std::string sub = plan(kGoodActor);
+    sub.replace(sub.find("\"initial\": 1.0"), 14, "\"access\": \"in\"");
+    write("P.plan.json", plan(calls));
+    write("sub/Q.plan.json", sub);
+    enter({.plan = "P.plan.json"});
+    EXPECT_THAT(findings(), IsEmpty());
+    put("sub/Q.plan.json", "\"access\": \"in\"", "\"access\": \"out\"");
+    EXPECT_THAT(findings(), testing::Contains("error P3 P.plan.json:11:47"));
+    ask("doc.revert", {{"doc", "sub/Q.plan.json"}});
+    EXPECT_THAT(findings(), IsEmpty());
+    ask("file.delete", {{"path", "sub/Q.plan.json"}});
+    EXPECT_THAT(finding("P2").what, HasSubstr("cannot be read"));
+    put("P.plan.json", "sub/Q.plan.json", "../../Q.plan.json");
+    EXPECT_THAT(findings(), testing::Contains(HasSubstr("error P2 P.plan.json")));
+}
+
+constexpr std::string_view kToolbox =
+    "{\n  \"format\": \"vagus-toolbox/1\",\n  \"name\": \"arm\",\n  \"project\": \"arm.aesl\",\n"
+    "  \"templates\": {\n    \"Lift\": { \"kind\": \"actor\", \"node\": \"thymio-II\", \"start\": "
+    "\"lift\", \"stop\": \"rest\", \"stopped\": \"rested\", \"states\": { \"Done\": { \"event\": "
+    "\"lifted\" } } }\n  }\n}\n";
+
+std::string arm_events() {
+    std::string events;
+    for (const char* name : {"lift", "rest", "rested", "lifted"}) {
+        events += "<event size=\"1\" name=\"" + std::string(name) + "\"/>\n";
+    }
+    return events;
+}
+
+TEST_F(EditTest, PlansKnowTheToolboxesOfTheProjectAsTheyAreEdited) {
+    write("arm.toolbox.json", kToolbox);
+    write("arm.aesl", project("motor.left.target = 1\n", arm_events()));
+    write("P.plan.json",
+          bare_plan(R"(    "a": { "template": "Lift", "states": { "Done": "@terminate" } })",
+                    "  \"toolboxes\": [\"arm\"],\n"));
+    enter({.plan = "P.plan.json", .toolboxes = {"arm.toolbox.json"}});
+    EXPECT_THAT(findings(), IsEmpty());
+    put("arm.toolbox.json", "\"Lift\"", "\"Lower\"");
+    EXPECT_THAT(finding("P2").what, HasSubstr("there is no actor template \"Lift\""));
+    ask("doc.revert", {{"doc", "arm.toolbox.json"}});
+    EXPECT_THAT(findings(), IsEmpty());
+    // An event that the toolbox needs is gone from its project.
+    ask("define.remove", {{"file", "arm.aesl"}, {"kind", "event"}, {"name", "lifted"}});
+    const Finding missing = finding("toolbox");
+    EXPECT_EQ(missing.doc, "arm.toolbox.json");
+    EXPECT_THAT(missing.what, HasSubstr("lifted"));
+    EXPECT_THAT(missing.what, testing::Not(HasSubstr(root.string())));
+    ask("define.add", {{"file", "arm.aesl"}, {"kind", "event"}, {"name", "lifted"}, {"value", 1}});
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
+constexpr std::string_view kWorld =
+    "{\n  \"format\": \"vagus-world/1\",\n  \"size\": [1, 1],\n  \"robots\": [{ \"name\": \"t\", "
+    "\"type\": \"thymio2\", \"at\": [0.5, 0.5], \"script\": \"s.aesl\" }]\n}\n";
+
+TEST_F(EditTest, EventsOfAPlanMustBeDeclaredByTheWorldsScripts) {
+    write("w.world.json", kWorld);
+    write("s.aesl", project("motor.left.target = 1\n", "<event size=\"0\" name=\"hello\"/>\n"));
+    write("P.plan.json", bare_plan(R"(    "a": { "template": "Send", "in": { "event": "'helo'" }, )"
+                                   R"("states": { "Sent": "@terminate" } })"));
+    enter({.plan = "P.plan.json", .world = "w.world.json"});
+    const Finding unknown = finding("bus");
+    EXPECT_THAT(unknown.what, HasSubstr("did you mean \"hello\"?"));
+    ASSERT_EQ(unknown.fixes.size(), 1u);
+    apply(unknown.fixes[0]);
+    EXPECT_THAT(text("P.plan.json"), HasSubstr("\"event\": \"'hello'\""));
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
+TEST_F(EditTest, WorldsAndProjectFilesAreChecked) {
+    write("w.world.json", kWorld);
+    write("vagus.json",
+          "{\n  \"format\": \"vagus-project/1\",\n  \"world\": \"w.world.json\",\n"
+          "  \"scripts\": [\"s.aesl\", \"../x.aesl\"]\n}\n");
+    enter({.world = "w.world.json", .project_file = "vagus.json"});
+    EXPECT_THAT(findings(), testing::UnorderedElementsAre("error named_file w.world.json:4:76",
+                                                          "error named_file vagus.json:4:15",
+                                                          "error named_file vagus.json:4:25"));
+    write("s.aesl", project("motor.left.target = 1\n"));
+    ask("file.new", {{"path", "other.txt"}, {"kind", "text"}});
+    put("vagus.json", ", \"../x.aesl\"", "");
+    EXPECT_THAT(findings(), IsEmpty());
+    put("w.world.json", "[0.5, 0.5]", "[0.5, 5]");
+    EXPECT_THAT(finding("world").what, HasSubstr("outside of the walls"));
+    put("w.world.json", "[0.5, 5]", "[0.5, 0.5], \"angle\": 90");
+    const Finding hint = finding("world");
+    EXPECT_EQ(hint.severity, Severity::Warning);
+    EXPECT_THAT(hint.what, HasSubstr("radians"));
+    put("vagus.json", "\"world\"", "\"wrld\"");
+    EXPECT_THAT(finding("project").what, HasSubstr("wrld"));
+    EXPECT_EQ(finding("project").at, (aesl::Position{3, 3}));
+    EXPECT_EQ(finding("project").end, (aesl::Position{3, 9}));
+}
+
+TEST_F(EditTest, ProjectsInsideAreNotThisOne) {
+    write("vagus.json", "{ \"format\": \"vagus-project/1\" }\n");
+    write("bad.plan.json", "{}\n");
+    write("inner/vagus.json", "{ \"format\": \"vagus-project/1\" }\n");
+    write("inner/worse.plan.json", "{}\n");
+    write("inner/bad.aesl", "var\n");
+    enter({.project_file = "vagus.json"});
+    EXPECT_THAT(findings(), testing::Each(HasSubstr(" bad.plan.json")));
+    // But what somebody looks at is checked.
+    ask("watch", {{"watch", 5000}, {"topic", "doc"}, {"of", {{"doc", "inner/bad.aesl"}}}});
+    EXPECT_THAT(findings(), testing::Contains(HasSubstr("inner/bad.aesl")));
+    enter({.project_file = "inner/vagus.json"});
+    EXPECT_THAT(findings(), testing::Each(HasSubstr(" inner/")));
+}
+
+TEST_F(EditTest, FindingsComeSoonAfterTheLastKeyAndTypingDoesNotWait) {
+    write("P.plan.json", plan(kGoodActor));
+    enter({.plan = "P.plan.json"});
+    ask("watch", {{"watch", 5000}, {"topic", "findings"}});
+    // How many there are by what the page was sent; nothing if it was sent nothing about them.
+    const auto seen = [&]() -> std::optional<size_t> {
+        got.clear();
+        desk.tick(now);
+        std::optional<size_t> count;
+        for (const Json& message : got) {
+            const Json& part = message.contains("whole") ? message["whole"] : message["patch"];
+            if (part.contains("findings")) count = part["findings"].size();
+        }
+        return count;
+    };
+    for (int i = 0; i < 10; ++i) editing.tick(now);
+    EXPECT_EQ(seen(), 0u);
+    put("P.plan.json", "\"Wait\"", "\"Wiat\"");
+    const Time edited = now;
+    editing.tick(now);
+    EXPECT_EQ(seen(), std::nullopt);  // not at the edit
+    EXPECT_LE(editing.next_tick(), edited + kCheckAfter);
+    now = edited + kCheckAfter;
+    editing.tick(now);  // begins
+    EXPECT_EQ(editing.next_tick(), now);
+    editing.tick(now);  // one file
+    EXPECT_EQ(seen(), 1u);
+    // Typing on and on does not put the check off for ever.
+    put("P.plan.json", "\"Wiat\"", "\"Wait\"");
+    const Time first = now;
+    std::optional<size_t> count;
+    for (int i = 0; i < 100 && !count; ++i) {
+        edit("P.plan.json", 0, 0, i % 2 ? "\n" : " ");
+        now += std::chrono::milliseconds(40);
+        editing.tick(now);
+        count = seen();
+    }
+    EXPECT_EQ(count, 0u);
+    EXPECT_GT(now, first + kCheckAfter * 2);
+    EXPECT_LT(now, first + kCheckWithin + 200ms);
+}
+
+TEST_F(EditTest, OnlySoManyFindingsAreSent) {
+    // 100 errors are reported for each script.
+    std::string script = "onevent buttons\n";
+    for (int i = 0; i < 100; ++i) script += "zzzz" + std::to_string(i) + " = 1\n";
+    for (int i = 0; i < 21; ++i) write("s" + std::to_string(i) + ".aesl", project(script));
+    enter();
+    const Json seen = document("findings");
+    EXPECT_EQ(seen["findings"].size(), kFindingsMax);
+    EXPECT_EQ(seen["more"], 100);
+}
+
+// What a person feels while typing: the edit, and the findings that come of it. Measured and
+// printed, not judged.
+TEST_F(EditTest, TypingIntoAThousandLinesIsFast) {
+    std::string script = "var a\nvar b\nonevent buttons\n";
+    for (int i = 0; i < 330; ++i) script += "if a > 3 then\n\ta = a * 2 + b\nend\n";
+    script += "onevent tap\n";
+    write("a.aesl", project(script));
+    write("P.plan.json", plan(kGoodActor));
+    enter({.plan = "P.plan.json"});
+    ask("watch", {{"watch", 5000}, {"topic", "findings"}});
+    ask("watch", {{"watch", 5001}, {"topic", "script"}, {"of", {{"doc", "a.aesl#1"}}}});
+    std::vector<double> took;
+    for (int i = 0; i < 100; ++i) {
+        const uint32_t at_version = files.version("a.aesl#1");
+        now += std::chrono::milliseconds(60);
+        const auto begin = std::chrono::steady_clock::now();
+        ask("doc.edit", {{"doc", "a.aesl#1"},
+                         {"version", at_version},
+                         {"changes", {{{"from", 12}, {"to", 12}, {"text", i % 2 ? " " : "x"}}}}});
+        editing.tick(now);
+        desk.tick(now);
+        took.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+                .count());
+    }
+    std::sort(took.begin(), took.end());
+    std::printf("edit and findings of 1,000 lines: median %.1f ms, p95 %.1f ms\n", took[50],
+                took[95]);
+}
+
+}  // namespace
+}  // namespace vagus::serve

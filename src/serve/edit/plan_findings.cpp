@@ -1,0 +1,136 @@
+#include "serve/edit/plan_findings.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "base/json.hpp"
+#include "serve/edit/text_places.hpp"
+#include "toolbox/shadowed.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+using PlaceKey = std::pair<int, int>;
+
+bool is_name_letter(char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_';
+}
+
+// Where in a text a name stands as a word of its own; npos if it does not.
+size_t find_word(std::string_view text, std::string_view name, size_t from) {
+    for (size_t at = text.find(name, from); at != text.npos; at = text.find(name, at + 1)) {
+        const bool begins = at == 0 || !is_name_letter(text[at - 1]);
+        const size_t end = at + name.size();
+        if (begins && (end >= text.size() || !is_name_letter(text[end]))) return at;
+    }
+    return text.npos;
+}
+
+// One file with its strings by their places, for mends.
+class PlanText {
+public:
+    explicit PlanText(std::string text) : text_(std::move(text)), places_(text_) {}
+
+    const std::string& text() const { return text_; }
+
+    FindingFix mend(const std::string& doc, plan::Finding const& finding) {
+        FindingFix fix{"Write \"" + finding.meant->name + "\"", {}};
+        if (!read_) read();
+        const auto [from, to] = strings_.equal_range({finding.line, finding.column});
+        for (auto one = from; one != to && fix.edits.empty(); ++one) {
+            if (one->second.is_key != finding.meant->is_key) continue;
+            fix.edits = edits_in(doc, one->second, *finding.meant);
+        }
+        return fix;
+    }
+
+private:
+    struct Found {
+        size_t begin = 0;
+        std::string raw;
+        bool is_key = false;
+    };
+
+    void read() {
+        read_ = true;
+        const auto json = read_json(text_);
+        if (const auto* root = std::get_if<Json>(&json)) walk(*root, {});
+    }
+
+    // A string is found at its own place, and at that of the key before it.
+    void walk(const Json& json, std::vector<Place> keys) {
+        if (json.kind == JsonKind::String) {
+            keys.push_back(json.at);
+            for (const Place& place : keys) add(place, json.at, json.raw, false);
+        }
+        for (const Json& item : json.items) walk(item, keys);
+        for (const JsonMember& member : json.members) {
+            add(member.at, member.at, member.raw_key, true);
+            walk(member.value, {member.at});
+        }
+    }
+    void add(Place at, Place stands, const std::string& raw, bool is_key) {
+        strings_.emplace(PlaceKey(at.line, at.column),
+                         Found{places_.byte_of({stands.line, stands.column}), raw, is_key});
+    }
+
+    // The whole string, or the name wherever it stands in a formula.
+    std::vector<TextEdit> edits_in(const std::string& doc, const Found& found,
+                                   const plan::Meant& meant) const {
+        std::vector<TextEdit> edits;
+        const auto replace = [&](size_t from, size_t size, std::string text) {
+            edits.push_back({doc, places_.unit_of_byte(found.begin + from),
+                             places_.unit_of_byte(found.begin + from + size), std::move(text)});
+        };
+        if (found.raw == json_quote(meant.typed)) {
+            replace(0, found.raw.size(), json_quote(meant.name));
+            return edits;
+        }
+        for (size_t at = find_word(found.raw, meant.typed, 0); at != std::string::npos;
+             at = find_word(found.raw, meant.typed, at + meant.typed.size())) {
+            replace(at, meant.typed.size(), meant.name);
+        }
+        return edits;
+    }
+
+    const std::string text_;
+    const TextPlaces places_;
+    bool read_ = false;
+    std::multimap<PlaceKey, Found> strings_;
+};
+
+}  // namespace
+
+void add_warnings(const plan::Checked& checked, const std::optional<session::BusNames>& names,
+                  plan::Findings& findings) {
+    const auto add = [&](const plan::Findings& more) {
+        findings.insert(findings.end(), more.begin(), more.end());
+    };
+    add(toolbox::find_shadowed(checked.plans, *checked.library));
+    if (names) add(names->check(checked.plans, *checked.library));
+}
+
+std::vector<Finding> plan_findings(const plan::Findings& findings, const TextOf& text_of) {
+    std::map<std::string, PlanText> texts;
+    std::vector<Finding> all;
+    for (const plan::Finding& one : findings) {
+        auto text = texts.find(one.file);
+        if (text == texts.end()) {
+            const auto read = text_of(one.file);
+            text = texts.try_emplace(one.file, read.ok() ? read.value() : "").first;
+        }
+        Finding finding{
+            one.file, one.severity, one.rule, one.element, {one.line, std::max(one.column, 1)},
+            {},       one.message,  {}};
+        finding.end = end_of_word(text->second.text(), finding.at);
+        if (one.meant) {
+            FindingFix fix = text->second.mend(one.file, one);
+            if (!fix.edits.empty()) finding.fixes.push_back(std::move(fix));
+        }
+        all.push_back(std::move(finding));
+    }
+    return all;
+}
+
+}  // namespace vagus::serve

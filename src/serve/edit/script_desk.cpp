@@ -1,0 +1,339 @@
+#include "serve/edit/script_desk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "aesl/limits.hpp"
+#include "aesl/listing.hpp"
+#include "aesl/mentions.hpp"
+#include "serve/edit/finding.hpp"
+#include "serve/edit/text_places.hpp"
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr size_t kItemsMax = 2000;
+constexpr size_t kHandlersMax = 1000;
+constexpr size_t kPartsMax = 1000;
+constexpr size_t kFilesShownMax = 200;
+constexpr size_t kDefinitionsMax = 65536;
+constexpr size_t kChangedMax = 2000;
+constexpr int kArguments = aesl::kEventArgumentsMax;
+
+// An event cannot have any number of arguments.
+bool is_too_long(const Call& call) {
+    const int value = call.in["value"];
+    if (call.in["kind"] != "event" || (value >= 0 && value <= kArguments)) return false;
+    call.fail("bad_input", fmt::format("an event has 0 to {} arguments", kArguments));
+    return true;
+}
+
+Json json_of(const Suggestion& one) {
+    return {{"label", line_of(one.label, 200)},
+            {"kind", one.kind},
+            {"detail", line_of(one.detail, 300)},
+            {"help", text_of(one.help, 1000)},
+            {"insert", line_of(one.insert, 400)}};
+}
+
+Json definition_json(const std::string& name, int32_t value) {
+    return {{"name", line_of(name, 128)}, {"value", std::clamp(value, -32768, 65535)}};
+}
+
+Json meter(size_t used, size_t of) {
+    return {{"used", std::min<size_t>(used, 65535)}, {"of", std::min<size_t>(of, 65535)}};
+}
+
+// The line of each handler and sub, by name.
+std::map<std::pair<aesl::MentionKind, std::string>, int> heads_of(const CompiledScript& script) {
+    std::map<std::pair<aesl::MentionKind, std::string>, int> lines;
+    for (const auto& mention : aesl::mentions(script.source, script.common)) {
+        const bool sub = mention.kind == aesl::MentionKind::Sub && mention.declares;
+        if (sub || mention.handles)
+            lines.emplace(std::pair(mention.kind, mention.name), mention.at.line);
+    }
+    return lines;
+}
+
+Json handlers_of(const CompiledScript& script) {
+    Json list = Json::array();
+    const auto heads = heads_of(script);
+    for (const aesl::Part& part :
+         aesl::parts_of(script.result.program, script.target, script.common)) {
+        if (list.size() >= kHandlersMax) break;
+        const bool sub = part.kind == aesl::Part::Kind::Sub;
+        const auto head =
+            heads.find({sub ? aesl::MentionKind::Sub : aesl::MentionKind::Event, part.name});
+        const bool init = part.kind == aesl::Part::Kind::Init;
+        list.push_back({{"kind", init  ? "init"
+                                 : sub ? "sub"
+                                       : "event"},
+                        {"name", line_of(part.name, 128)},
+                        {"line", init || head == heads.end() ? 0 : head->second},
+                        {"words", part.words}});
+    }
+    return list;
+}
+
+std::set<int> code_lines_of(const aesl::Program& program) {
+    std::set<int> lines(program.lines.begin(), program.lines.end());
+    lines.erase(0);
+    return lines;
+}
+
+std::string stem_of(const std::string& path) {
+    const size_t slash = path.rfind('/');
+    const std::string name = path.substr(slash == path.npos ? 0 : slash + 1);
+    return name.substr(0, name.find('.'));
+}
+
+}  // namespace
+
+ScriptDesk::ScriptDesk(Desk& desk, Files& files, Scripts& scripts)
+    : desk_(desk), files_(files), scripts_(scripts) {
+    desk_.board().document("script", [this](const Json& of) { return script_document(of); });
+    desk_.board().document("scripts", [this](const Json&) { return scripts_document(); });
+    declare_questions();
+    declare_changes();
+}
+
+void ScriptDesk::declare_questions() {
+    desk_.command("script.complete", [this](const Call& call) { complete(call); });
+    desk_.command("script.hover", [this](const Call& call) { hover(call); });
+    desk_.command("script.definition", [this](const Call& call) { definition(call); });
+    desk_.command("script.references", [this](const Call& call) { references(call); });
+    desk_.command("script.listing", [this](const Call& call) { listing(call); });
+    desk_.command("script.format_name", [this](const Call& call) { format_name(call); });
+}
+
+void ScriptDesk::declare_changes() {
+    const auto answer = [](const Call& call, const Status& status) {
+        status.ok() ? call.done() : call.fail(status.error());
+    };
+    desk_.command("script.rename", [this](const Call& call) { rename(call); });
+    desk_.command("define.add", [this, answer](const Call& call) {
+        if (is_too_long(call)) return;
+        answer(call, scripts_.add(call.in["file"], call.in["kind"], call.in["name"],
+                                  call.in["value"], call.member));
+    });
+    desk_.command("define.change", [this](const Call& call) { change(call); });
+    desk_.command("define.remove", [this, answer](const Call& call) {
+        answer(call,
+               scripts_.remove(call.in["file"], call.in["kind"], call.in["name"], call.member));
+    });
+    desk_.command("define.move", [this, answer](const Call& call) {
+        answer(call, scripts_.move(call.in["file"], call.in["kind"], call.in["name"], call.in["to"],
+                                   call.member));
+    });
+}
+
+void ScriptDesk::text_changed(const std::string& path) {
+    desk_.board().touch("script");
+    if (kind_of_file(path) == "script" || kind_of_file(path) == "other") {
+        desk_.board().touch("scripts");
+    }
+}
+
+void ScriptDesk::project_changed() {
+    desk_.board().touch("script");
+    desk_.board().touch("scripts");
+}
+
+void ScriptDesk::tick() {
+    if (targets_ == scripts_.generation()) return;
+    targets_ = scripts_.generation();
+    desk_.board().touch("script");
+}
+
+// ---- questions ----
+
+const CompiledScript* ScriptDesk::script_of(const Call& call) {
+    const std::string doc = call.in["doc"];
+    const CompiledScript* script = scripts_.compiled(doc);
+    if (!script) call.fail("not_found", doc + ": there is no such script");
+    return script;
+}
+
+void ScriptDesk::complete(const Call& call) {
+    const CompiledScript* script = script_of(call);
+    if (!script) return;
+    const TextPlaces places(script->source);
+    const Suggestions found =
+        serve::complete(script->view(), places.byte_of(position_of(call.in["at"])));
+    Json items = Json::array();
+    for (const Suggestion& one : found.items) {
+        if (items.size() < kItemsMax) items.push_back(json_of(one));
+    }
+    call.done(
+        {{"from", serve::json_of(places.position_of(found.from))}, {"items", std::move(items)}});
+}
+
+void ScriptDesk::hover(const Call& call) {
+    const CompiledScript* script = script_of(call);
+    if (!script) return;
+    const auto found = serve::hover(script->view(), position_of(call.in["at"]));
+    if (!found) return call.done({{"found", false}});
+    call.done({{"found", true},
+               {"at", serve::json_of(found->at)},
+               {"end", serve::json_of(found->end)},
+               {"title", line_of(found->title, 300)},
+               {"help", text_of(found->help, 2000)}});
+}
+
+Json ScriptDesk::spots_of(const std::vector<Spot>& spots, size_t most) {
+    Json list = Json::array();
+    std::map<std::string, std::string> texts;
+    for (const Spot& spot : spots) {
+        if (list.size() >= most) break;
+        if (!texts.contains(spot.doc)) {
+            const auto opened = files_.open(spot.doc);
+            texts[spot.doc] = opened.ok() ? opened.value().text : "";
+        }
+        const std::string_view line =
+            line_at(texts[spot.doc], static_cast<size_t>(std::max(spot.at.line, 1)));
+        list.push_back({{"doc", spot.doc},
+                        {"at", serve::json_of(spot.at)},
+                        {"end", serve::json_of(spot.end)},
+                        {"line_text", line_of(line, 400)}});
+    }
+    return list;
+}
+
+void ScriptDesk::definition(const Call& call) {
+    if (!script_of(call)) return;
+    const auto spots = scripts_.definition(call.in["doc"], position_of(call.in["at"]));
+    call.done({{"spots", spots_of(spots, 16)}});
+}
+
+void ScriptDesk::references(const Call& call) {
+    if (!script_of(call)) return;
+    const auto found = scripts_.references(call.in["doc"], position_of(call.in["at"]));
+    if (!found) return call.done({{"name", ""}, {"spots", Json::array()}});
+    call.done({{"name", line_of(found->name, 200)}, {"spots", spots_of(found->spots, 5000)}});
+}
+
+void ScriptDesk::listing(const Call& call) {
+    const CompiledScript* script = script_of(call);
+    if (!script) return;
+    Json lines = Json::array();
+    for (const aesl::ListedInstruction& one :
+         aesl::instructions(script->result.program, script->target, script->common)) {
+        lines.push_back({{"line", one.line},
+                         {"address", one.address},
+                         {"words", one.words},
+                         {"text", line_of(one.text, 200)}});
+    }
+    call.done({{"lines", std::move(lines)}});
+}
+
+void ScriptDesk::format_name(const Call& call) {
+    const aesl::Target nothing;
+    const aesl::CommonDefinitions none;
+    const std::string fault = fault_of_name({"", nothing, none}, call.in["name"]);
+    if (fault.empty()) return call.done({{"good", true}});
+    call.done({{"good", false}, {"why", line_of(fault, 300)}});
+}
+
+// ---- changes ----
+
+void ScriptDesk::rename(const Call& call) {
+    if (!script_of(call)) return;
+    const std::string doc = call.in["doc"];
+    const auto at = position_of(call.in["at"]);
+    std::set<std::string> docs;
+    if (const auto found = scripts_.references(doc, at)) {
+        for (const Spot& spot : found->spots) docs.insert(spot.doc);
+        const std::string file = doc.substr(0, doc.rfind('#'));
+        if (found->owner == Owner::Project && file != doc) docs.insert(file);
+    }
+    const auto renamed = scripts_.rename(doc, at, call.in["to"], call.member);
+    if (!renamed.ok()) return call.fail(renamed.error());
+    Json changed = Json::array();
+    for (const std::string& one : docs) {
+        if (changed.size() < kChangedMax) changed.push_back(one);
+    }
+    call.done({{"changed", std::move(changed)}, {"places", renamed.value()}});
+}
+
+void ScriptDesk::change(const Call& call) {
+    if (is_too_long(call)) return;
+    const auto changed = scripts_.change(call.in["file"], call.in["kind"], call.in["name"],
+                                         call.in["to"], call.in["value"], call.member);
+    if (!changed.ok()) return call.fail(changed.error());
+    call.done({{"places", changed.value()}});
+}
+
+// ---- topics ----
+
+Json ScriptDesk::script_document(const Json& of) {
+    const std::string doc = of["doc"];
+    const CompiledScript* script = scripts_.compiled(doc);
+    if (!script) {
+        return {{"version", 0},
+                {"good", false},
+                {"node", ""},
+                {"for", ""},
+                {"bytecode", meter(0, 0)},
+                {"variables", meter(0, 0)},
+                {"stack", meter(0, 0)},
+                {"handlers", Json::array()},
+                {"code_lines", Json::array()}};
+    }
+    const auto part = std::find_if(scripts_.parts().begin(), scripts_.parts().end(),
+                                   [&](const ScriptPart& one) { return one.doc == doc; });
+    const aesl::Target& target = script->target;
+    const aesl::Used& used = script->result.program.used;
+    return {{"version", script->version},
+            {"good", script->result.ok()},
+            {"node", line_of(part == scripts_.parts().end() ? "" : part->node, 128)},
+            {"for", line_of(target.name, 200)},
+            {"bytecode", meter(used.bytecode, target.bytecode_size)},
+            {"variables", meter(used.variables, target.variables_size)},
+            {"stack", meter(used.stack, target.stack_size)},
+            {"handlers", handlers_of(*script)},
+            {"code_lines", code_lines_of(script->result.program)}};
+}
+
+Json ScriptDesk::scripts_document() {
+    Json parts = Json::array();
+    std::vector<std::string> paths;
+    for (const ScriptPart& part : scripts_.parts()) {
+        if (parts.size() >= kPartsMax) break;
+        const std::string name = part.node.empty() ? stem_of(part.file) : part.node;
+        parts.push_back({{"doc", part.doc},
+                         {"name", line_of(name, 128)},
+                         {"node", std::min<int>(part.node_id, 65534)},
+                         {"file", part.file}});
+        if (part.doc != part.file && (paths.empty() || paths.back() != part.file)) {
+            paths.push_back(part.file);
+        }
+    }
+    Json files = Json::array();
+    for (const std::string& path : paths) {
+        const aesl::CommonDefinitions* common = scripts_.common(path);
+        if (!common || files.size() >= kFilesShownMax) continue;
+        Json events = Json::array();
+        Json constants = Json::array();
+        for (const auto& event : common->events) {
+            if (events.size() < kDefinitionsMax) {
+                events.push_back(definition_json(event.name, event.size.value_or(0)));
+            }
+        }
+        for (const auto& constant : common->constants) {
+            if (constants.size() < kDefinitionsMax) {
+                constants.push_back(definition_json(constant.name, constant.value));
+            }
+        }
+        files.push_back(
+            {{"path", path}, {"events", std::move(events)}, {"constants", std::move(constants)}});
+    }
+    return {{"parts", std::move(parts)}, {"files", std::move(files)}};
+}
+
+}  // namespace vagus::serve

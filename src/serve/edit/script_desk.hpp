@@ -1,0 +1,49 @@
+// What editors ask about scripts, and changes of names across them: script.* and define.*, the
+// topics script and scripts.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "serve/script/scripts.hpp"
+#include "serve/studio/desk.hpp"
+
+namespace vagus::serve {
+
+class ScriptDesk {
+public:
+    using Json = nlohmann::json;
+
+    // All borrowed.
+    ScriptDesk(Desk& desk, Files& files, Scripts& scripts);
+
+    void text_changed(const std::string& path);
+    void project_changed();
+    // Nodes may be others by now.
+    void tick();
+
+private:
+    void declare_questions();
+    void declare_changes();
+    // The script that a call is about; fails the call if there is none.
+    const CompiledScript* script_of(const Call& call);
+    void complete(const Call& call);
+    void hover(const Call& call);
+    void definition(const Call& call);
+    void references(const Call& call);
+    void rename(const Call& call);
+    void listing(const Call& call);
+    void format_name(const Call& call);
+    void change(const Call& call);
+    Json spots_of(const std::vector<Spot>& spots, size_t most);
+    Json script_document(const Json& of);
+    Json scripts_document();
+
+    Desk& desk_;
+    Files& files_;
+    Scripts& scripts_;
+    uint64_t targets_ = 0;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,121 @@
+#include "serve/edit/templates.hpp"
+
+#include <fmt/format.h>
+
+#include "aesl/project.hpp"
+#include "base/json.hpp"
+#include "base/json_part.hpp"
+#include "plan/formula.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+using Members = std::vector<JsonMember>;
+
+JsonMember text(std::string_view key, std::string_view value) {
+    return json_member(key, json_string(value));
+}
+
+JsonMember object(std::string_view key, Members members) {
+    return json_member(key, json_object(std::move(members)));
+}
+
+Json number(std::string_view written) {
+    Json json;
+    json.kind = JsonKind::Float;
+    json.text = written;
+    return json;
+}
+
+std::string project_of(const NewNode& node, aesl::CommonDefinitions common,
+                       const std::string& source) {
+    aesl::Project project;
+    project.common = std::move(common);
+    aesl::Script& script = project.scripts.emplace_back();
+    script.node = node.name;
+    script.node_id = node.id;
+    script.source = source;
+    return aesl::format_project(project);
+}
+
+}  // namespace
+
+std::string name_of_file(std::string_view path) {
+    const size_t slash = path.rfind('/');
+    std::string_view stem = path.substr(slash == path.npos ? 0 : slash + 1);
+    stem = stem.substr(0, stem.find('.'));
+    std::string name;
+    for (const char letter : stem) {
+        const bool plain = (letter >= '0' && letter <= '9') || (letter >= 'A' && letter <= 'Z') ||
+                           (letter >= 'a' && letter <= 'z');
+        if (plain) {
+            name += letter;
+        } else if (!name.ends_with('_')) {
+            name += '_';
+        }
+    }
+    return plan::is_name(name) ? name : "New" + name;
+}
+
+std::string new_script(const NewNode& node) {
+    return project_of(node, {},
+                      "# What stands here happens once, at the start.\n"
+                      "\n"
+                      "# Behind \"onevent NAME\" stands what happens whenever that event comes.\n");
+}
+
+std::string new_plan(std::string_view name) {
+    const Members wait = {text("template", "Wait"), object("in", {text("seconds", "1")}),
+                          object("states", {text("Done", "@terminate")})};
+    return format_json(json_object({text("format", "vagus-plan/1"), text("name", name),
+                                    object("start", {text("actor", "wait")}),
+                                    object("actors", {object("wait", wait)})}));
+}
+
+std::string new_world(std::string_view name) {
+    const Json robot = json_object({text("name", "thymio"), text("type", "thymio2"),
+                                    json_member("at", json_array({number("0.5"), number("0.5")}))});
+    return format_json(json_object(
+        {text("format", "vagus-world/1"), text("name", name),
+         json_member("size", json_array({json_integer(2), number("1.5")})),
+         json_member("objects", json_array({})), json_member("robots", json_array({robot}))}));
+}
+
+std::string new_toolbox(const std::string& name, const std::string& script, const NewNode& node) {
+    const Members work = {text("kind", "actor"),
+                          text("help", "What it does."),
+                          text("node", node.name),
+                          text("start", name + ".start"),
+                          text("stop", name + ".stop"),
+                          text("stopped", name + ".stopped"),
+                          object("states", {object("Done", {text("event", name + ".done")})})};
+    return format_json(
+        json_object({text("format", "vagus-toolbox/1"), text("name", name), text("project", script),
+                     object("templates", {object("Work", work)})}));
+}
+
+std::string new_toolbox_script(const std::string& name, const NewNode& node) {
+    aesl::CommonDefinitions common;
+    for (const char* event : {".start", ".stop", ".stopped", ".done"}) {
+        common.events.push_back({name + event, 1});
+    }
+    const std::string token = node.args + "[0]";
+    return project_of(
+        node, std::move(common),
+        fmt::format(
+            "# A plan gives a token with each start, and takes only answers that carry it.\n"
+            "var token = 0\n"
+            "\n"
+            "# The work begins here; this one is done at once.\n"
+            "onevent {0}.start\n"
+            "\ttoken = {1}\n"
+            "\temit {0}.done token\n"
+            "\n"
+            "# The plan wants it to end: stop what moves, then say so.\n"
+            "onevent {0}.stop\n"
+            "\temit {0}.stopped [{1}]\n",
+            name, token));
+}
+
+}  // namespace vagus::serve

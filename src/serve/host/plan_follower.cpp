@@ -1,0 +1,177 @@
+#include "serve/host/plan_follower.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plan/check.hpp"
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+namespace {
+
+double seconds(Time at) {
+    return std::chrono::duration<double>(at).count();
+}
+
+std::string shortened(std::string_view text) {
+    if (text.size() <= kShownTextMax) return std::string(text);
+    size_t end = kShownTextMax;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+    return std::string(text.substr(0, end)) + "…";
+}
+
+Json json_of(const plan::Value& value) {
+    switch (value.type()) {
+        case plan::Type::Bool:
+            return value.boolean();
+        case plan::Type::Int:
+            return value.integer();
+        case plan::Type::Float:
+            return value.number();
+        case plan::Type::String:
+            return shortened(value.string());
+        case plan::Type::Object:
+            return value.object() ? "(an object)" : "(none)";
+    }
+    return false;
+}
+
+}  // namespace
+
+PlanFollower::PlanFollower(const std::vector<plan::Plan>& plans,
+                           std::function<std::string(const std::string&)> doc_of)
+    : plans_(plans), doc_of_(std::move(doc_of)) {}
+
+void PlanFollower::happen(double t, const char* kind, const std::string& text) {
+    story_.push_back({{"number", lines_++}, {"t", t}, {"kind", kind}, {"text", shortened(text)}});
+    if (story_.size() > kStoryKept) story_.pop_front();
+}
+
+// The plan of the outermost level, or that which the active actor of `outer` stands for.
+const plan::Plan* PlanFollower::plan_inside(const Level* outer) const {
+    if (!outer) return &plans_.front();
+    if (!outer->actor || !outer->actor->plan) return nullptr;
+    const std::string file = plan::path_of_sub_plan(outer->plan->file, *outer->actor->plan);
+    for (const plan::Plan& one : plans_) {
+        if (one.file == file) return &one;
+    }
+    return nullptr;
+}
+
+// Instance paths get longer by one name for each level.
+PlanFollower::Level& PlanFollower::level_at(const std::string& path) {
+    const auto depth = static_cast<size_t>(std::count(path.begin(), path.end(), '/'));
+    while (levels_.size() > depth + 1) levels_.pop_back();
+    if (levels_.size() <= depth) {
+        Level level;
+        level.path = path;
+        level.plan = plan_inside(levels_.empty() ? nullptr : &levels_.back());
+        levels_.push_back(std::move(level));
+    }
+    return levels_.back();
+}
+
+void PlanFollower::see(const plan::TraceEvent& event) {
+    const double t = seconds(event.at);
+    Level& level = level_at(event.plan);
+    if (const auto* start = std::get_if<plan::ActorStarted>(&event.what)) {
+        ++activations_;
+        level.actor = nullptr;
+        for (size_t i = 0; level.plan && i < level.plan->actors.size(); ++i) {
+            const plan::Actor& actor = level.plan->actors[i];
+            if (actor.name == start->actor) level.actor = &actor;
+        }
+        level.activation = start->activation;
+        level.since = t;
+        level.inputs = Json::object();
+        for (const auto& [name, value] : start->in)
+            level.inputs[std::string(name)] = json_of(value);
+        for (auto& [name, left] : level.resting) --left;
+        std::erase_if(level.resting, [](const auto& entry) { return entry.second <= 0; });
+    } else if (const auto* end = std::get_if<plan::ActorEnded>(&event.what)) {
+        happen(t, "note", fmt::format("{}: {} → {}", end->actor, end->state, end->target));
+    } else if (const auto* raised = std::get_if<plan::EventRaised>(&event.what)) {
+        happen(t, "warning",
+               fmt::format("{}: {} → {}", raised->supervisor, raised->event, raised->target));
+        if (raised->global && raised->target != "@ignore") {
+            level.resting[std::string(raised->supervisor)] = 2;
+        }
+    } else if (const auto* written = std::get_if<plan::VariableWritten>(&event.what)) {
+        level.values[std::string(written->variable)] = json_of(written->value);
+    } else if (const auto* late = std::get_if<plan::CheckLate>(&event.what)) {
+        happen(
+            t, "warning",
+            fmt::format("{}: a check was {} ms late", late->supervisor, late->by.count() / 1000));
+    } else if (const auto* logged = std::get_if<plan::TextLogged>(&event.what)) {
+        happen(t, "log", logged->text);
+    } else if (const auto* error = std::get_if<plan::ErrorFound>(&event.what)) {
+        happen(t, "error", fmt::format("{}: {}", error->element, error->message));
+    } else if (const auto* over = std::get_if<plan::PlanEnded>(&event.what)) {
+        happen(t, over->result == plan::PlanResult::Error ? "error" : "note",
+               fmt::format("{} is over: {}", event.plan, plan::name_of(over->result)));
+        if (levels_.size() == 1) {
+            result_ = plan::name_of(over->result);
+            message_ = over->message;
+        }
+        levels_.pop_back();
+    } else {
+        return;
+    }
+}
+
+Json PlanFollower::level_json(const Level& level) const {
+    Json variables = Json::array();
+    Json supervisors = Json::array();
+    const auto add = [&](const plan::Supervisor& one, bool global) {
+        Json events = Json::array();
+        for (const plan::Rule& rule : one.events) events.push_back(rule.name);
+        supervisors.push_back({{"name", one.name},
+                               {"global", global},
+                               {"watching", !level.resting.contains(one.name)},
+                               {"events", std::move(events)}});
+    };
+    if (level.plan) {
+        for (const plan::Variable& variable : level.plan->configuration) {
+            const auto value = level.values.find(variable.name);
+            variables.push_back({{"name", variable.name},
+                                 {"type", variable.type ? plan::name_of(*variable.type) : "float"},
+                                 {"value", value == level.values.end() ? Json("") : value->second},
+                                 {"unit", variable.unit}});
+        }
+        for (const plan::Supervisor& one : level.plan->globals) add(one, true);
+    }
+    if (level.actor) {
+        for (const plan::Supervisor& one : level.actor->supervisors) add(one, false);
+    }
+    const std::string template_name =
+        !level.actor ? "" : level.actor->template_name.value_or(level.actor->plan.value_or(""));
+    return {{"path", level.path},
+            {"doc", level.plan ? doc_of_(level.plan->file) : ""},
+            {"actor", level.actor ? level.actor->name : ""},
+            {"template", template_name},
+            {"activation", level.activation},
+            {"since", level.since},
+            {"inputs", level.inputs},
+            {"variables", std::move(variables)},
+            {"supervisors", std::move(supervisors)}};
+}
+
+Json PlanFollower::document(double now, bool paused) const {
+    Json levels = Json::array();
+    for (const Level& level : levels_) levels.push_back(level_json(level));
+    Json document = {{"state", result_  ? "ended"
+                               : paused ? "paused"
+                                        : "running"},
+                     {"doc", doc_of_(plans_.front().file)},
+                     {"t", now},
+                     {"levels", std::move(levels)},
+                     {"story", Json(std::vector<Json>(story_.begin(), story_.end()))}};
+    if (result_) document["result"] = *result_;
+    if (!message_.empty()) document["message"] = shortened(message_);
+    return document;
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,60 @@
+// A plan that runs as pages see it: the document of the topic plan, made of the lines of the trace.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plan/model.hpp"
+#include "plan/trace.hpp"
+
+namespace vagus::serve {
+
+constexpr size_t kStoryKept = 200;      // lines of what happened
+constexpr size_t kShownTextMax = 1000;  // bytes of a value or sentence; the rest is left out
+
+class PlanFollower {
+public:
+    // Borrowed: what the run was made of, the outermost plan first. `doc_of` is the document of a
+    // plan's file.
+    PlanFollower(const std::vector<plan::Plan>& plans,
+                 std::function<std::string(const std::string& file)> doc_of);
+
+    void see(const plan::TraceEvent& event);
+    nlohmann::json document(double now, bool paused) const;
+    bool over() const { return result_.has_value(); }
+    // Counts actors that have started: for a step to the next one.
+    uint64_t activations() const { return activations_; }
+
+private:
+    struct Level {
+        std::string path;
+        const plan::Plan* plan = nullptr;
+        const plan::Actor* actor = nullptr;
+        uint64_t activation = 0;
+        double since = 0;
+        nlohmann::json inputs = nlohmann::json::object();
+        std::map<std::string, nlohmann::json> values;
+        std::map<std::string, int> resting;  // global supervisors
+    };
+
+    void happen(double t, const char* kind, const std::string& text);
+    Level& level_at(const std::string& path);
+    const plan::Plan* plan_inside(const Level* outer) const;
+    nlohmann::json level_json(const Level& level) const;
+
+    const std::vector<plan::Plan>& plans_;
+    std::function<std::string(const std::string&)> doc_of_;
+    std::vector<Level> levels_;
+    std::deque<nlohmann::json> story_;
+    uint64_t lines_ = 0;
+    uint64_t activations_ = 0;
+    std::optional<std::string> result_;
+    std::string message_;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,530 @@
+#include "serve/host/run_host.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "embed/loaded_plan.hpp"
+#include "embed/prepared_run.hpp"
+#include "run/debugger.hpp"
+#include "serve/host/frames.hpp"
+#include "serve/host/pacer.hpp"
+#include "serve/host/plan_follower.hpp"
+#include "serve/host/scene.hpp"
+#include "serve/process.hpp"
+#include "session/bus_names.hpp"
+#include "session/plan_world.hpp"
+#include "session/toolboxes.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr Duration kTellEvery = 100ms;  // the clock, and what is slow: documents, pictures
+constexpr Duration kPosesEvery = 33ms;  // where things are
+constexpr int kPausedWaitMs = 20;       // while paused nothing moves but messages
+constexpr int kAtOnceMs = 4;            // instants that are run together
+constexpr int kHoldsAfterFrames = 20;   // instants in which nodes answer although time stands
+
+Time wall_now() {
+    return std::chrono::duration_cast<Time>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
+double seconds(Time at) {
+    return std::chrono::duration<double>(at).count();
+}
+
+class Host {
+public:
+    Host() : pipe_(kTalkDescriptor) {}
+
+    int run() {
+        while (!quit_) {
+            if (!open_) pipe_.wait(1000);
+            take_packets();
+            tell({{"say", "alive"}});
+            if (open_) serve();
+        }
+        return 0;
+    }
+
+private:
+    // ---- talking ----
+    void tell(const Json& message) {
+        if (!pipe_.send('J', message.dump(-1, ' ', false, Json::error_handler_t::replace))) {
+            quit_ = true;
+        }
+    }
+    void tell_line(const char* kind, const std::string& text) {
+        tell({{"say", "line"}, {"kind", kind}, {"text", text}});
+    }
+
+    void take_packets() {
+        for (const Packet& packet : pipe_.receive()) {
+            if (packet.kind == 'F') {
+                take_frame(packet.bytes);
+            } else {
+                obey(Json::parse(packet.bytes));
+            }
+        }
+        if (pipe_.closed()) quit_ = true;
+        if (quit_ && prepared_) prepared_->abort();
+    }
+
+    void take_frame(const std::string& bytes) {
+        wire::Frame frame;
+        if (session_ && decode_frame(bytes, frame)) {
+            session_->world().bus().receive(link_, frame);
+            holds_ = kHoldsAfterFrames;
+        }
+    }
+
+    void send_frames() {
+        wire::Frame frame;
+        while (session_->world().bus().take(link_, frame)) pipe_.send('F', encode_frame(frame));
+    }
+
+    // ---- opening ----
+    void obey(const Json& told) {
+        const std::string what = told["do"];
+        if (what == "open") {
+            order_ = told;
+            open_ = true;
+        } else if (what == "pace") {
+            pacer_.set(told["paused"], told["speed"], wall_now());
+            if (debugger_ && prepared_->world() == nullptr) {
+                (void)(told["paused"].get<bool>() ? debugger_->post(run::Pause{})
+                                                  : debugger_->post(run::Continue{}))
+                    .ok();
+            }
+        } else if (what == "plan.set") {
+            set_variable(told);
+        } else if (what == "step") {
+            pacer_.step(std::chrono::milliseconds(told["ms"].get<int>()));
+        } else if (what == "plan.step") {
+            step_to_actor_ = true;
+            pacer_.set(false, pacer_.speed(), wall_now());
+        } else if (what == "plan.stop") {
+            if (prepared_) prepared_->abort();
+            pacer_.set(false, pacer_.speed(), wall_now());
+        } else if (what == "show") {
+            show_rays_ = told["rays"];
+            picture_of_robot_ = told["picture"];
+        } else if (session_) {
+            act(what, told);
+        } else {
+            tell({{"say", "hand"}, {"why", "the world is just being opened; try again"}});
+        }
+    }
+
+    // Serves one order to its end: a plan in its world, then the world alone.
+    void serve() {
+        open_ = false;
+        const Json order = order_;
+        if (order.contains("plan") && !order["plan"].get<std::string>().empty()) {
+            run_plan(order);
+        } else {
+            run_world(order);
+        }
+        session_ = nullptr;
+    }
+
+    void fail(const std::string& why) { tell({{"say", "failed"}, {"why", why}}); }
+
+    void run_world(const Json& order) {
+        auto opened = session::open_sim(order["world"], {});
+        if (!opened.ok()) return fail(opened.error().what);
+        own_ = std::make_unique<session::SimSession>(std::move(opened.value()));
+        (void)own_->settle();
+        begin_session(*own_, order);
+        live();
+        own_.reset();
+    }
+
+    void run_plan(const Json& order) {
+        toolbox::Parts parts;
+        run::CodeLibrary library;
+        const std::vector<std::string> toolboxes = order["toolboxes"];
+        const Status added = session::add_toolboxes(library, parts, toolboxes);
+        if (!added.ok()) return fail(added.error().what);
+        const auto plan = embed::LoadedPlan::from_file(order["plan"], library);
+        if (!plan.ok()) return fail(plan.report());
+        embed::RunWords words;
+        words.world = order["world"];
+        words.bus = order.value("bus", "");
+        words.project = order.value("project", "");
+        words.robot = order.value("robot", "");
+        words.max_time = "1e13";  // the person at the studio ends it
+        for (const auto& [name, value] : order["set"].items()) {
+            words.set.push_back(name + "=" +
+                                (value.is_string() ? value.get<std::string>() : value.dump()));
+        }
+        auto prepared = embed::PreparedRun::prepare(plan, words, parts);
+        if (!prepared.ok()) return fail(prepared.error().what);
+        prepared_ = std::move(prepared.value());
+        heard_ = session::events_heard(plan.plans(), library.templates());
+        follower_.emplace(plan.plans(), [](const std::string& file) { return file; });
+        prepared_->listen([this](const plan::TraceEvent& event) { see(event); });
+        if (prepared_->world() != nullptr) prepared_->pace([this](Time at) { instant(at); });
+        debugger_.emplace(plan.graph(), run::Debugger::At::Run);
+        if (prepared_->world() == nullptr) return run_on_bus();
+        begin_session(prepared_->world()->session(), order);
+        const auto ended = prepared_->run(&*debugger_);
+        if (!ended.ok()) tell_line("error", ended.error().what);
+        tell_plan();
+        live();
+        forget_plan();
+    }
+
+    void forget_plan() {
+        debugger_.reset();
+        follower_.reset();
+        heard_.clear();
+        session_ = nullptr;
+        prepared_.reset();
+    }
+
+    // The plan alone, on a bus that the studio holds open: it runs on a thread of its own, in real
+    // time, and is talked to through its debugger.
+    void run_on_bus() {
+        struct Shared {
+            std::mutex mutex;
+            std::vector<plan::TraceEvent> seen;
+            bool over = false;
+            std::string why;
+        } shared;
+        prepared_->listen([&](const plan::TraceEvent& event) {
+            const std::lock_guard lock(shared.mutex);
+            shared.seen.push_back(event);
+        });
+        tell({{"say", "opened"}, {"programs", Json::array()}, {"hears", heard_}});
+        if (pacer_.paused()) (void)debugger_->post(run::Pause{}).ok();
+        std::thread runner([&] {
+            const auto ended = prepared_->run(&*debugger_);
+            const std::lock_guard lock(shared.mutex);
+            if (!ended.ok()) shared.why = ended.error().what;
+            shared.over = true;
+        });
+        const Time began = wall_now();
+        for (bool over = false; !over;) {
+            pipe_.wait(kPausedWaitMs);
+            take_packets();
+            if (open_) prepared_->abort();
+            std::vector<plan::TraceEvent> seen;
+            {
+                const std::lock_guard lock(shared.mutex);
+                seen.swap(shared.seen);
+                over = shared.over;
+            }
+            for (const plan::TraceEvent& event : seen) see(event);
+            hear_debugger();
+            tell_bus_clock(wall_now() - began);
+        }
+        runner.join();
+        tell_plan();
+        if (!shared.why.empty()) tell_line("error", shared.why);
+        forget_plan();
+    }
+
+    void tell_bus_clock(Duration since) {
+        const Time wall = wall_now();
+        if (wall < next_tell_) return;
+        next_tell_ = wall + kTellEvery;
+        tell({{"say", "clock"},
+              {"t", seconds(Time(since))},
+              {"paused", pacer_.held()},
+              {"speed", 1},
+              {"real", 1}});
+        tell_plan_at(seconds(Time(since)));
+    }
+
+    // ---- the plan's debugger ----
+    void set_variable(const Json& told) {
+        const auto post = [this](run::Request request) {
+            const auto posted = debugger_->post(std::move(request));
+            return posted.ok() ? posted.value() : 0;
+        };
+        if (!debugger_) return tell({{"say", "set"}, {"why", "no plan runs"}});
+        post(run::Pause{});
+        set_request_ = post(run::SetVariable{told["level"], told["name"], value_of(told["value"])});
+        if (prepared_->world() != nullptr || !pacer_.paused()) post(run::Continue{});
+        // A run answers between two decisions: one instant must pass.
+        if (pacer_.paused()) pacer_.step(1ms);
+    }
+
+    static plan::Value value_of(const Json& json) {
+        if (json.is_boolean()) return plan::Value(json.get<bool>());
+        if (json.is_number_integer()) return plan::Value(json.get<int64_t>());
+        if (json.is_number()) return plan::Value(json.get<double>());
+        return plan::Value(json.is_string() ? json.get<std::string>() : json.dump());
+    }
+
+    void hear_debugger() {
+        if (!debugger_) return;
+        while (const auto report = debugger_->wait_report(Duration{})) {
+            const auto* answer = std::get_if<run::Answer>(&*report);
+            if (!answer || answer->request != set_request_) continue;
+            Json told = {{"say", "set"}};
+            if (!answer->reply.ok()) told["why"] = answer->reply.error().what;
+            tell(told);
+        }
+    }
+
+    void begin_session(session::SimSession& session, const Json& order) {
+        session_ = &session;
+        const auto link = session.world().bus().add({.name = "studio"});
+        if (!link.ok()) return fail(link.error().what);
+        link_ = link.value();
+        put_robots(order);
+        for (const Diagnostic& mistake : session.mistakes()) tell_line("error", text_of(mistake));
+        Json programs = Json::array();
+        for (const auto& [node, source] : session.running_scripts()) {
+            programs.push_back({{"node", node}, {"source", source}});
+        }
+        tell({{"say", "opened"},
+              {"scene", scene_of(session.world())},
+              {"programs", std::move(programs)},
+              {"hears", heard_}});
+        tell_clock();
+    }
+
+    // Where they stood before the run, if a hand put them there.
+    void put_robots(const Json& order) {
+        if (!order.contains("poses")) return;
+        const auto robots = session_->world().robots();
+        std::vector<sim::RobotId> ids;
+        for (const sim::RobotView& robot : robots) ids.push_back(robot.id);
+        for (size_t i = 0; i < ids.size() && i < order["poses"].size(); ++i) {
+            const Json& pose = order["poses"][i];
+            (void)session_->world().move(ids[i], {{pose[0], pose[1]}, pose[2]}).ok();
+        }
+    }
+
+    // ---- time ----
+    // The world alone, until another order or the end.
+    void live() {
+        while (!quit_ && !open_) {
+            instant(session_->now() + sim::kNodeStep);
+            if (quit_ || open_) return;
+            session_->begin_instant();
+            session_->end_instant();
+            (void)session_->take_notes();
+        }
+    }
+
+    // Before each millisecond of simulated time: waits until it is due, and meanwhile hears and
+    // tells.
+    void instant(Time at) {
+        at_ = at;
+        send_frames();
+        for (;;) {
+            const Time wall = wall_now();
+            if (wall >= next_tell_ || wall >= next_poses_) look_around(wall);
+            if (quit_ || open_) {
+                if (prepared_) prepared_->abort();
+                return;
+            }
+            if (pacer_.paused()) {
+                pipe_.wait(holds_ > 0 ? 1 : kPausedWaitMs);
+                take_packets();
+                if (holds_ > 0) hold();
+                continue;
+            }
+            const Time due = pacer_.due(sim::kNodeStep, wall);
+            if (due <= wall) {
+                pacer_.passed(sim::kNodeStep, due);
+                break;
+            }
+            // Not for each millisecond by itself: a few at a time cost far less. However slow time
+            // is, the server hears from us.
+            const Duration wait = std::min(due - wall, kTellEvery);
+            pipe_.wait(std::max(kAtOnceMs, static_cast<int>(wait / 1ms)));
+            take_packets();
+        }
+        if (++instants_ % 8 == 0) take_packets();
+    }
+
+    // Time stands, and the nodes still answer.
+    void hold() {
+        --holds_;
+        session_->world().hold_instant();
+        send_frames();
+    }
+
+    void look_around(Time wall) {
+        take_packets();
+        pipe_.flush();
+        if (wall >= next_poses_) {
+            next_poses_ = wall + kPosesEvery;
+            pipe_.send('P', stamped(poses_of(session_->world())));
+            if (show_rays_) pipe_.send('R', stamped(rays_of(session_->world())));
+        }
+        if (wall < next_tell_) return;
+        next_tell_ = wall + kTellEvery;
+        tell_clock();
+        tell_scene();
+        tell_plan();
+        const auto robot = session_->world().find_robot(picture_of_robot_);
+        if (robot && !picture_of_robot_.empty()) {
+            pipe_.send('I', stamped(picture_of(session_->world(), *robot)));
+        }
+    }
+
+    std::string stamped(const std::string& bytes) const {
+        const double t = seconds(session_->now());
+        return std::string(reinterpret_cast<const char*>(&t), sizeof t) + bytes;
+    }
+
+    void tell_clock() {
+        Json clock = {{"say", "clock"},
+                      {"t", seconds(session_->now())},
+                      {"paused", pacer_.held()},
+                      {"speed", pacer_.speed()},
+                      {"real", pacer_.real(wall_now())}};
+        if (const auto load = session_->world().bus_load()) {
+            clock["load"] = 100 * load->all.share_of_last_second;
+        }
+        tell(clock);
+    }
+
+    void tell_scene() {
+        Json scene = scene_of(session_->world());
+        if (scene == scene_told_) return;
+        scene_told_ = scene;
+        tell({{"say", "scene"}, {"scene", std::move(scene)}});
+    }
+
+    // ---- the plan ----
+    void see(const plan::TraceEvent& event) {
+        const uint64_t before = follower_->activations();
+        follower_->see(event);
+        tell({{"say", "trace"}, {"line", plan::format_trace(event)}});
+        if (step_to_actor_ && follower_->activations() > before) {
+            step_to_actor_ = false;
+            pacer_.set(true, pacer_.speed(), wall_now());
+        }
+    }
+
+    void tell_plan() {
+        hear_debugger();
+        tell_plan_at(session_ ? seconds(session_->now()) : 0);
+    }
+    void tell_plan_at(double t) {
+        if (!follower_) return;
+        tell({{"say", "plan"}, {"plan", follower_->document(t, pacer_.held())}});
+    }
+
+    // ---- a hand from above ----
+    void act(const std::string& what, const Json& told) {
+        const Status done = hand(what, told);
+        Json told_back = {{"say", "hand"}};
+        if (!done.ok()) told_back["why"] = done.error().what;
+        if (put_number_) told_back["number"] = *std::exchange(put_number_, std::nullopt);
+        tell(told_back);
+        next_poses_ = Time{};
+    }
+
+    Status hand(const std::string& what, const Json& told) {
+        sim::World& world = session_->world();
+        if (told.contains("at")) TRY(check_inside(told["at"][0], told["at"][1]));
+        if (what == "take") return world.remove(sim::ObjectId{told["object"]});
+        if (what == "light") return world.switch_light(sim::ObjectId{told["object"]}, told["on"]);
+        if (what == "put") return put(told);
+        if (what == "move" && told.contains("object")) return move_object(told);
+        const auto robot = world.find_robot(told["robot"].get<std::string>());
+        if (!robot) {
+            return Error{Code::NotFound, "there is no such robot in the world"};
+        }
+        if (what == "tap") return world.tap(*robot);
+        if (what == "press") {
+            const std::string button = told["button"];
+            return told["down"].get<bool>() ? world.press(*robot, button)
+                                            : world.release(*robot, button);
+        }
+        const auto robots = world.robots();
+        const double angle = told.value("angle", robots[robot->number - 1].pose.angle);
+        return world.move(*robot, {{told["at"][0], told["at"][1]}, angle});
+    }
+
+    Status check_inside(double x, double y) const {
+        const sim::WorldDefinition& world = session_->world().definition();
+        const bool inside = x >= 0 && x <= world.width && y >= 0 && y <= world.height;
+        if (world.open || inside) return Status::done();
+        return Error{Code::BadInput,
+                     fmt::format("{:g}, {:g} m lies outside of the walls: the world is {:g} by "
+                                 "{:g} m",
+                                 x, y, world.width, world.height)};
+    }
+
+    Status move_object(const Json& told) {
+        sim::World& world = session_->world();
+        const sim::ObjectId id{told["object"]};
+        for (const sim::ObjectView& object : world.objects()) {
+            if (object.id != id) continue;
+            const double angle = told.value("angle", object.pose.angle);
+            return world.move(id, {{told["at"][0], told["at"][1]}, angle});
+        }
+        return Error{Code::NotFound, "there is no such object in the world any more"};
+    }
+
+    Status put(const Json& told) {
+        sim::ObjectDefinition object;
+        const std::string kind = told["kind"];
+        object.kind = kind == "wall"  ? sim::ObjectKind::Wall
+                      : kind == "box" ? sim::ObjectKind::Box
+                                      : sim::ObjectKind::Cylinder;
+        object.at = {told["at"][0], told["at"][1]};
+        object.angle = told.value("angle", 0.0);
+        if (kind == "cylinder") {
+            object.radius = told.value("radius", 0.05);
+        } else {
+            object.width = told.contains("size") ? told["size"][0].get<double>() : 0.2;
+            object.length = told.contains("size") ? told["size"][1].get<double>() : 0.2;
+        }
+        const auto added = session_->world().add(object);
+        if (!added.ok()) return added.error();
+        put_number_ = added.value().number;
+        return Status::done();
+    }
+
+    Pipe pipe_;
+    bool quit_ = false;
+    bool open_ = false;  // another order waits
+    Json order_;
+
+    std::unique_ptr<session::SimSession> own_;
+    std::unique_ptr<embed::PreparedRun> prepared_;
+    session::SimSession* session_ = nullptr;  // of one of the two
+    hub::LinkId link_;
+    std::optional<PlanFollower> follower_;
+    std::set<std::string> heard_;  // events, by the plan
+    std::optional<run::Debugger> debugger_;
+    uint64_t set_request_ = 0;
+    std::optional<uint32_t> put_number_;  // of the hand at work
+
+    Pacer pacer_;
+    bool step_to_actor_ = false;
+    int holds_ = 0;
+    uint64_t instants_ = 0;
+    Time at_{};
+    Time next_tell_{}, next_poses_{};
+    Json scene_told_;
+    bool show_rays_ = false;
+    std::string picture_of_robot_;
+};
+
+}  // namespace
+
+int run_host() {
+    return Host().run();
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,99 @@
+// The studio's protocol as protocol.json has it: the one list from which the checks here, the
+// pages' TypeScript types and docs/protocol.md are made.
+//
+//     const Protocol& protocol = Protocol::get();
+//     Result<Request> request = protocol.read(text);      // a command of a client, checked
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "serve/protocol/type.hpp"
+
+namespace vagus::serve {
+
+// Who may give a command: anyone before hello, who may look, who holds the token that drives, the
+// one driver.
+enum class May { Any, Look, Drive, Driver };
+
+struct CommandType {
+    May may = May::Driver;
+    std::string help;
+    std::vector<Field> in, out;
+};
+
+struct TopicType {
+    enum class Kind { Document, Stream, Binary };
+    Kind kind = Kind::Document;
+    uint8_t number = 0;  // Binary: the first byte of its frames
+    std::string help;
+    std::vector<Field> of;  // what it is about
+    std::vector<Field> is;  // Document
+    std::string item;       // Stream: the type
+};
+
+struct LimitType {
+    double value = 0;
+    std::string help;
+};
+
+// Why a message or a command is refused.
+struct Problem {
+    std::string code;   // of the list in protocol.json
+    std::string what;   // a sentence
+    std::string place;  // the part of the message, or FILE:LINE:COLUMN; may be empty
+};
+
+// A command that fits the protocol.
+struct Request {
+    uint64_t id = 0;
+    std::string name;
+    const CommandType* type = nullptr;
+    nlohmann::json in;
+};
+
+// A refused message, with its id if it had one.
+struct Refusal {
+    uint64_t id = 0;
+    Problem problem;
+};
+
+class Protocol {
+public:
+    // The list that is built in. A mistake in it is a bug: a test reads it.
+    static const Protocol& get();
+    static Result<Protocol> parse(std::string_view text);
+
+    // A text message from a client. Whatever it holds, this ends soon and uses little.
+    std::variant<Request, Refusal> read(std::string_view message) const;
+
+    const CommandType* command(std::string_view name) const;
+    const TopicType* topic(std::string_view name) const;
+    // What is wrong with the `of` of a subscription.
+    std::optional<std::string> fault_of_subject(const TopicType& topic,
+                                                const nlohmann::json& of) const;
+    // What is wrong with an answer or a document of ours: for tests.
+    std::optional<std::string> fault_of_answer(std::string_view command,
+                                               const nlohmann::json& out) const;
+    std::optional<std::string> fault_of_document(std::string_view topic,
+                                                 const nlohmann::json& document) const;
+    size_t limit(std::string_view name) const;
+
+    // docs/protocol.md.
+    std::string page() const;
+
+private:
+    struct Reader;
+    std::vector<std::string> help_;
+    std::vector<std::pair<std::string, LimitType>> limits_;
+    std::vector<std::pair<std::string, std::string>> type_helps_;  // in the order of the list
+    Types types_;
+    std::vector<std::pair<std::string, CommandType>> commands_;
+    std::vector<std::pair<std::string, TopicType>> topics_;
+};
+
+}  // namespace vagus::serve

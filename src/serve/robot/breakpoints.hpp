@@ -1,0 +1,50 @@
+// Breakpoints of scripts as the project keeps them: by document and line, whether a robot is there
+// or not, until a person removes them. The nodes' own are made from these.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace vagus::serve {
+
+constexpr size_t kBreakpointsMax = 1000;
+
+struct ScriptBreakpoint {
+    std::string doc;
+    int line = 0;
+    std::string condition;
+    uint32_t ignore = 0;  // it stops after so many hits
+    bool enabled = true;
+    // ---- of this session ----
+    uint32_t hits = 0;
+    bool set = false;  // the node said so
+    std::string why;   // why it is not
+};
+
+class ScriptBreakpoints {
+public:
+    const std::vector<ScriptBreakpoint>& all() const { return all_; }
+    ScriptBreakpoint* find(const std::string& doc, int line);
+    // A new one, or the one there is.
+    Result<ScriptBreakpoint*> set(const std::string& doc, int line);
+    // Without a line all of the document, without a document all.
+    void clear(const std::optional<std::string>& doc, std::optional<int> line);
+    // Lines behind a change of a text move along: `at` from 1, `lines` more or fewer.
+    void move_lines(const std::string& doc, int at, int lines);
+    // A file has another name.
+    void rename(const std::string& from, const std::string& to);
+
+    // What state.json keeps.
+    nlohmann::json to_json() const;
+    void from_json(const nlohmann::json& kept);
+
+private:
+    std::vector<ScriptBreakpoint> all_;
+};
+
+}  // namespace vagus::serve

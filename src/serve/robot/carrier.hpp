@@ -1,0 +1,34 @@
+// What brings frames to and from the nodes of a target: a bus that others are on, or a simulation.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/time.hpp"
+#include "wire/frame.hpp"
+
+namespace vagus::serve {
+
+// A link of the bus, as far as it can be seen from here.
+struct LinkView {
+    std::string name;
+    std::vector<uint16_t> nodes;
+    uint64_t frames_in = 0, frames_out = 0, lost = 0;
+};
+
+enum class Connection { Connecting, Connected, Lost, Failed };
+
+class Carrier {
+public:
+    virtual ~Carrier() = default;
+    virtual void send(const wire::Frame& frame) = 0;
+    // What came since.
+    virtual std::vector<wire::Frame> take() = 0;
+    virtual Connection connection() const = 0;
+    // Why it is lost or failed: a sentence.
+    virtual std::string why() const = 0;
+    virtual std::vector<LinkView> links() const = 0;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,173 @@
+// What pages ask of the robot: breakpoints, values, nodes.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "serve/robot/robot.hpp"
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr const char* kNoRobot = "there is no robot; choose a target first";
+
+}  // namespace
+
+// ---- breakpoints ----
+
+ScriptBreakpoint* Robot::breakpoint_of(uint16_t node, int line) {
+    return breakpoints_.find(doc_of(node), line);
+}
+
+void Robot::place_breakpoints() {
+    desk_.board().touch("breakpoints");
+    if (!network_) return;
+    for (const uint16_t node : live_nodes()) {
+        const std::string doc = doc_of(node);
+        const debug::NodeView* view = network_->node(node);
+        if (doc.empty() || !view->program) continue;
+        for (const debug::Breakpoint& there : std::vector(view->breakpoints)) {
+            const ScriptBreakpoint* wanted = breakpoints_.find(doc, there.line);
+            if (!wanted || !wanted->enabled || wanted->condition != there.condition) {
+                (void)network_->clear_breakpoint(node, there.line).ok();
+            }
+        }
+        for (const ScriptBreakpoint& wanted : breakpoints_.all()) {
+            if (wanted.doc != doc || !wanted.enabled) continue;
+            const auto& there = network_->node(node)->breakpoints;
+            const bool known = std::any_of(there.begin(), there.end(), [&](const auto& one) {
+                return one.line == wanted.line && one.condition == wanted.condition;
+            });
+            if (known) continue;
+            const auto asked = network_->set_breakpoint(node, wanted.line, wanted.condition);
+            ScriptBreakpoint* mark = breakpoints_.find(doc, wanted.line);
+            mark->why = asked.ok() ? "" : asked.error().what;
+        }
+    }
+}
+
+void Robot::set_breakpoint(const Call& call) {
+    const std::string doc = call.in["doc"];
+    int line = call.in["line"];
+    const CompiledScript* script = scripts_.compiled(doc);
+    if (!script) return call.fail("not_found", doc + ": there is no such script");
+    // The next line with code, if the script compiles; else where it was asked for.
+    if (script->result.ok()) {
+        int next = 0;
+        for (const uint16_t one : script->result.program.lines) {
+            if (one >= line && (next == 0 || one < next)) next = one;
+        }
+        if (next == 0) {
+            return call.fail("bad_input",
+                             fmt::format("line {} and those below it have no code; set the "
+                                         "breakpoint at a statement",
+                                         line));
+        }
+        line = next;
+    }
+    const auto made = breakpoints_.set(doc, line);
+    if (!made.ok()) return call.fail(made.error());
+    ScriptBreakpoint& one = *made.value();
+    one.condition = call.in.value("condition", one.condition);
+    one.ignore = call.in.value("ignore", one.ignore);
+    one.enabled = call.in.value("enabled", one.enabled);
+    one.hits = 0;
+    place_breakpoints();
+    breakpoints_changed_();
+    call.done({{"line", line}});
+}
+
+// ---- commands ----
+
+void Robot::set_variable(const Call& call) {
+    if (!network_) return call.fail("unavailable", kNoRobot);
+    const uint16_t node = call.in["node"];
+    const std::vector<int16_t> values = call.in["values"];
+    const size_t first = call.in["first"];
+    const std::string text =
+        values.size() == 1 && first == 0
+            ? call.in["name"].get<std::string>()
+            : fmt::format("{}[{}:{}]", call.in["name"].get<std::string>(), first,
+                          first + std::max<size_t>(values.size(), 1) - 1);
+    auto range = network_->variable(node, text);
+    if (!range.ok()) return call.fail(range.error());
+    range.value().count = static_cast<uint16_t>(values.size());
+    start_batch(
+        {node}, [&](uint16_t id) { return network_->set(id, range.value(), values); },
+        [call](Batch& batch) {
+            if (batch.failed.empty()) return call.done();
+            call.fail("failed", batch.failed.front().second);
+        },
+        "");
+}
+
+void Robot::declare_node_commands() {
+    desk_.command("node.run", [this](const Call& call) {
+        act(
+            call, [this](uint16_t node) { return let_run(node); }, "starting");
+    });
+    desk_.command("node.pause",
+                  [this](const Call& call) { act(call, &debug::Network::pause, "pausing"); });
+    desk_.command("node.step", [this](const Call& call) {
+        act(
+            call, [this](uint16_t node) { return step(node); }, "stepping");
+    });
+    desk_.command("node.stop", [this](const Call& call) {
+        act(
+            call,
+            [this](uint16_t node) {
+                known_[node].stopped = true;
+                return network_->stop(node);
+            },
+            "stopping");
+    });
+    desk_.command("node.reset",
+                  [this](const Call& call) { act(call, &debug::Network::reset, "starting anew"); });
+    desk_.command("node.save", [this](const Call& call) {
+        if (!network_) return call.fail("unavailable", kNoRobot);
+        start_batch(
+            nodes_of(call.in["node"]), [this](uint16_t node) { return network_->save(node); },
+            [call](Batch& batch) {
+                call.done({{"failed", batch.failures()}, {"notes", batch.answers()}});
+            },
+            "saving");
+    });
+    desk_.command("node.load", [this](const Call& call) {
+        if (!network_) return call.fail("unavailable", kNoRobot);
+        std::vector<uint16_t> nodes = nodes_of(call.in["node"]);
+        if (call.in["node"] == 0) {
+            std::erase_if(nodes, [this](uint16_t node) { return doc_of(node).empty(); });
+        }
+        load(nodes, call.in.value("run", true), [call](Batch& batch) {
+            call.done({{"loaded", batch.done}, {"failed", batch.failures()}});
+        });
+    });
+}
+
+void Robot::declare_commands() {
+    declare_node_commands();
+    desk_.command("break.set", [this](const Call& call) { set_breakpoint(call); });
+    desk_.command("break.clear", [this](const Call& call) {
+        std::optional<std::string> doc;
+        std::optional<int> line;
+        if (call.in.contains("doc")) doc = call.in["doc"];
+        if (call.in.contains("line")) line = call.in["line"];
+        breakpoints_.clear(doc, line);
+        place_breakpoints();
+        breakpoints_changed_();
+        call.done();
+    });
+    desk_.command("variable.set", [this](const Call& call) { set_variable(call); });
+    desk_.command("event.send", [this](const Call& call) {
+        if (!network_) return call.fail("unavailable", kNoRobot);
+        const std::vector<int16_t> args = call.in["args"];
+        const Status sent = network_->emit(call.in["name"].get<std::string>(), args);
+        if (!sent.ok()) return call.fail(sent.error());
+        happen("event", 0, call.in["name"], "", args);
+        call.done();
+    });
+}
+
+}  // namespace vagus::serve

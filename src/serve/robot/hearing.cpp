@@ -1,0 +1,137 @@
+// What the nodes tell: for the log of happenings, for the people, for what comes back by itself.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "serve/robot/robot.hpp"
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+void Robot::happen(const char* kind, uint16_t node, const std::string& name,
+                   const std::string& text, const std::vector<int16_t>& args) {
+    desk_.board().add("happenings", {{"t", hints_.time()},
+                                     {"wall", desk_.wall_ms()},
+                                     {"kind", kind},
+                                     {"node", node},
+                                     {"source", node == 0 ? "main" : name_of(node)},
+                                     {"name", name},
+                                     {"args", args},
+                                     {"text", text}});
+}
+
+void Robot::hear(const debug::Event& event, const debug::NodeDescribed& described) {
+    scripts_.targets_changed();
+    desk_.board().touch("scripts");
+    desk_.board().touch("script");
+    desk_.board().touch("findings");
+    desk_.board().touch("node");
+    happen("appeared", event.node, described.name, "");
+    Known& known = known_[event.node];
+    const auto loaded = hints_.loaded_already(event.node);
+    known.came_back = known.has_program && !loaded;
+    if (loaded && !known.has_program) {
+        known.loaded = *loaded;
+        known.has_program = true;
+    }
+    if (known.has_program) restore(event.node);
+}
+
+void Robot::hear(const debug::Event& event, const debug::StateChanged& state) {
+    Known& known = known_[event.node];
+    // As after power-up: a program that has begun stands behind its table of events.
+    const bool fresh = state.state == debug::ProgramState::Running && state.at.pc == 0;
+    if (std::exchange(known.came_back, false) && fresh && known.has_program) {
+        known.lost_program = true;
+        known.has_program = false;
+    }
+    if (state.state == debug::ProgramState::Running) {
+        known.why.clear();
+        known.stopped = false;
+        known.fault.clear();
+    } else if (known.why.empty()) {
+        known.why = "asked";
+    }
+    const bool stands = state.state != debug::ProgramState::Running && state.at.line > 0;
+    happen("state", event.node, debug::name_of(state.state),
+           stands ? fmt::format("line {}", state.at.line) : "");
+}
+
+void Robot::hear(const debug::Event& event, const debug::Fault& fault) {
+    Known& known = known_[event.node];
+    known.fault = fault.text;
+    known.why = "fault";
+    const std::string place = fault.at.line > 0 ? fmt::format(" at line {}", fault.at.line) : "";
+    happen("fault", event.node, debug::name_of(fault.kind), fault.text + place);
+    say_("error", fmt::format("{}{}: {}", name_of(event.node), place, fault.text));
+}
+
+void Robot::hear(const debug::Event& event, const debug::BreakpointHit& hit) {
+    ScriptBreakpoint* breakpoint = breakpoint_of(event.node, hit.at.line);
+    if (breakpoint) breakpoint->hits = hit.hits;
+    desk_.board().touch("breakpoints");
+    if (breakpoint && hit.hits <= breakpoint->ignore) {
+        (void)network_->run(event.node).ok();
+        return;
+    }
+    known_[event.node].why = "breakpoint";
+    hints_.stopped_at_breakpoint();
+    say_("note", fmt::format("{} stands at line {}", name_of(event.node), hit.at.line));
+}
+
+void Robot::hear_place(const debug::Event& event, const debug::BreakpointResult& result) {
+    ScriptBreakpoint* breakpoint = breakpoint_of(event.node, result.at.line);
+    desk_.board().touch("breakpoints");
+    if (!breakpoint) return;
+    breakpoint->set = result.success;
+    breakpoint->why = result.success ? "" : "the node refused it: its table of breakpoints is full";
+}
+
+void Robot::hear(const debug::Event& event, const debug::UserEvent& sent) {
+    ++events_;
+    const std::string name = sent.name.empty() ? fmt::format("event {}", sent.number) : sent.name;
+    if (traffic_.size() < kTrafficMax || traffic_.contains({event.node, name})) {
+        ++traffic_[{event.node, name}];
+    }
+    happen("event", event.node, name, "", sent.arguments);
+}
+
+void Robot::hear(const debug::Event& event) {
+    desk_.board().touch("robot");
+    const auto* what = &event.what;
+    if (const auto* done = std::get_if<debug::RequestDone>(what)) {
+        hear(*done);
+    } else if (const auto* described = std::get_if<debug::NodeDescribed>(what)) {
+        hear(event, *described);
+    } else if (const auto* state = std::get_if<debug::StateChanged>(what)) {
+        hear(event, *state);
+    } else if (const auto* fault = std::get_if<debug::Fault>(what)) {
+        hear(event, *fault);
+    } else if (const auto* hit = std::get_if<debug::BreakpointHit>(what)) {
+        hear(event, *hit);
+    } else if (const auto* placed = std::get_if<debug::BreakpointResult>(what)) {
+        hear_place(event, *placed);
+    } else if (const auto* sent = std::get_if<debug::UserEvent>(what)) {
+        hear(event, *sent);
+    } else if (const auto* changed = std::get_if<debug::VariableChanged>(what)) {
+        hear(event, *changed);
+    } else if (const auto* condition = std::get_if<debug::ConditionFailed>(what)) {
+        say_("warning", fmt::format("{}: the condition at line {} cannot be evaluated: {}",
+                                    name_of(event.node), condition->at.line, condition->why));
+        hints_.stopped_at_breakpoint();
+    } else if (std::get_if<debug::ProgramReplaced>(what)) {
+        Known& known = known_[event.node];
+        known.lost_program = known.has_program;
+        known.has_program = false;
+    } else if (const auto* gone = std::get_if<debug::NodeDisconnected>(what)) {
+        happen("gone", event.node, name_of(event.node), gone->forgotten ? "it said so" : "");
+    } else if (std::get_if<debug::NodeReconnected>(what)) {
+        happen("appeared", event.node, name_of(event.node), "");
+        place_breakpoints();
+    } else {
+        return;
+    }
+}
+
+}  // namespace vagus::serve

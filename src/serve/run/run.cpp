@@ -1,0 +1,377 @@
+#include "serve/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+
+#include "serve/host/frames.hpp"
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+// The latest bytes of a kind, sent when they are new.
+struct FlowWatch final : BinaryWatch {
+    explicit FlowWatch(const Run::Flow& its_flow) : flow(its_flow) {}
+    std::optional<std::pair<double, std::string>> next() override {
+        if (flow.number == sent || flow.bytes.empty()) return std::nullopt;
+        sent = flow.number;
+        return std::pair(flow.t, flow.bytes);
+    }
+    const Run::Flow& flow;
+    uint64_t sent = 0;
+};
+
+Run::Run(Desk& desk, std::string program) : desk_(desk), program_(std::move(program)) {
+    declare_topics();
+}
+
+void Run::declare_topics() {
+    Board& board = desk_.board();
+    board.document("clock", [this](const Json&) { return clock_document(); });
+    board.document("plan", [this](const Json&) { return plan_document(); });
+    board.document("scene", [this](const Json&) {
+        if (scene_.contains("robots")) return scene_;
+        return Json{{"name", ""},          {"size", {1, 1}},          {"open", true},
+                    {"ground", {1, 1, 1}}, {"robots", Json::array()}, {"objects", Json::array()}};
+    });
+    board.binary("poses", [this](const Json&) { return std::make_unique<FlowWatch>(poses_); });
+    board.binary("rays", [this](const Json&) { return std::make_unique<FlowWatch>(rays_); });
+    board.binary("picture", [this](const Json&) { return std::make_unique<FlowWatch>(picture_); });
+}
+
+// ---- the host ----
+
+Status Run::open(const RunOrder& order, Time now) {
+    const auto poses = poses_now();
+    if (!child_ || child_->ended()) {
+        child_.emplace(TRY(Child::start({program_, {"run-host"}})));
+        ++generation_;
+    }
+    forget_asked("the run began anew");
+    has_world_ = false;
+    rests_ = order.paused;
+    opens_plan_ = !order.plan.empty();
+    state_ = order.paused ? State::Paused : State::Running;
+    why_.clear();
+    heard_ = now_ = now;
+    t_ = 0;
+    plan_ = Json::object();
+    trace_.clear();
+    frames_.clear();
+    shown_ = Json::object();
+    Json told = {{"do", "open"},       {"world", order.world},
+                 {"plan", order.plan}, {"toolboxes", order.toolboxes},
+                 {"set", order.set},   {"robot", order.robot},
+                 {"bus", order.bus},   {"project", order.project}};
+    if (order.keep_poses && !poses.empty()) told["poses"] = poses;
+    pace(order.paused, speed_);
+    tell(told);
+    desk_.board().touch("clock");
+    desk_.board().touch("plan");
+    return Status::done();
+}
+
+void Run::close() {
+    child_.reset();
+    forget_asked("the run has ended");
+    has_world_ = false;
+    programs_.clear();
+    state_ = State::None;
+    scene_ = Json::object();
+    plan_ = Json::object();
+    poses_ = rays_ = picture_ = {};
+    desk_.board().touch("clock");
+    desk_.board().touch("plan");
+    desk_.board().touch("scene");
+}
+
+int Run::descriptor() {
+    return child_ ? child_->pipe().descriptor() : -1;
+}
+
+void Run::tell(const Json& message) {
+    if (child_) child_->pipe().send('J', message.dump());
+}
+
+void Run::step(int milliseconds) {
+    rests_ = false;
+    tell({{"do", "step"}, {"ms", milliseconds}});
+    desk_.board().touch("clock");
+}
+
+void Run::rest() {
+    rests_ = true;
+    pause();
+}
+
+void Run::kill() {
+    if (child_) child_->kill();
+}
+
+void Run::lend_hand(const Json& order, HandDone done) {
+    hands_.push_back(std::move(done));
+    tell(order);
+}
+
+void Run::set_variable(int level, const std::string& name, const Json& value, SetDone done) {
+    sets_.push_back(std::move(done));
+    tell({{"do", "plan.set"}, {"level", level}, {"name", name}, {"value", value}});
+}
+
+// Nobody will answer any more.
+void Run::forget_asked(const std::string& why) {
+    for (const HandDone& done : std::exchange(hands_, {})) done(std::nullopt, why);
+    for (const SetDone& done : std::exchange(sets_, {})) done(why);
+}
+
+void Run::pace(bool paused, double speed) {
+    if (!paused) rests_ = false;
+    paused_ = paused;
+    speed_ = speed;
+    if (state_ == State::Running || state_ == State::Paused) {
+        state_ = paused ? State::Paused : State::Running;
+    }
+    tell({{"do", "pace"}, {"paused", paused}, {"speed", speed}});
+    desk_.board().touch("clock");
+}
+
+bool Run::plan_runs() const {
+    return is_open() && plan_.contains("state") && plan_["state"] != "ended";
+}
+
+void Run::send(const wire::Frame& frame) {
+    ++frames_out_;
+    if (child_) child_->pipe().send('F', encode_frame(frame));
+}
+
+Connection Run::connection() const {
+    switch (state_) {
+        case State::None:
+            return Connection::Connecting;
+        case State::Running:
+        case State::Paused:
+        case State::Hanging:
+            return Connection::Connected;
+        case State::Dead:
+            return Connection::Lost;
+    }
+    return Connection::Lost;
+}
+
+std::vector<LinkView> Run::links() const {
+    std::vector<uint16_t> nodes;
+    for (const Json& robot : scene_.value("robots", Json::array())) {
+        for (const Json& node : robot["nodes"]) nodes.push_back(node);
+    }
+    return {{"simulator", nodes, frames_in_, frames_out_, 0}};
+}
+
+size_t Run::node_count() const {
+    size_t count = 0;
+    for (const Json& robot : scene_.value("robots", Json::array())) count += robot["nodes"].size();
+    return count;
+}
+
+std::string Run::robot_of(uint16_t node) const {
+    for (const Json& robot : scene_.value("robots", Json::array())) {
+        for (const Json& one : robot["nodes"]) {
+            if (one == node) return robot["name"];
+        }
+    }
+    return {};
+}
+
+// From the last frame of poses (protocol.json): robots in the order of the scene.
+std::vector<std::array<double, 3>> Run::poses_now() const {
+    std::vector<std::array<double, 3>> found;
+    uint16_t robots = 0;
+    if (poses_.bytes.size() < 4) return found;
+    std::memcpy(&robots, poses_.bytes.data(), 2);
+    for (size_t i = 0; i < robots && poses_.bytes.size() >= 4 + (i + 1) * 12; ++i) {
+        std::array<float, 3> pose;
+        std::memcpy(pose.data(), poses_.bytes.data() + 4 + i * 12, 12);
+        found.push_back({pose[0], pose[1], pose[2]});
+    }
+    return found;
+}
+
+// ---- hearing ----
+
+void Run::hear(const Packet& packet) {
+    heard_ = now_;
+    const auto flow = [&](Flow& to) {
+        if (packet.bytes.size() < sizeof(double)) return;
+        std::memcpy(&to.t, packet.bytes.data(), sizeof(double));
+        to.bytes = packet.bytes.substr(sizeof(double));
+        ++to.number;
+    };
+    switch (packet.kind) {
+        case 'J':
+            hear_json(Json::parse(packet.bytes, nullptr, false));
+            break;
+        case 'P':
+            flow(poses_);
+            break;
+        case 'R':
+            flow(rays_);
+            break;
+        case 'I':
+            flow(picture_);
+            break;
+        case 'F': {
+            wire::Frame frame;
+            if (!decode_frame(packet.bytes, frame)) break;
+            ++frames_in_;
+            frames_.push_back(frame);
+            break;
+        }
+        default:
+            break;  // a newer host may tell more
+    }
+}
+
+void Run::hear_json(const Json& told) {
+    if (!told.is_object() || !told.contains("say")) return;
+    const std::string what = told["say"];
+    if (what == "clock") {
+        t_ = told["t"];
+        paused_ = told["paused"];
+        real_ = told["real"];
+        if (told.contains("load")) load_ = told["load"];
+        if (state_ != State::Dead) state_ = paused_ ? State::Paused : State::Running;
+        desk_.board().touch("clock");
+    } else if (what == "opened" || what == "scene") {
+        scene_ = told.value("scene", Json::object());
+        desk_.board().touch("scene");
+        if (what == "opened") {
+            has_world_ = told.contains("scene");
+            programs_.clear();
+            for (const Json& one : told["programs"]) {
+                programs_.emplace(one["node"], one["source"]);
+            }
+            hears_ = told["hears"].get<std::set<std::string>>();
+            opened_();
+        }
+    } else if (what == "plan") {
+        plan_ = told["plan"];
+        desk_.board().touch("plan");
+    } else if (what == "trace") {
+        trace_.push_back(told["line"]);
+        if (trace_.size() > kTraceKept) trace_.pop_front();
+    } else if (what == "line") {
+        say_(told["kind"], told["text"]);
+    } else if (what == "failed") {
+        why_ = told["why"];
+        state_ = State::None;
+        say_("error", why_);
+        failed_(why_);
+        desk_.board().touch("clock");
+    } else if (what == "hand" && !hands_.empty()) {
+        const HandDone done = std::move(hands_.front());
+        hands_.pop_front();
+        done(told.contains("number") ? std::optional<uint32_t>(told["number"]) : std::nullopt,
+             told.value("why", ""));
+    } else if (what == "set" && !sets_.empty()) {
+        const SetDone done = std::move(sets_.front());
+        sets_.pop_front();
+        done(told.value("why", ""));
+    } else {
+        return;
+    }
+}
+
+void Run::hear_end(const ChildEnd& end) {
+    const std::string actor = last_actor();
+    const std::string last = actor.empty() ? "" : "; the active actor was " + actor;
+    why_ = fmt::format(
+        "the run {} at {:.3f} s{}. Everything that was recorded is kept; run it "
+        "again to begin anew",
+        end.what, t_, last);
+    state_ = State::Dead;
+    has_world_ = false;
+    child_.reset();
+    if (plan_.contains("state") && plan_["state"] != "ended") {
+        plan_["state"] = "ended";
+        plan_["result"] = "Error";
+        plan_["message"] = why_;
+        desk_.board().touch("plan");
+    }
+    forget_asked(why_);
+    opens_plan_ = false;
+    failed_(why_);
+    say_("error", why_);
+    desk_.board().touch("clock");
+    desk_.board().touch("robot");
+}
+
+// The trace knows it to the last moment, documents only to the last tenth of a second.
+std::string Run::last_actor() const {
+    for (auto line = trace_.rbegin(); line != trace_.rend(); ++line) {
+        const Json event = Json::parse(*line, nullptr, false);
+        if (event.is_object() && event.value("kind", "") == "actor-start") {
+            return event.value("actor", "");
+        }
+    }
+    return {};
+}
+
+void Run::tick(Time now) {
+    now_ = now;
+    if (!child_) return;
+    child_->pipe().flush();
+    for (const Packet& packet : child_->pipe().receive()) hear(packet);
+    if (const auto end = child_->ended()) return hear_end(*end);
+    const bool silent = now > heard_ + kHangingAfter;
+    if (silent && state_ != State::Hanging) {
+        state_ = State::Hanging;
+        desk_.board().touch("clock");
+        say_("warning", "the run does not answer; End run ends it");
+    }
+    show_what_is_watched();
+}
+
+// Rays and pictures cost time: only while somebody looks.
+void Run::show_what_is_watched() {
+    const auto pictures = desk_.board().subjects("picture");
+    const Json show = {{"do", "show"},
+                       {"rays", desk_.board().watched("rays")},
+                       {"picture", pictures.empty() ? "" : pictures[0].value("robot", "")}};
+    if (show == shown_) return;
+    shown_ = show;
+    tell(show);
+}
+
+Time Run::next_tick() const {
+    if (!child_) return Time::max();
+    // The socket is watched for reading only, and a process that closed it is about to end.
+    const Pipe& pipe = child_->pipe();
+    return pipe.has_unsent() || pipe.closed() ? now_ + 5ms : heard_ + kHangingAfter + 1ms;
+}
+
+// ---- documents ----
+
+Json Run::clock_document() const {
+    static constexpr const char* kNames[] = {"none", "running", "paused", "hanging", "dead"};
+    Json clock = {
+        {"t", t_},
+        {"wall", desk_.wall_ms()},
+        {"state", rests_ && state_ == State::Paused ? "none" : kNames[static_cast<size_t>(state_)]},
+        {"speed", speed_},
+        {"real", real_}};
+    if (!why_.empty()) clock["why"] = why_;
+    return clock;
+}
+
+Json Run::plan_document() const {
+    if (!plan_.contains("state")) {
+        return {{"state", "none"}, {"t", t_}, {"levels", Json::array()}, {"story", Json::array()}};
+    }
+    Json plan = plan_;
+    plan["doc"] = doc_of_(plan["doc"]);
+    for (Json& level : plan["levels"]) level["doc"] = doc_of_(level["doc"]);
+    return plan;
+}
+
+}  // namespace vagus::serve

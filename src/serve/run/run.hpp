@@ -1,0 +1,173 @@
+// The run host as the server holds it: starts it, speaks with it, carries the frames of its bus,
+// keeps what it told last for pages, and says what happened when it dies or hangs.
+//
+//     Run run(desk, tell);
+//     run.open({.world = "hall.world.json", .plan = "WallFollow.plan.json"}, now);
+//     robot.connect(run, "sim", …);
+//     run.tick(now);
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "serve/process.hpp"
+#include "serve/robot/carrier.hpp"
+#include "serve/studio/desk.hpp"
+
+namespace vagus::serve {
+
+constexpr Duration kHangingAfter = 2s;  // without a word: shown, with a button that ends it
+constexpr Duration kSilentAfter = 300ms;
+constexpr size_t kTraceKept = 100'000;  // lines of a run's trace
+
+struct RunOrder {
+    std::string world;  // paths of this computer
+    std::string plan;   // empty: the world alone
+    std::vector<std::string> toolboxes;
+    nlohmann::json set = nlohmann::json::object();
+    std::string robot;
+    std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
+    bool keep_poses = false;   // robots stand where they stood before
+    bool paused = true;        // at first
+};
+
+class Run final : public Carrier {
+public:
+    using Json = nlohmann::json;
+    enum class State { None, Running, Paused, Hanging, Dead };
+
+    // Declares the topics clock, plan, scene, poses, rays, picture. `program` is what is started.
+    Run(Desk& desk, std::string program);
+
+    void on_say(std::function<void(const std::string& kind, const std::string& text)> say) {
+        say_ = std::move(say);
+    }
+    // The document of a file of this computer, for pages.
+    void set_doc_of(std::function<std::string(const std::string& file)> doc_of) {
+        doc_of_ = std::move(doc_of);
+    }
+    // The world stands and its nodes can be talked to.
+    void on_opened(std::function<void()> opened) { opened_ = std::move(opened); }
+    // It cannot be opened: a sentence, or several lines of the checker.
+    void on_failed(std::function<void(const std::string& why)> failed) {
+        failed_ = std::move(failed);
+    }
+
+    Status open(const RunOrder& order, Time now);
+    void close();
+    bool is_open() const { return child_.has_value(); }
+    // A simulated world stands and can be talked to.
+    bool has_world() const { return has_world_ && is_open(); }
+    State state() const { return state_; }
+    // To be watched for reading; -1 without a host. Another host may have the same number:
+    // generation() tells them apart.
+    int descriptor();
+    uint64_t generation() const { return generation_; }
+
+    void pace(bool paused, double speed);
+    void pause() { pace(true, speed_); }
+    void go_on() { pace(false, speed_); }
+    void step(int milliseconds);
+    void set_speed(double speed) { pace(paused_, speed); }
+    // Time stands, and nobody waits for it to go on: before the start, after Stop.
+    void rest();
+    // Ends the process, as for one that hangs.
+    void kill();
+    double speed() const { return speed_; }
+    bool paused() const { return paused_; }
+    bool rests() const { return rests_; }
+    bool plan_runs() const;
+    // The plan that runs waits for an event of that name.
+    bool plan_hears(const std::string& event) const {
+        return plan_runs() && hears_.contains(event);
+    }
+    // What was opened last has a plan.
+    bool opens_plan() const { return opens_plan_; }
+    // It has not said a word for longer than one that works would.
+    bool is_silent() const { return is_open() && now_ > heard_ + kSilentAfter; }
+    void tell(const Json& message);  // to the host
+    // A hand from above: `done` gets the number of an object that was put, or why it was not done.
+    using HandDone = std::function<void(std::optional<uint32_t> number, const std::string& why)>;
+    void lend_hand(const Json& order, HandDone done);
+    // Writes a variable of the plan; `done` gets why not, or nothing.
+    using SetDone = std::function<void(const std::string& why)>;
+    void set_variable(int level, const std::string& name, const Json& value, SetDone done);
+
+    double time() const { return t_; }
+    std::optional<double> load() const { return load_; }
+    std::string robot_of(uint16_t node) const;
+    size_t node_count() const;
+    // Sources that the world has loaded into nodes.
+    const std::map<uint16_t, std::string>& programs() const { return programs_; }
+    const Json& scene() const { return scene_; }
+    const std::deque<std::string>& trace() const { return trace_; }
+
+    void tick(Time now);
+    Time next_tick() const;
+
+    // ---- Carrier ----
+    void send(const wire::Frame& frame) override;
+    std::vector<wire::Frame> take() override { return std::exchange(frames_, {}); }
+    Connection connection() const override;
+    std::string why() const override { return why_; }
+    std::vector<LinkView> links() const override;
+
+private:
+    struct LastFrames;  // what flows: the latest of each kind
+    void hear(const Packet& packet);
+    void hear_json(const Json& told);
+    void hear_end(const ChildEnd& end);
+    std::string last_actor() const;
+    void forget_asked(const std::string& why);
+    void declare_topics();
+    void show_what_is_watched();
+    Json clock_document() const;
+    Json plan_document() const;
+    std::vector<std::array<double, 3>> poses_now() const;
+
+    Desk& desk_;
+    const std::string program_;
+    std::function<void(const std::string&, const std::string&)> say_ = [](auto&, auto&) {};
+    std::function<std::string(const std::string&)> doc_of_ = [](const std::string& f) { return f; };
+    std::function<void()> opened_ = [] {};
+    std::function<void(const std::string&)> failed_ = [](const std::string&) {};
+    std::deque<HandDone> hands_;
+    std::deque<SetDone> sets_;
+    std::map<uint16_t, std::string> programs_;
+    std::set<std::string> hears_;  // events, by the plan
+    uint64_t generation_ = 0;
+    bool rests_ = true;
+    bool opens_plan_ = false;
+    bool has_world_ = false;
+
+    std::optional<Child> child_;
+    State state_ = State::None;
+    std::string why_;
+    std::vector<wire::Frame> frames_;
+    uint64_t frames_in_ = 0, frames_out_ = 0;
+    Json scene_ = Json::object();
+    Json plan_ = Json::object();
+    std::deque<std::string> trace_;
+    double t_ = 0, real_ = 0, speed_ = 1;
+    bool paused_ = true;
+    std::optional<double> load_;
+    Time heard_{};
+    Time now_{};
+    Json shown_ = Json::object();
+    struct Flow {
+        uint64_t number = 0;
+        double t = 0;
+        std::string bytes;
+    };
+    Flow poses_, rays_, picture_;
+    friend struct FlowWatch;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,189 @@
+#include "serve/studio/board.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "serve/studio/merge_patch.hpp"
+
+namespace vagus::serve {
+namespace {
+
+using namespace std::chrono_literals;
+using Json = nlohmann::json;
+
+constexpr ClientId kPage{1}, kOther{2};
+
+struct Sent {
+    ClientId client;
+    bool binary;
+    std::string bytes;
+    Json json() const { return Json::parse(bytes); }
+};
+
+// A board with a clock that tests turn, and what it has sent.
+struct Fixture {
+    Board board;
+    std::vector<Sent> sent;
+    double clock = 0;
+    int made = 0;
+    ClientId full{0};  // a page without room
+
+    Fixture() {
+        board.document("clock", [this](const Json&) {
+            ++made;
+            return Json{{"t", clock}, {"state", "running"}};
+        });
+        board.stream("console", 3);
+    }
+    void flush(Time now) {
+        sent.clear();
+        board.flush(
+            now, [this](ClientId client) { return client != full; },
+            [this](ClientId client, bool binary, std::string bytes) {
+                sent.push_back({client, binary, std::move(bytes)});
+            });
+    }
+    void watch(ClientId client, Json in) {
+        ASSERT_FALSE(board.watch(client, in, Time{}).has_value());
+    }
+};
+
+TEST(MergePatch, HoldsWhatChangedAndNullForWhatWent) {
+    const Json from = {{"a", 1}, {"b", {{"c", 1}, {"d", 2}}}, {"list", {1, 2}}};
+    const Json to = {{"b", {{"c", 1}, {"d", 3}}}, {"list", {1}}, {"new", "x"}};
+    const Json patch = merge_patch(from, to);
+    EXPECT_EQ(patch, (Json{{"a", nullptr}, {"b", {{"d", 3}}}, {"list", {1}}, {"new", "x"}}));
+    Json patched = from;
+    patched.merge_patch(patch);
+    EXPECT_EQ(patched, to);
+    EXPECT_EQ(merge_patch(to, to), Json::object());
+}
+
+TEST(Board, ADocumentComesWholeThenInPatches) {
+    Fixture f;
+    f.watch(kPage, {{"watch", 5}, {"topic", "clock"}});
+    f.flush(0s);
+    ASSERT_EQ(f.sent.size(), 1u);
+    EXPECT_EQ(f.sent[0].json(),
+              (Json{{"watch", 5}, {"whole", {{"t", 0.0}, {"state", "running"}}}}));
+    f.clock = 1.5;
+    f.flush(1s);
+    EXPECT_TRUE(f.sent.empty());  // nobody said that it changed
+    f.board.touch("clock");
+    f.flush(1s);
+    ASSERT_EQ(f.sent.size(), 1u);
+    EXPECT_EQ(f.sent[0].json(), (Json{{"watch", 5}, {"patch", {{"t", 1.5}}}}));
+    f.board.touch("clock");
+    f.flush(2s);
+    EXPECT_TRUE(f.sent.empty());  // made anew, and the same
+}
+
+TEST(Board, NoFasterThanAskedAndNothingThatNobodyWatches) {
+    Fixture f;
+    f.board.touch("clock");
+    f.flush(0s);
+    EXPECT_EQ(f.made, 0);
+    f.watch(kPage, {{"watch", 1}, {"topic", "clock"}, {"rate", 10}});
+    f.flush(0s);
+    f.clock = 1;
+    f.board.touch("clock");
+    f.flush(99ms);
+    EXPECT_TRUE(f.sent.empty());
+    EXPECT_EQ(f.board.next_due(99ms), 100ms);
+    f.flush(100ms);
+    EXPECT_EQ(f.sent.size(), 1u);
+    f.board.unwatch(kPage, 1);
+    EXPECT_FALSE(f.board.watched("clock"));
+    EXPECT_EQ(f.board.next_due(100ms), Time::max());
+}
+
+TEST(Board, APageWithoutRoomGetsWhatItMissedInOne) {
+    Fixture f;
+    f.watch(kPage, {{"watch", 1}, {"topic", "clock"}});
+    f.watch(kOther, {{"watch", 1}, {"topic", "clock"}});
+    f.flush(0s);
+    f.full = kPage;
+    for (int i = 1; i <= 10; ++i) {
+        f.clock = i;
+        f.board.touch("clock");
+        f.flush(std::chrono::seconds(i));
+        ASSERT_EQ(f.sent.size(), 1u);
+        EXPECT_EQ(f.sent[0].client, kOther);
+    }
+    f.full = ClientId{0};
+    f.flush(11s);
+    ASSERT_EQ(f.sent.size(), 1u);
+    EXPECT_EQ(f.sent[0].json(), (Json{{"watch", 1}, {"patch", {{"t", 10.0}}}}));
+}
+
+// Else the server would turn round in circles for as long as a page does not read.
+TEST(Board, APageWithoutRoomIsNotDueAtOnce) {
+    Fixture f;
+    f.watch(kPage, {{"watch", 1}, {"topic", "clock"}});
+    f.full = kPage;
+    f.flush(5s);
+    EXPECT_EQ(f.board.next_due(5s), 5s + 50ms);
+}
+
+TEST(Board, AStreamTellsWhatItLeftOut) {
+    Fixture f;
+    f.watch(kPage, {{"watch", 1}, {"topic", "console"}});
+    for (int i = 0; i < 5; ++i) f.board.add("console", {{"kind", "note"}, {"text", i}});
+    f.flush(0s);
+    ASSERT_EQ(f.sent.size(), 1u);
+    const Json message = f.sent[0].json();
+    EXPECT_EQ(message["left_out"], 2);  // three are kept
+    ASSERT_EQ(message["items"].size(), 3u);
+    EXPECT_EQ(message["items"][0]["number"], 2);
+    f.flush(1s);
+    EXPECT_TRUE(f.sent.empty());
+}
+
+TEST(Board, AStreamBeginsWithTheLastOnesAskedFor) {
+    Fixture f;
+    for (int i = 0; i < 3; ++i) f.board.add("console", {{"kind", "note"}, {"text", i}});
+    f.watch(kPage, {{"watch", 1}, {"topic", "console"}, {"of", {{"last", 1}}}});
+    f.flush(0s);
+    ASSERT_EQ(f.sent.size(), 1u);
+    EXPECT_EQ(f.sent[0].json()["items"].size(), 1u);
+}
+
+TEST(Board, BinaryFramesHaveTheirHead) {
+    struct Once final : BinaryWatch {
+        bool told = false;
+        std::optional<std::pair<double, std::string>> next() override {
+            if (std::exchange(told, true)) return std::nullopt;
+            return std::pair(2.5, std::string("ab"));
+        }
+    };
+    Fixture f;
+    f.board.binary("poses", [](const Json&) { return std::make_unique<Once>(); });
+    f.watch(kPage, {{"watch", 258}, {"topic", "poses"}});
+    f.flush(0s);
+    ASSERT_EQ(f.sent.size(), 1u);
+    EXPECT_TRUE(f.sent[0].binary);
+    // Kind 3, three zeros, 258 as 02 01 00 00, then 2.5 = 0x4004000000000000.
+    const std::string expected(
+        "\x03\0\0\0\x02\x01\0\0\0\0\0\0\0\0\x04\x40"
+        "ab",
+        18);
+    EXPECT_EQ(f.sent[0].bytes, expected);
+    f.flush(1s);
+    EXPECT_TRUE(f.sent.empty());
+}
+
+TEST(Board, WrongSubscriptionsAreRefused) {
+    Fixture f;
+    EXPECT_EQ(f.board.watch(kPage, {{"watch", 1}, {"topic", "clocks"}}, 0s)->code, "not_found");
+    EXPECT_EQ(f.board.watch(kPage, {{"watch", 1}, {"topic", "doc"}}, 0s)->code, "bad_message");
+    for (uint32_t i = 0; i < Protocol::get().limit("watches"); ++i) {
+        ASSERT_FALSE(f.board.watch(kPage, {{"watch", i + 1}, {"topic", "clock"}}, 0s));
+    }
+    EXPECT_EQ(f.board.watch(kPage, {{"watch", 1000}, {"topic", "clock"}}, 0s)->code, "limit");
+    f.board.drop(kPage);
+    EXPECT_FALSE(f.board.watch(kPage, {{"watch", 1000}, {"topic", "clock"}}, 0s));
+}
+
+}  // namespace
+}  // namespace vagus::serve

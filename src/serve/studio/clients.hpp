@@ -1,0 +1,94 @@
+// Who is connected, what each may do, and who holds the wheel (serve.md, who may do what). A client
+// is known by the key that its page made, so that it may lose its connection and come back: its
+// wheel and the answers that it missed wait for it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/time.hpp"
+#include "serve/protocol/protocol.hpp"
+#include "serve/web/server.hpp"
+
+namespace vagus::serve {
+
+using namespace std::chrono_literals;
+
+enum class Role { Look, Drive };
+
+constexpr Duration kWheelAnswerWithin = 10s;   // of a driver who is asked; then it is refused
+constexpr Duration kForgetAfter = 600s;        // a client that has gone
+constexpr size_t kAnswersKept = 200;           // of a client, for commands that come twice
+constexpr size_t kAnswerBytesKept = 4u << 20;  // of a client; the newest one in any case
+constexpr size_t kKnownMax = 256;              // clients that are remembered
+
+// A command of one client, for which one answer is due.
+struct CommandKey {
+    uint32_t member = 0;  // number of the client
+    uint64_t id = 0;
+};
+
+class Clients {
+public:
+    struct Member {
+        uint32_t number = 0;
+        std::string key = {}, name = {};
+        Role role = Role::Look;
+        std::optional<ClientId> connection = {};
+        Time gone_since{};
+        // Answers by id; empty while the command is under way.
+        std::map<uint64_t, std::string> answers = {};
+        size_t answer_bytes = 0;
+        uint64_t forgotten = 0;  // ids up to this one were answered long ago
+    };
+    struct Ask {
+        uint32_t member = 0;
+        Time until{};
+    };
+
+    // A page with a good token. A connection that the same client had before is given back, to be
+    // closed. The first who may drive holds the wheel.
+    Member& enter(ClientId connection, const std::string& key, const std::string& name, Role role,
+                  Time now, std::optional<ClientId>& replaced);
+    void leave(ClientId connection, Time now);
+
+    Member* find(ClientId connection);
+    Member* find(uint32_t number);
+    const Member* find(uint32_t number) const;
+    const Member* driver() const;
+    bool drives(const Member& member) const { return member.number == driver_; }
+    size_t connected() const;
+    const std::optional<Ask>& asked() const { return asked_; }
+
+    // ---- commands that come twice ----
+    enum class Seen { New, UnderWay, Done, TooOld };
+    Seen begin(Member& member, uint64_t id);
+    // The text of the answer, kept for a repetition.
+    void finish(Member& member, uint64_t id, const std::string& answer);
+
+    // ---- the wheel ----
+    // True: it is theirs now, as nobody holds it who is here. False: the driver is asked; one whose
+    // page closes meanwhile has given it.
+    bool ask(Member& member, Time now);
+    void answer(bool give);
+    void let_go() { driver_ = 0; }
+    // Refuses what the driver did not answer. True if pages must be told.
+    bool tick(Time now);
+    Time next_tick() const;
+
+private:
+    bool is_here(uint32_t number) const;
+    void forget(Time now);
+    static void forget_oldest(Member& member);
+
+    std::map<uint32_t, Member> members_;
+    std::map<ClientId, uint32_t> connections_;
+    uint32_t last_ = 0;
+    uint32_t driver_ = 0;
+    std::optional<Ask> asked_;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,580 @@
+// The one file that knows Boost.Beast. One thread runs everything here; the thread that takes
+// events reaches it by posting.
+#include "serve/web/server.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "serve/web/origin.hpp"
+#include "serve/web/pages.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using Tcp = asio::ip::tcp;
+using SystemError = boost::system::error_code;
+using asio::as_tuple;
+using asio::awaitable;
+using asio::use_awaitable;
+using Asking = http::request<http::string_body>;
+using Answer = http::response<http::string_body>;
+using std::chrono::seconds;
+
+constexpr size_t kBodyBytesMax = 4096;  // of a request; none of ours has one
+constexpr auto kGoodbyeWithin = seconds(2);
+constexpr size_t kRefusedMax = 64;  // connections that are told at a time that there are too many
+
+// The page runs nothing but its own files; data: pictures are those that it draws itself.
+constexpr const char* kContentPolicy =
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self' blob:; "
+    "manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+// Events for the thread that takes them.
+class Inbox {
+public:
+    explicit Inbox(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+    void put(WebEvent event) {
+        {
+            const std::lock_guard lock(mutex_);
+            events_.push_back(std::move(event));
+        }
+        wake_();
+    }
+    std::vector<WebEvent> take() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(events_, {});
+    }
+
+private:
+    std::function<void()> wake_;
+    std::mutex mutex_;
+    std::vector<WebEvent> events_;
+};
+
+struct Message {
+    bool binary = false;
+    std::string bytes;
+};
+
+// What all connections share; lives as long as the server.
+struct Shared {
+    const WebOptions& options;
+    const Pages& pages;
+    Inbox& inbox;
+    size_t connections = 0;
+};
+
+// A WebSocket, whatever carries it.
+class Live {
+public:
+    virtual ~Live() = default;
+    virtual void send(Message message) = 0;
+    virtual void close(std::string reason) = 0;
+    virtual void resume() = 0;  // what it said was taken
+};
+// Owners: the table below, and the coroutines of each connection, which may outlive the entry.
+using Lives = std::map<ClientId, std::shared_ptr<Live>>;
+
+template <typename Stream>
+class LiveOver final : public Live, public std::enable_shared_from_this<LiveOver<Stream>> {
+public:
+    LiveOver(Stream stream, ClientId id, Shared& shared)
+        : socket_(std::move(stream)),
+          id_(id),
+          shared_(shared),
+          ready_(socket_.get_executor()),
+          taken_(socket_.get_executor()),
+          goodbye_(socket_.get_executor()) {
+        ready_.expires_at(asio::steady_timer::time_point::max());
+        taken_.expires_at(asio::steady_timer::time_point::max());
+    }
+
+    void send(Message message) override {
+        if (closing_) return;
+        queue_.push_back(std::move(message));
+        ready_.cancel();
+    }
+    // Who does not take the goodbye is cut off.
+    void close(std::string reason) override {
+        if (closing_) return;
+        closing_ = true;
+        reason_ = std::move(reason);
+        ready_.cancel();
+        asio::co_spawn(
+            socket_.get_executor(), [self = this->shared_from_this()] { return self->cut_off(); },
+            asio::detached);
+    }
+    void resume() override {
+        waiting_ = waiting_bytes_ = 0;
+        taken_.cancel();
+    }
+
+    // Accepts the upgrade, then reads until the end.
+    awaitable<void> run(Asking asked) {
+        const auto self = this->shared_from_this();
+        prepare();
+        const auto [failed] = co_await socket_.async_accept(asked, as_tuple(use_awaitable));
+        if (failed) co_return;
+        asio::co_spawn(
+            socket_.get_executor(), [self] { return self->write(); }, asio::detached);
+        co_await read();
+        over_ = true;
+        ready_.cancel();
+        goodbye_.cancel();
+    }
+
+private:
+    void prepare() {
+        websocket::stream_base::timeout limits{seconds(kRequestSecondsMax), seconds(30), true};
+        socket_.set_option(limits);
+        socket_.read_message_max(shared_.options.message_bytes_max);
+        socket_.auto_fragment(false);
+        socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& answer) {
+            answer.set(http::field::sec_websocket_protocol, kLiveProtocol);
+        }));
+    }
+
+    awaitable<void> read() {
+        for (;;) {
+            beast::flat_buffer buffer;
+            const auto [failed, size] =
+                co_await socket_.async_read(buffer, as_tuple(use_awaitable));
+            if (failed == websocket::error::message_too_big) {
+                shared_.inbox.put(WebNote{"a page sent a message above the limit"});
+            }
+            if (failed) co_return;
+            if (closing_) continue;
+            if (!socket_.got_text()) {
+                shared_.inbox.put(WebNote{"refused a message: binary ones only come from here"});
+                close("expected text; binary messages only come from the server");
+                continue;
+            }
+            shared_.inbox.put(ClientText{id_, beast::buffers_to_string(buffer.data())});
+            // Who sends faster than it is heard is not read further.
+            waiting_bytes_ += size;
+            if (++waiting_ < kClientTextsMax &&
+                waiting_bytes_ < shared_.options.message_bytes_max) {
+                continue;
+            }
+            co_await taken_.async_wait(as_tuple(use_awaitable));
+        }
+    }
+
+    awaitable<void> write() {
+        while (!over_) {
+            if (queue_.empty()) {
+                if (closing_) break;
+                co_await ready_.async_wait(as_tuple(use_awaitable));
+                continue;
+            }
+            const Message message = std::move(queue_.front());
+            queue_.pop_front();
+            socket_.binary(message.binary);
+            const auto [failed, size] =
+                co_await socket_.async_write(asio::buffer(message.bytes), as_tuple(use_awaitable));
+            if (failed) co_return;
+            shared_.inbox.put(ClientTook{id_, message.bytes.size()});
+        }
+        if (over_) co_return;
+        const websocket::close_reason why(websocket::close_code::policy_error, reason_);
+        co_await socket_.async_close(why, as_tuple(use_awaitable));
+    }
+
+    awaitable<void> cut_off() {
+        goodbye_.expires_after(kGoodbyeWithin);
+        co_await goodbye_.async_wait(as_tuple(use_awaitable));
+        if (!over_) beast::get_lowest_layer(socket_).close();
+    }
+
+    websocket::stream<Stream> socket_;
+    const ClientId id_;
+    Shared& shared_;
+    asio::steady_timer ready_, taken_, goodbye_;
+    std::deque<Message> queue_;
+    size_t waiting_ = 0;  // texts that nobody has taken yet
+    size_t waiting_bytes_ = 0;
+    bool closing_ = false, over_ = false;
+    std::string reason_;
+};
+
+void secure(Answer& answer) {
+    answer.set(http::field::server, "Vagus");
+    answer.set("Content-Security-Policy", kContentPolicy);
+    answer.set("X-Content-Type-Options", "nosniff");
+    answer.set("X-Frame-Options", "DENY");
+    answer.set("Referrer-Policy", "no-referrer");
+    answer.set("Cross-Origin-Opener-Policy", "same-origin");
+    answer.set("Cross-Origin-Resource-Policy", "same-origin");
+}
+
+Answer plain(const Asking& asked, http::status status, const std::string& sentence) {
+    Answer answer(status, asked.version());
+    secure(answer);
+    answer.set(http::field::content_type, "text/plain; charset=utf-8");
+    answer.set(http::field::cache_control, "no-store");
+    answer.keep_alive(asked.keep_alive() && status == http::status::ok);
+    answer.body() = sentence + "\n";
+    answer.prepare_payload();
+    return answer;
+}
+
+Answer page_answer(const Asking& asked, const Page& page) {
+    Answer answer(http::status::ok, asked.version());
+    secure(answer);
+    answer.set(http::field::content_type, page.type);
+    answer.set(http::field::cache_control,
+               page.lasting ? "public, max-age=31536000, immutable" : "no-cache");
+    const bool zipped = !page.gzipped.empty() && asked[http::field::accept_encoding].find("gzip") !=
+                                                     beast::string_view::npos;
+    if (zipped) answer.set(http::field::content_encoding, "gzip");
+    answer.keep_alive(asked.keep_alive());
+    const std::string& content = zipped ? page.gzipped : page.content;
+    if (asked.method() == http::verb::head) {
+        answer.content_length(content.size());
+    } else {
+        answer.body() = content;
+        answer.prepare_payload();
+    }
+    return answer;
+}
+
+Answer answer_for(const Asking& asked, const Pages& pages) {
+    if (asked.method() != http::verb::get && asked.method() != http::verb::head) {
+        return plain(asked, http::status::method_not_allowed, "only GET and HEAD are answered");
+    }
+    if (asked.target() == "/healthz") return plain(asked, http::status::ok, "ok");
+    if (asked.target() == "/live") {
+        return plain(asked, http::status::bad_request,
+                     fmt::format("expected a WebSocket with the subprotocol {}", kLiveProtocol));
+    }
+    const Page* page = pages.find({asked.target().data(), asked.target().size()});
+    return page ? page_answer(asked, *page)
+                : plain(asked, http::status::not_found, "there is no such page");
+}
+
+Asked who_asks(const Asking& asked, const Tcp::endpoint& local, bool secure_stream) {
+    Asked who;
+    who.host = std::string(asked[http::field::host]);
+    if (asked.find(http::field::origin) != asked.end()) {
+        who.origin = std::string(asked[http::field::origin]);
+    }
+    auto address = local.address();
+    if (address.is_v6() && address.to_v6().is_v4_mapped()) {
+        address = asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
+    }
+    who.local_address = address.to_string();
+    who.port = local.port();
+    who.secure = secure_stream;
+    return who;
+}
+
+bool wants_live(const Asking& asked) {
+    return websocket::is_upgrade(asked) && asked.target() == "/live" &&
+           http::token_list(asked[http::field::sec_websocket_protocol]).exists(kLiveProtocol);
+}
+
+}  // namespace
+
+class WebServer::Insides {
+public:
+    Insides(WebOptions options, std::function<void()> wake)
+        : options_(std::move(options)), inbox_(std::move(wake)), acceptor_(io_) {}
+
+    ~Insides() {
+        io_.stop();
+        if (thread_.joinable()) thread_.join();
+    }
+
+    Status start() {
+        pages_ = TRY(Pages::read(options_.pages));
+        if (!options_.tls_cert.empty()) TRY(prepare_tls());
+        SystemError failed;
+        const auto address = asio::ip::make_address(options_.address, failed);
+        if (failed) {
+            return Error{Code::BadInput,
+                         options_.address + ": expected an IP address, such as 127.0.0.1 or ::"};
+        }
+        TRY(open({address, options_.port}));
+        asio::co_spawn(io_, accept(), asio::detached);
+        thread_ = std::thread([this] { io_.run(); });
+        return Status::done();
+    }
+
+    uint16_t port() const { return port_; }
+
+    std::vector<WebEvent> take() {
+        std::vector<WebEvent> events = inbox_.take();
+        for (const WebEvent& event : events) {
+            if (const auto* text = std::get_if<ClientText>(&event)) post_resume(text->client);
+        }
+        return events;
+    }
+
+    void send(ClientId client, Message message) {
+        asio::post(io_, [this, client, message = std::move(message)]() mutable {
+            if (Live* live = find(client)) live->send(std::move(message));
+        });
+    }
+    void close(ClientId client, std::string reason) {
+        reason.resize(std::min<size_t>(reason.size(), 120));
+        asio::post(io_, [this, client, reason = std::move(reason)] {
+            if (Live* live = find(client)) live->close(reason);
+        });
+    }
+
+private:
+    Live* find(ClientId client) {
+        const auto found = lives_.find(client);
+        return found == lives_.end() ? nullptr : found->second.get();
+    }
+    void post_resume(ClientId client) {
+        asio::post(io_, [this, client] {
+            if (Live* live = find(client)) live->resume();
+        });
+    }
+
+    Status prepare_tls() {
+        tls_.emplace(asio::ssl::context::tls_server);
+        SystemError failed;
+        tls_->set_options(asio::ssl::context::default_workarounds | asio::ssl::context::no_tlsv1 |
+                              asio::ssl::context::no_tlsv1_1,
+                          failed);
+        tls_->use_certificate_chain_file(options_.tls_cert, failed);
+        if (failed) {
+            return Error{Code::BadInput,
+                         options_.tls_cert + ": no certificate in PEM form: " + failed.message()};
+        }
+        tls_->use_private_key_file(options_.tls_key, asio::ssl::context::pem, failed);
+        if (failed) {
+            return Error{Code::BadInput,
+                         options_.tls_key + ": no private key in PEM form: " + failed.message()};
+        }
+        return Status::done();
+    }
+
+    Status open(const Tcp::endpoint& place) {
+        SystemError failed;
+        acceptor_.open(place.protocol(), failed);
+        if (!failed) acceptor_.set_option(asio::socket_base::reuse_address(true), failed);
+        if (!failed) acceptor_.bind(place, failed);
+        if (!failed) acceptor_.listen(asio::socket_base::max_listen_connections, failed);
+        if (failed) {
+            return Error{Code::Unavailable,
+                         fmt::format("cannot listen on {} port {}: {}; give another with --port",
+                                     options_.address, options_.port, failed.message())};
+        }
+        port_ = acceptor_.local_endpoint(failed).port();
+        return Status::done();
+    }
+
+    awaitable<void> accept() {
+        for (;;) {
+            auto [failed, socket] = co_await acceptor_.async_accept(as_tuple(use_awaitable));
+            if (failed) {
+                asio::steady_timer pause(io_, seconds(1));  // too many open files, for instance
+                co_await pause.async_wait(as_tuple(use_awaitable));
+                continue;
+            }
+            if (shared_.connections >= options_.connections_max) {
+                if (refusing_ < kRefusedMax) {
+                    asio::co_spawn(io_, refuse(std::move(socket)), asio::detached);
+                }
+                continue;
+            }
+            asio::co_spawn(io_, connection(std::move(socket)), asio::detached);
+        }
+    }
+
+    // Says so and waits until the other end has read it: who closes first while something is unread
+    // takes its own words back.
+    awaitable<void> refuse(Tcp::socket socket) {
+        static constexpr std::string_view kBusy =
+            "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nRetry-After: 5\r\n"
+            "Content-Type: text/plain\r\nContent-Length: 37\r\n\r\n"
+            "too many connections; try again soon\n";
+        if (!told_busy_) inbox_.put(WebNote{"connections above the limit are refused"});
+        told_busy_ = true;
+        ++refusing_;
+        beast::tcp_stream stream(std::move(socket));
+        stream.expires_after(kGoodbyeWithin);
+        co_await asio::async_write(stream, asio::buffer(kBusy), as_tuple(use_awaitable));
+        SystemError ignored;
+        stream.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+        std::array<char, 1024> unread;
+        for (bool there = true; there;) {
+            const auto [failed, size] =
+                co_await stream.async_read_some(asio::buffer(unread), as_tuple(use_awaitable));
+            there = !failed;
+        }
+        --refusing_;
+    }
+
+    awaitable<void> connection(Tcp::socket socket) {
+        ++shared_.connections;
+        SystemError failed;
+        socket.set_option(Tcp::no_delay(true), failed);
+        const Tcp::endpoint local = socket.local_endpoint(failed);
+        const Tcp::endpoint remote = socket.remote_endpoint(failed);
+        beast::tcp_stream stream(std::move(socket));
+        stream.expires_after(seconds(kRequestSecondsMax));
+        if (tls_) {
+            beast::ssl_stream<beast::tcp_stream> secured(std::move(stream), *tls_);
+            const auto [refused] = co_await secured.async_handshake(asio::ssl::stream_base::server,
+                                                                    as_tuple(use_awaitable));
+            if (!refused) co_await talk(std::move(secured), local, remote);
+        } else {
+            co_await talk(std::move(stream), local, remote);
+        }
+        --shared_.connections;
+    }
+
+    template <typename Stream>
+    awaitable<void> talk(Stream stream, Tcp::endpoint local, Tcp::endpoint remote) {
+        beast::flat_buffer buffer;
+        for (;;) {
+            beast::get_lowest_layer(stream).expires_after(seconds(kRequestSecondsMax));
+            http::request_parser<http::string_body> parser;
+            parser.header_limit(kHeaderBytesMax);
+            parser.body_limit(kBodyBytesMax);
+            const auto [failed, size] =
+                co_await http::async_read(stream, buffer, parser, as_tuple(use_awaitable));
+            if (failed) {
+                co_await tell_malformed(stream, failed);
+                co_return;
+            }
+            Asking asked = parser.release();
+            const auto refusal =
+                refusal_of(who_asks(asked, local, tls_.has_value()), options_.hosts);
+            if (!refusal && wants_live(asked)) {
+                co_await live(std::move(stream), std::move(asked), remote);
+                co_return;
+            }
+            if (refusal) inbox_.put(WebNote{"refused: " + *refusal});
+            Answer answer = refusal ? plain(asked, http::status::forbidden, *refusal)
+                                    : answer_for(asked, shared_.pages);
+            const bool more = answer.keep_alive();
+            if (!co_await write(stream, std::move(answer), asked.method() == http::verb::head) ||
+                !more) {
+                break;
+            }
+        }
+        SystemError ignored;
+        beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    }
+
+    template <typename Stream>
+    awaitable<bool> write(Stream& stream, Answer answer, bool head) {
+        if (head) {
+            http::response<http::empty_body> bare(std::move(answer.base()));
+            http::response_serializer<http::empty_body> serializer(bare);
+            const auto [failed, size] =
+                co_await http::async_write_header(stream, serializer, as_tuple(use_awaitable));
+            co_return !failed;
+        }
+        const auto [failed, size] =
+            co_await http::async_write(stream, answer, as_tuple(use_awaitable));
+        co_return !failed;
+    }
+
+    // Whoever speaks HTTP badly hears why; who says nothing or leaves does not.
+    template <typename Stream>
+    awaitable<void> tell_malformed(Stream& stream, SystemError failed) {
+        if (failed == http::error::end_of_stream || failed == beast::error::timeout ||
+            failed.category() != http::make_error_code(http::error::bad_method).category()) {
+            co_return;
+        }
+        Asking nothing;
+        nothing.version(11);
+        nothing.keep_alive(false);
+        const bool large = failed == http::error::header_limit || failed == http::error::body_limit;
+        co_await write(
+            stream,
+            plain(nothing,
+                  large ? http::status::request_header_fields_too_large : http::status::bad_request,
+                  large ? "the request is too large" : "that is not HTTP"),
+            false);
+        SystemError ignored;
+        beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    }
+
+    template <typename Stream>
+    awaitable<void> live(Stream stream, Asking asked, Tcp::endpoint remote) {
+        const ClientId id{++last_client_};
+        beast::get_lowest_layer(stream).expires_never();  // the WebSocket has limits of its own
+        const auto live = std::make_shared<LiveOver<Stream>>(std::move(stream), id, shared_);
+        lives_.emplace(id, live);
+        inbox_.put(ClientOpened{id, remote.address().to_string()});
+        co_await live->run(std::move(asked));
+        lives_.erase(id);
+        inbox_.put(ClientClosed{id});
+    }
+
+    const WebOptions options_;
+    Inbox inbox_;
+    Pages pages_;
+    asio::io_context io_{1};
+    std::optional<asio::ssl::context> tls_;
+    Tcp::acceptor acceptor_;
+    uint16_t port_ = 0;
+    Shared shared_{options_, pages_, inbox_};
+    Lives lives_;
+    uint32_t last_client_ = 0;
+    bool told_busy_ = false;
+    size_t refusing_ = 0;
+    std::thread thread_;
+};
+
+WebServer::WebServer(std::unique_ptr<Insides> insides) : insides_(std::move(insides)) {}
+WebServer::~WebServer() = default;
+
+Result<std::unique_ptr<WebServer>> WebServer::start(const WebOptions& options,
+                                                    std::function<void()> wake) {
+    auto insides = std::make_unique<Insides>(options, std::move(wake));
+    TRY(insides->start());
+    return std::unique_ptr<WebServer>(new WebServer(std::move(insides)));
+}
+
+uint16_t WebServer::port() const {
+    return insides_->port();
+}
+std::vector<WebEvent> WebServer::take() {
+    return insides_->take();
+}
+void WebServer::send(ClientId client, std::string text) {
+    insides_->send(client, {.binary = false, .bytes = std::move(text)});
+}
+void WebServer::send_binary(ClientId client, std::string bytes) {
+    insides_->send(client, {.binary = true, .bytes = std::move(bytes)});
+}
+void WebServer::close(ClientId client, std::string reason) {
+    insides_->close(client, std::move(reason));
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,94 @@
+// The door to browsers: HTTP for the pages, WebSocket for everything that lives, on a thread of its
+// own. It knows bytes, addresses and limits, not what messages mean: they come out as values, and
+// what is sent goes in as text or bytes.
+//
+//     auto started = WebServer::start({.pages = "share/pages"}, [&] { network.wake(); });
+//     WebServer& web = *started.value();
+//     for (WebEvent& event : web.take()) hear(event);              // the thread that asks
+//     web.send(client, R"({"id":1,"ok":{}})");
+//
+// What a browser may do here (serve.md, who may do what): GET and HEAD of the pages, /healthz, and
+// the WebSocket at /live. Host must name this machine and Origin, if there is one, the same host:
+// other pages in the same browser and names that point here get nothing. Who is whom is decided by
+// the token, in the first message, by whoever takes the events.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace vagus::serve {
+
+constexpr size_t kHeaderBytesMax = 16 * 1024;
+constexpr size_t kClientTextsMax = 1000;  // of one client, not taken yet: it is not read further
+constexpr int kRequestSecondsMax = 10;    // for one HTTP request, and between two
+constexpr const char* kLiveProtocol = "vagus-1";
+
+struct ClientId {
+    uint32_t number = 0;
+    auto operator<=>(const ClientId&) const = default;
+};
+
+struct WebOptions {
+    std::string address = "127.0.0.1";        // an IP address
+    uint16_t port = 0;                        // 0: a free one
+    std::string pages = {};                   // folder of the built pages
+    std::vector<std::string> hosts = {};      // further names of this machine that Host may have
+    std::string tls_cert = {}, tls_key = {};  // PEM files; empty: HTTP
+    size_t connections_max = 512;
+    size_t message_bytes_max = 4u << 20;
+};
+
+// A page has opened its WebSocket; nothing else is known of it.
+struct ClientOpened {
+    ClientId client;
+    std::string address;  // "127.0.0.1"
+};
+struct ClientText {
+    ClientId client;
+    std::string text;
+};
+// So many bytes of what was sent have left for the client.
+struct ClientTook {
+    ClientId client;
+    size_t bytes = 0;
+};
+struct ClientClosed {
+    ClientId client;
+};
+// Something for the log: a refused request, for instance.
+struct WebNote {
+    std::string text;
+};
+using WebEvent = std::variant<ClientOpened, ClientText, ClientTook, ClientClosed, WebNote>;
+
+class WebServer {
+public:
+    // Listens, and serves from now on. `wake` is called on the thread of the server when there is
+    // something to take. The Error names the address, certificate or folder.
+    static Result<std::unique_ptr<WebServer>> start(const WebOptions& options,
+                                                    std::function<void()> wake);
+    ~WebServer();  // closes everything
+
+    uint16_t port() const;
+
+    std::vector<WebEvent> take();
+    // From the thread that takes. Text must be UTF-8. Nothing happens if the client is gone.
+    void send(ClientId client, std::string text);
+    void send_binary(ClientId client, std::string bytes);
+    // Says goodbye with a reason (at most 120 bytes) after what was sent before.
+    void close(ClientId client, std::string reason);
+
+private:
+    class Insides;
+    explicit WebServer(std::unique_ptr<Insides> insides);
+    std::unique_ptr<Insides> insides_;
+};
+
+}  // namespace vagus::serve

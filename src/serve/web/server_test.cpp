@@ -1,0 +1,213 @@
+// The server with real connections on loopback.
+#include "serve/web/server.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+#include <condition_variable>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+
+namespace vagus::serve {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using testing::HasSubstr;
+using testing::StartsWith;
+using Tcp = asio::ip::tcp;
+
+struct WebServerTest : testing::Test {
+    void SetUp() override {
+        folder = std::filesystem::path(testing::TempDir()) /
+                 ("pages-" + std::to_string(::getpid()) + "-" +
+                  testing::UnitTest::GetInstance()->current_test_info()->name());
+        std::filesystem::create_directories(folder / "assets");
+        std::ofstream(folder / "index.html") << "<!doctype html>hello";
+        std::ofstream(folder / "assets/a-1.js") << "1";
+        std::ofstream(folder / "assets/a-1.js.gz") << "zipped";
+        begin({});
+    }
+    void TearDown() override {
+        server.reset();
+        std::filesystem::remove_all(folder);
+    }
+    void begin(WebOptions options) {
+        options.pages = folder.string();
+        auto started = WebServer::start(options, [this] {
+            const std::lock_guard lock(mutex);
+            woken = true;
+            changed.notify_all();
+        });
+        ASSERT_TRUE(started.ok()) << started.error().what;
+        server = std::move(started.value());
+    }
+    Tcp::socket connect() {
+        Tcp::socket socket(io);
+        socket.connect({asio::ip::make_address("127.0.0.1"), server->port()});
+        return socket;
+    }
+    std::string host() const { return "127.0.0.1:" + std::to_string(server->port()); }
+    // What comes back until the server closes.
+    std::string ask(const std::string& text) {
+        Tcp::socket socket = connect();
+        boost::system::error_code ignored;
+        asio::write(socket, asio::buffer(text), ignored);
+        std::string answer;
+        asio::read(socket, asio::dynamic_buffer(answer), ignored);
+        return answer;
+    }
+    std::string get(const std::string& path, const std::string& more = "") {
+        return ask("GET " + path + " HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n" +
+                   more + "\r\n");
+    }
+    // Waits for the next event of a kind.
+    template <typename Event>
+    Event next() {
+        for (;;) {
+            while (!events.empty()) {
+                WebEvent event = std::move(events.front());
+                events.erase(events.begin());
+                if (auto* wanted = std::get_if<Event>(&event)) return *wanted;
+            }
+            std::unique_lock lock(mutex);
+            changed.wait(lock, [this] { return woken; });
+            woken = false;
+            lock.unlock();
+            for (WebEvent& event : server->take()) events.push_back(std::move(event));
+        }
+    }
+    std::unique_ptr<beast::websocket::stream<Tcp::socket>> live() {
+        auto socket = std::make_unique<beast::websocket::stream<Tcp::socket>>(connect());
+        socket->set_option(
+            beast::websocket::stream_base::decorator([](beast::websocket::request_type& request) {
+                request.set(beast::http::field::sec_websocket_protocol, kLiveProtocol);
+            }));
+        socket->handshake(host(), "/live");
+        return socket;
+    }
+
+    std::filesystem::path folder;
+    asio::io_context io;
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool woken = false;
+    std::vector<WebEvent> events;
+    std::unique_ptr<WebServer> server;
+};
+
+TEST_F(WebServerTest, PagesComeWithTheirHeaders) {
+    const std::string page = get("/");
+    EXPECT_THAT(page, StartsWith("HTTP/1.1 200 OK"));
+    EXPECT_THAT(page, HasSubstr("<!doctype html>hello"));
+    EXPECT_THAT(page, HasSubstr("Content-Security-Policy: default-src 'none'"));
+    EXPECT_THAT(page, HasSubstr("frame-ancestors 'none'"));
+    EXPECT_THAT(page, HasSubstr("X-Content-Type-Options: nosniff"));
+    EXPECT_THAT(page, Not(HasSubstr("Access-Control-Allow-Origin")));
+    EXPECT_THAT(get("/assets/a-1.js"), HasSubstr("immutable"));
+    EXPECT_THAT(get("/assets/a-1.js", "Accept-Encoding: gzip, br\r\n"), HasSubstr("zipped"));
+    EXPECT_THAT(get("/healthz"), HasSubstr("\r\n\r\nok\n"));
+}
+
+TEST_F(WebServerTest, WhatIsNoPageDoesNotExist) {
+    for (const char* path : {"/../etc/passwd", "/assets/../../x", "//etc/passwd", "/%2e%2e/x",
+                             "/index.html%00", "/assets", "/assets/a-1.js.gz", "/index.html?x=1"}) {
+        EXPECT_THAT(get(path), StartsWith("HTTP/1.1 404")) << path;
+    }
+}
+
+TEST_F(WebServerTest, OtherHostsOriginsMethodsAreRefused) {
+    EXPECT_THAT(ask("GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n"), StartsWith("HTTP/1.1 403"));
+    EXPECT_THAT(ask("GET / HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 403"));
+    EXPECT_THAT(get("/", "Origin: http://evil.example\r\n"), StartsWith("HTTP/1.1 403"));
+    EXPECT_THAT(next<WebNote>().text, HasSubstr("evil.example"));
+    EXPECT_THAT(ask("POST / HTTP/1.1\r\nHost: " + host() + "\r\nContent-Length: 0\r\n\r\n"),
+                StartsWith("HTTP/1.1 405"));
+    auto socket = beast::websocket::stream<Tcp::socket>(connect());
+    socket.set_option(
+        beast::websocket::stream_base::decorator([](beast::websocket::request_type& request) {
+            request.set(beast::http::field::origin, "http://evil.example");
+            request.set(beast::http::field::sec_websocket_protocol, kLiveProtocol);
+        }));
+    boost::system::error_code failed;
+    socket.handshake(host(), "/live", failed);
+    EXPECT_TRUE(failed);
+}
+
+TEST_F(WebServerTest, GarbageAndOversizeAreAnsweredOnce) {
+    EXPECT_THAT(ask(std::string("\x16\x03\x01\x02 nonsense\r\n\r\n")), StartsWith("HTTP/1.1 400"));
+    EXPECT_THAT(get("/" + std::string(20'000, 'a')), StartsWith("HTTP/1.1 431"));
+    EXPECT_THAT(get("/", "Content-Length: 5000\r\n"), StartsWith("HTTP/1.1 431"));
+    EXPECT_THAT(get("/"), StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(WebServerTest, MessagesGoBothWaysAndAreCounted) {
+    auto page = live();
+    const ClientId client = next<ClientOpened>().client;
+    page->write(asio::buffer(std::string("hello")));
+    EXPECT_EQ(next<ClientText>().text, "hello");
+    server->send(client, "answer");
+    server->send_binary(client, std::string("\x01\x00", 2));
+    beast::flat_buffer buffer;
+    page->read(buffer);
+    EXPECT_EQ(beast::buffers_to_string(buffer.data()), "answer");
+    EXPECT_TRUE(page->got_text());
+    EXPECT_EQ(next<ClientTook>().bytes, 6u);
+    buffer.clear();
+    page->read(buffer);
+    EXPECT_TRUE(page->got_binary());
+    server->close(client, "enough");
+    boost::system::error_code failed;
+    buffer.clear();
+    page->read(buffer, failed);
+    EXPECT_EQ(page->reason().reason, "enough");
+    EXPECT_EQ(next<ClientClosed>().client, client);
+}
+
+TEST_F(WebServerTest, AnOversizedMessageEndsItsPageOnly) {
+    server.reset();
+    begin({.message_bytes_max = 100});
+    auto large = live();
+    auto other = live();
+    next<ClientOpened>();
+    large->write(asio::buffer(std::string(101, 'x')));
+    beast::flat_buffer buffer;
+    boost::system::error_code failed;
+    large->read(buffer, failed);
+    EXPECT_EQ(large->reason().code, beast::websocket::close_code::too_big);
+    EXPECT_THAT(next<WebNote>().text, HasSubstr("above the limit"));
+    next<ClientClosed>();
+    other->write(asio::buffer(std::string(100, 'y')));
+    EXPECT_EQ(next<ClientText>().text.size(), 100u);
+}
+
+TEST_F(WebServerTest, ConnectionsAboveTheLimitAreRefusedWithAnAnswer) {
+    server.reset();
+    begin({.connections_max = 3});
+    std::vector<Tcp::socket> idle;
+    for (int i = 0; i < 3; ++i) idle.push_back(connect());
+    EXPECT_THAT(ask(""), StartsWith("HTTP/1.1 503"));
+    auto waiting = connect();
+}
+
+TEST_F(WebServerTest, WithoutPagesItSaysWhoMakesThem) {
+    WebOptions options;
+    options.pages = (folder / "nothing").string();
+    const auto started = WebServer::start(options, [] {});
+    ASSERT_FALSE(started.ok());
+    EXPECT_THAT(started.error().what, HasSubstr("./run builds them"));
+    options.pages = folder.string();
+    options.address = "not an address";
+    EXPECT_THAT(WebServer::start(options, [] {}).error().what, HasSubstr("expected an IP address"));
+}
+
+}  // namespace
+}  // namespace vagus::serve

@@ -1,0 +1,109 @@
+#include "serve/workbench/opened.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/project_border.hpp"
+#include "serve/project/files.hpp"
+#include "session/project_file.hpp"
+
+namespace vagus::serve {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kWhatOpens =
+    "open a folder with a vagus.json, or a file NAME.aesl, NAME.plan.json, NAME.world.json";
+
+Result<OpenedProject> open_folder(const fs::path& folder) {
+    const fs::path file = folder / kProjectFileName;
+    OpenedProject opened;
+    opened.folder = opened.file = folder.string();
+    opened.root = project_border(file.string());
+    // One that cannot be read opens all the same, so that it can be put right.
+    const auto read = session::open_project(file.string());
+    const auto inside = [&](const std::string& named) {
+        return named.empty() ? named
+                             : (folder / named)
+                                   .lexically_normal()
+                                   .lexically_relative(opened.root)
+                                   .generic_string();
+    };
+    opened.project_file = inside(kProjectFileName);
+    opened.name = folder.filename().string();
+    if (!read.ok()) {
+        opened.help = read.error().what;
+        return opened;
+    }
+    const session::ProjectFile& project = read.value();
+    if (!project.name.empty()) opened.name = project.name;
+    opened.help = project.help;
+    opened.plan = inside(project.plan);
+    opened.world = inside(project.world);
+    for (const std::string& script : project.scripts) opened.scripts.push_back(inside(script));
+    for (const std::string& one : project.toolboxes) opened.toolboxes.push_back(inside(one));
+    opened.target = project.target;
+    opened.start_set = project.start_set;
+    return opened;
+}
+
+Result<OpenedProject> open_file(const fs::path& file) {
+    const std::string kind = kind_of_file(file.filename().string());
+    OpenedProject opened;
+    opened.file = file.string();
+    opened.folder = file.parent_path().string();
+    const std::string border = project_border(file.string());
+    opened.root = border.empty() ? fs::path(opened.folder) : fs::path(border);
+    const std::string path = file.lexically_relative(opened.root).generic_string();
+    opened.only = {path};
+    opened.name = file.filename().string();
+    if (kind == "script") {
+        opened.scripts = {path};
+        opened.target.clear();
+    } else if (kind == "plan") {
+        opened.plan = path;
+    } else if (kind == "world") {
+        opened.world = path;
+    } else {
+        return Error{Code::BadInput, fmt::format("{}: this is nothing that can be opened; {}",
+                                                 file.string(), kWhatOpens)};
+    }
+    return opened;
+}
+
+}  // namespace
+
+Result<OpenedProject> open_path(const std::string& named) {
+    std::error_code failed;
+    const fs::path path = fs::canonical(named, failed);
+    if (failed) {
+        return Error{Code::NotFound,
+                     fmt::format("{}: there is no such file or folder; {}", named, kWhatOpens)};
+    }
+    if (path.filename() == kProjectFileName) return open_folder(path.parent_path());
+    if (!fs::is_directory(path, failed)) return open_file(path);
+    if (fs::is_regular_file(path / kProjectFileName, failed)) return open_folder(path);
+    return Error{
+        Code::NotFound,
+        fmt::format("{}: expected a vagus.json in this folder, found none; {}", named, kWhatOpens)};
+}
+
+std::string OpenedProject::doc_of(const std::string& named) const {
+    std::error_code failed;
+    const fs::path inside =
+        fs::weakly_canonical(named, failed).lexically_relative(root).lexically_normal();
+    return inside.empty() || *inside.begin() == ".." ? named : inside.generic_string();
+}
+
+nlohmann::json OpenedProject::to_json() const {
+    nlohmann::json json = {{"folder", folder},   {"name", name},     {"help", help},
+                           {"scripts", scripts}, {"target", target}, {"border", root.string()}};
+    if (!copy_of.empty()) json["copy_of"] = copy_of;
+    if (!plan.empty()) json["plan"] = plan;
+    if (!world.empty()) json["world"] = world;
+    return json;
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,362 @@
+#include "serve/workbench/workbench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "aesl/project_text.hpp"
+#include "aesl/target.hpp"
+#include "serve/workbench/new_files.hpp"
+#include "session/known_nodes.hpp"
+
+namespace vagus::serve {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr size_t kEntriesMax = 2000;  // of a folder that is shown for choosing
+
+}  // namespace
+
+Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& places)
+    : network_(network),
+      desk_(desk),
+      places_(places),
+      library_(places.library),
+      settings_(places.settings),
+      scripts_(files_,
+               [this](const std::string& name, uint16_t id) {
+                   const auto live = robot_.target_of(name, id);
+                   return live ? *live : session::known_node(name);
+               }),
+      editing_(desk, files_, scripts_),
+      robot_(desk, files_, scripts_, breakpoints_),
+      run_(desk, places.program) {
+    const auto tell = [this](const std::string& kind, const std::string& text) {
+        say(kind, with_short_paths(text));
+    };
+    editing_.on_say(tell);
+    robot_.on_say(tell);
+    run_.on_say(tell);
+    editing_.on_text_changed([this](const std::string& path) {
+        robot_.script_changed(path);
+        if (project_ && path == project_->project_file) project_file_changed();
+    });
+    editing_.on_saved([this](const std::string& path) { world_saved(path); });
+    editing_.on_renamed([this](const std::string& from, const std::string& to) {
+        breakpoints_.rename(from, to);
+        keep_breakpoints();
+    });
+    robot_.on_breakpoints_changed([this] { keep_breakpoints(); });
+    robot_.set_hints({
+        .robot_of = [this](uint16_t node) { return run_.robot_of(node); },
+        .plan_hears = [this](const std::string& event) { return run_.plan_hears(event); },
+        .load = [this] { return run_.load(); },
+        .stopped_at_breakpoint =
+            [this] {
+                if (simulates()) run_.pause();
+            },
+        .time = [this] { return clock(); },
+        .loaded_already =
+            [this](uint16_t node) {
+                const auto found = loaded_by_world_.find(node);
+                return found == loaded_by_world_.end() ? std::optional<std::string>()
+                                                       : std::optional(found->second);
+            },
+    });
+    run_.set_doc_of(
+        [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
+    run_.on_opened([this] { world_opened(); });
+    run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
+    desk.on_people([this] { desk_.board().touch("studio"); });
+    declare_topics();
+    declare_project_commands();
+    declare_kept_commands();
+    declare_run_commands();
+    declare_plan_commands();
+    declare_world_commands();
+}
+
+Workbench::~Workbench() = default;
+
+void Workbench::say(const std::string& kind, const std::string& text) {
+    desk_.board().add("console", {{"t", clock()}, {"kind", kind}, {"text", text}});
+}
+
+// Seconds: of the simulation, or since a bus was connected.
+double Workbench::clock() const {
+    if (!bus_) return run_.time();
+    return std::chrono::duration<double>(now_ - bus_since_).count();
+}
+
+// ---- documents ----
+
+void Workbench::declare_topics() {
+    Board& board = desk_.board();
+    board.document("studio", [this](const Json&) { return studio_document(); });
+    board.document("start", [this](const Json&) {
+        return Json{{"examples", library_.examples()}, {"recent", library_.recent()}};
+    });
+    board.document("targets", [this](const Json&) { return targets_.document(); });
+    board.document("state", [this](const Json&) {
+        return Json{{"values", state_.values().value("window", Json::object())}};
+    });
+    board.stream("console", Protocol::get().limit("lines_kept"));
+}
+
+Json Workbench::studio_document() const {
+    Json studio = desk_.people();
+    studio["settings"] = settings_.values();
+    studio["recovered"] = files_.recovered();
+    if (project_) studio["project"] = project_->to_json();
+    return studio;
+}
+
+// ---- what is open ----
+
+void Workbench::declare_project_commands() {
+    const auto answer = [this](const Call& call, const Status& done) {
+        if (!done.ok()) return call.fail(done.error());
+        call.done({{"path", project_->folder}});
+    };
+    desk_.command("project.example", [this, answer](const Call& call) {
+        const auto copy = library_.copy_of_example(call.in["id"]);
+        answer(call, copy.ok() ? open(copy.value(), now_) : Status(copy.error()));
+    });
+    desk_.command("project.open",
+                  [this, answer](const Call& call) { answer(call, open(call.in["path"], now_)); });
+    desk_.command("project.new", [this, answer](const Call& call) {
+        const auto made = library_.make_project(call.in["name"], call.in["robot"], call.in["plan"]);
+        answer(call, made.ok() ? open(made.value(), now_) : Status(made.error()));
+    });
+    desk_.command("project.close", [this](const Call& call) {
+        close();
+        call.done();
+    });
+    desk_.command("project.forget", [this](const Call& call) {
+        library_.forget(call.in["path"]);
+        desk_.board().touch("start");
+        call.done();
+    });
+    desk_.command("script.add", [this](const Call& call) {
+        if (!project_) return call.fail("unavailable", "no project is open; open one first");
+        const auto added = add_script(call.in["node"]);
+        if (!added.ok()) return call.fail(added.error());
+        call.done({{"doc", added.value()}});
+    });
+    desk_.command("folder.list", [this](const Call& call) {
+        std::error_code failed;
+        const std::string asked = call.in["path"];
+        const fs::path folder = fs::canonical(asked.empty() ? places_.home : asked, failed);
+        if (failed || !fs::is_directory(folder, failed)) {
+            return call.fail("not_found", asked + ": there is no such folder");
+        }
+        call.done(list_folder(folder.string()));
+    });
+}
+
+Json Workbench::list_folder(const std::string& path) const {
+    Json entries = Json::array();
+    std::error_code failed;
+    for (const auto& entry :
+         fs::directory_iterator(path, fs::directory_options::skip_permission_denied, failed)) {
+        const std::string name = entry.path().filename().string();
+        if (entries.size() >= kEntriesMax) break;
+        if (name.starts_with(".") || name.size() > 500) continue;
+        if (entry.is_directory(failed)) {
+            const bool project = fs::exists(entry.path() / "vagus.json", failed);
+            entries.push_back({{"name", name}, {"kind", project ? "project" : "folder"}});
+            continue;
+        }
+        const std::string kind = kind_of_file(name);
+        if (kind == "script" || kind == "plan" || kind == "world") {
+            entries.push_back({{"name", name}, {"kind", kind}});
+        }
+    }
+    std::sort(entries.begin(), entries.end(), [](const Json& one, const Json& other) {
+        const auto order = [](const Json& entry) {
+            const std::string kind = entry["kind"];
+            return std::pair(kind != "folder" && kind != "project",
+                             entry["name"].get<std::string>());
+        };
+        return order(one) < order(other);
+    });
+    return {{"path", path},
+            {"parent", fs::path(path).parent_path().string()},
+            {"entries", std::move(entries)}};
+}
+
+Status Workbench::open(const std::string& path, Time now) {
+    now_ = now;
+    OpenedProject project = TRY(open_path(path));
+    close();
+    enter(std::move(project));
+    return Status::done();
+}
+
+Status Workbench::open_example(const std::string& id, Time now) {
+    return open(TRY(library_.copy_of_example(id, true)), now);
+}
+
+void Workbench::enter(OpenedProject project) {
+    project.copy_of = library_.example_of(project.root);
+    project_ = std::move(project);
+    files_.enter(project_->root, project_->only);
+    scripts_.prefer(project_->scripts);
+    scripts_.reread();
+    state_ = Kept((project_->root / ".vagus" / "state.json").string());
+    breakpoints_.from_json(state_.get("breakpoints"));
+    editing_.set_project(edited_project());
+    library_.opened(project_->file, project_->name, desk_.wall_ms());
+    for (const std::string& path : files_.recovered()) {
+        say("warning", path + ": this text was not saved when the studio ended; here it is again");
+    }
+    for (const char* topic : {"studio", "state", "start"}) desk_.board().touch(topic);
+    // What the project is for; a robot that is not there is looked for until it is.
+    const bool nothing =
+        project_->target.empty() || (project_->target == "sim" && project_->world.empty());
+    if (nothing) return;
+    const Status chosen = choose_target(project_->target);
+    if (!chosen.ok()) say("error", chosen.error().what);
+}
+
+EditedProject Workbench::edited_project() const {
+    if (!project_) return {};
+    return {.plan = project_->plan,
+            .world = project_->world,
+            .project_file = project_->project_file,
+            .toolboxes = project_->toolboxes};
+}
+
+void Workbench::close() {
+    leave_target();
+    files_.leave();
+    scripts_.reread();
+    breakpoints_ = {};
+    state_ = {};
+    project_.reset();
+    editing_.set_project({});
+    for (const char* topic : {"studio", "state", "start", "breakpoints"}) {
+        desk_.board().touch(topic);
+    }
+}
+
+// Its plan, world and scripts may be others now; the target stays until someone chooses another.
+void Workbench::project_file_changed() {
+    auto read = open_path(project_->folder);
+    if (!read.ok()) return;
+    read.value().copy_of = project_->copy_of;
+    read.value().target = project_->target;
+    project_ = std::move(read.value());
+    scripts_.prefer(project_->scripts);
+    editing_.set_project(edited_project());
+    desk_.board().touch("studio");
+}
+
+// ---- scripts for nodes that have none ----
+
+Result<std::string> Workbench::add_script(uint16_t node) {
+    const std::string name = robot_.described_name(node);
+    if (name.empty()) {
+        return Error{Code::NotFound,
+                     fmt::format("there is no node {} that has told what it is", node)};
+    }
+    if (const ScriptPart* there = scripts_.for_node(name, node)) return there->doc;
+    std::string file;
+    for (const std::string& script : project_->scripts) {
+        if (file.empty() && scripts_.common(script) != nullptr) file = script;
+    }
+    if (file.empty()) {
+        file = (fs::path(project_->project_file).parent_path() / "robot.aesl").generic_string();
+        TRY(files_.make(file, new_scripts_file()));
+    }
+    const aesl::ProjectText text(TRY(files_.text(file)));
+    (void)TRY(files_.replace(file, text.add_script(name, node), 0));
+    TRY(files_.save(file));
+    return fmt::format("{}#{}", file, text.scripts() + 1);
+}
+
+// A project that was made for a robot grows with the nodes that come.
+void Workbench::add_missing_scripts() {
+    if (!bus_ || !project_ || !library_.is_robot_project(project_->folder)) return;
+    for (const uint16_t node : robot_.without_script()) {
+        const auto added = add_script(node);
+        if (!added.ok()) return say("warning", added.error().what);
+    }
+}
+
+// Files of the project by their paths inside it, as pages call them.
+std::string Workbench::with_short_paths(std::string text) const {
+    if (!project_) return text;
+    const std::string root = project_->root.string() + "/";
+    for (size_t at = text.find(root); at != text.npos; at = text.find(root, at)) {
+        text.erase(at, root.size());
+    }
+    while (text.ends_with('\n')) text.pop_back();
+    return text;
+}
+
+// ---- what is kept ----
+
+void Workbench::declare_kept_commands() {
+    desk_.command("settings.put", [this](const Call& call) {
+        const Status kept = settings_.put(call.in["key"], call.in["value"]);
+        desk_.board().touch("studio");
+        kept.ok() ? call.done() : call.fail(kept.error());
+    });
+    desk_.command("state.put", [this](const Call& call) {
+        if (!project_) {
+            return call.fail("unavailable", "no project is open; open one first");
+        }
+        Json window = state_.values().value("window", Json::object());
+        window[call.in["key"].get<std::string>()] = call.in["value"];
+        const Status kept = state_.put("window", std::move(window));
+        desk_.board().touch("state");
+        kept.ok() ? call.done() : call.fail(kept.error());
+    });
+}
+
+void Workbench::keep_breakpoints() {
+    if (!project_) return;
+    const Status kept = state_.put("breakpoints", breakpoints_.to_json());
+    if (!kept.ok()) say("warning", kept.error().what);
+}
+
+// ---- time ----
+
+void Workbench::hear(const net::Event& event) {
+    if (bus_) bus_->hear(event);
+}
+
+void Workbench::tick(Time now) {
+    now_ = now;
+    run_.tick(now);
+    watch_run();
+    robot_.tick(now);
+    add_missing_scripts();
+    get_nodes_ready();
+    stop_nodes();
+    rest();
+    editing_.tick(now);
+    if (desk_.board().watched("targets") && targets_.look(now)) desk_.board().touch("targets");
+}
+
+void Workbench::watch_run() {
+    const std::pair now_there(run_.descriptor(), run_.generation());
+    if (now_there == watched_run_) return;
+    if (watched_run_.first >= 0) network_.unwatch_input(watched_run_.first);
+    watched_run_ = now_there;
+    // One that cannot be watched is asked at each tick all the same.
+    if (now_there.first >= 0) (void)network_.watch_input(now_there.first).ok();
+}
+
+Time Workbench::next_tick(Time now) const {
+    Time next = std::min({run_.next_tick(), robot_.next_tick(), editing_.next_tick()});
+    if (desk_.board().watched("targets")) next = std::min(next, now + kLookEvery);
+    if (opening_ || nodes_stop_at_ || rest_at_) next = std::min(next, now + 20ms);
+    return next;
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,143 @@
+// The studio without its door: the open project with its files, scripts and breakpoints, the robot
+// and the run, and the commands that join them. One thread, told the time; whoever has the web
+// server hands its events to the desk.
+//
+//     Workbench bench(network, desk, places);
+//     bench.open("examples/follow-wall", network.now());
+//     for (;;) {
+//         for (const net::Event& event : network.poll(next)) bench.hear(event);
+//         bench.tick(network.now());
+//     }
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "net/network.hpp"
+#include "serve/edit/editing.hpp"
+#include "serve/project/files.hpp"
+#include "serve/robot/breakpoints.hpp"
+#include "serve/robot/bus_carrier.hpp"
+#include "serve/robot/robot.hpp"
+#include "serve/run/run.hpp"
+#include "serve/script/scripts.hpp"
+#include "serve/studio/desk.hpp"
+#include "serve/workbench/kept.hpp"
+#include "serve/workbench/library.hpp"
+#include "serve/workbench/opened.hpp"
+#include "serve/workbench/targets.hpp"
+
+namespace vagus::serve {
+
+// A run waits so long for the nodes of its world to describe themselves.
+constexpr Duration kDescribeWithin = 3s;
+constexpr int kStepMs = 10;  // of run.step, unless it says otherwise
+
+struct WorkbenchPlaces {
+    LibraryPlaces library;
+    std::string settings;  // file
+    std::string program;   // vagus, for run hosts
+    std::string home;      // where choosing a folder begins
+};
+
+class Workbench {
+public:
+    using Json = nlohmann::json;
+    Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& places);
+    ~Workbench();
+
+    // Opens what a path names, in place of what is open; what is unsaved there stays in its
+    // journal. The Error says what can be opened.
+    Status open(const std::string& path, Time now);
+    // The newest copy of an example, or a fresh one.
+    Status open_example(const std::string& id, Time now);
+    void close();
+
+    void hear(const net::Event& event);
+    void tick(Time now);
+    Time next_tick(Time now) const;
+    // The nodes stand and the plan has ended, as far as a dying server can: its last act.
+    void stop_everything();
+
+private:
+    // ---- workbench.cpp: what is open ----
+    void declare_topics();
+    void declare_project_commands();
+    void declare_kept_commands();
+    void enter(OpenedProject project);
+    void project_file_changed();
+    EditedProject edited_project() const;
+    void watch_run();
+    void keep_breakpoints();
+    Result<std::string> add_script(uint16_t node);
+    void add_missing_scripts();
+    std::string with_short_paths(std::string text) const;
+    void say(const std::string& kind, const std::string& text);
+    double clock() const;
+    Json studio_document() const;
+    Json list_folder(const std::string& path) const;
+
+    // ---- running.cpp: what runs ----
+    void declare_run_commands();
+    void declare_plan_commands();
+    void declare_world_commands();
+    Status choose_target(const std::string& target);
+    void leave_target();
+    bool simulates() const { return run_.has_world(); }
+    // Opens the world, and the plan if there is one to run; it stands until its nodes are ready.
+    Status open_world(const std::string& plan, const Json& set, bool keep_poses, bool then_go);
+    RunOrder order_of(const std::string& plan, const Json& set) const;
+    bool world_has_changed() const;
+    void world_saved(const std::string& path);
+    void world_opened();
+    void world_failed(const std::string& why);
+    void start(const Call& call);
+    void start_plan(const Call& call, const std::string& plan, const Json& set, bool go);
+    void start_scripts(const Call& call);
+    void step(const Call& call);
+    void stop(const Call& call);
+    void stop_nodes();
+    void rest();
+    bool save_all(const Call& call);
+    void get_nodes_ready();
+
+    net::Network& network_;
+    Desk& desk_;
+    WorkbenchPlaces places_;
+    Library library_;
+    Kept settings_;
+    Kept state_;  // of the project
+
+    Files files_;
+    Scripts scripts_;
+    ScriptBreakpoints breakpoints_;
+    Editing editing_;
+    Robot robot_;
+    Run run_;
+    std::unique_ptr<BusCarrier> bus_;
+    Time bus_since_{};
+    Targets targets_;
+
+    std::optional<OpenedProject> project_;
+    Time now_{};
+    std::pair<int, uint64_t> watched_run_ = {-1, 0};  // descriptor, generation
+    // A world that opens: what is done once its nodes are there.
+    struct Opening {
+        Time until{};
+        bool opened = false;
+        bool go = false;
+    };
+    std::optional<Opening> opening_;
+    std::optional<Call> opening_call_;  // answered then
+    // Stop, under way.
+    std::optional<Time> nodes_stop_at_;
+    std::vector<Call> stop_calls_;
+    std::optional<Time> rest_at_;
+    std::string opened_world_;                         // text of the world that stands there
+    std::map<uint16_t, std::string> loaded_by_world_;  // source by node
+};
+
+}  // namespace vagus::serve

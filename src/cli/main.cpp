@@ -1,10 +1,12 @@
 // The map of the program: one verb for each thing that Vagus does. What a verb takes and how it
 // runs stands in the file of its name; the list is verbs.def.
 #include <CLI/CLI.hpp>
-#include <csignal>
+#include <sstream>
 
+#include "base/line_sink.hpp"
 #include "cli/output.hpp"
 #include "cli/page.hpp"
+#include "cli/studio/run_host.hpp"
 #include "cli/usage.hpp"
 #include "cli/verbs.hpp"
 
@@ -27,20 +29,23 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv, const int& e
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& answer) {
-        return app.exit(answer);
+        std::ostringstream text;
+        const int code = app.exit(answer, text, text);
+        vagus::cli::print(text.str());
+        return code;
     } catch (const CLI::ParseError& error) {
-        std::fputs(vagus::cli::usage_error(app, error).c_str(), stderr);
+        vagus::cli::say(vagus::cli::usage_error(app, error));
         return vagus::cli::kExitUsage;
     }
     if (!app.get_subcommands().empty()) return exit_code;
-    std::fputs(vagus::cli::no_verb_error().c_str(), stderr);
+    vagus::cli::say(vagus::cli::no_verb_error());
     return vagus::cli::kExitUsage;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves is an ordinary failure of a write
+    vagus::prepare_standard_files();
     CLI::App app("Vagus programs robots that are made of many microcontrollers.");
     describe(app);
     int exit_code = vagus::cli::kExitDone;
@@ -48,6 +53,8 @@ int main(int argc, char** argv) {
 #include "cli/verbs.def"
 #undef VERB
     vagus::cli::add_page(app, exit_code);
+    vagus::cli::add_run_host(app, exit_code);
     vagus::cli::shape_help(app);
+    vagus::cli::refuse_options_as_values(app);
     return vagus::cli::end_output(parse_and_run(app, argc, argv, exit_code));
 }

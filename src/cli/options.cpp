@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/nearest.hpp"
+#include "base/text.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -58,6 +59,21 @@ void takes_whole_number(CLI::Option& option, int64_t low, uint64_t high) {
         ""));
 }
 
+void add_seed_option(CLI::App& verb, std::optional<uint64_t>& seed, const std::string& help) {
+    verb.add_option_function<std::string>(
+            "--seed",
+            [&seed](const std::string& text) {
+                seed = decimal_number(text);
+                if (seed) return;
+                throw CLI::ValidationError("--seed", "expected a whole number from 0 to " +
+                                                         std::to_string(UINT64_MAX) +
+                                                         " in digits, found \"" + text + "\"");
+            },
+            help)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->type_name("N");
+}
+
 void takes_file(CLI::Option& option, std::vector<std::string> endings) {
     std::string kinds = "FILE";
     for (const std::string& ending : endings) kinds += (kinds == "FILE" ? "(" : "|") + ending;
@@ -66,9 +82,9 @@ void takes_file(CLI::Option& option, std::vector<std::string> endings) {
 
 void add_toolbox_option(CLI::App& verb, std::vector<std::string>& files) {
     takes_file(
-        *verb
-             .add_option("--toolbox", files,
-                         "more templates: a toolbox file or a shared library; again for more")
+        *verb.add_option(
+                 "--toolbox", files,
+                 "more templates: a toolbox file or a shared library; can be given several times")
              ->allow_extra_args(false),
         {".toolbox.json", ".so"});
 }

@@ -1,7 +1,9 @@
 // Options that several verbs share, with the same words and the same checks.
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,9 @@ void takes_whole_number(CLI::Option& option, int64_t low, uint64_t high);
 
 // `--toolbox FILE`, as often as wanted.
 void add_toolbox_option(CLI::App& verb, std::vector<std::string>& files);
+
+// `--seed N`: decimal digits of a number below 2^64; the last one holds.
+void add_seed_option(CLI::App& verb, std::optional<uint64_t>& seed, const std::string& help);
 
 // The option takes the path of a file or folder: the shell completes it, with these endings first
 // (".aesl").

@@ -2,28 +2,52 @@
 
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
+#include <mutex>
 #include <string>
+#include <utility>
+
+#include "base/line_sink.hpp"
+#include "base/text.hpp"
 
 namespace vagus::cli {
 
+namespace {
+
+// The process has one stdout, and one memory of what became of it.
+LineSink& standard_output() {
+    static LineSink sink = std::move(LineSink::open("-", LineSink::When::AtOnce).value());
+    return sink;
+}
+
+bool put(std::string_view bytes) {
+    static std::mutex mutex;  // the prompt of a debugger and the run that it debugs both print
+    const std::lock_guard lock(mutex);
+    standard_output().write(bytes);
+    return standard_output().state().ok() && !standard_output().abandoned();
+}
+
+}  // namespace
+
 bool print(std::string_view text) {
-    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-    if (std::fflush(stdout) == 0 && written) return true;
-    if (errno == EPIPE) std::clearerr(stdout);  // the reader has seen enough: not a failure
-    return false;
+    return put(visible_lines(text));
+}
+
+bool print_file(std::string_view content) {
+    return put(content);  // the sink knows whether it is a terminal
 }
 
 int end_output(int exit_code) {
-    if (std::ferror(stdout) == 0) return exit_code;
-    return complain("the output could not be written to its end; is the disk full?");
+    const Status written = standard_output().flush();
+    return written.ok() ? exit_code : complain(written.error());
+}
+
+void say(std::string_view lines) {
+    write_to_stderr(lines);
 }
 
 int complain(std::string_view sentence, int exit_code) {
     // One write, so that the lines of several threads do not mix.
-    const std::string line = "vagus: " + std::string(sentence) + "\n";
-    std::fwrite(line.data(), 1, line.size(), stderr);
+    write_to_stderr("vagus: " + std::string(sentence) + "\n");
     return exit_code;
 }
 

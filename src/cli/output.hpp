@@ -12,13 +12,20 @@ constexpr int kExitDone = 0;
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
 
-// Writes to stdout. False once nobody reads there any more (`vagus … | head -1`): a verb that runs
-// on ends then, with exit code 0. SIGPIPE never ends the process (main.cpp).
+// Lines for people and JSON on stdout; what a terminal would obey (names from anywhere may hold it)
+// is escaped (visible_lines). False once nobody reads there any more (`vagus … | head -1`), or the
+// disk is full: a verb that runs on ends then. SIGPIPE never ends the process (main.cpp).
 bool print(std::string_view text);
+
+// The content of a file on stdout, byte for byte; only on a terminal as print().
+bool print_file(std::string_view content);
 
 // The last word of the program: `exit_code`, but kExitFailed with a sentence if some of the output
 // was lost although there is a reader (a full disk).
 int end_output(int exit_code);
+
+// Whole lines on stderr, escaped like those of print().
+void say(std::string_view lines);
 
 // "vagus: sentence" on stderr, with a final newline. Gives `exit_code`, so that a verb can `return
 // complain(…)`.

@@ -8,6 +8,10 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <utility>
+
+#include "cli/screen/theme.hpp"
+#include "net/end_signal.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -23,10 +27,9 @@ constexpr int kWriteWaitMs =
 
 // Signal handlers reach these. They change only in open(), close and the handlers, all of one
 // thread.
-termios g_before;                        // the terminal as it was found
-volatile sig_atomic_t g_taken = 0;       // the terminal is ours at this moment
-volatile sig_atomic_t g_lost = 0;        // the page on it is gone
-volatile sig_atomic_t g_end_signal = 0;  // the first that asked for the end
+termios g_before;                   // the terminal as it was found
+volatile sig_atomic_t g_taken = 0;  // the terminal is ours at this moment
+volatile sig_atomic_t g_lost = 0;   // the page on it is gone
 
 // Only calls that are allowed in a signal handler.
 void give_back() {
@@ -48,24 +51,15 @@ void take() {
     g_lost = 1;
 }
 
-void die_by(int signal_number) {
-    ::signal(signal_number, SIG_DFL);
-    sigset_t set;
-    ::sigemptyset(&set);
-    ::sigaddset(&set, signal_number);
-    ::sigprocmask(SIG_UNBLOCK, &set, nullptr);
-    ::raise(signal_number);
-}
-
 void on_crash(int signal_number) {
     give_back();
-    die_by(signal_number);
+    net::die_by(signal_number);
 }
 
 void on_stop(int signal_number) {
     const int before = errno;
     give_back();
-    die_by(signal_number);  // returns when the process is continued
+    net::die_by(signal_number);  // returns when the process is continued
     errno = before;
 }
 
@@ -86,11 +80,6 @@ void on_continue(int) {
     errno = before;
 }
 
-void on_end(int signal_number) {
-    if (g_end_signal != 0) on_crash(signal_number);
-    g_end_signal = signal_number;
-}
-
 void catch_signal(int signal_number, void (*handler)(int)) {
     struct sigaction action = {};
     action.sa_handler = handler;
@@ -102,6 +91,16 @@ constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGQUIT};
 std::string environment(const char* name) {
     const char* value = std::getenv(name);
     return value == nullptr ? "" : value;
+}
+
+// What is typed until then, as soon as there is some.
+std::string read_within(Duration wait) {
+    std::string bytes(4096, '\0');
+    pollfd ready{STDIN_FILENO, POLLIN, 0};
+    if (::poll(&ready, 1, static_cast<int>(wait / std::chrono::milliseconds(1))) <= 0) return {};
+    const auto count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+    bytes.resize(count > 0 ? static_cast<size_t>(count) : 0);
+    return bytes;
 }
 
 }  // namespace
@@ -119,18 +118,21 @@ Result<Terminal> Terminal::open() {
     for (const int crash : kCrashes) catch_signal(crash, on_crash);
     catch_stop();
     catch_signal(SIGCONT, on_continue);
+    net::before_sudden_end(give_back);
     take();
     g_lost = 0;
     return Terminal();
 }
 
-Terminal::Terminal(Terminal&& other) noexcept : open_(other.open_) {
+Terminal::Terminal(Terminal&& other) noexcept
+    : open_(other.open_), typed_(std::move(other.typed_)) {
     other.open_ = false;
 }
 
 Terminal::~Terminal() {
     if (!open_) return;
     give_back();
+    net::before_sudden_end(nullptr);
     for (const int crash : kCrashes) ::signal(crash, SIG_DFL);
     ::signal(SIGTSTP, SIG_DFL);
     ::signal(SIGCONT, SIG_DFL);
@@ -165,12 +167,21 @@ bool Terminal::write(std::string_view bytes) {
 
 std::string Terminal::read() {
     if (g_taken == 0) return {};
-    std::string bytes(4096, '\0');
-    pollfd ready{STDIN_FILENO, POLLIN, 0};
-    if (::poll(&ready, 1, 0) <= 0) return {};
-    const auto count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-    bytes.resize(count > 0 ? static_cast<size_t>(count) : 0);
-    return bytes;
+    return std::exchange(typed_, "") + read_within(Duration{});
+}
+
+std::optional<Theme> Terminal::ask_background() {
+    using Clock = std::chrono::steady_clock;
+    if (::write(STDOUT_FILENO, kAskBackground.data(), kAskBackground.size()) < 0) return {};
+    const auto end = Clock::now() + kAnswerWait;
+    std::string bytes;
+    BackgroundAnswer answer;
+    while (!answer.complete && Clock::now() < end) {
+        bytes += read_within(std::chrono::duration_cast<Duration>(end - Clock::now()));
+        answer = read_background(bytes);
+    }
+    typed_ += answer.typed;
+    return answer.theme;
 }
 
 bool Terminal::take_lost() {
@@ -179,26 +190,19 @@ bool Terminal::take_lost() {
     return lost;
 }
 
-void watch_for_end() {
-    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) catch_signal(signal_number, on_end);
-}
-
-bool end_asked() {
-    return g_end_signal != 0;
-}
-
-int end_as_asked(int exit_code) {
-    if (g_end_signal != 0) die_by(g_end_signal);
-    return exit_code;
-}
-
-Look look_of_environment() {
+Look look_of(Terminal& terminal, const std::string& theme) {
     std::string locale;
     for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
         if (locale.empty()) locale = environment(name);
     }
-    return look_for(
-        {environment("TERM"), environment("COLORTERM"), environment("NO_COLOR"), locale});
+    Look look = look_for({environment("TERM"), environment("COLORTERM"), environment("NO_COLOR"),
+                          environment("COLORFGBG"), locale});
+    if (!theme.empty()) {
+        look.theme = theme == "light" ? Theme::Light : Theme::Dark;
+    } else if (look.depth != ColourDepth::None) {
+        look.theme = terminal.ask_background().value_or(look.theme);
+    }
+    return look;
 }
 
 }  // namespace vagus::cli

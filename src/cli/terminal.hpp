@@ -6,14 +6,20 @@
 //     terminal.value().write(repaint(nullptr, page, look.depth));
 #pragma once
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "base/result.hpp"
+#include "base/time.hpp"
 #include "cli/screen/screen.hpp"
 
 namespace vagus::cli {
+
+// Nearly all terminals answer within milliseconds; behind a slow line they are taken for dark.
+constexpr Duration kAnswerWait = std::chrono::milliseconds(300);
 
 class Terminal {
 public:
@@ -30,22 +36,20 @@ public:
     bool write(std::string_view bytes);
     // What was typed since, without waiting; at most 4096 bytes at once.
     std::string read();
+    // Whether its background is dark or light, by asking it; waits kAnswerWait at most. Keys that
+    // are typed meanwhile are kept for read().
+    std::optional<Theme> ask_background();
     // True once after the page on the terminal was lost: after Ctrl-Z and fg.
     bool take_lost();
 
 private:
     Terminal() = default;
     bool open_ = true;
+    std::string typed_;  // while it was asked
 };
 
-// Set by Ctrl-C, SIGTERM and SIGHUP once watch_for_end() was called: the loop of a verb looks at it
-// and ends in order (its files complete). A second signal of the kind ends the process at once.
-void watch_for_end();
-bool end_asked();
-// Ends the process by the signal that asked for its end, so that a shell script around it stops
-// too; returns `exit_code` if none did.
-int end_as_asked(int exit_code);
-
-Look look_of_environment();
+// How to draw on it: charset and colours by the environment; dark or light by the word of a person
+// ("dark", "light"), by the terminal's own answer, by the environment.
+Look look_of(Terminal& terminal, const std::string& theme);
 
 }  // namespace vagus::cli

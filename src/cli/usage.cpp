@@ -1,6 +1,7 @@
 #include "cli/usage.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cctype>
 
 #include "base/nearest.hpp"
 #include "cli/options.hpp"
@@ -80,6 +81,25 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
         sentence = sentence.substr(0, twice) + " is given more than once; keep one of them";
     if (!sentence.ends_with(".") && !sentence.ends_with("?")) sentence += ".";
     return full_name(verb) + ": " + sentence + "\n" + hint(verb);
+}
+
+// CLI11 takes the next word for a value whatever it is: `--trace --headless` would write a file
+// "--headless".
+void refuse_options_as_values(CLI::App& app) {
+    const auto check = [](const std::string& value) -> std::string {
+        const bool option =
+            value.starts_with("--") || (value.size() > 1 && value[0] == '-' &&
+                                        std::isalpha(static_cast<unsigned char>(value[1])) != 0);
+        if (!option) return "";
+        return "expected a value, found the option \"" + value + "\"; give a value before it";
+    };
+    for (CLI::Option* option : app.get_options()) {
+        if (option->get_positional() || option->get_items_expected_max() == 0) continue;
+        option->check(CLI::Validator(check, ""));
+    }
+    for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+        refuse_options_as_values(*verb);
+    }
 }
 
 std::string no_verb_error() {

@@ -4,8 +4,9 @@
 //     void vagus::cli::add_exec(CLI::App& app, int& exit_code) {
 //         CLI::App* verb = app.add_subcommand("exec", "compiles a script and runs it");
 //         verb->footer("Example:\n  vagus exec blink.aesl --node node.json");
-//         auto options = std::make_shared<Options>();  // owners: the options of CLI11 that fill
-//         it, the callback verb->add_option("FILE", options->file, "the script")->required();
+//         // Owners: the options of CLI11 that fill it, and the callback.
+//         auto options = std::make_shared<Options>();
+//         verb->add_option("FILE", options->file, "the script")->required();
 //         verb->callback([options, &exit_code] { exit_code = run(*options); });
 //     }
 //

@@ -246,7 +246,122 @@ class Cli(unittest.TestCase):
         with open("/dev/full", "w") as full:
             done = subprocess.run([VAGUS, "compile", self.script], stdout=full, stderr=subprocess.PIPE, text=True)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("could not be written to its end", done.stderr)
+        self.assertEqual(done.stderr, "vagus: standard output: cannot be written: No space left on device\n")
+
+    PLAN = """{
+  "format": "vagus-plan/1",
+  "name": "Talk",
+  "start": { "actor": "say" },
+  "actors": {
+    "say": { "template": "Log", "in": { "text": "'a\u202eb\\u001b[2Jc'" }, "states": { "Done": "wait" } },
+    "wait": { "template": "Wait", "in": { "seconds": 3 }, "states": { "Done": "@terminate" } }
+  }
+}
+"""
+
+    def test_a_trace_that_is_lost_is_named_with_the_reason(self):
+        plan = self.file("talk.plan.json", self.PLAN)
+        full = "/dev/full: cannot be written: No space left on device"
+        for words in [("sim", self.world, "--headless", "--speed", "max", "--trace", "/dev/full"),
+                      ("plan", "run", plan, "--clock", "virtual", "--trace", "/dev/full"),
+                      ("plan", "run", plan, "--clock", "virtual", "--world", self.world, "--trace-all", "/dev/full"),
+                      ("compile", self.script, "-o", "/dev/full")]:
+            with self.subTest(words=words):
+                said = self.run_vagus(*words, status=1).stderr
+                self.assertEqual(said.count(full), 1, said)
+        for words in [("sim", self.world, "--headless", "--trace"), ("plan", "run", plan, "--trace")]:
+            said = self.run_vagus(*words, f"{self.folder}/none/t", status=2).stderr
+            self.assertIn("/none/t: cannot be written: No such file or directory", said)
+
+    def test_what_stands_in_a_full_file_is_whole_lines(self):
+        trace = f"{self.folder}/t.jsonl"
+        command = f'ulimit -f 1; exec "{VAGUS}" sim "{self.world}" --headless --speed max --trace "{trace}"'
+        done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=GIVE_UP_AFTER)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"{trace}: cannot be written: File too large", done.stderr)
+        lines = pathlib.Path(trace).read_text().splitlines(keepends=True)
+        self.assertTrue(lines)
+        for line in lines:
+            self.assertTrue(line.endswith("\n"))
+            json.loads(line)
+
+    def test_standard_output_that_is_closed_is_not_another_file(self):
+        out = f"{self.folder}/out"
+        done = subprocess.run(["bash", "-c", f'exec "{VAGUS}" compile "{self.script}" >&-'], capture_output=True, text=True,
+                              timeout=GIVE_UP_AFTER)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("standard output: cannot be written: Bad file descriptor", done.stderr)
+        self.assertFalse(os.path.exists(out))
+
+    def test_an_option_is_never_the_value_of_another(self):
+        for words in [("sim", self.world, "--trace", "--headless"), ("compile", self.script, "-o", "--format")]:
+            with self.subTest(words=words):
+                said = self.run_vagus(*words, status=2).stderr
+                self.assertIn(f'expected a value, found the option "{words[-1]}"', said)
+        self.assertFalse(os.path.exists("--headless"))
+
+    # ---- names from anywhere ----
+
+    def assert_harmless(self, text):
+        self.assertNotRegex(text, "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
+
+    def test_names_that_a_terminal_would_obey_are_shown_escaped(self):
+        world = self.file("evil.world.json", WORLD.replace('"rob"', '"r\\u001b[31m\\u202eb\\n"'))
+        done = self.run_vagus("sim", world, "--headless", "--speed", "max", "--duration", "1")
+        self.assertIn("r\\u001b[31m\\u202eb\\u000a  at", done.stdout)
+        self.assert_harmless(done.stdout + done.stderr)
+        plan = self.file("talk.plan.json", self.PLAN)
+        done = self.run_vagus("plan", "run", plan, "--clock", "virtual", "--world", self.world)
+        self.assertIn("a\\u202eb\\u001b[2Jc", done.stdout)
+        self.assert_harmless(done.stdout + done.stderr)
+        gone = f"{self.folder}/a\x1b[2J\u202e.aesl"
+        self.assert_harmless(self.run_vagus("compile", gone, status=2).stderr)
+        plan = self.file("bad.plan.json", self.PLAN.replace('"wait":', '"w\u202eit":'))
+        done = self.run_vagus("plan", "check", plan, "--json", status=2)
+        self.assert_harmless(done.stdout)
+        self.assertTrue(any("\u202e" in finding["element"] for finding in json.loads(done.stdout)))
+
+    # ---- files that are not what was expected ----
+
+    def test_a_file_of_another_format_is_called_that(self):
+        plan = self.file("talk.plan.json", self.PLAN)
+        for words, sentence in [
+                (("sim", plan, "--headless"), "2:13: this is a plan file (vagus-plan/1); a world file (vagus-world/1) was"),
+                (("sim", self.script, "--headless"), "1:1: this is a script (.aesl); a world file (vagus-world/1) was"),
+                (("plan", "check", self.world), "2:3: error: this is a world file (vagus-world/1); a plan file"),
+                (("exec", self.script, "--node", self.world), "2:13: this is a world file (vagus-world/1); a node file was")]:
+            with self.subTest(words=words):
+                self.assertIn(sentence, self.run_vagus(*words, status=2).stderr)
+        self.assertIn("1:1: this is a world file (vagus-world/1); a script (.aesl) was expected",
+                      self.run_vagus("compile", self.world, status=1).stderr)
+
+    def test_a_slip_in_json_has_line_and_column_in_text_and_findings(self):
+        plan = self.file("slip.plan.json", self.PLAN.replace('"Talk",', '"Talk"'))
+        sentence = "this is not JSON: there is no comma before this; add one at line 3, column 17"
+        self.assertEqual(self.run_vagus("plan", "check", plan, status=2).stderr, f"{plan}:4:3: error: {sentence} [P0]\n")
+        finding = json.loads(self.run_vagus("plan", "check", plan, "--json", status=2).stdout)[0]
+        self.assertEqual((finding["line"], finding["message"]), (4, sentence + " (column 3)"))
+
+    def test_an_angle_in_degrees_gets_a_hint(self):
+        world = self.file("turn.world.json", WORLD.replace('"node": 7', '"angle": 90'))
+        hint = "5:77: warning: robots[0].angle: 90 is more than a full turn; angles are in radians: 90 degrees are 1.5708"
+        self.assertIn(hint, self.run_vagus("sim", world, "--headless", "--speed", "max", "--duration", "1").stderr)
+        plan = self.file("talk.plan.json", self.PLAN)
+        self.assertIn(hint, self.run_vagus("plan", "run", plan, "--clock", "virtual", "--world", world).stderr)
+
+    def test_no_path_leads_out_of_a_project(self):
+        inside = f"{self.folder}/in"
+        os.mkdir(inside)
+        self.file("in/vagus.json", '{ "format": "vagus-project/1" }')
+        self.file("out.aesl", "")
+        self.file("out.plan.json", self.PLAN)
+        world = self.file("in/w.world.json", WORLD.replace('"node": 7', '"script": "../out.aesl"'))
+        self.assertIn("out.aesl is outside of the project", self.run_vagus("sim", world, "--headless", status=2).stderr)
+        ground = self.file("in/g.world.json", WORLD.replace('"robots"', '"ground": { "image": "../g.png" }, "robots"'))
+        self.assertIn("g.png is outside of the project", self.run_vagus("sim", ground, "--headless", status=2).stderr)
+        plan = self.file("in/p.plan.json", self.PLAN.replace('"template": "Wait", "in": { "seconds": 3 }, "states": { "Done": "@terminate" }',
+                                                             '"plan": "../out.plan.json"'))
+        self.assertIn("out.plan.json is outside of the project", self.run_vagus("plan", "check", plan, status=2).stderr)
 
     # ---- derived pages ----
 
@@ -319,6 +434,44 @@ class Cli(unittest.TestCase):
         self.assertRegex(lines[1], rf'^rover\.aesl:{line + 1}:1: error: .*"speeed".*did you mean "speed"')
         self.assertEqual(len(lines), 2)
 
+    def test_a_sentence_about_another_line_counts_as_the_file_does(self):
+        self.file("rover.aesl", ROVER.replace("ticks += 1\n", "ticks += 1\nif ticks == 1 then\n"))
+        line = ROVER.split("\n").index("ticks += 1") + 2
+        self.assertIn(f'expected "end" for the "if" of line {line}, ',
+                      self.run_vagus("compile", "rover.aesl", status=1).stderr)
+
+    def test_errors_stand_in_the_order_of_the_text(self):
+        done = self.run_vagus("compile", "-", status=1, stdin="callsub nope\nargs = 1\nemit id = 3\nvar a$\n")
+        places = [int(line.split(":")[1]) for line in done.stderr.splitlines() if line.startswith("-:")]
+        self.assertEqual(places, sorted(places))
+        self.assertGreater(len(places), 2)
+
+    def test_json_has_the_errors_with_their_ranges_and_fixes(self):
+        done = self.run_vagus("compile", "-", "--node", "thymio-II", "--format", "json", status=1,
+                              stdin="onevent prox\nmotor.left = 200\nonevent found\n")
+        errors = json.loads(done.stdout)["nodes"][0]["errors"]
+        self.assertEqual([error["code"] for error in errors], ["VARIABLE_NOT_DEFINED", "EVENT_NOT_DEFINED"])
+        place = {"line": 2, "column": 1, "endLine": 2, "endColumn": 11}
+        self.assertEqual({key: errors[0][key] for key in place}, place)
+        self.assertEqual(errors[0]["fix"], {"label": 'Write "motor.left.target"',
+                                            "edits": [{**place, "text": "motor.left.target"}]})
+        self.assertEqual(errors[1]["fix"], {"label": 'Declare the event "found"', "edits": [],
+                                            "declares": {"name": "found", "size": 0}})
+
+    def test_a_recursion_has_a_place_for_people_and_none_for_exec(self):
+        script = self.file("circle.aesl", "sub a\ncallsub b\nsub b\ncallsub a\n")
+        self.assertRegex(self.run_vagus("compile", script, status=1).stderr,
+                         r'circle\.aesl:4:1: error: the sub "a" of line 1 calls itself through "b"')
+        node = ROOT / "testdata/golden/aesl/node.json"
+        first = json.loads(self.run_vagus("exec", script, "--node", node, status=1).stdout)["error"]
+        self.assertEqual(first, {"code": "STACK_OVERFLOW", "number": 1, "line": 0, "column": 0})
+
+    def test_a_byte_order_mark_is_skipped(self):
+        marked = self.file("marked.aesl", "\ufeffvar a = 5")
+        self.assertEqual(self.run_vagus("compile", marked, "--format", "hex").stdout.split()[0], "0003")
+        project = self.file("project.aesl", "\ufeff" + ROVER)
+        self.run_vagus("compile", project)
+
     def test_broken_projects_are_mistakes_too(self):
         self.file("rover.aesl", "<network><node name='x'></network>")
         self.assertRegex(self.run_vagus("compile", "rover.aesl", status=1).stderr, r"^rover\.aesl:1:")
@@ -355,6 +508,11 @@ class Cli(unittest.TestCase):
             try:
                 place = node.stdout.readline().split()[1]
                 self.assertIn("loaded, running", self.run_vagus("net", place, "load", plain).stdout)
+                for written, word in (("0x10", 16), ("0b101", 5), ("0xffff", -1), ("-7", -7)):
+                    self.run_vagus("net", place, "set", "1", "args[0]", written)
+                    values = json.loads(self.run_vagus("net", place, "get", "1", "args[0]", "--json").stdout)
+                    self.assertEqual(list(values.values()), [[word]])
+                self.run_vagus("net", place, "set", "1", "args[0]", "0xg", status=2)
             finally:
                 node.terminate()
 
@@ -553,6 +711,109 @@ class Cli(unittest.TestCase):
             left = self.after_the_screen(screen)
             self.assertIn("0.100 s  the plan is over: OK", left)
             self.assertIn("rob stands at", left)
+
+    def test_a_plan_that_is_over_stays_until_any_key(self):
+        with Screen("plan", "run", self.plan_that_waits(0.1), "--world", self.world) as screen:
+            screen.wait_page("the plan is over: OK")
+            screen.type("x")
+            self.assertEqual(screen.wait_end(), 0)
+
+    def test_r_restarts_a_plan_in_the_middle_and_at_its_end(self):
+        with Screen("plan", "run", self.plan_that_waits(1000), "--world", self.world) as screen:
+            screen.wait_page("running")
+            screen.type("r")
+            screen.wait_page("restarted")
+            screen.wait_page("running")
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 3)
+        with Screen("plan", "run", self.plan_that_waits(0.1), "--world", self.world) as screen:
+            for _ in range(2):
+                screen.wait_page("the plan is over: OK")
+                screen.bytes = b""
+                screen.type("r")
+                screen.wait_until(lambda: b"restarted" in screen.bytes, "the next run")
+            screen.wait_page("the plan is over: OK")
+            screen.bytes = b""
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 0)
+            self.assertEqual(self.after_the_screen(screen).count("the plan is over"), 1)
+
+    def test_only_keys_of_the_robot_that_is_there_are_shown(self):
+        hall = ROOT / "examples/follow-wall/hall.world.json"
+        epuck = self.file("e.world.json", WORLD.replace("thymio2", "epuck"))
+        for world, shown, hidden in [(self.world, ["b center button", "t tap", "arrows buttons"], ["tab ", " e "]),
+                                     (hall, ["e escape button", "arrows drive", "tab node"], ["t tap", " b "]),
+                                     (epuck, ["r restart"], [" b ", " e ", "t tap", "arrows", "tab "])]:
+            with self.subTest(world=world), Screen("sim", world, columns=100) as screen:
+                screen.wait_page("node ")
+                screen.bytes = b""
+                screen.type("\x0c")
+                screen.wait_until(lambda: b"\x1b[?2026l" in screen.bytes.partition(b"speed")[2], "the line of keys")
+                keys = screen.bytes.partition(b"space")[2].decode()
+                keys = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", " ", keys)
+                for text in shown:
+                    self.assertIn(text, re.sub(" +", " ", keys))
+                for text in hidden:
+                    self.assertNotIn(text, re.sub(" +", " ", keys))
+
+    def colours_on(self, *options, answer=None, env=None):
+        """What is painted until the keys are there, on a terminal that gives this answer about its background."""
+        environment = {"NO_COLOR": "", "COLORTERM": "truecolor", "COLORFGBG": "", **(env or {})}
+        with Screen("sim", self.world, *options, env=environment) as screen:
+            if answer:
+                screen.wait_for("\x1b]11;?")
+                screen.type(answer)
+            screen.wait_until(lambda: b"quit" in screen.bytes, "the keys")
+            return screen.bytes.decode()
+
+    def test_a_terminal_is_asked_whether_it_is_light(self):
+        on_dark = "38;2;255;210;90m+"  # the colour of keys
+        white, black = "\x1b]11;rgb:ffff/ffff/ffff\x1b\\", "\x1b]11;rgb:0000/0000/0000\x07"
+        end = "\x1b[?62;22c"
+        self.assertIn(on_dark, self.colours_on(answer=black + end))
+        self.assertNotIn(on_dark, self.colours_on(answer=white + end))
+        # One that does not answer, or only says what it is.
+        self.assertIn(on_dark, self.colours_on())
+        self.assertIn(on_dark, self.colours_on(answer=end))
+        self.assertNotIn(on_dark, self.colours_on(answer=end, env={"COLORFGBG": "0;15"}))
+        self.assertIn(on_dark, self.colours_on(answer=black + end, env={"COLORFGBG": "0;15"}))
+        # Who says it is not asked.
+        for theme, dark in (("dark", True), ("light", False)):
+            shown = self.colours_on("--theme", theme, env={"COLORFGBG": "0;15" if dark else "15;0"})
+            self.assertEqual(on_dark in shown, dark)
+            self.assertNotIn("\x1b]11;?", shown)
+
+    def test_keys_that_are_typed_while_the_terminal_is_asked_count(self):
+        environment = {"NO_COLOR": "", "COLORTERM": "truecolor"}
+        with Screen("sim", self.world, env=environment) as screen:
+            screen.wait_for("\x1b]11;?")
+            screen.type("+\x1b[?62c")
+            screen.wait_page("x2")
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 0)
+
+    def test_a_plan_alone_prints_its_lines_beside_its_trace(self):
+        plan = self.file("one.plan.json", json.dumps({
+            "format": "vagus-plan/1", "name": "One", "start": {"actor": "only"}, "actors": {"only": {
+                "template": "Log", "in": {"text": "'hello'"}, "states": {"Done": "@terminate"}}}}))
+        lines = ["    0.000 s  only begins: text hello\n", "    0.000 s  only: hello\n",
+                 "    0.000 s  only: Done → @terminate\n", "    0.000 s  the plan is over: OK\n"]
+        lines[2] = lines[2].replace("@terminate", "the plan ends")
+        run = ["plan", "run", plan, "--clock", "virtual"]
+        done = self.run_vagus(*run)
+        self.assertEqual((done.stdout, done.stderr), ("".join(lines), ""))
+        done = self.run_vagus(*run, "--trace", "-")
+        self.assertEqual(done.stderr, "".join(lines))
+        self.assertTrue(all(line.startswith("{") for line in done.stdout.splitlines()), done.stdout)
+        done = self.run_vagus(*run, "--trace", "-", "--quiet")
+        self.assertEqual(done.stderr, "")
+        done = self.run_vagus(*run, "--quiet")
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+        # Beside a world, too.
+        done = self.run_vagus(*run, "--world", self.world, "--trace", "-")
+        self.assertIn("only: hello", done.stderr)
+        self.assertIn("rob stands at", done.stderr)
+        self.assertTrue(all(line.startswith("{") for line in done.stdout.splitlines()), done.stdout)
 
     def test_the_error_that_ends_a_plan_stands_on_the_normal_screen(self):
         plan = self.plan_of({"template": "Forward", "in": {"distance": 10, "speed": "fast"},

@@ -59,7 +59,7 @@ Point middle(const Outline& outline) {
 }
 
 // A wedge at the front, where the hull is dark: the way the robot looks.
-Outline nose(const RobotView& robot) {
+Outline nose(const RobotPicture& robot) {
     double reach = robot.outline.radius;
     for (const Point corner : robot.outline.corners) {
         const double ahead = (corner.x - robot.at.x) * std::cos(robot.angle) +
@@ -74,7 +74,7 @@ Outline nose(const RobotView& robot) {
         {at(reach, 0), at(0.75 * reach, 0.6), at(0.45 * reach, 0), at(0.75 * reach, -0.6)}, {}, 0};
 }
 
-void paint_robot(Canvas& canvas, const RobotView& robot, bool selected) {
+void paint_robot(Canvas& canvas, const RobotPicture& robot, bool selected) {
     const Rgb body = robot.led ? blend(robot.paint, *robot.led, 0.35) : robot.paint;
     const Point centre = middle(robot.outline);
     if (selected) canvas.shape(shrunk(robot.outline, centre, 1.25), {kMark, Stuff::Robot});
@@ -95,7 +95,7 @@ char32_t arrow(double angle, Charset charset) {
 }
 
 // Where a robot is only a few cells wide, its form does not tell how it stands: an arrow does.
-void mark_direction(Grid& grid, const Canvas& canvas, const RobotView& robot, const Look& look) {
+void mark_direction(Grid& grid, const Canvas& canvas, const RobotPicture& robot, const Look& look) {
     const Point centre = middle(robot.outline);
     const int column = canvas.column_of(centre);
     const int row = canvas.row_of(centre);
@@ -134,11 +134,11 @@ void paint_things(Canvas& canvas, const View& view) {
 }
 
 void paint_lines(Canvas& canvas, const View& view) {
-    for (const RobotView& robot : view.robots) {
+    for (const RobotPicture& robot : view.robots) {
         for (const Point at : robot.trail) canvas.dot(at, kTrail);
     }
     for (size_t i = 0; i < view.robots.size(); i++) {
-        const RobotView& robot = view.robots[i];
+        const RobotPicture& robot = view.robots[i];
         for (const RayView& ray : robot.rays) {
             if (i == view.selected || ray.hit) {
                 canvas.line(ray.from, ray.to, ray.hit ? kRayHit : kRayFree);
@@ -159,7 +159,7 @@ void draw_arena(Grid& grid, Area area, const View& view, const Look& look) {
     }
     paint_lines(canvas, view);
     canvas.draw(grid, look);
-    for (const RobotView& robot : view.robots) mark_direction(grid, canvas, robot, look);
+    for (const RobotPicture& robot : view.robots) mark_direction(grid, canvas, robot, look);
 }
 
 }  // namespace vagus::cli

@@ -13,9 +13,13 @@ namespace vagus::cli {
 // How a terminal can draw. Blocks and braille, or letters where they would show as question marks.
 enum class Charset { Unicode, Ascii };
 
+// Of the background.
+enum class Theme { Dark, Light };
+
 struct Look {
     Charset charset = Charset::Unicode;
     ColourDepth depth = ColourDepth::True;
+    Theme theme = Theme::Dark;
 };
 
 // What a sample shows: without colour this alone decides about the glyph.

@@ -1,22 +1,18 @@
 #include "cli/screen/grid.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "base/text.hpp"
 
 namespace vagus::cli {
 namespace {
 
-struct Decoded {
-    char32_t glyph;
-    size_t bytes;
-};
-
-Decoded decode(std::string_view text) {
+// Of text that visible() has made well-formed.
+CodePoint decode(std::string_view text) {
     const CodePoint point = first_code_point(text);
-    if (point.bytes == 0) return {U'?', 1};
-    const bool control = point.value < 0x20 || (point.value >= 0x7f && point.value < 0xa0);
-    return {control ? U'?' : point.value, point.bytes};
+    assert(point.bytes > 0);
+    return point;
 }
 
 // Columns of a character, by the blocks that terminals agree on: 0 marks that combine, 2 East Asian
@@ -109,14 +105,16 @@ void Grid::put(int column, int row, const Cell& cell) {
            static_cast<size_t>(column)] = cell;
 }
 
-int Grid::text(int column, int row, int column_end, std::string_view words, const Ink& ink) {
+int Grid::text(int column, int row, int column_end, std::string_view text, const Ink& ink) {
+    const std::string shown = visible(text);
+    std::string_view words = shown;
     while (!words.empty()) {
-        const Decoded next = decode(words);
-        const int width = glyph_width(next.glyph);
+        const CodePoint next = decode(words);
+        const int width = glyph_width(next.value);
         if (column + width > column_end) break;
         words.remove_prefix(next.bytes);
         if (width == 0) continue;
-        put(column, row, {next.glyph, ink});
+        put(column, row, {next.value, ink});
         if (width == 2) put(column + 1, row, {U'\0', ink});
         column += width;
     }
@@ -138,11 +136,13 @@ std::string Grid::row_text(int row) const {
     return text;
 }
 
-int text_width(std::string_view words) {
+int text_width(std::string_view text) {
+    const std::string shown = visible(text);
+    std::string_view words = shown;
     int width = 0;
     while (!words.empty()) {
-        const Decoded next = decode(words);
-        width += glyph_width(next.glyph);
+        const CodePoint next = decode(words);
+        width += glyph_width(next.value);
         words.remove_prefix(next.bytes);
     }
     return width;

@@ -47,7 +47,7 @@ public:
     void put(int column, int row, const Cell& cell);
     // UTF-8, cut at `column_end`; control characters and broken bytes become '?'. Gives the column
     // behind the text.
-    int text(int column, int row, int column_end, std::string_view words, const Ink& ink);
+    int text(int column, int row, int column_end, std::string_view text, const Ink& ink);
     void fill(int column, int row, int columns, int rows, const Cell& cell);
     // The glyphs of a row as UTF-8, without spaces at the end: for tests.
     std::string row_text(int row) const;
@@ -58,7 +58,7 @@ private:
 };
 
 // Columns that the text takes.
-int text_width(std::string_view words);
+int text_width(std::string_view text);
 
 enum class ColourDepth { None, Basic, Indexed, True };  // nothing, 16, 256, 24 bits
 

@@ -24,10 +24,12 @@ TEST(Grid, WideCharactersTakeTwoColumnsAndCombiningMarksNone) {
 }
 
 // A name may come from a foreign node: it must not move the cursor or ring the bell.
-TEST(Grid, ControlCharactersAndBrokenBytesBecomeQuestionMarks) {
-    Grid grid({12, 1});
-    grid.text(0, 0, 12, "a\x1b[2J\x07\xff\xc2\x9b", {});
-    EXPECT_EQ(grid.row_text(0), "a?[2J???");
+TEST(Grid, ControlCharactersAndBrokenBytesAreShownEscaped) {
+    const std::string name = "a\x1b[2J\xff\u202e";
+    Grid grid({20, 1});
+    EXPECT_EQ(grid.text(0, 0, 20, name, {}), 20);
+    EXPECT_EQ(grid.row_text(0), "a\\u001b[2J\\xff\\u202e");
+    EXPECT_EQ(text_width(name), 1 + 6 + 3 + 4 + 6);
 }
 
 TEST(Grid, SizesAreLimited) {

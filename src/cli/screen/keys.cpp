@@ -12,7 +12,7 @@ std::optional<Key> plain_key(char byte) {
             return Key::Pause;
         case 'r':
         case 'R':
-            return Key::Reset;
+            return Key::Restart;
         case '+':
         case '=':
             return Key::Faster;
@@ -33,18 +33,18 @@ std::optional<Key> plain_key(char byte) {
         case '\x0c':
             return Key::Redraw;
         default:
-            return std::nullopt;
+            return static_cast<unsigned char>(byte) < 0x80 ? std::optional(Key::Other)
+                                                           : std::nullopt;
     }
 }
 
-// Bytes of the sequence at the front, 0 if its end is not there yet. ESC [ … letter, ESC O letter,
-// ESC letter.
-size_t sequence_length(std::string_view bytes) {
-    if (bytes.size() < 2) return 0;
-    if (bytes[1] == 'O') return bytes.size() < 3 ? 0 : 3;
-    if (bytes[1] != '[') return bytes[1] == kEscape ? 1 : 2;
-    for (size_t i = 2; i < bytes.size(); i++) {
-        if (bytes[i] >= 0x40 && bytes[i] <= 0x7e) return i + 1;
+// An answer of the terminal, ended by BEL or ESC \. Alt and ] begin alike, but no digit follows.
+size_t answer_length(std::string_view bytes) {
+    if (bytes.size() < 3) return 0;
+    if (bytes[2] < '0' || bytes[2] > '9') return 2;
+    for (size_t i = 3; i < bytes.size(); i++) {
+        if (bytes[i] == '\x07') return i + 1;
+        if (bytes[i] == '\\' && bytes[i - 1] == kEscape) return i + 1;
     }
     return 0;
 }
@@ -52,6 +52,8 @@ size_t sequence_length(std::string_view bytes) {
 // Arrows come as ESC [ letter or ESC O letter, by the mode of the terminal.
 std::optional<Key> sequence_key(std::string_view sequence) {
     if (sequence == "\x1b[Z") return Key::LastRobot;
+    if (sequence == "\x1b[5~") return Key::Earlier;
+    if (sequence == "\x1b[6~") return Key::Later;
     if (sequence.size() != 3) return std::nullopt;
     switch (sequence[2]) {
         case 'A':
@@ -68,6 +70,17 @@ std::optional<Key> sequence_key(std::string_view sequence) {
 }
 
 }  // namespace
+
+size_t sequence_length(std::string_view bytes) {
+    if (bytes.size() < 2) return 0;
+    if (bytes[1] == 'O') return bytes.size() < 3 ? 0 : 3;
+    if (bytes[1] == ']') return answer_length(bytes);
+    if (bytes[1] != '[') return bytes[1] == kEscape ? 1 : 2;
+    for (size_t i = 2; i < bytes.size(); i++) {
+        if (bytes[i] >= 0x40 && bytes[i] <= 0x7e) return i + 1;
+    }
+    return 0;
+}
 
 std::vector<Key> keys_of(std::string_view bytes, std::string& rest) {
     std::vector<Key> keys;

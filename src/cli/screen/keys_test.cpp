@@ -11,7 +11,7 @@ using testing::IsEmpty;
 TEST(Keys, EachKeyOfTheHelpIsUnderstood) {
     std::string rest;
     EXPECT_THAT(keys_of(" qr+-\tbt", rest),
-                ElementsAre(Key::Pause, Key::Quit, Key::Reset, Key::Faster, Key::Slower,
+                ElementsAre(Key::Pause, Key::Quit, Key::Restart, Key::Faster, Key::Slower,
                             Key::NextRobot, Key::Centre, Key::Tap));
     EXPECT_EQ(rest, "");
 }
@@ -31,6 +31,21 @@ TEST(Keys, SequencesOfOtherKeysAreDropped) {
                         "t",
                         rest),
                 ElementsAre(Key::Tap));
+}
+
+// A terminal may say what its background is when nobody waits for it any more. Alt-] is no answer.
+TEST(Keys, LateAnswersOfTheTerminalAreDropped) {
+    std::string rest;
+    EXPECT_THAT(keys_of("\x1b]11;rgb:ffff/ffff/ffff\x1b\\\x1b[?62;22ct", rest),
+                ElementsAre(Key::Tap));
+    EXPECT_THAT(keys_of("\x1b]11;rgb:ffff/ffff/ffff\x07t", rest), ElementsAre(Key::Tap));
+    EXPECT_THAT(keys_of("\x1b]t", rest), ElementsAre(Key::Tap));
+}
+
+TEST(Keys, PagesScrollAndOtherCharactersAreKeysToo) {
+    std::string rest;
+    EXPECT_THAT(keys_of("\x1b[5~\x1b[6~x\r", rest),
+                ElementsAre(Key::Earlier, Key::Later, Key::Other, Key::Other));
 }
 
 TEST(Keys, ASequenceMayComeInTwoReads) {

@@ -33,12 +33,15 @@ std::string_view bar(int value, int full, Charset charset) {
 
 void add_robot(Page& page, const View& view, Charset charset) {
     const PanelView& panel = view.panel;
-    page.add(panel.node_name, {kHead, {}, true});
-    page.add("  node " + std::to_string(panel.node_id), {kDim, {}, false});
+    const std::string id = "  node " + std::to_string(panel.node_id);
+    const int room = page.columns() - text_width(id) - text_width(panel.state) - 1;
+    page.add(shortened(panel.node_name, std::max(room, page.columns() / 3), charset),
+             {kHead, {}, true});
+    page.add(id, {kDim, {}, false});
     page.add_right(panel.state, {panel.wrong ? kBad : kGood, {}, true});
     page.next();
     if (view.selected >= view.robots.size()) return;
-    const RobotView& robot = view.robots[view.selected];
+    const RobotPicture& robot = view.robots[view.selected];
     const double degrees = robot.angle * 180 / std::numbers::pi;
     const std::string degree = charset == Charset::Ascii ? " deg" : "°";
     const int64_t turned = (std::llround(degrees) % 360 + 360) % 360;
@@ -73,8 +76,8 @@ void add_sensors(Page& page, const PanelView& panel, Charset charset) {
     }
 }
 
-void add_variables(Page& page, const PanelView& panel, Charset charset, int rows) {
-    heading(page, "variables", charset);
+void add_variables(Page& page, const PanelView& panel, int rows) {
+    heading(page, "variables");
     if (panel.variables.empty()) {
         page.add("the script has none", {kDim, {}, false});
         page.next();
@@ -84,53 +87,51 @@ void add_variables(Page& page, const PanelView& panel, Charset charset, int rows
     if (static_cast<int>(shown) > rows) shown = static_cast<size_t>(std::max(rows - 1, 0));
     for (size_t i = 0; i < shown; i++) {
         const VariableView& variable = panel.variables[i];
-        page.add(shortened(variable.name, page.columns() * 2 / 3, charset), {});
-        page.add(" ", {});
-        const int room = page.columns() - page.column();
         const Ink ink{variable.fresh ? Colour(kFresh) : Colour(), {}, variable.fresh};
-        page.add_right(shortened(words_of(variable.values), room - 1, charset), ink);
-        page.next();
+        page.pair(variable.name, {}, words_of(variable.values), ink);
     }
-    if (shown < panel.variables.size()) more(page, panel.variables.size() - shown, charset);
+    if (shown < panel.variables.size()) more(page, panel.variables.size() - shown);
+}
+
+void add_event(Page& page, const EventView& event, Time now, Charset charset) {
+    const bool bright = now - event.last < kFlash;
+    page.add(shortened(event.name, page.columns() / 2, charset),
+             {bright ? Colour(kFresh) : Colour(), {}, bright});
+    page.add(" ", {});
+    const std::string count =
+        (charset == Charset::Ascii ? " x" : " ×") + std::to_string(event.count);
+    const int room = page.columns() - page.column() - text_width(count);
+    page.add(shortened(words_of(event.args), room, charset), {});
+    page.add_right(count, {kDim, {}, false});
+    page.next();
 }
 
 void add_events(Page& page, const View& view, Charset charset) {
-    heading(page, "events", charset);
-    if (view.panel.events.empty()) {
+    const auto& events = view.panel.events;
+    const size_t first = std::min(view.scrolled, events.empty() ? 0 : events.size() - 1);
+    heading(page, first == 0 ? "events" : "events, " + std::to_string(first) + " above");
+    if (events.empty()) {
         page.add("none yet: emit shows here", {kDim, {}, false});
         page.next();
         return;
     }
-    const auto& events = view.panel.events;
-    for (size_t i = 0; i < events.size(); i++) {
+    for (size_t i = first; i < events.size(); i++) {
         if (page.full()) return;
-        if (page.rows_left() == 1 && i + 1 < events.size()) {
-            return more(page, events.size() - i, charset);
-        }
-        const EventView& event = events[i];
-        const bool bright = view.now - event.last < kFlash;
-        page.add(shortened(event.name, page.columns() / 2, charset),
-                 {bright ? Colour(kFresh) : Colour(), {}, bright});
-        page.add(" ", {});
-        const std::string count =
-            (charset == Charset::Ascii ? " x" : " ×") + std::to_string(event.count);
-        const int room = page.columns() - page.column() - text_width(count);
-        page.add(shortened(words_of(event.args), room, charset), {});
-        page.add_right(count, {kDim, {}, false});
-        page.next();
+        if (page.rows_left() == 1 && i + 1 < events.size()) return more(page, events.size() - i);
+        add_event(page, events[i], view.now, charset);
     }
 }
 
 }  // namespace
 
 void draw_panel(Grid& grid, Area area, const View& view, const Look& look) {
-    Page page(grid, area);
+    Page page(grid, area, look.charset);
     add_robot(page, view, look.charset);
     add_sensors(page, view.panel, look.charset);
     const int events = std::max<int>(1, static_cast<int>(view.panel.events.size())) + 1;
     const int left = page.rows_left() - 1;  // under the heading
     const int rows = std::max(left - std::min(events, std::max(left / 3, kSpare)), 1);
-    add_variables(page, view.panel, look.charset, rows);
+    add_variables(page, view.panel, rows);
     add_events(page, view, look.charset);
 }
 

@@ -35,13 +35,15 @@ std::string percent(double share) {
 
 class PlanPanel {
 public:
-    PlanPanel(Grid& grid, Area area, const PlanPanelView& plan, const Look& look)
-        : page_(grid, area), plan_(plan), charset_(look.charset) {}
+    PlanPanel(Grid& grid, Area area, const View& view, const Look& look)
+        : page_(grid, area, look.charset),
+          plan_(*view.plan),
+          scrolled_(view.scrolled),
+          charset_(look.charset) {}
 
     void draw() {
-        page_.add(plan_.name, {kHead, {}, true});
-        page_.add_right(plan_.state, {plan_.wrong ? kBad : kGood, {}, true});
-        page_.next();
+        page_.pair(plan_.name, {kHead, {}, true}, plan_.state,
+                   {plan_.wrong ? kBad : kGood, {}, true});
         const int under_variables = least(plan_.loads.size());
         const int under_watching = least(plan_.variables.size()) + under_variables;
         const int under_actors = least(std::max<size_t>(plan_.watching.size(), 1)) + under_watching;
@@ -70,7 +72,7 @@ private:
     void list(const List& all, size_t rows, const Line& line) {
         const size_t shown = all.size() > rows ? rows - 1 : all.size();
         for (size_t i = 0; i < shown; ++i) line(all[i]);
-        if (shown < all.size()) more(page_, all.size() - shown, charset_);
+        if (shown < all.size()) more(page_, all.size() - shown);
     }
 
     // A part around the active one, if there are more than fit.
@@ -84,53 +86,46 @@ private:
         const size_t before = std::min(active, shown / 2);
         const size_t first = std::min(active - before, all.size() - shown);
         for (size_t i = first; i < first + shown; ++i) actor(all[i]);
-        if (shown < all.size()) more(page_, all.size() - shown, charset_);
+        if (shown < all.size()) more(page_, all.size() - shown);
     }
 
     void actor(const ActorView& actor) {
         const std::string mark = charset_ == Charset::Ascii ? "> " : "▶ ";
         const std::string indent(static_cast<size_t>(2 * actor.depth), ' ');
         const Ink ink{actor.active ? Colour(kFresh) : Colour(kDim), {}, actor.active};
+        const double seconds = std::chrono::duration<double>(actor.for_so_long).count();
+        const std::string time = actor.active ? fixed(seconds, 1) + " s" : "";
         page_.add(indent + (actor.active ? mark : "  "), ink);
-        page_.add(shortened(actor.name, page_.columns() - page_.column() - 9, charset_), ink);
-        if (actor.active) {
-            const double seconds = std::chrono::duration<double>(actor.for_so_long).count();
-            page_.add_right(fixed(seconds, 1) + " s", {kFresh, {}, false});
-        }
+        const int room = page_.columns() - page_.column() - text_width(time) - 1;
+        page_.add(shortened(actor.name, room, charset_), ink);
+        page_.add_right(time, {kFresh, {}, false});
         page_.next();
     }
 
     void watching(int follows) {
-        heading(page_, "watching", charset_);
+        heading(page_, "watching");
         if (plan_.watching.empty()) nothing("nobody");
         const size_t rows = room(plan_.watching.size(), kWatchingMax, follows);
         list(plan_.watching, rows, [this](const WatchView& watch) {
-            page_.add(watch.name, {kBar, {}, false});
-            page_.add(watch.global ? " always " : " ", {kDim, {}, false});
-            const int left = page_.columns() - page_.column();
-            page_.add_right(shortened(watch.events, left, charset_), {kDim, {}, false});
-            page_.next();
+            const std::string events = (watch.global ? "always " : "") + watch.events;
+            page_.pair(watch.name, {kBar, {}, false}, events, {kDim, {}, false});
         });
     }
 
     void variables(int follows) {
         if (plan_.variables.empty()) return;
-        heading(page_, "variables", charset_);
+        heading(page_, "variables");
         const size_t rows = room(plan_.variables.size(), kVariablesMax, follows);
         list(plan_.variables, rows, [this](const PlanVariableView& variable) {
-            page_.add(shortened(variable.name, page_.columns() / 2, charset_), {});
-            page_.add(" ", {});
             const std::string unit = variable.unit.empty() ? "" : " " + variable.unit;
-            const int left = page_.columns() - page_.column() - text_width(unit);
             const Ink ink{variable.fresh ? Colour(kFresh) : Colour(), {}, variable.fresh};
-            page_.add_right(shortened(variable.value, left, charset_) + unit, ink);
-            page_.next();
+            page_.pair(variable.name, {}, variable.value + unit, ink);
         });
     }
 
     void loads() {
         if (plan_.loads.empty()) return;
-        heading(page_, "bus " + percent(plan_.load), charset_);
+        heading(page_, "bus " + percent(plan_.load));
         const size_t rows = room(plan_.loads.size(), kLoadsMax, 0);
         size_t width = 0;
         double highest = kBarFull;
@@ -149,21 +144,26 @@ private:
 
     void bar(double part) {
         const int columns = static_cast<int>(std::ceil(part * kBarColumns));
-        const std::string block = charset_ == Charset::Ascii ? "#" : "━";
+        // Also without colours, and on any background, the bar differs from what it lies on.
+        const std::string full = charset_ == Charset::Ascii ? "#" : "━";
+        const std::string track = charset_ == Charset::Ascii ? "." : "╌";
         for (int i = 0; i < kBarColumns; ++i) {
-            page_.add(block, {i < columns ? Colour(kBar) : Colour(kTrack), {}, false});
+            page_.add(i < columns ? full : track, {i < columns ? kBar : kDim, {}, false});
         }
     }
 
     void happenings() {
-        heading(page_, "what happened", charset_);
-        if (plan_.happenings.empty()) nothing("nothing yet");
-        const size_t all = plan_.happenings.size() + plan_.forgotten;
+        const auto& all = plan_.happenings;
+        const size_t first = std::min(scrolled_, all.empty() ? 0 : all.size() - 1);
+        const std::string later = ", " + std::to_string(first) + " later";
+        heading(page_, first == 0 ? "what happened" : "what happened" + later);
+        if (all.empty()) nothing("nothing yet");
+        const size_t left = all.size() - first + plan_.forgotten;
         const auto rows = static_cast<size_t>(std::max(page_.rows_left(), 0));
         if (rows == 0) return;
-        const size_t shown = std::min(plan_.happenings.size(), all > rows ? rows - 1 : all);
-        for (size_t i = 0; i < shown; ++i) happening(plan_.happenings[i]);
-        if (shown < all) more(page_, all - shown, charset_);
+        const size_t shown = std::min(all.size() - first, left > rows ? rows - 1 : left);
+        for (size_t i = first; i < first + shown; ++i) happening(all[i]);
+        if (shown < left) more(page_, left - shown);
     }
 
     void happening(const HappeningView& one) {
@@ -180,16 +180,16 @@ private:
         page_.next();
     }
 
-    static constexpr Rgb kTrack{60, 65, 75};
     Page page_;
     const PlanPanelView& plan_;
+    size_t scrolled_;
     Charset charset_;
 };
 
 }  // namespace
 
-void draw_plan_panel(Grid& grid, Area area, const PlanPanelView& plan, const Look& look) {
-    PlanPanel(grid, area, plan, look).draw();
+void draw_plan_panel(Grid& grid, Area area, const View& view, const Look& look) {
+    PlanPanel(grid, area, view, look).draw();
 }
 
 }  // namespace vagus::cli

@@ -7,6 +7,6 @@
 namespace vagus::cli {
 
 // What does not fit is left out; each list has its share of the height.
-void draw_plan_panel(Grid& grid, Area area, const PlanPanelView& plan, const Look& look);
+void draw_plan_panel(Grid& grid, Area area, const View& view, const Look& look);
 
 }  // namespace vagus::cli

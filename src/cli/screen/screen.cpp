@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "cli/screen/arena.hpp"
+#include "cli/screen/page.hpp"
 #include "cli/screen/panel.hpp"
 #include "cli/screen/plan_panel.hpp"
+#include "cli/screen/theme.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -14,19 +16,15 @@ namespace {
 constexpr int kPanelMin = 28;         // with a column of margin at the right
 constexpr double kPanelShare = 0.36;  // of the columns, where the arena would take more
 constexpr int kPanelMax = 60;
-constexpr int kNoticeMin = 10;  // columns that make it worth showing
 constexpr int kProblemRowsMax = 10;
 constexpr std::string_view kIndent = "  ";  // of a sentence's further rows
 constexpr Rgb kBarBack{38, 50, 82};
 constexpr Rgb kBarFore{225, 230, 240};
+constexpr int kListeningMax = 40;  // columns of where others may connect
 constexpr Rgb kKey{255, 210, 90};
 constexpr Rgb kPaused{255, 180, 70};
 constexpr Rgb kError{255, 110, 100};
 
-struct KeyHelp {
-    std::string_view key;
-    std::string_view does;
-};
 Grid too_small(Size size) {
     Grid grid(size);
     const std::string words = "this view needs " + std::to_string(kSizeMin.columns) + " x " +
@@ -50,10 +48,11 @@ Ink bar_ink(Rgb fore, bool bold) {
     return {fore, kBarBack, bold};
 }
 
-void draw_state(Grid& grid, int row, const View& view) {
+void draw_state(Grid& grid, int row, const View& view, Charset charset) {
     const Size size = grid.size();
     grid.fill(0, row, size.columns, 1, {U' ', bar_ink(kBarFore, false)});
-    int column = grid.text(1, row, size.columns, view.title, bar_ink(kBarFore, true));
+    const std::string title = shortened(view.title, size.columns / 3, charset);
+    int column = grid.text(1, row, size.columns, title, bar_ink(kBarFore, true));
     column =
         grid.text(column + 2, row, size.columns, clock_text(view.now), bar_ink(kBarFore, false));
     const bool over = view.plan && view.plan->over;
@@ -61,33 +60,22 @@ void draw_state(Grid& grid, int row, const View& view) {
              : view.paused
                  ? grid.text(column + 2, row, size.columns, "paused", bar_ink(kPaused, true))
                  : grid.text(column + 2, row, size.columns, view.speed, bar_ink(kBarFore, false));
-    const int left = size.columns - 1 - text_width(view.listening);
-    const bool shown = !view.listening.empty() && left > column + 1;
-    if (shown) grid.text(left, row, size.columns, view.listening, bar_ink(kBarFore, false));
-    const int room = (shown ? left : size.columns) - 2 - (column + 2);
-    if (room >= kNoticeMin) {
-        grid.text(column + 2, row, column + 2 + room, view.notice, bar_ink(kKey, false));
-    }
+    const int half = std::min(kListeningMax, (size.columns - column) / 2);
+    const std::string listening =
+        shortened(view.listening, view.notice.empty() ? size.columns - column - 3 : half, charset);
+    const int left = size.columns - 1 - text_width(listening);
+    grid.text(left, row, size.columns, listening, bar_ink(kBarFore, false));
+    const int room = (listening.empty() ? size.columns : left) - 2 - (column + 2);
+    if (room <= 0) return;
+    grid.text(column + 2, row, column + 2 + room, shortened(view.notice, room, charset),
+              bar_ink(kKey, false));
 }
 
 // The keys that fit whole, the needed ones first.
 void draw_keys(Grid& grid, int row, const View& view) {
     const Size size = grid.size();
     int column = 1;
-    const std::string pause = view.paused ? "go on" : "pause";
-    const std::vector<KeyHelp> of_plan = {
-        {"space", pause}, {"q", "quit"}, {"e", view.button_does}, {"+ -", "speed"}};
-    const std::vector<KeyHelp> of_the_end = {{"q", "quit"}};
-    const std::vector<KeyHelp> of_world = {{"space", pause},
-                                           {"q", "quit"},
-                                           {"r", "reset"},
-                                           {"+ -", "speed"},
-                                           {"tab", view.tab_goes_to},
-                                           {"t", "tap"},
-                                           {"b", view.button_does},
-                                           {"arrows", view.arrows_do}};
-    const auto& keys = !view.plan ? of_world : view.plan->over ? of_the_end : of_plan;
-    for (const auto& [key, does] : keys) {
+    for (const auto& [key, does] : view.keys) {
         const int width = text_width(key) + 1 + text_width(does);
         if (column + width > size.columns) return;
         column = grid.text(column, row, size.columns, key, {kKey, {}, true});
@@ -97,57 +85,65 @@ void draw_keys(Grid& grid, int row, const View& view) {
 
 // Sentences are broken at spaces, so that nothing of them is lost on a narrow screen; lines of the
 // script and the carets under them are only cut.
-std::vector<std::string> broken(const std::vector<std::string>& lines, int columns) {
-    std::vector<std::string> rows;
-    for (std::string line : lines) {
-        const bool sentence = !line.starts_with(" ");
-        while (sentence && text_width(line) > columns) {
+struct ProblemRow {
+    std::string text;
+    bool begins = false;  // a sentence
+};
+
+std::vector<ProblemRow> broken(const std::vector<ProblemView>& problems, int columns) {
+    std::vector<ProblemRow> rows;
+    for (const ProblemView& problem : problems) {
+        std::string line = problem.sentence;
+        bool begins = true;
+        while (text_width(line) > columns) {
             const size_t end = line.rfind(' ', static_cast<size_t>(columns));
             if (end == std::string::npos || end <= kIndent.size()) break;
-            rows.push_back(line.substr(0, end));
+            rows.push_back({line.substr(0, end), begins});
             line = std::string(kIndent) + line.substr(end + 1);
+            begins = false;
         }
-        rows.push_back(line);
+        rows.push_back({line, begins});
+        for (const std::string& source : problem.source) rows.push_back({source, false});
     }
     return rows;
 }
 
 // What is wrong with the scripts, above the keys.
 void draw_problems(Grid& grid, int row, const std::string& title,
-                   const std::vector<std::string>& rows) {
+                   const std::vector<ProblemRow>& rows) {
     const int columns = grid.size().columns;
     const Ink head{Rgb{255, 255, 255}, Rgb{150, 30, 30}, true};
     grid.fill(0, row, columns, 1, {U' ', head});
     grid.text(1, row, columns, title, head);
-    for (const std::string& line : rows) {
-        const bool sentence = !line.starts_with("   ");
+    for (const ProblemRow& line : rows) {
         row++;
-        grid.text(1, row, columns, line, {sentence ? Colour(kError) : Colour(), {}, sentence});
+        const Colour colour = line.begins ? Colour(kError) : Colour();
+        grid.text(1, row, columns, line.text, {colour, {}, line.begins});
     }
 }
 
-struct Layout {
+struct Parts {
     Area arena;
     Area panel;
-    std::vector<std::string> problems;  // rows of text
+    std::vector<ProblemRow> problems;
 };
 
 // The arena takes the height and as many columns as its form needs; the panel takes the rest.
-Layout layout(const View& view, Size size) {
-    Layout layout;
-    layout.problems = broken(view.problems, size.columns - 2);
+Parts parts_of(const View& view, Size size) {
+    Parts parts;
+    parts.problems = broken(view.problems, size.columns - 2);
     const auto most_rows = static_cast<size_t>(std::min(kProblemRowsMax, size.rows / 2));
-    if (layout.problems.size() > most_rows) layout.problems.resize(most_rows);
-    const int under = layout.problems.empty() ? 0 : static_cast<int>(layout.problems.size()) + 1;
+    if (parts.problems.size() > most_rows) parts.problems.resize(most_rows);
+    const int under = parts.problems.empty() ? 0 : static_cast<int>(parts.problems.size()) + 1;
     const int rows = size.rows - 2 - under;
     const double wanted = std::ceil(2.0 * rows * view.width / std::max(view.height, 1e-9));
     const int reserved = std::max(kPanelMin, static_cast<int>(kPanelShare * size.columns));
     const int most = size.columns - reserved - 1;
     const int columns = static_cast<int>(std::clamp(wanted, 1.0, 1.0 * most));
     const int panel = std::min(size.columns - columns - 1, kPanelMax);
-    layout.arena = {0, 1, size.columns - panel - 1, rows};
-    layout.panel = {size.columns - panel, 1, panel - 1, rows};
-    return layout;
+    parts.arena = {0, 1, size.columns - panel - 1, rows};
+    parts.panel = {size.columns - panel, 1, panel - 1, rows};
+    return parts;
 }
 
 bool mentions(std::string text, std::string_view word) {
@@ -173,17 +169,20 @@ Grid draw(const View& view, Size size, const Look& look) {
     if (size.columns < kSizeMin.columns || size.rows < kSizeMin.rows) return too_small(size);
     Grid grid(size);
     const Size page = grid.size();
-    const Layout parts = layout(view, page);
-    draw_state(grid, 0, view);
+    const Parts parts = parts_of(view, page);
+    draw_state(grid, 0, view, look.charset);
     draw_arena(grid, parts.arena, view, look);
     if (view.plan) {
-        draw_plan_panel(grid, parts.panel, *view.plan, look);
+        draw_plan_panel(grid, parts.panel, view, look);
     } else {
         draw_panel(grid, parts.panel, view, look);
     }
     if (!parts.problems.empty())
         draw_problems(grid, 1 + parts.arena.rows, view.problems_title, parts.problems);
     draw_keys(grid, page.rows - 1, view);
+    make_readable(grid, parts.panel, look.theme);
+    const int under = 1 + parts.arena.rows;
+    make_readable(grid, {0, under, page.columns, page.rows - under}, look.theme);
     return grid;
 }
 
@@ -191,7 +190,8 @@ Look look_for(const Environment& environment) {
     const std::string& locale = environment.locale;
     const bool utf8 = locale.empty() || mentions(locale, "utf-8") || mentions(locale, "utf8");
     const bool console = environment.term == "linux" || environment.term.starts_with("vt");
-    return {utf8 && !console ? Charset::Unicode : Charset::Ascii, depth_for(environment)};
+    return {utf8 && !console ? Charset::Unicode : Charset::Ascii, depth_for(environment),
+            theme_of_colorfgbg(environment.colorfgbg).value_or(Theme::Dark)};
 }
 
 }  // namespace vagus::cli

@@ -21,6 +21,7 @@ struct Environment {
     std::string term{};       // TERM
     std::string colorterm{};  // COLORTERM
     std::string no_color{};   // NO_COLOR
+    std::string colorfgbg{};  // COLORFGBG: its colours, "15;0"
     std::string locale{};     // the first of LC_ALL, LC_CTYPE, LANG that is not empty
 };
 Look look_for(const Environment& environment);

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/rng.hpp"
+#include "cli/screen/page.hpp"
+#include "cli/screen/theme.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -24,7 +26,7 @@ View small_world() {
     view.height = 1;
     view.shapes.push_back({ShapeKind::Solid, rectangle(0, 0, 0.1, 1), {90, 70, 60}});
     view.shapes.push_back({ShapeKind::Patch, rectangle(1.6, 0.2, 1.9, 0.8), {20, 20, 20}});
-    RobotView robot;
+    RobotPicture robot;
     robot.name = "thymio";
     robot.at = {1, 0.5};
     robot.angle = std::acos(0.0);
@@ -45,8 +47,8 @@ std::string text_of(const Grid& page) {
     return text;
 }
 
-constexpr Look kPlain{Charset::Unicode, ColourDepth::None};
-constexpr Look kLetters{Charset::Ascii, ColourDepth::None};
+constexpr Look kPlain{Charset::Unicode, ColourDepth::None, Theme::Dark};
+constexpr Look kLetters{Charset::Ascii, ColourDepth::None, Theme::Dark};
 
 TEST(Screen, SaysWhatItShows) {
     View view = small_world();
@@ -56,6 +58,7 @@ TEST(Screen, SaysWhatItShows) {
     view.panel.events = {{"found", 7, {1, -2}, view.now}};
     view.listening = "tcp:127.0.0.1:40000";
     view.notice = "explore.aesl loaded";
+    view.keys = {{"space", "pause"}, {"q", "quit"}};
     const std::string page = text_of(draw(view, {120, 24}, kPlain));
     EXPECT_THAT(page, HasSubstr("yard  12.3 s  x1  explore.aesl loaded"));
     EXPECT_THAT(page, HasSubstr("tcp:127.0.0.1:40000"));
@@ -66,7 +69,7 @@ TEST(Screen, SaysWhatItShows) {
     EXPECT_THAT(page, HasSubstr("state"));
     EXPECT_THAT(page, HasSubstr("found 1 -2"));
     EXPECT_THAT(page, HasSubstr("×7"));
-    EXPECT_THAT(page, HasSubstr("q quit"));
+    EXPECT_THAT(page, HasSubstr(" space pause  q quit\n"));
 }
 
 // Without colour and UTF-8 the picture is made of letters. The arena is twice as wide as high, and
@@ -95,9 +98,9 @@ TEST(Screen, BelowTheSmallestSizeItSaysWhatItNeeds) {
 TEST(Screen, MistakesOfTheScriptAreBrokenAtSpacesAndShownWhole) {
     View view = small_world();
     view.problems = {
-        "explore.aesl:12:5: error: There is no variable called speeed; did you mean "
-        "speed? [VARIABLE_NOT_DEFINED]",
-        "   12 | speeed = 3", "      | ^~~~~~"};
+        {"explore.aesl:12:5: error: There is no variable called speeed; did you mean "
+         "speed? [VARIABLE_NOT_DEFINED]",
+         {"   12 | speeed = 3", "      | ^~~~~~"}}};
     const std::string page = text_of(draw(view, kSizeMin, kPlain));
     EXPECT_THAT(page, HasSubstr("explore.aesl:12:5: error: There is no variable called"));
     EXPECT_THAT(page, HasSubstr("   speeed; did you mean speed? [VARIABLE_NOT_DEFINED]"));
@@ -170,7 +173,7 @@ TEST(Screen, ShowsAllFourWallsAroundTheWorldAtEverySize) {
             for (int rows = 16; rows <= 50; rows += 4) {
                 SCOPED_TRACE(std::to_string(columns) + " x " + std::to_string(rows));
                 for (const ColourDepth depth : {ColourDepth::None, ColourDepth::True}) {
-                    const Look look{Charset::Unicode, depth};
+                    const Look look{Charset::Unicode, depth, Theme::Dark};
                     expect_four_edges(draw(view, {columns, rows}, look), *view.border, look);
                     if (HasFatalFailure()) return;
                 }
@@ -230,18 +233,124 @@ TEST(Screen, EventsThatDoNotFitAreCounted) {
     EXPECT_THAT(text_of(draw(view, kSizeMin, kPlain)), HasSubstr("… 3"));  // more than 30
 }
 
-TEST(Screen, APlanThatIsOverLeavesNoKeyButQuit) {
+TEST(Screen, APlanThatIsOverHasNoSpeed) {
     View view;
     view.plan = long_plan();
     view.plan->over = true;
     view.notice = "the plan is over: OK";
     view.speed = "x1";
     const Grid page = draw(view, {100, 30}, kPlain);
-    EXPECT_EQ(page.row_text(29), " q quit");
     EXPECT_THAT(page.row_text(0), HasSubstr("the plan is over: OK"));
     EXPECT_THAT(page.row_text(0), testing::Not(HasSubstr("x1")));
-    view.plan->over = false;
-    EXPECT_THAT(draw(view, {100, 30}, kPlain).row_text(29), HasSubstr("space pause"));
+}
+
+// The needed ones stand first. A blank, three keys and their blanks take 33 columns of 60.
+TEST(Screen, KeysThatDoNotFitWholeAreLeftOut) {
+    View view;
+    view.keys = {
+        {"space", "pause"}, {"q", "quit"}, {"r", "restart"}, {"a", "xxxxxxxxxxxxxxxxxxxxxxxxx"}};
+    EXPECT_EQ(draw(view, kSizeMin, kPlain).row_text(15),
+              " space pause  q quit  r restart  a xxxxxxxxxxxxxxxxxxxxxxxxx");
+    view.keys.back().does += "x";  // 61 columns
+    EXPECT_EQ(draw(view, kSizeMin, kPlain).row_text(15), " space pause  q quit  r restart");
+}
+
+// "twenty letters of name" at the left and "-12345 ... 6789" at the right of 20 columns: the value
+// needs 15 and may have 9 of the 19 beside a blank, the name then has 10.
+TEST(Page, ALineOfANameAndAValueShortensBothInTheMiddle) {
+    Grid grid({20, 4});
+    Page page(grid, {0, 0, 20, 4}, Charset::Unicode);
+    page.pair("abcdefghijklmnopqrst", {}, "-12345 678 6789", {});
+    page.pair("abc", {}, "-12345 678 6789", {});
+    page.pair("abcdefghijklmnopqrst", {}, "17", {});
+    page.pair("abc", {}, "17", {});
+    EXPECT_EQ(grid.row_text(0), "abcde…qrst -123…6789");
+    EXPECT_EQ(grid.row_text(1), "abc  -12345 678 6789");
+    EXPECT_EQ(grid.row_text(2), "abcdefgh…mnopqrst 17");
+    EXPECT_EQ(grid.row_text(3), "abc               17");
+}
+
+TEST(Page, TextIsShortenedAtWholeCharacters) {
+    EXPECT_EQ(shortened("Drehgeschwindigkeit", 9, Charset::Unicode), "Dreh…keit");
+    EXPECT_EQ(shortened("Drehgeschwindigkeit", 8, Charset::Ascii), "Dreh~eit");
+    EXPECT_EQ(shortened("größer", 6, Charset::Unicode), "größer");
+    EXPECT_EQ(shortened("größer", 5, Charset::Unicode), "gr…er");
+    EXPECT_EQ(shortened("äöüäöü", 4, Charset::Unicode), "äö…ü");
+    EXPECT_EQ(shortened("abc", 2, Charset::Unicode), "ab");
+    EXPECT_EQ(shortened("abc", 0, Charset::Unicode), "");
+}
+
+// A value that nobody can see is worse than one without its middle.
+TEST(Screen, LongNamesHideNothing) {
+    View view = small_world();
+    const std::string name(200, 'n');
+    view.title = name;
+    view.panel.node_name = name;
+    view.panel.variables = {{name, {-32768, 1, 2, 3, 4, 5, 32767}, false}};
+    view.panel.events = {{name, 12, {1, -2}, {}}};
+    view.notice = name;
+    view.listening = "tcp:127.0.0.1:40000";
+    const std::string page = text_of(draw(view, kSizeMin, kPlain));
+    for (const char* part :
+         {"12.3 s", "x1", "40000", "node 3", "running", "-32768", "32767", "1 -2", "×12"}) {
+        EXPECT_THAT(page, HasSubstr(part));
+    }
+    view.plan = long_plan();
+    view.plan->name = name;
+    view.plan->actors = {{name, 0, true, std::chrono::seconds(1000000)}};
+    view.plan->watching = {{name, "Hit", true}};
+    view.plan->variables = {{name, "1.25", "cm", false}};
+    const std::string other = text_of(draw(view, {60, 24}, kPlain));
+    for (const char* part : {"running", "1000000.0 s", "always Hit", "1.25 cm"}) {
+        EXPECT_THAT(other, HasSubstr(part));
+    }
+}
+
+TEST(Screen, TheListOfWhatHappenedScrolls) {
+    View view;
+    view.plan = long_plan();
+    const auto page = [&](size_t scrolled) {
+        view.scrolled = scrolled;
+        return text_of(draw(view, {100, 40}, kPlain));
+    };
+    EXPECT_THAT(page(0), HasSubstr("0.0 h0\n"));
+    EXPECT_THAT(page(0), HasSubstr("─ what happened ─"));
+    EXPECT_THAT(page(7), HasSubstr("what happened, 7 later"));
+    EXPECT_THAT(page(7), HasSubstr("0.0 h7\n"));
+    EXPECT_THAT(page(7), testing::Not(HasSubstr("0.0 h6\n")));
+    EXPECT_THAT(page(1000), HasSubstr("0.0 h29\n"));
+    EXPECT_THAT(page(1000), HasSubstr("… 1000 more"));
+}
+
+TEST(Screen, TheListOfEventsScrolls) {
+    View view = small_world();
+    for (int i = 0; i < 40; i++) view.panel.events.push_back({"e" + std::to_string(i), 1, {}, {}});
+    view.scrolled = 12;
+    const std::string page = text_of(draw(view, {80, 24}, kPlain));
+    EXPECT_THAT(page, HasSubstr("events, 12 above"));
+    EXPECT_THAT(page, HasSubstr("e12 "));
+    EXPECT_THAT(page, testing::Not(HasSubstr("e11 ")));
+}
+
+// All text on the terminal's own background has a contrast of 4.5 to white at least.
+TEST(Screen, OnALightTerminalAllTextCanBeRead) {
+    View view = small_world();
+    view.panel.wrong = true;
+    view.panel.variables = {{"state", {2}, true}};
+    view.keys = {{"q", "quit"}};
+    view.problems = {{"a mistake", {}}};
+    for (const bool plan : {false, true}) {
+        if (plan) view.plan = long_plan();
+        const Look look{Charset::Unicode, ColourDepth::True, Theme::Light};
+        const Grid page = draw(view, {80, 24}, look);
+        for (int row = 0; row < 24; row++) {
+            for (int column = row == 23 ? 0 : 52; column < 80; column++) {
+                const Ink& ink = page.at(column, row).ink;
+                if (!ink.fore || ink.back) continue;
+                EXPECT_EQ(readable(*ink.fore, Theme::Light), *ink.fore) << column << ", " << row;
+            }
+        }
+    }
 }
 
 // Robots leave an open world, files hold odd sizes: whatever the values, the page is drawn.
@@ -264,7 +373,8 @@ TEST(Screen, NoValueBreaksThePage) {
         view.selected = random.below(3);
         const Size size{static_cast<int>(random.below(200)), static_cast<int>(random.below(60))};
         const Look look{random.below(2) == 0 ? Charset::Unicode : Charset::Ascii,
-                        static_cast<ColourDepth>(random.below(4))};
+                        static_cast<ColourDepth>(random.below(4)),
+                        static_cast<Theme>(random.below(2))};
         const Grid page = draw(view, size, look);
         EXPECT_FALSE(repaint(nullptr, page, look.depth).empty());
     }

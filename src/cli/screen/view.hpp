@@ -45,7 +45,7 @@ struct RayView {
     bool hit = false;  // it sees something
 };
 
-struct RobotView {
+struct RobotPicture {
     std::string name;
     Point at;
     double angle = 0;  // radians, counter-clockwise, 0 along x
@@ -152,6 +152,18 @@ struct PlanPanelView {
     double load = 0;                        // of all
 };
 
+// What is wrong: a sentence, and the line that it is about with the marks under it.
+struct ProblemView {
+    std::string sentence;
+    std::vector<std::string> source;
+};
+
+// "space", "pause"
+struct KeyHelp {
+    std::string key;
+    std::string does;
+};
+
 struct View {
     std::string title;
     double width = 1;
@@ -160,23 +172,20 @@ struct View {
     GroundImage image;
     std::vector<ShapeView> shapes;  // painted in this order, marks on the floor first
     std::optional<Rgb> border;      // the walls around, if there are some
-    std::vector<RobotView> robots;
+    std::vector<RobotPicture> robots;
     size_t selected = 0;  // the robot that the panel is about
     PanelView panel;
     std::optional<PlanPanelView> plan;  // then it has the place of the panel
     Time now{};
     std::string speed;  // "x1", "x0.5", "max"
     bool paused = false;
-    std::string listening;  // "tcp:127.0.0.1:33333", empty if nobody can connect
-    std::string notice;     // one line: what was loaded last
-    // What the keys tab, b and the arrows do.
-    std::string tab_goes_to = "robot";
-    std::string button_does = "button";
-    std::string arrows_do = "buttons";
-    // What is wrong with the scripts: sentences, and lines that begin with three spaces, which are
-    // source text and the marks under it.
+    std::string listening;      // "tcp:127.0.0.1:33333", empty if nobody can connect
+    std::string notice;         // one line: what was loaded last
+    std::vector<KeyHelp> keys;  // those that do something, the needed ones first
+    size_t scrolled = 0;        // lines of the list of events above the first that is shown
+    // What is wrong with the scripts.
     std::string problems_title;
-    std::vector<std::string> problems;
+    std::vector<ProblemView> problems;
 };
 
 }  // namespace vagus::cli

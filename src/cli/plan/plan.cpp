@@ -1,0 +1,258 @@
+// `vagus plan`: checks, runs, debugs and formats plans (docs/plans.md, sections 5 and 6).
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/file.hpp"
+#include "cli/live_screen.hpp"
+#include "cli/options.hpp"
+#include "cli/output.hpp"
+#include "cli/plan/debug.hpp"
+#include "cli/plan/generate.hpp"
+#include "cli/plan/run.hpp"
+#include "cli/plan/save_watcher.hpp"
+#include "cli/plan/show.hpp"
+#include "cli/verbs.hpp"
+#include "net/end_signal.hpp"
+#include "plan/check.hpp"
+#include "plan/file.hpp"
+#include "plan/formula_words.hpp"
+#include "session/toolboxes.hpp"
+
+namespace vagus::cli {
+
+namespace {
+
+// ---- check ----
+
+struct CheckOptions {
+    std::string file;
+    embed::RunWords words;  // toolboxes, a world with one of its robots, or a project
+    bool json = false;
+};
+
+int check(const CheckOptions& options) {
+    const toolbox::Parts parts;
+    run::CodeLibrary library;
+    const embed::RunWords& words = options.words;
+    const Status added = session::add_toolboxes(library, parts, words.toolboxes);
+    if (!added.ok()) return complain(added.error(), kExitUsage);
+    const auto plan = embed::LoadedPlan::from_file(options.file, library);
+    plan::Findings findings = plan.findings();
+    if (plan.ok()) {
+        const Result<plan::Findings> missing = embed::check_bus(plan, words);
+        if (!missing.ok()) return complain(missing.error(), kExitUsage);
+        findings.insert(findings.end(), missing.value().begin(), missing.value().end());
+    }
+    if (options.json) {
+        print(plan::format_findings_json(findings));
+    } else {
+        show_findings(findings);
+    }
+    return plan::has_error(findings) ? kExitUsage : kExitDone;
+}
+
+// ---- run ----
+
+// To the end of the plan, or of the watching; gives the exit code.
+int show_run(PlanRun& run, const PlanRunOptions& options) {
+    const PlanShown shown = how_to_show(options);
+    switch (shown) {
+        case PlanShown::Screen:
+            return run_on_screen(run, options.theme);
+        case PlanShown::Lines:
+        case PlanShown::LinesOnStderr:
+            return run_in_lines(run, shown);
+        case PlanShown::Nowhere:
+            break;
+    }
+    const run::Ended ended = run.run();
+    if (!ended.message.empty()) complain(ended.message);
+    return run.prepared().exit_status(ended);
+}
+
+int run_once(const PlanRunOptions& options) {
+    const std::unique_ptr<PlanRun> run = PlanRun::prepare(options);
+    if (!run) return kExitUsage;
+    net::watch_for_end();
+    const net::EndWatcher end_watcher([&run] { run->prepared().abort(); });
+    return show_run(*run, options);
+}
+
+// Again each time that a file is saved, until a signal ends it. A run that is going on is aborted
+// first.
+int run_watched(const PlanRunOptions& options) {
+    net::watch_for_end();
+    std::vector<std::string> files = options.words.toolboxes;
+    files.insert(files.end(), {options.file, options.words.world, options.words.project});
+    int exit_code = kExitUsage;
+    while (!net::end_asked()) {
+        // Made before they are read: what is saved meanwhile is not missed.
+        FileWatch watch(files);
+        const std::unique_ptr<PlanRun> run = PlanRun::prepare(options);
+        if (run && run->files() != files) {
+            files = run->files();
+            watch = FileWatch(files);
+        }
+        const auto abort = [&run] {
+            if (run) run->prepared().abort();
+        };
+        SaveWatcher saves(std::move(watch), abort);
+        const net::EndWatcher end_watcher(abort);
+        if (run) exit_code = show_run(*run, options);
+        const std::optional<std::string> saved = saves.wait();
+        if (saved) say(*saved + " was saved: the plan starts anew\n");
+    }
+    return exit_code;
+}
+
+// ---- format ----
+
+struct FormatOptions {
+    std::string file;
+    std::vector<std::string> toolboxes;  // taken by all verbs alike; the form does not need them
+    bool write = false;
+    bool check = false;
+};
+
+int format(const FormatOptions& options) {
+    const Result<std::string> text = read_file(options.file);
+    if (!text.ok()) return complain(text.error(), kExitUsage);
+    const Result<std::string> formatted = plan::format_plan(text.value(), options.file);
+    if (!formatted.ok()) return complain(formatted.error(), kExitUsage);
+    const bool same = formatted.value() == text.value();
+    if (options.check) {
+        if (same) return kExitDone;
+        return complain(
+            fmt::format("{} is not in the saved form; `vagus plan format -w {}` fixes that",
+                        options.file, options.file));
+    }
+    if (!options.write) {
+        print_file(formatted.value());
+        return kExitDone;
+    }
+    if (same) return kExitDone;
+    const Status written = write_file(options.file, formatted.value());
+    return written.ok() ? kExitDone : complain(written.error());
+}
+
+// ---- formulas ----
+
+void print_formula_words() {
+    const auto row = [](std::string_view form, std::string_view help) {
+        print(fmt::format("  {:<20}  {}\n", form, help));
+    };
+    print("operators, the weakest first\n");
+    for (const plan::FormulaOperator& one : plan::formula_operators()) row(one.form, one.help);
+    print("functions\n");
+    for (const plan::FormulaFunction& one : plan::formula_functions()) row(one.form, one.help);
+}
+
+// ---- the command line ----
+
+void add_check(CLI::App& plan, int& exit_code) {
+    CLI::App* verb = plan.add_subcommand("check", "finds what is wrong with a plan");
+    verb->footer("Example:\n  vagus plan check examples/follow-wall/WallFollow.plan.json");
+    auto options = std::make_shared<CheckOptions>();  // owners: CLI11's option and the callback
+    add_plan_file(*verb, options->file);
+    add_toolbox_option(*verb, options->words.toolboxes);
+    embed::RunWords& words = options->words;
+    CLI::Option* world = verb->add_option("--world", words.world,
+                                          "a world whose scripts must know the plan's events");
+    takes_file(*world, {".world.json"});
+    verb->add_option("--robot", words.robot, "which robot of the world")
+        ->type_name("NAME")
+        ->needs(world);
+    takes_file(*verb->add_option("--project", words.project,
+                                 "a project whose events the plan must keep to")
+                    ->excludes(world),
+               {".aesl"});
+    verb->add_flag("--json", options->json, "the findings as a JSON array on stdout");
+    verb->callback([options, &exit_code] { exit_code = check(*options); });
+}
+
+void add_run(CLI::App& plan, int& exit_code) {
+    CLI::App* verb = plan.add_subcommand("run", "runs a plan");
+    verb->footer(
+        "Exit codes: 0 the plan ended well, 3 it was interrupted, 4 it failed, 5 --max-time came, "
+        "2 it is not valid.\n\nBeside a world, on a terminal, it shows the plan and the world; the "
+        "keys stand at the bottom. At the\nend the view stays until a key. Otherwise it prints a "
+        "line "
+        "for each thing that happens: on stdout, or on\nstderr where stdout carries a trace. "
+        "--quiet "
+        "leaves the lines out.\n\nExample:\n  "
+        "vagus plan run Count.plan.json --clock virtual --trace - "
+        "--set last=40\n  vagus plan run Square.plan.json --world thymio.world.json");
+    auto options = std::make_shared<PlanRunOptions>();  // owners: CLI11's options, the callback
+    add_run_options(*verb, *options);
+    verb->add_flag("--headless", options->headless,
+                   "beside a world: plain lines also on a terminal");
+    verb->add_flag("--quiet", options->quiet, "no lines of what happens, and no view");
+    add_theme_option(*verb, options->theme);
+    verb->add_flag("--watch", options->watch, "starts anew when a file that it read is saved");
+    verb->callback([options, &exit_code] {
+        exit_code = options->watch ? run_watched(*options) : run_once(*options);
+    });
+}
+
+void add_debug(CLI::App& plan, int& exit_code) {
+    CLI::App* verb = plan.add_subcommand("debug", "runs a plan with a prompt: breakpoints, steps");
+    verb->footer(
+        "The run waits before its start; `help` lists the commands. Without a terminal they are "
+        "lines of stdin. Exit codes as for `vagus plan run`.\n\nExample:\n"
+        "  vagus plan debug Square.plan.json --world carbot.world.json --clock virtual");
+    auto options = std::make_shared<PlanRunOptions>();  // owners: CLI11's options, the callback
+    add_run_options(*verb, *options);
+    verb->callback([options, &exit_code] { exit_code = debug_plan(*options); });
+}
+
+void add_format(CLI::App& plan, int& exit_code) {
+    CLI::App* verb = plan.add_subcommand("format", "prints a plan in its saved form");
+    verb->footer("Example:\n  vagus plan format -w Square.plan.json");
+    auto options = std::make_shared<FormatOptions>();  // owners: CLI11's options and the callback
+    add_plan_file(*verb, options->file);
+    add_toolbox_option(*verb, options->toolboxes);
+    verb->add_flag("-w,--write", options->write, "writes the file instead of printing");
+    verb->add_flag("--check", options->check,
+                   "only checks: exit code 1 if the file differs from its saved form");
+    verb->callback([options, &exit_code] { exit_code = format(*options); });
+}
+
+void add_formulas(CLI::App& plan) {
+    CLI::App* verb =
+        plan.add_subcommand("formulas", "lists the operators and functions of formulas");
+    verb->footer("Example:\n  vagus plan formulas --json");
+    auto json = std::make_shared<bool>(false);  // owners: CLI11's option and the callback
+    verb->add_flag("--json", *json, "as a JSON object on stdout, for editors");
+    verb->callback([json] {
+        if (*json) {
+            print(plan::format_formula_words_json());
+        } else {
+            print_formula_words();
+        }
+    });
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, int& exit_code) {
+    CLI::App* plan = app.add_subcommand(
+        "plan", "checks, runs, debugs and formats plans, and makes programs of them");
+    plan->require_subcommand(1);
+    plan->footer(
+        "Example:\n  vagus plan run Square.plan.json --world carbot.world.json --clock virtual "
+        "--trace -");
+    add_check(*plan, exit_code);
+    add_run(*plan, exit_code);
+    add_debug(*plan, exit_code);
+    add_plan_generate(*plan, exit_code);
+    add_format(*plan, exit_code);
+    add_formulas(*plan);
+}
+
+}  // namespace vagus::cli

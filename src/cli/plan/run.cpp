@@ -1,0 +1,90 @@
+#include "cli/plan/run.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/options.hpp"
+#include "cli/output.hpp"
+#include "embed/loaded_plan.hpp"
+#include "session/toolboxes.hpp"
+
+namespace vagus::cli {
+
+void show_findings(const plan::Findings& findings) {
+    say(embed::format_findings(findings));
+}
+
+PlanRun::PlanRun() = default;
+PlanRun::~PlanRun() = default;
+
+std::unique_ptr<PlanRun> PlanRun::prepare(const PlanRunOptions& options) {
+    std::unique_ptr<PlanRun> made(new PlanRun());  // make_unique cannot reach the constructor
+    const embed::RunWords& words = options.words;
+    const Status added = session::add_toolboxes(made->library_, made->parts_, words.toolboxes);
+    if (!added.ok()) {
+        complain(added.error());
+        return nullptr;
+    }
+    made->plan_ = embed::LoadedPlan::from_file(options.file, made->library_);
+    show_findings(made->plan_->findings());
+    if (!made->plan_->ok()) return nullptr;
+    auto prepared = embed::PreparedRun::prepare(*made->plan_, words, made->parts_);
+    if (!prepared.ok()) {
+        complain(prepared.error());
+        return nullptr;
+    }
+    made->prepared_ = std::move(prepared.value());
+    made->prepared_->tell([](const std::string& sentence) { complain(sentence); });
+    const std::string listening = made->prepared_->listening();
+    if (!listening.empty()) print("listening " + listening + "\n");
+    return made;
+}
+
+std::vector<std::string> PlanRun::files() const {
+    std::vector<std::string> files = prepared_->files();
+    for (const plan::Plan& one : plan_->plans()) files.push_back(one.file);
+    return files;
+}
+
+run::Ended PlanRun::run(run::Debugger* debugger) {
+    Result<run::Ended> ended = prepared_->run(debugger);
+    if (ended.ok()) return ended.value();
+    complain(ended.error());
+    return {.result = plan::PlanResult::Error, .message = {}};
+}
+
+void add_plan_file(CLI::App& verb, std::string& file) {
+    CLI::Option* option = verb.add_option("FILE", file, "the plan, NAME.plan.json")->required();
+    takes_file(*option, {".plan.json"});
+}
+
+namespace {
+
+// An empty word stands for an option that was not given.
+std::string refuse_empty(std::string& given) {
+    return given.empty() ? "expected a value, found nothing" : "";
+}
+
+}  // namespace
+
+void add_run_options(CLI::App& verb, PlanRunOptions& options) {
+    add_plan_file(verb, options.file);
+    embed::RunWords& words = options.words;
+    for (const embed::RunOption& option : embed::run_options()) {
+        const std::string name(option.name);
+        const std::string help(option.help);
+        CLI::Option* const added =
+            option.many ? verb.add_option(name, words.*option.many, help)->allow_extra_args(false)
+                        : verb.add_option(name, words.*option.one, help)
+                              ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+        added->check(CLI::Validator(refuse_empty, ""));
+        if (!option.choices.empty()) {
+            takes_one_of(*added, option.choices);
+        } else if (!option.endings.empty()) {
+            takes_file(*added, option.endings);
+        } else {
+            added->type_name(std::string(option.value));
+        }
+    }
+}
+
+}  // namespace vagus::cli

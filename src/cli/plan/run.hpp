@@ -1,0 +1,64 @@
+// A plan made ready to run as the command line says: what `vagus plan run` and `debug` share.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "embed/loaded_plan.hpp"
+#include "embed/prepared_run.hpp"
+#include "plan/check.hpp"
+#include "plan/graph.hpp"
+#include "run/code.hpp"
+#include "run/options.hpp"
+#include "toolbox/parts.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace vagus::cli {
+
+// On stderr, one a line.
+void show_findings(const plan::Findings& findings);
+
+struct PlanRunOptions {
+    std::string file;
+    embed::RunWords words;
+    bool headless = false;  // plain lines also on a terminal
+    bool quiet = false;     // neither lines nor a view
+    std::string theme;      // "dark", "light"; empty: found out
+    bool watch = false;     // starts anew when a file is saved
+};
+
+void add_plan_file(CLI::App& verb, std::string& file);
+void add_run_options(CLI::App& verb, PlanRunOptions& options);
+
+class PlanRun {
+public:
+    // Nothing if it cannot run; it has complained then.
+    static std::unique_ptr<PlanRun> prepare(const PlanRunOptions& options);
+    ~PlanRun();
+
+    const plan::Graph& graph() const { return plan_->graph(); }
+    const plan::Plan& plan() const { return plan_->plans().front(); }  // the outermost
+    // All that were read: of the plans, their toolboxes, the world and its scripts.
+    std::vector<std::string> files() const;
+    embed::PreparedRun& prepared() { return *prepared_; }
+    // Can be called again: each is a run of its own. One that cannot begin has complained, and is
+    // over with an error.
+    run::Ended run(run::Debugger* debugger = nullptr);
+
+private:
+    PlanRun();
+
+    toolbox::Parts parts_;  // before the library, whose code looks at them
+    run::CodeLibrary library_;
+    std::optional<embed::LoadedPlan> plan_;
+    std::unique_ptr<embed::PreparedRun> prepared_;
+};
+
+}  // namespace vagus::cli

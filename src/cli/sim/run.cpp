@@ -1,0 +1,350 @@
+#include "cli/sim/run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/file.hpp"
+#include "base/line_sink.hpp"
+#include "base/text.hpp"
+#include "cli/file_watch.hpp"
+#include "cli/live_screen.hpp"
+#include "cli/output.hpp"
+#include "cli/screen/pace.hpp"
+#include "cli/sim/hands.hpp"
+#include "cli/sim/lines.hpp"
+#include "cli/sim/view.hpp"
+#include "net/end_signal.hpp"
+#include "net/network.hpp"
+#include "session/sim_session.hpp"
+
+namespace vagus::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kTurn = 10ms;        // of the loop, in real time
+constexpr Duration kSettleWithin = 5s;  // simulated: robots describe themselves in far less
+constexpr Duration kHeadlessFor = 20s;  // simulated, unless --duration says otherwise
+Duration seconds(double value) {
+    return Duration(std::llround(value * 1e6));
+}
+
+// A robot's own port.
+struct Port {
+    net::PlaceId place;
+    sim::RobotId robot;
+};
+
+class SimRun {
+public:
+    SimRun(const SimRunOptions& options, session::SimSession session)
+        : options_(options),
+          session_(std::move(session)),
+          lines_(session_),
+          view_(session_),
+          watch_(options.watch ? session_.script_paths() : std::vector<std::string>()),
+          pace_(options.speed) {}
+
+    Status listen();
+    Status open_trace();
+    // Steps until the scripts run, so that their mistakes are known before the screen appears.
+    // False if there are some, or a script did not arrive, and nobody watches their files.
+    bool settle();
+    int run();
+
+private:
+    bool on_terminal() const { return screen_ != nullptr; }
+    Duration end() const;
+    bool ended() const { return session_.now() >= end() || net::end_asked() || closed_; }
+    void turn();
+    void pass_time(Time real);
+    Duration to_next_step() const;
+    void advance(Duration span);
+    void notice(const net::Event& event);
+    void look_at_files();
+    void tell_notes();
+    void write_trace();
+    void keys();
+    void act(Key key);
+    void act_on_robot(Key key);
+    void select(size_t step);
+    void restart();
+    std::vector<KeyHelp> key_help() const;
+    void show();
+
+    const SimRunOptions& options_;
+    session::SimSession session_;
+    net::Network network_;  // after the session: its links leave the session's bus first
+    SimLines lines_;
+    SimView view_;
+    FileWatch watch_;
+    std::unique_ptr<LiveScreen> screen_;  // nullptr: plain lines
+    std::string listening_;
+    std::string notice_;
+    LineSink trace_;
+    Pace pace_;
+    bool running_ = false;  // run() has begun
+    bool closed_ = false;   // nobody reads, or a person quits
+    size_t selected_ = 0;
+    Hands hands_;
+    std::vector<Port> ports_;
+    Time real_before_{};
+};
+
+Status SimRun::listen() {
+    if (!options_.listen.empty()) {
+        const auto target = TRY(net::parse_target(options_.listen));
+        const auto listening = TRY(network_.listen(session_.world().bus(), target));
+        listening_ = net::to_string(listening.target);
+        print("listening " + listening_ + "\n");
+    }
+    const auto& robots = session_.world().definition().robots;
+    const auto views = session_.world().robots();
+    for (size_t i = 0; i < robots.size() && i < views.size(); i++) {
+        hub::Hub* hub = session_.world().private_bus(views[i].id);
+        if (hub == nullptr) continue;
+        const net::Target target{net::TcpPlace{"127.0.0.1", *robots[i].port}};
+        const auto listening = TRY(network_.listen(*hub, target, {.clients = net::Clients::One}));
+        ports_.push_back({listening.place, views[i].id});
+        print("listening " + net::to_string(listening.target) + " " + robots[i].name + "\n");
+    }
+    return Status::done();
+}
+
+Status SimRun::open_trace() {
+    // On stdout its lines stand between the plain ones, as they happen.
+    const auto when =
+        options_.trace == "-" ? LineSink::When::AtOnce : LineSink::When::WithinASecond;
+    trace_ = TRY(LineSink::open(options_.trace, when));
+    return Status::done();
+}
+
+bool SimRun::settle() {
+    // Scripts that take longer to load than the run is to last are loaded all the same.
+    while (!session_.settled() && session_.now() < kSettleWithin) session_.step(sim::kNodeStep);
+    const std::vector<std::string> missing = session_.without_script();
+    if (options_.watch || (missing.empty() && session_.mistakes().empty())) return true;
+    lines_.tell(session_.take_notes());
+    if (session_.mistakes().empty()) {
+        const std::vector<std::string_view> names(missing.begin(), missing.end());
+        complain("without the script that is meant for them: " + list_of(names));
+    }
+    return false;
+}
+
+Duration SimRun::end() const {
+    if (options_.duration) return seconds(*options_.duration);
+    return on_terminal() ? Duration::max() : kHeadlessFor;
+}
+
+int SimRun::run() {
+    net::watch_for_end();
+    // Without a keyboard, or on a terminal that cannot move its cursor, lines are what helps.
+    if (!options_.headless && Terminal::can_draw()) {
+        auto opened = LiveScreen::open(options_.theme);
+        if (!opened.ok()) return complain(opened.error());
+        screen_ = std::move(opened.value());
+    }
+    running_ = true;
+    real_before_ = network_.now();
+    while (!ended()) turn();
+    tell_notes();
+    write_trace();
+    screen_.reset();
+    const Status traced = trace_.flush();
+    if (!traced.ok()) return complain(traced.error());
+    return net::end_as_asked(kExitDone);
+}
+
+void SimRun::turn() {
+    const Time now = network_.now();
+    pass_time(now);
+    hands_.release(session_);
+    look_at_files();
+    view_.follow(session_, selected_);
+    tell_notes();
+    write_trace();
+    if (on_terminal()) {
+        keys();
+        if (screen_->is_due(network_.now())) show();
+    }
+    const bool late = pace_.owes() >= sim::kNodeStep;
+    const bool hurry = !pace_.paused() && (pace_.hurries() || late);
+    for (const net::Event& event : network_.poll(hurry ? now : now + kTurn)) notice(event);
+}
+
+void SimRun::notice(const net::Event& event) {
+    if (event.kind == net::EventKind::Opened) notice_ = event.what + " is connected";
+    if (event.kind == net::EventKind::Closed || event.kind == net::EventKind::Failed) {
+        notice_ = event.what;
+    }
+    if (event.kind != net::EventKind::Closed) return;
+    for (const Port& port : ports_) {
+        if (port.place == event.place) session_.world().host_left(port.robot);
+    }
+}
+
+// Simulated time follows real time by what is due, not by counting turns: it does not drift.
+void SimRun::pass_time(Time real) {
+    const Duration passed = real - real_before_;
+    real_before_ = real;
+    if (pace_.paused()) return;
+    if (pace_.hurries()) {
+        // As much as fits between two looks at keys and sockets.
+        while (!ended() && network_.now() - real < kTurn) advance(to_next_step());
+        return;
+    }
+    Duration due = pace_.due(passed);
+    const Time deadline = real + kTurn;  // hosts want an answer, too
+    while (due >= sim::kNodeStep && !ended() && network_.now() < deadline) {
+        const Duration span = std::min(due - due % sim::kNodeStep, to_next_step());
+        advance(span);
+        pace_.pay(span);
+        due -= span;
+    }
+}
+
+// Whole steps of the physics end on their multiples, so that lines of each second name its end.
+Duration SimRun::to_next_step() const {
+    return sim::kPhysicsStep - session_.now() % sim::kPhysicsStep;
+}
+
+void SimRun::advance(Duration span) {
+    session_.step(std::min(span, end() - session_.now()));
+    // Plain lines stand for moments of simulated time, however many of them pass in a turn.
+    if (running_ && !on_terminal()) tell_notes();
+}
+
+void SimRun::look_at_files() {
+    for (const std::string& path : watch_.changed(network_.now())) {
+        const auto text = read_file(path);
+        // Gone again already: the next look finds what replaces it.
+        if (text.ok()) session_.reload(path, text.value());
+    }
+}
+
+void SimRun::tell_notes() {
+    const std::vector<session::Note> notes = session_.take_notes();
+    if (!on_terminal()) {
+        closed_ = !lines_.tell(notes) || !lines_.tell_state() || closed_;
+        return;
+    }
+    for (const session::Note& note : notes) {
+        if (note.kind != session::NoteKind::Event)
+            notice_ = note.text.substr(0, note.text.find('\n'));
+    }
+}
+
+void SimRun::write_trace() {
+    if (!trace_) return;
+    trace_.write(session_.take_trace());
+    trace_.pass(network_.now());
+    // A run that is traced is made for its trace.
+    closed_ = !trace_.state().ok() || trace_.abandoned() || closed_;
+}
+
+void SimRun::keys() {
+    for (const Key key : screen_->keys()) act(key);
+}
+
+void SimRun::act(Key key) {
+    if (pace_.act(key)) return;
+    switch (key) {
+        case Key::Restart:
+            restart();
+            break;
+        case Key::NextRobot:
+            select(1);
+            break;
+        case Key::LastRobot:
+            select(session_.nodes().size() - 1);
+            break;
+        case Key::Quit:
+            closed_ = true;
+            break;
+        default:
+            act_on_robot(key);
+    }
+}
+
+void SimRun::select(size_t step) {
+    const size_t nodes = session_.nodes().size();
+    selected_ = nodes > 0 ? (selected_ + step) % nodes : 0;
+    screen_->scroll_to_latest();
+}
+
+void SimRun::act_on_robot(Key key) {
+    const auto nodes = session_.nodes();
+    if (selected_ >= nodes.size()) return;
+    const std::string done = hands_.act(key, session_, nodes[selected_].robot);
+    if (!done.empty()) notice_ = done;
+}
+
+void SimRun::restart() {
+    session_.reset();
+    view_.forget();
+    hands_.forget();
+    pace_.forget();
+    screen_->scroll_to_latest();
+    notice_ = "restarted";
+}
+
+std::vector<KeyHelp> SimRun::key_help() const {
+    const auto nodes = session_.nodes();
+    std::vector<KeyHelp> keys = {{"space", pace_.paused() ? "go on" : "pause"},
+                                 {"q", "quit"},
+                                 {"r", "restart"},
+                                 {"+ -", "speed"}};
+    if (selected_ < nodes.size()) {
+        const auto& robots = session_.world().definition().robots;
+        for (KeyHelp& key : Hands::keys(robots[nodes[selected_].robot.number - 1].type)) {
+            keys.push_back(std::move(key));
+        }
+        if (nodes.size() > 1) keys.push_back({"tab", robots.size() > 1 ? "robot" : "node"});
+    }
+    if (session_.events().size() > 1) keys.push_back({"PgUp PgDn", "events"});
+    return keys;
+}
+
+void SimRun::show() {
+    View view = view_.view(session_, selected_);
+    view.speed = pace_.text();
+    view.paused = pace_.paused();
+    view.listening = listening_;
+    view.notice = notice_;
+    view.keys = key_help();
+    closed_ = !screen_->paint(std::move(view), network_.now()) || closed_;
+}
+
+Result<session::SimSession> open_session(const SimRunOptions& options) {
+    session::SimOptions made{{}, options.compile, !options.trace.empty()};
+    made.world.seed = options.seed;
+    made.world.sd_folder = options.sd_folder;
+    session::SimSession session = TRY(session::open_sim(options.world, made));
+    for (const std::string& path : options.loads) {
+        const std::string text = TRY(read_file(path));
+        session.load(path, text);
+    }
+    return session;
+}
+
+}  // namespace
+
+int run_sim(const SimRunOptions& options) {
+    auto session = open_session(options);
+    if (!session.ok()) return complain(session.error(), kExitUsage);
+    SimRun run(options, std::move(session.value()));
+    const Status traced = run.open_trace();
+    if (!traced.ok()) return complain(traced.error(), kExitUsage);
+    const Status listening = run.listen();
+    if (!listening.ok()) {
+        const bool wrong = listening.error().code == Code::BadInput;
+        return complain(listening.error(), wrong ? kExitUsage : kExitFailed);
+    }
+    if (!run.settle()) return kExitFailed;
+    return run.run();
+}
+
+}  // namespace vagus::cli

@@ -1,0 +1,37 @@
+// One run of `vagus sim`: passes the time, moves the bytes of the bus, watches the script files,
+// shows what happens.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aesl/compile.hpp"
+#include "base/result.hpp"
+
+namespace vagus::cli {
+
+constexpr double kSpeedMax = 1000;
+constexpr double kSpeedMin = 0.01;
+
+struct SimRunOptions {
+    std::string world;
+    std::vector<std::string> loads;
+    bool watch = false;
+    bool headless = false;
+    double speed = 1;                // 0: as fast as it goes
+    std::optional<double> duration;  // simulated seconds
+    std::optional<uint64_t> seed;
+    std::string listen;
+    std::string trace;
+    std::string sd_folder;
+    std::string theme;  // "dark", "light"; empty: found out
+    aesl::Options compile;
+};
+
+// To the end of the run. Gives the exit code.
+int run_sim(const SimRunOptions& options);
+
+}  // namespace vagus::cli

@@ -1,0 +1,91 @@
+// vagus sim: a world with robots on a bus, in the terminal or as plain lines.
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "cli/live_screen.hpp"
+#include "cli/options.hpp"
+#include "cli/sim/run.hpp"
+#include "cli/verbs.hpp"
+
+namespace vagus::cli {
+namespace {
+
+constexpr double kDurationMax = 1e9;  // seconds
+
+// "2.5", "max"; 0 is the fastest.
+std::optional<double> speed_of(const std::string& text) {
+    if (text == "max") return 0;
+    char* end = nullptr;
+    const double speed = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !(speed >= kSpeedMin && speed <= kSpeedMax))
+        return std::nullopt;
+    return speed;
+}
+
+void add_time_options(CLI::App& verb, SimRunOptions& options) {
+    verb.add_option_function<std::string>(
+            "--speed",
+            [&options](const std::string& text) {
+                const auto speed = speed_of(text);
+                if (!speed) {
+                    throw CLI::ValidationError(
+                        "--speed",
+                        "expected a number from 0.01 to 1000, or max, found \"" + text + "\"");
+                }
+                options.speed = *speed;
+            },
+            "how fast time passes (default: 1, real time)")
+        ->type_name("X|max");
+    verb.add_option("--duration", options.duration, "ends after so many simulated seconds")
+        ->type_name("S")
+        ->check(CLI::Validator(
+            [](std::string& text) -> std::string {
+                char* end = nullptr;
+                const double seconds = std::strtod(text.c_str(), &end);
+                const bool good =
+                    !text.empty() && *end == '\0' && seconds > 0 && seconds <= kDurationMax;
+                return good ? "" : "expected a number of seconds above 0, found \"" + text + "\"";
+            },
+            ""));
+    add_seed_option(verb, options.seed, "of everything random (default: that of the world file)");
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app, int& exit_code) {
+    CLI::App* verb = app.add_subcommand("sim", "a world with robots on a bus");
+    auto options = std::make_shared<SimRunOptions>();  // owners: CLI11's options and the callback
+    takes_file(*verb->add_option("WORLD", options->world, "the world")->required(),
+               {".world.json"});
+    takes_file(*verb->add_option("--load", options->loads,
+                                 "loads the scripts of a project, or one script for all robots")
+                    ->allow_extra_args(false),
+               {".aesl"});
+    verb->add_flag("--watch", options->watch,
+                   "reloads a script when its file is saved; mistakes are shown, and the script "
+                   "before them runs on");
+    verb->add_flag("--headless", options->headless, "plain lines also on a terminal");
+    add_theme_option(*verb, options->theme);
+    add_time_options(*verb, *options);
+    verb->add_option("--listen", options->listen,
+                     "lets hosts connect to the bus; prints `listening tcp:127.0.0.1:PORT` first")
+        ->type_name("TARGET");
+    takes_file(
+        *verb->add_option("--trace", options->trace, "writes what happens, one JSON object a line"),
+        {});
+    add_dialect_options(*verb, options->compile);
+    verb->footer(
+        "On a terminal it shows the arena from above; the keys stand at the bottom. Without a "
+        "terminal it\n"
+        "prints plain lines and ends by itself after 20 simulated seconds, unless --duration says "
+        "otherwise.\n"
+        "A plain script (no project) needs no declarations: `emit NAME` declares the event.\n"
+        "\n"
+        "Example:\n"
+        "  vagus sim examples/thymio/arena.world.json --load examples/thymio/explore.aesl --watch\n"
+        "  vagus sim arena.world.json --headless --speed max --duration 60 --trace run.jsonl\n"
+        "  vagus sim arena.world.json --listen tcp:127.0.0.1:33333");
+    verb->callback([options, &exit_code] { exit_code = run_sim(*options); });
+}
+
+}  // namespace vagus::cli

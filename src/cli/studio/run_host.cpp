@@ -1,0 +1,16 @@
+#include "cli/studio/run_host.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "serve/host/run_host.hpp"
+
+namespace vagus::cli {
+
+void add_run_host(CLI::App& app, int& exit_code) {
+    CLI::App* verb = app.add_subcommand("run-host", "a run of the studio");
+    verb->group("");
+    verb->footer("Example:\n  vagus run-host 3<>socket");
+    verb->callback([&exit_code] { exit_code = serve::run_host(); });
+}
+
+}  // namespace vagus::cli

@@ -1,0 +1,52 @@
+import { MantineProvider } from '@mantine/core';
+import { lazy, Suspense } from 'react';
+import { useLink, useTopic } from './hooks';
+import { Overlay } from './overlay/overlay';
+import { StatusBar } from './overlay/status_bar';
+import { Toasts } from './overlay/toasts';
+import { TopBar } from './topbar/topbar';
+import { Notices } from './topbar/notices';
+import { RobotLife } from './robot_life';
+import { useKeys, useTheme, useWindowLife } from './window_life';
+import { text } from './text';
+
+const Dock = lazy(async () => ({ default: (await import('./dock/dock')).Dock }));
+const StartScreen = lazy(() => import('./start/start_screen'));
+
+/** The whole window. */
+export function App() {
+  const theme = useTheme();
+  useKeys();
+  useWindowLife();
+  return (
+    <MantineProvider
+      forceColorScheme={theme}
+      withCssVariables={false}
+      withGlobalClasses={false}
+      withStaticClasses={false}
+    >
+      <div className="app">
+        <TopBar />
+        <Notices />
+        <div className="app__main">
+          <Suspense fallback={null}>
+            <Main />
+          </Suspense>
+        </div>
+        <StatusBar />
+      </div>
+      <RobotLife />
+      <Overlay />
+      <Toasts />
+    </MantineProvider>
+  );
+}
+
+function Main() {
+  const link = useLink();
+  const studio = useTopic('studio', {});
+  if (!studio)
+    return link.state === 'refused' ? null : <p className="placeholder">{text.link.connecting}</p>;
+  // Another project is another window: nothing of the one before is left over.
+  return studio.project ? <Dock key={studio.project.folder} /> : <StartScreen />;
+}

@@ -1,0 +1,98 @@
+import type { Command } from '../../core/registry';
+import type { Studio } from '../../core/studio';
+import { revealPanel, update } from '../../core/window_state';
+import { text } from '../text';
+import { exportZip } from './export_zip';
+import { drives, projectOf } from './looks';
+
+const titles = text.commands;
+const group = text.groups.file;
+const fileKinds = ['script', 'plan', 'world', 'toolbox', 'text', 'folder'] as const;
+
+/** Projects and files. */
+export function fileCommands(studio: Studio): Command[] {
+  const may = () => drives(studio);
+  const inProject = () => may() && projectOf(studio) !== null;
+  const shown = () => studio.window.getState().doc;
+  const overlay = (name: 'folder' | 'project') => () =>
+    update(studio.window, (draft) => void (draft.overlay = name));
+  return [
+    {
+      id: 'folder.open',
+      title: titles['folder.open'],
+      group,
+      keys: ['Ctrl+O'],
+      enabled: may,
+      run: overlay('folder'),
+    },
+    // Ctrl+N belongs to the browser.
+    {
+      id: 'project.new',
+      title: titles['project.new'],
+      group,
+      keys: ['Alt+N'],
+      enabled: may,
+      run: overlay('project'),
+    },
+    {
+      id: 'project.start',
+      title: titles['project.start'],
+      group,
+      enabled: inProject,
+      async run() {
+        await studio.documents.flushAll();
+        await studio.send('project.close', {});
+      },
+    },
+    {
+      id: 'file.save',
+      title: titles['file.save'],
+      group,
+      keys: ['Ctrl+S'],
+      enabled: () => inProject() && shown() !== null,
+      run: () => save(studio),
+    },
+    {
+      id: 'file.saveAll',
+      title: titles['file.saveAll'],
+      group,
+      keys: ['Ctrl+Shift+S'],
+      enabled: inProject,
+      async run() {
+        await studio.documents.flushAll();
+        await studio.send('doc.save_all', {});
+      },
+    },
+    {
+      id: 'file.revert',
+      title: titles['file.revert'],
+      group,
+      enabled: () => inProject() && shown() !== null,
+      run: async () => void (await studio.send('doc.revert', { doc: shown() ?? '' })),
+    },
+    ...fileKinds.map((kind): Command => ({
+      id: `file.new.${kind}`,
+      title: titles[`file.new.${kind}`],
+      group,
+      enabled: inProject,
+      run() {
+        revealPanel(studio.window, 'project', false);
+        update(studio.window, (draft) => void (draft.naming = { kind }));
+      },
+    })),
+    {
+      id: 'file.export',
+      title: titles['file.export'],
+      group,
+      enabled: () => projectOf(studio) !== null,
+      run: () => exportZip(studio),
+    },
+  ];
+}
+
+async function save(studio: Studio): Promise<void> {
+  const { doc } = studio.window.getState();
+  if (doc === null) return;
+  await studio.documents.flushAll();
+  await studio.send('doc.save', { doc });
+}

@@ -1,0 +1,42 @@
+// What commands look at: the last values of the topics that the window always follows.
+
+import type { Json, Node } from '../../protocol/messages';
+import type { Studio } from '../../core/studio';
+
+export const projectOf = (studio: Studio) => studio.topics.get('studio', {})?.project ?? null;
+export const robotOf = (studio: Studio) => studio.topics.get('robot', {});
+export const clockOf = (studio: Studio) => studio.topics.get('clock', {});
+
+export function drives(studio: Studio): boolean {
+  const { link } = studio.connection;
+  return link.state === 'open' && studio.topics.get('studio', {})?.driver === link.number;
+}
+
+/** The node whose script is looked at. */
+export function shownNode(studio: Studio): Node | undefined {
+  const { doc } = studio.window.getState();
+  return doc === null ? undefined : robotOf(studio)?.nodes.find((node) => node.doc === doc);
+}
+
+/** Keeps a part of the window; whoever only looks on has it until the page is closed, as has the start screen. */
+export function keepState(studio: Studio, key: string, value: Json): void {
+  if (drives(studio) && projectOf(studio)) studio.order('state.put', { key, value });
+}
+
+/** All topics that the window always follows, so that commands know when they may run. */
+export function followAlways(studio: Studio): () => void {
+  const ends = (
+    [
+      'studio',
+      'robot',
+      'clock',
+      'findings',
+      'scripts',
+      'files',
+      'breakpoints',
+      'state',
+      'plan',
+    ] as const
+  ).map((topic) => studio.topics.subscribe(topic, {}, () => {}));
+  return () => ends.forEach((end) => end());
+}

@@ -1,0 +1,51 @@
+import type { Command } from '../../core/registry';
+import type { Studio } from '../../core/studio';
+import { countsOf } from '../../core/findings';
+import { kindOf } from '../dock/documents';
+import { text } from '../text';
+import { drives, projectOf } from './looks';
+
+const titles = text.commands;
+const group = text.groups.run;
+
+/** The plan alone; the whole robot has the run commands. */
+export function planCommands(studio: Studio): Command[] {
+  const state = () => studio.topics.get('plan', {})?.state ?? 'none';
+  const may = () => drives(studio) && projectOf(studio) !== null;
+  const goes = () => state() === 'running' || state() === 'paused';
+  const make = (
+    id: 'plan.pause' | 'plan.continue' | 'plan.step' | 'plan.stop',
+    when: () => boolean,
+  ): Command => ({
+    id,
+    title: titles[id],
+    group,
+    enabled: () => may() && when(),
+    run: async () => void (await studio.send(id, {})),
+  });
+  return [
+    {
+      id: 'plan.start',
+      title: titles['plan.start'],
+      group,
+      enabled: () => may() && !goes() && planToStart(studio) !== undefined,
+      async run() {
+        const doc = planToStart(studio);
+        await studio.documents.flushAll();
+        await studio.send('plan.start', doc === undefined ? {} : { doc });
+      },
+    },
+    make('plan.pause', () => state() === 'running'),
+    make('plan.continue', () => state() === 'paused'),
+    make('plan.step', goes),
+    make('plan.stop', goes),
+  ];
+}
+
+/** The plan that is looked at, else that of the project; none with errors. */
+function planToStart(studio: Studio): string | undefined {
+  const { doc } = studio.window.getState();
+  const plan = doc !== null && kindOf(doc) === 'plan' ? doc : projectOf(studio)?.plan;
+  const findings = studio.topics.get('findings', {})?.findings ?? [];
+  return plan !== undefined && countsOf(findings, plan).errors === 0 ? plan : undefined;
+}

@@ -1,0 +1,115 @@
+// Variables, events, plots and nodes: what can be done with them by a command.
+
+import { happeningsCsv } from '../../core/happenings';
+import { pickKey, type Pick } from '../../core/picks';
+import { sourceKey, sourcesOf, withCurve, withoutCurve, type Source } from '../../core/plot';
+import type { Command } from '../../core/registry';
+import type { Studio } from '../../core/studio';
+import { revealPanel, toast, update } from '../../core/window_state';
+import { text } from '../text';
+import { plotPicture } from '../panels/plots/plot_handles';
+import { download } from './download';
+import { projectOf, robotOf, drives } from './looks';
+
+const titles = text.commands;
+const group = text.groups.robot;
+
+export function robotCommands(studio: Studio): Command[] {
+  const open = () => projectOf(studio) !== null;
+  const plotted = () => studio.plotter.state.curves.length > 0;
+  const heard = () => studio.happenings.items.length > 0;
+  return [
+    command('variables.find', open, () => find(studio, 'variables'), ['Ctrl+Alt+V']),
+    command('watch.add', open, () => find(studio, 'watch'), ['Ctrl+Alt+W']),
+    command(
+      'watch.clear',
+      () => studio.watched.list.length > 0,
+      () => studio.watched.set([]),
+    ),
+    command('events.find', open, () => find(studio, 'events'), ['Ctrl+Alt+E']),
+    command('events.pause', open, () => pauseEvents(studio)),
+    command('events.clear', heard, () => studio.happenings.clear()),
+    command('events.csv', heard, () =>
+      download(csvBlob(happeningsCsv(studio.happenings.items)), 'events.csv'),
+    ),
+    command(
+      'events.send',
+      () => drives(studio) && (robotOf(studio)?.kind ?? 'none') !== 'none',
+      () => openSend(studio),
+      ['Ctrl+Alt+S'],
+    ),
+    command('plots.add', open, () => find(studio, 'plots'), ['Ctrl+Alt+P']),
+    command('plots.pause', plotted, () => studio.plotter.pause(!studio.plotter.paused)),
+    command('plots.fit', plotted, () => studio.plotter.zoom(null)),
+    command('plots.clear', plotted, () =>
+      studio.plotter.set({ ...studio.plotter.state, curves: [] }),
+    ),
+    command('plots.csv', plotted, () => copyCsv(studio)),
+    command('plots.csvFile', plotted, () => download(csvBlob(studio.plotter.csv()), 'plot.csv')),
+    command('plots.png', plotted, () => savePng(studio)),
+  ];
+}
+
+function command(
+  id: keyof typeof titles,
+  enabled: () => boolean,
+  run: () => void | Promise<void>,
+  keys?: string[],
+): Command {
+  return { id, title: titles[id], group, enabled, run, ...(keys ? { keys } : {}) };
+}
+
+/** Into the plot, or out of it if it is there. The whole of an array goes in as its first elements. */
+export function plotPick(studio: Studio, pick: Pick, size: number): void {
+  const { plotter } = studio;
+  const key = pickKey(pick);
+  const own = plotter.state.curves.filter(({ source }) => {
+    const other = sourceKey(source);
+    return other === key || (pick.index === undefined && other.startsWith(`${key}[`));
+  });
+  if (own.length > 0)
+    plotter.set(own.reduce((plot, { source }) => withoutCurve(plot, source), plotter.state));
+  else addToPlot(studio, sourcesOf(pick, size));
+}
+
+export function addToPlot(studio: Studio, sources: readonly Source[]): void {
+  const { plotter } = studio;
+  plotter.set(sources.reduce((plot, source) => withCurve(plot, source), plotter.state));
+  revealPanel(studio.window, 'plots', false);
+}
+
+/** The panel, with the focus in the field that finds or adds. */
+function find(studio: Studio, panel: 'variables' | 'watch' | 'events' | 'plots'): void {
+  revealPanel(studio.window, panel, false);
+  focusFind(panel);
+}
+
+/** The panel may have to be loaded first. */
+function focusFind(panel: string, tries = 30): void {
+  const field = document.querySelector<HTMLElement>(`[data-find="${panel}"]`);
+  if (field && field.offsetParent !== null) field.focus();
+  else if (tries > 0) requestAnimationFrame(() => focusFind(panel, tries - 1));
+}
+
+function pauseEvents(studio: Studio): void {
+  update(studio.window, (draft) => void (draft.events.paused = !draft.events.paused));
+}
+
+function openSend(studio: Studio): void {
+  update(studio.window, (draft) => void (draft.events.send = true));
+  revealPanel(studio.window, 'events', false);
+}
+
+async function copyCsv(studio: Studio): Promise<void> {
+  await navigator.clipboard.writeText(studio.plotter.csv());
+  toast(studio.window, 'ok', text.plots.copied);
+}
+
+async function savePng(studio: Studio): Promise<void> {
+  const picture = await plotPicture(studio);
+  if (picture) download(picture, 'plot.png');
+}
+
+function csvBlob(csv: string): Blob {
+  return new Blob([csv], { type: 'text/csv' });
+}

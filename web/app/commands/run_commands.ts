@@ -1,0 +1,219 @@
+import type { Command } from '../../core/registry';
+import type { Studio } from '../../core/studio';
+import { runStateOf } from '../../core/run_state';
+import { toast } from '../../core/window_state';
+import type { Failed, NodeId } from '../../protocol/messages';
+import { text } from '../text';
+import { clockOf, drives, projectOf, robotOf, shownNode } from './looks';
+
+const titles = text.commands;
+const group = text.groups.run;
+
+/** Run, pause, step and stop: of the whole robot by keys, of one node by its tab. */
+export function runCommands(studio: Studio): Command[] {
+  const may = () => drives(studio) && projectOf(studio) !== null;
+  const state = () => runStateOf(robotOf(studio), clockOf(studio), studio.topics.get('plan', {}));
+  return [
+    {
+      id: 'run.stop',
+      title: titles['run.stop'],
+      group,
+      keys: ['Shift+F5'],
+      // Always: also for those who only look.
+      run: async () => void (await studio.send('stop', {})),
+    },
+    {
+      id: 'run.start',
+      title: titles['run.start'],
+      group,
+      keys: ['F5'],
+      enabled: may,
+      async run() {
+        await studio.documents.flushAll();
+        await studio.send('run.start', {});
+      },
+    },
+    {
+      id: 'run.pause',
+      title: titles['run.pause'],
+      group,
+      keys: ['F8'],
+      enabled: () => may() && state() === 'running',
+      run: async () => void (await studio.send('run.pause', {})),
+    },
+    {
+      id: 'run.step',
+      title: titles['run.step'],
+      group,
+      keys: ['F10'],
+      enabled: () => may() && state() === 'held',
+      run: () => step(studio),
+    },
+    {
+      id: 'run.reset',
+      title: titles['run.reset'],
+      group,
+      enabled: () => may() && robotOf(studio)?.kind === 'simulator',
+      run: async () => void (await studio.send('run.reset', {})),
+    },
+    {
+      id: 'run.end',
+      title: titles['run.end'],
+      group,
+      enabled: () => drives(studio) && clockOf(studio)?.state === 'hanging',
+      run: async () => void (await studio.send('run.end', {})),
+    },
+    {
+      id: 'target.leave',
+      title: titles['target.leave'],
+      group,
+      enabled: () => drives(studio) && (robotOf(studio)?.kind ?? 'none') !== 'none',
+      run: async () => void (await studio.send('target.leave', {})),
+    },
+    {
+      id: 'driver.ask',
+      title: titles['driver.ask'],
+      group,
+      enabled: () => !drives(studio),
+      run: async () => void (await studio.send('driver.ask', {})),
+    },
+  ];
+}
+
+/** For the node whose script is looked at. */
+export function nodeCommands(studio: Studio): Command[] {
+  const has = () => drives(studio) && shownNode(studio) !== undefined;
+  const some = () => drives(studio) && (robotOf(studio)?.nodes.length ?? 0) > 0;
+  const order = (
+    id: keyof typeof titles,
+    command: 'node.run' | 'node.pause' | 'node.step' | 'node.stop' | 'node.reset',
+  ): Command => ({
+    id,
+    title: titles[id],
+    group,
+    enabled: has,
+    run: async () =>
+      reportFailed(
+        studio,
+        (await studio.send(command, { node: shownNode(studio)?.id ?? 0 })).failed,
+      ),
+  });
+  return [
+    {
+      id: 'node.load',
+      title: titles['node.load'],
+      group,
+      keys: ['Ctrl+U'],
+      enabled: () => drives(studio) && (robotOf(studio)?.nodes.length ?? 0) > 0,
+      run: () => load(studio, shownNode(studio)?.id ?? 0),
+    },
+    {
+      id: 'node.loadAll',
+      title: titles['node.loadAll'],
+      group,
+      enabled: () => drives(studio) && (robotOf(studio)?.nodes.length ?? 0) > 0,
+      run: () => load(studio, 0),
+    },
+    {
+      id: 'node.save',
+      title: titles['node.save'],
+      group,
+      enabled: has,
+      run: () => keep(studio),
+    },
+    order('node.run', 'node.run'),
+    order('node.pause', 'node.pause'),
+    order('node.step', 'node.step'),
+    order('node.stop', 'node.stop'),
+    order('node.reset', 'node.reset'),
+    ...nodeActs.flatMap((act): Command[] => {
+      const id = allOf[act];
+      return id
+        ? [
+            {
+              id,
+              title: titles[id],
+              group,
+              enabled: some,
+              run: () => orderNodes(studio, act, []),
+            },
+          ]
+        : [];
+    }),
+  ];
+}
+
+export const nodeActs = ['run', 'pause', 'step', 'stop', 'reset', 'load', 'save'] as const;
+export type NodeAct = (typeof nodeActs)[number];
+
+/** Uploading to all has a command of its own. */
+const allOf: Record<NodeAct, keyof typeof titles | null> = {
+  run: 'node.runAll',
+  pause: 'node.pauseAll',
+  step: 'node.stepAll',
+  stop: 'node.stopAll',
+  reset: 'node.resetAll',
+  load: null,
+  save: 'node.saveAll',
+};
+
+/** Does it with some nodes, or with all if none is named; says which of them did not do it. */
+export async function orderNodes(
+  studio: Studio,
+  act: NodeAct,
+  nodes: readonly NodeId[],
+): Promise<void> {
+  if (act === 'load') await studio.documents.flushAll();
+  const answers = await Promise.all(
+    (nodes.length > 0 ? nodes : [0]).map((node) => studio.send(`node.${act}`, { node })),
+  );
+  for (const answer of answers) {
+    reportFailed(studio, answer.failed);
+    if ('notes' in answer) for (const note of answer.notes) toast(studio.window, 'note', note.what);
+  }
+  const good = answers.every((answer) => answer.failed.length === 0);
+  if (good && act === 'save') toast(studio.window, 'ok', text.editor.keptAll(nodes.length));
+  if (good && act === 'load') toast(studio.window, 'ok', text.editor.loadedAll(loadedIn(answers)));
+}
+
+function loadedIn(answers: readonly object[]): number {
+  return answers.reduce(
+    (sum, answer) =>
+      sum + ('loaded' in answer && Array.isArray(answer.loaded) ? answer.loaded.length : 0),
+    0,
+  );
+}
+
+// A node that stands at a line goes to its next line; else the whole simulation goes on by an instant.
+async function step(studio: Studio): Promise<void> {
+  const standing =
+    robotOf(studio)?.nodes.filter((node) => node.state === 'paused' && node.at) ?? [];
+  if (standing.length === 0) return void (await studio.send('run.step', {}));
+  const shown = standing.find((node) => node.id === shownNode(studio)?.id);
+  reportFailed(
+    studio,
+    (await studio.send('node.step', { node: shown?.id ?? standing[0]?.id ?? 0 })).failed,
+  );
+}
+
+async function load(studio: Studio, node: number): Promise<void> {
+  await studio.documents.flushAll();
+  const { loaded, failed } = await studio.send('node.load', { node });
+  reportFailed(studio, failed);
+  const name = robotOf(studio)?.nodes.find((one) => one.id === loaded[0])?.name;
+  if (name && node !== 0) toast(studio.window, 'ok', text.editor.loaded(name));
+}
+
+async function keep(studio: Studio): Promise<void> {
+  const { failed, notes } = await studio.send('node.save', { node: shownNode(studio)?.id ?? 0 });
+  reportFailed(studio, failed);
+  for (const note of notes) toast(studio.window, 'note', note.what);
+  if (failed.length === 0) toast(studio.window, 'ok', text.editor.kept);
+}
+
+function reportFailed(studio: Studio, failed: readonly Failed[]): void {
+  for (const { node, why } of failed) {
+    const name = robotOf(studio)?.nodes.find((one) => one.id === node)?.name ?? String(node);
+    toast(studio.window, 'error', `${name}: ${why}`);
+  }
+}

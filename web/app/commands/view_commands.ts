@@ -1,0 +1,118 @@
+import type { Command } from '../../core/registry';
+import type { Studio } from '../../core/studio';
+import { layoutNames, type LayoutName } from '../../core/layouts';
+import { readSettings, type Theme } from '../../core/settings';
+import { revealDoc, revealPanel, update } from '../../core/window_state';
+import { panels } from '../dock/panels';
+import { text } from '../text';
+import { focusRegion } from './focus';
+import { drives, keepState, projectOf } from './looks';
+
+const titles = text.commands;
+const group = text.groups.view;
+const themes: readonly Theme[] = ['system', 'dark', 'light'];
+
+/** Panels, layouts, theme, palette, help. */
+export function viewCommands(studio: Studio): Command[] {
+  const overlay = (name: 'palette' | 'keys') => () =>
+    update(studio.window, (draft) => void (draft.overlay = draft.overlay === name ? null : name));
+  const open = () => projectOf(studio) !== null;
+  return [
+    ...layoutNames.map((layout): Command => ({
+      id: `layout.${layout}`,
+      title: titles[`layout.${layout}`],
+      group,
+      enabled: open,
+      run: () => chooseLayout(studio, layout),
+    })),
+    {
+      id: 'layout.reset',
+      title: titles['layout.reset'],
+      group,
+      enabled: open,
+      run: () => resetLayout(studio),
+    },
+    {
+      id: 'panel.next',
+      title: titles['panel.next'],
+      group,
+      keys: ['F6'],
+      run: () => focusRegion(1),
+    },
+    {
+      id: 'panel.previous',
+      title: titles['panel.previous'],
+      group,
+      keys: ['Shift+F6'],
+      run: () => focusRegion(-1),
+    },
+    { id: 'theme.next', title: titles['theme.next'], group, run: () => nextTheme(studio) },
+    {
+      id: 'settings.open',
+      title: titles['settings.open'],
+      group,
+      keys: ['Ctrl+,'],
+      enabled: open,
+      run: () => revealPanel(studio.window, 'settings'),
+    },
+    {
+      id: 'view.side',
+      title: titles['view.side'],
+      group,
+      enabled: () => open() && studio.window.getState().doc !== null,
+      run() {
+        const { doc } = studio.window.getState();
+        if (doc !== null) revealDoc(studio.window, doc, null, true, true);
+      },
+    },
+    ...panels.map((panel): Command => ({
+      id: `panel.${panel.id}`,
+      title: text.panel(panel.title),
+      group,
+      enabled: open,
+      run: () => revealPanel(studio.window, panel.id),
+    })),
+    {
+      id: 'search.open',
+      title: titles['search.open'],
+      group: text.groups.edit,
+      keys: ['Ctrl+Shift+F'],
+      enabled: open,
+      run: () => revealPanel(studio.window, 'search'),
+    },
+    {
+      id: 'help.keys',
+      title: titles['help.keys'],
+      group: text.groups.help,
+      keys: ['?', 'F1'],
+      run: overlay('keys'),
+    },
+    {
+      id: 'palette.open',
+      title: titles['palette.open'],
+      group: text.groups.help,
+      keys: ['Ctrl+K', 'Ctrl+Shift+P'],
+      hidden: true,
+      run: overlay('palette'),
+    },
+  ];
+}
+
+export function chooseLayout(studio: Studio, layout: LayoutName): void {
+  update(studio.window, (draft) => void (draft.layout = layout));
+  keepState(studio, 'layout', layout);
+}
+
+function resetLayout(studio: Studio): void {
+  const { layout } = studio.window.getState();
+  keepState(studio, `layout.${layout}`, null);
+  update(studio.window, (draft) => void draft.layoutNonce++);
+}
+
+function nextTheme(studio: Studio): void {
+  const theme =
+    studio.window.getState().theme ?? readSettings(studio.topics.get('studio', {})?.settings).theme;
+  const next = themes[(themes.indexOf(theme) + 1) % themes.length] ?? 'system';
+  update(studio.window, (draft) => void (draft.theme = next));
+  if (drives(studio)) studio.order('settings.put', { key: 'theme', value: next });
+}

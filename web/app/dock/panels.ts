@@ -1,0 +1,145 @@
+// The panels of the window. A new panel is one entry here: its name, its icon, and where its code is.
+// The code is loaded when the panel is first seen.
+
+import {
+  IconAlertOctagon,
+  IconBook2,
+  IconBroadcast,
+  IconBug,
+  IconChartLine,
+  IconEye,
+  IconFolders,
+  IconList,
+  IconListSearch,
+  IconMap2,
+  IconNetwork,
+  IconSettings,
+  IconTerminal2,
+  IconVariable,
+  type TablerIcon,
+} from '@tabler/icons-react';
+import { lazy, type ComponentType, type LazyExoticComponent } from 'react';
+import { text } from '../text';
+
+export interface Panel {
+  id: string;
+  title: string;
+  /** Pixels that it needs to be of use when someone asks for it. */
+  least?: number;
+  /** The panel it opens beside where a layout does not hold it; without it, with the problems. */
+  like?: string;
+  icon: TablerIcon;
+  view: LazyExoticComponent<ComponentType>;
+  /** Buttons at the right of the panel's head. */
+  tools?: LazyExoticComponent<ComponentType>;
+  /** Said in grey beside the title where the panel stands alone. */
+  subtitle?: LazyExoticComponent<ComponentType>;
+}
+
+export const panels: readonly Panel[] = [
+  {
+    id: 'project',
+    title: text.panels.project,
+    icon: IconFolders,
+    view: lazy(() => import('../panels/project_panel')),
+  },
+  {
+    id: 'problems',
+    title: text.panels.problems,
+    icon: IconAlertOctagon,
+    view: lazy(() => import('../panels/problems_panel')),
+    tools: lazy(() => import('../panels/problems_tools')),
+  },
+  {
+    id: 'events',
+    least: 180,
+    like: 'watch',
+    title: text.panels.events,
+    icon: IconBroadcast,
+    view: lazy(() => import('../panels/events/events_panel')),
+    tools: lazy(() => import('../panels/events/events_tools')),
+  },
+  {
+    id: 'plots',
+    least: 220,
+    title: text.panels.plots,
+    icon: IconChartLine,
+    view: lazy(() => import('../panels/plots/plots_panel')),
+    tools: lazy(() => import('../panels/plots/plots_tools')),
+  },
+  {
+    id: 'console',
+    title: text.panels.console,
+    icon: IconTerminal2,
+    view: lazy(() => import('../panels/console_panel')),
+  },
+  {
+    id: 'search',
+    least: 220,
+    title: text.panels.search,
+    icon: IconListSearch,
+    view: lazy(() => import('../panels/search_panel')),
+  },
+  {
+    id: 'references',
+    least: 220,
+    title: text.panels.references,
+    icon: IconList,
+    view: lazy(() => import('../panels/references_panel')),
+  },
+  {
+    id: 'variables',
+    like: 'watch',
+    title: text.panels.variables,
+    icon: IconVariable,
+    view: lazy(() => import('../panels/variables/variables_panel')),
+  },
+  {
+    id: 'watch',
+    like: 'variables',
+    title: text.panels.watch,
+    icon: IconEye,
+    view: lazy(() => import('../panels/variables/watch_panel')),
+  },
+  {
+    id: 'world',
+    like: 'documents',
+    title: text.panels.world,
+    icon: IconMap2,
+    view: lazy(() => import('../panels/world_panel')),
+    tools: lazy(() => import('../views/world/world_tools')),
+    subtitle: lazy(() => import('../views/world/world_name')),
+  },
+  {
+    id: 'properties',
+    like: 'watch',
+    title: text.panels.properties,
+    icon: IconBook2,
+    view: lazy(() => import('../panels/properties_panel')),
+  },
+  {
+    id: 'network',
+    like: 'breakpoints',
+    least: 300,
+    title: text.panels.network,
+    icon: IconNetwork,
+    view: lazy(() => import('../panels/network/network_panel')),
+  },
+  {
+    id: 'breakpoints',
+    title: text.panels.breakpoints,
+    icon: IconBug,
+    view: lazy(() => import('../panels/breakpoints_panel')),
+  },
+  {
+    id: 'settings',
+    like: 'documents',
+    title: text.panels.settings,
+    icon: IconSettings,
+    view: lazy(() => import('../panels/settings_panel')),
+  },
+];
+
+export function panelOf(id: string): Panel | undefined {
+  return panels.find((panel) => panel.id === id);
+}

@@ -1,0 +1,84 @@
+import { IconAlertOctagon, IconCpu } from '@tabler/icons-react';
+import { Suspense } from 'react';
+import type { Doc } from '../../protocol/messages';
+import { countsOf } from '../../core/findings';
+import { partOf } from '../../core/paths';
+import { useStudio, useTopic } from '../hooks';
+import { FileIcon, kStroke } from '../parts/icons';
+import { Marks, marksOf, SavedMark } from '../parts/marks';
+import { text } from '../text';
+import { fileKindOf, kindOf, nameOf, secondNameOf } from './documents';
+import { panelOf } from './panels';
+
+/** The tab of a document: what it is, whether it has errors, and its marks. */
+export function DocumentTitle({ doc }: { doc: Doc }) {
+  const studio = useStudio();
+  const scripts = useTopic('scripts', {});
+  const robot = useTopic('robot', {});
+  const files = useTopic('files', {});
+  const state = useTopic('doc', { doc });
+  const { errors } = countsOf(useTopic('findings', {})?.findings ?? [], doc);
+  const part = scripts?.parts.find((one) => one.doc === doc);
+  const node = robot?.nodes.find((one) => one.doc === doc);
+  const { file } = partOf(doc);
+  const second = secondNameOf(studio, doc);
+  const unsaved = state?.unsaved ?? files?.files.find((one) => one.path === file)?.unsaved ?? false;
+  const icon = part ? (
+    <IconCpu className="icon" size={14} stroke={kStroke} aria-hidden />
+  ) : (
+    <FileIcon kind={fileKindOf(doc)} />
+  );
+  return (
+    <span className="doctitle">
+      {icon}
+      <span>{nameOf(studio, doc)}</span>{' '}
+      {second ? <span className="muted num">{second}</span> : null}
+      {errors > 0 ? (
+        <IconAlertOctagon
+          className="icon is-error"
+          size={14}
+          stroke={kStroke}
+          role="img"
+          aria-label={text.status.errors(errors)}
+        />
+      ) : null}
+      {part ? (
+        <Marks {...marksOf(unsaved, node)} />
+      ) : kindOf(doc) === 'plan' ? (
+        <PlanMarks doc={doc} saved={!unsaved} />
+      ) : (
+        <SavedMark saved={!unsaved} />
+      )}
+    </span>
+  );
+}
+
+function PlanMarks({ doc, saved }: { doc: Doc; saved: boolean }) {
+  const plan = useTopic('plan', {});
+  const loaded = plan && plan.doc === doc && plan.state !== 'none' && plan.state !== 'ended';
+  const runs = !loaded ? 'none' : plan.state === 'paused' ? 'held' : 'runs';
+  return <Marks saved={saved} loaded={loaded ? 'current' : 'none'} runs={runs} />;
+}
+
+export function PanelTitle({ id }: { id: string }) {
+  const findings = useTopic('findings', {})?.findings ?? [];
+  const { errors, warnings } = countsOf(id === 'problems' ? findings : []);
+  const panel = panelOf(id);
+  const Subtitle = panel?.subtitle;
+  return (
+    <span className="paneltitle">
+      {panel?.title ?? id}
+      {Subtitle ? (
+        <Suspense fallback={null}>
+          <Subtitle />
+        </Suspense>
+      ) : null}
+      {errors + warnings > 0 ? (
+        <span
+          className={errors > 0 ? 'count is-error' : 'count is-warning'}
+          data-count={errors + warnings}
+        />
+      ) : null}
+    </span>
+  );
+}

@@ -1,0 +1,186 @@
+// The life of the panels' model: made when a layout is chosen, kept when it changes, fitted to the
+// window, and asked to show what someone wants to see.
+
+import { Actions, DockLocation, TabNode, type Action, type Model } from 'flexlayout-react';
+import { useCallback, useEffect, useLayoutEffect, useRef, useState, type RefObject } from 'react';
+import type { Json } from '../../protocol/messages';
+import { layoutPlans, type DocumentKind, type LayoutName } from '../../core/layouts';
+import type { Studio } from '../../core/studio';
+import { update, type Reveal } from '../../core/window_state';
+import { keepState } from '../commands/looks';
+import { useStudio, useTopic, useWindow } from '../hooks';
+import { panelOf } from './panels';
+import {
+  areaFor,
+  areaForPanel,
+  growArea,
+  documentTab,
+  fitModel,
+  keptModel,
+  makeModel,
+  panelTab,
+  type Extent,
+} from './model';
+import { documentExists, documentsOf, kindOf, tabNameOf } from './documents';
+
+/** What was dragged is kept so long after the last change. */
+const kKeepMs = 800;
+
+export function useDock(frame: RefObject<HTMLDivElement | null>): {
+  model: Model | null;
+  changed: (model: Model, action: Action) => void;
+} {
+  const studio = useStudio();
+  const layout = useWindow((state) => state.layout);
+  const nonce = useWindow((state) => state.layoutNonce);
+  const scripts = useTopic('scripts', {});
+  const state = useTopic('state', {});
+  const files = useTopic('files', {});
+  const ready = scripts !== undefined && state !== undefined && files !== undefined;
+  const [model, setModel] = useState<Model | null>(null);
+  const extent = useRef<Extent>({ width: 0, height: 0 });
+
+  useLayoutEffect(() => {
+    if (!ready || !frame.current) return;
+    const { clientWidth: width, clientHeight: height } = frame.current;
+    extent.current = { width, height };
+    setModel(openLayout(studio, layout, nonce > 0, { width, height }));
+  }, [studio, layout, nonce, ready, frame]);
+
+  useFit(frame, model, extent);
+  useReveal(studio, model);
+  return { model, changed: useKeep(studio, layout) };
+}
+
+function openLayout(studio: Studio, layout: LayoutName, fresh: boolean, extent: Extent): Model {
+  const values = studio.topics.get('state', {})?.values;
+  const kept = isTable(values) ? values[`layout.${layout}`] : undefined;
+  const known =
+    !fresh && isTable(kept) ? keptModel(kept['model'], (doc) => documentExists(studio, doc)) : null;
+  if (known && isTable(kept)) {
+    fitModel(known, { width: Number(kept['width']), height: Number(kept['height']) }, extent);
+    return known;
+  }
+  return makeModel(layoutPlans[layout], extent, (kind: DocumentKind) =>
+    documentsOf(studio, kind).map((doc) => ({ doc, name: tabNameOf(studio, doc) })),
+  );
+}
+
+function useFit(
+  frame: RefObject<HTMLDivElement | null>,
+  model: Model | null,
+  extent: RefObject<Extent>,
+): void {
+  useEffect(() => {
+    if (!frame.current || !model) return;
+    const observer = new ResizeObserver(([entry]) => {
+      if (!entry) return;
+      const { width, height } = entry.contentRect;
+      const before = extent.current;
+      if (width === 0 || (width === before.width && height === before.height)) return;
+      extent.current = { width, height };
+      fitModel(model, before, { width, height });
+    });
+    observer.observe(frame.current);
+    return () => observer.disconnect();
+  }, [frame, model, extent]);
+}
+
+/** Tells which document is looked at, and keeps the layout a moment after the last change. */
+function useKeep(studio: Studio, layout: LayoutName): (model: Model, action: Action) => void {
+  const cancel = useRef<(() => void) | null>(null);
+  return useCallback(
+    (model, action) => {
+      noteShown(studio, model);
+      if (action.type === Actions.SET_ACTIVE_TABSET) return;
+      cancel.current?.();
+      cancel.current = studio.world.later(kKeepMs, () => {
+        const rect = model.getRootRow()?.getRect();
+        const value = {
+          model: model.toJson() as unknown as Json,
+          width: rect?.width ?? 0,
+          height: rect?.height ?? 0,
+        };
+        keepState(studio, `layout.${layout}`, value);
+      });
+    },
+    [studio, layout],
+  );
+}
+
+export function noteShown(studio: Studio, model: Model): void {
+  const shown = model.getActiveTabset()?.getSelectedNode();
+  const doc = shown?.getId().startsWith('doc:') ? shown.getId().slice(4) : null;
+  if (doc !== null) update(studio.window, (draft) => void (draft.doc = doc));
+}
+
+function useReveal(studio: Studio, model: Model | null): void {
+  const reveal = useWindow((state) => state.reveal);
+  useEffect(() => {
+    if (!model || !reveal) return;
+    show(studio, model, reveal);
+    // A document's place is shown by its editor, which then forgets it.
+    if (reveal.what === 'panel' || reveal.at === null)
+      update(studio.window, (draft) => void (draft.reveal = null));
+  }, [studio, model, reveal]);
+}
+
+function show(studio: Studio, model: Model, reveal: Reveal): void {
+  const id = reveal.what === 'panel' ? `panel:${reveal.panel}` : `doc:${reveal.doc}`;
+  const there = model.getNodeById(id);
+  if (there instanceof TabNode && !(reveal.what === 'doc' && reveal.beside))
+    model.doAction(Actions.selectTab(id));
+  else if (reveal.what === 'panel') addPanel(model, reveal.panel);
+  else {
+    if (there) model.doAction(Actions.deleteTab(id));
+    add(
+      model,
+      documentTab(reveal.doc, tabNameOf(studio, reveal.doc)),
+      kindOf(reveal.doc),
+      reveal.beside,
+    );
+  }
+  if (reveal.what === 'panel' && (panelOf(reveal.panel)?.least ?? 0) > 0)
+    growArea(model, id, panelOf(reveal.panel)?.least ?? 0);
+  if (reveal.focus && (reveal.what === 'panel' || reveal.at === null)) focusTab(id);
+  noteShown(studio, model);
+}
+
+function add(
+  model: Model,
+  tab: ReturnType<typeof panelTab>,
+  kind: DocumentKind,
+  beside: boolean,
+): void {
+  const area = areaFor(model, kind);
+  if (area)
+    model.doAction(
+      Actions.addTab(
+        tab,
+        area.getId(),
+        beside ? DockLocation.RIGHT : DockLocation.CENTER,
+        -1,
+        true,
+      ),
+    );
+}
+
+function addPanel(model: Model, id: string): void {
+  const area = areaForPanel(model, panelOf(id)?.like ?? 'problems');
+  if (area)
+    model.doAction(Actions.addTab(panelTab(id), area.getId(), DockLocation.CENTER, -1, true));
+}
+
+/** The tab's content may need a moment to be there. */
+function focusTab(id: string, tries = 20): void {
+  const place = document.querySelector<HTMLElement>(`[data-tab-content="${CSS.escape(id)}"]`);
+  const target = place?.querySelector<HTMLElement>(
+    '[data-autofocus], .cm-content, select, button:not(:disabled), input, [tabindex="0"]',
+  );
+  if (target && target.offsetParent !== null) target.focus();
+  else if (tries > 0) requestAnimationFrame(() => focusTab(id, tries - 1));
+}
+
+function isTable(value: Json | undefined): value is Record<string, Json> {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}

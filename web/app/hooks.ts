@@ -1,0 +1,74 @@
+// How components look at the studio: a context and three stores.
+
+import { createContext, useCallback, useContext, useSyncExternalStore } from 'react';
+import { useStore } from 'zustand';
+import type { Topics } from '../protocol/messages';
+import type { Link } from '../core/connection';
+import { readSettings, type Settings } from '../core/settings';
+import type { Studio } from '../core/studio';
+import type { DocumentTopic } from '../core/topics';
+import type { WindowState } from '../core/window_state';
+import type { Command } from '../core/registry';
+
+export const StudioContext = createContext<Studio | null>(null);
+
+export function useStudio(): Studio {
+  const studio = useContext(StudioContext);
+  if (!studio) throw new Error('a component stands outside of the studio');
+  return studio;
+}
+
+/** A document of the server; undefined until it has come. of: null looks at nothing. */
+export function useTopic<T extends DocumentTopic>(
+  topic: T,
+  of: Topics[T]['of'] | null,
+): Topics[T]['is'] | undefined {
+  const { topics } = useStudio();
+  const key = of && JSON.stringify(of);
+  const subscribe = useCallback(
+    (listener: () => void) =>
+      key === null ? () => {} : topics.subscribe(topic, asOf<T>(key), listener),
+    [topics, topic, key],
+  );
+  const get = useCallback(
+    () => (key === null ? undefined : topics.get(topic, asOf<T>(key))),
+    [topics, topic, key],
+  );
+  return useSyncExternalStore(subscribe, get);
+}
+
+// The key is the text of an "of" that was typed where it came in.
+function asOf<T extends DocumentTopic>(key: string): Topics[T]['of'] {
+  return JSON.parse(key) as Topics[T]['of'];
+}
+
+export function useWindow<T>(select: (state: WindowState) => T): T {
+  return useStore(useStudio().window, select);
+}
+
+export function useLink(): Link {
+  const { connection } = useStudio();
+  return useSyncExternalStore(
+    useCallback((listener: () => void) => connection.changed.on(listener), [connection]),
+    () => connection.link,
+  );
+}
+
+export function useCommands(): readonly Command[] {
+  const { registry } = useStudio();
+  return useSyncExternalStore(
+    useCallback((listener: () => void) => registry.changed.on(listener), [registry]),
+    () => registry.list(),
+  );
+}
+
+export function useSettings(): Settings {
+  return readSettings(useTopic('studio', {})?.settings);
+}
+
+/** True if this page may change things. */
+export function useDrives(): boolean {
+  const link = useLink();
+  const studio = useTopic('studio', {});
+  return link.state === 'open' && studio?.driver === link.number;
+}

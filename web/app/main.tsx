@@ -1,0 +1,78 @@
+// Starts the page: who are we, where is the server, what is shown.
+
+import '@mantine/core/styles/default-css-variables.css';
+import '@mantine/core/styles/UnstyledButton.css';
+import '@mantine/core/styles/Popover.css';
+import '@mantine/core/styles/Menu.css';
+import '@mantine/core/styles/Tooltip.css';
+import 'flexlayout-react/style/light.css';
+import './look/fonts.css';
+import './look/tokens.css';
+import './look/base.css';
+import './look/controls.css';
+import './look/frame.css';
+import './look/dock.css';
+import { createRoot } from 'react-dom/client';
+import { identityOf, tokenIn } from '../core/identity';
+import { browserWorld } from '../core/socket';
+import { Studio } from '../core/studio';
+import { App } from './app';
+import { editCommands } from './commands/edit_commands';
+import { fileCommands } from './commands/file_commands';
+import { followAlways } from './commands/looks';
+import { planCommands } from './commands/plan_commands';
+import { problemCommands } from './commands/problem_commands';
+import { robotCommands } from './commands/robot_commands';
+import { nodeCommands, runCommands } from './commands/run_commands';
+import { viewCommands } from './commands/view_commands';
+import { worldCommands } from './commands/world_commands';
+import { StudioContext } from './hooks';
+import { keptTheme } from './window_life';
+
+const kTokenKey = 'vagus.token';
+
+function start(): void {
+  const theme = keptTheme();
+  const system = matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark';
+  document.documentElement.dataset['theme'] = theme === 'system' ? system : theme;
+  const address = new URL('live', location.href);
+  address.protocol = address.protocol.replace('http', 'ws');
+  address.hash = '';
+  const identity = identityOf(sessionStorage, () =>
+    crypto.getRandomValues(new Uint32Array(4)).join('-'),
+  );
+  const studio = new Studio(browserWorld(address.href), identity, takeToken(), () => Date.now());
+  for (const make of [
+    editCommands,
+    fileCommands,
+    problemCommands,
+    viewCommands,
+    robotCommands,
+    nodeCommands,
+    runCommands,
+    planCommands,
+    worldCommands,
+  ])
+    studio.registry.add(make(studio));
+  followAlways(studio);
+  studio.connection.start();
+  const root = document.getElementById('root');
+  if (root)
+    createRoot(root).render(
+      <StudioContext value={studio}>
+        <App />
+      </StudioContext>,
+    );
+}
+
+/** The token leaves the address bar at once; a reload of this tab still has it. */
+function takeToken(): string {
+  const given = tokenIn(location.hash);
+  if (given) {
+    sessionStorage.setItem(kTokenKey, given);
+    history.replaceState(null, '', location.pathname + location.search);
+  }
+  return given || (sessionStorage.getItem(kTokenKey) ?? '');
+}
+
+start();

@@ -1,0 +1,24 @@
+import { lazy, Suspense } from 'react';
+import { useWindow } from '../hooks';
+import KeysHelp from './keys_help';
+import Palette from './palette';
+
+// The palette is there at once: what is typed behind Ctrl+K must not get lost.
+const views = {
+  palette: Palette,
+  keys: KeysHelp,
+  folder: lazy(() => import('../start/folder_chooser')),
+  project: lazy(() => import('../start/new_project')),
+};
+
+/** What lies over the window for a moment. Esc and a click beside it end it; run keys still work. */
+export function Overlay() {
+  const name = useWindow((state) => state.overlay);
+  const View = name ? views[name] : null;
+  if (!View) return null;
+  return (
+    <Suspense fallback={null}>
+      <View key={name} />
+    </Suspense>
+  );
+}

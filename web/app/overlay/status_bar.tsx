@@ -1,0 +1,100 @@
+import {
+  IconAlertOctagon,
+  IconAlertTriangle,
+  IconCircleCheck,
+  IconPlayerPause,
+} from '@tabler/icons-react';
+import { countsOf } from '../../core/findings';
+import { standsAt } from '../../core/run_state';
+import { useStudio, useTopic, useWindow } from '../hooks';
+import { Kbd } from '../parts/kbd';
+import { kStroke } from '../parts/icons';
+import { text } from '../text';
+
+const words = text.status.keys;
+type Hint = readonly [keys: string, word: string];
+
+/** What stands, what is unsaved, what runs; and the keys that help now. */
+export function StatusBar() {
+  const project = useTopic('studio', {})?.project;
+  return (
+    <footer className="status" data-region="status" aria-label={text.regions.status}>
+      {project ? <Left /> : <span className="status__part">{text.status.ready}</span>}
+      <span className="grow" />
+      <Hints started={!!project} />
+    </footer>
+  );
+}
+
+function Left() {
+  const { registry } = useStudio();
+  const { errors, warnings } = countsOf(useTopic('findings', {})?.findings ?? []);
+  const unsaved = useTopic('files', {})?.files.some((file) => file.unsaved) ?? false;
+  const Icon = errors > 0 ? IconAlertOctagon : warnings > 0 ? IconAlertTriangle : IconCircleCheck;
+  const found = [
+    errors > 0 && text.status.errors(errors),
+    warnings > 0 && text.status.warnings(warnings),
+  ].filter(Boolean);
+  return (
+    <>
+      <button type="button" className="status__part" onClick={() => registry.run('panel.problems')}>
+        <Icon size={13} stroke={kStroke} aria-hidden />
+        {found.length > 0 ? found.join(', ') : text.status.noProblems}
+      </button>
+      <span className="status__part">{unsaved ? text.status.notSaved : text.status.saved}</span>
+      <Runs />
+    </>
+  );
+}
+
+function Runs() {
+  const doc = useWindow((state) => state.doc);
+  const nodes = useTopic('robot', {})?.nodes ?? [];
+  const standing = nodes.find((node) => standsAt(node) !== undefined);
+  if (standing?.at)
+    return (
+      <span className="status__part">
+        <IconPlayerPause size={13} stroke={kStroke} aria-hidden />
+        {text.status.pausedAt(standing.name, standing.at.line)}
+      </span>
+    );
+  const node = nodes.find((one) => one.doc === doc);
+  if (!node?.loaded_wall || node.state !== 'running') return null;
+  return (
+    <span className="status__part">
+      {text.status.runsScript(node.name, timeOf(node.loaded_wall))}
+    </span>
+  );
+}
+
+export function timeOf(wall: number): string {
+  return new Date(wall).toLocaleTimeString('en-GB', { hour: '2-digit', minute: '2-digit' });
+}
+
+function Hints({ started }: { started: boolean }) {
+  const layout = useWindow((state) => state.layout);
+  const doc = useWindow((state) => state.doc);
+  const errors = countsOf(useTopic('findings', {})?.findings ?? []).errors;
+  const paused = useTopic('clock', {})?.state === 'paused';
+  const hints: Hint[] = [];
+  if (!started)
+    hints.push(
+      ['Tab', words.tab],
+      ['Enter', words.open],
+      ['Ctrl+K', words.commands],
+      ['F1', words.help],
+    );
+  else {
+    if (paused) hints.push(['F5', words.continue], ['F10', words.step]);
+    else if (errors > 0) hints.push(['Alt+Enter', words.fix]);
+    if (doc?.includes('#')) hints.push(['F9', words.breakpoint], ['Ctrl+U', words.upload]);
+    hints.push(['F6', words.next]);
+    if (layout === 'Draw' || !doc?.includes('#'))
+      hints.push(['Ctrl+K', words.commands], ['?', words.keys]);
+  }
+  return hints.map(([keys, word]) => (
+    <span key={keys} className="status__part">
+      <Kbd keys={keys} /> {word}
+    </span>
+  ));
+}

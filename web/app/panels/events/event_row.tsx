@@ -1,0 +1,26 @@
+import { memo } from 'react';
+import type { Happening } from '../../../protocol/messages';
+import { shownTime } from '../../../core/numbers';
+import { text } from '../../text';
+
+const kinds = text.events.kindWords;
+
+/** One line: when, who, what, with which arguments. What is no event says what it is. */
+export const EventRow = memo(function EventRow({ item }: { item: Happening }) {
+  const { kind, t, source, name, args } = item;
+  return (
+    <div className={`event event--${kind}`}>
+      <time className="num">{shownTime(t)}</time>
+      <span className="event__source ellipsis">{source}</span>
+      {kind === 'event' ? (
+        <code className="event__name ellipsis" title={`${name} [${args.join(', ')}]`}>
+          {name} <span className="event__args">[{args.join(', ')}]</span>
+        </code>
+      ) : (
+        <span className="event__what ellipsis" title={`${name} ${item.text}`}>
+          <b className="event__kind">{kinds[kind]}</b> {name} {item.text}
+        </span>
+      )}
+    </div>
+  );
+});

@@ -1,0 +1,24 @@
+import { IconSend2 } from '@tabler/icons-react';
+import { update } from '../../../core/window_state';
+import { useStudio, useWindow } from '../../hooks';
+import { Button } from '../../parts/button';
+import { kStroke } from '../../parts/icons';
+import { text } from '../../text';
+
+/** At the head of the panel: opens and closes the form that sends an event. */
+export default function EventsTools() {
+  const { window: store } = useStudio();
+  const open = useWindow((state) => state.events.send);
+  return (
+    <Button
+      kind="plain"
+      small
+      aria-expanded={open}
+      className={open ? 'is-on' : ''}
+      icon={<IconSend2 size={14} stroke={kStroke} />}
+      onClick={() => update(store, (draft) => void (draft.events.send = !open))}
+    >
+      {text.events.sendMore}
+    </Button>
+  );
+}

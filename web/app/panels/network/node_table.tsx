@@ -1,0 +1,126 @@
+import { memo } from 'react';
+import type { Node } from '../../../protocol/messages';
+import { shownRate } from '../../../core/numbers';
+import { revealDoc, update } from '../../../core/window_state';
+import type { NodeAct } from '../../commands/run_commands';
+import { useStudio, useWindow } from '../../hooks';
+import { StateSign } from '../../parts/state_sign';
+import { text } from '../../text';
+import { NodeControls } from './node_controls';
+import { WriteScript } from '../../parts/write_script';
+import type { NetworkState } from './use_network';
+
+const words = text.network;
+const { columns } = words;
+
+/** One row for each node; the buttons above are for those that are chosen, or for all. */
+export function NodeTable({ network: { nodes, talk } }: { network: NetworkState }) {
+  const chosen = useWindow((state) => state.chosenNodes);
+  const there = chosen.filter((id) => nodes.some((node) => node.id === id));
+  const name = there.length > 0 ? words.forSome(there.length) : words.forAll;
+  return (
+    <section className="network__part">
+      <div className="network__head">
+        <h3>{words.nodes}</h3>
+        <span className="count">{nodes.length}</span>
+        <span className="grow" />
+        <span className="muted">{name}</span>
+        <NodeControls nodes={there} name={name} />
+      </div>
+      <table className="table table--nodes">
+        <thead>
+          <tr>
+            <td />
+            <th scope="col">{columns.node}</th>
+            <th scope="col">{columns.state}</th>
+            <th scope="col">{columns.program}</th>
+            <th scope="col" className="table__num">
+              {columns.says}
+            </th>
+            <th scope="col" className="table__num">
+              {columns.hears}
+            </th>
+            <th scope="col">
+              <span className="hidden-text">{columns.controls}</span>
+            </th>
+          </tr>
+        </thead>
+        <tbody>
+          {nodes.map((node) => (
+            <Row
+              key={node.id}
+              node={node}
+              says={shownRate(talk.get(node.id)?.says ?? 0)}
+              hears={shownRate(talk.get(node.id)?.hears ?? 0)}
+              chosen={chosen.includes(node.id)}
+            />
+          ))}
+        </tbody>
+      </table>
+    </section>
+  );
+}
+
+interface RowProps {
+  node: Node;
+  says: string;
+  hears: string;
+  chosen: boolean;
+}
+
+// The document of the robot comes anew with each change of one node: rows are told apart by content.
+const Row = memo(NodeRow, (before, after) => JSON.stringify(before) === JSON.stringify(after));
+
+function NodeRow({ node, says, hears, chosen }: RowProps) {
+  const { window: store } = useStudio();
+  const { id, name, state, at, program, doc, fault, busy } = node;
+  const choose = () =>
+    update(store, (draft) => {
+      draft.chosenNodes = chosen
+        ? draft.chosenNodes.filter((one) => one !== id)
+        : [...draft.chosenNodes, id];
+    });
+  return (
+    <tr className={chosen ? 'is-on' : undefined}>
+      <td className="table__check">
+        <input type="checkbox" checked={chosen} aria-label={words.choose(name)} onChange={choose} />
+      </td>
+      <th scope="row">
+        {doc ? (
+          <button
+            type="button"
+            className="link"
+            title={words.openScript(name)}
+            onClick={() => revealDoc(store, doc, null)}
+          >
+            {name}
+          </button>
+        ) : (
+          name
+        )}{' '}
+        <span className="muted num">{id}</span> {doc ? null : <WriteScript node={node} />}
+      </th>
+      <td className={fault ? 'is-error' : undefined} title={fault}>
+        <span className="table__state">
+          <StateSign state={state} />
+          {busy ?? text.target.nodeState[state]}
+          {at ? <span className="muted">{words.line(at.line)}</span> : null}
+        </span>
+      </td>
+      <td className={program === 'older' ? 'is-warning' : 'muted'}>{words.programs[program]}</td>
+      <td className="table__num num">{says}</td>
+      <td className="table__num num">{hears}</td>
+      <td className="table__tools">
+        <NodeControls nodes={[id]} name={name} can={(act) => can(node, act)} />
+      </td>
+    </tr>
+  );
+}
+
+function can({ state, doc }: Node, act: NodeAct): boolean {
+  if (state === 'gone') return false;
+  if (act === 'load') return doc !== undefined;
+  if (act === 'run') return state !== 'running';
+  if (act === 'pause') return state === 'running';
+  return act !== 'step' || state === 'paused';
+}

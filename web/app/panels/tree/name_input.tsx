@@ -1,0 +1,79 @@
+import { useState } from 'react';
+import type { FileEntry, Path } from '../../../protocol/messages';
+import { badName, baseName, folderOf, joinPath } from '../../../core/paths';
+import { revealDoc, update } from '../../../core/window_state';
+import { documentsIn } from '../../dock/documents';
+import { useStudio } from '../../hooks';
+import { FileIcon } from '../../parts/icons';
+import { text } from '../../text';
+
+type NewKind = 'folder' | 'script' | 'plan' | 'world' | 'toolbox' | 'text';
+
+const endings: Record<NewKind, string> = {
+  folder: '',
+  script: '.aesl',
+  plan: '.plan.json',
+  world: '.world.json',
+  toolbox: '.toolbox.json',
+  text: '.txt',
+};
+
+/** Names a new file, or renames one, where it stands in the tree. */
+export function NameInput({
+  folder,
+  kind,
+  rename,
+}: {
+  folder: Path;
+  kind: NewKind;
+  rename?: Path;
+}) {
+  const studio = useStudio();
+  const [name, setName] = useState(rename ? baseName(rename) : `new${endings[kind]}`);
+  const why = badName(name);
+  const end = () => update(studio.window, (draft) => void (draft.naming = null));
+  const done = async () => {
+    if (why) return;
+    end();
+    const path = joinPath(rename ? folderOf(rename) : folder, name);
+    if (rename && path !== rename) await studio.send('file.rename', { path: rename, to: path });
+    if (rename) return;
+    await studio.send('file.new', { path, kind });
+    if (kind !== 'folder') revealDoc(studio.window, documentsIn(studio, path)[0] ?? path, null);
+  };
+  return (
+    <form
+      className="tree__name"
+      onSubmit={(event) => {
+        event.preventDefault();
+        done().catch((problem: unknown) => studio.tell(problem));
+      }}
+    >
+      <FileIcon kind={rename ? iconKind(rename) : kind} />
+      <input
+        className="field field--small field--ui"
+        autoFocus
+        aria-label={rename ? text.tree.rename : text.tree.newName}
+        aria-invalid={why !== ''}
+        title={why}
+        value={name}
+        spellCheck={false}
+        onChange={(event) => setName(event.target.value)}
+        onFocus={(event) => event.target.setSelectionRange(0, stem(event.target.value))}
+        onBlur={end}
+        onKeyDown={(event) => event.key === 'Escape' && (event.stopPropagation(), end())}
+      />
+    </form>
+  );
+}
+
+/** The ending stays unless someone means it. */
+function stem(name: string): number {
+  const dot = name.indexOf('.');
+  return dot > 0 ? dot : name.length;
+}
+
+function iconKind(path: Path): FileEntry['kind'] {
+  if (path.endsWith('.aesl')) return 'script';
+  return baseName(path).includes('.') ? 'text' : 'folder';
+}

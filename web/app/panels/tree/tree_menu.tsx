@@ -1,0 +1,67 @@
+import { Menu } from '@mantine/core';
+import { IconDots } from '@tabler/icons-react';
+import type { TreeRow } from '../../../core/tree';
+import { revealDoc } from '../../../core/window_state';
+import { documentsIn } from '../../dock/documents';
+import { useDrives, useStudio } from '../../hooks';
+import { kStroke } from '../../parts/icons';
+import { Kbd } from '../../parts/kbd';
+import { StudioMenu } from '../../parts/menu';
+import { text } from '../../text';
+import type { TreeState } from './use_tree';
+
+interface Props {
+  row: TreeRow;
+  tree: TreeState;
+  open: boolean;
+  onChange(open: boolean): void;
+}
+
+/** What can be done with a file; its button shows with the pointer or the focus. */
+export function TreeMenu({ row, tree, open, onChange }: Props) {
+  const studio = useStudio();
+  const drives = useDrives();
+  const isFile = row.kind !== 'folder';
+  const button = (
+    <button
+      type="button"
+      className="tree__menu"
+      tabIndex={-1}
+      aria-label={`${row.name}: ${text.menu.more}`}
+      onClick={(event) => event.stopPropagation()}
+    >
+      <IconDots size={14} stroke={kStroke} aria-hidden />
+    </button>
+  );
+  const beside = () =>
+    documentsIn(studio, row.path)
+      .slice(0, 1)
+      .forEach((doc) => revealDoc(studio.window, doc, null, true, true));
+  return (
+    <span onClick={(event) => event.stopPropagation()} className="tree__end">
+      <StudioMenu button={button} position="bottom-end" opened={open} onChange={onChange}>
+        {isFile ? <Menu.Item onClick={beside}>{text.commands['view.side']}</Menu.Item> : null}
+        {row.kind === 'script' ? (
+          <Menu.Item onClick={() => tree.openText(row)}>{text.tree.openText}</Menu.Item>
+        ) : null}
+        <Menu.Item
+          disabled={!drives}
+          rightSection={<Kbd keys="F2" />}
+          onClick={() => tree.rename(row)}
+        >
+          {text.tree.rename}
+        </Menu.Item>
+        <Menu.Item
+          disabled={!drives}
+          rightSection={<Kbd keys="Del" />}
+          onClick={() => void tree.remove(row).catch((problem: unknown) => studio.tell(problem))}
+        >
+          {text.tree.delete}
+        </Menu.Item>
+        <Menu.Item onClick={() => void navigator.clipboard.writeText(row.path)}>
+          {text.tree.copyPath}
+        </Menu.Item>
+      </StudioMenu>
+    </span>
+  );
+}

@@ -1,0 +1,68 @@
+// What the tree remembers and does.
+
+import { useCallback, useMemo, useState } from 'react';
+import type { Path } from '../../../protocol/messages';
+import { documentsIn } from '../../dock/documents';
+import { folderOf } from '../../../core/paths';
+import type { TreeRow } from '../../../core/tree';
+import { revealDoc, toast, update } from '../../../core/window_state';
+import { useStudio } from '../../hooks';
+import { text } from '../../text';
+
+export interface TreeState {
+  closed: ReadonlySet<Path>;
+  chosen: Path | null;
+  choose(path: Path): void;
+  toggle(path: Path, open: boolean): void;
+  closeAll(rows: readonly TreeRow[]): void;
+  /** Where something new goes: the chosen folder, or the one of the chosen file. */
+  folder(rows: readonly TreeRow[]): Path;
+  open(row: TreeRow): void;
+  openText(row: TreeRow): void;
+  rename(row: TreeRow): void;
+  remove(row: TreeRow): Promise<void>;
+}
+
+export function useTree(): TreeState {
+  const studio = useStudio();
+  const [closed, setClosed] = useState<ReadonlySet<Path>>(new Set());
+  const [chosen, choose] = useState<Path | null>(null);
+  const toggle = useCallback((path: Path, open: boolean) => {
+    setClosed((before) => {
+      const next = new Set(before);
+      if (open) next.delete(path);
+      else next.add(path);
+      return next;
+    });
+  }, []);
+  return useMemo(
+    () => ({
+      closed,
+      chosen,
+      choose,
+      toggle,
+      closeAll: (rows) =>
+        setClosed(new Set(rows.filter((row) => row.kind === 'folder').map((row) => row.path))),
+      folder: (rows) => {
+        const row = rows.find((one) => one.path === chosen);
+        return row
+          ? row.kind === 'folder'
+            ? row.path
+            : folderOf(row.path)
+          : folderOf(rows.find((one) => one.kind === 'project')?.path ?? '');
+      },
+      open: (row) => {
+        if (row.kind === 'folder') return toggle(row.path, !row.open);
+        for (const doc of documentsIn(studio, row.path).reverse())
+          revealDoc(studio.window, doc, null);
+      },
+      openText: (row) => revealDoc(studio.window, row.path, null),
+      rename: (row) => update(studio.window, (draft) => void (draft.naming = { rename: row.path })),
+      remove: async (row) => {
+        await studio.send('file.delete', { path: row.path });
+        toast(studio.window, 'note', text.tree.remove(row.name));
+      },
+    }),
+    [studio, closed, chosen, toggle],
+  );
+}

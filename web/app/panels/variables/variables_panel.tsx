@@ -1,0 +1,123 @@
+import { IconFilter } from '@tabler/icons-react';
+import { useMemo, useRef, useState, type KeyboardEvent } from 'react';
+import {
+  isOpen,
+  nodeKey,
+  variableKey,
+  variableRows,
+  type VariableRow,
+} from '../../../core/variable_rows';
+import type { NumberForm } from '../../../core/numbers';
+import { useTopic, useWindow } from '../../hooks';
+import { Quiet } from '../../parts/blank';
+import { kStroke } from '../../parts/icons';
+import { VirtualRows } from '../../parts/virtual_rows';
+import { useShown, useVariablesOf } from '../../robot_hooks';
+import { text } from '../../text';
+import { FormButton } from './form_button';
+import { Row } from './variable_row';
+import '../../look/robot.css';
+
+const words = text.variables;
+
+/** The variables of all nodes: searched, unfolded, edited in place. Only what is seen is asked. */
+export default function VariablesPanel() {
+  const frame = useRef<HTMLDivElement>(null);
+  const shown = useShown(frame);
+  const [find, setFind] = useState('');
+  const [form, setForm] = useState<NumberForm>('decimal');
+  const { rows, toggle } = useRows(find, shown);
+  const nodes = useTopic('robot', {})?.nodes ?? [];
+  return (
+    <div className="variables" ref={frame}>
+      {nodes.length === 0 ? (
+        <Quiet>{text.empty.variables}</Quiet>
+      ) : (
+        <>
+          <div className="strip-bar">
+            <label className="search search--small">
+              <IconFilter size={13} stroke={kStroke} aria-hidden />
+              <input
+                type="search"
+                data-find="variables"
+                aria-label={words.find}
+                placeholder={words.find}
+                value={find}
+                spellCheck={false}
+                onChange={(event) => setFind(event.target.value)}
+                onKeyDown={(event) => findKey(event, frame.current, setFind)}
+              />
+            </label>
+            <FormButton form={form} onChange={setForm} />
+          </div>
+          {rows.length === 0 ? <Quiet>{words.nothing(find)}</Quiet> : null}
+          {/* While the panel is hidden nothing of it is drawn, and so nothing is asked. */}
+          {shown ? (
+            <VirtualRows
+              rows={rows}
+              label={text.panels.variables}
+              keyOf={(row) => row.key}
+              onRowKey={(row, event) => unfoldKey(row, event, toggle)}
+            >
+              {(row) => <Row row={row} form={form} onToggle={() => toggle(row.key)} />}
+            </VirtualRows>
+          ) : null}
+        </>
+      )}
+    </div>
+  );
+}
+
+/** Down goes on to what was found. */
+function findKey(
+  event: KeyboardEvent<HTMLElement>,
+  frame: HTMLElement | null,
+  setFind: (find: string) => void,
+): void {
+  if (event.key === 'Escape') setFind('');
+  if (event.key !== 'ArrowDown') return;
+  frame?.querySelector<HTMLElement>('[data-row][tabindex="0"]')?.focus();
+  event.preventDefault();
+}
+
+function useRows(find: string, shown: boolean) {
+  const nodes = useTopic('robot', {})?.nodes;
+  const doc = useWindow((state) => state.doc);
+  const [toggled, setToggled] = useState<ReadonlySet<string>>(new Set());
+  const own = nodes?.find((node) => node.doc === doc)?.id ?? nodes?.[0]?.id ?? null;
+  const asked = useMemo(() => ({ find, toggled, shown: own }), [find, toggled, own]);
+  const described = useVariablesOf(
+    shown ? (nodes ?? []).map((node) => node.id).filter((id) => isOpen(id, asked)) : [],
+  );
+  const rows = useMemo(
+    () =>
+      variableRows(
+        (nodes ?? []).map((node) => ({ node, variables: described.get(node.id) })),
+        asked,
+      ),
+    [nodes, described, asked],
+  );
+  const toggle = (key: string) =>
+    setToggled((before) => {
+      const after = new Set(before);
+      if (!after.delete(key)) after.add(key);
+      return after;
+    });
+  return { rows, toggle };
+}
+
+/** Right unfolds, left folds; on what has nothing to unfold they go through its buttons. */
+function unfoldKey(
+  row: VariableRow,
+  event: KeyboardEvent<HTMLElement>,
+  toggle: (key: string) => void,
+): void {
+  const array = row.is === 'variable' && row.variable.size > 1;
+  if (row.is !== 'node' && !array) return;
+  const key = row.is === 'node' ? nodeKey(row.node) : variableKey(row.node, row.variable.name);
+  const wanted =
+    (event.key === 'ArrowRight' && !row.open) || (event.key === 'ArrowLeft' && row.open);
+  if (!wanted && !(row.is === 'node' && event.key === 'Enter')) return;
+  event.preventDefault();
+  toggle(key);
+}

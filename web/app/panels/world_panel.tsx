@@ -1,0 +1,65 @@
+import { IconMap2 } from '@tabler/icons-react';
+import { useRef } from 'react';
+import type { Doc } from '../../protocol/messages';
+import { useTopic } from '../hooks';
+import { Blank } from '../parts/blank';
+import { kStroke } from '../parts/icons';
+import { text } from '../text';
+import {
+  useFileStage,
+  useHasScene,
+  useJsonDocument,
+  useLive,
+  useVisible,
+  useWorldModel,
+} from '../views/world/use_world';
+import { SpeedBar } from '../views/world/speed_bar';
+import { ThingList } from '../views/world/thing_list';
+import { WorldStage } from '../views/world/world_stage';
+import '../look/world.css';
+
+/** The world as it runs; while nothing runs, as its file says. */
+export default function WorldPanel() {
+  const runs = useHasScene();
+  const world = useTopic('studio', {})?.project?.world;
+  if (runs) return <Running />;
+  if (world !== undefined) return <AsFile key={world} doc={world} />;
+  return (
+    <Blank
+      title={text.world.noWorld}
+      icon={<IconMap2 className="icon" size={18} stroke={kStroke} />}
+    >
+      {text.world.noWorldHelp}
+    </Blank>
+  );
+}
+
+function Running() {
+  const frame = useRef<HTMLDivElement>(null);
+  const model = useWorldModel();
+  useLive(model, useVisible(frame));
+  return (
+    <div className="world world--panel" ref={frame} data-world>
+      <WorldStage model={model} file={null} live>
+        <div className="world__wide">
+          <SpeedBar />
+        </div>
+      </WorldStage>
+      <ThingList model={model} hidden />
+    </div>
+  );
+}
+
+function AsFile({ doc }: { doc: Doc }) {
+  const model = useWorldModel();
+  const { file } = useJsonDocument(doc);
+  useFileStage(model, file, doc, false);
+  return (
+    <div className="world world--panel" data-world>
+      <WorldStage model={model} file={null} live={false}>
+        <p className="world__chip">{text.world.asFile}</p>
+      </WorldStage>
+      <ThingList model={model} hidden />
+    </div>
+  );
+}

@@ -1,0 +1,3 @@
+export function Kbd({ keys }: { keys: string }) {
+  return <span className="kbd">{keys}</span>;
+}

@@ -1,0 +1,75 @@
+import { useState } from 'react';
+import { badName } from '../../core/paths';
+import { useStudio } from '../hooks';
+import { OverlayFrame, useCloseOverlay } from '../overlay/overlay_frame';
+import { Button } from '../parts/button';
+import { text } from '../text';
+
+const words = text.newProject;
+type Robot = keyof typeof words.robots;
+
+export default function NewProject() {
+  const studio = useStudio();
+  const close = useCloseOverlay();
+  const [name, setName] = useState('my-robot');
+  const [robot, setRobot] = useState<Robot>('thymio2');
+  const [plan, setPlan] = useState(false);
+  const why = badName(name);
+  const make = () => {
+    if (why) return;
+    close();
+    void studio.openAnother('project.new', { name, robot, plan });
+  };
+  return (
+    <OverlayFrame label={words.title}>
+      <form
+        className="sheet sheet--small form"
+        onSubmit={(event) => (event.preventDefault(), make())}
+      >
+        <div className="sheet__head">
+          <h2>{words.title}</h2>
+        </div>
+        <label>
+          {words.name}
+          <input
+            className="field field--ui"
+            autoFocus
+            value={name}
+            aria-invalid={why !== ''}
+            onFocus={(event) => event.target.select()}
+            onChange={(event) => setName(event.target.value)}
+          />
+          {why ? <span className="why">{why}</span> : null}
+        </label>
+        <label>
+          {words.robot}
+          <select
+            className="field field--ui"
+            value={robot}
+            onChange={(event) => setRobot(event.target.value as Robot)}
+          >
+            {Object.entries(words.robots).map(([id, label]) => (
+              <option key={id} value={id}>
+                {label}
+              </option>
+            ))}
+          </select>
+        </label>
+        <label className="form__check">
+          <input
+            type="checkbox"
+            checked={plan}
+            onChange={(event) => setPlan(event.target.checked)}
+          />
+          {words.plan}
+        </label>
+        <div className="form__end">
+          <Button onClick={close}>{text.folder.close}</Button>
+          <Button kind="primary" type="submit" disabled={why !== ''}>
+            {words.make}
+          </Button>
+        </div>
+      </form>
+    </OverlayFrame>
+  );
+}

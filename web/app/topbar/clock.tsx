@@ -1,0 +1,86 @@
+import { Menu } from '@mantine/core';
+import {
+  IconChevronDown,
+  IconPlayerPauseFilled,
+  IconPlayerPlayFilled,
+  IconPlayerStopFilled,
+} from '@tabler/icons-react';
+import { useDrives, useStudio, useTopic } from '../hooks';
+import { Button } from '../parts/button';
+import { kStroke } from '../parts/icons';
+import { CommandItem, StudioMenu } from '../parts/menu';
+import { text } from '../text';
+
+const speeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0];
+
+/** The run's clock, what it does, and its speed. */
+export function Clock() {
+  const studio = useStudio();
+  const drives = useDrives();
+  const clock = useTopic('clock', {}) ?? {
+    t: 0,
+    state: 'none' as const,
+    speed: 1,
+    real: 1,
+    wall: 0,
+  };
+  const { state } = clock;
+  // On a bus there is a clock only while a plan runs.
+  if (useTopic('robot', {})?.kind === 'bus' && state === 'none') return null;
+  const Icon =
+    state === 'running'
+      ? IconPlayerPlayFilled
+      : state === 'none' || state === 'ended'
+        ? IconPlayerStopFilled
+        : IconPlayerPauseFilled;
+  const button = (
+    <button type="button" className={`clock clock--${state}`} title={clock.why}>
+      <Icon className="icon" size={14} aria-hidden />
+      <span className="clock__time">{clock.t.toFixed(state === 'paused' ? 3 : 1)} s</span>
+      <span className="clock__state">{text.run[state]}</span>
+      <span className="clock__line" />
+      <span className="hidden-text">{text.menu.speed}</span>
+      <span className="clock__speed num">{text.run.speed(clock.speed)}</span>
+      <IconChevronDown className="icon" size={12} stroke={kStroke} aria-hidden />
+    </button>
+  );
+  // A run that hangs is ended here: nothing in the menu would be answered.
+  if (state === 'hanging')
+    return (
+      <div className="runbar">
+        <span className="clock clock--hanging">
+          <Icon className="icon" size={14} aria-hidden />
+          <span className="clock__state">{text.run[state]}</span>
+        </span>
+        <Button
+          className="is-stop"
+          disabled={!drives}
+          title={text.run.hangs}
+          onClick={() => void studio.registry.run('run.end')}
+        >
+          {text.run.end}
+        </Button>
+      </div>
+    );
+  return (
+    <StudioMenu button={button}>
+      <Menu.Label>
+        {text.menu.speed} · {text.run.measured(clock.real)}
+      </Menu.Label>
+      {speeds.map((speed) => (
+        <Menu.Item
+          key={speed}
+          disabled={!drives}
+          onClick={() => studio.order('clock.speed', { speed })}
+          aria-current={speed === clock.speed}
+        >
+          {speed === 0 ? text.run.asFast : text.run.speed(speed)}
+          {speed === clock.speed ? ' ✓' : ''}
+        </Menu.Item>
+      ))}
+      <Menu.Divider />
+      <CommandItem id="run.reset" title={text.run.reset} />
+      <CommandItem id="run.end" />
+    </StudioMenu>
+  );
+}

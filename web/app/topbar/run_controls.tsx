@@ -1,0 +1,68 @@
+import {
+  IconPlayerPause,
+  IconPlayerPlay,
+  IconPlayerSkipForward,
+  IconPlayerStop,
+} from '@tabler/icons-react';
+import { runStateOf } from '../../core/run_state';
+import { useStudio, useTopic, useDrives } from '../hooks';
+import { Button } from '../parts/button';
+import { kStroke } from '../parts/icons';
+import { text } from '../text';
+
+const size = { size: 16, stroke: kStroke };
+
+/** Stop is first, always there, and always works. */
+export function RunControls() {
+  const { registry } = useStudio();
+  const drives = useDrives();
+  const state = runStateOf(useTopic('robot', {}), useTopic('clock', {}), useTopic('plan', {}));
+  const paused = state === 'held';
+  const runs = state === 'running';
+  const run = (id: string) => () => void registry.run(id);
+  return (
+    <div className="runbar" role="group" aria-label={text.run.controls}>
+      <Button
+        className="is-stop"
+        tip={text.run.stop}
+        keys="Shift+F5"
+        icon={<IconPlayerStop {...size} />}
+        onClick={run('run.stop')}
+      />
+      {paused ? (
+        <Button
+          kind="primary"
+          keys="F5"
+          disabled={!drives}
+          icon={<IconPlayerPlay {...size} />}
+          onClick={run('run.start')}
+        >
+          {text.run.continue}
+        </Button>
+      ) : (
+        <Button
+          className={runs ? 'is-run' : ''}
+          tip={runs ? `${text.run.run}: ${text.run.runs}` : text.run.run}
+          keys="F5"
+          disabled={!drives}
+          icon={<IconPlayerPlay {...size} />}
+          onClick={run('run.start')}
+        />
+      )}
+      <Button
+        tip={text.run.pause}
+        keys="F8"
+        disabled={!drives || !runs}
+        icon={<IconPlayerPause {...size} />}
+        onClick={run('run.pause')}
+      />
+      <Button
+        tip={text.run.step}
+        keys="F10"
+        disabled={!drives || !paused}
+        icon={<IconPlayerSkipForward {...size} />}
+        onClick={run('run.step')}
+      />
+    </div>
+  );
+}

@@ -1,0 +1,66 @@
+import { IconCommand, IconContrast2, IconHelp } from '@tabler/icons-react';
+import { useCommands, useStudio, useTopic } from '../hooks';
+import { Button } from '../parts/button';
+import { kStroke, Logo } from '../parts/icons';
+import { text } from '../text';
+import { Bus } from './bus';
+import { Clock } from './clock';
+import { LayoutSwitch } from './layout_switch';
+import { ProjectMenu } from './project_menu';
+import { RunControls } from './run_controls';
+import { TargetMenu } from './target_menu';
+
+/** Where am I, what does the robot do, where does it run. */
+export function TopBar() {
+  const project = useTopic('studio', {})?.project;
+  return (
+    <header className="topbar" data-region="top" aria-label={text.regions.top}>
+      <div className="brand">
+        <Logo />
+        <span>{text.name}</span>
+      </div>
+      {project ? (
+        <>
+          <ProjectMenu name={project.name} />
+          <LayoutSwitch />
+          <RunControls />
+          <Clock />
+        </>
+      ) : null}
+      <div className="grow" />
+      <TargetMenu />
+      {project ? <Bus /> : null}
+      <Tools />
+    </header>
+  );
+}
+
+function Tools() {
+  const { registry } = useStudio();
+  useCommands();
+  const size = { size: 16, stroke: kStroke };
+  return (
+    <div className="topbar__tools">
+      <Button
+        kind="plain"
+        tip={text.commands['palette.open']}
+        keys="Ctrl+K"
+        icon={<IconCommand {...size} />}
+        onClick={() => registry.run('palette.open')}
+      />
+      <Button
+        kind="plain"
+        tip={text.commands['theme.next']}
+        icon={<IconContrast2 {...size} />}
+        onClick={() => registry.run('theme.next')}
+      />
+      <Button
+        kind="plain"
+        tip={text.commands['help.keys']}
+        keys="?"
+        icon={<IconHelp {...size} />}
+        onClick={() => registry.run('help.keys')}
+      />
+    </div>
+  );
+}

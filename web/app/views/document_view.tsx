@@ -1,0 +1,16 @@
+import { lazy } from 'react';
+import type { Doc } from '../../protocol/messages';
+import { partOf } from '../../core/paths';
+import { kindOf } from '../dock/documents';
+
+const PlanDocument = lazy(() => import('./plan/plan_document'));
+const WorldDocument = lazy(() => import('./world/world_document'));
+const ScriptView = lazy(() => import('./script/script_view'));
+
+/** The view of a document by its kind. */
+export function DocumentView({ doc }: { doc: Doc }) {
+  const kind = kindOf(doc);
+  if (kind === 'world') return <WorldDocument key={doc} doc={doc} />;
+  if (kind === 'plan') return <PlanDocument key={doc} doc={doc} />;
+  return <ScriptView doc={doc} isScript={partOf(doc).part > 0} />;
+}

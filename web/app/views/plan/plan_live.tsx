@@ -1,0 +1,72 @@
+import { useEffect, useState } from 'react';
+import type { Doc, PlanLevel } from '../../../protocol/messages';
+import { shownLevel } from '../../../core/plan_view';
+import { shownName } from '../../../core/paths';
+import { useTopic } from '../../hooks';
+import { Blank } from '../../parts/blank';
+import { text } from '../../text';
+import { ActiveActor } from './active_actor';
+import { PlanControls } from './plan_controls';
+import { PlanStory } from './plan_story';
+import { PlanVariables } from './plan_variables';
+import { PlanWatchers } from './plan_watchers';
+
+const words = text.plan;
+
+/** What a plan does, as a list: where it is, who watches, its variables, what happened. */
+export function PlanLive({ doc }: { doc: Doc }) {
+  const plan = useTopic('plan', {});
+  const [chosen, choose] = useState<string | null>(null);
+  const state = plan?.state ?? 'none';
+  useEffect(() => {
+    if (state === 'none' || state === 'ended') choose(null);
+  }, [state]);
+  const levels = plan?.levels ?? [];
+  const shown = shownLevel(levels, doc, chosen);
+  const level = levels[shown];
+  return (
+    <aside className="planlive" aria-label={words.label}>
+      <PlanControls doc={doc} plan={plan} />
+      <div className="scroll" tabIndex={0} data-inset>
+        {plan && state !== 'none' && plan.doc !== undefined && plan.doc !== doc && shown < 0 ? (
+          <p className="quiet">{words.other(shownName(plan.doc))}</p>
+        ) : null}
+        {levels.length > 1 ? (
+          <Breadcrumb levels={levels} shown={shown} onChoose={(path) => choose(path)} />
+        ) : null}
+        {plan && level ? (
+          <>
+            <ActiveActor level={level} t={plan.t} state={plan.state} />
+            <PlanWatchers supervisors={level.supervisors} />
+            <PlanVariables level={shown} variables={level.variables} />
+          </>
+        ) : null}
+        {state === 'none' ? <Blank title={words.none}>{words.noneHelp}</Blank> : null}
+        {state !== 'none' ? <PlanStory story={plan?.story ?? []} /> : null}
+      </div>
+    </aside>
+  );
+}
+
+function Breadcrumb(props: {
+  levels: readonly PlanLevel[];
+  shown: number;
+  onChoose: (path: string) => void;
+}) {
+  const { levels, shown, onChoose } = props;
+  return (
+    <nav className="crumbs" aria-label={words.levels}>
+      {levels.map((level, index) => (
+        <button
+          key={level.path}
+          type="button"
+          className={index === shown ? 'crumb is-on' : 'crumb'}
+          aria-current={index === shown ? 'true' : undefined}
+          onClick={() => onChoose(level.path)}
+        >
+          {level.path.split('/').at(-1)}
+        </button>
+      ))}
+    </nav>
+  );
+}

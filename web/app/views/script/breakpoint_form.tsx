@@ -1,0 +1,66 @@
+import { useState } from 'react';
+import type { Doc } from '../../../protocol/messages';
+import { useStudio, useTopic } from '../../hooks';
+import { Button } from '../../parts/button';
+import { text } from '../../text';
+
+const words = text.editor;
+
+export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; onEnd(): void }) {
+  const studio = useStudio();
+  const there = useTopic('breakpoints', {})?.breakpoints.find(
+    (one) => one.doc === doc && one.line === line,
+  );
+  const [condition, setCondition] = useState(there?.condition ?? '');
+  const [ignore, setIgnore] = useState(String(there?.ignore ?? 0));
+  const [enabled, setEnabled] = useState(there?.enabled ?? true);
+  const good = /^\d{1,6}$/.test(ignore);
+  const save = () => {
+    if (!good) return;
+    studio.order('break.set', { doc, line, condition, ignore: Number(ignore), enabled });
+    onEnd();
+  };
+  return (
+    <form className="form form--line" onSubmit={(event) => (event.preventDefault(), save())}>
+      <label>
+        {words.condition}
+        <input
+          className="field"
+          autoFocus
+          placeholder={words.conditionHint}
+          value={condition}
+          spellCheck={false}
+          onChange={(event) => setCondition(event.target.value)}
+        />
+      </label>
+      <label className="form__short">
+        {words.ignore}
+        <input
+          className="field num"
+          inputMode="numeric"
+          value={ignore}
+          aria-invalid={!good}
+          onChange={(event) => setIgnore(event.target.value)}
+        />
+      </label>
+      <label className="form__check">
+        <input
+          type="checkbox"
+          checked={enabled}
+          onChange={(event) => setEnabled(event.target.checked)}
+        />
+        {words.enabled}
+      </label>
+      <div className="form__end">
+        {there ? (
+          <Button onClick={() => (studio.order('break.clear', { doc, line }), onEnd())}>
+            {words.clear}
+          </Button>
+        ) : null}
+        <Button kind="primary" type="submit">
+          {text.outline.save}
+        </Button>
+      </div>
+    </form>
+  );
+}

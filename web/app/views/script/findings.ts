@@ -1,0 +1,153 @@
+// Findings in the text: what is meant is underlined, and an error's sentence stands in a block below
+// its line, with its fix as a button.
+
+import {
+  RangeSet,
+  StateEffect,
+  StateField,
+  type EditorState,
+  type Extension,
+  type Range,
+  type Text,
+} from '@codemirror/state';
+import { Decoration, EditorView, WidgetType, type DecorationSet } from '@codemirror/view';
+import type { Finding, Fix } from '../../../protocol/messages';
+import { offsetOf } from './places';
+
+export interface FindingsShown {
+  findings: readonly Finding[];
+  onFix(fix: Fix): void;
+}
+
+export const setFindings = StateEffect.define<FindingsShown>();
+
+interface FieldValue {
+  marks: DecorationSet;
+  blocks: DecorationSet;
+  findings: readonly Finding[];
+}
+
+const nothing: FieldValue = { marks: Decoration.none, blocks: Decoration.none, findings: [] };
+
+const field = StateField.define<FieldValue>({
+  create: () => nothing,
+  update(value, transaction) {
+    for (const effect of transaction.effects)
+      if (effect.is(setFindings)) return shown(effect.value, transaction.state.doc);
+    if (!transaction.docChanged) return value;
+    return {
+      ...value,
+      marks: value.marks.map(transaction.changes),
+      blocks: value.blocks.map(transaction.changes),
+    };
+  },
+  provide: (self) => [
+    EditorView.decorations.from(self, (value) => value.marks),
+    EditorView.decorations.from(self, (value) => value.blocks),
+  ],
+});
+
+export const findingsExtension: Extension = field;
+
+/** The findings at an offset, for the help under the pointer. */
+export function findingsAt(state: EditorState, offset: number): Finding[] {
+  const { marks, findings } = state.field(field);
+  const found: Finding[] = [];
+  marks.between(offset, offset, (_from, _to, mark) => {
+    const finding = findings[Number((mark.spec as { index: number }).index)];
+    if (finding) found.push(finding);
+  });
+  return found;
+}
+
+function shown({ findings, onFix }: FindingsShown, doc: Text): FieldValue {
+  const marks: Range<Decoration>[] = [];
+  const blocks = new Map<number, Range<Decoration>>();
+  findings.forEach((finding, index) => {
+    const [from, to] = rangeOf(finding, doc);
+    const kind = finding.severity;
+    // A text without a character has nothing to mark.
+    if (to > from)
+      marks.push(
+        Decoration.mark({ class: `cm-finding cm-finding--${kind}`, index }).range(from, to),
+      );
+    const end = doc.lineAt(to).to;
+    if (kind === 'error' && !blocks.has(end))
+      blocks.set(
+        end,
+        Decoration.widget({ widget: new Sentence(finding, onFix), block: true, side: 1 }).range(
+          end,
+        ),
+      );
+  });
+  return {
+    marks: RangeSet.of(marks, true),
+    blocks: RangeSet.of([...blocks.values()], true),
+    findings,
+  };
+}
+
+/** At least one character, so that there is something to see: the one behind, else the one before. */
+function rangeOf(finding: Finding, doc: Text): [number, number] {
+  const from = offsetOf(doc, finding.at);
+  const to = Math.max(offsetOf(doc, finding.end), from);
+  if (to > from) return [from, to];
+  return from < doc.lineAt(from).to ? [from, from + 1] : [Math.max(0, from - 1), from];
+}
+
+class Sentence extends WidgetType {
+  constructor(
+    private readonly finding: Finding,
+    private readonly onFix: (fix: Fix) => void,
+  ) {
+    super();
+  }
+
+  override eq(other: Sentence): boolean {
+    const { what, fixes } = this.finding;
+    return (
+      other.finding.what === what && JSON.stringify(other.finding.fixes) === JSON.stringify(fixes)
+    );
+  }
+
+  override toDOM(): HTMLElement {
+    const frame = document.createElement('div');
+    // Space around it is padding: the editor does not see margins.
+    frame.className = 'diag-frame';
+    const block = document.createElement('div');
+    block.className = 'diag';
+    block.setAttribute('role', 'note');
+    block.innerHTML = octagon;
+    const sentence = document.createElement('span');
+    sentence.className = 'diag__what';
+    sentence.textContent = this.finding.what;
+    block.append(sentence);
+    this.finding.fixes
+      .slice(0, 3)
+      .forEach((fix, index) => block.append(this.button(fix, index === 0)));
+    frame.append(block);
+    return frame;
+  }
+
+  private button(fix: Fix, first: boolean): HTMLElement {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.className = 'btn btn--small';
+    button.textContent = fix.label;
+    if (first) {
+      const keys = document.createElement('span');
+      keys.className = 'kbd';
+      keys.textContent = 'Alt+Enter';
+      button.append(keys);
+    }
+    button.onclick = () => this.onFix(fix);
+    return button;
+  }
+
+  override ignoreEvent(): boolean {
+    return true;
+  }
+}
+
+const octagon =
+  '<svg class="icon is-error" width="16" height="16" viewBox="0 0 24 24" fill="none" stroke="currentColor" stroke-width="1.75" stroke-linecap="round" stroke-linejoin="round" aria-hidden="true"><path d="M12.802 2.165l5.575 2.389c.48 .206 .863 .589 1.07 1.07l2.388 5.574c.22 .512 .22 1.092 0 1.604l-2.389 5.575c-.206 .48 -.589 .863 -1.07 1.07l-5.574 2.388c-.512 .22 -1.092 .22 -1.604 0l-5.575 -2.389a2.036 2.036 0 0 1 -1.07 -1.07l-2.388 -5.574a2.036 2.036 0 0 1 0 -1.604l2.389 -5.575c.206 -.48 .589 -.863 1.07 -1.07l5.574 -2.388a2.036 2.036 0 0 1 1.604 0z"/><path d="M12 8v4"/><path d="M12 16h.01"/></svg>';

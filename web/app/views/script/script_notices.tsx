@@ -1,0 +1,89 @@
+import { IconAlertOctagon, IconAlertTriangle } from '@tabler/icons-react';
+import { lazy, Suspense, useState, type ReactNode } from 'react';
+import type { Doc } from '../../../protocol/messages';
+import { countsOf } from '../../../core/findings';
+import { useDrives, useStudio, useTopic } from '../../hooks';
+import { timeOf } from '../../overlay/status_bar';
+import { Button } from '../../parts/button';
+import { kStroke } from '../../parts/icons';
+import { text } from '../../text';
+
+const words = text.editor;
+const Compare = lazy(() => import('./compare'));
+
+/** Lines above a text: what runs is another one, the node has stopped, the file has changed. */
+export function ScriptNotices({ doc, isScript }: { doc: Doc; isScript: boolean }) {
+  return (
+    <>
+      {isScript ? <LoadedNotice doc={doc} /> : null}
+      <DiskNotice doc={doc} />
+    </>
+  );
+}
+
+function LoadedNotice({ doc }: { doc: Doc }) {
+  const { registry } = useStudio();
+  const node = useTopic('robot', {})?.nodes.find((one) => one.doc === doc);
+  const { errors } = countsOf(useTopic('findings', {})?.findings ?? [], doc);
+  if (node?.fault) return <Line error>{words.fault(node.fault)}</Line>;
+  if (!node || node.program !== 'older' || node.state === 'gone') return null;
+  // What a world has loaded by itself has no time.
+  const time = node.loaded_wall ? timeOf(node.loaded_wall) : null;
+  if (errors > 0) return <Line>{words.oldRuns(time)}</Line>;
+  return (
+    <Line
+      end={
+        <Button small kind="plain" keys="Ctrl+U" onClick={() => registry.run('node.load')}>
+          {words.upload}
+        </Button>
+      }
+    >
+      {words.older(time)}
+    </Line>
+  );
+}
+
+export function DiskNotice({ doc }: { doc: Doc }) {
+  const studio = useStudio();
+  const drives = useDrives();
+  const [compare, setCompare] = useState(false);
+  const state = useTopic('doc', { doc });
+  if (state?.gone) return <Line>{words.gone}</Line>;
+  if (state?.disk === undefined) return null;
+  const keep = (which: 'mine' | 'disk') => () => studio.order('doc.keep', { doc, which });
+  const end = (
+    <>
+      <Button small kind="plain" aria-expanded={compare} onClick={() => setCompare(!compare)}>
+        {compare ? words.hide : words.compare}
+      </Button>
+      <Button small disabled={!drives} onClick={keep('mine')}>
+        {words.mine}
+      </Button>
+      <Button small disabled={!drives} onClick={keep('disk')}>
+        {words.theirs}
+      </Button>
+    </>
+  );
+  return (
+    <>
+      <Line end={end}>{words.disk}</Line>
+      {compare ? (
+        <Suspense fallback={null}>
+          <Compare mine={state.text} theirs={state.disk} />
+        </Suspense>
+      ) : null}
+    </>
+  );
+}
+
+function Line({ children, end, error }: { children: ReactNode; end?: ReactNode; error?: boolean }) {
+  const Icon = error ? IconAlertOctagon : IconAlertTriangle;
+  return (
+    <div className={error ? 'notice notice--error' : 'notice'} role="status">
+      <Icon className="icon" size={14} stroke={kStroke} aria-hidden />
+      <span className="ellipsis">{children}</span>
+      <span className="grow" />
+      {end}
+    </div>
+  );
+}

@@ -1,0 +1,136 @@
+// The editor's parts, put together for one document.
+
+import { closeBrackets, closeBracketsKeymap, completionKeymap } from '@codemirror/autocomplete';
+import { defaultKeymap, history, historyKeymap, indentWithTab } from '@codemirror/commands';
+import { json } from '@codemirror/lang-json';
+import {
+  bracketMatching,
+  codeFolding,
+  foldGutter,
+  foldKeymap,
+  HighlightStyle,
+  indentOnInput,
+  indentUnit,
+  syntaxHighlighting,
+} from '@codemirror/language';
+import { highlightSelectionMatches, search, searchKeymap } from '@codemirror/search';
+import { Compartment, EditorState, type Extension } from '@codemirror/state';
+import {
+  crosshairCursor,
+  drawSelection,
+  dropCursor,
+  EditorView,
+  highlightActiveLine,
+  keymap,
+  lineNumbers,
+  rectangularSelection,
+} from '@codemirror/view';
+import { tags } from '@lezer/highlight';
+import { aesl } from '../../../aesl/language';
+import type { Settings } from '../../../core/settings';
+
+// Classes, so that the colours are those of the theme's tokens.
+const colours = HighlightStyle.define([
+  { tag: [tags.keyword, tags.bool, tags.null], class: 'k' },
+  { tag: [tags.labelName, tags.propertyName], class: 'e' },
+  { tag: tags.function(tags.name), class: 'f' },
+  { tag: tags.constant(tags.name), class: 'c' },
+  { tag: tags.number, class: 'n' },
+  { tag: tags.string, class: 's' },
+  { tag: tags.comment, class: 'm' },
+]);
+
+export const readOnlyPart = new Compartment();
+export const settingsPart = new Compartment();
+
+export function makeState(options: {
+  text: string;
+  language: string;
+  label: string;
+  extensions: Extension;
+  settings: Settings;
+  dark: boolean;
+  readOnly: boolean;
+}): EditorState {
+  const { text, language, label, extensions, settings, dark, readOnly } = options;
+  return EditorState.create({
+    doc: text,
+    extensions: [
+      // Offsets are those of the server's text, whatever its line ends.
+      EditorState.lineSeparator.of('\n'),
+      extensions,
+      lineNumbers(),
+      foldGutter({ openText: '⌄', closedText: '›' }),
+      codeFolding({ placeholderText: '…' }),
+      history(),
+      drawSelection(),
+      dropCursor(),
+      rectangularSelection(),
+      crosshairCursor(),
+      indentOnInput(),
+      bracketMatching(),
+      closeBrackets(),
+      highlightActiveLine(),
+      highlightSelectionMatches({ minSelectionLength: 2 }),
+      search({ top: true }),
+      syntaxHighlighting(colours),
+      language === 'aesl' ? aesl() : language === 'text' || language === 'aesl-file' ? [] : json(),
+      keymap.of([
+        ...closeBracketsKeymap,
+        ...ownKeys(),
+        ...searchKeymap,
+        ...historyKeymap,
+        ...foldKeymap,
+        ...completionKeymap,
+        indentWithTab,
+      ]),
+      EditorView.contentAttributes.of({
+        'aria-label': label,
+        tabindex: '0',
+        spellcheck: 'false',
+        autocorrect: 'off',
+      }),
+      settingsPart.of(settingsOf(settings, dark)),
+      readOnlyPart.of(readOnlyOf(readOnly)),
+    ],
+  });
+}
+
+export function settingsOf(settings: Settings, dark: boolean): Extension {
+  const height = Math.round(settings.codeSize * 1.66);
+  return [
+    EditorView.theme(
+      {
+        '&': { fontSize: `${settings.codeSize}px` },
+        '.cm-content, .cm-gutters': { lineHeight: `${height}px` },
+      },
+      { dark },
+    ),
+    indentUnit.of(' '.repeat(settings.spaces)),
+    EditorState.tabSize.of(settings.spaces),
+    settings.wrap ? EditorView.lineWrapping : [],
+  ];
+}
+
+export function readOnlyOf(readOnly: boolean): Extension {
+  return EditorState.readOnly.of(readOnly);
+}
+
+/** The studio's own keys come first: what it uses is left out here. */
+function ownKeys() {
+  const taken = new Set([
+    'Mod-k',
+    'F2',
+    'F4',
+    'F6',
+    'F8',
+    'Alt-Enter',
+    'Mod-Alt-\\',
+    'Mod-u',
+    'Alt-l',
+    'Ctrl-k',
+  ]);
+  return defaultKeymap.filter(
+    (binding) => !taken.has(binding.key ?? '') && !taken.has(binding.mac ?? ''),
+  );
+}

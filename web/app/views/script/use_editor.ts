@@ -1,0 +1,153 @@
+// The life of an editor: made from the shared text, kept in step with it, told what others know.
+
+import {
+  Annotation,
+  type EditorState,
+  Transaction,
+  type TransactionSpec,
+  type StateEffect,
+  type ChangeSet,
+} from '@codemirror/state';
+import { EditorView, type ViewUpdate } from '@codemirror/view';
+import { useEffect, useRef, useState, type RefObject } from 'react';
+import type { Doc } from '../../../protocol/messages';
+import type { OpenDocument } from '../../../core/documents';
+import { readSettings } from '../../../core/settings';
+import type { Studio } from '../../../core/studio';
+import { textDiff } from '../../../core/text_diff';
+import { update } from '../../../core/window_state';
+import { drives } from '../../commands/looks';
+import { nameOf } from '../../dock/documents';
+import { useStudio } from '../../hooks';
+import { text } from '../../text';
+import { assist } from './assist';
+import { goToDefinition } from './editor_acts';
+import { findingsExtension } from './findings';
+import { lineMarks } from './line_marks';
+import { makeState } from './setup';
+import { editBreakpoint, toggleBreakpoint } from './editor_acts';
+import { placeOf } from './places';
+
+const fromOthers = Annotation.define<boolean>();
+
+export interface EditorLife {
+  host: RefObject<HTMLDivElement | null>;
+  view: EditorView | null;
+  failed: string | null;
+  retry(): void;
+}
+
+export function useEditor(doc: Doc): EditorLife {
+  const studio = useStudio();
+  const host = useRef<HTMLDivElement>(null);
+  const [view, setView] = useState<EditorView | null>(null);
+  const [failed, setFailed] = useState<string | null>(null);
+  const [tries, setTries] = useState(0);
+  useEffect(() => {
+    const held = studio.documents.acquire(doc);
+    let end = () => {};
+    let gone = false;
+    held.opened.then(
+      (opened) => {
+        if (gone || !host.current) return;
+        const made = attach(studio, doc, opened, host.current);
+        end = made.end;
+        setFailed(null);
+        setView(made.view);
+      },
+      (problem: unknown) => setFailed(problem instanceof Error ? problem.message : String(problem)),
+    );
+    return () => {
+      gone = true;
+      setView(null);
+      end();
+      held.release();
+    };
+  }, [studio, doc, tries]);
+  return { host, view, failed, retry: () => setTries(tries + 1) };
+}
+
+function attach(
+  studio: Studio,
+  doc: Doc,
+  opened: OpenDocument,
+  parent: HTMLElement,
+): { view: EditorView; end: () => void } {
+  const { shared } = opened;
+  const view: EditorView = new EditorView({
+    parent,
+    state: stateFor(studio, doc, opened),
+    dispatchTransactions(transactions) {
+      view.update(transactions);
+      for (const one of transactions)
+        if (one.docChanged && !one.annotation(fromOthers)) shared.edit(one.changes);
+    },
+  });
+  const late = textDiff(view.state.doc.toString(), shared.text);
+  if (late.length > 0) view.dispatch(remote({ changes: late }));
+  const offs = [
+    shared.remote.on((changes: ChangeSet) => view.dispatch(remote({ changes }))),
+    shared.trouble.on((what) => studio.tell(what)),
+  ];
+  return {
+    view,
+    end() {
+      offs.forEach((off) => off());
+      opened.kept = view.state;
+      view.destroy();
+    },
+  };
+}
+
+function remote(spec: TransactionSpec): TransactionSpec {
+  return { ...spec, annotations: [fromOthers.of(true), Transaction.addToHistory.of(false)] };
+}
+
+function stateFor(studio: Studio, doc: Doc, opened: OpenDocument): EditorState {
+  // Kept by an editor of this same document, here above.
+  if (opened.kept) return opened.kept as EditorState;
+  const isScript = doc.includes('#');
+  const name = nameOf(studio, doc);
+  const extensions = [
+    EditorView.updateListener.of((change) => tellCursor(studio, doc, change)),
+    findingsExtension,
+    lineMarks({
+      toggle: (line) => isScript && toggleBreakpoint(studio, doc, line),
+      edit: (line) => isScript && editBreakpoint(studio, doc, line),
+    }),
+    isScript ? assist(studio, doc, (at) => void goToDefinition(studio, doc, at)) : [],
+  ];
+  const settings = readSettings(studio.topics.get('studio', {})?.settings);
+  return makeState({
+    text: opened.shared.text,
+    language: opened.language,
+    label: isScript ? text.editor.label(name) : text.editor.textLabel(name),
+    extensions,
+    settings,
+    dark: document.documentElement.dataset['theme'] !== 'light',
+    readOnly: !drives(studio),
+  });
+}
+
+function tellCursor(studio: Studio, doc: Doc, change: ViewUpdate): void {
+  if (!change.selectionSet && !change.docChanged && !change.focusChanged) return;
+  if (!change.view.hasFocus && studio.window.getState().cursor) return;
+  const { line, column } = placeOf(change.state.doc, change.state.selection.main.head);
+  update(studio.window, (draft) => {
+    draft.cursor = { doc, line, column };
+    if (change.view.hasFocus) draft.doc = doc;
+  });
+}
+
+/** Tells the editor something whenever it changes. */
+export function useEffectIn(
+  view: EditorView | null,
+  make: () => StateEffect<unknown>,
+  deps: readonly unknown[],
+): void {
+  useEffect(() => {
+    view?.dispatch({ effects: make() });
+    // The caller names what the effect is made of.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [view, ...deps]);
+}

@@ -1,0 +1,183 @@
+// Brings what the server knows of a script into its editor.
+
+import type { EditorView } from '@codemirror/view';
+import { toggleComment } from '@codemirror/commands';
+import { startCompletion } from '@codemirror/autocomplete';
+import { openSearchPanel } from '@codemirror/search';
+import { useEffect, useMemo, useState } from 'react';
+import type { Breakpoint, Doc, Node } from '../../../protocol/messages';
+import { mentionedIn, readWords, valueText } from '../../../core/values';
+import { standsAt } from '../../../core/run_state';
+import { update } from '../../../core/window_state';
+import { addEditor } from '../../commands/editor_handles';
+import { applyFix } from '../../commands/problem_commands';
+import { useDrives, useSettings, useStudio, useTopic, useWindow } from '../../hooks';
+import { text } from '../../text';
+import {
+  findReferences,
+  goTo,
+  goToDefinition,
+  editBreakpoint,
+  toggleBreakpoint,
+} from './editor_acts';
+import { setFindings } from './findings';
+import { setBreaks, setChips, setStanding, type BreakMark } from './line_marks';
+import { offsetOf } from './places';
+import { readOnlyOf, readOnlyPart, settingsOf, settingsPart } from './setup';
+import { useEffectIn } from './use_editor';
+import { showView } from './views';
+
+export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | null): void {
+  const studio = useStudio();
+  const settings = useSettings();
+  const drives = useDrives();
+  const script = useTopic('script', isScript ? { doc } : null);
+  const all = useTopic('findings', {})?.findings;
+  const findings = useMemo(() => all?.filter((one) => one.doc === doc) ?? [], [all, doc]);
+  const breakpoints = useTopic('breakpoints', {})?.breakpoints;
+  const theme = `${useWindow((state) => state.theme)} ${settings.theme}`;
+  useEffectIn(
+    view,
+    () =>
+      setFindings.of({
+        findings,
+        onFix: (fix) =>
+          void applyFix(studio, fix).catch((problem: unknown) => studio.tell(problem)),
+      }),
+    [findings],
+  );
+  useEffectIn(
+    view,
+    () =>
+      setChips.of(
+        settings.showWords
+          ? (script?.handlers ?? [])
+              .filter((one) => one.kind !== 'init')
+              .map(({ line, words }) => ({ line, text: text.editor.words(words) }))
+          : [],
+      ),
+    [script?.handlers, settings.showWords],
+  );
+  useEffectIn(
+    view,
+    () => setBreaks.of((breakpoints ?? []).filter((one) => one.doc === doc).map(markOf)),
+    [breakpoints, doc],
+  );
+  useEffectIn(view, () => readOnlyPart.reconfigure(readOnlyOf(!drives)), [drives]);
+  useEffectIn(
+    view,
+    () =>
+      settingsPart.reconfigure(
+        settingsOf(settings, document.documentElement.dataset['theme'] !== 'light'),
+      ),
+    [settings.codeSize, settings.spaces, settings.wrap, theme],
+  );
+  useStandingIn(doc, isScript, view);
+  useRevealIn(doc, view);
+  useHandle(doc, view);
+}
+
+function markOf(one: Breakpoint): BreakMark {
+  const { line, enabled, condition, ignore, set, why, hits } = one;
+  const words = text.editor;
+  const notes = [
+    condition && words.if(condition),
+    ignore > 0 && words.after(ignore),
+    !enabled && words.off,
+    !set && why,
+  ].filter(Boolean);
+  const kind = !enabled ? 'off' : condition || ignore > 0 ? 'if' : !set && why ? 'unset' : 'on';
+  return {
+    line,
+    kind,
+    label: `${words.breakpoint(line)}, ${words.hits(hits)}`,
+    note: notes.join(', '),
+  };
+}
+
+/** Where the node stands, and what the line's variables are. */
+function useStandingIn(doc: Doc, isScript: boolean, view: EditorView | null): void {
+  const robot = useTopic('robot', {});
+  const node = isScript ? robot?.nodes.find((one) => one.doc === doc) : undefined;
+  const line = standsAt(node);
+  const code =
+    line !== undefined && view && line <= view.state.doc.lines
+      ? view.state.doc.line(line).text
+      : '';
+  const values = useLineValues(line === undefined ? undefined : node, code);
+  useEffectIn(view, () => setStanding.of(line === undefined ? null : { line, values }), [
+    line,
+    values,
+  ]);
+  useEffect(() => {
+    if (view && line !== undefined)
+      goTo(view, offsetOf(view.state.doc, { line, column: 1 }), false);
+  }, [view, line]);
+}
+
+function useLineValues(node: Node | undefined, code: string): string {
+  const studio = useStudio();
+  const variables = useTopic('node', node ? { node: node.id } : null)?.variables;
+  const mentioned = useMemo(() => mentionedIn(code, variables ?? []), [code, variables]);
+  const [shown, setShown] = useState('');
+  const id = node?.id;
+  useEffect(() => {
+    setShown('');
+    if (id === undefined || mentioned.length === 0) return;
+    const words = new Map<number, number>();
+    const ranges = mentioned.map(({ address, count }) => [address, count]);
+    return studio.connection.watch(
+      'variables',
+      { node: id, ranges },
+      {
+        frame(_time, payload) {
+          readWords(payload, words);
+          setShown(
+            mentioned
+              .map((one) => valueText(one, words))
+              .filter(Boolean)
+              .join('   '),
+          );
+        },
+      },
+    );
+  }, [studio, id, mentioned]);
+  return shown;
+}
+
+/** Goes to the place that someone wants to see. */
+function useRevealIn(doc: Doc, view: EditorView | null): void {
+  const { window: store } = useStudio();
+  const reveal = useWindow((state) => state.reveal);
+  useEffect(() => {
+    if (!view || reveal?.what !== 'doc' || reveal.doc !== doc || !reveal.at) return;
+    goTo(view, offsetOf(view.state.doc, reveal.at), reveal.focus);
+    update(store, (draft) => void (draft.reveal = null));
+  }, [store, view, reveal, doc]);
+}
+
+function useHandle(doc: Doc, view: EditorView | null): void {
+  const studio = useStudio();
+  useEffect(() => {
+    if (!view) return;
+    const head = () => view.state.selection.main.head;
+    const line = () => view.state.doc.lineAt(head()).number;
+    const tell = (act: Promise<void>) => void act.catch((problem: unknown) => studio.tell(problem));
+    const ends = [
+      showView(studio, doc, view),
+      addEditor(studio, doc, {
+        toggleBreakpoint: () => toggleBreakpoint(studio, doc, line()),
+        editBreakpoint: () => editBreakpoint(studio, doc, line()),
+        definition: () => tell(goToDefinition(studio, doc, head())),
+        references: () => tell(findReferences(studio, doc, head())),
+        rename: () =>
+          update(studio.window, (draft) => void (draft.form = { doc, is: 'rename', line: line() })),
+        complete: () => void startCompletion(view),
+        find: () => void openSearchPanel(view),
+        comment: () => void toggleComment(view),
+        focus: () => view.focus(),
+      }),
+    ];
+    return () => ends.forEach((end) => end());
+  }, [studio, doc, view]);
+}

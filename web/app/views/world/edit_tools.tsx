@@ -1,0 +1,90 @@
+import { Menu } from '@mantine/core';
+import { IconArrowBackUp, IconArrowForwardUp, IconPlus } from '@tabler/icons-react';
+import { useEffect, useReducer } from 'react';
+import type { JsonDocument } from '../../../core/json_document';
+import { objectKinds, robotTypes } from '../../../core/world/stage';
+import { isObstacle } from '../../commands/world_commands';
+import { useDrives, useStudio } from '../../hooks';
+import { Button } from '../../parts/button';
+import { kStroke } from '../../parts/icons';
+import { CommandItem, StudioMenu } from '../../parts/menu';
+import { text } from '../../text';
+import { toggleOption, useWorldOptions } from './options';
+
+const words = text.world;
+const size = { size: 14, stroke: kStroke };
+
+/** Puts down what can be put down: all in the file, obstacles in a run. */
+export function AddMenu({ edits }: { edits: boolean }) {
+  const drives = useDrives();
+  return (
+    <StudioMenu
+      button={
+        <Button
+          small
+          disabled={!drives}
+          icon={<IconPlus {...size} />}
+          tip={edits ? words.addHelp : words.obstacle}
+        >
+          <span className="doctools__word">{words.add}</span>
+        </Button>
+      }
+    >
+      <Menu.Label>{edits ? words.objects : words.obstacle}</Menu.Label>
+      {objectKinds
+        .filter((kind) => edits || isObstacle(kind))
+        .map((kind) => (
+          <CommandItem key={kind} id={`world.add.${kind}`} title={words.kinds[kind]} />
+        ))}
+      {edits ? (
+        <>
+          <Menu.Divider />
+          <Menu.Label>{words.robots}</Menu.Label>
+          {robotTypes.map((type) => (
+            <CommandItem key={type} id={`world.add.${type}`} title={words.types[type]} />
+          ))}
+        </>
+      ) : null}
+    </StudioMenu>
+  );
+}
+
+/** For the file of a world: undo, redo, snapping. */
+export function EditTools({ file }: { file: JsonDocument }) {
+  const studio = useStudio();
+  const drives = useDrives();
+  const { snap } = useWorldOptions();
+  const [, redraw] = useReducer((count: number) => count + 1, 0);
+  useEffect(() => file.changed.on(redraw), [file]);
+  return (
+    <>
+      <AddMenu edits />
+      <Button
+        kind="plain"
+        small
+        disabled={!drives || !file.canUndo}
+        tip={`${words.undo}  (Ctrl+Z)`}
+        icon={<IconArrowBackUp {...size} />}
+        onClick={() => file.undo()}
+      />
+      <Button
+        kind="plain"
+        small
+        disabled={!drives || !file.canRedo}
+        tip={`${words.redo}  (Ctrl+Y)`}
+        icon={<IconArrowForwardUp {...size} />}
+        onClick={() => file.redo()}
+      />
+      <button
+        type="button"
+        role="switch"
+        className="switch world__snap"
+        aria-checked={snap}
+        title={words.snapHelp}
+        onClick={() => toggleOption(studio, 'snap')}
+      >
+        {words.snap}
+      </button>
+    </>
+  );
+}

@@ -1,0 +1,117 @@
+import { useId, useState, type ReactNode } from 'react';
+
+export function Field({
+  label,
+  unit,
+  children,
+}: {
+  label: string;
+  unit?: string;
+  children: (id: string) => ReactNode;
+}) {
+  const id = useId();
+  return (
+    <div className="prop">
+      <label htmlFor={id} className="prop__label ellipsis">
+        {label}
+      </label>
+      <span className="prop__value">{children(id)}</span>
+      <span className="prop__unit">{unit}</span>
+    </div>
+  );
+}
+
+export function TextField(props: {
+  label: string;
+  value: string;
+  otherwise?: string;
+  disabled?: boolean;
+  onSet: (value: string) => void;
+}) {
+  const { label, value, otherwise, disabled, onSet } = props;
+  const [draft, setDraft] = useState<string | null>(null);
+  const done = () => {
+    if (draft !== null && draft !== value) onSet(draft);
+    setDraft(null);
+  };
+  return (
+    <Field label={label}>
+      {(id) => (
+        <input
+          id={id}
+          className="field field--small"
+          autoComplete="off"
+          spellCheck={false}
+          value={draft ?? value}
+          placeholder={otherwise ?? ''}
+          disabled={disabled}
+          onChange={(event) => setDraft(event.target.value)}
+          onBlur={done}
+          onKeyDown={(event) => {
+            if (event.key === 'Enter') done();
+            else if (event.key === 'Escape') setDraft(null);
+          }}
+        />
+      )}
+    </Field>
+  );
+}
+
+export function ChoiceField<T extends string>(props: {
+  label: string;
+  value: T;
+  choices: readonly { value: T; label: string }[];
+  disabled?: boolean;
+  onSet: (value: T) => void;
+}) {
+  const { label, value, choices, disabled, onSet } = props;
+  const known = choices.some((one) => one.value === value);
+  return (
+    <Field label={label}>
+      {(id) => (
+        <select
+          id={id}
+          className="field field--small field--ui"
+          value={value}
+          disabled={disabled}
+          onChange={(event) => {
+            const chosen = choices.find((one) => one.value === event.target.value);
+            if (chosen) onSet(chosen.value);
+          }}
+        >
+          {known ? null : <option value={value}>{value}</option>}
+          {choices.map((one) => (
+            <option key={one.value} value={one.value}>
+              {one.label}
+            </option>
+          ))}
+        </select>
+      )}
+    </Field>
+  );
+}
+
+export function SwitchField(props: {
+  label: string;
+  on: boolean;
+  disabled?: boolean;
+  onSet: (on: boolean) => void;
+}) {
+  const { label, on, disabled, onSet } = props;
+  return (
+    <Field label={label}>
+      {(id) => (
+        <button
+          id={id}
+          type="button"
+          role="switch"
+          className="switch"
+          aria-checked={on}
+          aria-label={label}
+          disabled={disabled}
+          onClick={() => onSet(!on)}
+        />
+      )}
+    </Field>
+  );
+}

@@ -1,0 +1,38 @@
+// A hand in the file of a world: what it does are steps, saved when the file is.
+
+import type { JsonDocument } from '../../../core/json_document';
+import { moveSteps, newObject, newRobot, removeSteps } from '../../../core/world/file';
+import type { Pose } from '../../../core/world/geometry';
+import type { Placing, WorldActs, WorldModel } from '../../../core/world/model';
+import type { Thing } from '../../../core/world/stage';
+
+export class FileActs implements WorldActs {
+  readonly edits = true;
+
+  constructor(
+    private readonly file: JsonDocument,
+    private readonly model: WorldModel,
+    readonly may: boolean,
+  ) {}
+
+  move(thing: Thing, pose: Pose, done: boolean): void {
+    if (!this.may) return;
+    if (!done) return this.model.hold(thing.key, pose);
+    this.file.commit(moveSteps(this.file.value, thing.key, pose));
+    this.model.letGo(thing.key);
+  }
+
+  put(placing: Placing): void {
+    const { steps, key } =
+      placing.what === 'robot'
+        ? newRobot(this.file.value, placing.type, placing.at)
+        : newObject(this.file.value, placing.kind, placing.at);
+    this.file.commit(steps);
+    this.model.select(key);
+  }
+
+  take(thing: Thing): void {
+    this.file.commit(removeSteps(this.file.value, thing.key));
+    this.model.select(null);
+  }
+}

@@ -1,0 +1,127 @@
+import type { SceneObject } from '../../../protocol/messages';
+import { degrees, radians, type Pose } from '../../../core/world/geometry';
+import type { WorldModel } from '../../../core/world/model';
+import { isLamp, type Thing } from '../../../core/world/stage';
+import { useEffect, useState } from 'react';
+import { useDrives, useStudio, useTopic } from '../../hooks';
+import { Button } from '../../parts/button';
+import { text } from '../../text';
+import { useModel } from './desk';
+import { Field, SwitchField } from './fields';
+import { targetOf } from './live_acts';
+import { NumberField } from './number_field';
+import { PressButtons } from './press_buttons';
+
+const words = text.world;
+/** Numbers follow a thing that moves so often, in ms. */
+const kEveryMs = 300;
+
+/** The chosen thing of a running world: where it is, and what a hand can do with it. */
+export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) {
+  const studio = useStudio();
+  const drives = useDrives();
+  const { follows } = useModel(model);
+  const pose = usePose(model, thing);
+  const move = (change: Partial<Pose>) =>
+    model.acts?.move(thing, { ...model.poseOf(thing), ...change }, true);
+  return (
+    <>
+      <NumberField
+        label={words.x}
+        unit="m"
+        value={pose.x}
+        disabled={!drives}
+        onSet={(x) => x !== undefined && move({ x })}
+      />
+      <NumberField
+        label={words.y}
+        unit="m"
+        value={pose.y}
+        disabled={!drives}
+        onSet={(y) => y !== undefined && move({ y })}
+      />
+      <NumberField
+        label={words.angle}
+        unit="°"
+        step={1}
+        value={Math.round(degrees(pose.angle) * 10) / 10}
+        disabled={!drives}
+        onSet={(angle) => angle !== undefined && move({ angle: radians(angle) })}
+      />
+      {isLamp(thing.kind) ? (
+        <SwitchField
+          label={words.on}
+          on={thing.on}
+          disabled={!drives}
+          onSet={(on) => studio.order('world.light', { object: targetOf(thing).object ?? 0, on })}
+        />
+      ) : null}
+      {thing.kind === 'robot' ? (
+        <>
+          <SwitchField
+            label={words.follow}
+            on={follows === thing.key}
+            onSet={(on) => model.follow(on ? thing.key : null)}
+          />
+          <PressButtons robot={thing.name} />
+        </>
+      ) : (
+        <>
+          <ObjectFacts thing={thing} />
+          <div className="prop__end">
+            <Button small disabled={!drives} keys="Delete" onClick={() => model.acts?.take(thing)}>
+              {words.take}
+            </Button>
+          </div>
+        </>
+      )}
+    </>
+  );
+}
+
+function ObjectFacts({ thing }: { thing: Thing }) {
+  const objects: readonly SceneObject[] = useTopic('scene', {})?.objects ?? [];
+  const object = objects.find((one) => one.number === targetOf(thing).object);
+  if (!object) return null;
+  const [width, length] = object.size ?? [];
+  return (
+    <>
+      <Fact
+        label={words.size}
+        value={object.radius ? `r ${object.radius}` : `${width ?? 0} × ${length ?? 0}`}
+        unit="m"
+      />
+      <Fact label={words.height} value={String(object.height)} unit="m" />
+      {object.mass > 0 ? <Fact label={words.mass} value={String(object.mass)} unit="kg" /> : null}
+    </>
+  );
+}
+
+function Fact({ label, value, unit }: { label: string; value: string; unit: string }) {
+  return (
+    <Field label={label} unit={unit}>
+      {(id) => (
+        <output id={id} className="prop__fact num">
+          {value}
+        </output>
+      )}
+    </Field>
+  );
+}
+
+function usePose(model: WorldModel, thing: Thing): Pose {
+  const [pose, setPose] = useState(() => model.poseOf(thing));
+  useEffect(() => {
+    const read = () =>
+      setPose((before) => {
+        const now = model.poseOf(thing);
+        return now.x === before.x && now.y === before.y && now.angle === before.angle
+          ? before
+          : now;
+      });
+    read();
+    const timer = setInterval(read, kEveryMs);
+    return () => clearInterval(timer);
+  }, [model, thing]);
+  return pose;
+}

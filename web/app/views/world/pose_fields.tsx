@@ -1,0 +1,97 @@
+import type { Json } from '../../../protocol/messages';
+import type { JsonDocument } from '../../../core/json_document';
+import { moveSteps, numberOf, pairOf, shapeSteps, type Table } from '../../../core/world/file';
+import { degrees, radians, type Pose } from '../../../core/world/geometry';
+import { text } from '../../text';
+import { SwitchField } from './fields';
+import { NumberField } from './number_field';
+
+const words = text.world;
+
+export interface EditedThing {
+  file: JsonDocument;
+  id: string;
+  table: Table;
+  off: boolean;
+  set(name: string, value: Json | undefined): void;
+}
+
+export function PoseFields({ file, id, table, off }: EditedThing) {
+  const [x, y] = pairOf(table['at']) ?? [0, 0];
+  const angle = numberOf(table['angle'], 0);
+  const move = (change: Partial<Pose>) =>
+    file.commit(moveSteps(file.value, id, { x, y, angle, ...change }));
+  return (
+    <>
+      <NumberField
+        label={words.x}
+        unit="m"
+        value={x}
+        disabled={off}
+        onSet={(to) => to !== undefined && move({ x: to })}
+      />
+      <NumberField
+        label={words.y}
+        unit="m"
+        value={y}
+        disabled={off}
+        onSet={(to) => to !== undefined && move({ y: to })}
+      />
+      <NumberField
+        label={words.angle}
+        unit="°"
+        step={1}
+        value={Math.round(degrees(angle) * 100) / 100}
+        disabled={off}
+        onSet={(to) => to !== undefined && move({ angle: radians(to) })}
+      />
+    </>
+  );
+}
+
+export function SizeFields({ file, id, table, off, set }: EditedThing) {
+  const size = pairOf(table['size']);
+  const kind = table['kind'];
+  const round = table['radius'] !== undefined || kind === 'cylinder';
+  const side = (label: string, index: 0 | 1) => (
+    <NumberField
+      label={label}
+      unit="m"
+      low={0.001}
+      high={100}
+      value={size?.[index]}
+      disabled={off}
+      onSet={(value) => value !== undefined && size && set('size', size.with(index, value))}
+    />
+  );
+  const lamp = kind === 'light' || kind === 'infrared';
+  return (
+    <>
+      {kind === 'patch' ? (
+        <SwitchField
+          label={words.round}
+          on={round}
+          disabled={off}
+          onSet={(to) => file.commit(shapeSteps(file.value, id, to))}
+        />
+      ) : null}
+      {round || (lamp && !size) ? (
+        <NumberField
+          label={words.radius}
+          unit="m"
+          low={0.001}
+          high={100}
+          {...(lamp ? { otherwise: '–' } : {})}
+          value={table['radius'] === undefined ? undefined : numberOf(table['radius'], 0)}
+          disabled={off}
+          onSet={(value) => set('radius', value)}
+        />
+      ) : (
+        <>
+          {side(words.width, 0)}
+          {side(words.length, 1)}
+        </>
+      )}
+    </>
+  );
+}

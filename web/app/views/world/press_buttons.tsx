@@ -1,0 +1,70 @@
+import { useEffect, useRef } from 'react';
+import { useDrives, useStudio, useTopic } from '../../hooks';
+import { Button } from '../../parts/button';
+import { text } from '../../text';
+
+const words = text.world;
+
+/** Buttons and touch sensors of a robot: down as long as they are held, by mouse or by key. */
+export function PressButtons({ robot }: { robot: string }) {
+  const studio = useStudio();
+  const drives = useDrives();
+  const known = useTopic('scene', {})?.robots.find((one) => one.name === robot);
+  if (!known) return null;
+  return (
+    <div className="prop__group">
+      <h3 className="prop__title">{words.buttons}</h3>
+      <div className="prop__buttons">
+        {known.buttons.map((button) => (
+          <HeldButton key={button} robot={robot} button={button} />
+        ))}
+        {known.type === 'thymio2' ? (
+          <Button
+            small
+            disabled={!drives}
+            tip={words.tapHelp}
+            onClick={() => studio.order('world.tap', { robot })}
+          >
+            {words.tap}
+          </Button>
+        ) : null}
+      </div>
+    </div>
+  );
+}
+
+function HeldButton({ robot, button }: { robot: string; button: string }) {
+  const studio = useStudio();
+  const drives = useDrives();
+  const down = useRef(false);
+  const press = (to: boolean) => {
+    if (down.current === to) return;
+    down.current = to;
+    studio.order('world.press', { robot, button, down: to });
+  };
+  // A form that goes away lets go.
+  useEffect(
+    () => () => {
+      if (down.current) studio.order('world.press', { robot, button, down: false });
+    },
+    [studio, robot, button],
+  );
+  return (
+    <Button
+      small
+      disabled={!drives}
+      aria-label={words.press(button)}
+      onPointerDown={() => press(true)}
+      onPointerUp={() => press(false)}
+      onPointerLeave={() => press(false)}
+      onPointerCancel={() => press(false)}
+      onKeyDown={(event) => {
+        if (event.key === ' ' || event.key === 'Enter') press(true);
+      }}
+      onKeyUp={() => press(false)}
+      onBlur={() => press(false)}
+    >
+      {button}
+    </Button>
+  );
+}

@@ -1,0 +1,74 @@
+import {
+  IconPlayerPause,
+  IconPlayerPlay,
+  IconPlayerSkipForward,
+  IconRotate2,
+} from '@tabler/icons-react';
+import { useDrives, useStudio, useTopic } from '../../hooks';
+import { Button } from '../../parts/button';
+import { kStroke } from '../../parts/icons';
+import { text } from '../../text';
+
+const words = text.world;
+/** In which it can be run, paused, set back; "none": it stands at its start, or after Stop. */
+const kStates: readonly string[] = ['none', 'running', 'paused'];
+const speeds = [0.1, 0.5, 1, 2, 5, 10, 0];
+const size = { size: 14, stroke: kStroke };
+
+/** How fast the simulation goes: from one instant at a time to as fast as it can. */
+export function SpeedBar() {
+  const studio = useStudio();
+  const drives = useDrives();
+  const clock = useTopic('clock', {});
+  const simulates = useTopic('robot', {})?.kind === 'simulator';
+  if (!clock || !simulates || !kStates.includes(clock.state)) return null;
+  const runs = clock.state === 'running';
+  const stands = clock.state === 'none';
+  const run = (id: string) => () => void studio.registry.run(id);
+  return (
+    <div className="speedbar" role="group" aria-label={words.speeds}>
+      <Button
+        kind="plain"
+        small
+        disabled={!drives}
+        tip={runs ? words.pause : stands ? text.run.run : text.run.continue}
+        icon={runs ? <IconPlayerPause {...size} /> : <IconPlayerPlay {...size} />}
+        onClick={run(runs ? 'run.pause' : 'run.start')}
+      />
+      <Button
+        kind="plain"
+        small
+        disabled={!drives || runs}
+        tip={words.step}
+        icon={<IconPlayerSkipForward {...size} />}
+        onClick={() => studio.order('run.step', {})}
+      />
+      <div className="seg seg--small" role="radiogroup" aria-label={words.speeds}>
+        {speeds.map((speed) => (
+          <button
+            key={speed}
+            type="button"
+            role="radio"
+            className="seg__part num"
+            aria-checked={speed === clock.speed}
+            disabled={!drives}
+            onClick={() => studio.order('clock.speed', { speed })}
+          >
+            {words.slower(speed)}
+          </button>
+        ))}
+      </div>
+      <span className="speedbar__real num">
+        {runs ? words.measured(clock.real.toFixed(1)) : text.run[clock.state]}
+      </span>
+      <Button
+        kind="plain"
+        small
+        disabled={!drives}
+        tip={words.reset}
+        icon={<IconRotate2 {...size} />}
+        onClick={run('run.reset')}
+      />
+    </div>
+  );
+}

@@ -1,0 +1,51 @@
+// How things, places and entries are said.
+
+import type { Json } from '../../../protocol/messages';
+import { entryOf, numberOf, tableAt, tableOf, textOf, verbs } from '../../../core/world/file';
+import { degrees, normalAngle, type Pose } from '../../../core/world/geometry';
+import type { WorldModel } from '../../../core/world/model';
+import type { Thing } from '../../../core/world/stage';
+import { text } from '../../text';
+
+const words = text.world;
+
+/** Its name, or what it is with the number that it has in the list or in the run. */
+export function nameOfThing(thing: Thing): string {
+  if (thing.name !== '') return thing.name;
+  const number = thing.key.replace(/^\D*/, '');
+  const shown = thing.key.includes('/') ? String(Number(number) + 1) : number;
+  return words.unnamed(words.kinds[thing.kind], shown);
+}
+
+export function metres(value: number): string {
+  return value.toFixed(2);
+}
+
+export function degreesText(angle: number): string {
+  return degrees(normalAngle(angle)).toFixed(0).replace(/^-0$/, '0');
+}
+
+export function placeText(pose: Pose): string {
+  return Number.isFinite(pose.x)
+    ? words.placeText(metres(pose.x), metres(pose.y), degreesText(pose.angle))
+    : words.nobody;
+}
+
+/** "carbot: 0.80, 1.90 m, -63°", for those who listen. */
+export function spokenPlace(model: WorldModel, thing: Thing): string {
+  return words.moved(nameOfThing(thing), placeText(model.poseOf(thing)));
+}
+
+export function entryText(file: Json, key: string): { t: string; what: string } {
+  const entry = entryOf(file, key);
+  const verb = verbs.find((one) => one === entry['do']);
+  const what =
+    textOf(entry['id']) ||
+    textOf(entry['button']) ||
+    textOf(tableAt(file, key)['id']) ||
+    textOf(tableOf(entry['object'])['kind']);
+  return {
+    t: `${numberOf(entry['t'], 0)} s`,
+    what: verb ? words.entryText[verb](what) : textOf(entry['do']),
+  };
+}

@@ -1,0 +1,134 @@
+import { lazy, Suspense, useEffect, useMemo, useRef, useState } from 'react';
+import type { Doc, Finding } from '../../../protocol/messages';
+import { useTopic, useWindow } from '../../hooks';
+import { Blank } from '../../parts/blank';
+import { Button } from '../../parts/button';
+import { text } from '../../text';
+import { FindingNotice } from '../finding_notice';
+import { DiskNotice } from '../script/script_notices';
+import type { ShownWorld } from './desk';
+import { AddMenu, EditTools } from './edit_tools';
+import { ModeSwitch, type WorldMode } from './mode_switch';
+import { useWorldOptions } from './options';
+import { SpeedBar } from './speed_bar';
+import {
+  useFileStage,
+  useHasScene,
+  useJsonDocument,
+  useLive,
+  useVisible,
+  useWorldModel,
+} from './use_world';
+import { keyMeant } from '../../../core/world/file';
+import type { WorldModel } from '../../../core/world/model';
+import { WorldSide } from './world_side';
+import { WorldStage } from './world_stage';
+import { WorldTools } from './world_tools';
+import '../../look/world.css';
+
+const ScriptView = lazy(() => import('../script/script_view'));
+
+/** A world: as it runs, as its file says and is edited, or its text. */
+export default function WorldDocument({ doc }: { doc: Doc }) {
+  const [chosen, choose] = useState<WorldMode | null>(null);
+  const runs = useHasScene();
+  const isOurs = useTopic('studio', {})?.project?.world === doc;
+  const state = useTopic('clock', {})?.state;
+  const [first] = useState<WorldMode>(() =>
+    isOurs && (state === 'running' || state === 'paused') ? 'live' : 'edit',
+  );
+  const reveal = useWindow((window) => window.reveal);
+  // A place in the text is asked for: a finding, something searched.
+  useEffect(() => {
+    if (reveal?.what === 'doc' && reveal.doc === doc && reveal.at) choose('text');
+  }, [reveal, doc]);
+  const mode = chosen ?? first;
+  const modes = <ModeSwitch mode={mode} onChange={choose} />;
+  if (mode === 'text')
+    return (
+      <div className="world" data-world>
+        <div className="world__bar">{modes}</div>
+        <Suspense fallback={null}>
+          <ScriptView doc={doc} isScript={false} />
+        </Suspense>
+      </div>
+    );
+  return mode === 'live' ? (
+    <LiveWorld modes={modes} runs={runs} onEdit={() => choose('edit')} />
+  ) : (
+    <EditedWorld key={doc} doc={doc} modes={modes} onText={() => choose('text')} />
+  );
+}
+
+function LiveWorld(props: { modes: React.ReactNode; runs: boolean; onEdit: () => void }) {
+  const { modes, runs, onEdit } = props;
+  const frame = useRef<HTMLDivElement>(null);
+  const model = useWorldModel();
+  const visible = useVisible(frame);
+  const { list } = useWorldOptions();
+  useLive(model, visible);
+  const world = useMemo<ShownWorld>(() => ({ model, file: null, focus() {} }), [model]);
+  return (
+    <div className="world" ref={frame} data-world>
+      <div className="world__bar">
+        {modes}
+        {runs ? <AddMenu edits={false} /> : null}
+        <span className="grow" />
+        <SpeedBar />
+        <WorldTools />
+      </div>
+      {runs ? (
+        <div className="world__main">
+          <WorldStage model={model} file={null} live />
+          {list ? <WorldSide world={world} /> : null}
+        </div>
+      ) : (
+        <Blank title={text.world.notRunning}>
+          <p>{text.world.notRunningHelp}</p>
+          <Button onClick={onEdit}>{text.world.editIt}</Button>
+        </Blank>
+      )}
+    </div>
+  );
+}
+
+function EditedWorld(props: { doc: Doc; modes: React.ReactNode; onText: () => void }) {
+  const { doc, modes, onText } = props;
+  const model = useWorldModel();
+  const { file, failed } = useJsonDocument(doc);
+  const { list } = useWorldOptions();
+  useFileStage(model, file, doc);
+  const world = useMemo<ShownWorld>(() => ({ model, file, focus() {} }), [model, file]);
+  return (
+    <div className="world" data-world>
+      <div className="world__bar">
+        {modes}
+        {file ? <EditTools file={file} /> : null}
+        <span className="grow" />
+        <WorldTools />
+      </div>
+      <DiskNotice doc={doc} />
+      <FindingNotice doc={doc} onShow={(finding) => showFound(model, finding)} />
+      {failed || (file && file.broken !== null) ? (
+        <Blank title={failed ? text.world.failed : text.world.broken}>
+          <p>{failed ?? file?.broken}</p>
+          <Button onClick={onText}>{text.world.showText}</Button>
+        </Blank>
+      ) : (
+        <div className="world__main">
+          <WorldStage model={model} file={file} live={false} />
+          {list ? <WorldSide world={world} /> : null}
+        </div>
+      )}
+    </div>
+  );
+}
+
+/** Chooses the thing or entry that a finding is about. */
+function showFound(model: WorldModel, { element, what }: Finding): boolean {
+  const key = keyMeant(element ?? what) ?? keyMeant(what);
+  if (key === null) return false;
+  if (model.thing(key)) model.select(key);
+  else model.selectEntry(key.startsWith('timeline/') ? key : null);
+  return true;
+}

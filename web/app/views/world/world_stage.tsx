@@ -1,0 +1,115 @@
+import { lazy, Suspense, useEffect, useRef, useState, type ReactNode } from 'react';
+import type { JsonDocument } from '../../../core/json_document';
+import type { WorldModel } from '../../../core/world/model';
+import { useStudio } from '../../hooks';
+import { text } from '../../text';
+import { CameraPicture } from './camera_picture';
+import { deskOf, useModel, type ShownWorld } from './desk';
+import { FlatView } from './flat_view';
+import { useWorldOptions } from './options';
+import { SolidGuard } from './solid_guard';
+import { StatusChip } from './status_chip';
+import { useHands, type Eye } from './use_hands';
+import { canSolid } from './webgl';
+import { nameOfThing } from './words';
+
+const SolidView = lazy(() => import('./solid_view'));
+
+/** The picture of a world, with what stands over it. All that can be done with it has keys, too. */
+export function WorldStage({
+  model,
+  file,
+  live,
+  children,
+}: {
+  model: WorldModel;
+  file: JsonDocument | null;
+  live: boolean;
+  children?: ReactNode;
+}) {
+  const frame = useRef<HTMLDivElement>(null);
+  const eye = useRef<Eye | null>(null);
+  const options = useWorldOptions();
+  const [failed, setFailed] = useState(false);
+  useShown(frame, model, file);
+  useHands(frame, model, eye, options.snap);
+  const solid = options.solid && canSolid() && !failed;
+  const flat = <FlatView model={model} eye={eye} />;
+  return (
+    <div
+      className="world__stage"
+      ref={frame}
+      role="application"
+      aria-label={text.world.canvas(model.stage.name)}
+      aria-description={text.world.canvasHelp}
+      tabIndex={0}
+      data-place="world"
+      data-autofocus
+      data-inset
+    >
+      {solid ? (
+        <SolidGuard onFail={() => setFailed(true)}>
+          <Suspense fallback={flat}>
+            <SolidView model={model} eye={eye} />
+          </Suspense>
+        </SolidGuard>
+      ) : (
+        flat
+      )}
+      <div className="world__over">
+        {live ? <StatusChip model={model} /> : null}
+        <PlacingNote model={model} />
+        {children}
+      </div>
+      {live && options.picture ? <CameraPicture model={model} /> : null}
+      <Spoken model={model} />
+    </div>
+  );
+}
+
+/** Tells that this world is the one that is looked at, once it is used. */
+function useShown(
+  frame: React.RefObject<HTMLDivElement | null>,
+  model: WorldModel,
+  file: JsonDocument | null,
+): void {
+  const studio = useStudio();
+  useEffect(() => {
+    const place = frame.current;
+    const desk = deskOf(studio);
+    const world: ShownWorld = { model, file, focus: () => place?.focus() };
+    const end = desk.add(world);
+    const use = () => desk.use(world);
+    const around = place?.closest('[data-world]') ?? place;
+    around?.addEventListener('focusin', use);
+    around?.addEventListener('pointerdown', use);
+    return () => {
+      end();
+      around?.removeEventListener('focusin', use);
+      around?.removeEventListener('pointerdown', use);
+    };
+  }, [studio, frame, model, file]);
+}
+
+function PlacingNote({ model }: { model: WorldModel }) {
+  const { placing, follows } = useModel(model);
+  const followed = model.thing(follows);
+  if (placing) {
+    const what =
+      placing.what === 'robot' ? text.world.types[placing.type] : text.world.kinds[placing.kind];
+    return <p className="world__chip is-on">{text.world.placing(what)}</p>;
+  }
+  return followed ? (
+    <p className="world__chip">{text.world.following(nameOfThing(followed))}</p>
+  ) : null;
+}
+
+function Spoken({ model }: { model: WorldModel }) {
+  const [said, setSaid] = useState('');
+  useEffect(() => model.spoken.on(setSaid), [model]);
+  return (
+    <p className="hidden-text" role="status">
+      {said}
+    </p>
+  );
+}

@@ -1,0 +1,105 @@
+// What lives as long as the window: theme, keys, the layout that was chosen last.
+
+import { useEffect, useState } from 'react';
+import { isLayoutName } from '../core/layouts';
+import type { Theme } from '../core/settings';
+import { revealPanel, update } from '../core/window_state';
+import { countsOf } from '../core/findings';
+import { useLink, useSettings, useStudio, useTopic, useWindow } from './hooks';
+
+const kThemeKey = 'vagus.theme';
+
+export function useTheme(): 'dark' | 'light' {
+  const settings = useSettings();
+  const theme = useWindow((state) => state.theme) ?? settings.theme;
+  const known = useTopic('studio', {}) !== undefined;
+  const [system, setSystem] = useState(() => (lightSystem().matches ? 'light' : 'dark'));
+  useEffect(() => {
+    const query = lightSystem();
+    const changed = () => setSystem(query.matches ? 'light' : 'dark');
+    query.addEventListener('change', changed);
+    return () => query.removeEventListener('change', changed);
+  }, []);
+  // Until the server has said what is set, the last theme of this browser is shown.
+  const wanted: Theme = known ? theme : keptTheme();
+  const shown = wanted === 'system' ? system : wanted;
+  useEffect(() => {
+    document.documentElement.dataset['theme'] = shown;
+    if (known) localStorage.setItem(kThemeKey, theme);
+  }, [shown, known, theme]);
+  return shown === 'light' ? 'light' : 'dark';
+}
+
+export function keptTheme(): Theme {
+  const kept = localStorage.getItem(kThemeKey);
+  return kept === 'dark' || kept === 'light' ? kept : 'system';
+}
+
+function lightSystem(): MediaQueryList {
+  return matchMedia('(prefers-color-scheme: light)');
+}
+
+export function useKeys(): void {
+  const { registry } = useStudio();
+  useEffect(() => {
+    const pressed = (event: KeyboardEvent) => {
+      if (event.defaultPrevented || event.isComposing) return;
+      const { target } = event;
+      const isWithin = (place: string) =>
+        target instanceof Element && target.closest(`[data-place~="${place}"]`) !== null;
+      if (registry.press(event, typesIn(target), isWithin)) event.preventDefault();
+    };
+    addEventListener('keydown', pressed);
+    return () => removeEventListener('keydown', pressed);
+  }, [registry]);
+}
+
+function typesIn(target: EventTarget | null): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  return (
+    target.isContentEditable ||
+    target.matches('input:not([type=checkbox], [type=radio]), textarea, select')
+  );
+}
+
+export function useWindowLife(): void {
+  const studio = useStudio();
+  useAskForWheel();
+  const values = useTopic('state', {})?.values;
+  const folder = useTopic('studio', {})?.project?.folder;
+  const known = values !== undefined;
+  useEffect(() => {
+    if (!known || folder === undefined) return;
+    const layout =
+      typeof values === 'object' && values !== null && !Array.isArray(values)
+        ? values['layout']
+        : undefined;
+    if (isLayoutName(layout)) update(studio.window, (draft) => void (draft.layout = layout));
+    // Only when a project is opened: afterwards the window is ahead of what is kept.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [studio, known, folder]);
+  useProblemsOpen();
+}
+
+/** A page that may drive takes the wheel if nobody holds it. */
+function useAskForWheel(): void {
+  const studio = useStudio();
+  const link = useLink();
+  const driver = useTopic('studio', {})?.driver;
+  useEffect(() => {
+    if (link.state === 'open' && link.role === 'drive' && driver === 0)
+      studio.order('driver.ask', {});
+  }, [studio, link, driver]);
+}
+
+/** Problems opens by itself at the first error only. */
+function useProblemsOpen(): void {
+  const studio = useStudio();
+  const { errors } = countsOf(useTopic('findings', {})?.findings ?? []);
+  const [opened, setOpened] = useState(false);
+  useEffect(() => {
+    if (errors === 0 || opened) return;
+    setOpened(true);
+    revealPanel(studio.window, 'problems', false);
+  }, [studio, errors, opened]);
+}

@@ -1,0 +1,156 @@
+import { expect, test } from 'vitest';
+import { Connection, kFirstRetryMs } from './connection';
+import { TestWorld } from './test_world';
+
+function make(firstId = 1) {
+  const world = new TestWorld();
+  const connection = new Connection(world, {
+    token: 'secret',
+    client: 'me',
+    firstId,
+    now: () => 0,
+  });
+  connection.start();
+  return { world, connection };
+}
+
+const settled = () => new Promise((resolve) => setTimeout(resolve));
+
+test('HelloIsTheFirstMessageAndNothingGoesBeforeItsAnswer', () => {
+  const { world, connection } = make();
+  void connection.send('stop', {});
+  world.last.events.open();
+  expect(world.last.sent.map((one) => one.do)).toEqual(['hello']);
+  const hello = world.last.sent[0];
+  expect(hello?.in).toMatchObject({ token: 'secret', client: 'me' });
+  world.say({
+    id: hello?.id,
+    ok: { version: 'test', role: 'drive', number: 7, driver: true, wall: 0 },
+  });
+  expect(world.last.sent.map((one) => one.do)).toEqual(['hello', 'stop']);
+});
+
+test('AnUnansweredCommandIsRepeatedWithItsNumberAfterALostConnection', async () => {
+  const { world, connection } = make();
+  world.welcome();
+  const answer = connection.send('stop', {});
+  const id = world.last.sent.at(-1)?.id;
+  world.last.events.closed();
+  expect(connection.link.state).toBe('lost');
+  world.pass(kFirstRetryMs * 2);
+  expect(world.sockets).toHaveLength(2);
+  world.welcome();
+  expect(world.last.sent.find((one) => one.do === 'stop')?.id).toBe(id);
+  world.say({ id, ok: { stood: [1] } });
+  expect(await answer).toEqual({ stood: [1] });
+});
+
+test('AnAnsweredCommandIsNotRepeated', async () => {
+  const { world, connection } = make();
+  world.welcome();
+  const answer = connection.send('driver.leave', {});
+  world.say({ id: world.last.sent.at(-1)?.id, ok: {} });
+  await answer;
+  world.last.events.closed();
+  world.pass(1000);
+  world.welcome();
+  expect(world.last.sent.map((one) => one.do)).toEqual(['hello']);
+});
+
+test('NumbersOfCommandsOnlyGoUp', () => {
+  const { world, connection } = make(41);
+  world.welcome();
+  void connection.send('stop', {});
+  world.last.events.closed();
+  world.pass(1000);
+  world.welcome();
+  const ids = world.sockets.flatMap((socket) =>
+    socket.sent.filter((one) => one.do === 'hello').map((one) => one.id),
+  );
+  expect(ids[0]).toBe(41);
+  expect(ids[1]).toBeGreaterThan(42);
+});
+
+test('RetriesWaitLongerAndLongerUpToALimit', () => {
+  const { world } = make();
+  let waits = 0;
+  for (let turn = 0; turn < 10; turn++) {
+    world.last.events.closed();
+    const before = world.sockets.length;
+    for (waits = 0; world.sockets.length === before; waits += 50) world.pass(50);
+  }
+  expect(waits).toBe(5000);
+});
+
+test('SubscriptionsAreRenewedAndPatchesApply', () => {
+  const { world, connection } = make();
+  world.welcome();
+  const values: unknown[] = [];
+  connection.watch('state', {}, { value: (value) => values.push(value) });
+  const watch = world.last.sent.at(-1)?.in['watch'];
+  world.say({ watch, whole: { values: { a: 1 } } });
+  world.say({ watch, patch: { values: { b: 2 } } });
+  world.last.events.closed();
+  world.pass(1000);
+  world.welcome();
+  expect(world.last.sent.at(-1)).toMatchObject({ do: 'watch', in: { watch, topic: 'state' } });
+  world.say({ watch, whole: { values: { c: 3 } } });
+  expect(values).toEqual([{ values: { a: 1 } }, { values: { a: 1, b: 2 } }, { values: { c: 3 } }]);
+});
+
+test('ADocumentOfAnotherShapeIsNotShown', () => {
+  const { world, connection } = make();
+  world.welcome();
+  const odd: string[] = [];
+  const values: unknown[] = [];
+  connection.odd.on((what) => odd.push(what));
+  connection.watch('files', {}, { value: (value) => values.push(value) });
+  world.say({
+    watch: world.last.sent.at(-1)?.in['watch'],
+    whole: { files: [{ path: 1 }], more: false },
+  });
+  expect(values).toEqual([]);
+  expect(odd).toEqual(['files: files.0.path']);
+});
+
+test('AnErrorRejectsWithItsSentence', async () => {
+  const { world, connection } = make();
+  world.welcome();
+  const answer = connection.send('doc.save', { doc: 'a' });
+  world.say({
+    id: world.last.sent.at(-1)?.id,
+    error: { code: 'not_found', what: 'There is no a.' },
+  });
+  await expect(answer).rejects.toThrow('There is no a.');
+});
+
+test('AWrongTokenEndsIt', async () => {
+  const { world, connection } = make();
+  const answer = connection.send('stop', {});
+  world.last.events.open();
+  world.say({ id: world.last.sent[0]?.id, error: { code: 'not_allowed', what: 'Wrong token.' } });
+  await expect(answer).rejects.toThrow('Wrong token.');
+  world.last.events.closed();
+  world.pass(60_000);
+  expect(world.sockets).toHaveLength(1);
+  await settled();
+});
+
+test('BinaryFramesReachTheirSubscription', () => {
+  const { world, connection } = make();
+  world.welcome();
+  let got = '';
+  connection.watch(
+    'variables',
+    { node: 1, ranges: [[0, 2]] },
+    { frame: (time, payload) => (got = `${time} ${payload.getInt16(4, true)}`) },
+  );
+  const frame = new DataView(new ArrayBuffer(24));
+  frame.setUint8(0, 1);
+  frame.setUint32(4, Number(world.last.sent.at(-1)?.in['watch']), true);
+  frame.setFloat64(8, 1.5, true);
+  frame.setUint16(18, 2, true);
+  frame.setInt16(20, -7, true);
+  world.last.events.bytes(frame.buffer);
+  expect(got).toBe('1.5 -7');
+});

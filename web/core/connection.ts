@@ -1,0 +1,292 @@
+// One connection to the server that outlives its sockets: it says hello, comes back by itself, asks
+// again for what was not answered, and renews its subscriptions. A caller sees a promise for each
+// command and never a socket.
+
+import { misfit, misfitItem } from '../protocol/check';
+import {
+  commandTable,
+  topicTable,
+  type CommandName,
+  type Commands,
+  type Json,
+  type Problem,
+  type TopicName,
+  type Topics,
+} from '../protocol/messages';
+import { Emitter } from './emitter';
+import { mergePatch } from './merge_patch';
+import type { Socket, World } from './socket';
+
+export const kFirstRetryMs = 250;
+export const kRetryMsMax = 5000;
+/** As many commands may wait for an answer; the next one is refused at once. */
+export const kWaitingMax = 2000;
+
+export type Link =
+  | { state: 'connecting' }
+  | { state: 'open'; number: number; role: 'drive' | 'look'; version: string }
+  | { state: 'lost'; since: number }
+  | { state: 'refused'; problem: Problem };
+
+export class CommandError extends Error {
+  constructor(readonly problem: Problem) {
+    super(problem.what);
+  }
+}
+
+export interface WatchEvents {
+  /** A document, whole or after a change. */
+  value?(value: Json): void;
+  items?(items: Json[], leftOut: number): void;
+  frame?(time: number, payload: DataView): void;
+  failed?(problem: Problem): void;
+}
+
+interface Waiting {
+  text: string;
+  command: CommandName;
+  done(out: Json): void;
+  failed(problem: Problem): void;
+}
+
+interface Watch {
+  topic: TopicName;
+  of: Json | undefined;
+  rate: number | undefined;
+  events: WatchEvents;
+  value: Json | undefined;
+}
+
+export interface ConnectionOptions {
+  token: string;
+  client: string;
+  name?: string | undefined;
+  /** The first number of a command; higher than all that this client has used before. */
+  firstId?: number | undefined;
+  /** Told before a number is used, so that a reload goes on behind it. */
+  usedId?: ((id: number) => void) | undefined;
+  now(): number;
+}
+
+export class Connection {
+  readonly changed = new Emitter<Link>();
+  readonly odd = new Emitter<string>();
+  link: Link = { state: 'connecting' };
+
+  private socket: Socket | null = null;
+  private nextId: number;
+  private nextWatch = 1;
+  private helloId = 0;
+  private retries = 0;
+  private readonly waiting = new Map<number, Waiting>();
+  private readonly watches = new Map<number, Watch>();
+  private cancelRetry: (() => void) | null = null;
+  private closed = false;
+
+  constructor(
+    private readonly world: World,
+    private readonly options: ConnectionOptions,
+  ) {
+    this.nextId = options.firstId ?? 1;
+  }
+
+  start(): void {
+    this.cancelRetry = null;
+    if (this.closed || this.socket) return;
+    const own: Socket = this.world.connect({
+      open: () => this.sayHello(),
+      text: (message) => this.socket === own && this.received(message),
+      bytes: (message) => this.socket === own && this.receivedFrame(message),
+      closed: () => this.socket === own && this.lost(),
+    });
+    this.socket = own;
+  }
+
+  stop(): void {
+    this.closed = true;
+    this.cancelRetry?.();
+    const socket = this.socket;
+    this.socket = null;
+    socket?.close();
+  }
+
+  send<C extends CommandName>(command: C, input: Commands[C]['in']): Promise<Commands[C]['out']> {
+    const id = this.takeId();
+    const text = JSON.stringify({ id, do: command, in: input });
+    return new Promise((resolve, reject) => {
+      const failed = (problem: Problem) => reject(new CommandError(problem));
+      if (this.waiting.size >= kWaitingMax) return failed(tooMany);
+      // The check at the border has proved the shape.
+      const done = (out: Json) => resolve(out as Commands[C]['out']);
+      this.waiting.set(id, { text, command, done, failed });
+      if (this.link.state === 'open') this.socket?.send(text);
+      else if (this.link.state === 'refused') this.fail(id, this.link.problem);
+    });
+  }
+
+  /** Subscribes until the returned function is called; renewed by itself after a lost connection. */
+  watch<T extends TopicName>(
+    topic: T,
+    of: Topics[T]['of'],
+    events: WatchEvents,
+    rate?: number,
+  ): () => void {
+    const number = this.nextWatch++;
+    const watch: Watch = {
+      topic,
+      of: Object.keys(of).length ? of : undefined,
+      rate,
+      events,
+      value: undefined,
+    };
+    this.watches.set(number, watch);
+    if (this.link.state === 'open') this.sendWatch(number, watch);
+    return () => {
+      if (this.watches.delete(number) && this.link.state === 'open')
+        void this.send('unwatch', { watch: number }).catch(ignore);
+    };
+  }
+
+  private takeId(): number {
+    const id = this.nextId++;
+    this.options.usedId?.(id);
+    return id;
+  }
+
+  private sayHello(): void {
+    this.helloId = this.takeId();
+    const { token, client, name } = this.options;
+    this.socket?.send(
+      JSON.stringify({ id: this.helloId, do: 'hello', in: { token, client, name } }),
+    );
+  }
+
+  private welcomed(out: Json): void {
+    const wrong = misfit(out, commandTable.hello.out);
+    if (wrong)
+      return this.refused({
+        code: 'bad_message',
+        what: `The server's greeting is not understood (${wrong}).`,
+      });
+    const hello = out as unknown as Commands['hello']['out'];
+    this.retries = 0;
+    this.setLink({ state: 'open', number: hello.number, role: hello.role, version: hello.version });
+    // Unanswered commands first, in their order: what is subscribed to shows their effect at once.
+    for (const [, waiting] of this.waiting) this.socket?.send(waiting.text);
+    for (const [number, watch] of this.watches) this.sendWatch(number, watch);
+  }
+
+  private refused(problem: Problem): void {
+    this.setLink({ state: 'refused', problem });
+    for (const id of [...this.waiting.keys()]) this.fail(id, problem);
+    this.stop();
+  }
+
+  private sendWatch(number: number, watch: Watch): void {
+    // A watch is not repeated as a command: it is renewed as a whole with each new connection.
+    const id = this.takeId();
+    this.watchIds.set(id, number);
+    const input = { watch: number, topic: watch.topic, of: watch.of, rate: watch.rate };
+    this.socket?.send(JSON.stringify({ id, do: 'watch', in: input }));
+  }
+  private readonly watchIds = new Map<number, number>();
+
+  private received(message: string): void {
+    const parsed = parse(message);
+    if (parsed === null) return this.odd.emit('a message that is not JSON');
+    if ('watch' in parsed) return this.receivedChange(parsed);
+    const id = Number(parsed['id']);
+    const problem = parsed['error'] as unknown as Problem | undefined;
+    if (id === this.helloId)
+      return problem ? this.refused(problem) : this.welcomed(parsed['ok'] ?? null);
+    const watch = this.watchIds.get(id);
+    if (watch !== undefined) {
+      this.watchIds.delete(id);
+      if (problem) this.watches.get(watch)?.events.failed?.(problem);
+    } else if (problem) this.fail(id, problem);
+    else this.succeed(id, parsed['ok'] ?? {});
+  }
+
+  private succeed(id: number, out: Json): void {
+    const waiting = this.waiting.get(id);
+    if (!waiting) return;
+    this.waiting.delete(id);
+    const wrong = misfit(out, commandTable[waiting.command].out);
+    if (!wrong) return waiting.done(out);
+    waiting.failed({
+      code: 'bad_message',
+      what: `The answer to ${waiting.command} is not understood (${wrong}).`,
+    });
+  }
+
+  private fail(id: number, problem: Problem): void {
+    const waiting = this.waiting.get(id);
+    this.waiting.delete(id);
+    waiting?.failed(problem);
+  }
+
+  private receivedChange(message: Record<string, Json>): void {
+    const watch = this.watches.get(Number(message['watch']));
+    if (!watch) return;
+    const about = topicTable[watch.topic];
+    if ('items' in message) {
+      const items = Array.isArray(message['items']) ? message['items'] : [];
+      const good = items.filter((item) => about.item && misfitItem(item, about.item) === null);
+      if (good.length < items.length) this.odd.emit(`an item of ${watch.topic}`);
+      return watch.events.items?.(good, Number(message['left_out'] ?? 0));
+    }
+    const patch = message['patch'];
+    if (patch !== undefined && watch.value === undefined) return;
+    const value = patch === undefined ? (message['whole'] ?? null) : mergePatch(watch.value, patch);
+    const touched = isTable(patch) ? new Set(Object.keys(patch)) : undefined;
+    const wrong = misfit(value, about.is ?? {}, touched);
+    if (wrong) return this.odd.emit(`${watch.topic}: ${wrong}`);
+    watch.value = value;
+    watch.events.value?.(value);
+  }
+
+  private receivedFrame(message: ArrayBuffer): void {
+    if (message.byteLength < 16) return this.odd.emit('a frame that is too short');
+    const view = new DataView(message);
+    const watch = this.watches.get(view.getUint32(4, true));
+    if (!watch || topicTable[watch.topic].number !== view.getUint8(0)) return;
+    watch.events.frame?.(view.getFloat64(8, true), new DataView(message, 16));
+  }
+
+  private lost(): void {
+    this.socket = null;
+    this.watchIds.clear();
+    if (this.closed) return;
+    if (this.link.state !== 'lost') this.setLink({ state: 'lost', since: this.options.now() });
+    const wait = Math.min(kRetryMsMax, kFirstRetryMs * 2 ** this.retries++);
+    // Spread, so that many pages do not come back at one moment.
+    this.cancelRetry = this.world.later(wait * (0.75 + 0.5 * this.world.chance()), () =>
+      this.start(),
+    );
+  }
+
+  private setLink(link: Link): void {
+    this.link = link;
+    this.changed.emit(link);
+  }
+}
+
+const tooMany: Problem = {
+  code: 'limit',
+  what: 'Too many commands wait for the server. Wait until it answers.',
+};
+
+function ignore(): void {}
+
+function parse(message: string): Record<string, Json> | null {
+  try {
+    const value: Json = JSON.parse(message) as Json;
+    return isTable(value) ? value : null;
+  } catch {
+    return null;
+  }
+}
+
+function isTable(value: Json | undefined): value is { [key: string]: Json } {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}

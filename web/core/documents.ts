@@ -1,0 +1,111 @@
+// The texts that are open, each shared by all views of it, dropped when the last view has gone and
+// the server has everything.
+
+import type { Doc, Json } from '../protocol/messages';
+import type { Connection } from './connection';
+import { SharedDocument, type DocTopic } from './document';
+
+export interface OpenDocument {
+  shared: SharedDocument;
+  language: string;
+  /** What an editor wants to find again when it is shown next: its history of undo, its place. */
+  kept: unknown;
+}
+
+/** A text stays open so long after its last view has gone: a tab moves, a layout changes. */
+export const kStayMs = 120_000;
+
+interface Entry {
+  users: number;
+  opened: Promise<OpenDocument>;
+  end: () => void;
+}
+
+export class Documents {
+  private readonly entries = new Map<Doc, Entry>();
+
+  constructor(
+    private readonly connection: Connection,
+    private readonly later: (milliseconds: number, act: () => void) => () => void,
+  ) {}
+
+  /** Opens a text, or joins those who have; release() when it is no longer looked at. */
+  acquire(doc: Doc): { opened: Promise<OpenDocument>; release: () => void } {
+    const entry = this.entries.get(doc) ?? this.begin(doc);
+    entry.users++;
+    let held = true;
+    const release = () => {
+      if (held) this.release(doc, entry);
+      held = false;
+    };
+    return { opened: entry.opened, release };
+  }
+
+  /** Sends what was typed and not yet sent, in all texts. */
+  async flushAll(): Promise<void> {
+    const opened = await Promise.allSettled(
+      [...this.entries.values()].map((entry) => entry.opened),
+    );
+    const shared = opened.flatMap((result) =>
+      result.status === 'fulfilled' ? [result.value.shared] : [],
+    );
+    await Promise.all(shared.map((document) => document.flushed()));
+  }
+
+  /** Another project is open: what it calls by the same name is another text. */
+  forget(): void {
+    for (const entry of this.entries.values()) entry.end();
+    this.entries.clear();
+  }
+
+  private begin(doc: Doc): Entry {
+    const entry: Entry = { users: 0, opened: this.open(doc), end: () => {} };
+    this.entries.set(doc, entry);
+    entry.opened.then(
+      ({ shared }) => {
+        if (this.entries.get(doc) !== entry) return;
+        entry.end = this.connection.watch(
+          'doc',
+          { doc },
+          { value: (value) => shared.told(asDoc(value)) },
+        );
+      },
+      () => this.entries.get(doc) === entry && this.entries.delete(doc),
+    );
+    return entry;
+  }
+
+  private async open(doc: Doc): Promise<OpenDocument> {
+    const opened = await this.connection.send('doc.open', { doc });
+    const shared = new SharedDocument(
+      {
+        open: () => this.connection.send('doc.open', { doc }),
+        edit: async (version, changes) =>
+          (await this.connection.send('doc.edit', { doc, version, changes })).version,
+        later: this.later,
+      },
+      opened,
+    );
+    return { shared, language: opened.language, kept: null };
+  }
+
+  private release(doc: Doc, entry: Entry): void {
+    entry.users--;
+    if (entry.users === 0) this.later(kStayMs, () => this.finish(doc, entry));
+  }
+
+  private finish(doc: Doc, entry: Entry): void {
+    void entry.opened.then(async ({ shared }) => {
+      if (entry.users > 0) return;
+      await shared.flushed();
+      if (entry.users > 0 || this.entries.get(doc) !== entry) return;
+      entry.end();
+      this.entries.delete(doc);
+    });
+  }
+}
+
+// The connection has checked it against the topic.
+function asDoc(value: Json): DocTopic {
+  return value as unknown as DocTopic;
+}

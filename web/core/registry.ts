@@ -1,0 +1,88 @@
+// The one list of what a person can do. Palette, menus, keys and help are made from it.
+
+import { Emitter } from './emitter';
+import { normalKey, pressedKeys, typesText, type KeyPress } from './keys';
+
+export interface Command {
+  id: string;
+  title: string;
+  group: string;
+  keys?: string[];
+  /** Its keys count only while the focus is in a place of that name (data-place). */
+  within?: string;
+  /** Why not now, or true. Without it the command is always there. */
+  enabled?(): boolean;
+  /** Not offered in the palette: it makes sense only at its place. */
+  hidden?: boolean;
+  run(): void | Promise<void>;
+}
+
+export class Registry {
+  readonly changed = new Emitter<void>();
+  readonly failed = new Emitter<unknown>();
+  private readonly commands = new Map<string, Command>();
+  private snapshot: readonly Command[] = [];
+
+  /** Adds commands until the returned function is called. The last one of an id counts. */
+  add(commands: readonly Command[]): () => void {
+    for (const command of commands) this.commands.set(command.id, command);
+    this.refresh();
+    return () => {
+      for (const command of commands) {
+        if (this.commands.get(command.id) === command) this.commands.delete(command.id);
+      }
+      this.refresh();
+    };
+  }
+
+  list(): readonly Command[] {
+    return this.snapshot;
+  }
+
+  find(id: string): Command | undefined {
+    return this.commands.get(id);
+  }
+
+  isEnabled(id: string): boolean {
+    const command = this.commands.get(id);
+    return command !== undefined && (command.enabled?.() ?? true);
+  }
+
+  run(id: string): boolean {
+    const command = this.commands.get(id);
+    if (!command || !(command.enabled?.() ?? true)) return false;
+    void this.attempt(command);
+    return true;
+  }
+
+  /** Runs what a key is for. typing: the focus is in a text; isWithin: it is in a place. */
+  press(
+    press: KeyPress,
+    typing: boolean,
+    isWithin: (place: string) => boolean = () => false,
+  ): boolean {
+    for (const pressed of pressedKeys(press)) {
+      if (typing && typesText(pressed)) continue;
+      for (const command of this.snapshot) {
+        if (command.within !== undefined && !isWithin(command.within)) continue;
+        if (command.keys?.some((key) => normalKey(key) === pressed) && this.run(command.id))
+          return true;
+      }
+    }
+    return false;
+  }
+
+  private async attempt(command: Command): Promise<void> {
+    try {
+      await command.run();
+    } catch (problem) {
+      this.failed.emit(problem);
+    }
+  }
+
+  private refresh(): void {
+    // Newest first: what a panel adds stands before what the window offers for the same key.
+    this.snapshot = [...this.commands.values()].reverse();
+    this.changed.emit();
+  }
+}

@@ -1,0 +1,92 @@
+// Everything behind the pages, put together: one of these for each page.
+
+import type { CommandName, Commands } from '../protocol/messages';
+import { CommandError, Connection } from './connection';
+import { Documents } from './documents';
+import { Happenings } from './happenings';
+import type { Identity } from './identity';
+import { PickList } from './picks';
+import { Plotter } from './plotter';
+import { Registry } from './registry';
+import type { World } from './socket';
+import { TopicCache } from './topics';
+import { createWindowStore, forgetProject, toast, type WindowStore } from './window_state';
+import { LiveWords } from './words';
+
+export class Studio {
+  readonly connection: Connection;
+  readonly topics: TopicCache;
+  readonly documents: Documents;
+  readonly registry = new Registry();
+  readonly window: WindowStore = createWindowStore();
+  readonly words: LiveWords;
+  readonly happenings: Happenings;
+  readonly plotter: Plotter;
+  /** The variables of the watch table. */
+  readonly watched = new PickList();
+  /** Of the project that is looked at; '' if there is none, null until the server has said it. */
+  private folder: string | null = null;
+
+  constructor(
+    readonly world: World,
+    identity: Identity,
+    token: string,
+    now: () => number,
+  ) {
+    const { client, firstId, usedId } = identity;
+    this.connection = new Connection(world, { token, client, firstId, usedId, now });
+    this.topics = new TopicCache(this.connection, (ms, act) => world.later(ms, act));
+    this.documents = new Documents(this.connection, (ms, act) => world.later(ms, act));
+    const timed = {
+      frame: (act: () => void) => world.frame(act),
+      later: (ms: number, act: () => void) => world.later(ms, act),
+      now,
+    };
+    this.words = new LiveWords(this.connection, timed);
+    this.happenings = new Happenings(this.connection, timed);
+    this.plotter = new Plotter(this.connection, this.topics, this.happenings, timed);
+    this.registry.failed.on((problem) => this.tell(problem));
+    this.topics.subscribe('studio', {}, () => this.lookAtProject());
+  }
+
+  /** Another project, or none: what is known of the one before is forgotten before anyone looks. */
+  private lookAtProject(): void {
+    const folder = this.topics.get('studio', {})?.project?.folder ?? '';
+    if (folder === this.folder) return;
+    const first = this.folder === null;
+    this.folder = folder;
+    if (first) return;
+    this.topics.forget(['studio', 'start', 'targets']);
+    this.documents.forget();
+    forgetProject(this.window);
+  }
+
+  send<C extends CommandName>(command: C, input: Commands[C]['in']): Promise<Commands[C]['out']> {
+    return this.connection.send(command, input);
+  }
+
+  /** Sends what nobody waits for; a failure is shown as a toast. */
+  order<C extends CommandName>(command: C, input: Commands[C]['in']): void {
+    this.connection.send(command, input).catch((problem: unknown) => this.tell(problem));
+  }
+
+  /** Leaves the project that is open, if one is, for another; what was typed into it goes along first. */
+  async openAnother<C extends 'project.open' | 'project.new'>(
+    command: C,
+    input: Commands[C]['in'],
+  ): Promise<void> {
+    await this.documents.flushAll();
+    this.order(command, input);
+  }
+
+  /** Shows what went wrong. */
+  tell(problem: unknown): void {
+    toast(this.window, 'error', problem instanceof Error ? whatOf(problem) : String(problem));
+  }
+}
+
+function whatOf(problem: Error): string {
+  if (!(problem instanceof CommandError)) return problem.message;
+  const { what, place } = problem.problem;
+  return place ? `${place}: ${what}` : what;
+}

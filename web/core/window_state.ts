@@ -1,0 +1,121 @@
+// What the window shows that is nobody else's business: layout, what is looked at, toasts. Changed
+// by the functions below only.
+
+import { produce } from 'immer';
+import { createStore } from 'zustand/vanilla';
+import type { Doc, NodeId, Place, Spot } from '../protocol/messages';
+import { allEvents, type EventFilter } from './happenings';
+import type { LayoutName } from './layouts';
+import type { Theme } from './settings';
+
+export const kToastsMax = 5;
+
+export interface Toast {
+  id: number;
+  kind: 'note' | 'ok' | 'warning' | 'error';
+  text: string;
+}
+
+/** Asks for a panel or a place in a document to be brought to the front. */
+export type Reveal =
+  | { nonce: number; what: 'panel'; panel: string; focus: boolean }
+  | { nonce: number; what: 'doc'; doc: Doc; at: Place | null; focus: boolean; beside: boolean };
+
+export interface WindowState {
+  layout: LayoutName;
+  /** Chosen on this page; what is set for the user counts where this is null. */
+  theme: Theme | null;
+  layoutNonce: number;
+  doc: Doc | null;
+  node: NodeId | null;
+  cursor: { doc: Doc; line: number; column: number } | null;
+  overlay: 'palette' | 'keys' | 'folder' | 'project' | null;
+  /** A new file is being named in the tree, or a file renamed. */
+  naming:
+    | { kind: 'folder' | 'script' | 'plan' | 'world' | 'toolbox' | 'text' }
+    | { rename: string }
+    | null;
+  reveal: Reveal | null;
+  toasts: Toast[];
+  problem: number;
+  listing: Record<Doc, boolean>;
+  /** A small form at a line of a script. */
+  form: { doc: Doc; is: 'rename' | 'breakpoint'; line: number } | null;
+  references: { name: string; spots: Spot[] } | null;
+  /** How the list of events is looked at. */
+  events: { filter: EventFilter; paused: boolean; counts: boolean; send: boolean };
+  /** The plot in numbers. */
+  plotTable: boolean;
+  /** Nodes that the buttons of the network are for; none: all. */
+  chosenNodes: NodeId[];
+}
+
+export type WindowStore = ReturnType<typeof createWindowStore>;
+
+export function createWindowStore() {
+  return createStore<WindowState>()(() => ({
+    layout: 'Script',
+    theme: null,
+    layoutNonce: 0,
+    doc: null,
+    node: null,
+    cursor: null,
+    overlay: null,
+    naming: null,
+    reveal: null,
+    toasts: [],
+    problem: -1,
+    listing: {},
+    form: null,
+    references: null,
+    events: { filter: allEvents, paused: false, counts: false, send: false },
+    plotTable: false,
+    chosenNodes: [],
+  }));
+}
+
+/** What belongs to a project goes with it; theme, toasts and an open palette stay. */
+export function forgetProject(store: WindowStore): void {
+  const { theme, toasts, overlay } = store.getState();
+  store.setState({ ...store.getInitialState(), theme, toasts, overlay }, true);
+}
+
+let count = 0;
+
+export function update(store: WindowStore, recipe: (draft: WindowState) => void): void {
+  store.setState(produce(store.getState(), recipe), true);
+}
+
+export function revealDoc(
+  store: WindowStore,
+  doc: Doc,
+  at: Place | null,
+  focus = true,
+  beside = false,
+): void {
+  update(store, (draft) => {
+    draft.doc = doc;
+    draft.reveal = { nonce: ++count, what: 'doc', doc, at, focus, beside };
+  });
+}
+
+export function revealPanel(store: WindowStore, panel: string, focus = true): void {
+  update(store, (draft) => {
+    draft.reveal = { nonce: ++count, what: 'panel', panel, focus };
+  });
+}
+
+/** One that says the same as one that stands there is not added again. */
+export function toast(store: WindowStore, kind: Toast['kind'], text: string): void {
+  update(store, (draft) => {
+    draft.toasts = draft.toasts.filter((one) => one.text !== text);
+    draft.toasts.push({ id: ++count, kind, text });
+    if (draft.toasts.length > kToastsMax) draft.toasts.shift();
+  });
+}
+
+export function dismiss(store: WindowStore, id: number): void {
+  update(store, (draft) => {
+    draft.toasts = draft.toasts.filter((one) => one.id !== id);
+  });
+}

@@ -1,0 +1,74 @@
+// What axe finds serious, in each view and theme.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { seen, test, until } from './support/studio.mjs';
+
+const source = readFileSync(
+  new URL('../node_modules/axe-core/axe.min.js', import.meta.url),
+  'utf8',
+);
+
+async function look({ page }, view) {
+  // The page's policy lets no script in from elsewhere: it is put there by the browser's own hand.
+  const found = await page.evaluate(
+    `${source}; axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) =>
+      violations.filter(({ impact }) => impact === 'serious' || impact === 'critical')
+        .map(({ id, nodes }) => id + ': ' + nodes.slice(0, 3).map((node) => node.html.slice(0, 200)).join(' | ')))`,
+  );
+  assert.deepEqual(found, [], view);
+}
+
+for (const theme of ['dark', 'light']) {
+  test(`the start screen, ${theme}`, { theme }, async (studio) => {
+    const { page, press } = studio;
+    await seen(page.getByRole('button', { name: /^Follow a wall/ }));
+    await look(studio, 'start');
+    await press('Alt+n');
+    await seen(page.getByRole('dialog', { name: 'New project' }));
+    await look(studio, 'new project');
+    await press('Escape', 'Control+o');
+    await seen(page.getByRole('dialog', { name: 'Open a folder' }));
+    await look(studio, 'folder');
+  });
+
+  test(
+    `every layout and panel, ${theme}`,
+    { theme, words: ['--example', 'follow-wall'] },
+    async (studio) => {
+      const { page, press, layout, command } = studio;
+      await seen(page.getByRole('radio', { name: 'Script', checked: true }));
+      await press('F5');
+      await seen(page.getByRole('button', { name: /Running/ }));
+      for (const name of ['Script', 'Draw', 'Debug', 'Present']) {
+        await layout(name);
+        await seen(page.getByRole('radio', { name, checked: true }));
+        await until(
+          'its panels are there',
+          async () => (await page.getByRole('tabpanel').count()) > 1,
+        );
+        await look(studio, name);
+      }
+      await layout('Script');
+      for (const panel of [
+        'Network',
+        'Breakpoints',
+        'Search',
+        'Plots',
+        'Console',
+        'Watch',
+        'Settings',
+        'World',
+      ]) {
+        await command(`Show ${panel}`);
+        await seen(page.getByRole('tabpanel', { name: panel }));
+        await look(studio, panel);
+      }
+      await press('Control+k');
+      await seen(page.getByRole('combobox', { name: 'Type a command' }));
+      await look(studio, 'palette');
+      await press('Escape', 'F1');
+      await seen(page.getByRole('dialog', { name: 'Keys' }));
+      await look(studio, 'keys');
+    },
+  );
+}

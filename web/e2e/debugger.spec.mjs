@@ -1,0 +1,113 @@
+// The debugger over several nodes: run, break, step, faults, and nodes that come and go.
+import assert from 'node:assert/strict';
+import { startNode, twoNodes } from './support/robots.mjs';
+import { gone, reads, seen, test, until } from './support/studio.mjs';
+
+const scripts = {
+  left: `var n = 0
+timer.period = 50
+onevent timer
+n = n + 1
+emit tick n`,
+  right: `var sum = 0
+var last
+onevent tick
+last = args[0]
+sum = sum + last
+`,
+};
+const two = { prepare: (t) => twoNodes(t, scripts, { events: { tick: 1 } }) };
+
+const row = (page, name) => page.getByRole('row', { name: new RegExp(`^(Choose )?${name}`) });
+/** What the tab of a node's script says with its three signs. */
+const mark = (studio, node, words) =>
+  studio.tab(new RegExp(`^${node} \\d`)).getByRole('img', { name: words });
+const stateOf = (page, name) => row(page, name).getByRole('cell').nth(1);
+
+test('each node runs, stands, steps and stops by itself, and all together', two, async (studio) => {
+  const { page, press, button, command, tab } = studio;
+  await seen(studio.editor('left'));
+  await command('Show Network');
+  await seen(page.getByRole('group', { name: 'The bus with 2 nodes' }));
+  await press('F5');
+  await reads(stateOf(page, 'left'), /runs/);
+  await reads(stateOf(page, 'right'), /runs/);
+  await seen(page.getByRole('row', { name: /left tick right \d+/ }));
+  await button('Pause: right').click();
+  await reads(stateOf(page, 'right'), /stands/);
+  await reads(stateOf(page, 'left'), /runs/);
+  await button('Step: right').click();
+  await reads(stateOf(page, 'right'), /stands/);
+  await button('Run: right').click();
+  await reads(stateOf(page, 'right'), /runs/);
+  await seen(mark(studio, 'right', /, runs$/));
+  await button('Pause: All nodes').click();
+  await reads(stateOf(page, 'left'), /stands/);
+  await reads(stateOf(page, 'right'), /stands/);
+  await seen(mark(studio, 'left', /stands/));
+  await press('Shift+F5');
+  await reads(stateOf(page, 'left'), /stopped/);
+  await reads(stateOf(page, 'right'), /stopped/);
+  await button('Run: left').click();
+  await reads(stateOf(page, 'left'), /runs/);
+});
+
+test(
+  'a breakpoint with a condition stops one node; it is kept and given back',
+  two,
+  async (studio) => {
+    const { page, press, editor, tab, button, server, left, right } = studio;
+    await seen(editor('left'));
+    await press('F5');
+    await seen(mark(studio, 'right', /, runs$/));
+    await tab(/right 2/).click();
+    await editor('right').click();
+    await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'Control+F9');
+    await page.getByLabel('Stops if').fill('args[0] % 10 == 0');
+    await press('Enter');
+    await seen(page.getByText('right stands at line 4'));
+    await seen(page.getByText('if args[0] % 10 == 0'));
+    await reads(page.locator('.cm-values'), /args(\[0\])? = \d*0\b/);
+    await studio.layout('Debug');
+    await seen(page.getByRole('list', { name: 'Breakpoints' }).getByText(/[1-9]\d* hits?/));
+    // The other one was not asked to stand.
+    await seen(mark(studio, 'left', /, runs$/));
+
+    // Unplugged: it is said, and nothing has to be answered.
+    await right.program.stop();
+    await seen(mark(studio, 'right', /does not run/));
+    assert.equal(await page.getByRole('alertdialog').count(), 0);
+    const again = await startNode(studio.t, 'right', 2, right.port);
+    assert.equal(again.port, right.port);
+    // Plugged in: script and breakpoint are back; it stands until someone lets it run.
+    await seen(mark(studio, 'right', /[^t] on the robot, (stands|does not run)/));
+    await tab(/right 2/).click();
+    await button('Run this node').click();
+    await seen(page.getByText('right stands at line 4'));
+    await reads(page.locator('.cm-values'), /args(\[0\])? = \d*0\b/);
+    // After the studio has gone and come back the breakpoint is there, too.
+    await page.reload();
+    await seen(page.getByRole('list', { name: 'Breakpoints' }).getByText(/right:4/));
+  },
+);
+
+const faulty = {
+  prepare: (t) =>
+    twoNodes(
+      t,
+      { left: 'var zero = 0\nvar x\nonevent go\nx = 1\nx = 5 / zero\n', right: '' },
+      {
+        events: { go: 0 },
+      },
+    ),
+};
+test('a fault is shown at the line that caused it', faulty, async (studio) => {
+  const { page, press, editor, command, button } = studio;
+  await seen(editor('left'));
+  await press('F5');
+  await seen(mark(studio, 'left', /, runs$/));
+  await command('Send an event…');
+  await page.getByRole('button', { name: 'Send', exact: true }).click();
+  await seen(page.getByText(/The node stopped here: .*/));
+  await seen(page.getByText('left stands at line 5'));
+});

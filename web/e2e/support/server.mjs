@@ -1,0 +1,78 @@
+// The real server, for one test: on a free port, with its files in a folder of its own that goes with it.
+import { spawn } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+
+export const root = new URL('../../../', import.meta.url).pathname;
+export const vagusProgram = process.env.VAGUS_BIN ?? join(root, 'build/release/bin/vagus');
+
+/** A folder that is removed at the end of the test. */
+export function temporaryFolder(test) {
+  const folder = mkdtempSync(join(tmpdir(), 'vagus-e2e-'));
+  test.after(() => rmSync(folder, { recursive: true, force: true }));
+  return folder;
+}
+
+/** Starts a program; it is ended at the end of the test. */
+export function startProgram(test, command, { env = {}, pass = [] } = {}) {
+  const child = spawn(command[0], command.slice(1).map(String), {
+    stdio: ['ignore', 'pipe', 'pipe', ...pass],
+    env: { ...process.env, ...env },
+  });
+  const program = { child, said: '', ended: undefined, stop, line };
+  const ended = new Promise((done) =>
+    child.on('exit', (status, signal) => done((program.ended = signal ?? status))),
+  );
+  const listeners = new Set();
+  for (const stream of [child.stdout, child.stderr])
+    stream.on('data', (words) => {
+      program.said += words;
+      for (const listener of listeners) listener();
+    });
+  child.on('error', (error) => (program.said += String(error)));
+  test.after(() => stop());
+  return program;
+
+  async function stop(signal = 'SIGTERM') {
+    if (program.ended === undefined) child.kill(signal);
+    // One that does not end by itself is killed; the timer is no wait, it is taken back.
+    const timer = setTimeout(() => child.kill('SIGKILL'), 5000);
+    await ended;
+    clearTimeout(timer);
+  }
+
+  /** What the pattern finds in what the program prints, now or later. */
+  function line(pattern, within = 60_000) {
+    return new Promise((done, fail) => {
+      const look = () => {
+        const found = pattern.exec(program.said);
+        if (!found) return;
+        clearTimeout(timer);
+        listeners.delete(look);
+        done(found);
+      };
+      const timer = setTimeout(() => {
+        listeners.delete(look);
+        fail(new Error(`${command[0]} never printed ${pattern}; it said:\n${program.said}`));
+      }, within);
+      listeners.add(look);
+      look();
+    });
+  }
+}
+
+/** `vagus studio`; gives the address that it prints, and the folders that it was given. */
+export async function startServer(test, words = [], folder = temporaryFolder(test)) {
+  const data = join(folder, 'data');
+  const program = startProgram(
+    test,
+    [vagusProgram, 'studio', ...words, '--port', 0, '--no-browser']
+      .concat(['--data', data])
+      .concat(['--config', join(folder, 'config')]),
+    // Folders that are listed begin there.
+    { env: { HOME: folder } },
+  );
+  const [, address] = await program.line(/^studio (\S+)$/m);
+  return { program, address, data, folder };
+}

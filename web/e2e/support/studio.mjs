@@ -1,0 +1,140 @@
+// The studio in the machine's Chromium, as a person sees it. One browser for a file of tests, a window of its
+// own for each test; what the browser complains about fails the test.
+import assert from 'node:assert/strict';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, test as nodeTest } from 'node:test';
+import { chromium } from 'playwright-core';
+import { root, startServer } from './server.mjs';
+import { kPatience, until } from './until.mjs';
+
+export { until };
+
+/** What drawing by software and a library say of themselves. */
+const kNoise = /GL Driver Message|THREE\.Clock: This module has been deprecated/;
+const kTestMs = 150_000;
+const kPictures = join(root, 'build/e2e');
+
+let browser;
+after(async () => {
+  await browser?.close();
+});
+
+async function theBrowser() {
+  browser ??= await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: [
+      '--no-sandbox',
+      '--disable-gpu',
+      '--enable-unsafe-swiftshader',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+    ],
+  });
+  return browser;
+}
+
+/** A test of one promise; give it what openStudio takes and what is done there. */
+export function test(name, options, act) {
+  nodeTest(name, { timeout: kTestMs }, async (t) => {
+    const studio = { t, ...(await openStudio(t, options)) };
+    try {
+      await act(studio, t);
+      assert.deepEqual(studio.complaints, [], 'the browser complained');
+    } catch (error) {
+      await keepPicture(studio, name);
+      error.message += `\n--- the server said ---\n${studio.server.program.said.slice(-2000)}`;
+      throw error;
+    }
+  });
+}
+
+async function keepPicture({ page }, name) {
+  mkdirSync(kPictures, { recursive: true });
+  const path = join(kPictures, `${name.replaceAll(/[^A-Za-z0-9]+/g, '-')}.png`);
+  await page.screenshot({ path }).catch(() => {});
+  const shown = await page
+    .locator('body')
+    .ariaSnapshot({ timeout: 2000 })
+    .catch(() => '');
+  writeFileSync(path.replace('.png', '.txt'), shown);
+  console.error(`what was seen: ${path}`);
+}
+
+/** A server and a window that looks at it. */
+export async function openStudio(t, { words = [], prepare, ...looks } = {}) {
+  const more = (await prepare?.(t)) ?? {};
+  const server = await startServer(t, [...words, ...(more.words ?? [])], more.folder);
+  return { ...(await openWindow(t, server, looks)), server, ...more };
+}
+
+/** One more window of that server. */
+export async function openWindow(t, server, { width = 1440, height = 900, theme = 'dark' } = {}) {
+  const context = await (
+    await theBrowser()
+  ).newContext({
+    viewport: { width, height },
+    colorScheme: theme,
+    reducedMotion: 'reduce',
+    acceptDownloads: true,
+    permissions: ['clipboard-read', 'clipboard-write'],
+  });
+  context.setDefaultTimeout(kPatience);
+  t.after(() => context.close());
+  const page = await context.newPage();
+  const complaints = [];
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type()) && !kNoise.test(message.text()))
+      complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  await page.goto(server.address);
+  return { page, complaints, context, server, ...hands(page) };
+}
+
+/** What tests say often. */
+export function hands(page) {
+  const press = async (...keys) => {
+    for (const key of keys) await page.keyboard.press(key);
+  };
+  return {
+    press,
+    type: (text) => page.keyboard.type(text),
+    button: (name) => page.getByRole('button', { name }),
+    tab: (name) => page.getByRole('tab', { name }),
+    /** A command by the palette, as its title names it. */
+    async command(title) {
+      await page.keyboard.press('Control+k');
+      const field = page.getByRole('combobox', { name: 'Type a command' });
+      await field.waitFor();
+      await field.fill(title);
+      await page.getByRole('option', { name: title, selected: true }).first().waitFor();
+      await field.press('Enter');
+      await field.waitFor({ state: 'detached' });
+    },
+    layout: (name) => page.getByRole('radio', { name }).click(),
+    /** The editor of a node's script. */
+    editor: (node) => page.getByRole('textbox', { name: `Script of ${node}` }),
+  };
+}
+
+/** What is seen there becomes that text, or matches. */
+export async function reads(locator, expected) {
+  const good = (text) =>
+    expected instanceof RegExp ? expected.test(text) : text.trim() === expected;
+  let last;
+  await until(`it reads ${expected}`, async () => {
+    last = await locator.innerText();
+    return good(last);
+  }).catch((error) => {
+    error.message += `; it read: ${last}`;
+    throw error;
+  });
+  return last;
+}
+
+export const seen = (locator) => locator.first().waitFor();
+export const gone = (locator) => locator.first().waitFor({ state: 'hidden' });

@@ -1,0 +1,1206 @@
+// Made from src/serve/protocol/protocol.json by scripts/protocol.mjs. Do not edit.
+
+export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+
+export const format = 'vagus-protocol/1';
+export const limits = {
+  /** a text message from a client */
+  message_bytes: 4194304,
+  /** nesting of a message */
+  message_depth: 32,
+  /** pages at a time */
+  clients: 64,
+  /** connections at a time, HTTP included */
+  connections: 512,
+  /** subscriptions of a page */
+  watches: 256,
+  /** commands of a page, averaged over two seconds */
+  commands_a_second: 500,
+  /** what waits for a page that reads slowly; documents and streams are merged below it */
+  unsent_bytes: 8388608,
+  /** time for the first message */
+  hello_ms: 5000,
+  /** a page that takes nothing for so long is dropped and may return */
+  silent_ms: 10000,
+  /** a text that is edited */
+  document_bytes: 2097152,
+  /** files of a project that are listed */
+  files: 2000,
+  /** happenings on the bus that can be asked for again */
+  events_kept: 20000,
+  /** lines of the console that can be asked for again */
+  lines_kept: 5000,
+} as const;
+
+/** A document: the path of a file inside the project, with / between folders. The script of a node in an .aesl file is PATH#N, N counting the nodes of the file from 1. */
+export type Doc = string;
+
+/** A path inside the project, with / between folders. */
+export type Path = string;
+
+/** The name of a node, variable, event or constant. */
+export type Name = string;
+
+/** The number of a node on the bus. */
+export type NodeId = number;
+
+/** Values of variables, arguments of events. */
+export type Words = number[];
+
+/** A place in a text. */
+export interface Place {
+  /** from 1 */
+  line: number;
+  /** from 1, in characters */
+  column: number;
+}
+
+/** A change of a text. */
+export interface Edit {
+  doc: Doc;
+  /** offset in UTF-16 units */
+  from: number;
+  /** the same, behind the last one that goes */
+  to: number;
+  /** what stands there instead */
+  text: string;
+}
+
+/** A change of the text at hand. Several changes of one message all count in the text before them and do not overlap. */
+export interface Change {
+  /** offset in UTF-16 units */
+  from: number;
+  /** the same, behind the last one that goes */
+  to: number;
+  /** what stands there instead */
+  text: string;
+}
+
+/** How a finding can be mended. */
+export interface Fix {
+  /** what a button says: Write "==" */
+  label: string;
+  edits: Edit[];
+}
+
+/** A mistake or a remark. */
+export interface Finding {
+  doc: Doc;
+  severity: 'error' | 'warning';
+  /** name in the catalogue of the compiler, or rule of plans */
+  code: string;
+  /** actor, supervisor, variable */
+  element?: string;
+  at: Place;
+  /** behind the last character that is meant */
+  end: Place;
+  /** one sentence */
+  what: string;
+  fixes: Fix[];
+}
+
+/** Why a command was not done. */
+export interface Problem {
+  code: 'bad_message' | 'unknown_command' | 'not_allowed' | 'not_driver' | 'not_found' | 'bad_input' | 'conflict' | 'limit' | 'unavailable' | 'timeout' | 'failed';
+  /** a sentence for a person: what, where, what to do */
+  what: string;
+  /** the part of the message, or FILE:LINE:COLUMN */
+  place?: string;
+}
+
+/** A file or folder of the project. */
+export interface FileEntry {
+  path: Path;
+  kind: 'folder' | 'script' | 'plan' | 'world' | 'toolbox' | 'project' | 'picture' | 'text' | 'other';
+  size: number;
+  unsaved: boolean;
+}
+
+/** A target that can be chosen. */
+export interface Found {
+  /** for target.choose */
+  target: string;
+  name: string;
+  kind: 'simulator' | 'serial' | 'local' | 'network';
+  help: string;
+}
+
+/** An example that opens as a copy. */
+export interface Example {
+  id: string;
+  name: string;
+  help: string;
+  robot: string;
+  /** Plan, 6 actors */
+  content: string;
+}
+
+/** What was opened before. */
+export interface Recent {
+  path: string;
+  name: string;
+  when_wall: number;
+  there: boolean;
+}
+
+/** The script of one node. */
+export interface ScriptPart {
+  doc: Doc;
+  name: Name;
+  /** preferred node, 0: none */
+  node: number;
+  file: Path;
+}
+
+/** An event or a constant that all nodes of a file share. */
+export interface Definition {
+  name: Name;
+  /** of a constant; number of arguments of an event */
+  value: number;
+}
+
+/** A part of a script that runs by itself. */
+export interface Handler {
+  kind: 'init' | 'event' | 'sub';
+  name: Name;
+  line: number;
+  words: number;
+}
+
+/** How much of a memory is used, in words. */
+export interface Meter {
+  used: number;
+  of: number;
+}
+
+/** A breakpoint of a script. */
+export interface Breakpoint {
+  doc: Doc;
+  line: number;
+  condition: string;
+  /** it stops after so many hits */
+  ignore: number;
+  enabled: boolean;
+  hits: number;
+  /** the node said so */
+  set: boolean;
+  /** why it is not set */
+  why?: string;
+}
+
+/** A node of the target. */
+export interface Node {
+  id: NodeId;
+  name: Name;
+  /** name of its robot in the world; empty on a bus */
+  robot: string;
+  state: 'unknown' | 'running' | 'paused' | 'stopped' | 'gone';
+  protocol: number;
+  described: boolean;
+  /** the script it gets */
+  doc?: Doc;
+  /** what is loaded, against the text */
+  program: 'none' | 'unknown' | 'older' | 'current';
+  /** when it was loaded */
+  loaded_wall?: number;
+  /** where it stands */
+  at?: Place;
+  /** why it stands */
+  why?: 'asked' | 'breakpoint' | 'step' | 'fault' | 'start';
+  /** what stopped it */
+  fault?: string;
+  /** what is under way */
+  busy?: string;
+}
+
+/** A connection of the bus. */
+export interface Link {
+  name: string;
+  nodes: NodeId[];
+  frames_in: number;
+  frames_out: number;
+  lost: number;
+}
+
+/** Who says what to whom. */
+export interface Traffic {
+  /** 0: a host */
+  from: number;
+  event: Name;
+  count: number;
+  /** nodes whose scripts have a handler for it; 0: a host, its plan hears it */
+  to: number[];
+}
+
+/** A variable of a node. */
+export interface Variable {
+  name: Name;
+  address: number;
+  size: number;
+  of: 'node' | 'script';
+  unit?: string;
+  help?: string;
+  writable: boolean;
+}
+
+/** A native function of a node. */
+export interface Native {
+  name: Name;
+  help: string;
+  parameters: Parameter[];
+}
+
+/** A parameter of a native function. */
+export interface Parameter {
+  name: Name;
+  /** words; below 0: as many as the others of that number */
+  size: number;
+}
+
+/** An event that comes from the node's own hardware. */
+export interface LocalEvent {
+  name: Name;
+  help: string;
+}
+
+/** Something that happened on the bus or in the plan. */
+export interface Happening {
+  /** counts up */
+  number: number;
+  t: number;
+  wall: number;
+  kind: 'event' | 'state' | 'fault' | 'appeared' | 'gone' | 'loaded' | 'plan' | 'lost';
+  node: number;
+  source: string;
+  name: string;
+  args: Words;
+  text: string;
+}
+
+/** A line of the console. */
+export interface Line {
+  number: number;
+  t: number;
+  kind: 'note' | 'warning' | 'error' | 'log';
+  text: string;
+}
+
+/** Something that may stand at the cursor. */
+export interface Suggestion {
+  label: string;
+  kind: 'variable' | 'constant' | 'event' | 'native' | 'sub' | 'keyword' | 'function' | 'actor' | 'supervisor' | 'template' | 'value';
+  detail: string;
+  help: string;
+  insert: string;
+}
+
+/** A place in a document, with its line. */
+export interface Spot {
+  doc: Doc;
+  at: Place;
+  end: Place;
+  line_text: string;
+}
+
+/** A robot of the world. */
+export interface Robot {
+  name: string;
+  type: 'thymio2' | 'epuck' | 'carbot';
+  nodes: NodeId[];
+  /** in the frame of the robot */
+  outline: Point[];
+  paint: Colour;
+  /** of its body, in m */
+  height: number;
+  camera: boolean;
+  /** what world.press takes */
+  buttons: string[];
+}
+
+/** x and y in metres; x right, y up. */
+export type Point = number[];
+
+/** Red, green, blue, 0 to 1. */
+export type Colour = number[];
+
+/** An object of the world. */
+export interface SceneObject {
+  /** empty if the file gives none */
+  id: string;
+  /** handle for world commands, never used twice */
+  number: number;
+  kind: 'wall' | 'box' | 'cylinder' | 'patch' | 'light' | 'infrared';
+  /** width, height in m */
+  size?: number[];
+  radius?: number;
+  height: number;
+  mass: number;
+  colour: Colour;
+  on: boolean;
+}
+
+/** A variable of a plan that runs. */
+export interface PlanVariable {
+  name: Name;
+  type: 'bool' | 'int' | 'float' | 'string' | 'object';
+  value: Json;
+  unit: string;
+}
+
+/** A supervisor of a plan that runs. */
+export interface PlanSupervisor {
+  name: Name;
+  global: boolean;
+  watching: boolean;
+  events: Name[];
+}
+
+/** A plan that runs, with its active actor; the outermost first. */
+export interface PlanLevel {
+  /** instance path: WallFollow/calibrate */
+  path: string;
+  doc: Doc;
+  actor: string;
+  template: string;
+  activation: number;
+  since: number;
+  inputs: Json;
+  variables: PlanVariable[];
+  supervisors: PlanSupervisor[];
+}
+
+/** A change of one value of a JSON file. */
+export interface JsonStep {
+  do: 'set' | 'remove' | 'insert' | 'move';
+  /** keys and indices that lead to the value; the last one is the key or index meant, insert puts the value before that index */
+  at: Json[];
+  /** for set and insert */
+  value?: Json;
+  /** for move: the new index */
+  to?: number;
+}
+
+/** The open project. */
+export interface Project {
+  folder: string;
+  name: string;
+  help: string;
+  /** example it is a copy of */
+  copy_of?: string;
+  plan?: Path;
+  world?: Path;
+  scripts: Path[];
+  target: string;
+  /** the outermost folder of the project; paths count from it */
+  border?: string;
+}
+
+/** Something in a folder of this computer. */
+export interface FolderEntry {
+  name: string;
+  kind: 'folder' | 'project' | 'script' | 'plan' | 'world';
+}
+
+/** What all nodes of an .aesl file share. */
+export interface SharedFile {
+  path: Path;
+  events: Definition[];
+  constants: Definition[];
+}
+
+/** An instruction of a script. */
+export interface ListingLine {
+  /** 0: no line of the text */
+  line: number;
+  address: number;
+  words: number;
+  text: string;
+}
+
+/** A node that did not do it. */
+export interface Failed {
+  node: NodeId;
+  why: string;
+}
+
+/** What a node answered. */
+export interface NodeNote {
+  node: NodeId;
+  what: string;
+}
+
+/** Someone who asks for the wheel. */
+export interface Asked {
+  client: number;
+  name: string;
+  until_wall: number;
+}
+
+export interface Commands {
+  /** The first message: who the client is. The token comes from the fragment of the printed address. */
+  'hello': { in: {
+    token: string;
+    /** made once by the client, kept over reconnections */
+    client: string;
+    /** what others see */
+    name?: string;
+  }; out: {
+    version: string;
+    role: 'drive' | 'look';
+    /** of this client */
+    number: number;
+    /** holds the wheel */
+    driver: boolean;
+    wall: number;
+  } };
+  /** Subscribes to a topic. */
+  'watch': { in: {
+    /** number chosen by the client */
+    watch: number;
+    topic: string;
+    /** what the topic's of asks for */
+    of?: Json;
+    /** at most so many times a second (20) */
+    rate?: number;
+  }; out: Record<never, never> };
+  /** Ends a subscription. */
+  'unwatch': { in: {
+    watch: number;
+  }; out: Record<never, never> };
+  /** Stops the robot, whoever asks: ends the plan, sends Stop to every node, makes the wheels stand. */
+  'stop': { in: Record<never, never>; out: {
+    /** nodes that answered */
+    stood: NodeId[];
+  } };
+  /** Asks for the wheel. At once if nobody holds it or the driver's page is closed; else the driver is asked, and 10 s without an answer refuse it. */
+  'driver.ask': { in: Record<never, never>; out: {
+    driver: boolean;
+  } };
+  /** Gives the wheel to the one who asked, or keeps it. */
+  'driver.answer': { in: {
+    give: boolean;
+  }; out: Record<never, never> };
+  /** Lets the wheel go. */
+  'driver.leave': { in: Record<never, never>; out: Record<never, never> };
+  /** Copies an example into the user's folder and opens it. */
+  'project.example': { in: {
+    id: string;
+  }; out: {
+    path: string;
+  } };
+  /** Opens a folder with a vagus.json, or an .aesl, plan or world alone. */
+  'project.open': { in: {
+    path: string;
+  }; out: {
+    path: string;
+  } };
+  /** Makes a project in the user's folder and opens it. */
+  'project.new': { in: {
+    name: string;
+    robot: 'thymio2' | 'carbot' | 'epuck';
+    /** with an empty plan beside the script */
+    plan: boolean;
+  }; out: {
+    path: string;
+  } };
+  /** Back to the start screen. The run ends. */
+  'project.close': { in: Record<never, never>; out: Record<never, never> };
+  /** Takes an entry from the recent ones. */
+  'project.forget': { in: {
+    path: string;
+  }; out: Record<never, never> };
+  /** Folders and openable files of a folder of this computer, for choosing one. */
+  'folder.list': { in: {
+    /** empty: the home folder */
+    path: string;
+  }; out: {
+    path: string;
+    parent: string;
+    entries: FolderEntry[];
+  } };
+  /** Makes a file from a template, or a folder. */
+  'file.new': { in: {
+    path: Path;
+    kind: 'folder' | 'script' | 'plan' | 'world' | 'toolbox' | 'text';
+  }; out: Record<never, never> };
+  /** Renames or moves a file or folder inside the project; vagus.json and files that name it follow. */
+  'file.rename': { in: {
+    path: Path;
+    to: Path;
+  }; out: {
+    followed: Path[];
+  } };
+  /** Moves a file or folder to .vagus/trash. */
+  'file.delete': { in: {
+    path: Path;
+  }; out: Record<never, never> };
+  /** A file as it is saved, for export and pictures, base64. */
+  'file.bytes': { in: {
+    path: Path;
+  }; out: {
+    base64: string;
+  } };
+  /** The text of a document as it is now, saved or not. */
+  'doc.open': { in: {
+    doc: Doc;
+  }; out: {
+    text: string;
+    version: number;
+    language: 'aesl' | 'aesl-file' | 'plan' | 'world' | 'toolbox' | 'json' | 'text';
+    unsaved: boolean;
+  } };
+  /** Changes a text. It is in the journal within a second. */
+  'doc.edit': { in: {
+    doc: Doc;
+    /** the text that the changes count in */
+    version: number;
+    changes: Change[];
+  }; out: {
+    version: number;
+  } };
+  /** Changes a JSON file by its members; the rest keeps its form. */
+  'doc.patch': { in: {
+    doc: Doc;
+    version: number;
+    steps: JsonStep[];
+  }; out: {
+    version: number;
+    text: string;
+  } };
+  /** Replaces the file by the text. Saving what was not changed changes no byte. */
+  'doc.save': { in: {
+    doc: Doc;
+  }; out: Record<never, never> };
+  /** Saves all that is unsaved. */
+  'doc.save_all': { in: Record<never, never>; out: {
+    saved: Path[];
+  } };
+  /** Back to the file as it is on disk. */
+  'doc.revert': { in: {
+    doc: Doc;
+  }; out: {
+    version: number;
+  } };
+  /** The file changed on disk under an unsaved text: keeps the text (mine) or takes the file (disk). */
+  'doc.keep': { in: {
+    doc: Doc;
+    which: 'mine' | 'disk';
+  }; out: {
+    version: number;
+  } };
+  /** What may stand at a place. */
+  'script.complete': { in: {
+    doc: Doc;
+    at: Place;
+  }; out: {
+    /** where the word begins that is replaced */
+    from: Place;
+    items: Suggestion[];
+  } };
+  /** What stands at a place. */
+  'script.hover': { in: {
+    doc: Doc;
+    at: Place;
+  }; out: {
+    found: boolean;
+    at?: Place;
+    end?: Place;
+    title?: string;
+    help?: string;
+  } };
+  /** Where the name at a place is declared. */
+  'script.definition': { in: {
+    doc: Doc;
+    at: Place;
+  }; out: {
+    spots: Spot[];
+  } };
+  /** Where the name at a place is used, in all scripts that share it. */
+  'script.references': { in: {
+    doc: Doc;
+    at: Place;
+  }; out: {
+    name: string;
+    spots: Spot[];
+  } };
+  /** Renames a variable, constant, event, sub in all scripts that share it. */
+  'script.rename': { in: {
+    doc: Doc;
+    at: Place;
+    to: Name;
+  }; out: {
+    changed: Doc[];
+    places: number;
+  } };
+  /** Bytecode beside its lines. */
+  'script.listing': { in: {
+    doc: Doc;
+  }; out: {
+    lines: ListingLine[];
+  } };
+  /** Begins a script for a node that has none, in the first .aesl file of the project. */
+  'script.add': { in: {
+    node: NodeId;
+  }; out: {
+    doc: Doc;
+  } };
+  /** Whether a text can be the name of something in a script. */
+  'script.format_name': { in: {
+    name: string;
+  }; out: {
+    good: boolean;
+    why?: string;
+  } };
+  /** Searches all texts of the project. */
+  'text.search': { in: {
+    text: string;
+    regex: boolean;
+    case: boolean;
+    whole: boolean;
+  }; out: {
+    spots: Spot[];
+    more: boolean;
+    /** what is wrong with the expression */
+    why?: string;
+  } };
+  /** Replaces what text.search found. */
+  'text.replace': { in: {
+    text: string;
+    regex: boolean;
+    case: boolean;
+    whole: boolean;
+    by: string;
+    /** only in these */
+    docs?: Doc[];
+  }; out: {
+    changed: Doc[];
+    places: number;
+  } };
+  /** Adds an event or constant to an .aesl file. */
+  'define.add': { in: {
+    file: Path;
+    kind: 'event' | 'constant';
+    name: Name;
+    value: number;
+  }; out: Record<never, never> };
+  /** Changes its value or name; scripts follow the name. */
+  'define.change': { in: {
+    file: Path;
+    kind: 'event' | 'constant';
+    name: Name;
+    to: Name;
+    value: number;
+  }; out: {
+    places: number;
+  } };
+  /** Removes it. */
+  'define.remove': { in: {
+    file: Path;
+    kind: 'event' | 'constant';
+    name: Name;
+  }; out: Record<never, never> };
+  /** Moves it within its list; numbers of events follow their order. */
+  'define.move': { in: {
+    file: Path;
+    kind: 'event' | 'constant';
+    name: Name;
+    to: number;
+  }; out: Record<never, never> };
+  /** Connects to a target: sim, or one of the command line's. What ran before is stopped. */
+  'target.choose': { in: {
+    target: string;
+  }; out: Record<never, never> };
+  /** Disconnects. */
+  'target.leave': { in: Record<never, never>; out: Record<never, never> };
+  /** Compiles and loads scripts; a node that gets a program runs it. */
+  'node.load': { in: {
+    /** 0: every node that has a script */
+    node: number;
+    /** let it run (true) */
+    run?: boolean;
+  }; out: {
+    loaded: NodeId[];
+    failed: Failed[];
+  } };
+  /** Lets a node run, or continues it. */
+  'node.run': { in: {
+    /** 0: all */
+    node: number;
+  }; out: {
+    failed: Failed[];
+  } };
+  /** Pauses a node. */
+  'node.pause': { in: {
+    /** 0: all */
+    node: number;
+  }; out: {
+    failed: Failed[];
+  } };
+  /** To the next line. */
+  'node.step': { in: {
+    /** 0: all that stand */
+    node: number;
+  }; out: {
+    failed: Failed[];
+  } };
+  /** Stops a node's program; its next run begins anew. */
+  'node.stop': { in: {
+    /** 0: all */
+    node: number;
+  }; out: {
+    failed: Failed[];
+  } };
+  /** Begins a node's program from its start. */
+  'node.reset': { in: {
+    /** 0: all */
+    node: number;
+  }; out: {
+    failed: Failed[];
+  } };
+  /** The node keeps its program for its next start. */
+  'node.save': { in: {
+    /** 0: all */
+    node: number;
+  }; out: {
+    failed: Failed[];
+    notes: NodeNote[];
+  } };
+  /** Sets or changes a breakpoint; also without a robot. */
+  'break.set': { in: {
+    doc: Doc;
+    line: number;
+    condition?: string;
+    ignore?: number;
+    enabled?: boolean;
+  }; out: {
+    /** where it stands: the next line with code */
+    line: number;
+  } };
+  /** Removes a breakpoint, or all. */
+  'break.clear': { in: {
+    doc?: Doc;
+    line?: number;
+  }; out: Record<never, never> };
+  /** Writes a variable of a node. */
+  'variable.set': { in: {
+    node: NodeId;
+    name: Name;
+    first: number;
+    values: Words;
+  }; out: Record<never, never> };
+  /** Sends an event on the bus. */
+  'event.send': { in: {
+    name: Name;
+    args: number[];
+  }; out: Record<never, never> };
+  /** Runs the robot: loads scripts that changed, lets nodes run, starts the plan if the project has one. Continues what is paused. */
+  'run.start': { in: {
+    /** variables of the plan */
+    set?: Record<string, Json>;
+  }; out: Record<never, never> };
+  /** Pauses the clock of a simulation with all that is in it; on a bus the plan and every node. */
+  'run.pause': { in: Record<never, never>; out: Record<never, never> };
+  /** One instant of a simulation that is paused. */
+  'run.step': { in: {
+    ms?: number;
+  }; out: Record<never, never> };
+  /** The simulation as at its start, time 0. */
+  'run.reset': { in: Record<never, never>; out: Record<never, never> };
+  /** Ends a run host that hangs. */
+  'run.end': { in: Record<never, never>; out: Record<never, never> };
+  /** Speed of a simulation against the wall clock; 0: as fast as it goes. */
+  'clock.speed': { in: {
+    speed: number;
+  }; out: Record<never, never> };
+  /** Starts the plan alone. */
+  'plan.start': { in: {
+    doc?: Doc;
+    set?: Record<string, Json>;
+  }; out: Record<never, never> };
+  /** Pauses the plan. */
+  'plan.pause': { in: Record<never, never>; out: Record<never, never> };
+  /** Continues the plan. */
+  'plan.continue': { in: Record<never, never>; out: Record<never, never> };
+  /** On to the next actor. */
+  'plan.step': { in: Record<never, never>; out: Record<never, never> };
+  /** Ends the plan as from outside (P28). */
+  'plan.stop': { in: Record<never, never>; out: Record<never, never> };
+  /** Writes a variable of a running plan (P29). */
+  'plan.set': { in: {
+    level: number;
+    name: Name;
+    value: Json;
+  }; out: Record<never, never> };
+  /** Puts a robot or an object somewhere else, as a hand would. */
+  'world.move': { in: {
+    robot?: string;
+    object?: number;
+    at: Point;
+    angle?: number;
+  }; out: Record<never, never> };
+  /** Puts an object into the running world, not into the file. */
+  'world.put': { in: {
+    kind: 'wall' | 'box' | 'cylinder';
+    at: Point;
+    angle?: number;
+    size?: number[];
+    radius?: number;
+  }; out: {
+    number: number;
+  } };
+  /** Takes an object out of the running world. */
+  'world.take': { in: {
+    object: number;
+  }; out: Record<never, never> };
+  /** Presses a button or touch sensor of a robot. */
+  'world.press': { in: {
+    robot: string;
+    button: string;
+    down: boolean;
+  }; out: Record<never, never> };
+  /** Taps a robot. */
+  'world.tap': { in: {
+    robot: string;
+  }; out: Record<never, never> };
+  /** Switches a light or beacon. */
+  'world.light': { in: {
+    object: number;
+    on: boolean;
+  }; out: Record<never, never> };
+  /** Keeps a part of the window in .vagus/state.json: layout, open tabs, watches. */
+  'state.put': { in: {
+    key: string;
+    value: Json;
+  }; out: Record<never, never> };
+  /** Keeps a setting of the user. */
+  'settings.put': { in: {
+    key: string;
+    value: Json;
+  }; out: Record<never, never> };
+}
+
+export interface Topics {
+  /** What the whole window shows. */
+  'studio': { kind: 'document'; of: Record<never, never>; is: {
+    version: string;
+    /** number of the client that drives, 0: nobody */
+    driver: number;
+    driver_name: string;
+    asked?: Asked;
+    clients: number;
+    /** none: start screen */
+    project?: Project;
+    settings: Json;
+    /** unsaved texts of an earlier session */
+    recovered: Doc[];
+  } };
+  /** What the start screen offers. */
+  'start': { kind: 'document'; of: Record<never, never>; is: {
+    examples: Example[];
+    recent: Recent[];
+  } };
+  /** Targets that were found. Looked for while somebody watches this. */
+  'targets': { kind: 'document'; of: Record<never, never>; is: {
+    found: Found[];
+  } };
+  /** Files of the project. */
+  'files': { kind: 'document'; of: Record<never, never>; is: {
+    files: FileEntry[];
+    more: boolean;
+  } };
+  /** A text with its marks. */
+  'doc': { kind: 'document'; of: {
+    doc: Doc;
+  }; is: {
+    version: number;
+    text: string;
+    unsaved: boolean;
+    /** client of the last change, 0: the server */
+    by: number;
+    /** the file, if it changed under an unsaved text */
+    disk?: string;
+    gone: boolean;
+  } };
+  /** All mistakes and remarks of the project. */
+  'findings': { kind: 'document'; of: Record<never, never>; is: {
+    findings: Finding[];
+    more: number;
+    /** by document: the text they are for */
+    versions: Record<string, number>;
+  } };
+  /** What the compiler knows of a script. */
+  'script': { kind: 'document'; of: {
+    doc: Doc;
+  }; is: {
+    version: number;
+    good: boolean;
+    node: Name;
+    /** the description it is compiled for */
+    for: string;
+    bytecode: Meter;
+    variables: Meter;
+    stack: Meter;
+    handlers: Handler[];
+    /** lines that can hold a breakpoint */
+    code_lines: number[];
+  } };
+  /** Scripts, events and constants of the project. */
+  'scripts': { kind: 'document'; of: Record<never, never>; is: {
+    parts: ScriptPart[];
+    files: SharedFile[];
+  } };
+  /** The target and its nodes. */
+  'robot': { kind: 'document'; of: Record<never, never>; is: {
+    target: string;
+    name: string;
+    kind: 'none' | 'simulator' | 'bus';
+    state: 'none' | 'connecting' | 'connected' | 'lost' | 'failed';
+    why?: string;
+    since_wall?: number;
+    nodes: Node[];
+    /** two nodes with one id */
+    twins: string[];
+    /** of the bus, in percent */
+    load?: number;
+    lost: number;
+    events_a_second: number;
+  } };
+  /** Links and who talks to whom. */
+  'network': { kind: 'document'; of: Record<never, never>; is: {
+    links: Link[];
+    traffic: Traffic[];
+  } };
+  /** What a node is. */
+  'node': { kind: 'document'; of: {
+    node: NodeId;
+  }; is: {
+    name: Name;
+    variables: Variable[];
+    events: LocalEvent[];
+    natives: Native[];
+  } };
+  /** All breakpoints of scripts. */
+  'breakpoints': { kind: 'document'; of: Record<never, never>; is: {
+    breakpoints: Breakpoint[];
+  } };
+  /** The clock of the run. t is sent at most 10 times a second. */
+  'clock': { kind: 'document'; of: Record<never, never>; is: {
+    t: number;
+    wall: number;
+    state: 'none' | 'running' | 'paused' | 'ended' | 'hanging' | 'dead';
+    speed: number;
+    /** measured */
+    real: number;
+    /** why it ended */
+    why?: string;
+  } };
+  /** The plan that runs. */
+  'plan': { kind: 'document'; of: Record<never, never>; is: {
+    state: 'none' | 'running' | 'paused' | 'ended';
+    doc?: Doc;
+    t: number;
+    result?: 'OK' | 'Interrupted' | 'Error';
+    message?: string;
+    levels: PlanLevel[];
+    /** what happened, the newest last */
+    story: Line[];
+  } };
+  /** What state.put kept. */
+  'state': { kind: 'document'; of: Record<never, never>; is: {
+    values: Json;
+  } };
+  /** What stands in the world; where it stands comes by poses. */
+  'scene': { kind: 'document'; of: Record<never, never>; is: {
+    name: string;
+    size: number[];
+    open: boolean;
+    ground: Colour;
+    image?: Path;
+    robots: Robot[];
+    objects: SceneObject[];
+  } };
+  /** What happened on the bus, from the last ones kept. */
+  'happenings': { kind: 'stream'; of: {
+    last?: number;
+    kinds?: string[];
+  }; is: Happening };
+  /** What the server, the run and the plan say. */
+  'console': { kind: 'stream'; of: {
+    last?: number;
+  }; is: Line };
+  /** Values of variables of a node, when they change. Payload: records of u16 address, u16 count, count times i16. */
+  'variables': { kind: 'binary'; of: {
+    node: NodeId;
+    /** [address, count] */
+    ranges: Json[];
+  } };
+  /** Every value that was seen of some words, for plots. Payload: records of f64 time, u16 index into of.words, i16 value. */
+  'samples': { kind: 'binary'; of: {
+    /** [node, address] */
+    words: Json[];
+  } };
+  /** Where things are. Payload: u16 robots, u16 objects; for each robot f32 x, y, angle; for each object that moves u32 number, f32 x, y, angle. Robots in the order of scene. */
+  'poses': { kind: 'binary'; of: Record<never, never> };
+  /** Looks of distance sensors, and lamps. Payload: u16 looks, u16 lamps; looks: u16 robot, u16 hit, f32 x, y, x, y; lamps: u16 robot, u16 0, f32 x, y in the frame of the robot, f32 red, green, blue. */
+  'rays': { kind: 'binary'; of: Record<never, never> };
+  /** What a camera sees. Payload: u16 width, u16 height, RGB bytes. */
+  'picture': { kind: 'binary'; of: {
+    robot: string;
+  } };
+}
+
+export type CommandName = keyof Commands;
+export type TopicName = keyof Topics;
+export type TopicOf<K extends 'document' | 'stream' | 'binary'> = {
+  [T in TopicName]: Topics[T]['kind'] extends K ? T : never;
+}[TopicName];
+
+type Fields = Readonly<Record<string, string>>;
+
+/** The same at run time, for the check of what arrives. */
+export const typeTable: Readonly<Record<string, string | Fields>> = {
+  Doc: 'line(512)',
+  Path: 'line(512)',
+  Name: 'line(128)',
+  NodeId: 'int(1..65534)',
+  Words: '[int(-32768..32767); 600]',
+  Place: { line: 'int(1..10000000)', column: 'int(1..10000000)' },
+  Edit: { doc: 'Doc', from: 'int(0..2097152)', to: 'int(0..2097152)', text: 'text(2097152)' },
+  Change: { from: 'int(0..2097152)', to: 'int(0..2097152)', text: 'text(2097152)' },
+  Fix: { label: 'line(200)', edits: '[Edit; 100]' },
+  Finding: { doc: 'Doc', severity: 'word(error|warning)', code: 'line(64)', element: 'line(256)?', at: 'Place', end: 'Place', what: 'text(2000)', fixes: '[Fix; 8]' },
+  Problem: { code: 'word(bad_message|unknown_command|not_allowed|not_driver|not_found|bad_input|conflict|limit|unavailable|timeout|failed)', what: 'text(4000)', place: 'line(600)?' },
+  FileEntry: { path: 'Path', kind: 'word(folder|script|plan|world|toolbox|project|picture|text|other)', size: 'int(0..1000000000000)', unsaved: 'bool' },
+  Found: { target: 'line(256)', name: 'line(256)', kind: 'word(simulator|serial|local|network)', help: 'line(300)' },
+  Example: { id: 'line(64)', name: 'line(100)', help: 'line(300)', robot: 'line(100)', content: 'line(100)' },
+  Recent: { path: 'line(1024)', name: 'line(200)', when_wall: 'number', there: 'bool' },
+  ScriptPart: { doc: 'Doc', name: 'Name', node: 'int(0..65534)', file: 'Path' },
+  Definition: { name: 'Name', value: 'int(-32768..65535)' },
+  Handler: { kind: 'word(init|event|sub)', name: 'Name', line: 'int(0..10000000)', words: 'int(0..65535)' },
+  Meter: { used: 'int(0..65535)', of: 'int(0..65535)' },
+  Breakpoint: { doc: 'Doc', line: 'int(1..10000000)', condition: 'line(500)', ignore: 'int(0..1000000)', enabled: 'bool', hits: 'int(0..4294967295)', set: 'bool', why: 'line(300)?' },
+  Node: { id: 'NodeId', name: 'Name', robot: 'line(128)', state: 'word(unknown|running|paused|stopped|gone)', protocol: 'int(0..255)', described: 'bool', doc: 'Doc?', program: 'word(none|unknown|older|current)', loaded_wall: 'number?', at: 'Place?', why: 'word(asked|breakpoint|step|fault|start)?', fault: 'text(500)?', busy: 'line(100)?' },
+  Link: { name: 'line(300)', nodes: '[NodeId; 1024]', frames_in: 'number', frames_out: 'number', lost: 'number' },
+  Traffic: { from: 'int(0..65534)', event: 'Name', count: 'number', to: '[int(0..65534); 1024]' },
+  Variable: { name: 'Name', address: 'int(0..65535)', size: 'int(1..65535)', of: 'word(node|script)', unit: 'line(32)?', help: 'line(400)?', writable: 'bool' },
+  Native: { name: 'Name', help: 'line(400)', parameters: '[Parameter; 32]' },
+  Parameter: { name: 'Name', size: 'int(-65535..65535)' },
+  LocalEvent: { name: 'Name', help: 'line(400)' },
+  Happening: { number: 'number', t: 'number', wall: 'number', kind: 'word(event|state|fault|appeared|gone|loaded|plan|lost)', node: 'int(0..65534)', source: 'line(128)', name: 'line(200)', args: 'Words', text: 'text(1000)' },
+  Line: { number: 'number', t: 'number', kind: 'word(note|warning|error|log)', text: 'text(4000)' },
+  Suggestion: { label: 'line(200)', kind: 'word(variable|constant|event|native|sub|keyword|function|actor|supervisor|template|value)', detail: 'line(300)', help: 'text(1000)', insert: 'line(400)' },
+  Spot: { doc: 'Doc', at: 'Place', end: 'Place', line_text: 'line(400)' },
+  Robot: { name: 'line(128)', type: 'word(thymio2|epuck|carbot)', nodes: '[NodeId; 16]', outline: '[Point; 64]', paint: 'Colour', height: 'number', camera: 'bool', buttons: '[line(64); 64]' },
+  Point: '[number; 2]',
+  Colour: '[number; 3]',
+  SceneObject: { id: 'line(128)', number: 'number', kind: 'word(wall|box|cylinder|patch|light|infrared)', size: '[number; 2]?', radius: 'number?', height: 'number', mass: 'number', colour: 'Colour', on: 'bool' },
+  PlanVariable: { name: 'Name', type: 'word(bool|int|float|string|object)', value: 'json', unit: 'line(32)' },
+  PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
+  PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]' },
+  JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', to: 'int(0..1000000)?' },
+  Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
+  FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world)' },
+  SharedFile: { path: 'Path', events: '[Definition; 65536]', constants: '[Definition; 65536]' },
+  ListingLine: { line: 'int(0..10000000)', address: 'int(0..65535)', words: 'int(1..65535)', text: 'line(200)' },
+  Failed: { node: 'NodeId', why: 'text(2000)' },
+  NodeNote: { node: 'NodeId', what: 'text(2000)' },
+  Asked: { client: 'int(1..1000000000)', name: 'line(100)', until_wall: 'number' },
+};
+export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; out: Fields }>> = {
+  'hello': { may: 'any', out: { version: 'line(64)', role: 'word(drive|look)', number: 'int(1..1000000000)', driver: 'bool', wall: 'number' } },
+  'watch': { may: 'look', out: {} },
+  'unwatch': { may: 'look', out: {} },
+  'stop': { may: 'look', out: { stood: '[NodeId; 1024]' } },
+  'driver.ask': { may: 'drive', out: { driver: 'bool' } },
+  'driver.answer': { may: 'driver', out: {} },
+  'driver.leave': { may: 'driver', out: {} },
+  'project.example': { may: 'driver', out: { path: 'line(1024)' } },
+  'project.open': { may: 'driver', out: { path: 'line(1024)' } },
+  'project.new': { may: 'driver', out: { path: 'line(1024)' } },
+  'project.close': { may: 'driver', out: {} },
+  'project.forget': { may: 'driver', out: {} },
+  'folder.list': { may: 'driver', out: { path: 'line(1024)', parent: 'line(1024)', entries: '[FolderEntry; 2000]' } },
+  'file.new': { may: 'driver', out: {} },
+  'file.rename': { may: 'driver', out: { followed: '[Path; 100]' } },
+  'file.delete': { may: 'driver', out: {} },
+  'file.bytes': { may: 'look', out: { base64: 'text(5592408)' } },
+  'doc.open': { may: 'look', out: { text: 'text(2097152)', version: 'int(0..4294967295)', language: 'word(aesl|aesl-file|plan|world|toolbox|json|text)', unsaved: 'bool' } },
+  'doc.edit': { may: 'driver', out: { version: 'int(0..4294967295)' } },
+  'doc.patch': { may: 'driver', out: { version: 'int(0..4294967295)', text: 'text(2097152)' } },
+  'doc.save': { may: 'driver', out: {} },
+  'doc.save_all': { may: 'driver', out: { saved: '[Path; 2000]' } },
+  'doc.revert': { may: 'driver', out: { version: 'int(0..4294967295)' } },
+  'doc.keep': { may: 'driver', out: { version: 'int(0..4294967295)' } },
+  'script.complete': { may: 'look', out: { from: 'Place', items: '[Suggestion; 2000]' } },
+  'script.hover': { may: 'look', out: { found: 'bool', at: 'Place?', end: 'Place?', title: 'line(300)?', help: 'text(2000)?' } },
+  'script.definition': { may: 'look', out: { spots: '[Spot; 16]' } },
+  'script.references': { may: 'look', out: { name: 'line(200)', spots: '[Spot; 5000]' } },
+  'script.rename': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
+  'script.listing': { may: 'look', out: { lines: '[ListingLine; 65536]' } },
+  'script.add': { may: 'driver', out: { doc: 'Doc' } },
+  'script.format_name': { may: 'look', out: { good: 'bool', why: 'line(300)?' } },
+  'text.search': { may: 'look', out: { spots: '[Spot; 5000]', more: 'bool', why: 'line(300)?' } },
+  'text.replace': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
+  'define.add': { may: 'driver', out: {} },
+  'define.change': { may: 'driver', out: { places: 'int(0..100000)' } },
+  'define.remove': { may: 'driver', out: {} },
+  'define.move': { may: 'driver', out: {} },
+  'target.choose': { may: 'driver', out: {} },
+  'target.leave': { may: 'driver', out: {} },
+  'node.load': { may: 'driver', out: { loaded: '[NodeId; 1024]', failed: '[Failed; 1024]' } },
+  'node.run': { may: 'driver', out: { failed: '[Failed; 1024]' } },
+  'node.pause': { may: 'driver', out: { failed: '[Failed; 1024]' } },
+  'node.step': { may: 'driver', out: { failed: '[Failed; 1024]' } },
+  'node.stop': { may: 'driver', out: { failed: '[Failed; 1024]' } },
+  'node.reset': { may: 'driver', out: { failed: '[Failed; 1024]' } },
+  'node.save': { may: 'driver', out: { failed: '[Failed; 1024]', notes: '[NodeNote; 1024]' } },
+  'break.set': { may: 'driver', out: { line: 'int(1..10000000)' } },
+  'break.clear': { may: 'driver', out: {} },
+  'variable.set': { may: 'driver', out: {} },
+  'event.send': { may: 'driver', out: {} },
+  'run.start': { may: 'driver', out: {} },
+  'run.pause': { may: 'driver', out: {} },
+  'run.step': { may: 'driver', out: {} },
+  'run.reset': { may: 'driver', out: {} },
+  'run.end': { may: 'driver', out: {} },
+  'clock.speed': { may: 'driver', out: {} },
+  'plan.start': { may: 'driver', out: {} },
+  'plan.pause': { may: 'driver', out: {} },
+  'plan.continue': { may: 'driver', out: {} },
+  'plan.step': { may: 'driver', out: {} },
+  'plan.stop': { may: 'driver', out: {} },
+  'plan.set': { may: 'driver', out: {} },
+  'world.move': { may: 'driver', out: {} },
+  'world.put': { may: 'driver', out: { number: 'number' } },
+  'world.take': { may: 'driver', out: {} },
+  'world.press': { may: 'driver', out: {} },
+  'world.tap': { may: 'driver', out: {} },
+  'world.light': { may: 'driver', out: {} },
+  'state.put': { may: 'driver', out: {} },
+  'settings.put': { may: 'driver', out: {} },
+};
+export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream' | 'binary'; number?: number; is?: Fields; item?: string }>> = {
+  'studio': { kind: 'document', is: { version: 'line(64)', driver: 'int(0..1000000000)', driver_name: 'line(100)', asked: 'Asked?', clients: 'int(0..1000)', project: 'Project?', settings: 'json', recovered: '[Doc; 2000]' } },
+  'start': { kind: 'document', is: { examples: '[Example; 200]', recent: '[Recent; 20]' } },
+  'targets': { kind: 'document', is: { found: '[Found; 200]' } },
+  'files': { kind: 'document', is: { files: '[FileEntry; 2000]', more: 'bool' } },
+  'doc': { kind: 'document', is: { version: 'int(0..4294967295)', text: 'text(2097152)', unsaved: 'bool', by: 'int(0..1000000000)', disk: 'text(2097152)?', gone: 'bool' } },
+  'findings': { kind: 'document', is: { findings: '[Finding; 2000]', more: 'int(0..1000000)', versions: '{int(0..4294967295); 2000}' } },
+  'script': { kind: 'document', is: { version: 'int(0..4294967295)', good: 'bool', node: 'Name', for: 'line(200)', bytecode: 'Meter', variables: 'Meter', stack: 'Meter', handlers: '[Handler; 1000]', code_lines: '[int(1..10000000); 65536]' } },
+  'scripts': { kind: 'document', is: { parts: '[ScriptPart; 1000]', files: '[SharedFile; 200]' } },
+  'robot': { kind: 'document', is: { target: 'line(256)', name: 'line(256)', kind: 'word(none|simulator|bus)', state: 'word(none|connecting|connected|lost|failed)', why: 'text(1000)?', since_wall: 'number?', nodes: '[Node; 1024]', twins: '[line(300); 100]', load: 'number?', lost: 'number', events_a_second: 'number' } },
+  'network': { kind: 'document', is: { links: '[Link; 256]', traffic: '[Traffic; 2000]' } },
+  'node': { kind: 'document', is: { name: 'Name', variables: '[Variable; 4096]', events: '[LocalEvent; 256]', natives: '[Native; 512]' } },
+  'breakpoints': { kind: 'document', is: { breakpoints: '[Breakpoint; 1000]' } },
+  'clock': { kind: 'document', is: { t: 'number', wall: 'number', state: 'word(none|running|paused|ended|hanging|dead)', speed: 'number', real: 'number', why: 'text(2000)?' } },
+  'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]' } },
+  'state': { kind: 'document', is: { values: 'json' } },
+  'scene': { kind: 'document', is: { name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },
+  'happenings': { kind: 'stream', item: 'Happening' },
+  'console': { kind: 'stream', item: 'Line' },
+  'variables': { kind: 'binary', number: 1 },
+  'samples': { kind: 'binary', number: 2 },
+  'poses': { kind: 'binary', number: 3 },
+  'rays': { kind: 'binary', number: 4 },
+  'picture': { kind: 'binary', number: 5 },
+};

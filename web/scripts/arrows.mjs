@@ -1,0 +1,48 @@
+// The layers of the pages: protocol <- core <- app; aesl stands alone; nothing that ships knows dev.
+// An arrow means "may import". Packages that draw stay out of core.
+import { readFileSync, readdirSync } from 'node:fs';
+import { dirname, join, relative, resolve } from 'node:path';
+
+const root = new URL('..', import.meta.url).pathname;
+const may = {
+  protocol: ['protocol'],
+  core: ['protocol', 'core'],
+  aesl: ['aesl'],
+  app: ['protocol', 'core', 'aesl', 'app'],
+  dev: ['protocol', 'core', 'dev'],
+};
+const packages = {
+  protocol: /^$/,
+  core: /^(immer|zundo|zustand\/vanilla|@codemirror\/state)$/,
+  aesl: /^(@lezer\/|@codemirror\/(language|state)$)/,
+};
+
+const wrong = [];
+for (const layer of Object.keys(may))
+  for (const file of filesOf(join(root, layer))) check(layer, file);
+for (const line of wrong) console.error(line);
+process.exit(wrong.length ? 1 : 0);
+
+function check(layer, file) {
+  const test = /\.test\.tsx?$/.test(file);
+  for (const [, target] of readFileSync(file, 'utf8').matchAll(
+    /(?:from|import)\s*\(?\s*'([^']+)'/g,
+  )) {
+    if (target.startsWith('.')) {
+      const other = relative(root, resolve(dirname(file), target)).split('/')[0];
+      if (!may[layer].includes(other) && !(test && other in may))
+        wrong.push(`${relative(root, file)}: ${layer} may not import ${other} (${target})`);
+    } else if (!test && packages[layer] && !packages[layer].test(target))
+      wrong.push(`${relative(root, file)}: ${layer} may not import ${target}`);
+  }
+  const lines = readFileSync(file, 'utf8').split('\n').length;
+  if (file.endsWith('.tsx') && lines > 151)
+    wrong.push(`${relative(root, file)}: a component of ${lines} lines; at most 150`);
+}
+
+function filesOf(folder) {
+  return readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
+    if (entry.isDirectory()) return filesOf(join(folder, entry.name));
+    return /\.tsx?$/.test(entry.name) ? [join(folder, entry.name)] : [];
+  });
+}

@@ -1,0 +1,24 @@
+/// <reference types="vitest/config" />
+import react from '@vitejs/plugin-react';
+import { defineConfig } from 'vite';
+import { gzip } from './scripts/gzip.mjs';
+import { licences } from './scripts/licences.mjs';
+
+export default defineConfig({
+  base: './',
+  plugins: [react(), licences(), gzip()],
+  // The dev server passes the live connection on to the stand-in or to a running studio.
+  server: {
+    host: '127.0.0.1',
+    proxy: { '/live': { target: process.env['STUDIO'] ?? 'http://127.0.0.1:7357', ws: true } },
+  },
+  build: {
+    outDir: 'dist',
+    target: 'es2022',
+    // Strict CSP: nothing is inlined as data: but small icons, and no module preload polyfill.
+    assetsInlineLimit: 0,
+    modulePreload: { polyfill: false },
+    chunkSizeWarningLimit: 900,
+  },
+  test: { include: ['{protocol,core,app,aesl,dev}/**/*.test.{ts,tsx}'], environment: 'node' },
+});

@@ -1,0 +1,183 @@
+"""What dies, hangs or is killed: the run, the server, the other end of the bus. Nobody loses anything, everybody is told."""
+import os
+import pathlib
+import random
+import shutil
+import signal
+import sys
+import tempfile
+import unittest
+
+import projects
+from cases import Case, poses
+from harness import GIVE_UP_AFTER, Bus, Missing, free_port, list_nodes, listening, run_vagus, simulated, vagus
+from page import Closed, Studio
+
+HANGING_TOOLBOX = os.environ.get("VAGUS_HANGING_TOOLBOX", "build/release/tests/studio/hanging.so")
+STOP = 0xA006
+
+
+def plan_of(template):
+    return {"format": "vagus-plan/1", "name": "Mistake", "toolboxes": ["hanging"],
+            "start": {"actor": "first"},
+            "actors": {"first": {"template": "Wait", "in": {"seconds": 0.2}, "states": {"Done": "mistake"}},
+                       "mistake": {"template": template, "states": {"Done": "@terminate"}}}}
+
+
+def is_gone(process):
+    """Ended; a zombie counts as ended."""
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
+class Death(Case):
+    def open_mistake(self, template):
+        def make(folder):
+            projects.write(folder, "mistake.plan.json", plan_of(template))
+            projects.thymio(folder, plan="mistake.plan.json", toolboxes=["hanging.so"])
+            shutil.copy(HANGING_TOOLBOX, folder / "hanging.so")
+        return self.open(make)
+
+    # the run -------------------------------------------------------------------------------------
+
+    def test_a_template_that_never_comes_back(self):
+        page = self.open_mistake("HangForever")
+        page.do("run.start")
+        self.wait_clock("hanging")
+        self.wait_line("warning", "does not answer")
+        # Everything else goes on.
+        self.assertIn("var n", page.do("doc.open", doc=projects.DOC)["text"])
+        self.assertEqual(page.do("stop"), {"stood": []})
+        page.do("run.end")
+        self.wait_clock("dead")
+        self.assertRegex(self.clock.value["why"], r"signal 9 \(Killed\) at \d+\.\d{3} s; the active actor was mistake\.")
+        self.wait(lambda: self.plan.value["state"] == "ended", "the end of the plan")
+        self.assertEqual(self.plan.value["result"], "Error")
+        projects.write(self.folder, "mistake.plan.json", projects.PLAN)
+        files = page.watch("doc", doc="mistake.plan.json")
+        self.wait(lambda: files.value and "Rounds" in files.value["text"], "the plan without the mistake")
+        page.do("run.start")
+        self.wait(lambda: self.clock.value["state"] == "running" and self.plan.value["levels"], "a run that works")
+
+    def test_a_template_that_crashes(self):
+        page = self.open_mistake("Crash")
+        page.do("run.start")
+        self.wait_clock("dead")
+        self.assertRegex(self.clock.value["why"], r"signal 11 \(Segmentation fault\).*active actor was mistake.*begin anew")
+        self.wait(lambda: self.plan.value["state"] == "ended", "the end of the plan")
+        self.wait(lambda: self.robot.value["state"] == "lost", "the loss of the robot")
+        page.do("run.start")
+        self.wait_clock("dead")
+
+    def test_a_run_that_is_killed_at_any_moment_starts_again(self):
+        seed = int(os.environ.get("VAGUS_SEED") or random.SystemRandom().randrange(1 << 32))
+        print(f"seed: VAGUS_SEED={seed}")
+        dice = random.Random(seed)
+        page = self.open()
+        for _ in range(10):
+            number = page.ask("run.start")
+            if dice.random() < 0.6:
+                page.answer(number)
+                now = self.clock.value["t"]
+                self.wait(lambda: self.clock.value["t"] > now + dice.uniform(0, 0.2) or self.clock.value["t"] < now, "time")
+            (run,) = self.wait(self.studio.children, "a run")
+            os.kill(run, signal.SIGKILL)
+            self.wait(lambda: number in page.answers, "an answer")
+            self.wait_clock("dead")
+            self.assertIn("ended by signal 9 (Killed)", self.clock.value["why"])
+            # A run that was killed before its world stood never had a robot.
+            self.wait(lambda: self.robot.value["state"] in ("lost", "none"), "the loss of the robot")
+        page.do("run.start")
+        self.wait_clock("running")
+        self.assertNotIn("why", self.clock.value)
+        self.wait_passed()
+        self.wait_node(state="running", program="current")
+        self.assertEqual(len(self.studio.children()), 1)
+
+    # the server ----------------------------------------------------------------------------------
+
+    def test_a_server_that_is_killed_loses_no_text_and_leaves_no_run(self):
+        page = self.open()
+        page.do("run.start")
+        self.wait_passed()
+        (run,) = self.studio.children()
+        text = page.do("doc.open", doc=projects.DOC)
+        page.do("doc.edit", doc=projects.DOC, version=text["version"], changes=[{"from": 0, "to": 0, "text": "# kept \U0001f916\n"}])
+        page.do("break.set", doc=projects.DOC, line=14)
+        journal = self.folder / ".vagus" / "journal"
+        self.until(lambda: any("kept" in path.read_text(encoding="utf-8") for path in journal.rglob("*") if path.is_file())
+                   if journal.is_dir() else journal.is_file() and "kept" in journal.read_text(encoding="utf-8"), "the journal")
+        self.studio.kill()
+        self.until(lambda: is_gone(run), "the end of the run")
+        page.wait_closed()
+        self.assertNotIn("kept", (self.folder / "robot.aesl").read_text(encoding="utf-8"))
+        self.studio.start(self.folder)
+        with self.studio.page() as again:
+            self.watch_all(again)
+            again.wait(lambda: self.people.value and self.people.value["recovered"], "a recovered text")
+            self.assertEqual(self.people.value["recovered"], ["robot.aesl"])
+            self.assertTrue(again.do("doc.open", doc=projects.DOC)["text"].startswith("# kept \U0001f916\nvar n"))
+            again.wait(lambda: self.breakpoints.value["breakpoints"], "the breakpoint")
+            again.do("doc.save_all")
+        self.assertIn("# kept \U0001f916\nvar n", (self.folder / "robot.aesl").read_text(encoding="utf-8"))
+
+    def until(self, condition, what):
+        """For what no message tells."""
+        self.page.news.acquire()
+        try:
+            for _ in range(int(GIVE_UP_AFTER / 0.02)):
+                if condition():
+                    return
+                self.page.news.wait(0.02)
+        finally:
+            self.page.news.release()
+        raise Missing(f"{what} never came")
+
+    def test_a_server_that_is_asked_to_end_stops_the_robot_on_its_bus(self):
+        arena = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-arena-"))
+        with simulated(arena, {"name": "alice", "node": 1}) as robot:
+            port = listening(robot)
+            page = self.open(lambda folder: projects.bus(folder, f"tcp:127.0.0.1:{port}", name="thymio-II"))
+            self.wait_node(described=True)
+            self.assertEqual(page.do("node.load", node=0), {"loaded": [1], "failed": []})
+            page.do("event.send", name="go", args=[200])
+            self.wait_values(motor_left_target=200, motor_right_target=200)
+            with Bus(port) as bus:
+                self.studio.program.signal(signal.SIGTERM)
+                self.assertEqual(bus.wait(STOP, source=0), b"\x01\x00")
+                self.assertEqual(self.studio.program.wait_end(), 0)
+            told = run_vagus("net", f"tcp:127.0.0.1:{port}", "get", "1", "motor.left.target", "motor.right.target", "--wait", 30)
+            self.assertRegex(told, r"(?s)motor\.left\.target.*\b0\b.*motor\.right\.target.*\b0\b")
+            self.assertNotEqual(list_nodes(port)[0]["state"], "running")
+
+    # the bus -------------------------------------------------------------------------------------
+
+    def test_the_other_end_dies_and_comes_back(self):
+        port = free_port()
+        switch = self.enterContext(vagus("switch", "--listen", f"tcp:127.0.0.1:{port}"))
+        listening(switch)
+        node = self.enterContext(vagus("node", "--id", 1, "--name", "rover", "--connect", f"tcp:127.0.0.1:{port}"))
+        page = self.open(lambda folder: projects.bus(folder, f"tcp:127.0.0.1:{port}", script="var n = 0\nonevent go\n\tn += 1\n"))
+        self.wait_node(described=True)
+        page.do("node.load", node=0)
+        switch.kill()
+        node.kill()
+        self.wait(lambda: self.robot.value["state"] in ("lost", "connecting"), "the loss of the bus")
+        self.assertEqual(page.do("stop"), {"stood": []})
+        self.assertIn("failed", page.do("node.run", node=1))
+        page.do("doc.open", doc=projects.DOC)
+        switch = self.enterContext(vagus("switch", "--listen", f"tcp:127.0.0.1:{port}"))
+        self.enterContext(vagus("node", "--id", 1, "--name", "rover", "--connect", f"tcp:127.0.0.1:{port}"))
+        self.wait(lambda: self.robot.value["state"] == "connected", "the bus again")
+        # It comes back without its script, gets it again, and stands until someone lets it run.
+        self.wait_line("note", "came back without its script")
+        self.wait_node(program="current")
+        self.wait(lambda: self.node()["state"] in ("paused", "stopped"), "a node that stands")
+        self.assertEqual(page.do("node.run", node=1), {"failed": []})
+        self.wait_node(state="running")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *(f"-k{name}" for name in sys.argv[1:] or ["Death"])], verbosity=2, warnings="ignore")

@@ -15,13 +15,21 @@ foreach(module IN LISTS VAGUS_INSTALLED_MODULES)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/src/${module}
     COMPONENT embed
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vagus
-    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def"
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "*.inl"
     PATTERN "test_*" EXCLUDE)
 endforeach()
 install(DIRECTORY ${CMAKE_BINARY_DIR}/generated/templates ${CMAKE_BINARY_DIR}/generated/toolbox
   COMPONENT embed
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vagus)
 install(TARGETS vagus COMPONENT program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+# What the program reads at run time stands in share/vagus, seen from its own folder, also where it is built: the
+# examples, and the studio's pages once they are built.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/ DESTINATION share/vagus/examples COMPONENT program)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/web/dist/ DESTINATION share/vagus/pages COMPONENT program OPTIONAL)
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share/vagus)
+file(CREATE_LINK ${CMAKE_SOURCE_DIR}/examples ${CMAKE_BINARY_DIR}/share/vagus/examples SYMBOLIC)
+file(CREATE_LINK ${CMAKE_SOURCE_DIR}/web/dist ${CMAKE_BINARY_DIR}/share/vagus/pages SYMBOLIC)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Vagus)
 install(EXPORT VagusTargets NAMESPACE Vagus:: DESTINATION ${package} COMPONENT embed)

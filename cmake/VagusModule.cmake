@@ -7,7 +7,9 @@ set(VAGUS_SANITIZE "" CACHE STRING "Value for -fsanitize=, empty for none")
 
 find_program(VAGUS_CCACHE ccache)
 if(VAGUS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${VAGUS_CCACHE})
+  # Paths below the checkout count relative to the build folder: any other checkout finds the same results.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${VAGUS_CCACHE})
 endif()
 
 set(VAGUS_WARNINGS -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
@@ -75,11 +77,10 @@ function(vagus_test name)
   include(GoogleTest)
   add_executable(${name} ${T_SOURCES})
   target_compile_options(${name} PRIVATE ${VAGUS_WARNINGS})
-  target_compile_definitions(${name} PRIVATE VAGUS_TESTDATA="${CMAKE_SOURCE_DIR}/testdata")
   foreach(module IN LISTS T_MODULES)
     target_link_libraries(${name} PRIVATE vagus_${module})
   endforeach()
-  target_link_libraries(${name} PRIVATE ${T_LIBRARIES} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE ${T_LIBRARIES} vagus_test_places GTest::gmock GTest::gtest_main)
   # A program under a sanitizer may need a wrapper to start at all: it is not run while building.
   string(REPLACE ";" "\\;" labels "${T_LABELS}")
   set(discovery)

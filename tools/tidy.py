@@ -28,9 +28,47 @@ MAY_INCLUDE = {
     "debug": ["aesl", "wire", "base"],
     "net": ["hub", "wire", "base"],
     "session": BELOW_SESSION,
-    "serve": ["session", "net", "base"],
+    "serve": ["embed", "session"] + BELOW_SESSION,
     "cli": ["serve", "embed", "session"] + BELOW_SESSION,
 }
+# Inside a module, too, an arrow points down: a file may include what stands in its own room or in one before it. Rooms
+# from the ground up; a name is that of a file without its ending, a name with / at its end that of a folder. Tests may
+# include everything.
+ROOMS = {
+    "aesl": [
+        ("values", "limits target options diagnostic program unicode suggest stimuli"),
+        ("files", "abo node_file xml_scan project project_format project_text listing"),
+        ("catalogue", "diagnostics fix catalogue_main"),
+        ("text", "token names scan mentions"),
+        ("tree", "tree fold expand sizes places"),
+        ("parser", "dialect parse parse_calls parse_declarations parse_expressions parse_hints parse_slips parse_statements parser"),
+        ("checks", "types warn"),
+        ("code", "code code_writer emit stack link"),
+        ("whole", "compile"),
+        ("reference", "reference/"),
+    ],
+    "sim": [
+        ("values", "definitions drawing noise cell_grid texture png ground"),
+        ("bodies", "sight arena fan wheels camera"),
+        ("devices", "node_variables machine robot sd_card can_bus"),
+        ("robots", "thymio2/ epuck/ carbot/"),
+        ("files", "standing world_check world_file"),
+        ("world", "frame_notes frames_for_others node_bus inhabitants world"),
+    ],
+    "serve": [
+        ("system", "process access"),
+        ("protocol", "protocol/"),
+        ("door", "web/"),
+        ("pages", "studio/"),
+        ("files", "project/"),
+        ("scripts", "script/"),
+        ("editing", "edit/"),
+        ("robot", "robot/"),
+        ("a run", "host/ run/"),
+        ("the whole", "workbench/"),
+    ],
+}
+
 # Modules that compile for a microcontroller: these headers and no others.
 FREESTANDING = ["isa", "vm", "wire", "node"]
 FREESTANDING_HEADERS = {"stdint.h", "stddef.h", "string.h"}
@@ -39,7 +77,7 @@ FLASH_HEADER = "src/isa/flash.hpp"
 # The rim: only here may the program talk to the operating system.
 SYSTEM_HEADERS = re.compile(r"^(sys/|netinet/|arpa/|linux/|unistd\.h|termios\.h|fcntl\.h|dlfcn\.h|poll\.h|pty\.h|signal\.h|boost/)")
 MAY_CALL_SYSTEM = ("src/net/", "src/cli/", "src/serve/", "src/run/real_time", "src/base/file.cpp",
-                   "src/toolbox/load.cpp")
+                   "src/base/line_sink.cpp", "src/toolbox/load.cpp")
 # Libraries that stay behind one door.
 ONE_DOOR = [
     (re.compile(r"^(rapidjson|nlohmann)/"), ("src/base/json", "src/serve/"), "JSON is read through base/json"),
@@ -61,6 +99,10 @@ LONG_FUNCTIONS = {
 }
 SLEEPS = re.compile(r"\b(sleep_for|sleep_until|usleep|nanosleep)\s*\(|(?<![\w.])sleep\s*\(\s*\d")
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
+TYPE_ALONE = re.compile(r"^\s+(const |static |mutable )*(?!default:)[\w:]+(<[^()]*>)?[&*]?$")
+NAME_AND_COMMENT = re.compile(r"^\s*\w+(\{\})?( = [^;]*)?;\s*//")
+EXAMPLE_LINE = re.compile(r"^\s*//     ")
+TWO_STATEMENTS = re.compile(r";\s+([A-Z]\w* \w+\s*(;|=|$)|(const|if|for)\b|\w+;)")
 SUFFIXES = {".hpp", ".cpp", ".inl", ".h"}
 
 
@@ -83,6 +125,7 @@ class Checker:
 
     def run(self):
         self.check_size()
+        self.check_shape()
         for number, line in enumerate(self.lines, 1):
             self.check_line(number, line)
             include = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
@@ -117,6 +160,7 @@ class Checker:
         first = name.split("/")[0]
         if first in MAY_INCLUDE and quoted:
             self.check_arrow(number, module, first)
+            self.check_room(number, module, name)
             return
         if quoted and "/" not in name:
             self.say(number, f'write the whole path: "{module}/{name}"')
@@ -125,7 +169,7 @@ class Checker:
                 self.say(number, f"<{name}> in {module}, which must build for a microcontroller: only "
                                  + ", ".join(sorted(FREESTANDING_HEADERS)))
         if SYSTEM_HEADERS.match(name) and not self.is_test() and not self.path.startswith(MAY_CALL_SYSTEM):
-            self.say(number, f"<{name}>: the operating system is reached at the rim only (net, cli, base/file.cpp)")
+            self.say(number, f"<{name}>: the operating system is reached at the rim only (net, cli, base/file.cpp, base/line_sink.cpp)")
         for pattern, doors, sentence in ONE_DOOR:
             if pattern.match(name) and not self.is_test() and not self.path.startswith(doors):
                 self.say(number, f"<{name}>: {sentence}")
@@ -139,6 +183,27 @@ class Checker:
             return
         if other not in MAY_INCLUDE.get(module, []):
             self.say(number, f"{module} may not include {other} (docs/ARCHITECTURE.md, layers)")
+
+    def check_room(self, number, module, name):
+        if module not in ROOMS or not name.startswith(module + "/") or self.is_test() or name.endswith(".def"):
+            return
+        here, there = room_of(module, self.path[len("src/"):]), room_of(module, name)
+        for place, path in ((here, self.path), (there, name)):
+            if place is None:
+                self.say(number, f"{path} stands in no room of {module}: say in ROOMS of tools/tidy.py where it belongs")
+        if here is not None and there is not None and there > here:
+            self.say(number, f"an arrow upwards inside {module}: the room \"{ROOMS[module][here][0]}\" may not include "
+                             f"\"{ROOMS[module][there][0]}\" (ROOMS in tools/tidy.py)")
+
+    def check_shape(self):
+        """What a formatter does to declarations and examples when comments are too long for their lines."""
+        for number, (line, after) in enumerate(zip(self.lines, self.lines[1:]), 1):
+            deeper = len(after) - len(after.lstrip()) == len(line) - len(line.lstrip()) + 4
+            if deeper and TYPE_ALONE.match(line) and (NAME_AND_COMMENT.match(after) or after.lstrip().startswith("//")):
+                self.say(number, "a declaration split by its comment: put the comment in lines of its own above it")
+        for number, line in enumerate(self.lines, 1):
+            if EXAMPLE_LINE.match(line) and TWO_STATEMENTS.search(bare(line)):
+                self.say(number, "an example that has lost its line ends: one statement a line, as in code")
 
     def check_functions(self):
         """A function's body starts at a line that ends in `{` and is not a type or namespace, at depth 0 of its scope."""
@@ -154,6 +219,24 @@ class Checker:
                 if length > FUNCTION_LINES_MAX and not allowed:
                     self.say(start[0], f"a function of {length} lines; it stops at {FUNCTION_LINES_MAX}")
                 start = None
+
+
+def room_of(module, path):
+    """The number of the room in which a file stands, or None. `path` begins with the module: aesl/scan.cpp."""
+    inside = path[len(module) + 1:]
+    stem = re.sub(r"\.\w+$", "", inside)
+    for number, (_, names) in enumerate(ROOMS[module]):
+        if any(inside.startswith(name) if name.endswith("/") else stem == name for name in names.split()):
+            return number
+    return None
+
+
+def bare(line):
+    """An example's code: without comments, texts in quotes, and what stands in parentheses."""
+    code = re.split(r"\s//", re.sub(r'"[^"]*"', '""', line.split("//", 1)[1]))[0]
+    while re.search(r"\([^()]*\)", code):
+        code = re.sub(r"\([^()]*\)", "", code)
+    return code
 
 
 def check_module_known(root):
@@ -186,6 +269,11 @@ EXAMPLES = [  # path, text, what must be said of it
     ("src/vm/a.cpp", "#include <vector>\n", "must build for a microcontroller"),
     ("src/sim/a.cpp", "#include <unistd.h>\n", "the rim only"),
     ("src/debug/a.cpp", "#include <nlohmann/json.hpp>\n", "base/json"),
+    ("src/aesl/scan.cpp", '#include "aesl/parse.hpp"\n', "an arrow upwards inside aesl"),
+    ("src/aesl/nowhere.cpp", '#include "aesl/scan.hpp"\n', "no room of aesl"),
+    ("src/sim/arena.cpp", '#include "sim/world.hpp"\n', "an arrow upwards inside sim"),
+    ("src/hub/a.hpp", "    std::string\n        name;  // a comment\n", "split by its comment"),
+    ("src/hub/a.hpp", "//     first(a); Vm vm; init(vm);\n", "lost its line ends"),
     ("src/hub/a.hpp", "// A header.\n", "#pragma once"),
     ("src/hub/a.cpp", "x" * 101 + "\n", "101 columns"),
     ("src/hub/a.cpp", "\n" * 602, "602 lines"),

@@ -255,7 +255,7 @@ class Install(unittest.TestCase):
         for robot in ["carbot", "thymio"]:
             world = ROOT / f"examples/patterns/{robot}.world.json"
             options = ["--clock", "virtual", "--world", world, "--trace-all", "-"]
-            theirs = run(self.vagus, "plan", "run", plan, *options)
+            theirs = run(self.vagus, "plan", "run", plan, *options, "--quiet")
             self.assertEqual(run(program, *options), theirs)
             self.assertIn('"kind":"pose"', theirs[1])
 
@@ -267,7 +267,7 @@ class Install(unittest.TestCase):
         self.assertTrue((source / "countdown.hpp").exists())
         program = self.build(source) / "Launch"
         options = ["--clock", "virtual", "--trace", "-", "--toolbox", library]
-        theirs = run(self.vagus, "plan", "run", plan, *options)
+        theirs = run(self.vagus, "plan", "run", plan, *options, "--quiet")
         self.assertEqual(run(program, *options), theirs)
         self.assertIn("lift-off", theirs[1])
         code, out, err = run(program)

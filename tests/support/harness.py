@@ -18,7 +18,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 VAGUS = os.environ.get("VAGUS_BIN", str(ROOT / "build/release/bin/vagus"))
-GIVE_UP_AFTER = 60.0
+GIVE_UP_AFTER = float(os.environ.get("VAGUS_GIVE_UP_AFTER", 60))
 ASK_AGAIN_AFTER = 0.1
 
 # Types of messages, section 2 of docs/spec/aseba-wire-and-vm.md.
@@ -93,6 +93,13 @@ class Program:
             if found:
                 return found
 
+    def wait_lines(self, *patterns):
+        """Until each pattern was found, in whatever order."""
+        missing = list(patterns)
+        while missing:
+            line = self.wait_line("|".join(f"(?:{pattern})" for pattern in missing)).string
+            missing = [pattern for pattern in missing if not re.search(pattern, line)]
+
     def wait_end(self):
         """The exit status, all output read."""
         status = self.process.wait(timeout=GIVE_UP_AFTER)
@@ -133,6 +140,18 @@ def run_vagus(*arguments, status=0):
         text = "\n".join(program.lines)
         assert found == status, f"vagus {' '.join(map(str, arguments))} ended with {found}, not {status}:\n{text}"
         return text
+
+
+def list_nodes(port):
+    """What `vagus net list --json` prints. It ends with 1 if nobody is there."""
+    with vagus("net", f"tcp:127.0.0.1:{port}", "list", "--json") as program:
+        status = program.wait_end()
+        text = "\n".join(program.lines)
+    if "[" not in text:  # nobody to ask, yet
+        return []
+    nodes = json.JSONDecoder().raw_decode(text[text.index("["):])[0]  # words for people follow
+    assert status == (0 if nodes else 1), f"vagus net list ended with {status}:\n{text}"
+    return nodes
 
 
 def free_port():

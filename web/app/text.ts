@@ -425,6 +425,7 @@ export const text = {
     label: 'Problems of all files',
     more: (count: number) => `and ${count} more`,
     filter: 'Only of this file',
+    noFix: 'No problem here has a fix that can be applied.',
   },
   search: {
     find: 'Find',

@@ -46,6 +46,11 @@ export class SharedDocument {
     return this.local().toString();
   }
 
+  /** The server's number of the text that it has from here. */
+  get confirmedVersion(): number {
+    return this.version;
+  }
+
   get waits(): boolean {
     return this.sent !== null || this.unsent !== null;
   }

@@ -41,15 +41,16 @@ export class Documents {
     return { opened: entry.opened, release };
   }
 
-  /** Sends what was typed and not yet sent, in all texts. */
-  async flushAll(): Promise<void> {
-    const opened = await Promise.allSettled(
-      [...this.entries.values()].map((entry) => entry.opened),
+  /** Sends what was typed and not yet sent, in all texts; gives the version of each that the server then has. */
+  async flushAll(): Promise<Map<Doc, number>> {
+    const flushed = await Promise.allSettled(
+      [...this.entries].map(async ([doc, entry]): Promise<[Doc, number]> => {
+        const { shared } = await entry.opened;
+        await shared.flushed();
+        return [doc, shared.confirmedVersion];
+      }),
     );
-    const shared = opened.flatMap((result) =>
-      result.status === 'fulfilled' ? [result.value.shared] : [],
-    );
-    await Promise.all(shared.map((document) => document.flushed()));
+    return new Map(flushed.flatMap((one) => (one.status === 'fulfilled' ? [one.value] : [])));
   }
 
   /** Another project is open: what it calls by the same name is another text. */

@@ -42,6 +42,23 @@ export function editsByDoc(edits: readonly Edit[]): Map<Doc, Edit[]> {
   return found;
 }
 
+/** The finding that was meant, in newer findings: of the same kind, with that fix, the nearest. */
+export function sameFinding(
+  meant: Finding,
+  label: string | undefined,
+  findings: readonly Finding[],
+): Finding | undefined {
+  const away = (one: Finding) => Math.abs(one.at.line - meant.at.line);
+  return findings
+    .filter(
+      (one) =>
+        one.doc === meant.doc &&
+        one.code === meant.code &&
+        one.fixes.some((fix) => fix.label === label),
+    )
+    .sort((a, b) => away(a) - away(b))[0];
+}
+
 function rank(finding: Finding): number {
   return finding.severity === 'error' ? 0 : 1;
 }

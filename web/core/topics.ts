@@ -49,6 +49,30 @@ export class TopicCache {
     };
   }
 
+  /** The value once it is good, or what there is when that takes too long. */
+  until<T extends DocumentTopic>(
+    topic: T,
+    of: Topics[T]['of'],
+    good: (value: Topics[T]['is']) => boolean,
+    withinMs: number,
+  ): Promise<Topics[T]['is'] | undefined> {
+    return new Promise((resolve) => {
+      const value = () => this.get(topic, of);
+      const finish = () => {
+        cancel();
+        end();
+        resolve(value());
+      };
+      const look = () => {
+        const now = value();
+        if (now !== undefined && good(now)) finish();
+      };
+      const cancel = this.later(withinMs, finish);
+      const end = this.subscribe(topic, of, look);
+      look();
+    });
+  }
+
   /** Nothing is known of any topic but these until the server has said it anew. */
   forget(but: readonly DocumentTopic[]): void {
     for (const entry of [...this.entries.values()].filter((one) => !but.includes(one.topic))) {

@@ -46,6 +46,7 @@ using Answer = http::response<http::string_body>;
 using std::chrono::seconds;
 
 constexpr size_t kBodyBytesMax = 4096;  // of a request; none of ours has one
+constexpr size_t kFirstBytesMax = 4096;  // read at once when a request begins
 constexpr auto kGoodbyeWithin = seconds(2);
 constexpr size_t kRefusedMax = 64;  // connections that are told at a time that there are too many
 
@@ -152,7 +153,7 @@ public:
 
 private:
     void prepare() {
-        websocket::stream_base::timeout limits{seconds(kRequestSecondsMax), seconds(30), true};
+        websocket::stream_base::timeout limits{shared_.options.request_within, seconds(30), true};
         socket_.set_option(limits);
         socket_.read_message_max(shared_.options.message_bytes_max);
         socket_.auto_fragment(false);
@@ -443,7 +444,7 @@ private:
         const Tcp::endpoint local = socket.local_endpoint(failed);
         const Tcp::endpoint remote = socket.remote_endpoint(failed);
         beast::tcp_stream stream(std::move(socket));
-        stream.expires_after(seconds(kRequestSecondsMax));
+        stream.expires_after(options_.request_within);
         if (tls_) {
             beast::ssl_stream<beast::tcp_stream> secured(std::move(stream), *tls_);
             const auto [refused] = co_await secured.async_handshake(asio::ssl::stream_base::server,
@@ -458,8 +459,9 @@ private:
     template <typename Stream>
     awaitable<void> talk(Stream stream, Tcp::endpoint local, Tcp::endpoint remote) {
         beast::flat_buffer buffer;
-        for (;;) {
-            beast::get_lowest_layer(stream).expires_after(seconds(kRequestSecondsMax));
+        for (bool first = true;; first = false) {
+            if (!first && !co_await begins(stream, buffer)) break;
+            beast::get_lowest_layer(stream).expires_after(options_.request_within);
             http::request_parser<http::string_body> parser;
             parser.header_limit(kHeaderBytesMax);
             parser.body_limit(kBodyBytesMax);
@@ -487,6 +489,18 @@ private:
         }
         SystemError ignored;
         beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    }
+
+    // Waits for the first bytes of the next request: a browser keeps its connections for the parts
+    // of the pages that are fetched later.
+    template <typename Stream>
+    awaitable<bool> begins(Stream& stream, beast::flat_buffer& buffer) {
+        if (buffer.size() > 0) co_return true;
+        beast::get_lowest_layer(stream).expires_after(options_.idle_within);
+        const auto [failed, size] = co_await stream.async_read_some(
+            buffer.prepare(kFirstBytesMax), as_tuple(use_awaitable));
+        buffer.commit(size);
+        co_return !failed;
     }
 
     template <typename Stream>

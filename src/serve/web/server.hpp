@@ -13,6 +13,7 @@
 // the token, in the first message, by whoever takes the events.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -27,7 +28,8 @@ namespace vagus::serve {
 
 constexpr size_t kHeaderBytesMax = 16 * 1024;
 constexpr size_t kClientTextsMax = 1000;  // of one client, not taken yet: it is not read further
-constexpr int kRequestSecondsMax = 10;    // for one HTTP request, and between two
+constexpr auto kRequestWithin = std::chrono::seconds(10);  // from its first byte to its last
+constexpr auto kIdleWithin = std::chrono::seconds(75);     // from one request to the next
 constexpr const char* kLiveProtocol = "vagus-1";
 
 struct ClientId {
@@ -43,6 +45,8 @@ struct WebOptions {
     std::string tls_cert = {}, tls_key = {};  // PEM files; empty: HTTP
     size_t connections_max = 512;
     size_t message_bytes_max = 4u << 20;
+    std::chrono::milliseconds request_within = kRequestWithin;
+    std::chrono::milliseconds idle_within = kIdleWithin;
 };
 
 // A page has opened its WebSocket; nothing else is known of it.

@@ -8,6 +8,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
+#include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
@@ -196,6 +197,22 @@ TEST_F(WebServerTest, ConnectionsAboveTheLimitAreRefusedWithAnAnswer) {
     for (int i = 0; i < 3; ++i) idle.push_back(connect());
     EXPECT_THAT(ask(""), StartsWith("HTTP/1.1 503"));
     auto waiting = connect();
+}
+
+TEST_F(WebServerTest, AConnectionMayRestBetweenRequestsButNotWithinOne) {
+    begin({.request_within = std::chrono::milliseconds(200)});
+    const std::string request = "GET /healthz HTTP/1.1\r\nHost: " + host() + "\r\n\r\n";
+    Tcp::socket kept = connect();
+    const auto answered = [&] {
+        asio::write(kept, asio::buffer(request));
+        std::string answer;
+        asio::read_until(kept, asio::dynamic_buffer(answer), "\r\n\r\nok\n");
+        return answer;
+    };
+    EXPECT_THAT(answered(), StartsWith("HTTP/1.1 200"));
+    // Begun after that, and cut off for its slowness: so long the other has rested.
+    EXPECT_EQ(ask("GET /healthz HT"), "");
+    EXPECT_THAT(answered(), StartsWith("HTTP/1.1 200"));
 }
 
 TEST_F(WebServerTest, WithoutPagesItSaysWhoMakesThem) {

@@ -1,12 +1,15 @@
-import { editsByDoc, ordered, stepIndex } from '../../core/findings';
+import { editsByDoc, ordered, sameFinding, stepIndex } from '../../core/findings';
 import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
-import { revealDoc, update } from '../../core/window_state';
+import { revealDoc, toast, update } from '../../core/window_state';
 import type { Finding, Fix } from '../../protocol/messages';
 import { text } from '../text';
 import { drives } from './looks';
 
 const titles = text.commands;
+
+/** A check that takes longer is not waited for. */
+const kCheckedWithinMs = 3000;
 
 export function problemCommands(studio: Studio): Command[] {
   const some = () => findingsOf(studio).length > 0;
@@ -32,7 +35,7 @@ export function problemCommands(studio: Studio): Command[] {
       title: titles['problem.fix'],
       group: text.groups.edit,
       keys: ['Alt+Enter'],
-      enabled: () => drives(studio) && fixable(studio) !== undefined,
+      enabled: () => drives(studio),
       run: () => fixNext(studio),
     },
   ];
@@ -49,10 +52,34 @@ export function showProblem(studio: Studio, index: number, focus = true): void {
   revealDoc(studio.window, finding.doc, finding.at, focus);
 }
 
-/** Sends the edits of a fix; each text first gets what was typed into it. */
-export async function applyFix(studio: Studio, fix: Fix | undefined): Promise<void> {
+/** A button of a finding: its fix, as it is for the text that stands there now. */
+export function pressFix(studio: Studio, finding: Finding, fix: Fix): void {
+  const press = async () => {
+    const now = sameFinding(finding, fix.label, await freshFindings(studio));
+    // It has gone meanwhile: there is nothing left to fix.
+    await applyFix(
+      studio,
+      now?.fixes.find((one) => one.label === fix.label),
+    );
+  };
+  void press().catch((problem: unknown) => studio.tell(problem));
+}
+
+/** What the checkers say of what is on the screen: what was typed last is sent and waited for. */
+async function freshFindings(studio: Studio): Promise<readonly Finding[]> {
+  const versions = await studio.documents.flushAll();
+  const answer = await studio.topics.until(
+    'findings',
+    {},
+    (is) => [...versions].every(([doc, version]) => (is.versions[doc] ?? version) >= version),
+    kCheckedWithinMs,
+  );
+  return answer?.findings ?? [];
+}
+
+/** Sends the edits of a fix of a text that is known to the server. */
+async function applyFix(studio: Studio, fix: Fix | undefined): Promise<void> {
   if (!fix) return;
-  await studio.documents.flushAll();
   for (const [doc, edits] of editsByDoc(fix.edits)) {
     const { version } = await studio.send('doc.open', { doc });
     const changes = edits.map(({ from, to, text: inserted }) => ({ from, to, text: inserted }));
@@ -66,16 +93,15 @@ function stepProblem(studio: Studio, by: 1 | -1): void {
 
 /** What is mended is shown, wherever the caret was. */
 async function fixNext(studio: Studio): Promise<void> {
-  const finding = fixable(studio);
-  if (!finding) return;
+  const finding = fixable(studio, ordered(await freshFindings(studio)));
+  if (!finding) return toast(studio.window, 'note', text.problems.noFix);
   if (!isOnLine(studio, finding)) revealDoc(studio.window, finding.doc, finding.at);
   await applyFix(studio, finding.fixes[0]);
 }
 
 /** A problem with a fix: on the caret's line, else the one chosen in the list, else the first. */
-function fixable(studio: Studio): Finding | undefined {
+function fixable(studio: Studio, findings: readonly Finding[]): Finding | undefined {
   const { problem } = studio.window.getState();
-  const findings = findingsOf(studio);
   const chosen = findings[problem];
   const able = findings.filter((one) => one.fixes.length > 0);
   return (

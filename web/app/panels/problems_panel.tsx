@@ -2,7 +2,7 @@ import { IconAlertOctagon, IconAlertTriangle } from '@tabler/icons-react';
 import { useRef } from 'react';
 import type { Finding } from '../../protocol/messages';
 import { ordered } from '../../core/findings';
-import { applyFix, showProblem } from '../commands/problem_commands';
+import { pressFix, showProblem } from '../commands/problem_commands';
 import { nameOf } from '../dock/documents';
 import { useDrives, useStudio, useTopic, useWindow } from '../hooks';
 import { Quiet } from '../parts/blank';
@@ -94,9 +94,7 @@ function Problem({
           key={fix.label}
           small
           disabled={!drives}
-          onClick={() =>
-            void applyFix(studio, fix).catch((problem: unknown) => studio.tell(problem))
-          }
+          onClick={() => pressFix(studio, finding, fix)}
         >
           {fix.label}
         </Button>

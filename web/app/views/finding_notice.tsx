@@ -2,7 +2,7 @@ import { IconAlertOctagon, IconAlertTriangle } from '@tabler/icons-react';
 import type { Doc, Finding } from '../../protocol/messages';
 import { ordered } from '../../core/findings';
 import { revealDoc } from '../../core/window_state';
-import { applyFix } from '../commands/problem_commands';
+import { pressFix } from '../commands/problem_commands';
 import { useDrives, useStudio, useTopic } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
@@ -37,13 +37,7 @@ export function FindingNotice({
       ) : null}
       <span className="grow" />
       {fix ? (
-        <Button
-          small
-          disabled={!drives}
-          onClick={() =>
-            void applyFix(studio, fix).catch((problem: unknown) => studio.tell(problem))
-          }
-        >
+        <Button small disabled={!drives} onClick={() => pressFix(studio, first, fix)}>
           {fix.label}
         </Button>
       ) : null}

@@ -7,10 +7,24 @@ import { join } from 'node:path';
 export const root = new URL('../../../', import.meta.url).pathname;
 export const vagusProgram = process.env.VAGUS_BIN ?? join(root, 'build/release/bin/vagus');
 
+const endings = new WeakMap();
+
+/** Done at the end of the test, the last one first: programs end before their folders go. */
+export function atEnd(test, act) {
+  if (!endings.has(test)) {
+    const acts = [];
+    endings.set(test, acts);
+    test.after(async () => {
+      for (const one of acts.reverse()) await one();
+    });
+  }
+  endings.get(test).push(act);
+}
+
 /** A folder that is removed at the end of the test. */
 export function temporaryFolder(test) {
   const folder = mkdtempSync(join(tmpdir(), 'vagus-e2e-'));
-  test.after(() => rmSync(folder, { recursive: true, force: true }));
+  atEnd(test, () => rmSync(folder, { recursive: true, force: true }));
   return folder;
 }
 
@@ -31,7 +45,7 @@ export function startProgram(test, command, { env = {}, pass = [] } = {}) {
       for (const listener of listeners) listener();
     });
   child.on('error', (error) => (program.said += String(error)));
-  test.after(() => stop());
+  atEnd(test, () => stop());
   return program;
 
   async function stop(signal = 'SIGTERM') {

@@ -5,7 +5,7 @@ import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, test as nodeTest } from 'node:test';
 import { chromium } from 'playwright-core';
-import { root, startServer } from './server.mjs';
+import { atEnd, root, startServer } from './server.mjs';
 import { kPatience, until } from './until.mjs';
 
 export { until };
@@ -83,7 +83,7 @@ export async function openWindow(t, server, { width = 1440, height = 900, theme 
     permissions: ['clipboard-read', 'clipboard-write'],
   });
   context.setDefaultTimeout(kPatience);
-  t.after(() => context.close());
+  atEnd(t, () => context.close());
   const page = await context.newPage();
   const complaints = [];
   page.on('console', (message) => {

@@ -1,6 +1,8 @@
 import { IconPlus } from '@tabler/icons-react';
 import { useId, useState } from 'react';
 import { placeOf, readPick, type Pick } from '../../../core/picks';
+import type { Studio } from '../../../core/studio';
+import type { NodeId, Variable } from '../../../protocol/messages';
 import { shownNode } from '../../commands/looks';
 import { useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
@@ -9,6 +11,19 @@ import { useVariablesOf } from '../../robot_hooks';
 import { text } from '../../text';
 
 const words = text.variables;
+
+/** A description that takes longer does not come. */
+const kDescribedWithinMs = 5000;
+
+async function variablesOf(studio: Studio, node: NodeId): Promise<readonly Variable[]> {
+  const known = await studio.topics.until(
+    'node',
+    { node },
+    (is) => is.variables.length > 0,
+    kDescribedWithinMs,
+  );
+  return known?.variables ?? [];
+}
 
 /** "drive.token" or "token" of the script that is looked at: typed, with what there is to choose. */
 export function PickForm({
@@ -28,9 +43,9 @@ export function PickForm({
   const list = useId();
   // The descriptions of all nodes are asked when someone begins to type.
   const described = useVariablesOf(asked ? nodes.map((node) => node.id) : []);
-  const add = () => {
+  const add = async () => {
     const pick = readPick(typed, nodes, (shownNode(studio) ?? nodes[0])?.id ?? null);
-    const place = pick && placeOf(pick, described.get(pick.node) ?? []);
+    const place = pick && placeOf(pick, await variablesOf(studio, pick.node));
     if (!place) return setWrong(true);
     onPick(pick, place.count);
     setTyped('');
@@ -40,7 +55,7 @@ export function PickForm({
       className="strip-bar__form"
       onSubmit={(event) => {
         event.preventDefault();
-        add();
+        void add();
       }}
     >
       <input

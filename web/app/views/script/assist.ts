@@ -4,12 +4,13 @@ import {
   acceptCompletion,
   autocompletion,
   closeCompletion,
+  completionStatus,
   selectedCompletion,
   type Completion,
   type CompletionContext,
   type CompletionResult,
 } from '@codemirror/autocomplete';
-import { Prec, type Extension } from '@codemirror/state';
+import { Prec, StateField, type Extension } from '@codemirror/state';
 import { EditorView, hoverTooltip, keymap, type Tooltip } from '@codemirror/view';
 import type { Commands, Doc, Suggestion } from '../../../protocol/messages';
 import type { Studio } from '../../../core/studio';
@@ -24,11 +25,14 @@ export function assist(studio: Studio, doc: Doc, onDefinition: (at: number) => v
         { key: 'Tab', run: acceptCompletion },
       ]),
     ),
+    offeredSince,
     autocompletion({
       override: [(context) => complete(studio, doc, context)],
       icons: true,
       maxRenderedOptions: 80,
       activateOnTypingDelay: 50,
+      // Tab takes what is shown, at once; Enter has a rule of its own below.
+      interactionDelay: 0,
     }),
     hoverTooltip((view, at) => hover(studio, doc, view, at), { hoverTime: 350 }),
     EditorView.domEventHandlers({
@@ -43,13 +47,27 @@ export function assist(studio: Studio, doc: Doc, onDefinition: (at: number) => v
   ];
 }
 
-/** A word that is typed in full is not completed: Enter then ends the line, as everywhere. */
+/** Nobody has seen a list that is there for less. */
+const kSeenAfterMs = 75;
+
+/** When the list came up; 0 while there is none. */
+const offeredSince = StateField.define<number>({
+  create: () => 0,
+  update: (since, { state }) =>
+    completionStatus(state) === 'active' ? since || performance.now() : 0,
+});
+
+/**
+ * A word that is typed in full is not completed, nor one whose list nobody has seen: Enter then ends
+ * the line, as everywhere.
+ */
 function enterEndsLine(view: EditorView): boolean {
   const chosen = selectedCompletion(view.state)?.label;
   if (chosen === undefined) return false;
   const { head } = view.state.selection.main;
   const typed = view.state.sliceDoc(Math.max(0, head - chosen.length), head);
-  if (typed === chosen) closeCompletion(view);
+  const unseen = performance.now() - view.state.field(offeredSince) < kSeenAfterMs;
+  if (typed === chosen || unseen) closeCompletion(view);
   return false;
 }
 

@@ -16,7 +16,7 @@ import { offsetOf } from './places';
 
 export interface FindingsShown {
   findings: readonly Finding[];
-  onFix(fix: Fix): void;
+  onFix(finding: Finding, fix: Fix): void;
 }
 
 export const setFindings = StateEffect.define<FindingsShown>();
@@ -98,7 +98,7 @@ function rangeOf(finding: Finding, doc: Text): [number, number] {
 class Sentence extends WidgetType {
   constructor(
     private readonly finding: Finding,
-    private readonly onFix: (fix: Fix) => void,
+    private readonly onFix: FindingsShown['onFix'],
   ) {
     super();
   }
@@ -140,7 +140,7 @@ class Sentence extends WidgetType {
       keys.textContent = 'Alt+Enter';
       button.append(keys);
     }
-    button.onclick = () => this.onFix(fix);
+    button.onclick = () => this.onFix(this.finding, fix);
     return button;
   }
 

@@ -10,7 +10,7 @@ import { mentionedIn, readWords, valueText } from '../../../core/values';
 import { standsAt } from '../../../core/run_state';
 import { update } from '../../../core/window_state';
 import { addEditor } from '../../commands/editor_handles';
-import { applyFix } from '../../commands/problem_commands';
+import { pressFix } from '../../commands/problem_commands';
 import { useDrives, useSettings, useStudio, useTopic, useWindow } from '../../hooks';
 import { text } from '../../text';
 import {
@@ -41,8 +41,7 @@ export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | nu
     () =>
       setFindings.of({
         findings,
-        onFix: (fix) =>
-          void applyFix(studio, fix).catch((problem: unknown) => studio.tell(problem)),
+        onFix: (finding, fix) => pressFix(studio, finding, fix),
       }),
     [findings],
   );

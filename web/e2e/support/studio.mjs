@@ -46,6 +46,7 @@ export function test(name, options, act) {
       assert.deepEqual(studio.complaints, [], 'the browser complained');
     } catch (error) {
       await keepPicture(studio, name);
+      error.message += `\n--- fetched in vain: ${[...studio.fetching].join(' ') || 'nothing'}; complaints: ${studio.complaints.join(' ') || 'none'}`;
       error.message += `\n--- the server said ---\n${studio.server.program.said.slice(-2000)}`;
       throw error;
     }
@@ -91,8 +92,12 @@ export async function openWindow(t, server, { width = 1440, height = 900, theme 
       complaints.push(message.text());
   });
   page.on('pageerror', (error) => complaints.push(String(error)));
+  const fetching = new Set();
+  page.on('request', (request) => fetching.add(request.url()));
+  for (const over of ['requestfinished', 'requestfailed'])
+    page.on(over, (request) => fetching.delete(request.url()));
   await page.goto(server.address);
-  return { page, complaints, context, server, ...hands(page) };
+  return { page, complaints, fetching, context, server, ...hands(page) };
 }
 
 /** What tests say often. */

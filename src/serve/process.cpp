@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/close_range.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/random.h>
@@ -28,6 +29,15 @@ Error system_error(const std::string& what) {
     return {Code::Unavailable, what + ": " + std::strerror(errno)};
 }
 
+constexpr int kDescriptorsSearched = 4096;  // where the kernel cannot mark a range
+
+// What this process has open from there on stays its own: a page's connection that a child holds,
+// too, never closes. Libraries do not mark all that they open.
+void keep_from_children(int first) {
+    if (close_range(static_cast<unsigned>(first), ~0u, CLOSE_RANGE_CLOEXEC) == 0) return;
+    for (int one = first; one < kDescriptorsSearched; ++one) fcntl(one, F_SETFD, FD_CLOEXEC);
+}
+
 // Between fork and exec only what a signal handler might call, too.
 [[noreturn]] void become(const char* program, char* const* arguments, int talk, size_t memory) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -43,6 +53,7 @@ Error system_error(const std::string& what) {
     } else {
         dup2(talk, kTalkDescriptor);
     }
+    keep_from_children(kTalkDescriptor + 1);
     execv(program, arguments);
     _exit(127);
 }
@@ -60,6 +71,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
     dup2(nothing, STDIN_FILENO);
     dup2(output >= 0 ? output : nothing, STDOUT_FILENO);
     dup2(nothing, STDERR_FILENO);
+    keep_from_children(STDERR_FILENO + 1);
     execvp(words[0], words);
     _exit(127);
 }
@@ -286,6 +298,7 @@ bool start_beside(const std::vector<std::string>& words) {
         dup2(nothing, STDIN_FILENO);
         dup2(nothing, STDOUT_FILENO);
         dup2(nothing, STDERR_FILENO);
+        keep_from_children(STDERR_FILENO + 1);
         execvp(arguments[0], arguments.data());
         (void)!::write(told[1], "x", 1);  // exec failed: the other end hears it
         _exit(127);

@@ -94,6 +94,24 @@ TEST(Child, OneThatHangsCanBeKilled) {
     EXPECT_EQ(child.value().ended()->signal, 9);
 }
 
+// A connection that a run holds, too, would stay open when the studio closes it.
+TEST(Child, HasNothingOpenButItsDescriptor) {
+    constexpr int kOpen = 50;
+    ASSERT_EQ(dup2(STDIN_FILENO, kOpen), kOpen);  // without the mark that closes it
+    auto child =
+        Child::start({"/bin/sh", {"-c", "[ -e /proc/$$/fd/3 ] && [ ! -e /proc/$$/fd/50 ]"}});
+    std::vector<Packet> heard;
+    wait_for(child.value(), heard);
+    EXPECT_EQ(child.value().ended()->what, "exit status 0");
+    auto printing =
+        Printing::start({"sh", "-c", "[ -e /proc/$$/fd/50 ] && echo open || echo closed"});
+    ASSERT_TRUE(printing.ok());
+    while (!printing.value().read()) {
+    }
+    EXPECT_EQ(printing.value().text(), "closed\n");
+    ::close(kOpen);
+}
+
 TEST(Child, AProgramThatIsNotThereEndsAtOnce) {
     auto child = Child::start({"/nonexistent/program", {}});
     std::vector<Packet> heard;

@@ -552,6 +552,10 @@ class Cli(unittest.TestCase):
         self.assertEqual(len(poses), 21)  # at the start and after each second
         self.assertTrue(poses[-1].startswith("20.000 s"), poses[-1])
 
+    def test_a_duration_that_is_over_before_the_script_is_loaded_ends(self):
+        text = self.run_vagus("sim", self.world, "--load", self.script, "--speed", "max", "--duration", "0.001").stdout
+        self.assertIn("loaded", text)
+
     def test_duration_says_otherwise(self):
         text = self.run_vagus("sim", self.world, "--headless", "--speed", "max", "--duration", "2.5").stdout
         self.assertIn("2.000 s  rob  at", text)

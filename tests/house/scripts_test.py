@@ -133,6 +133,48 @@ class Scripts(unittest.TestCase):
         self.checkout.symlink_to(moved)
         self.assertEqual(self.call("./run", "help"), (0, "vagus help\n", ""))
 
+    # ---- the studio's pages ----
+
+    def pages(self, npm):
+        """Sources of pages, and a Node and npm that stand in for the real ones."""
+        tools = self.folder / "tools"
+        for folder in (tools, self.checkout / "web", self.checkout / "src/serve/protocol"):
+            folder.mkdir(parents=True)
+        self.write("web/package-lock.json", "{}")
+        self.write("src/serve/protocol/protocol.json", "{}")
+        for name, text in (("node", "echo 22\n"), ("npm", npm)):
+            (tools / name).write_text("#!/bin/sh\n" + text)
+            (tools / name).chmod(0o755)
+        self.environment["PATH"] = f"{tools}:{os.environ['PATH']}"
+
+    def test_on_a_terminal_it_builds_the_pages_and_opens_the_studio(self):
+        self.pages("""case $1 in ci) mkdir -p node_modules; touch node_modules/.package-lock.json ;;
+run) mkdir -p dist; echo page >dist/index.html ;; esac
+""")
+        status, shown = self.on_terminal("./run")
+        self.assertEqual(status, 0, shown)
+        self.assertIn("building the studio's pages beside the program", shown)
+        self.assertTrue(shown.endswith("vagus studio --example follow-wall\r\n"), shown)
+        # Once they are there nothing is said; options are the studio's.
+        self.assertEqual(self.on_terminal("./run", "--port", "0"), (0, "vagus studio --example follow-wall --port 0\r\n"))
+        self.assertTrue(self.on_terminal("./run", "show")[1].startswith("vagus plan run examples/follow-wall/"))
+
+    def test_without_npm_packages_it_says_so_and_shows_the_terminal(self):
+        self.pages("echo no network >&2; exit 1\n")
+        status, shown = self.on_terminal("./run")
+        self.assertEqual(status, 0, shown)
+        self.assertIn("no network", shown)
+        self.assertIn("the packages of web/package-lock.json", shown)
+        self.assertIn("without its pages there is no studio", shown)
+        self.assertRegex(shown, r"vagus plan run examples/follow-wall/\S+ --world \S+\r\n$")
+
+    def test_without_a_terminal_it_prints_the_lines_of_the_run(self):
+        self.pages("exit 1\n")
+        status, out, err = self.call("./run")
+        self.assertEqual(status, 0, err)
+        self.assertRegex(out, r"^vagus plan run examples/follow-wall/\S+ --world \S+ --clock virtual\n$")
+        self.assertNotIn("pages", err)
+
     # ---- ./test ----
 
     def test_everything_counts_and_names_what_failed(self):

@@ -6,6 +6,7 @@ import shutil
 import signal
 import sys
 import tempfile
+import time
 import unittest
 
 import projects
@@ -13,6 +14,7 @@ from cases import Case, poses
 from harness import GIVE_UP_AFTER, Bus, Missing, free_port, list_nodes, listening, run_vagus, simulated, vagus
 from page import Closed, Studio
 
+KILLS = int(os.environ.get("VAGUS_KILLS") or 10)  # of each kind
 HANGING_TOOLBOX = os.environ.get("VAGUS_HANGING_TOOLBOX", "build/release/tests/studio/hanging.so")
 STOP = 0xA006
 
@@ -76,7 +78,7 @@ class Death(Case):
         print(f"seed: VAGUS_SEED={seed}")
         dice = random.Random(seed)
         page = self.open()
-        for _ in range(10):
+        for _ in range(KILLS):
             number = page.ask("run.start")
             if dice.random() < 0.6:
                 page.answer(number)
@@ -122,6 +124,32 @@ class Death(Case):
             again.wait(lambda: self.breakpoints.value["breakpoints"], "the breakpoint")
             again.do("doc.save_all")
         self.assertIn("# kept \U0001f916\nvar n", (self.folder / "robot.aesl").read_text(encoding="utf-8"))
+
+    def test_what_was_typed_a_second_before_the_server_is_killed_is_there(self):
+        seed = int(os.environ.get("VAGUS_SEED") or random.SystemRandom().randrange(1 << 32))
+        print(f"seed: VAGUS_SEED={seed}")
+        dice = random.Random(seed)
+        self.open()
+        typed = self.page.do("doc.open", doc=projects.DOC)["text"]
+        for _ in range(KILLS):
+            text, texts = self.page.do("doc.open", doc=projects.DOC), [(0.0, typed)]
+            self.assertEqual(text["text"], typed)
+            version = text["version"]
+            until = time.monotonic() + dice.uniform(0, 2)
+            while time.monotonic() < until:
+                version = self.page.do("doc.edit", doc=projects.DOC, version=version,
+                                       changes=[{"from": 0, "to": 0, "text": "#\n" if dice.random() < 0.1 else "#"}])["version"]
+                typed = self.page.do("doc.open", doc=projects.DOC)["text"]
+                texts.append((time.monotonic(), typed))
+            killed = time.monotonic()
+            self.studio.kill()
+            self.page.wait_closed()
+            self.studio.start(self.folder)
+            self.page = self.enterContext(self.studio.page())
+            found = self.page.do("doc.open", doc=projects.DOC)["text"]
+            surely = max(at for at, (when, _) in enumerate(texts) if when < killed - 1)
+            self.assertIn(found, [text for _, text in texts[surely:]])
+            typed = found
 
     def until(self, condition, what):
         """For what no message tells."""

@@ -7,7 +7,8 @@ import { Toasts } from './overlay/toasts';
 import { TopBar } from './topbar/topbar';
 import { Notices } from './topbar/notices';
 import { RobotLife } from './robot_life';
-import { useKeys, useTheme, useWindowLife } from './window_life';
+import { Tips } from './overlay/tips';
+import { useKeys, useTheme, WindowLife } from './window_life';
 import { text } from './text';
 
 const Dock = lazy(async () => ({ default: (await import('./dock/dock')).Dock }));
@@ -17,7 +18,6 @@ const StartScreen = lazy(() => import('./start/start_screen'));
 export function App() {
   const theme = useTheme();
   useKeys();
-  useWindowLife();
   return (
     <MantineProvider
       forceColorScheme={theme}
@@ -35,9 +35,11 @@ export function App() {
         </div>
         <StatusBar />
       </div>
+      <WindowLife />
       <RobotLife />
       <Overlay />
       <Toasts />
+      <Tips />
     </MantineProvider>
   );
 }

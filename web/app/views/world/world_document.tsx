@@ -1,6 +1,6 @@
 import { lazy, Suspense, useEffect, useMemo, useRef, useState } from 'react';
 import type { Doc, Finding } from '../../../protocol/messages';
-import { useTopic, useWindow } from '../../hooks';
+import { useTopic, useWindow, usePart } from '../../hooks';
 import { Blank } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
@@ -33,7 +33,7 @@ export default function WorldDocument({ doc }: { doc: Doc }) {
   const [chosen, choose] = useState<WorldMode | null>(null);
   const runs = useHasScene();
   const isOurs = useTopic('studio', {})?.project?.world === doc;
-  const state = useTopic('clock', {})?.state;
+  const state = usePart('clock', {}, (is) => is?.state);
   const [first] = useState<WorldMode>(() =>
     isOurs && (state === 'running' || state === 'paused') ? 'live' : 'edit',
   );

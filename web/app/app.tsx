@@ -1,5 +1,6 @@
 import { MantineProvider } from '@mantine/core';
-import { lazy, Suspense } from 'react';
+import { Suspense } from 'react';
+import { late } from './parts/late';
 import { useLink, useTopic } from './hooks';
 import { Overlay } from './overlay/overlay';
 import { StatusBar } from './overlay/status_bar';
@@ -11,8 +12,8 @@ import { Tips } from './overlay/tips';
 import { useKeys, useTheme, WindowLife } from './window_life';
 import { text } from './text';
 
-const Dock = lazy(async () => ({ default: (await import('./dock/dock')).Dock }));
-const StartScreen = lazy(() => import('./start/start_screen'));
+const Dock = late(async () => ({ default: (await import('./dock/dock')).Dock }));
+const StartScreen = late(() => import('./start/start_screen'));
 
 /** The whole window. */
 export function App() {

@@ -1,4 +1,5 @@
-import { lazy, Suspense, useEffect, useMemo, useRef, useState } from 'react';
+import { Suspense, useEffect, useMemo, useRef, useState } from 'react';
+import { late } from '../../parts/late';
 import type { Doc, Finding } from '../../../protocol/messages';
 import { useTopic, useWindow, usePart } from '../../hooks';
 import { Blank } from '../../parts/blank';
@@ -26,7 +27,7 @@ import { WorldStage } from './world_stage';
 import { WorldTools } from './world_tools';
 import '../../look/world.css';
 
-const ScriptView = lazy(() => import('../script/script_view'));
+const ScriptView = late(() => import('../script/script_view'));
 
 /** A world: as it runs, as its file says and is edited, or its text. */
 export default function WorldDocument({ doc }: { doc: Doc }) {

@@ -1,5 +1,6 @@
 import { MantineProvider } from '@mantine/core';
-import { lazy, Suspense } from 'react';
+import { Suspense } from 'react';
+import { late } from './parts/late';
 import { useLink, useTopic } from './hooks';
 import { Overlay } from './overlay/overlay';
 import { StatusBar } from './overlay/status_bar';
@@ -7,17 +8,17 @@ import { Toasts } from './overlay/toasts';
 import { TopBar } from './topbar/topbar';
 import { Notices } from './topbar/notices';
 import { RobotLife } from './robot_life';
-import { useKeys, useTheme, useWindowLife } from './window_life';
+import { Tips } from './overlay/tips';
+import { useKeys, useTheme, WindowLife } from './window_life';
 import { text } from './text';
 
-const Dock = lazy(async () => ({ default: (await import('./dock/dock')).Dock }));
-const StartScreen = lazy(() => import('./start/start_screen'));
+const Dock = late(async () => ({ default: (await import('./dock/dock')).Dock }));
+const StartScreen = late(() => import('./start/start_screen'));
 
 /** The whole window. */
 export function App() {
   const theme = useTheme();
   useKeys();
-  useWindowLife();
   return (
     <MantineProvider
       forceColorScheme={theme}
@@ -35,9 +36,11 @@ export function App() {
         </div>
         <StatusBar />
       </div>
+      <WindowLife />
       <RobotLife />
       <Overlay />
       <Toasts />
+      <Tips />
     </MantineProvider>
   );
 }

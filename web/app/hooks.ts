@@ -23,6 +23,22 @@ export function useTopic<T extends DocumentTopic>(
   topic: T,
   of: Topics[T]['of'] | null,
 ): Topics[T]['is'] | undefined {
+  return usePart(topic, of, whole);
+}
+
+function whole<V>(value: V): V {
+  return value;
+}
+
+/**
+ * A part of a document: drawn again only when that part is another one. What is selected is a
+ * plain value, or a piece of the document as it came.
+ */
+export function usePart<T extends DocumentTopic, P>(
+  topic: T,
+  of: Topics[T]['of'] | null,
+  select: (value: Topics[T]['is'] | undefined) => P,
+): P {
   const { topics } = useStudio();
   const key = of && JSON.stringify(of);
   const subscribe = useCallback(
@@ -30,11 +46,9 @@ export function useTopic<T extends DocumentTopic>(
       key === null ? () => {} : topics.subscribe(topic, asOf<T>(key), listener),
     [topics, topic, key],
   );
-  const get = useCallback(
-    () => (key === null ? undefined : topics.get(topic, asOf<T>(key))),
-    [topics, topic, key],
+  return useSyncExternalStore(subscribe, () =>
+    select(key === null ? undefined : topics.get(topic, asOf<T>(key))),
   );
-  return useSyncExternalStore(subscribe, get);
 }
 
 // The key is the text of an "of" that was typed where it came in.

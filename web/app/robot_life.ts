@@ -6,7 +6,7 @@ import type { Json } from '../protocol/messages';
 import { picksJson, readPicks } from '../core/picks';
 import { plotJson, readPlot } from '../core/plot';
 import { keepState } from './commands/looks';
-import { useStudio, useTopic } from './hooks';
+import { usePart, useStudio, useTopic } from './hooks';
 
 /** What was picked is kept so long after the last change. */
 const kKeepMs = 500;
@@ -60,7 +60,7 @@ function useStanding(): void {
   const { words } = useStudio();
   const nodes = useTopic('robot', {})?.nodes;
   // A simulation whose clock stands holds all its nodes, whatever their own state is.
-  const held = useTopic('clock', {})?.state === 'paused';
+  const held = usePart('clock', {}, (is) => is?.state === 'paused');
   useEffect(() => {
     for (const node of nodes ?? []) words.stands(node.id, held || node.state === 'paused');
   }, [words, nodes, held]);

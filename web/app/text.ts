@@ -813,4 +813,11 @@ export const text = {
     error: 'This panel has failed.',
     retry: 'Try again',
   },
+  late: {
+    failed: 'This part of the page did not come.',
+    help: 'The server did not answer. Once it is there again, try again; after an update of Vagus, load the page anew. What you typed is kept.',
+    again: 'Try again',
+    reload: 'Load the page anew',
+    small: 'Some buttons did not come: try again',
+  },
 } as const;

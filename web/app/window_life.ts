@@ -5,7 +5,7 @@ import { isLayoutName } from '../core/layouts';
 import type { Theme } from '../core/settings';
 import { revealPanel, update } from '../core/window_state';
 import { countsOf } from '../core/findings';
-import { useLink, useSettings, useStudio, useTopic, useWindow } from './hooks';
+import { useLink, usePart, useSettings, useStudio, useTopic, useWindow } from './hooks';
 
 const kThemeKey = 'vagus.theme';
 
@@ -62,7 +62,8 @@ function typesIn(target: EventTarget | null): boolean {
   );
 }
 
-export function useWindowLife(): void {
+/** Draws nothing: what it follows changes with each key, and the window is not drawn again for it. */
+export function WindowLife(): null {
   const studio = useStudio();
   useAskForWheel();
   const values = useTopic('state', {})?.values;
@@ -79,6 +80,7 @@ export function useWindowLife(): void {
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [studio, known, folder]);
   useProblemsOpen();
+  return null;
 }
 
 /** A page that may drive takes the wheel if nobody holds it. */
@@ -95,7 +97,7 @@ function useAskForWheel(): void {
 /** Problems opens by itself at the first error only. */
 function useProblemsOpen(): void {
   const studio = useStudio();
-  const { errors } = countsOf(useTopic('findings', {})?.findings ?? []);
+  const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
   const [opened, setOpened] = useState(false);
   useEffect(() => {
     if (errors === 0 || opened) return;

@@ -1,5 +1,5 @@
-// A text that is edited here and lives on the server. Typing is never held up: changes go out within
-// kSendMs, one message under way at a time; what others did meanwhile is woven in.
+// A text that is edited here and lives on the server. Typing is never held up: a change goes out at
+// once, one message under way at a time; what others did meanwhile is woven in.
 //
 //   server's text --sent--> (under way) --unsent--> what is on the screen
 
@@ -9,14 +9,11 @@ import { CommandError } from './connection';
 import { Emitter } from './emitter';
 import { textDiff } from './text_diff';
 
-export const kSendMs = 15;
-
 export type DocTopic = Topics['doc']['is'];
 
 export interface DocLink {
   open(): Promise<Commands['doc.open']['out']>;
   edit(version: number, changes: Commands['doc.edit']['in']['changes']): Promise<number>;
-  later(milliseconds: number, act: () => void): () => void;
 }
 
 export class SharedDocument {
@@ -30,7 +27,6 @@ export class SharedDocument {
   private sent: ChangeSet | null = null;
   private unsent: ChangeSet | null = null;
   private latest: DocTopic | null = null;
-  private cancelSend: (() => void) | null = null;
   private settled: (() => void)[] = [];
 
   constructor(
@@ -59,7 +55,7 @@ export class SharedDocument {
   edit(change: ChangeSet): void {
     if (change.empty) return;
     this.unsent = this.unsent ? this.unsent.compose(change) : change;
-    this.cancelSend ??= this.link.later(kSendMs, () => this.flush());
+    this.flush();
   }
 
   /** Resolves when the server has everything that was typed so far. */
@@ -83,8 +79,6 @@ export class SharedDocument {
   }
 
   private flush(): void {
-    this.cancelSend?.();
-    this.cancelSend = null;
     if (this.sent || !this.unsent) return;
     const sent = (this.sent = this.unsent);
     this.unsent = null;

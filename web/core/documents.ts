@@ -1,9 +1,10 @@
 // The texts that are open, each shared by all views of it, dropped when the last view has gone and
 // the server has everything.
 
-import type { Doc, Json } from '../protocol/messages';
+import type { Doc } from '../protocol/messages';
 import type { Connection } from './connection';
-import { SharedDocument, type DocTopic } from './document';
+import { SharedDocument } from './document';
+import type { TopicCache } from './topics';
 
 export interface OpenDocument {
   shared: SharedDocument;
@@ -26,6 +27,7 @@ export class Documents {
 
   constructor(
     private readonly connection: Connection,
+    private readonly topics: TopicCache,
     private readonly later: (milliseconds: number, act: () => void) => () => void,
   ) {}
 
@@ -65,11 +67,12 @@ export class Documents {
     entry.opened.then(
       ({ shared }) => {
         if (this.entries.get(doc) !== entry) return;
-        entry.end = this.connection.watch(
-          'doc',
-          { doc },
-          { value: (value) => shared.told(asDoc(value)) },
-        );
+        // Shared with all who show something of it: the whole text comes with each change. What is
+        // there already is from before the answer, and older.
+        entry.end = this.topics.subscribe('doc', { doc }, () => {
+          const state = this.topics.get('doc', { doc });
+          if (state) shared.told(state);
+        });
       },
       () => this.entries.get(doc) === entry && this.entries.delete(doc),
     );
@@ -83,7 +86,6 @@ export class Documents {
         open: () => this.connection.send('doc.open', { doc }),
         edit: async (version, changes) =>
           (await this.connection.send('doc.edit', { doc, version, changes })).version,
-        later: this.later,
       },
       opened,
     );
@@ -104,9 +106,4 @@ export class Documents {
       this.entries.delete(doc);
     });
   }
-}
-
-// The connection has checked it against the topic.
-function asDoc(value: Json): DocTopic {
-  return value as unknown as DocTopic;
 }

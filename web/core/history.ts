@@ -7,11 +7,25 @@ import type { Json, JsonStep } from '../protocol/messages';
 import { applySteps } from './json_steps';
 
 export const kUndoMax = 200;
+/** Changes of one row that follow each other within this time are one change. */
+export const kRowMs = 1000;
+
+/** What a change is one of: the keys that move one thing. Its steps set members of their own. */
+export interface Row {
+  of: string;
+  at: number;
+}
 
 export interface Edited {
   value: Json;
   /** The steps that led here, and those that lead back. */
-  last: { steps: JsonStep[]; undo: JsonStep[] } | null;
+  last: Change | null;
+}
+
+interface Change {
+  steps: JsonStep[];
+  undo: JsonStep[];
+  row?: Row | undefined;
 }
 
 export type History = ReturnType<typeof createHistory>;
@@ -22,10 +36,38 @@ export function createHistory(value: Json) {
   );
 }
 
-export function change(history: History, steps: JsonStep[]): JsonStep[] {
-  const { value, undo } = applySteps(history.getState().value, steps);
-  history.setState({ value, last: { steps, undo } });
+export function change(history: History, steps: JsonStep[], row?: Row): JsonStep[] {
+  const { value, last } = history.getState();
+  const after = applySteps(value, steps);
+  const made: Change = { steps, undo: after.undo, row };
+  const { futureStates, pause, resume } = history.temporal.getState();
+  if (last && futureStates.length === 0 && goesOn(last.row, row)) {
+    pause();
+    history.setState({ value: after.value, last: merged(last, made) });
+    resume();
+  } else history.setState({ value: after.value, last: made });
   return steps;
+}
+
+function goesOn(before: Row | undefined, now: Row | undefined): boolean {
+  return before !== undefined && before.of === now?.of && now.at - before.at < kRowMs;
+}
+
+/** Each member once: set to what it is last, taken back to what it was first. */
+function merged(first: Change, then: Change): Change {
+  const elsewhere = (steps: JsonStep[]) => {
+    const places = new Set(steps.map(placeOf));
+    return (one: JsonStep) => !places.has(placeOf(one));
+  };
+  return {
+    steps: [...first.steps.filter(elsewhere(then.steps)), ...then.steps],
+    undo: [...then.undo.filter(elsewhere(first.undo)), ...first.undo],
+    row: then.row,
+  };
+}
+
+function placeOf(step: JsonStep): string {
+  return JSON.stringify(step.at);
 }
 
 /** Goes one change back; returns the steps that the server is to be told, or null. */

@@ -78,6 +78,35 @@ describe('a JSON file that is edited', () => {
     expect(server.value).toMatchObject({ a: 2 });
     expect(file.canRedo).toBe(false);
   });
+  test('ARowOfKeysIsTakenBackByOneUndoAndAPauseEndsIt', async () => {
+    const { server, file } = made();
+    const key = (name: string, value: Json, at: number) =>
+      file.commit(set(name, value), { of: 'keys', at });
+    key('a', 2, 5000);
+    key('a', 3, 5900);
+    key('b', 'new', 6899);
+    key('a', 4, 7899);
+    file.undo();
+    expect(file.value).toMatchObject({ a: 3, b: 'new' });
+    file.undo();
+    expect(file.value).toMatchObject({ a: 1 });
+    expect(file.value).not.toHaveProperty('b');
+    expect(file.canUndo).toBe(false);
+    file.redo();
+    expect(file.value).toMatchObject({ a: 3, b: 'new' });
+    while (server.waiting.length > 0) await server.answer();
+    expect(server.value).toMatchObject({ a: 3, b: 'new' });
+  });
+  test('KeysOfAnotherRowAndKeysAfterAnUndoAreChangesOfTheirOwn', () => {
+    const { file } = made();
+    file.commit(set('a', 2), { of: 'one', at: 10 });
+    file.commit(set('a', 3), { of: 'other', at: 20 });
+    file.undo();
+    expect(file.value).toMatchObject({ a: 2 });
+    file.commit(set('a', 5), { of: 'one', at: 30 });
+    file.undo();
+    expect(file.value).toMatchObject({ a: 2 });
+  });
   test('WhatOthersDidReplacesTheValue', async () => {
     const { server, file } = made();
     server.value = { a: 9, list: [] };

@@ -5,7 +5,7 @@ import type { Commands, Json, JsonStep } from '../protocol/messages';
 import { CommandError } from './connection';
 import type { DocTopic } from './document';
 import { Emitter } from './emitter';
-import { change, createHistory, redo, replace, undo, type History } from './history';
+import { change, createHistory, redo, replace, undo, type History, type Row } from './history';
 
 export interface JsonLink {
   open(): Promise<Commands['doc.open']['out']>;
@@ -46,10 +46,10 @@ export class JsonDocument {
     return this.history.temporal.getState().futureStates.length > 0;
   }
 
-  /** One change, taken back by one undo. */
-  commit(steps: JsonStep[]): void {
+  /** One change, taken back by one undo; those of a row are taken back together. */
+  commit(steps: JsonStep[], row?: Row): void {
     if (steps.length === 0 || this.broken !== null) return;
-    this.tell(change(this.history, steps));
+    this.tell(change(this.history, steps, row));
   }
 
   undo(): void {

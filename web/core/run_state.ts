@@ -7,7 +7,7 @@ export type RunState = 'none' | 'running' | 'held';
 
 export function runStateOf(
   robot: Topics['robot']['is'] | undefined,
-  clock: Topics['clock']['is'] | undefined,
+  clock: Pick<Topics['clock']['is'], 'state'> | undefined,
   plan: Topics['plan']['is'] | undefined,
 ): RunState {
   if (robot?.kind !== 'bus')

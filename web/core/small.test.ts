@@ -179,6 +179,17 @@ describe('findings', () => {
       stepIndex(0, -1, 1),
     ]).toEqual([0, 0, 2, -1]);
   });
+  test('AFixIsLookedUpAgainWhereItsFindingHasMovedTo', () => {
+    const mended = (line: number, label: string): Finding => ({
+      ...finding('error', 'b', line),
+      fixes: [{ label, edits: [] }],
+    });
+    const meant = mended(9, 'add end');
+    const now = [mended(2, 'add end'), mended(10, 'declare x'), mended(12, 'add end')];
+    expect(sameFinding(meant, 'add end', now)?.at.line).toBe(12);
+    expect(sameFinding(meant, 'declare y', now)).toBeUndefined();
+    expect(sameFinding({ ...meant, doc: 'a' }, 'add end', now)).toBeUndefined();
+  });
 });
 
 describe('values of a node', () => {

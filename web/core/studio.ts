@@ -36,7 +36,7 @@ export class Studio {
     const { client, firstId, usedId } = identity;
     this.connection = new Connection(world, { token, client, firstId, usedId, now });
     this.topics = new TopicCache(this.connection, (ms, act) => world.later(ms, act));
-    this.documents = new Documents(this.connection, (ms, act) => world.later(ms, act));
+    this.documents = new Documents(this.connection, this.topics, (ms, act) => world.later(ms, act));
     const timed = {
       frame: (act: () => void) => world.frame(act),
       later: (ms: number, act: () => void) => world.later(ms, act),
@@ -56,8 +56,8 @@ export class Studio {
     const first = this.folder === null;
     this.folder = folder;
     if (first) return;
-    this.topics.forget(['studio', 'start', 'targets']);
     this.documents.forget();
+    this.topics.forget(['studio', 'start', 'targets']);
     forgetProject(this.window);
   }
 

@@ -172,7 +172,7 @@ function nudge(model: WorldModel, x: number, y: number, far: boolean): void {
   if (model.placing) return model.movePlacing(moved(model.placing.at));
   const { chosen, acts } = model;
   if (chosen && acts?.may && Number.isFinite(model.poseOf(chosen).x)) {
-    acts.move(chosen, moved(model.poseOf(chosen)), true);
+    acts.move(chosen, moved(model.poseOf(chosen)), 'key');
     return model.spoken.emit(spokenPlace(model, chosen));
   }
   if (chosen) return;
@@ -185,7 +185,7 @@ function turn(model: WorldModel, by: number): void {
   if (model.placing) return model.movePlacing(turned(model.placing.at));
   const { chosen, acts } = model;
   if (!chosen || !acts?.may) return;
-  acts.move(chosen, turned(model.poseOf(chosen)), true);
+  acts.move(chosen, turned(model.poseOf(chosen)), 'key');
   model.spoken.emit(spokenPlace(model, chosen));
 }
 

@@ -18,7 +18,8 @@ import {
   IconVariable,
   type TablerIcon,
 } from '@tabler/icons-react';
-import { lazy, type ComponentType, type LazyExoticComponent } from 'react';
+import type { ComponentType } from 'react';
+import { late } from '../parts/late';
 import { text } from '../text';
 
 export interface Panel {
@@ -29,11 +30,11 @@ export interface Panel {
   /** The panel it opens beside where a layout does not hold it; without it, with the problems. */
   like?: string;
   icon: TablerIcon;
-  view: LazyExoticComponent<ComponentType>;
+  view: ComponentType;
   /** Buttons at the right of the panel's head. */
-  tools?: LazyExoticComponent<ComponentType>;
+  tools?: ComponentType;
   /** Said in grey beside the title where the panel stands alone. */
-  subtitle?: LazyExoticComponent<ComponentType>;
+  subtitle?: ComponentType;
 }
 
 export const panels: readonly Panel[] = [
@@ -41,14 +42,14 @@ export const panels: readonly Panel[] = [
     id: 'project',
     title: text.panels.project,
     icon: IconFolders,
-    view: lazy(() => import('../panels/project_panel')),
+    view: late(() => import('../panels/project_panel')),
   },
   {
     id: 'problems',
     title: text.panels.problems,
     icon: IconAlertOctagon,
-    view: lazy(() => import('../panels/problems_panel')),
-    tools: lazy(() => import('../panels/problems_tools')),
+    view: late(() => import('../panels/problems_panel')),
+    tools: late(() => import('../panels/problems_tools'), 'button'),
   },
   {
     id: 'events',
@@ -56,66 +57,66 @@ export const panels: readonly Panel[] = [
     like: 'watch',
     title: text.panels.events,
     icon: IconBroadcast,
-    view: lazy(() => import('../panels/events/events_panel')),
-    tools: lazy(() => import('../panels/events/events_tools')),
+    view: late(() => import('../panels/events/events_panel')),
+    tools: late(() => import('../panels/events/events_tools'), 'button'),
   },
   {
     id: 'plots',
     least: 220,
     title: text.panels.plots,
     icon: IconChartLine,
-    view: lazy(() => import('../panels/plots/plots_panel')),
-    tools: lazy(() => import('../panels/plots/plots_tools')),
+    view: late(() => import('../panels/plots/plots_panel')),
+    tools: late(() => import('../panels/plots/plots_tools'), 'button'),
   },
   {
     id: 'console',
     title: text.panels.console,
     icon: IconTerminal2,
-    view: lazy(() => import('../panels/console_panel')),
+    view: late(() => import('../panels/console_panel')),
   },
   {
     id: 'search',
     least: 220,
     title: text.panels.search,
     icon: IconListSearch,
-    view: lazy(() => import('../panels/search_panel')),
+    view: late(() => import('../panels/search_panel')),
   },
   {
     id: 'references',
     least: 220,
     title: text.panels.references,
     icon: IconList,
-    view: lazy(() => import('../panels/references_panel')),
+    view: late(() => import('../panels/references_panel')),
   },
   {
     id: 'variables',
     like: 'watch',
     title: text.panels.variables,
     icon: IconVariable,
-    view: lazy(() => import('../panels/variables/variables_panel')),
+    view: late(() => import('../panels/variables/variables_panel')),
   },
   {
     id: 'watch',
     like: 'variables',
     title: text.panels.watch,
     icon: IconEye,
-    view: lazy(() => import('../panels/variables/watch_panel')),
+    view: late(() => import('../panels/variables/watch_panel')),
   },
   {
     id: 'world',
     like: 'documents',
     title: text.panels.world,
     icon: IconMap2,
-    view: lazy(() => import('../panels/world_panel')),
-    tools: lazy(() => import('../views/world/world_tools')),
-    subtitle: lazy(() => import('../views/world/world_name')),
+    view: late(() => import('../panels/world_panel')),
+    tools: late(() => import('../views/world/world_tools'), 'button'),
+    subtitle: late(() => import('../views/world/world_name'), 'button'),
   },
   {
     id: 'properties',
     like: 'watch',
     title: text.panels.properties,
     icon: IconBook2,
-    view: lazy(() => import('../panels/properties_panel')),
+    view: late(() => import('../panels/properties_panel')),
   },
   {
     id: 'network',
@@ -123,20 +124,20 @@ export const panels: readonly Panel[] = [
     least: 300,
     title: text.panels.network,
     icon: IconNetwork,
-    view: lazy(() => import('../panels/network/network_panel')),
+    view: late(() => import('../panels/network/network_panel')),
   },
   {
     id: 'breakpoints',
     title: text.panels.breakpoints,
     icon: IconBug,
-    view: lazy(() => import('../panels/breakpoints_panel')),
+    view: late(() => import('../panels/breakpoints_panel')),
   },
   {
     id: 'settings',
     like: 'documents',
     title: text.panels.settings,
     icon: IconSettings,
-    view: lazy(() => import('../panels/settings_panel')),
+    view: late(() => import('../panels/settings_panel')),
   },
 ];
 

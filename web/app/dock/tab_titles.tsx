@@ -3,7 +3,7 @@ import { Suspense } from 'react';
 import type { Doc } from '../../protocol/messages';
 import { countsOf } from '../../core/findings';
 import { partOf } from '../../core/paths';
-import { useStudio, useTopic } from '../hooks';
+import { usePart, useStudio, useTopic } from '../hooks';
 import { FileIcon, kStroke } from '../parts/icons';
 import { Marks, marksOf, SavedMark } from '../parts/marks';
 import { text } from '../text';
@@ -15,14 +15,16 @@ export function DocumentTitle({ doc }: { doc: Doc }) {
   const studio = useStudio();
   const scripts = useTopic('scripts', {});
   const robot = useTopic('robot', {});
-  const files = useTopic('files', {});
-  const state = useTopic('doc', { doc });
-  const { errors } = countsOf(useTopic('findings', {})?.findings ?? [], doc);
+  const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? [], doc).errors);
   const part = scripts?.parts.find((one) => one.doc === doc);
   const node = robot?.nodes.find((one) => one.doc === doc);
-  const { file } = partOf(doc);
   const second = secondNameOf(studio, doc);
-  const unsaved = state?.unsaved ?? files?.files.find((one) => one.path === file)?.unsaved ?? false;
+  const { file } = partOf(doc);
+  const unsaved = usePart(
+    'files',
+    {},
+    (is) => is?.files.find((one) => one.path === file)?.unsaved ?? false,
+  );
   const icon = part ? (
     <IconCpu className="icon" size={14} stroke={kStroke} aria-hidden />
   ) : (
@@ -61,8 +63,9 @@ function PlanMarks({ doc, saved }: { doc: Doc; saved: boolean }) {
 }
 
 export function PanelTitle({ id }: { id: string }) {
-  const findings = useTopic('findings', {})?.findings ?? [];
-  const { errors, warnings } = countsOf(id === 'problems' ? findings : []);
+  const of = id === 'problems' ? {} : null;
+  const errors = usePart('findings', of, (is) => countsOf(is?.findings ?? []).errors);
+  const warnings = usePart('findings', of, (is) => countsOf(is?.findings ?? []).warnings);
   const panel = panelOf(id);
   const Subtitle = panel?.subtitle;
   return (

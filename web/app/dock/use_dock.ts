@@ -8,7 +8,7 @@ import { layoutPlans, type DocumentKind, type LayoutName } from '../../core/layo
 import type { Studio } from '../../core/studio';
 import { update, type Reveal } from '../../core/window_state';
 import { keepState } from '../commands/looks';
-import { useStudio, useTopic, useWindow } from '../hooks';
+import { usePart, useStudio, useWindow } from '../hooks';
 import { panelOf } from './panels';
 import {
   areaFor,
@@ -33,10 +33,10 @@ export function useDock(frame: RefObject<HTMLDivElement | null>): {
   const studio = useStudio();
   const layout = useWindow((state) => state.layout);
   const nonce = useWindow((state) => state.layoutNonce);
-  const scripts = useTopic('scripts', {});
-  const state = useTopic('state', {});
-  const files = useTopic('files', {});
-  const ready = scripts !== undefined && state !== undefined && files !== undefined;
+  const scripts = usePart('scripts', {}, hasCome);
+  const state = usePart('state', {}, hasCome);
+  const files = usePart('files', {}, hasCome);
+  const ready = scripts && state && files;
   const [model, setModel] = useState<Model | null>(null);
   const extent = useRef<Extent>({ width: 0, height: 0 });
 
@@ -50,6 +50,10 @@ export function useDock(frame: RefObject<HTMLDivElement | null>): {
   useFit(frame, model, extent);
   useReveal(studio, model);
   return { model, changed: useKeep(studio, layout) };
+}
+
+function hasCome(value: unknown): boolean {
+  return value !== undefined;
 }
 
 function openLayout(studio: Studio, layout: LayoutName, fresh: boolean, extent: Extent): Model {

@@ -1,4 +1,5 @@
-import { lazy, Suspense } from 'react';
+import { Suspense } from 'react';
+import { late } from '../parts/late';
 import { useWindow } from '../hooks';
 import KeysHelp from './keys_help';
 import Palette from './palette';
@@ -7,8 +8,8 @@ import Palette from './palette';
 const views = {
   palette: Palette,
   keys: KeysHelp,
-  folder: lazy(() => import('../start/folder_chooser')),
-  project: lazy(() => import('../start/new_project')),
+  folder: late(() => import('../start/folder_chooser')),
+  project: late(() => import('../start/new_project')),
 };
 
 /** What lies over the window for a moment. Esc and a click beside it end it; run keys still work. */

@@ -6,7 +6,7 @@ import {
 } from '@tabler/icons-react';
 import { countsOf } from '../../core/findings';
 import { standsAt } from '../../core/run_state';
-import { useStudio, useTopic, useWindow } from '../hooks';
+import { usePart, useStudio, useTopic, useWindow } from '../hooks';
 import { Kbd } from '../parts/kbd';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
@@ -28,8 +28,9 @@ export function StatusBar() {
 
 function Left() {
   const { registry } = useStudio();
-  const { errors, warnings } = countsOf(useTopic('findings', {})?.findings ?? []);
-  const unsaved = useTopic('files', {})?.files.some((file) => file.unsaved) ?? false;
+  const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
+  const warnings = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).warnings);
+  const unsaved = usePart('files', {}, (is) => is?.files.some((file) => file.unsaved) ?? false);
   const Icon = errors > 0 ? IconAlertOctagon : warnings > 0 ? IconAlertTriangle : IconCircleCheck;
   const found = [
     errors > 0 && text.status.errors(errors),
@@ -74,8 +75,8 @@ export function timeOf(wall: number): string {
 function Hints({ started }: { started: boolean }) {
   const layout = useWindow((state) => state.layout);
   const doc = useWindow((state) => state.doc);
-  const errors = countsOf(useTopic('findings', {})?.findings ?? []).errors;
-  const paused = useTopic('clock', {})?.state === 'paused';
+  const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
+  const paused = usePart('clock', {}, (is) => is?.state === 'paused');
   const hints: Hint[] = [];
   if (!started)
     hints.push(

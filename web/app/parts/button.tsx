@@ -1,4 +1,3 @@
-import { Tooltip } from '@mantine/core';
 import type { ButtonHTMLAttributes, ReactNode } from 'react';
 import { Kbd } from './kbd';
 
@@ -27,11 +26,12 @@ export function Button({
   if (small) classes.push('btn--small');
   if (children === undefined) classes.push('btn--icon');
   if (className) classes.push(className);
-  const button = (
+  return (
     <button
       type="button"
       className={classes.join(' ')}
       aria-label={children === undefined ? tip : undefined}
+      {...tipOf(tip, keys)}
       {...rest}
     >
       {icon}
@@ -39,32 +39,10 @@ export function Button({
       {children !== undefined && keys ? <Kbd keys={keys} /> : null}
     </button>
   );
-  if (!tip) return button;
-  return (
-    <Tip label={tip} keys={keys}>
-      {button}
-    </Tip>
-  );
 }
 
-export function Tip({
-  label,
-  keys,
-  children,
-}: {
-  label: string;
-  keys?: string | undefined;
-  children: ReactNode;
-}) {
-  return (
-    <Tooltip
-      label={keys ? `${label}  (${keys})` : label}
-      openDelay={400}
-      classNames={{ tooltip: 'tip' }}
-      withinPortal
-      events={{ hover: true, focus: true, touch: false }}
-    >
-      {children as React.ReactElement}
-    </Tooltip>
-  );
+/** What overlay/tips.tsx shows beside an element that has these attributes. */
+export function tipOf(label: string | undefined, keys?: string): { 'data-tip'?: string } {
+  if (!label) return {};
+  return { 'data-tip': keys ? `${label}  (${keys})` : label };
 }

@@ -1,6 +1,6 @@
 import type { Node } from '../../protocol/messages';
 import { useStudio, useTopic } from '../hooks';
-import { Tip } from '../parts/button';
+import { tipOf } from '../parts/button';
 import { text } from '../text';
 
 const kBarsMax = 12;
@@ -20,29 +20,32 @@ export function Bus() {
           .slice(0, kBarsMax)
       : nodes;
   return (
-    <Tip label={summary || text.target.bus}>
-      <button type="button" className="bus" onClick={() => registry.run('panel.network')}>
-        <span className="hidden-text">
-          {text.target.bus}: {summary}
+    <button
+      type="button"
+      className="bus"
+      onClick={() => registry.run('panel.network')}
+      {...tipOf(summary || text.target.bus)}
+    >
+      <span className="hidden-text">
+        {text.target.bus}: {summary}
+      </span>
+      <span className="bus__nodes" aria-hidden>
+        {shown.map((node) => (
+          <span key={node.id} className={`bus__node bus__node--${node.state}`} />
+        ))}
+      </span>
+      <span className="bus__count">
+        <b className="num">{nodes.length}</b> {text.target.nodes(nodes.length)}
+      </span>
+      {load === undefined ? null : (
+        <span className="bus__load">
+          {text.target.load} <b className="num">{load.toFixed(1)} %</b>
         </span>
-        <span className="bus__nodes" aria-hidden>
-          {shown.map((node) => (
-            <span key={node.id} className={`bus__node bus__node--${node.state}`} />
-          ))}
-        </span>
-        <span className="bus__count">
-          <b className="num">{nodes.length}</b> {text.target.nodes(nodes.length)}
-        </span>
-        {load === undefined ? null : (
-          <span className="bus__load">
-            {text.target.load} <b className="num">{load.toFixed(1)} %</b>
-          </span>
-        )}
-        <span className={lost > 0 ? 'is-lossy' : ''}>
-          {text.target.lostFrames} <b className="num">{lost}</b>
-        </span>
-      </button>
-    </Tip>
+      )}
+      <span className={lost > 0 ? 'is-lossy' : ''}>
+        {text.target.lostFrames} <b className="num">{lost}</b>
+      </span>
+    </button>
   );
 }
 

@@ -5,7 +5,7 @@ import {
   IconPlayerPlayFilled,
   IconPlayerStopFilled,
 } from '@tabler/icons-react';
-import { useDrives, useStudio, useTopic } from '../hooks';
+import { useDrives, usePart, useStudio } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { CommandItem, StudioMenu } from '../parts/menu';
@@ -17,16 +17,15 @@ const speeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0];
 export function Clock() {
   const studio = useStudio();
   const drives = useDrives();
-  const clock = useTopic('clock', {}) ?? {
-    t: 0,
-    state: 'none' as const,
-    speed: 1,
-    real: 1,
-    wall: 0,
-  };
-  const { state } = clock;
+  // In parts: a clock that stands comes ten times a second, too, with another time of the wall.
+  const state = usePart('clock', {}, (is) => is?.state ?? 'none');
+  const t = usePart('clock', {}, (is) => is?.t ?? 0);
+  const speed = usePart('clock', {}, (is) => is?.speed ?? 1);
+  const real = usePart('clock', {}, (is) => is?.real ?? 1);
+  const why = usePart('clock', {}, (is) => is?.why);
+  const isBus = usePart('robot', {}, (is) => is?.kind === 'bus');
   // On a bus there is a clock only while a plan runs.
-  if (useTopic('robot', {})?.kind === 'bus' && state === 'none') return null;
+  if (isBus && state === 'none') return null;
   const Icon =
     state === 'running'
       ? IconPlayerPlayFilled
@@ -34,13 +33,13 @@ export function Clock() {
         ? IconPlayerStopFilled
         : IconPlayerPauseFilled;
   const button = (
-    <button type="button" className={`clock clock--${state}`} title={clock.why}>
+    <button type="button" className={`clock clock--${state}`} title={why}>
       <Icon className="icon" size={14} aria-hidden />
-      <span className="clock__time">{clock.t.toFixed(state === 'paused' ? 3 : 1)} s</span>
+      <span className="clock__time">{t.toFixed(state === 'paused' ? 3 : 1)} s</span>
       <span className="clock__state">{text.run[state]}</span>
       <span className="clock__line" />
       <span className="hidden-text">{text.menu.speed}</span>
-      <span className="clock__speed num">{text.run.speed(clock.speed)}</span>
+      <span className="clock__speed num">{text.run.speed(speed)}</span>
       <IconChevronDown className="icon" size={12} stroke={kStroke} aria-hidden />
     </button>
   );
@@ -65,17 +64,17 @@ export function Clock() {
   return (
     <StudioMenu button={button}>
       <Menu.Label>
-        {text.menu.speed} · {text.run.measured(clock.real)}
+        {text.menu.speed} · {text.run.measured(real)}
       </Menu.Label>
-      {speeds.map((speed) => (
+      {speeds.map((one) => (
         <Menu.Item
-          key={speed}
+          key={one}
           disabled={!drives}
-          onClick={() => studio.order('clock.speed', { speed })}
-          aria-current={speed === clock.speed}
+          onClick={() => studio.order('clock.speed', { speed: one })}
+          aria-current={one === speed}
         >
-          {speed === 0 ? text.run.asFast : text.run.speed(speed)}
-          {speed === clock.speed ? ' ✓' : ''}
+          {one === 0 ? text.run.asFast : text.run.speed(one)}
+          {one === speed ? ' ✓' : ''}
         </Menu.Item>
       ))}
       <Menu.Divider />

@@ -1,6 +1,6 @@
 import { IconAlertTriangle, IconEye, IconHistory, IconPlugConnectedX } from '@tabler/icons-react';
 import { useEffect, useState } from 'react';
-import { useLink, useStudio, useTopic } from '../hooks';
+import { useLink, useStudio, useTopic, usePart } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
@@ -35,7 +35,7 @@ function LinkNotice() {
 
 function RobotNotice() {
   const robot = useTopic('robot', {});
-  const runDied = useTopic('clock', {})?.state === 'dead';
+  const runDied = usePart('clock', {}, (is) => is?.state === 'dead');
   const seconds = useSecondsSince(robot?.state === 'lost' ? (robot.since_wall ?? null) : null);
   const icon = <IconAlertTriangle className="icon" size={14} stroke={kStroke} aria-hidden />;
   // A simulated robot went with its run, which says why.

@@ -5,7 +5,7 @@ import {
   IconPlayerStop,
 } from '@tabler/icons-react';
 import { runStateOf } from '../../core/run_state';
-import { useStudio, useTopic, useDrives } from '../hooks';
+import { useDrives, usePart, useStudio, useTopic } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
@@ -16,7 +16,8 @@ const size = { size: 16, stroke: kStroke };
 export function RunControls() {
   const { registry } = useStudio();
   const drives = useDrives();
-  const state = runStateOf(useTopic('robot', {}), useTopic('clock', {}), useTopic('plan', {}));
+  const clock = usePart('clock', {}, (is) => is?.state);
+  const state = runStateOf(useTopic('robot', {}), clock && { state: clock }, useTopic('plan', {}));
   const paused = state === 'held';
   const runs = state === 'running';
   const run = (id: string) => () => void registry.run(id);

@@ -1,5 +1,5 @@
 import { IconAlertTriangle } from '@tabler/icons-react';
-import { useDrives, useStudio, useTopic } from '../hooks';
+import { useDrives, usePart, useStudio } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
@@ -9,9 +9,10 @@ import { Notice } from './notice';
 export function RunNotice() {
   const { registry } = useStudio();
   const drives = useDrives();
-  const clock = useTopic('clock', {});
-  if (clock?.state !== 'dead' && clock?.state !== 'hanging') return null;
-  const dead = clock.state === 'dead';
+  const state = usePart('clock', {}, (is) => is?.state);
+  const why = usePart('clock', {}, (is) => is?.why);
+  if (state !== 'dead' && state !== 'hanging') return null;
+  const dead = state === 'dead';
   const icon = <IconAlertTriangle className="icon" size={14} stroke={kStroke} aria-hidden />;
   const end = (
     <Button
@@ -25,7 +26,7 @@ export function RunNotice() {
   );
   return (
     <Notice icon={icon} error={dead} end={end}>
-      {dead ? (clock.why ?? text.run.dead) : text.run.hangs}
+      {dead ? (why ?? text.run.dead) : text.run.hangs}
     </Notice>
   );
 }

@@ -1,11 +1,11 @@
-import { lazy } from 'react';
+import { late } from '../parts/late';
 import type { Doc } from '../../protocol/messages';
 import { partOf } from '../../core/paths';
 import { kindOf } from '../dock/documents';
 
-const PlanDocument = lazy(() => import('./plan/plan_document'));
-const WorldDocument = lazy(() => import('./world/world_document'));
-const ScriptView = lazy(() => import('./script/script_view'));
+const PlanDocument = late(() => import('./plan/plan_document'));
+const WorldDocument = late(() => import('./world/world_document'));
+const ScriptView = late(() => import('./script/script_view'));
 
 /** The view of a document by its kind. */
 export function DocumentView({ doc }: { doc: Doc }) {

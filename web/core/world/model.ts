@@ -13,13 +13,18 @@ import { fitted, type Extent, type View } from './view';
 export type Placing =
   { what: 'object'; kind: ObjectKind; at: Pose } | { what: 'robot'; type: RobotType; at: Pose };
 
+/**
+ * holds: the thing follows the pointer; done: the hand has let go; key: one key of perhaps many, which
+ * one undo takes back together.
+ */
+export type MoveBy = 'holds' | 'done' | 'key';
+
 /** What a hand does in a world: in a run, or in its file. */
 export interface WorldActs {
   /** False: it can only be looked at. */
   may: boolean;
   edits: boolean;
-  /** done: the hand has let go; before that the thing follows the pointer. */
-  move(thing: Thing, pose: Pose, done: boolean): void;
+  move(thing: Thing, pose: Pose, by: MoveBy): void;
   put(placing: Placing): void;
   take(thing: Thing): void;
 }

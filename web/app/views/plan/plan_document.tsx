@@ -1,9 +1,10 @@
-import { lazy, Suspense } from 'react';
+import { Suspense } from 'react';
+import { late } from '../../parts/late';
 import type { Doc } from '../../../protocol/messages';
 import { PlanLive } from './plan_live';
 import '../../look/plan.css';
 
-const ScriptView = lazy(() => import('../script/script_view'));
+const ScriptView = late(() => import('../script/script_view'));
 
 /** A plan as text, and beside it what it does while it runs. */
 export default function PlanDocument({ doc }: { doc: Doc }) {

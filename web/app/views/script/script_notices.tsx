@@ -1,5 +1,6 @@
 import { IconAlertOctagon, IconAlertTriangle } from '@tabler/icons-react';
-import { lazy, Suspense, useState, type ReactNode } from 'react';
+import { Suspense, useState, type ReactNode } from 'react';
+import { late } from '../../parts/late';
 import type { Doc } from '../../../protocol/messages';
 import { countsOf } from '../../../core/findings';
 import { useDrives, useStudio, useTopic } from '../../hooks';
@@ -9,7 +10,7 @@ import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 
 const words = text.editor;
-const Compare = lazy(() => import('./compare'));
+const Compare = late(() => import('./compare'));
 
 /** Lines above a text: what runs is another one, the node has stopped, the file has changed. */
 export function ScriptNotices({ doc, isScript }: { doc: Doc; isScript: boolean }) {

@@ -3,7 +3,7 @@
 import type { JsonDocument } from '../../../core/json_document';
 import { moveSteps, newObject, newRobot, removeSteps } from '../../../core/world/file';
 import type { Pose } from '../../../core/world/geometry';
-import type { Placing, WorldActs, WorldModel } from '../../../core/world/model';
+import type { MoveBy, Placing, WorldActs, WorldModel } from '../../../core/world/model';
 import type { Thing } from '../../../core/world/stage';
 
 export class FileActs implements WorldActs {
@@ -13,12 +13,14 @@ export class FileActs implements WorldActs {
     private readonly file: JsonDocument,
     private readonly model: WorldModel,
     readonly may: boolean,
+    private readonly now: () => number,
   ) {}
 
-  move(thing: Thing, pose: Pose, done: boolean): void {
+  move(thing: Thing, pose: Pose, by: MoveBy): void {
     if (!this.may) return;
-    if (!done) return this.model.hold(thing.key, pose);
-    this.file.commit(moveSteps(this.file.value, thing.key, pose));
+    if (by === 'holds') return this.model.hold(thing.key, pose);
+    const row = by === 'key' ? { of: `keys ${thing.key}`, at: this.now() } : undefined;
+    this.file.commit(moveSteps(this.file.value, thing.key, pose), row);
     this.model.letGo(thing.key);
   }
 

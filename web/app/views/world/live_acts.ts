@@ -4,7 +4,7 @@
 import type { Commands } from '../../../protocol/messages';
 import type { Studio } from '../../../core/studio';
 import type { Pose } from '../../../core/world/geometry';
-import type { Placing, WorldActs, WorldModel } from '../../../core/world/model';
+import type { MoveBy, Placing, WorldActs, WorldModel } from '../../../core/world/model';
 import { tidy } from '../../../core/world/snap';
 import { keyOfObject, type Thing } from '../../../core/world/stage';
 
@@ -24,14 +24,14 @@ export class LiveActs implements WorldActs {
     readonly may: boolean,
   ) {}
 
-  move(thing: Thing, pose: Pose, done: boolean): void {
+  move(thing: Thing, pose: Pose, by: MoveBy): void {
     if (!this.may) return;
     this.model.hold(thing.key, pose);
     const at = [tidy(pose.x), tidy(pose.y)];
     this.next = {
       key: thing.key,
       move: { ...targetOf(thing), at, angle: tidy(pose.angle) },
-      done,
+      done: by !== 'holds',
     };
     void this.flush();
   }

@@ -23,7 +23,7 @@ export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) 
   const { follows } = useModel(model);
   const pose = usePose(model, thing);
   const move = (change: Partial<Pose>) =>
-    model.acts?.move(thing, { ...model.poseOf(thing), ...change }, true);
+    model.acts?.move(thing, { ...model.poseOf(thing), ...change }, 'done');
   return (
     <>
       <NumberField

@@ -4,7 +4,7 @@ import {
   IconPlayerSkipForward,
   IconRotate2,
 } from '@tabler/icons-react';
-import { useDrives, useStudio, useTopic } from '../../hooks';
+import { useDrives, usePart, useStudio } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
@@ -19,11 +19,13 @@ const size = { size: 14, stroke: kStroke };
 export function SpeedBar() {
   const studio = useStudio();
   const drives = useDrives();
-  const clock = useTopic('clock', {});
-  const simulates = useTopic('robot', {})?.kind === 'simulator';
-  if (!clock || !simulates || !kStates.includes(clock.state)) return null;
-  const runs = clock.state === 'running';
-  const stands = clock.state === 'none';
+  const state = usePart('clock', {}, (is) => is?.state);
+  const speed = usePart('clock', {}, (is) => is?.speed);
+  const real = usePart('clock', {}, (is) => is?.real.toFixed(1) ?? '');
+  const simulates = usePart('robot', {}, (is) => is?.kind === 'simulator');
+  if (!state || !simulates || !kStates.includes(state)) return null;
+  const runs = state === 'running';
+  const stands = state === 'none';
   const run = (id: string) => () => void studio.registry.run(id);
   return (
     <div className="speedbar" role="group" aria-label={words.speeds}>
@@ -44,23 +46,21 @@ export function SpeedBar() {
         onClick={() => studio.order('run.step', {})}
       />
       <div className="seg seg--small" role="radiogroup" aria-label={words.speeds}>
-        {speeds.map((speed) => (
+        {speeds.map((one) => (
           <button
-            key={speed}
+            key={one}
             type="button"
             role="radio"
             className="seg__part num"
-            aria-checked={speed === clock.speed}
+            aria-checked={one === speed}
             disabled={!drives}
-            onClick={() => studio.order('clock.speed', { speed })}
+            onClick={() => studio.order('clock.speed', { speed: one })}
           >
-            {words.slower(speed)}
+            {words.slower(one)}
           </button>
         ))}
       </div>
-      <span className="speedbar__real num">
-        {runs ? words.measured(clock.real.toFixed(1)) : text.run[clock.state]}
-      </span>
+      <span className="speedbar__real num">{runs ? words.measured(real) : text.run[state]}</span>
       <Button
         kind="plain"
         small

@@ -109,12 +109,12 @@ function attach(
       const angle = Math.atan2(ground.y - pose.y, ground.x - pose.x);
       model.turning = true;
       const round = step(event) > 0 !== event.shiftKey ? kSnapAngle : 0;
-      return model.acts?.move(thing, { ...pose, angle: snapAngle(angle, round) }, false);
+      return model.acts?.move(thing, { ...pose, angle: snapAngle(angle, round) }, 'holds');
     }
     grip.moved ||= far;
     if (!grip.moved) return;
     const to = snapPoint({ x: ground.x + grip.offset.x, y: ground.y + grip.offset.y }, step(event));
-    model.acts?.move(thing, { ...to, angle: model.poseOf(thing).angle }, false);
+    model.acts?.move(thing, { ...to, angle: model.poseOf(thing).angle }, 'holds');
   };
 
   const hover = (at: Point, now: Eye) => {
@@ -135,7 +135,7 @@ function attach(
     model.turning = false;
     const thing = model.thing(held.key);
     if (thing && (held.is === 'handle' || held.moved))
-      model.acts?.move(thing, model.poseOf(thing), true);
+      model.acts?.move(thing, model.poseOf(thing), 'done');
   };
 
   const wheel = (event: WheelEvent) => {
@@ -149,7 +149,7 @@ function attach(
       const pose = model.poseOf(thing);
       grip.moved = true;
       const angle = pose.angle + (event.deltaY > 0 ? -kWheelTurn : kWheelTurn);
-      model.acts?.move(thing, { ...pose, angle: snapAngle(angle, 0) }, false);
+      model.acts?.move(thing, { ...pose, angle: snapAngle(angle, 0) }, 'holds');
     } else if (now?.zoom) {
       event.preventDefault();
       now.zoom(pointOf(event), Math.exp(-event.deltaY * 0.0015));

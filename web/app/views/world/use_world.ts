@@ -95,7 +95,7 @@ export function useFileStage(
       model.setStage(stage);
       setImage(stage.image);
     };
-    model.acts = new FileActs(file, model, drives);
+    model.acts = new FileActs(file, model, drives, () => performance.now());
     show();
     return file.changed.on(show);
   }, [model, file, drives]);

@@ -1,6 +1,7 @@
-import { lazy, Suspense, useEffect, useMemo, useRef, useState } from 'react';
+import { Suspense, useEffect, useMemo, useRef, useState } from 'react';
+import { late } from '../../parts/late';
 import type { Doc, Finding } from '../../../protocol/messages';
-import { useTopic, useWindow } from '../../hooks';
+import { useTopic, useWindow, usePart } from '../../hooks';
 import { Blank } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
@@ -26,14 +27,14 @@ import { WorldStage } from './world_stage';
 import { WorldTools } from './world_tools';
 import '../../look/world.css';
 
-const ScriptView = lazy(() => import('../script/script_view'));
+const ScriptView = late(() => import('../script/script_view'));
 
 /** A world: as it runs, as its file says and is edited, or its text. */
 export default function WorldDocument({ doc }: { doc: Doc }) {
   const [chosen, choose] = useState<WorldMode | null>(null);
   const runs = useHasScene();
   const isOurs = useTopic('studio', {})?.project?.world === doc;
-  const state = useTopic('clock', {})?.state;
+  const state = usePart('clock', {}, (is) => is?.state);
   const [first] = useState<WorldMode>(() =>
     isOurs && (state === 'running' || state === 'paused') ? 'live' : 'edit',
   );

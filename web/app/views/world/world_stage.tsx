@@ -1,4 +1,5 @@
-import { lazy, Suspense, useEffect, useRef, useState, type ReactNode } from 'react';
+import { Suspense, useEffect, useRef, useState, type ReactNode } from 'react';
+import { late } from '../../parts/late';
 import type { JsonDocument } from '../../../core/json_document';
 import type { WorldModel } from '../../../core/world/model';
 import { useStudio } from '../../hooks';
@@ -13,7 +14,7 @@ import { useHands, type Eye } from './use_hands';
 import { canSolid } from './webgl';
 import { nameOfThing } from './words';
 
-const SolidView = lazy(() => import('./solid_view'));
+const SolidView = late(() => import('./solid_view'));
 
 /** The picture of a world, with what stands over it. All that can be done with it has keys, too. */
 export function WorldStage({

@@ -1,0 +1,67 @@
+// Which tip is shown: that of the element on which the pointer rests or the keyboard's focus stands.
+
+import { useEffect, useState } from 'react';
+import type { World } from '../../core/socket';
+import { useStudio } from '../hooks';
+
+export const kTipId = 'tip';
+const kRestMs = 400;
+
+export interface Tip {
+  target: HTMLElement;
+  label: string;
+}
+
+export function useTip(): Tip | null {
+  const { world } = useStudio();
+  const [tip, show] = useState<Tip | null>(null);
+  useEffect(() => follow(world, show), [world]);
+  useEffect(() => {
+    // An icon whose name is the tip has said it already.
+    if (!tip || tip.target.getAttribute('aria-label') === tip.label) return;
+    tip.target.setAttribute('aria-describedby', kTipId);
+    return () => tip.target.removeAttribute('aria-describedby');
+  }, [tip]);
+  return tip;
+}
+
+function follow(world: World, show: (tip: Tip | null) => void): () => void {
+  let target: HTMLElement | null = null;
+  let cancel = () => {};
+  const aim = (at: HTMLElement | null) => {
+    if (at === target) return;
+    cancel();
+    target = at;
+    show(null);
+    if (at) cancel = world.later(kRestMs, () => show(tipOn(at)));
+  };
+  const hide = () => aim(null);
+  const rests = ({ target: at, pointerType }: PointerEvent) =>
+    aim(pointerType === 'touch' ? null : withTip(at));
+  // Out of the window; into another element is that one's "pointerover".
+  const left = ({ relatedTarget }: PointerEvent) => relatedTarget === null && hide();
+  const focused = ({ target: at }: FocusEvent) => {
+    const found = withTip(at);
+    if (found?.matches(':focus-visible')) aim(found);
+  };
+  const listened = new AbortController();
+  const options = { capture: true, passive: true, signal: listened.signal };
+  document.addEventListener('pointerover', rests, options);
+  document.addEventListener('pointerout', left, options);
+  document.addEventListener('focusin', focused, options);
+  for (const end of ['focusout', 'pointerdown', 'keydown', 'wheel'] as const)
+    document.addEventListener(end, hide, options);
+  return () => {
+    cancel();
+    listened.abort();
+  };
+}
+
+function withTip(at: EventTarget | null): HTMLElement | null {
+  return at instanceof Element ? at.closest<HTMLElement>('[data-tip]') : null;
+}
+
+function tipOn(target: HTMLElement): Tip | null {
+  const label = target.dataset['tip'];
+  return label && target.isConnected ? { target, label } : null;
+}

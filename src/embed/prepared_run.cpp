@@ -213,7 +213,7 @@ Status PreparedRun::Insides::listen() {
 Status PreparedRun::Insides::open_bus() {
     PlanBusOptions options;
     options.target = words.bus;
-    options.tell = tell_on_stderr;
+    options.tell = [this](const std::string& sentence) { tell(sentence); };
     options.seed = std::random_device()();
     options.needs = toolbox::nodes_needed(what.graph());
     options.starts = toolbox::starts_on(options.needs, what.library().templates());

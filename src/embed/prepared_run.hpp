@@ -68,9 +68,10 @@ public:
     // world cannot be opened any more.
     Result<run::Ended> run(run::Debugger* debugger = nullptr);
     // Before run(): who is told, in a sentence, what a person should know while it runs, on the
-    // deciding thread; stderr unless this is called. That a trace cannot be written any more, once
-    // for each: the run goes on, a robot does not stop for a full disk. That the plan does nothing
-    // but fire (run/firing.hpp).
+    // deciding thread, and of a bus on its thread; stderr unless this is called. That a trace
+    // cannot be written any more, once for each: the run goes on, a robot does not stop for a full
+    // disk. That the plan does nothing but fire (run/firing.hpp). That the bus is lost or there
+    // again, or that somebody else commands the same nodes.
     void tell(std::function<void(const std::string&)> tell);
     // After run(): the exit status of docs/plans.md, section 6, or 1 for a plan that ended well
     // but whose trace is not complete. Writes what of the traces still waits.

@@ -51,15 +51,11 @@ Time Access::wrong(const std::string& address, Time now) {
         wrong_.erase(wrong_.begin());
     }
     Wrong& wrong = wrong_[address];
+    const Time answered = std::max(now, wrong.until);
     wrong.wait =
         wrong.wait == Duration{} ? kWrongTokenWait : std::min(wrong.wait * 2, kWrongTokenWaitMax);
-    wrong.until = now + wrong.wait;
-    return wrong.until;
-}
-
-Time Access::wait_until(const std::string& address) const {
-    const auto found = wrong_.find(address);
-    return found == wrong_.end() ? Time{} : found->second.until;
+    wrong.until = answered + wrong.wait;
+    return answered;
 }
 
 }  // namespace vagus::serve

@@ -32,9 +32,11 @@ public:
     enum class Grade { Refused, Look, Drive };
     Grade grade(std::string_view token) const;
 
-    // Wrong tokens make their address wait: until then its answers are held back.
+    // A wrong token: when it is answered. The first one at once, since people mistype; then each
+    // waits for those before it from the same address, longer each time. Nobody with a right one
+    // waits for them: behind one address there may be many people, and 128 random bits are not
+    // guessed however fast somebody asks.
     Time wrong(const std::string& address, Time now);
-    Time wait_until(const std::string& address) const;
     void right(const std::string& address) { wrong_.erase(address); }
 
 private:

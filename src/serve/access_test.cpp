@@ -27,14 +27,21 @@ TEST(Access, TwoTokensTwoGrades) {
 
 TEST(Access, WrongTokensWaitTwiceAsLongEachTime) {
     Access access("drive-drive-drive", std::nullopt);
-    EXPECT_EQ(access.wait_until("a"), Time{});
+    EXPECT_EQ(access.wrong("a", 1s), 1s);
     EXPECT_EQ(access.wrong("a", 1s), 1s + 500ms);
-    EXPECT_EQ(access.wrong("a", 2s), 2s + 1000ms);
-    for (int i = 0; i < 10; ++i) access.wrong("a", 3s);
-    EXPECT_EQ(access.wait_until("a"), 3s + 30s);
-    EXPECT_EQ(access.wait_until("b"), Time{});
+    EXPECT_EQ(access.wrong("a", 1s), 1s + 500ms + 1s);
+    EXPECT_EQ(access.wrong("b", 1s), 1s);    // another address
+    EXPECT_EQ(access.wrong("a", 60s), 60s);  // so long after the last one, at once
+    EXPECT_EQ(access.wrong("a", 60s), 60s + 4s);
     access.right("a");
-    EXPECT_EQ(access.wait_until("a"), Time{});
+    EXPECT_EQ(access.wrong("a", 61s), 61s);
+}
+
+TEST(Access, NoWaitGrowsAboveItsLimit) {
+    Access access("drive-drive-drive", std::nullopt);
+    for (int i = 0; i < 100; ++i) access.wrong("a", 1000s * i);
+    EXPECT_EQ(access.wrong("a", 200000s), 200000s);
+    EXPECT_EQ(access.wrong("a", 200000s), 200000s + 30s);
 }
 
 }  // namespace

@@ -29,6 +29,8 @@ Error system_error(const std::string& what) {
     return {Code::Unavailable, what + ": " + std::strerror(errno)};
 }
 
+// A sanitizer takes terabytes of addresses for itself, and little memory.
+constexpr bool kLimitsAddresses = VAGUS_SANITIZED == 0;
 constexpr int kDescriptorsSearched = 4096;  // where the kernel cannot mark a range
 
 // What this process has open from there on stays its own: a page's connection that a child holds,
@@ -39,11 +41,13 @@ void keep_from_children(int first) {
 }
 
 // Between fork and exec only what a signal handler might call, too.
-[[noreturn]] void become(const char* program, char* const* arguments, int talk, size_t memory) {
+[[noreturn]] void become(const char* program, char* const* arguments, int talk, size_t memory,
+                         pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() == 1) _exit(127);  // the parent died before the line above
+    // It died before the line above. It may itself be process 1, as in a container.
+    if (getppid() != parent) _exit(127);
     const rlimit limit{memory, memory};
-    setrlimit(RLIMIT_AS, &limit);
+    if (kLimitsAddresses) setrlimit(RLIMIT_AS, &limit);
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     // A signal of the terminal is for the studio, which ends its runs in order.
@@ -182,9 +186,10 @@ Result<Child> Child::start(const ChildOptions& options) {
     std::vector<std::string> words = {options.program};
     words.insert(words.end(), options.arguments.begin(), options.arguments.end());
     const std::vector<char*> arguments = pointers(words);
+    const pid_t parent = getpid();
     const pid_t process = fork();
     if (process == 0) {
-        become(options.program.c_str(), arguments.data(), pair[1], options.memory_max);
+        become(options.program.c_str(), arguments.data(), pair[1], options.memory_max, parent);
     }
     ::close(pair[1]);
     Pipe pipe(pair[0]);

@@ -121,11 +121,18 @@ class Hostile(Case):
                 Page(port, wrong)
             self.assertIn(caught.exception.code, ("not_allowed", "bad_message"))
         self.logged("a wrong token")
-        with self.assertRaises(Refused) as caught:
-            Page(port, good)
-        self.assertIn("wait a little", caught.exception.what)
-        # Who is inside already notices nothing.
-        self.page.do("state.put", key="still", value="there")
+        # Twenty that have not heard yet that theirs is wrong, and one at the same address that has the right one.
+        guessers = [self.enterContext(open_live(port)) for _ in range(20)]
+        hello = {"id": 1, "do": "hello", "in": {"token": "0" * 32, "client": "guesser"}}
+        for guesser in guessers:
+            guesser.send(frame(TEXT, json.dumps(hello).encode()))
+        for _ in guessers:
+            self.logged("a wrong token")
+        self.still_serves()
+        for guesser in guessers:
+            told, goodbye = guesser.read_to_end()
+            self.assertEqual(json.loads(told[1])["error"]["place"], "in.token")
+            self.assertEqual(goodbye[0], CLOSE)
 
     def test_nothing_is_answered_before_hello(self):
         for say in ({"id": 1, "do": "run.start", "in": {}}, {"id": 1, "do": "watch", "in": {"watch": 1, "topic": "studio"}}, {"id": 1}):

@@ -74,19 +74,30 @@ PlanFollower::Level& PlanFollower::level_at(const std::string& path) {
     return levels_.back();
 }
 
+void PlanFollower::enter(Level& level, std::string_view actor, uint64_t activation, double t) {
+    level.actor = nullptr;
+    for (size_t i = 0; level.plan && i < level.plan->actors.size(); ++i) {
+        if (level.plan->actors[i].name == actor) level.actor = &level.plan->actors[i];
+    }
+    level.activation = activation;
+    level.since = t;
+    level.inputs = Json::object();
+}
+
+void PlanFollower::stand_at(const run::Where& where) {
+    for (const run::LevelNow& now : where.levels) {
+        Level& level = level_at(now.path);
+        if (level.activation == now.activation) continue;
+        enter(level, now.actor, now.activation, seconds(where.at));
+    }
+}
+
 void PlanFollower::see(const plan::TraceEvent& event) {
     const double t = seconds(event.at);
     Level& level = level_at(event.plan);
     if (const auto* start = std::get_if<plan::ActorStarted>(&event.what)) {
         ++activations_;
-        level.actor = nullptr;
-        for (size_t i = 0; level.plan && i < level.plan->actors.size(); ++i) {
-            const plan::Actor& actor = level.plan->actors[i];
-            if (actor.name == start->actor) level.actor = &actor;
-        }
-        level.activation = start->activation;
-        level.since = t;
-        level.inputs = Json::object();
+        enter(level, start->actor, start->activation, t);
         for (const auto& [name, value] : start->in)
             level.inputs[std::string(name)] = json_of(value);
         for (auto& [name, left] : level.resting) --left;

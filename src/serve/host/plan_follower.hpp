@@ -11,6 +11,7 @@
 
 #include "plan/model.hpp"
 #include "plan/trace.hpp"
+#include "run/debugger.hpp"
 
 namespace vagus::serve {
 
@@ -25,6 +26,8 @@ public:
                  std::function<std::string(const std::string& file)> doc_of);
 
     void see(const plan::TraceEvent& event);
+    // A debugger holds the plan there: before an actor that the trace does not know yet.
+    void stand_at(const run::Where& where);
     nlohmann::json document(double now, bool paused) const;
     bool over() const { return result_.has_value(); }
     // Counts actors that have started: for a step to the next one.
@@ -42,6 +45,7 @@ private:
         std::map<std::string, int> resting;  // global supervisors
     };
 
+    void enter(Level& level, std::string_view actor, uint64_t activation, double t);
     void happen(double t, const char* kind, const std::string& text);
     Level& level_at(const std::string& path);
     const plan::Plan* plan_inside(const Level* outer) const;

@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "embed/loaded_plan.hpp"
 #include "embed/prepared_run.hpp"
-#include "run/debugger.hpp"
+#include "serve/host/bus_run.hpp"
 #include "serve/host/frames.hpp"
 #include "serve/host/pacer.hpp"
 #include "serve/host/plan_follower.hpp"
+#include "serve/host/plan_talk.hpp"
 #include "serve/host/scene.hpp"
 #include "serve/process.hpp"
 #include "session/bus_names.hpp"
@@ -63,6 +62,13 @@ private:
             quit_ = true;
         }
     }
+    // Each request with a number gets one.
+    void tell_answer(uint64_t request, const std::string& why,
+                     std::optional<uint32_t> number = std::nullopt) {
+        Json told = {{"say", "answer"}, {"request", request}, {"why", why}};
+        if (number) told["number"] = *number;
+        tell(told);
+    }
     void tell_line(const char* kind, const std::string& text) {
         tell({{"say", "line"}, {"kind", kind}, {"text", text}});
     }
@@ -76,7 +82,7 @@ private:
             }
         }
         if (pipe_.closed()) quit_ = true;
-        if (quit_ && prepared_) prepared_->abort();
+        if (quit_) stop_plan();
     }
 
     void take_frame(const std::string& bytes) {
@@ -99,29 +105,25 @@ private:
             order_ = told;
             open_ = true;
         } else if (what == "pace") {
+            step_to_actor_ = false;
             pacer_.set(told["paused"], told["speed"], wall_now());
-            if (debugger_ && prepared_->world() == nullptr) {
-                (void)(told["paused"].get<bool>() ? debugger_->post(run::Pause{})
-                                                  : debugger_->post(run::Continue{}))
-                    .ok();
-            }
+            if (on_bus()) told["paused"].get<bool>() ? talk_->hold() : talk_->go_on();
         } else if (what == "plan.set") {
             set_variable(told);
         } else if (what == "step") {
             pacer_.step(std::chrono::milliseconds(told["ms"].get<int>()));
         } else if (what == "plan.step") {
-            step_to_actor_ = true;
-            pacer_.set(false, pacer_.speed(), wall_now());
+            step_to_actor();
         } else if (what == "plan.stop") {
-            if (prepared_) prepared_->abort();
+            stop_plan();
             pacer_.set(false, pacer_.speed(), wall_now());
         } else if (what == "show") {
             show_rays_ = told["rays"];
-            picture_of_robot_ = told["picture"];
+            pictured_ = told["pictures"].get<std::vector<std::string>>();
         } else if (session_) {
             act(what, told);
         } else {
-            tell({{"say", "hand"}, {"why", "the world is just being opened; try again"}});
+            tell_answer(told["request"], "the world is just being opened; try again");
         }
     }
 
@@ -129,6 +131,8 @@ private:
     void serve() {
         open_ = false;
         const Json order = order_;
+        order_number_ = order["order"];
+        tell({{"say", "opening"}, {"order", order_number_}});
         if (order.contains("plan") && !order["plan"].get<std::string>().empty()) {
             run_plan(order);
         } else {
@@ -137,7 +141,9 @@ private:
         session_ = nullptr;
     }
 
-    void fail(const std::string& why) { tell({{"say", "failed"}, {"why", why}}); }
+    void fail(const std::string& why) {
+        tell({{"say", "failed"}, {"order", order_number_}, {"why", why}});
+    }
 
     void run_world(const Json& order) {
         auto opened = session::open_sim(order["world"], {});
@@ -172,92 +178,101 @@ private:
         prepared_ = std::move(prepared.value());
         heard_ = session::events_heard(plan.plans(), library.templates());
         follower_.emplace(plan.plans(), [](const std::string& file) { return file; });
+        talk_.emplace(plan.graph());
+        if (on_bus()) return run_on_bus();
         prepared_->listen([this](const plan::TraceEvent& event) { see(event); });
-        if (prepared_->world() != nullptr) prepared_->pace([this](Time at) { instant(at); });
-        debugger_.emplace(plan.graph(), run::Debugger::At::Run);
-        if (prepared_->world() == nullptr) return run_on_bus();
+        prepared_->pace([this](Time at) { instant(at); });
         begin_session(prepared_->world()->session(), order);
-        const auto ended = prepared_->run(&*debugger_);
+        const auto ended = prepared_->run(&talk_->debugger());
         if (!ended.ok()) tell_line("error", ended.error().what);
         tell_plan();
+        end_talk();
         live();
         forget_plan();
     }
 
+    // Nobody comes to what was asked and not answered yet.
+    void end_talk() {
+        for (const PlanTalk::Answered& one : talk_->forget()) tell_answer(one.request, one.why);
+        talk_.reset();
+    }
+
     void forget_plan() {
-        debugger_.reset();
         follower_.reset();
         heard_.clear();
         session_ = nullptr;
         prepared_.reset();
     }
 
-    // The plan alone, on a bus that the studio holds open: it runs on a thread of its own, in real
-    // time, and is talked to through its debugger.
+    // ---- a plan on a bus ----
+    bool on_bus() const { return talk_ && prepared_ && prepared_->world() == nullptr; }
+
+    // The plan alone, on a bus that the studio holds open.
     void run_on_bus() {
-        struct Shared {
-            std::mutex mutex;
-            std::vector<plan::TraceEvent> seen;
-            bool over = false;
-            std::string why;
-        } shared;
-        prepared_->listen([&](const plan::TraceEvent& event) {
-            const std::lock_guard lock(shared.mutex);
-            shared.seen.push_back(event);
-        });
-        tell({{"say", "opened"}, {"programs", Json::array()}, {"hears", heard_}});
-        if (pacer_.paused()) (void)debugger_->post(run::Pause{}).ok();
-        std::thread runner([&] {
-            const auto ended = prepared_->run(&*debugger_);
-            const std::lock_guard lock(shared.mutex);
-            if (!ended.ok()) shared.why = ended.error().what;
-            shared.over = true;
-        });
-        const Time began = wall_now();
-        for (bool over = false; !over;) {
-            pipe_.wait(kPausedWaitMs);
-            take_packets();
-            if (open_) prepared_->abort();
-            std::vector<plan::TraceEvent> seen;
-            {
-                const std::lock_guard lock(shared.mutex);
-                seen.swap(shared.seen);
-                over = shared.over;
+        tell({{"say", "opened"},
+              {"order", order_number_},
+              {"programs", Json::array()},
+              {"hears", heard_}});
+        if (pacer_.held()) talk_->hold();
+        bus_time_ = Duration{};
+        bus_time_at_ = wall_now();
+        {
+            BusRun running(*prepared_, *talk_);
+            for (bool over = false; !over;) {
+                pipe_.wait(kPausedWaitMs);
+                take_packets();
+                if (open_ || quit_) talk_->abort();
+                over = running.over();
+                for (const BusRun::Line& line : running.take_lines()) {
+                    tell_line(line.kind, line.text);
+                }
+                for (const plan::TraceEvent& event : running.take()) see(event);
+                hear_plan();  // where it stands, after what led there
+                tell_bus_clock();
             }
-            for (const plan::TraceEvent& event : seen) see(event);
-            hear_debugger();
-            tell_bus_clock(wall_now() - began);
         }
-        runner.join();
-        tell_plan();
-        if (!shared.why.empty()) tell_line("error", shared.why);
+        tell_plan_at(seconds(Time(bus_time_)));
+        end_talk();
         forget_plan();
+        tell({{"say", "over"}});
     }
 
-    void tell_bus_clock(Duration since) {
+    // The clock of the plan stands while the plan is held.
+    void tell_bus_clock() {
         const Time wall = wall_now();
+        if (!pacer_.held()) bus_time_ += wall - bus_time_at_;
+        bus_time_at_ = wall;
         if (wall < next_tell_) return;
         next_tell_ = wall + kTellEvery;
-        tell({{"say", "clock"},
-              {"t", seconds(Time(since))},
-              {"paused", pacer_.held()},
-              {"speed", 1},
-              {"real", 1}});
-        tell_plan_at(seconds(Time(since)));
+        const double t = seconds(Time(bus_time_));
+        tell({{"say", "clock"}, {"t", t}, {"paused", pacer_.held()}, {"speed", 1}, {"real", 1}});
+        tell_plan_at(t);
     }
 
-    // ---- the plan's debugger ----
+    // ---- the plan, by its debugger ----
+    void step_to_actor() {
+        if (on_bus()) {
+            talk_->step();
+        } else {
+            step_to_actor_ = true;
+        }
+        pacer_.set(false, pacer_.speed(), wall_now());
+    }
+
+    void stop_plan() {
+        // A plan in real time that is held hears nothing but its debugger.
+        if (on_bus()) return talk_->abort();
+        if (prepared_) prepared_->abort();
+    }
+
     void set_variable(const Json& told) {
-        const auto post = [this](run::Request request) {
-            const auto posted = debugger_->post(std::move(request));
-            return posted.ok() ? posted.value() : 0;
-        };
-        if (!debugger_) return tell({{"say", "set"}, {"why", "no plan runs"}});
-        post(run::Pause{});
-        set_request_ = post(run::SetVariable{told["level"], told["name"], value_of(told["value"])});
-        if (prepared_->world() != nullptr || !pacer_.paused()) post(run::Continue{});
+        if (!talk_) return tell_answer(told["request"], "no plan runs");
+        // In a world the clock holds the plan, not its debugger.
+        const bool stays = on_bus() && pacer_.held();
+        talk_->set(told["request"], {told["level"], told["name"], value_of(told["value"])},
+                   stays ? PlanTalk::Then::Hold : PlanTalk::Then::GoOn);
         // A run answers between two decisions: one instant must pass.
-        if (pacer_.paused()) pacer_.step(1ms);
+        if (!on_bus() && pacer_.paused()) pacer_.step(1ms);
     }
 
     static plan::Value value_of(const Json& json) {
@@ -267,15 +282,13 @@ private:
         return plan::Value(json.is_string() ? json.get<std::string>() : json.dump());
     }
 
-    void hear_debugger() {
-        if (!debugger_) return;
-        while (const auto report = debugger_->wait_report(Duration{})) {
-            const auto* answer = std::get_if<run::Answer>(&*report);
-            if (!answer || answer->request != set_request_) continue;
-            Json told = {{"say", "set"}};
-            if (!answer->reply.ok()) told["why"] = answer->reply.error().what;
-            tell(told);
-        }
+    void hear_plan() {
+        if (!talk_) return;
+        const PlanTalk::Heard heard = talk_->hear();
+        for (const PlanTalk::Answered& one : heard.answers) tell_answer(one.request, one.why);
+        if (!heard.stepped || !on_bus()) return;
+        follower_->stand_at(*heard.stepped);
+        pacer_.set(true, pacer_.speed(), wall_now());
     }
 
     void begin_session(session::SimSession& session, const Json& order) {
@@ -290,6 +303,7 @@ private:
             programs.push_back({{"node", node}, {"source", source}});
         }
         tell({{"say", "opened"},
+              {"order", order_number_},
               {"scene", scene_of(session.world())},
               {"programs", std::move(programs)},
               {"hears", heard_}});
@@ -372,9 +386,10 @@ private:
         tell_clock();
         tell_scene();
         tell_plan();
-        const auto robot = session_->world().find_robot(picture_of_robot_);
-        if (robot && !picture_of_robot_.empty()) {
-            pipe_.send('I', stamped(picture_of(session_->world(), *robot)));
+        for (const std::string& name : pictured_) {
+            const auto robot = session_->world().find_robot(name);
+            const std::string picture = robot ? picture_of(session_->world(), *robot) : "";
+            if (!picture.empty()) pipe_.send('I', stamped(with_name(name, picture)));
         }
     }
 
@@ -414,7 +429,7 @@ private:
     }
 
     void tell_plan() {
-        hear_debugger();
+        hear_plan();
         tell_plan_at(session_ ? seconds(session_->now()) : 0);
     }
     void tell_plan_at(double t) {
@@ -425,10 +440,8 @@ private:
     // ---- a hand from above ----
     void act(const std::string& what, const Json& told) {
         const Status done = hand(what, told);
-        Json told_back = {{"say", "hand"}};
-        if (!done.ok()) told_back["why"] = done.error().what;
-        if (put_number_) told_back["number"] = *std::exchange(put_number_, std::nullopt);
-        tell(told_back);
+        tell_answer(told["request"], done.ok() ? "" : done.error().what,
+                    std::exchange(put_number_, std::nullopt));
         next_poses_ = Time{};
     }
 
@@ -499,6 +512,7 @@ private:
     bool quit_ = false;
     bool open_ = false;  // another order waits
     Json order_;
+    uint64_t order_number_ = 0;  // of what is served
 
     std::unique_ptr<session::SimSession> own_;
     std::unique_ptr<embed::PreparedRun> prepared_;
@@ -506,8 +520,9 @@ private:
     hub::LinkId link_;
     std::optional<PlanFollower> follower_;
     std::set<std::string> heard_;  // events, by the plan
-    std::optional<run::Debugger> debugger_;
-    uint64_t set_request_ = 0;
+    std::optional<PlanTalk> talk_;
+    Duration bus_time_{};                 // of a plan on a bus
+    Time bus_time_at_{};                  // when it was counted
     std::optional<uint32_t> put_number_;  // of the hand at work
 
     Pacer pacer_;
@@ -518,7 +533,7 @@ private:
     Time next_tell_{}, next_poses_{};
     Json scene_told_;
     bool show_rays_ = false;
-    std::string picture_of_robot_;
+    std::vector<std::string> pictured_;  // robots whose cameras somebody looks through
 };
 
 }  // namespace

@@ -4,13 +4,15 @@
 //
 //     vagus run-host      (not for people: the studio starts it)
 //
-// Told:  { "do": "open", "world": FILE, "plan": FILE?, "toolboxes": [], "set": {}, "robot": "",
-//          "poses": [[x, y, angle], …]? }, then any of
-//        { "do": "pace", "paused": bool, "speed": X } · "step" { ms } · "plan.step" · "plan.stop" ·
-//        "move" "put" "take" "press" "tap" "light" · "show" { "rays": bool, "picture": "robot" }
-// Tells: { "say": "opened", "scene": … } or { "say": "failed", "why": … } · "clock" ten times a
-//        second, also when paused · "scene" when it changes · "plan" · "trace" · "line" ·
-//        "loaded" { node, path, source }
+// Told:  { "do": "open", "order": N, "world": FILE, "plan": FILE?, "toolboxes": [], "set": {},
+//          "robot": "", "bus": TARGET?, "project": FILE?, "poses": [[x, y, angle], …]? }, then any
+//          of { "do": "pace", "paused": bool, "speed": X } · "step" { ms } · "plan.step" ·
+//          "plan.stop" · "show" { "rays": bool, "pictures": [robot, …] }, and with a "request": N
+//          "plan.set" "move" "put" "take" "press" "tap" "light"
+// Tells: { "say": "opening", "order": N }, then "opened" { scene? } or "failed" { why } of that
+//        order, "over" when a plan on a bus has ended · "clock" ten times a second, also when
+//        paused · "scene" when it changes · "plan" · "trace" · "line" · "answer" { request, why },
+//        one to each request
 #pragma once
 
 namespace vagus::serve {

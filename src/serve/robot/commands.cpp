@@ -115,11 +115,12 @@ void Robot::declare_node_commands() {
             call, [this](uint16_t node) { return step(node); }, "stepping");
     });
     desk_.command("node.stop", [this](const Call& call) {
-        act(
-            call,
-            [this](uint16_t node) {
-                known_[node].stopped = true;
-                return network_->stop(node);
+        if (!network_) return call.fail("unavailable", kNoRobot);
+        start_batch(
+            nodes_of(call.in["node"]), [this](uint16_t node) { return stop(node); },
+            [this, call](Batch& batch) {
+                note_stopped(batch);
+                call.done({{"failed", batch.failures()}});
             },
             "stopping");
     });

@@ -306,8 +306,12 @@ bool Robot::stands_inside() const {
 void Robot::stop_all(std::function<void(std::vector<uint16_t>)> done) {
     if (!network_) return done({});
     start_batch(
-        live_nodes(), [this](uint16_t node) { return network_->stop(node); },
-        [done](Batch& batch) { done(batch.done); }, "stopping");
+        live_nodes(), [this](uint16_t node) { return stop(node); },
+        [this, done](Batch& batch) {
+            note_stopped(batch);
+            done(batch.done);
+        },
+        "stopping");
     // Queued behind Stop: the script can no longer set them.
     for (const uint16_t node : live_nodes()) {
         for (const std::string& name : driving_variables(network_->node(node)->target)) {
@@ -316,10 +320,17 @@ void Robot::stop_all(std::function<void(std::vector<uint16_t>)> done) {
             if (range.ok()) (void)network_->set(node, range.value(), {&zero, 1}).ok();
         }
     }
-    for (auto& [node, known] : known_) {
-        known.why = "asked";
-        known.stopped = true;
-    }
+}
+
+Result<debug::RequestId> Robot::stop(uint16_t node) {
+    known_[node].why = "asked";
+    known_[node].stopped = true;
+    return network_->stop(node);
+}
+
+// A node that was just being started has said meanwhile that it runs.
+void Robot::note_stopped(const Batch& batch) {
+    for (const uint16_t node : batch.done) known_[node].stopped = true;
 }
 
 // The program that the node has is known by its text: names, lines, breakpoints.
@@ -347,7 +358,7 @@ void Robot::script_changed(const std::string& file) {
 
 void Robot::tick(Time now) {
     now_ = now;
-    if (!carrier_) return;
+    if (!carrier_) return finish_batches();
     if (carrier_->connection() != connection_) {
         if (connection_ == Connection::Connected) network_->link_lost();
         connection_ = carrier_->connection();
@@ -371,6 +382,9 @@ void Robot::tick(Time now) {
 }
 
 Time Robot::next_tick() const {
+    const bool finished = std::any_of(batches_.begin(), batches_.end(),
+                                      [](const auto& batch) { return batch->waiting.empty(); });
+    if (finished) return now_;
     if (!network_) return Time::max();
     return std::min(network_->next_tick(), rates_at_ + kRatesEvery);
 }

@@ -144,6 +144,8 @@ private:
     void start_batch(const std::vector<uint16_t>& nodes, const Ask& ask,
                      std::function<void(Batch&)> finish, const char* busy);
     void finish_batches();
+    Result<debug::RequestId> stop(uint16_t node);
+    void note_stopped(const Batch& batch);
     std::vector<uint16_t> nodes_of(const Json& node) const;
     std::vector<uint16_t> live_nodes() const;
     std::vector<uint16_t> standing_nodes() const;

@@ -23,6 +23,21 @@ struct FlowWatch final : BinaryWatch {
     uint64_t sent = 0;
 };
 
+// The same of one robot's camera.
+struct PictureWatch final : BinaryWatch {
+    PictureWatch(const Run& its_run, std::string its_robot)
+        : run(its_run), robot(std::move(its_robot)) {}
+    std::optional<std::pair<double, std::string>> next() override {
+        const auto found = run.pictures_.find(robot);
+        if (found == run.pictures_.end() || found->second.number == sent) return std::nullopt;
+        sent = found->second.number;
+        return std::pair(found->second.t, found->second.bytes);
+    }
+    const Run& run;
+    const std::string robot;
+    uint64_t sent = 0;
+};
+
 Run::Run(Desk& desk, std::string program) : desk_(desk), program_(std::move(program)) {
     declare_topics();
 }
@@ -38,7 +53,9 @@ void Run::declare_topics() {
     });
     board.binary("poses", [this](const Json&) { return std::make_unique<FlowWatch>(poses_); });
     board.binary("rays", [this](const Json&) { return std::make_unique<FlowWatch>(rays_); });
-    board.binary("picture", [this](const Json&) { return std::make_unique<FlowWatch>(picture_); });
+    board.binary("picture", [this](const Json& of) {
+        return std::make_unique<PictureWatch>(*this, of["robot"]);
+    });
 }
 
 // ---- the host ----
@@ -50,6 +67,7 @@ Status Run::open(const RunOrder& order, Time now) {
         ++generation_;
     }
     forget_asked("the run began anew");
+    opening_ = true;
     has_world_ = false;
     rests_ = order.paused;
     opens_plan_ = !order.plan.empty();
@@ -61,10 +79,15 @@ Status Run::open(const RunOrder& order, Time now) {
     trace_.clear();
     frames_.clear();
     shown_ = Json::object();
-    Json told = {{"do", "open"},       {"world", order.world},
-                 {"plan", order.plan}, {"toolboxes", order.toolboxes},
-                 {"set", order.set},   {"robot", order.robot},
-                 {"bus", order.bus},   {"project", order.project}};
+    Json told = {{"do", "open"},
+                 {"order", ++orders_},
+                 {"world", order.world},
+                 {"plan", order.plan},
+                 {"toolboxes", order.toolboxes},
+                 {"set", order.set},
+                 {"robot", order.robot},
+                 {"bus", order.bus},
+                 {"project", order.project}};
     if (order.keep_poses && !poses.empty()) told["poses"] = poses;
     pace(order.paused, speed_);
     tell(told);
@@ -81,7 +104,8 @@ void Run::close() {
     state_ = State::None;
     scene_ = Json::object();
     plan_ = Json::object();
-    poses_ = rays_ = picture_ = {};
+    poses_ = rays_ = {};
+    pictures_.clear();
     desk_.board().touch("clock");
     desk_.board().touch("plan");
     desk_.board().touch("scene");
@@ -110,20 +134,28 @@ void Run::kill() {
     if (child_) child_->kill();
 }
 
-void Run::lend_hand(const Json& order, HandDone done) {
-    hands_.push_back(std::move(done));
+// Numbered, so that a late answer of a run before is nobody else's.
+void Run::ask(Json order, Answer answer) {
+    order["request"] = ++asked_;
+    answers_.emplace(asked_, std::move(answer));
     tell(order);
 }
 
+void Run::lend_hand(const Json& order, HandDone done) {
+    ask(order, [done = std::move(done)](const Json& told) {
+        done(told.contains("number") ? std::optional<uint32_t>(told["number"]) : std::nullopt,
+             told["why"]);
+    });
+}
+
 void Run::set_variable(int level, const std::string& name, const Json& value, SetDone done) {
-    sets_.push_back(std::move(done));
-    tell({{"do", "plan.set"}, {"level", level}, {"name", name}, {"value", value}});
+    ask({{"do", "plan.set"}, {"level", level}, {"name", name}, {"value", value}},
+        [done = std::move(done)](const Json& told) { done(told["why"]); });
 }
 
 // Nobody will answer any more.
 void Run::forget_asked(const std::string& why) {
-    for (const HandDone& done : std::exchange(hands_, {})) done(std::nullopt, why);
-    for (const SetDone& done : std::exchange(sets_, {})) done(why);
+    for (const auto& [number, answer] : std::exchange(answers_, {})) answer({{"why", why}});
 }
 
 void Run::pace(bool paused, double speed) {
@@ -201,85 +233,88 @@ std::vector<std::array<double, 3>> Run::poses_now() const {
 
 void Run::hear(const Packet& packet) {
     heard_ = now_;
-    const auto flow = [&](Flow& to) {
-        if (packet.bytes.size() < sizeof(double)) return;
+    if (packet.kind == 'J') return hear_json(Json::parse(packet.bytes, nullptr, false));
+    if (opening_) return;
+    if (packet.kind != 'F') return hear_flow(packet);
+    wire::Frame frame;
+    if (!decode_frame(packet.bytes, frame)) return;
+    ++frames_in_;
+    frames_.push_back(frame);
+}
+
+void Run::hear_flow(const Packet& packet) {
+    if (packet.bytes.size() < sizeof(double)) return;
+    const auto flow = [&](Flow& to, std::string bytes) {
         std::memcpy(&to.t, packet.bytes.data(), sizeof(double));
-        to.bytes = packet.bytes.substr(sizeof(double));
+        to.bytes = std::move(bytes);
         ++to.number;
     };
-    switch (packet.kind) {
-        case 'J':
-            hear_json(Json::parse(packet.bytes, nullptr, false));
-            break;
-        case 'P':
-            flow(poses_);
-            break;
-        case 'R':
-            flow(rays_);
-            break;
-        case 'I':
-            flow(picture_);
-            break;
-        case 'F': {
-            wire::Frame frame;
-            if (!decode_frame(packet.bytes, frame)) break;
-            ++frames_in_;
-            frames_.push_back(frame);
-            break;
-        }
-        default:
-            break;  // a newer host may tell more
-    }
+    std::string bytes = packet.bytes.substr(sizeof(double));
+    if (packet.kind == 'P') flow(poses_, std::move(bytes));
+    if (packet.kind == 'R') flow(rays_, std::move(bytes));
+    if (packet.kind != 'I') return;  // a newer host may tell more
+    auto picture = take_name(bytes);
+    if (picture) flow(pictures_[picture->first], std::move(picture->second));
 }
 
 void Run::hear_json(const Json& told) {
     if (!told.is_object() || !told.contains("say")) return;
     const std::string what = told["say"];
-    if (what == "clock") {
+    if (what == "line") {
+        say_(told["kind"], told["text"]);
+    } else if (what == "answer") {
+        hear_answer(told);
+    } else if (what == "opening" || what == "opened" || what == "failed") {
+        if (told["order"] == orders_) hear_beginning(what, told);
+    } else if (opening_) {
+        return;
+    } else if (what == "clock") {
         t_ = told["t"];
         paused_ = told["paused"];
         real_ = told["real"];
         if (told.contains("load")) load_ = told["load"];
         if (state_ != State::Dead) state_ = paused_ ? State::Paused : State::Running;
         desk_.board().touch("clock");
-    } else if (what == "opened" || what == "scene") {
-        scene_ = told.value("scene", Json::object());
+    } else if (what == "scene") {
+        scene_ = told["scene"];
         desk_.board().touch("scene");
-        if (what == "opened") {
-            has_world_ = told.contains("scene");
-            programs_.clear();
-            for (const Json& one : told["programs"]) {
-                programs_.emplace(one["node"], one["source"]);
-            }
-            hears_ = told["hears"].get<std::set<std::string>>();
-            opened_();
-        }
     } else if (what == "plan") {
         plan_ = told["plan"];
         desk_.board().touch("plan");
     } else if (what == "trace") {
         trace_.push_back(told["line"]);
         if (trace_.size() > kTraceKept) trace_.pop_front();
-    } else if (what == "line") {
-        say_(told["kind"], told["text"]);
+    } else if (what == "over") {
+        rest();
+    }
+}
+
+// Only of the order that was given last: another may have overtaken one before.
+void Run::hear_beginning(const std::string& what, const Json& told) {
+    opening_ = false;
+    if (what == "opened") {
+        scene_ = told.value("scene", Json::object());
+        has_world_ = told.contains("scene");
+        programs_.clear();
+        for (const Json& one : told["programs"]) programs_.emplace(one["node"], one["source"]);
+        hears_ = told["hears"].get<std::set<std::string>>();
+        desk_.board().touch("scene");
+        opened_();
     } else if (what == "failed") {
         why_ = told["why"];
         state_ = State::None;
         say_("error", why_);
         failed_(why_);
         desk_.board().touch("clock");
-    } else if (what == "hand" && !hands_.empty()) {
-        const HandDone done = std::move(hands_.front());
-        hands_.pop_front();
-        done(told.contains("number") ? std::optional<uint32_t>(told["number"]) : std::nullopt,
-             told.value("why", ""));
-    } else if (what == "set" && !sets_.empty()) {
-        const SetDone done = std::move(sets_.front());
-        sets_.pop_front();
-        done(told.value("why", ""));
-    } else {
-        return;
     }
+}
+
+void Run::hear_answer(const Json& told) {
+    const auto found = answers_.find(told["request"].get<uint64_t>());
+    if (found == answers_.end()) return;
+    const Answer answer = std::move(found->second);
+    answers_.erase(found);
+    answer(told);
 }
 
 void Run::hear_end(const ChildEnd& end) {
@@ -289,6 +324,7 @@ void Run::hear_end(const ChildEnd& end) {
         "the run {} at {:.3f} s{}. Everything that was recorded is kept; run it "
         "again to begin anew",
         end.what, t_, last);
+    const bool with_plan = plan_runs() || (opens_plan_ && !plan_.contains("state"));
     state_ = State::Dead;
     has_world_ = false;
     child_.reset();
@@ -302,6 +338,7 @@ void Run::hear_end(const ChildEnd& end) {
     opens_plan_ = false;
     failed_(why_);
     say_("error", why_);
+    if (with_plan) plan_died_();
     desk_.board().touch("clock");
     desk_.board().touch("robot");
 }
@@ -334,12 +371,13 @@ void Run::tick(Time now) {
 
 // Rays and pictures cost time: only while somebody looks.
 void Run::show_what_is_watched() {
-    const auto pictures = desk_.board().subjects("picture");
-    const Json show = {{"do", "show"},
-                       {"rays", desk_.board().watched("rays")},
-                       {"picture", pictures.empty() ? "" : pictures[0].value("robot", "")}};
+    std::set<std::string> robots;
+    for (const Json& of : desk_.board().subjects("picture")) robots.insert(of["robot"]);
+    const Json show = {
+        {"do", "show"}, {"rays", desk_.board().watched("rays")}, {"pictures", robots}};
     if (show == shown_) return;
     shown_ = show;
+    std::erase_if(pictures_, [&](const auto& one) { return !robots.contains(one.first); });
     tell(show);
 }
 

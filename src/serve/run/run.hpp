@@ -59,6 +59,8 @@ public:
     void on_failed(std::function<void(const std::string& why)> failed) {
         failed_ = std::move(failed);
     }
+    // Its process has died while a plan ran, or was about to: the plan can put nothing in order.
+    void on_plan_died(std::function<void()> died) { plan_died_ = std::move(died); }
 
     Status open(const RunOrder& order, Time now);
     void close();
@@ -120,9 +122,13 @@ public:
     std::vector<LinkView> links() const override;
 
 private:
-    struct LastFrames;  // what flows: the latest of each kind
+    using Answer = std::function<void(const Json& told)>;
+    void ask(Json order, Answer answer);
     void hear(const Packet& packet);
+    void hear_flow(const Packet& packet);
     void hear_json(const Json& told);
+    void hear_beginning(const std::string& what, const Json& told);
+    void hear_answer(const Json& told);
     void hear_end(const ChildEnd& end);
     std::string last_actor() const;
     void forget_asked(const std::string& why);
@@ -138,11 +144,14 @@ private:
     std::function<std::string(const std::string&)> doc_of_ = [](const std::string& f) { return f; };
     std::function<void()> opened_ = [] {};
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
-    std::deque<HandDone> hands_;
-    std::deque<SetDone> sets_;
+    std::function<void()> plan_died_ = [] {};
+    uint64_t asked_ = 0;
+    std::map<uint64_t, Answer> answers_;  // of the host, by number of what was asked
     std::map<uint16_t, std::string> programs_;
     std::set<std::string> hears_;  // events, by the plan
     uint64_t generation_ = 0;
+    uint64_t orders_ = 0;
+    bool opening_ = false;  // what the host tells is still of the order before
     bool rests_ = true;
     bool opens_plan_ = false;
     bool has_world_ = false;
@@ -166,8 +175,10 @@ private:
         double t = 0;
         std::string bytes;
     };
-    Flow poses_, rays_, picture_;
+    Flow poses_, rays_;
+    std::map<std::string, Flow> pictures_;  // by robot, of those that somebody watches
     friend struct FlowWatch;
+    friend struct PictureWatch;
 };
 
 }  // namespace vagus::serve

@@ -128,6 +128,7 @@ void Desk::on_closed(ClientId client, Time now) {
 void Desk::on_text(ClientId client, const std::string& text, Time now) {
     const auto found = connections_.find(client);
     if (found == connections_.end() || found->second.dropped) return;
+    if (found->second.refuse_at) return;
     const auto read = Protocol::get().read(text);
     if (const auto* refusal = std::get_if<Refusal>(&read)) {
         outside_.log(
@@ -177,25 +178,31 @@ void Desk::greet(ClientId client, const Request& request, Time now) {
                                                     "for another client",
                                                     "do"}));
     }
-    if (now < access_.wait_until(address)) {
-        send(client, false,
-             answer_text(request.id,
-                         Problem{"not_allowed", "too many wrong tokens; wait a little", ""}));
-        return drop(client, "wrong token");
-    }
     const Access::Grade grade = access_.grade(request.in["token"].get<std::string>());
     if (grade == Access::Grade::Refused) {
-        access_.wrong(address, now);
         outside_.log(address + ": a wrong token");
-        const Problem problem{"not_allowed",
-                              "the token is wrong; open the address that the server has printed",
-                              "in.token"};
-        send(client, false, answer_text(request.id, problem));
-        return drop(client, "wrong token");
+        // No longer than a connection may go without a hello at all.
+        connection.refuse_at =
+            std::min(access_.wrong(address, now), connection.opened + limit_ms("hello_ms"));
+        connection.refused_id = request.id;
+        if (*connection.refuse_at <= now) refuse(client, connection);
+        return;
     }
     access_.right(address);
+    welcome(client, request, grade == Access::Grade::Drive ? Role::Drive : Role::Look, now);
+}
+
+void Desk::refuse(ClientId client, Connection& connection) {
+    const Problem problem{"not_allowed",
+                          "the token is wrong; open the address that the server has printed",
+                          "in.token"};
+    send(client, false, answer_text(connection.refused_id, problem));
+    drop(client, "wrong token");
+}
+
+void Desk::welcome(ClientId client, const Request& request, Role role, Time now) {
+    Connection& connection = connections_.at(client);
     connection.known = true;
-    const Role role = grade == Access::Grade::Drive ? Role::Drive : Role::Look;
     std::optional<ClientId> replaced;
     const Clients::Member& member = clients_.enter(
         client, request.in["client"], request.in.value("name", "a page"), role, now, replaced);
@@ -323,6 +330,10 @@ void Desk::tick(Time now) {
     });
     for (auto& [client, connection] : connections_) {
         if (connection.dropped) continue;
+        if (connection.refuse_at && now >= *connection.refuse_at) {
+            refuse(client, connection);
+            continue;
+        }
         if (connection.unsent == 0) connection.took = now;
         if (now > connection.took + limit_ms("silent_ms")) {
             drop(client, "this page took nothing for too long; it may return");
@@ -335,6 +346,11 @@ void Desk::tick(Time now) {
 Time Desk::next_tick(Time now) const {
     Time next = std::min(board_.next_due(now), clients_.next_tick());
     if (!connections_.empty()) next = std::min(next, now + 1s);
+    for (const auto& [client, connection] : connections_) {
+        if (connection.refuse_at && !connection.dropped) {
+            next = std::min(next, *connection.refuse_at);
+        }
+    }
     return next;
 }
 

@@ -78,8 +78,10 @@ private:
     struct Connection {
         std::string address;
         Time opened{};
-        bool known = false;    // said hello
-        bool dropped = false;  // sent away; what it says is not heard any more
+        bool known = false;                  // said hello
+        bool dropped = false;                // sent away; what it says is not heard any more
+        std::optional<Time> refuse_at = {};  // it had a wrong token, and hears so then
+        uint64_t refused_id = 0;
         size_t unsent = 0;     // bytes
         Time took{};           // when it last took something, or had nothing to take
         double allowance = 0;  // commands it may send now
@@ -91,6 +93,8 @@ private:
     void on_took(const ClientTook& took, Time now);
     void on_closed(ClientId client, Time now);
     void greet(ClientId client, const Request& request, Time now);
+    void welcome(ClientId client, const Request& request, Role role, Time now);
+    void refuse(ClientId client, Connection& connection);
     void obey(Clients::Member& member, ClientId client, const Request& request, Time now);
     void obey_here(Clients::Member& member, ClientId client, const Request& request, Time now);
     bool is_here(const std::string& name) const;

@@ -62,10 +62,35 @@ TEST(Desk, AWrongTokenIsRefusedLoggedAndSlowedDown) {
     Fixture f;
     EXPECT_EQ(f.hello(1, "wrong", "a")["error"]["code"], "not_allowed");
     EXPECT_EQ(f.log.size(), 1u);
-    // The right one, too soon: whoever guesses does not learn that it was right.
-    EXPECT_EQ(f.hello(2, kDrive, "a")["error"]["code"], "not_allowed");
-    f.now += 501ms;
-    EXPECT_TRUE(f.hello(3, kDrive, "a").contains("ok"));
+    // The second one hears so half a second later, and nothing that it says meanwhile counts.
+    EXPECT_TRUE(f.hello(2, "wrong", "a").is_null());
+    EXPECT_TRUE(f.say(2, {{"id", 2}, {"do", "hello"}, {"in", {{"token", kDrive}, {"client", "a"}}}})
+                    .is_null());
+    EXPECT_EQ(f.desk.next_tick(f.now), f.now + 500ms);
+    f.now += 499ms;
+    f.desk.tick(f.now);
+    EXPECT_TRUE(f.got[ClientId{2}].empty());
+    f.now += 1ms;
+    f.desk.tick(f.now);
+    EXPECT_EQ(f.got[ClientId{2}].back()["error"]["code"], "not_allowed");
+    EXPECT_EQ(f.closed[ClientId{2}], "wrong token");
+    EXPECT_EQ(f.log.size(), 2u);
+}
+
+TEST(Desk, ARightTokenDoesNotWaitForWrongOnes) {
+    Fixture f;
+    for (uint32_t i = 1; i <= 20; ++i) f.hello(i, "wrong", "a");
+    EXPECT_TRUE(f.hello(21, kDrive, "b").contains("ok"));
+}
+
+// As long as one that says nothing: who guesses cannot fill all the places for longer.
+TEST(Desk, NoWrongTokenStaysLongerThanAPageWithoutAHello) {
+    Fixture f;
+    for (uint32_t i = 1; i <= 20; ++i) f.hello(i, "wrong", "a");
+    f.now += 5s;
+    f.desk.tick(f.now);
+    EXPECT_EQ(f.closed.size(), 20u);
+    EXPECT_EQ(f.closed[ClientId{20}], "wrong token");
 }
 
 TEST(Desk, WhoSaysNothingIsSentAway) {

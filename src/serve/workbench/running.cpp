@@ -13,6 +13,8 @@ namespace {
 constexpr Duration kPlanEndsWithin = 300ms;  // of Stop; then the nodes are stopped all the same
 constexpr Duration kRollOut =
     500ms;  // a simulation goes on so long after Stop: wheels come to rest
+constexpr const char* kBeingStarted = "the run is just being started";
+constexpr const char* kStoppedMeanwhile = "it was stopped before it ran";
 constexpr const char* kNoWorld =
     "the project has no world to simulate; name one in vagus.json, or choose a robot";
 
@@ -43,12 +45,10 @@ Status Workbench::choose_target(const std::string& target) {
 }
 
 void Workbench::leave_target() {
-    opening_.reset();
+    give_up_start("the target was left");
     rest_at_.reset();
     nodes_stop_at_.reset();
     for (const Call& call : std::exchange(stop_calls_, {})) call.done({{"stood", Json::array()}});
-    if (opening_call_) opening_call_->fail("failed", "the target was left");
-    opening_call_.reset();
     robot_.disconnect();
     run_.close();
     bus_.reset();
@@ -79,6 +79,7 @@ Status Workbench::open_world(const std::string& plan, const Json& set, bool keep
     const auto text = files_.text(project_->world);
     opened_world_ = text.ok() ? text.value() : "";
     rest_at_.reset();
+    ++start_;
     opening_ = Opening{now_ + kDescribeWithin, false, then_go};
     loaded_by_world_.clear();
     return run_.open(order, now_);
@@ -93,12 +94,15 @@ bool Workbench::world_has_changed() const {
 // A world that only stands there shows at once what was saved.
 void Workbench::world_saved(const std::string& path) {
     if (!project_ || path != project_->world || !simulates() || !run_.rests()) return;
-    if (opening_ || !world_has_changed()) return;
+    if (opening_ || opening_call_ || !world_has_changed()) return;
     const Status opened = open_world("", Json::object(), false, false);
     if (!opened.ok()) say("error", opened.error().what);
 }
 
 void Workbench::world_opened() {
+    if (bus_) return plan_joined_bus();
+    // Stopped while its world opened: the plan is given up, the world stays.
+    if (!opening_ && run_.opens_plan()) return reopen_world();
     if (!opening_) opening_ = Opening{};
     loaded_by_world_ = run_.programs();
     opening_->opened = true;
@@ -115,20 +119,37 @@ void Workbench::get_nodes_ready() {
     const bool go = opening_->go;
     opening_.reset();
     robot_.place_breakpoints();
-    robot_.load_changed(true, [this, go](const std::vector<std::string>& failed) {
+    robot_.load_changed(true, [this, go, start = start_](const std::vector<std::string>& failed) {
         if (!failed.empty()) say("error", joined(failed));
+        if (start != start_) return;
         if (go) run_.go_on();
-        if (opening_call_) opening_call_->done();
-        opening_call_.reset();
+        end_start();
     });
 }
 
-void Workbench::world_failed(const std::string& why) {
-    opening_.reset();
-    if (opening_call_) opening_call_->fail("failed", why);
+void Workbench::end_start() {
+    const std::optional<Call> call = opening_call_;
     opening_call_.reset();
+    if (call) call->done();
+}
+
+void Workbench::give_up_start(const std::string& why) {
+    ++start_;
+    opening_.reset();
+    const std::optional<Call> call = opening_call_;
+    opening_call_.reset();
+    if (call) call->fail("failed", why);
+}
+
+void Workbench::world_failed(const std::string& why) {
+    give_up_start(why);
     // A plan that cannot run leaves the world as it was.
     if (!run_.opens_plan() || bus_ || !project_ || project_->world.empty()) return;
+    reopen_world();
+}
+
+// The world alone, with its robots where they stand.
+void Workbench::reopen_world() {
     const Status opened = open_world("", Json::object(), true, false);
     if (!opened.ok()) say("error", opened.error().what);
 }
@@ -153,40 +174,67 @@ void Workbench::start(const Call& call) {
         const std::string why = bus_->why();
         return call.fail("unavailable", why.empty() ? "no node is there yet" : why);
     }
-    if (run_.plan_runs()) {
-        robot_.load_changed(true, [this, call](const std::vector<std::string>& failed) {
-            if (!failed.empty()) say("error", joined(failed));
-            run_.go_on();
-            if (bus_) robot_.run_all([](auto) {});
-            call.done();
-        });
-        return;
-    }
+    if (run_.plan_runs()) return go_on(call);
     if (!project_->plan.empty()) {
         return start_plan(call, project_->plan, call.in.value("set", Json::object()), true);
     }
     start_scripts(call);
 }
 
+// A plan that was held, and the nodes of a bus that stand.
+void Workbench::go_on(const Call& call) {
+    robot_.load_changed(true, [this, call, start = start_](const std::vector<std::string>& failed) {
+        if (!failed.empty()) say("error", joined(failed));
+        if (start != start_) return call.fail("failed", kStoppedMeanwhile);
+        run_.go_on();
+        if (bus_) robot_.run_all([](auto) {});
+        call.done();
+    });
+}
+
+// The nodes get their scripts, then the plan joins the bus and waits until they run.
+void Workbench::start_plan_on_bus(const Call& call, RunOrder order, bool go) {
+    order.world.clear();
+    const auto door = bus_->open_door();
+    if (!door.ok()) return call.fail(door.error());
+    order.bus = door.value();
+    order.project = project_->scripts.empty() ? "" : project_->real(project_->scripts.front());
+    opening_call_.emplace(call);
+    ++start_;
+    robot_.load_changed(true, [this, order = std::move(order), go,
+                               start = start_](const std::vector<std::string>& failed) {
+        if (!failed.empty()) say("error", joined(failed));
+        if (start != start_) return;
+        opening_ = Opening{.go = go};
+        const Status opened = run_.open(order, now_);
+        if (!opened.ok()) world_failed(opened.error().what);
+    });
+}
+
+// It stands before its first actor.
+void Workbench::plan_joined_bus() {
+    if (!opening_) return run_.tell({{"do", "plan.stop"}});  // Stop came meanwhile
+    const bool go = opening_->go;
+    opening_.reset();
+    robot_.run_all([this, go, start = start_](const std::vector<std::string>& failed) {
+        if (!failed.empty()) say("warning", joined(failed));
+        if (start != start_) return;
+        go ? run_.go_on() : run_.tell({{"do", "plan.step"}});
+        end_start();
+    });
+}
+
+// What it had begun goes on at the nodes, and nobody is left who would end it.
+void Workbench::plan_died() {
+    if (!bus_) return;
+    robot_.stop_all([this](const std::vector<uint16_t>&) {
+        say("note", "the nodes were stopped, since the plan that used them is gone");
+    });
+}
+
 void Workbench::start_plan(const Call& call, const std::string& plan, const Json& set, bool go) {
-    if (opening_call_) return call.fail("conflict", "the run is just being started");
-    if (bus_) {
-        RunOrder order = order_of(plan, set);
-        order.world.clear();
-        const auto door = bus_->open_door();
-        if (!door.ok()) return call.fail(door.error());
-        order.bus = door.value();
-        order.project = project_->scripts.empty() ? "" : project_->real(project_->scripts.front());
-        order.paused = !go;
-        opening_call_.emplace(call);
-        robot_.load_changed(true, [this, order](const std::vector<std::string>& failed) {
-            if (!failed.empty()) say("error", joined(failed));
-            robot_.run_all([](auto) {});
-            const Status opened = run_.open(order, now_);
-            if (!opened.ok()) world_failed(opened.error().what);
-        });
-        return;
-    }
+    if (opening_call_) return call.fail("conflict", kBeingStarted);
+    if (bus_) return start_plan_on_bus(call, order_of(plan, set), go);
     if (project_->world.empty()) return call.fail("unavailable", kNoWorld);
     const bool keep = run_.time() > 0 && !world_has_changed();
     opening_call_.emplace(call);
@@ -197,17 +245,19 @@ void Workbench::start_plan(const Call& call, const std::string& plan, const Json
 void Workbench::start_scripts(const Call& call) {
     const bool again = !bus_ && (!simulates() || world_has_changed());
     if (again) {
-        if (opening_call_) return call.fail("conflict", "the run is just being started");
+        if (opening_call_) return call.fail("conflict", kBeingStarted);
         opening_call_.emplace(call);
         const Status opened = open_world("", Json::object(), false, true);
         if (!opened.ok()) world_failed(opened.error().what);
         return;
     }
     rest_at_.reset();
-    robot_.load_changed(true, [this, call](const std::vector<std::string>& failed) {
+    robot_.load_changed(true, [this, call, start = start_](const std::vector<std::string>& failed) {
         if (!failed.empty()) say("error", joined(failed));
-        robot_.run_standing([this, call](const std::vector<std::string>& stayed) {
+        if (start != start_) return call.fail("failed", kStoppedMeanwhile);
+        robot_.run_standing([this, call, start](const std::vector<std::string>& stayed) {
             if (!stayed.empty()) say("warning", joined(stayed));
+            if (start != start_) return call.fail("failed", kStoppedMeanwhile);
             if (simulates()) run_.go_on();
             call.done();
         });
@@ -228,9 +278,7 @@ void Workbench::step(const Call& call) {
 }
 
 void Workbench::stop(const Call& call) {
-    opening_.reset();
-    if (opening_call_) opening_call_->fail("failed", "it was stopped");
-    opening_call_.reset();
+    give_up_start("it was stopped");
     if (run_.plan_runs()) run_.tell({{"do", "plan.stop"}});
     if (!nodes_stop_at_) nodes_stop_at_ = now_ + (run_.plan_runs() ? kPlanEndsWithin : Duration{});
     stop_calls_.push_back(call);
@@ -255,8 +303,7 @@ void Workbench::rest() {
     if (run_.is_silent()) return;
     rest_at_.reset();
     if (!run_.plan_runs() || bus_) return run_.rest();
-    const Status opened = open_world("", Json::object(), true, false);
-    if (!opened.ok()) say("error", opened.error().what);
+    reopen_world();
 }
 
 void Workbench::stop_everything() {
@@ -285,7 +332,7 @@ void Workbench::declare_run_commands() {
                              "program anew");
         }
         if (project_->world.empty()) return call.fail("unavailable", kNoWorld);
-        if (opening_call_) return call.fail("conflict", "the run is just being started");
+        if (opening_call_) return call.fail("conflict", kBeingStarted);
         if (!save_all(call)) return;
         opening_call_.emplace(call);
         const Status opened = open_world("", Json::object(), false, false);

@@ -70,6 +70,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
         [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
     run_.on_opened([this] { world_opened(); });
     run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
+    run_.on_plan_died([this] { plan_died(); });
     desk.on_people([this] { desk_.board().touch("studio"); });
     declare_topics();
     declare_project_commands();

@@ -91,12 +91,19 @@ private:
     Status open_world(const std::string& plan, const Json& set, bool keep_poses, bool then_go);
     RunOrder order_of(const std::string& plan, const Json& set) const;
     bool world_has_changed() const;
+    void reopen_world();
     void world_saved(const std::string& path);
     void world_opened();
     void world_failed(const std::string& why);
     void start(const Call& call);
     void start_plan(const Call& call, const std::string& plan, const Json& set, bool go);
+    void start_plan_on_bus(const Call& call, RunOrder order, bool go);
+    void plan_joined_bus();
+    void plan_died();
+    void go_on(const Call& call);
     void start_scripts(const Call& call);
+    void end_start();
+    void give_up_start(const std::string& why);
     void step(const Call& call);
     void stop(const Call& call);
     void stop_nodes();
@@ -124,7 +131,7 @@ private:
     std::optional<OpenedProject> project_;
     Time now_{};
     std::pair<int, uint64_t> watched_run_ = {-1, 0};  // descriptor, generation
-    // A world that opens: what is done once its nodes are there.
+    // A world that opens, or a plan on a bus: what is done once its nodes are there.
     struct Opening {
         Time until{};
         bool opened = false;
@@ -132,6 +139,9 @@ private:
     };
     std::optional<Opening> opening_;
     std::optional<Call> opening_call_;  // answered then
+    // Counts what makes a start void: another one, Stop, another target. What was begun for it and
+    // finds another number lets nothing run any more.
+    uint64_t start_ = 0;
     // Stop, under way.
     std::optional<Time> nodes_stop_at_;
     std::vector<Call> stop_calls_;

@@ -1,0 +1,43 @@
+#include "serve/host/bus_run.hpp"
+
+namespace vagus::serve {
+
+BusRun::BusRun(embed::PreparedRun& prepared, PlanTalk& talk) {
+    prepared.listen([this](const plan::TraceEvent& event) {
+        const std::lock_guard lock(mutex_);
+        seen_.push_back(event);
+    });
+    prepared.tell([this](const std::string& sentence) { say("warning", sentence); });
+    runner_ = std::thread([this, &prepared, &talk] {
+        const auto ended = prepared.run(&talk.debugger());
+        if (!ended.ok()) say("error", ended.error().what);
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+    });
+}
+
+BusRun::~BusRun() {
+    runner_.join();
+}
+
+void BusRun::say(const char* kind, const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    lines_.push_back({kind, text});
+}
+
+bool BusRun::over() {
+    const std::lock_guard lock(mutex_);
+    return over_;
+}
+
+std::vector<plan::TraceEvent> BusRun::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(seen_, {});
+}
+
+std::vector<BusRun::Line> BusRun::take_lines() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(lines_, {});
+}
+
+}  // namespace vagus::serve

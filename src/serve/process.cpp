@@ -183,7 +183,7 @@ Result<Child> Child::start(const ChildOptions& options) {
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) {
         return system_error("cannot make a socket pair for a run");
     }
-    std::vector<std::string> words = {options.program};
+    std::vector<std::string> words = {options.name};
     words.insert(words.end(), options.arguments.begin(), options.arguments.end());
     const std::vector<char*> arguments = pointers(words);
     const pid_t parent = getpid();

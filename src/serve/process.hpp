@@ -66,6 +66,7 @@ private:
 struct ChildOptions {
     std::string program;  // its path
     std::vector<std::string> arguments;
+    std::string name = program;  // in lists of processes
     size_t memory_max = kRunMemoryMax;
 };
 
@@ -121,7 +122,9 @@ private:
 // Starts a program that goes on by itself: a browser. False if there is none of that name.
 bool start_beside(const std::vector<std::string>& words);
 
-// The path of the program that runs.
+// The program that runs, for a child: also when another version stands at its path by now.
+constexpr const char* kThisProgram = "/proc/self/exe";
+// Its path.
 std::string own_program();
 // Random bytes of the system, for tokens.
 std::string random_bytes(size_t count);

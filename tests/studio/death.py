@@ -17,6 +17,7 @@ from page import Closed, Studio
 KILLS = int(os.environ.get("VAGUS_KILLS") or 10)  # of each kind
 HANGING_TOOLBOX = os.environ.get("VAGUS_HANGING_TOOLBOX", "build/release/tests/studio/hanging.so")
 STOP = 0xA006
+LIST_NODES = 0xA011
 
 
 def plan_of(template):
@@ -141,6 +142,8 @@ class Death(Case):
                                        changes=[{"from": 0, "to": 0, "text": "#\n" if dice.random() < 0.1 else "#"}])["version"]
                 typed = self.page.do("doc.open", doc=projects.DOC)["text"]
                 texts.append((time.monotonic(), typed))
+                with self.page.news:  # typed fast, not faster than the server hears
+                    self.page.news.wait(0.02)
             killed = time.monotonic()
             self.studio.kill()
             self.page.wait_closed()
@@ -173,6 +176,7 @@ class Death(Case):
             page.do("event.send", name="go", args=[200])
             self.wait_values(motor_left_target=200, motor_right_target=200)
             with Bus(port) as bus:
+                bus.wait(LIST_NODES, source=0)  # the simulator asks from time to time: now we hear what passes
                 self.studio.program.signal(signal.SIGTERM)
                 self.assertEqual(bus.wait(STOP, source=0), b"\x01\x00")
                 self.assertEqual(self.studio.program.wait_end(), 0)

@@ -63,7 +63,7 @@ void Run::declare_topics() {
 Status Run::open(const RunOrder& order, Time now) {
     const auto poses = poses_now();
     if (!child_ || child_->ended()) {
-        child_.emplace(TRY(Child::start({program_, {"run-host"}})));
+        child_.emplace(TRY(Child::start({program_, {"run-host"}, "vagus"})));
         ++generation_;
     }
     forget_asked("the run began anew");

@@ -115,7 +115,7 @@ private:
         const char* home = std::getenv("HOME");
         return {.library = {data, share_folder() / "examples"},
                 .settings = (config / "settings.json").string(),
-                .program = own_program(),
+                .program = kThisProgram,
                 .home = home ? home : "/"};
     }
 

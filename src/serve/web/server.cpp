@@ -25,9 +25,9 @@
 #include <optional>
 #include <thread>
 
-#include "base/file.hpp"
 #include "serve/web/origin.hpp"
 #include "serve/web/pages.hpp"
+#include "serve/web/tls.hpp"
 
 namespace vagus::serve {
 
@@ -316,7 +316,9 @@ public:
 
     Status start() {
         pages_ = TRY(Pages::read(options_.pages));
-        if (!options_.tls_cert.empty()) TRY(prepare_tls());
+        if (!options_.tls_cert.empty()) {
+            tls_.emplace(TRY(tls_context(options_.tls_cert, options_.tls_key)));
+        }
         SystemError failed;
         const auto address = asio::ip::make_address(options_.address, failed);
         if (failed) {
@@ -360,28 +362,6 @@ private:
         asio::post(io_, [this, client] {
             if (Live* live = find(client)) live->resume();
         });
-    }
-
-    Status prepare_tls() {
-        tls_.emplace(asio::ssl::context::tls_server);
-        SystemError failed;
-        tls_->set_options(asio::ssl::context::default_workarounds | asio::ssl::context::no_tlsv1 |
-                              asio::ssl::context::no_tlsv1_1,
-                          failed);
-        const std::string certificate = TRY(read_file(options_.tls_cert));
-        const std::string key = TRY(read_file(options_.tls_key));
-        tls_->use_certificate_chain(asio::buffer(certificate), failed);
-        if (failed) {
-            return Error{Code::BadInput, fmt::format("{}: expected a certificate in PEM form: {}",
-                                                     options_.tls_cert, failed.message())};
-        }
-        tls_->use_private_key(asio::buffer(key), asio::ssl::context::pem, failed);
-        if (failed) {
-            return Error{Code::BadInput,
-                         fmt::format("{}: expected the private key of {} in PEM form: {}",
-                                     options_.tls_key, options_.tls_cert, failed.message())};
-        }
-        return Status::done();
     }
 
     Status open(const Tcp::endpoint& place) {

@@ -237,6 +237,35 @@ class Runs(Case):
         self.wait_node(2, state="running")
         self.assertEqual(page.do("stop"), {"stood": [1, 2, 3]})
 
+    def test_each_camera_that_is_watched_is_seen(self):
+        # One looks at a red box half a metre ahead, the other along an empty room.
+        robots = [{"name": "red", "type": "carbot", "at": [2, 1], "node": 1}, {"name": "empty", "type": "carbot", "at": [2, 7], "node": 21}]
+
+        def make(folder):
+            projects.write(folder, "room.world.json", {
+                "format": "vagus-world/1", "name": "Room", "size": [8, 8], "robots": robots,
+                "objects": [{"kind": "box", "at": [2.8, 1], "size": [0.2, 1], "height": 0.6, "colour": [1, 0, 0]}]})
+            projects.write(folder, "vagus.json", {"format": "vagus-project/1", "name": "Cameras", "world": "room.world.json", "target": "sim"})
+
+        page = self.open(make)
+        seen = {robot["name"]: page.watch("picture", robot=robot["name"]) for robot in robots}
+        nobody = page.watch("picture", robot="nobody")
+        self.wait(lambda: all(watched.frames for watched in seen.values()), "a picture of each camera")
+
+        def share_of_red(name):
+            payload = seen[name].frames[-1][1]
+            width, height = struct.unpack_from("<HH", payload)
+            self.assertEqual(len(payload), 4 + 3 * width * height)
+            pixels = [payload[at:at + 3] for at in range(4, len(payload), 3)]
+            return len([pixel for pixel in pixels if pixel[0] > 2 * pixel[1] and pixel[0] > 2 * pixel[2]]) / len(pixels)
+
+        self.assertGreater(share_of_red("red"), 0.1)
+        self.assertEqual(share_of_red("empty"), 0)
+        page.do("unwatch", watch=[number for number, topic in page.topics.items() if topic is seen["red"]][0])
+        there = len(seen["empty"].frames)
+        self.wait(lambda: len(seen["empty"].frames) > there + 2, "more of the camera that is still watched")
+        self.assertFalse(nobody.frames)
+
     def test_a_hundred_robots(self):
         robots = [{**ROBOT, "name": f"r{i}", "at": [0.2 + 0.2 * (i % 10), 0.2 + 0.2 * (i // 10)], "node": i + 1} for i in range(100)]
         page = self.open(lambda folder: projects.thymio(folder, *robots))

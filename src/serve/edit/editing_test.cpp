@@ -402,7 +402,9 @@ TEST_F(EditTest, BytesComeAsBase64) {
     EXPECT_EQ(ask("file.bytes", {{"path", "d.png"}})["base64"], "");
     EXPECT_EQ(ask("file.bytes", {{"path", "large.bin"}})["base64"].get<std::string>().size(),
               5592408u);
-    EXPECT_THAT(refusal("file.bytes", {{"path", "larger.bin"}}), StartsWith("limit: "));
+    EXPECT_THAT(refusal("file.bytes", {{"path", "larger.bin"}}),
+                StartsWith("limit: larger.bin: 4194305 bytes, and a page gets files of at most "
+                           "4194304; copy it from the folder"));
 }
 
 // ---- projects ----

@@ -214,8 +214,10 @@ void FileDesk::bytes(const Call& call) {
     const auto size = files_.size(path);
     if (!size.ok()) return call.fail(size.error());
     if (size.value() > kBytesMax) {
-        return call.fail("limit", fmt::format("{}: {} bytes; at most {} are sent", path,
-                                              size.value(), kBytesMax));
+        return call.fail("limit",
+                         fmt::format("{}: {} bytes, and a page gets files of at most {}; copy it "
+                                     "from the folder of the project, or move it out of there",
+                                     path, size.value(), kBytesMax));
     }
     const auto read = files_.bytes(path);
     if (!read.ok()) return call.fail(read.error());

@@ -27,6 +27,7 @@
 
 #include "serve/web/origin.hpp"
 #include "serve/web/pages.hpp"
+#include "serve/web/tls.hpp"
 
 namespace vagus::serve {
 
@@ -45,7 +46,7 @@ using Asking = http::request<http::string_body>;
 using Answer = http::response<http::string_body>;
 using std::chrono::seconds;
 
-constexpr size_t kBodyBytesMax = 4096;  // of a request; none of ours has one
+constexpr size_t kBodyBytesMax = 4096;   // of a request; none of ours has one
 constexpr size_t kFirstBytesMax = 4096;  // read at once when a request begins
 constexpr auto kGoodbyeWithin = seconds(2);
 constexpr size_t kRefusedMax = 64;  // connections that are told at a time that there are too many
@@ -315,7 +316,9 @@ public:
 
     Status start() {
         pages_ = TRY(Pages::read(options_.pages));
-        if (!options_.tls_cert.empty()) TRY(prepare_tls());
+        if (!options_.tls_cert.empty()) {
+            tls_.emplace(TRY(tls_context(options_.tls_cert, options_.tls_key)));
+        }
         SystemError failed;
         const auto address = asio::ip::make_address(options_.address, failed);
         if (failed) {
@@ -359,25 +362,6 @@ private:
         asio::post(io_, [this, client] {
             if (Live* live = find(client)) live->resume();
         });
-    }
-
-    Status prepare_tls() {
-        tls_.emplace(asio::ssl::context::tls_server);
-        SystemError failed;
-        tls_->set_options(asio::ssl::context::default_workarounds | asio::ssl::context::no_tlsv1 |
-                              asio::ssl::context::no_tlsv1_1,
-                          failed);
-        tls_->use_certificate_chain_file(options_.tls_cert, failed);
-        if (failed) {
-            return Error{Code::BadInput,
-                         options_.tls_cert + ": no certificate in PEM form: " + failed.message()};
-        }
-        tls_->use_private_key_file(options_.tls_key, asio::ssl::context::pem, failed);
-        if (failed) {
-            return Error{Code::BadInput,
-                         options_.tls_key + ": no private key in PEM form: " + failed.message()};
-        }
-        return Status::done();
     }
 
     Status open(const Tcp::endpoint& place) {
@@ -446,14 +430,28 @@ private:
         beast::tcp_stream stream(std::move(socket));
         stream.expires_after(options_.request_within);
         if (tls_) {
-            beast::ssl_stream<beast::tcp_stream> secured(std::move(stream), *tls_);
-            const auto [refused] = co_await secured.async_handshake(asio::ssl::stream_base::server,
-                                                                    as_tuple(use_awaitable));
-            if (!refused) co_await talk(std::move(secured), local, remote);
+            co_await secured(std::move(stream), local, remote);
         } else {
             co_await talk(std::move(stream), local, remote);
         }
         --shared_.connections;
+    }
+
+    // Who speaks plain HTTP here has typed http:// or nothing, and hears what to type.
+    awaitable<void> secured(beast::tcp_stream stream, Tcp::endpoint local, Tcp::endpoint remote) {
+        beast::flat_buffer begun;
+        const auto [lost, is_tls] =
+            co_await beast::async_detect_ssl(stream, begun, as_tuple(use_awaitable));
+        if (lost) co_return;
+        if (!is_tls) {
+            co_await tell(stream, http::status::bad_request,
+                          "this port speaks HTTPS; open the address with https://");
+            co_return;
+        }
+        beast::ssl_stream<beast::tcp_stream> secure(std::move(stream), *tls_);
+        const auto [refused, used] = co_await secure.async_handshake(
+            asio::ssl::stream_base::server, begun.data(), as_tuple(use_awaitable));
+        if (!refused) co_await talk(std::move(secure), local, remote);
     }
 
     template <typename Stream>
@@ -497,8 +495,8 @@ private:
     awaitable<bool> begins(Stream& stream, beast::flat_buffer& buffer) {
         if (buffer.size() > 0) co_return true;
         beast::get_lowest_layer(stream).expires_after(options_.idle_within);
-        const auto [failed, size] = co_await stream.async_read_some(
-            buffer.prepare(kFirstBytesMax), as_tuple(use_awaitable));
+        const auto [failed, size] = co_await stream.async_read_some(buffer.prepare(kFirstBytesMax),
+                                                                    as_tuple(use_awaitable));
         buffer.commit(size);
         co_return !failed;
     }
@@ -524,16 +522,20 @@ private:
             failed.category() != http::make_error_code(http::error::bad_method).category()) {
             co_return;
         }
+        const bool large = failed == http::error::header_limit || failed == http::error::body_limit;
+        co_await tell(
+            stream,
+            large ? http::status::request_header_fields_too_large : http::status::bad_request,
+            large ? "the request is too large" : "that is not HTTP");
+    }
+
+    // The last word on a connection.
+    template <typename Stream>
+    awaitable<void> tell(Stream& stream, http::status status, const char* sentence) {
         Asking nothing;
         nothing.version(11);
         nothing.keep_alive(false);
-        const bool large = failed == http::error::header_limit || failed == http::error::body_limit;
-        co_await write(
-            stream,
-            plain(nothing,
-                  large ? http::status::request_header_fields_too_large : http::status::bad_request,
-                  large ? "the request is too large" : "that is not HTTP"),
-            false);
+        co_await write(stream, plain(nothing, status, sentence), false);
         SystemError ignored;
         beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_send, ignored);
     }

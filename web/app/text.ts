@@ -200,7 +200,7 @@ export const text = {
     references: 'References',
   },
   empty: {
-    properties: 'Select something.',
+    properties: 'Select a thing in a world: what it is stands here, to be changed.',
     problems: 'No problems.',
     watch: 'Nothing watched. Press + or drag a variable here.',
     breakpoints: 'None. Click beside a line of a script, or press F9 in it.',
@@ -208,6 +208,8 @@ export const text = {
     console: 'Nothing said yet. What the server, the run and the plan say stands here.',
     plots: 'Nothing plotted. Press the curve beside a variable.',
     variables: 'No node. Choose a target, or press F5 to start the simulator.',
+    variablesOfBus: (name: string) =>
+      `No node on ${name} yet. Switch the robot on; its variables appear here by themselves.`,
     world: 'No world. Press F5 to start the simulator.',
     network: 'No bus. Choose a target at the top.',
     documents: 'Open a file from the project, or press Ctrl+K.',
@@ -375,7 +377,8 @@ export const text = {
     bytecode: 'Bytecode',
     variables: 'Variables',
     stack: 'Stack',
-    of: (all: number) => `/ ${all} words`,
+    of: (all: number) => `/ ${all}`,
+    unit: ' words',
     upload: 'Upload',
     keep: 'Keep',
     keepHelp: 'Keep in the node’s flash',

@@ -1,6 +1,6 @@
 // What lives as long as the window: theme, keys, the layout that was chosen last.
 
-import { useEffect, useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { isLayoutName } from '../core/layouts';
 import type { Theme } from '../core/settings';
 import { revealPanel, update } from '../core/window_state';
@@ -83,15 +83,22 @@ export function WindowLife(): null {
   return null;
 }
 
-/** A page that may drive takes the wheel if nobody holds it. */
+/**
+ * A page that may drive takes the wheel if nobody holds it, and when it opens as the only page: the server
+ * keeps the wheel a while for a page that was closed.
+ */
 function useAskForWheel(): void {
   const studio = useStudio();
   const link = useLink();
-  const driver = useTopic('studio', {})?.driver;
+  const driver = usePart('studio', {}, (is) => is?.driver);
+  const clients = usePart('studio', {}, (is) => is?.clients);
+  const opens = useRef(true);
   useEffect(() => {
-    if (link.state === 'open' && link.role === 'drive' && driver === 0)
-      studio.order('driver.ask', {});
-  }, [studio, link, driver]);
+    if (link.state !== 'open' || link.role !== 'drive' || driver === undefined) return;
+    const isAlone = opens.current && clients === 1 && driver !== link.number;
+    opens.current = false;
+    if (driver === 0 || isAlone) studio.order('driver.ask', {});
+  }, [studio, link, driver, clients]);
 }
 
 /** Problems opens by itself at the first error only. */

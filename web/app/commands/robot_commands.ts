@@ -46,7 +46,8 @@ export function robotCommands(studio: Studio): Command[] {
     ),
     command('plots.csv', plotted, () => copyCsv(studio)),
     command('plots.csvFile', plotted, () => download(csvBlob(studio.plotter.csv()), 'plot.csv')),
-    command('plots.png', plotted, () => savePng(studio)),
+    command('plots.png', plotted, () => copyPng(studio)),
+    command('plots.pngFile', plotted, () => savePng(studio)),
   ];
 }
 
@@ -101,8 +102,23 @@ function openSend(studio: Studio): void {
 }
 
 async function copyCsv(studio: Studio): Promise<void> {
-  await navigator.clipboard.writeText(studio.plotter.csv());
-  toast(studio.window, 'ok', text.plots.copied);
+  await clipboard().writeText(studio.plotter.csv());
+  toast(studio.window, 'ok', text.plots.copied('CSV'));
+}
+
+async function copyPng(studio: Studio): Promise<void> {
+  const picture = await plotPicture(studio);
+  if (!picture) return;
+  if (typeof ClipboardItem === 'undefined') throw new Error(text.plots.noClipboard);
+  await clipboard().write([new ClipboardItem({ [picture.type]: picture })]);
+  toast(studio.window, 'ok', text.plots.copied('PNG'));
+}
+
+/** A page that came over an open line has none. */
+function clipboard(): Clipboard {
+  const { clipboard: own } = navigator as { clipboard?: Clipboard };
+  if (!own) throw new Error(text.plots.noClipboard);
+  return own;
 }
 
 async function savePng(studio: Studio): Promise<void> {

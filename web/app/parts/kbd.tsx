@@ -1,3 +1,11 @@
+/** As they stand on the keys. */
+const arrows: Readonly<Record<string, string>> = {
+  ArrowLeft: '←',
+  ArrowRight: '→',
+  ArrowUp: '↑',
+  ArrowDown: '↓',
+};
+
 export function Kbd({ keys }: { keys: string }) {
-  return <span className="kbd">{keys}</span>;
+  return <span className="kbd">{keys.replace(/Arrow\w+/, (name) => arrows[name] ?? name)}</span>;
 }

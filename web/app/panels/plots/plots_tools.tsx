@@ -78,6 +78,7 @@ export default function PlotsTools() {
         <CommandItem id="plots.csv" title={words.csv} />
         <CommandItem id="plots.csvFile" title={words.csvFile} />
         <CommandItem id="plots.png" title={words.png} />
+        <CommandItem id="plots.pngFile" title={words.pngFile} />
         <Menu.Divider />
         <CommandItem id="plots.clear" title={words.clear} />
       </StudioMenu>

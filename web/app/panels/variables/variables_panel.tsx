@@ -27,11 +27,14 @@ export default function VariablesPanel() {
   const [find, setFind] = useState('');
   const [form, setForm] = useState<NumberForm>('decimal');
   const { rows, toggle } = useRows(find, shown);
-  const nodes = useTopic('robot', {})?.nodes ?? [];
+  const robot = useTopic('robot', {});
+  const nodes = robot?.nodes ?? [];
   return (
     <div className="variables" ref={frame}>
       {nodes.length === 0 ? (
-        <Quiet>{text.empty.variables}</Quiet>
+        <Quiet>
+          {robot?.kind === 'bus' ? text.empty.variablesOfBus(robot.name) : text.empty.variables}
+        </Quiet>
       ) : (
         <>
           <div className="strip-bar">

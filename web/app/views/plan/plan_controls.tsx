@@ -56,10 +56,12 @@ export function PlanControls({ doc, plan }: { doc: Doc; plan: Topics['plan']['is
         <Button
           small
           disabled={!drives}
+          tip={words.continue}
+          aria-label={words.continue}
           icon={<IconPlayerPlay {...size} />}
           onClick={run('plan.continue')}
         >
-          {words.continue}
+          <span className="planlive__word">{words.continue}</span>
         </Button>
       ) : null}
       {goes ? (

@@ -83,11 +83,19 @@ async function complete(
   await studio.documents.flushAll();
   const answer = await studio.send('script.complete', { doc, at }).catch(() => null);
   if (!answer || context.aborted || answer.items.length === 0) return null;
+  const keywords = new Set(answer.items.filter(isKeyword).map((one) => one.label));
+  // Nothing is left to complete of a keyword that stands there in full: the list goes.
+  const isWhole = (typed: string) => !context.explicit && keywords.has(typed);
+  if (isWhole(word?.text ?? '')) return null;
   return {
     from: offsetOf(context.state.doc, answer.from),
     options: answer.items.map(optionOf),
-    validFor: /^[\p{L}\p{N}_.]*$/u,
+    validFor: (typed) => /^[\p{L}\p{N}_.]*$/u.test(typed) && !isWhole(typed),
   };
+}
+
+function isKeyword(item: Suggestion): boolean {
+  return item.kind === 'keyword';
 }
 
 function optionOf(item: Suggestion): Completion {

@@ -50,6 +50,7 @@ function Meter({ name, value: { used, of } }: { name: string; value: MeterValue 
       </svg>
       <span className="num">
         <b>{used}</b> {words.of(of)}
+        <span className="meter__unit">{words.unit}</span>
       </span>
     </div>
   );

@@ -24,6 +24,7 @@ import { assist } from './assist';
 import { goToDefinition } from './editor_acts';
 import { findingsExtension } from './findings';
 import { lineMarks } from './line_marks';
+import { revealSentence } from './reveal_sentence';
 import { makeState } from './setup';
 import { editBreakpoint, toggleBreakpoint } from './editor_acts';
 import { placeOf } from './places';
@@ -111,6 +112,7 @@ function stateFor(studio: Studio, doc: Doc, opened: OpenDocument): EditorState {
   const extensions = [
     EditorView.updateListener.of((change) => tellCursor(studio, doc, change)),
     findingsExtension,
+    revealSentence,
     lineMarks({
       toggle: (line) => isScript && toggleBreakpoint(studio, doc, line),
       edit: (line) => isScript && editBreakpoint(studio, doc, line),

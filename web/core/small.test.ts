@@ -3,7 +3,7 @@ import { describe, expect, test, vi } from 'vitest';
 import type { Finding, Json, JsonStep } from '../protocol/messages';
 import { misfit } from '../protocol/check';
 import { readField } from '../protocol/shape';
-import { countsOf, ordered, sameFinding, stepIndex } from './findings';
+import { countsOf, ordered, stepIndex } from './findings';
 import { change, createHistory, redo, undo } from './history';
 import { identityOf, kIdBlock, tokenIn } from './identity';
 import { applySteps } from './json_steps';

@@ -39,7 +39,9 @@ function files(): { name: string; value: Json }[] {
   );
   return all.flatMap((path) => {
     try {
-      return [{ name: path.slice(root.length), value: JSON.parse(readFileSync(path, 'utf8')) as Json }];
+      return [
+        { name: path.slice(root.length), value: JSON.parse(readFileSync(path, 'utf8')) as Json },
+      ];
     } catch {
       // Some golden plans are no JSON: what the checker says of them is tested elsewhere.
       return [];

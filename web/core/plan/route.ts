@@ -30,6 +30,7 @@ export interface Routed {
 /** From the edge of a box to the first bend: room for a head of an arrow and its corner. */
 const kStubOut = 10;
 const kStubIn = 18;
+const kHeadRoom = 12;
 const kBend = 28;
 const kCrossing = 40;
 const kShared = 0.4;
@@ -57,7 +58,11 @@ export function routeAll(boxes: readonly Box[], ways: readonly Way[]): Map<strin
   ]);
   const grid = new Grid(boxes, stubs);
   const lanes = new Lanes();
-  for (const way of ways) lanes.add(way.aim, [way.from, outOf(way.from, kStubOut)]);
+  for (const way of ways) {
+    lanes.add(way.aim, [way.from, outOf(way.from, kStubOut)]);
+    // Nobody crosses where a head of an arrow will be.
+    for (const entry of way.entries) lanes.add(way.aim, [entry, outOf(entry, kHeadRoom)]);
+  }
   const found = new Map<string, Routed>();
   for (const way of [...ways].sort((a, b) => length(a) - length(b))) {
     const points = simplified(new Search(grid, lanes, way).points());

@@ -35,7 +35,8 @@ test(
     });
     const file = join(server.data, 'projects/follow-wall/follow-wall/WallFollow.plan.json');
     const before = readFileSync(file, 'utf8');
-    await press('Control+s');
+    await element(page, 'followWall, actor').focus();
+    await press('Space', 'Control+s');
     assert.equal(readFileSync(file, 'utf8'), before);
   },
 );
@@ -50,7 +51,9 @@ test(
     const before = readFileSync(file, 'utf8');
     const actor = element(page, 'followWall, actor');
     await actor.focus();
-    await press('Enter', 'ArrowRight', 'Control+s');
+    await press('Space');
+    await seen(page.getByRole('heading', { name: 'followWall' }));
+    await press('ArrowRight', 'Control+s');
     // A step of the grid is 8.
     const moved = before.replace('"followWall": [800, 240]', '"followWall": [808, 240]');
     assert.notEqual(moved, before);
@@ -62,7 +65,7 @@ test(
 );
 
 test('a plan of two actors is drawn from nothing by the keyboard', empty, async (studio) => {
-  const { page, layout, press, type, place } = studio;
+  const { page, layout, press, place } = studio;
   await layout('Draw');
   await seen(page.getByText('Drag an actor here, or press / and type its name.'));
   const search = page.getByRole('searchbox', { name: /Search \d+ templates/ });
@@ -115,7 +118,6 @@ test('a plan of two actors is drawn from nothing by the keyboard', empty, async 
   });
   assert.deepEqual(saved.plan, wanted);
   assert.deepEqual(Object.keys(saved.places), ['greet', 'wait']);
-  void type;
 });
 
 test('supervisors, variables and findings: added, marked, taken away', empty, async (studio) => {
@@ -135,8 +137,8 @@ test('supervisors, variables and findings: added, marked, taken away', empty, as
   await form.getByLabel('Unit').fill('s');
   await press('Enter');
   await reads(element(page, 'value, variable, float'), /0 s/);
-  await element(page, 'wait, actor').focus();
-  await press('Enter', 'Delete');
+  await element(page, 'timeout, supervisor').focus();
+  await press('Space', 'Delete');
   await gone(element(page, 'timeout, supervisor'));
   await press('Control+z');
   await seen(element(page, 'timeout, supervisor Timeout'));
@@ -176,7 +178,7 @@ test('text and drawing are one file', wall, async (studio) => {
   await seen(element(page, 'keepDistance, computation Assign'));
   await page.keyboard.type('  ');
   await element(page, 'keepDistance, computation').focus();
-  await press('Enter', 'Delete');
+  await press('Space', 'Delete');
   await gone(element(page, 'keepDistance, computation'));
   await until(
     'the text follows',

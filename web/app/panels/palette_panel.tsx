@@ -43,7 +43,6 @@ export default function PalettePanel() {
           }}
         />
       </label>
-      {shown ? null : <Quiet>{words.noPlan}</Quiet>}
       <div className="scroll">
         {groups.map((group) => (
           <Toolbox key={group.name} group={group} may={may} />
@@ -60,6 +59,7 @@ export default function PalettePanel() {
           </button>
         ) : null}
       </div>
+      {shown ? null : <Quiet>{words.noPlan}</Quiet>}
     </div>
   );
 }

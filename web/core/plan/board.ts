@@ -168,8 +168,8 @@ export class PlanBoard {
     return key;
   }
 
-  /** Removes what is chosen: an element, a variable, or where an arrow leads. */
-  remove(key: string): void {
+  /** Removes an element, a variable, or where an arrow leads; gives the key of what is near it. */
+  remove(key: string): string {
     const { value } = this.file;
     const arrow = this.arrow(key);
     const supervisor = this.supervisor(key);
@@ -178,6 +178,7 @@ export class PlanBoard {
     else if (supervisor) this.commit(edit.dropSteps(value, supervisor.keys));
     else if (variable) this.commit(edit.dropSteps(value, ['configuration', variable.name]));
     else if (arrow) this.connect(arrow.source, arrow.outcome, null);
+    return supervisor?.owner ?? arrow?.source ?? kStart;
   }
 
   rename(key: string, to: string): void {

@@ -121,6 +121,7 @@ export function useJsonDocument(doc: Doc | null): {
         setFile(made);
         ends = [
           made.trouble.on((what) => studio.tell(what)),
+          studio.documents.join(() => made.flushed()),
           studio.connection.watch('doc', { doc }, { value: (value) => made.told(asDoc(value)) }),
         ];
       },

@@ -62,7 +62,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     make(
       'draw.remove',
       ['Delete', 'Backspace'],
-      ({ board }) => board.remove(board.selected ?? ''),
+      ({ board, focus }) => focus(board.remove(board.selected ?? '')),
       has,
     ),
     make('draw.rename', ['F2'], () => acts.rename(), named),

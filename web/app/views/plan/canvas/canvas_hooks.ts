@@ -3,7 +3,7 @@
 import { useReactFlow, type NodeChange } from '@xyflow/react';
 import { useCallback, useEffect, useMemo, useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
-import { revealPanel } from '../../../../core/window_state';
+import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { canvasCommands } from './canvas_commands';
@@ -74,5 +74,10 @@ export function useOnDesk(board: PlanBoard, frame: React.RefObject<HTMLDivElemen
       }),
     );
   }, [studio, flow]);
-  return useCallback(() => planDeskOf(studio).use(shown), [studio, shown]);
+  return useCallback(() => {
+    planDeskOf(studio).use(shown);
+    const { doc } = shown.board;
+    if (studio.window.getState().doc !== doc)
+      update(studio.window, (draft) => void (draft.doc = doc));
+  }, [studio, shown]);
 }

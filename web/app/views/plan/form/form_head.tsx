@@ -53,7 +53,7 @@ export function FormHead(props: {
         disabled={!drives}
         tip={`${words.remove}  (Delete)`}
         icon={<IconTrash {...size} />}
-        onClick={() => board.remove(chosen)}
+        onClick={() => desk.shown?.focus(board.remove(chosen))}
       />
     </header>
   );

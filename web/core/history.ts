@@ -11,7 +11,15 @@ export const kUndoMax = 200;
 export interface Edited {
   value: Json;
   /** The steps that led here, and those that lead back. */
-  last: { steps: JsonStep[]; undo: JsonStep[] } | null;
+  last: Change | null;
+}
+
+export interface Change {
+  steps: JsonStep[];
+  undo: JsonStep[];
+  /** The text of the file before and after, as far as it is known: undo leads back to each byte. */
+  before: string | null;
+  after: string | null;
 }
 
 export type History = ReturnType<typeof createHistory>;
@@ -22,9 +30,13 @@ export function createHistory(value: Json) {
   );
 }
 
-export function change(history: History, steps: JsonStep[]): JsonStep[] {
+export function change(
+  history: History,
+  steps: JsonStep[],
+  before: string | null = null,
+): JsonStep[] {
   const { value, undo } = applySteps(history.getState().value, steps);
-  history.setState({ value, last: { steps, undo } });
+  history.setState({ value, last: { steps, undo, before, after: null } });
   return steps;
 }
 

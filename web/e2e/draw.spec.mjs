@@ -64,6 +64,22 @@ test(
   },
 );
 
+test('what is removed comes back to each byte', wall, async (studio) => {
+  const { page, layout, press, server } = studio;
+  await layout('Draw');
+  const file = join(server.data, 'projects/follow-wall/follow-wall/WallFollow.plan.json');
+  const before = readFileSync(file, 'utf8');
+  await element(page, 'followWall, actor').focus();
+  await press('Space', 'Delete');
+  await gone(element(page, 'followWall, actor'));
+  await press('Control+s');
+  await until('it is saved', () => !readFileSync(file, 'utf8').includes('"WallForward"'));
+  await press('Control+z');
+  await seen(element(page, 'followWall, actor'));
+  await press('Control+s');
+  await until('it is as it was', () => readFileSync(file, 'utf8') === before);
+});
+
 test('a plan of two actors is drawn from nothing by the keyboard', empty, async (studio) => {
   const { page, layout, press, place } = studio;
   await layout('Draw');

@@ -43,7 +43,7 @@ export default function PalettePanel() {
           }}
         />
       </label>
-      <div className="scroll">
+      <div className="scroll" tabIndex={0} data-inset>
         {groups.map((group) => (
           <Toolbox key={group.name} group={group} may={may} />
         ))}

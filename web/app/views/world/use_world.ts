@@ -141,7 +141,11 @@ async function openJson(studio: Studio, doc: Doc): Promise<JsonDocument> {
   await studio.documents.flushAll();
   const open = () => studio.send('doc.open', { doc });
   return new JsonDocument(
-    { open, patch: (version, steps) => studio.send('doc.patch', { doc, version, steps }) },
+    {
+      open,
+      patch: (version, steps) => studio.send('doc.patch', { doc, version, steps }),
+      edit: (version, changes) => studio.send('doc.edit', { doc, version, changes }),
+    },
     await open(),
   );
 }

@@ -766,7 +766,7 @@ export const text = {
     canvas: (name: string) => `Plan ${name}, drawn`,
     failed: 'The plan cannot be opened.',
     broken: 'The text is no JSON. Mend it as text; the drawing follows.',
-    empty: 'Drag an actor here, or press / and type its name.',
+    empty: 'Drag an actor here, or type its name in the palette and press Enter.',
     map: 'The whole plan, small',
     start: 'Start',
     terminate: 'terminate',

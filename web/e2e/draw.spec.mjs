@@ -83,7 +83,9 @@ test('what is removed comes back to each byte', wall, async (studio) => {
 test('a plan of two actors is drawn from nothing by the keyboard', empty, async (studio) => {
   const { page, layout, press, place } = studio;
   await layout('Draw');
-  await seen(page.getByText('Drag an actor here, or press / and type its name.'));
+  await seen(
+    page.getByText('Drag an actor here, or type its name in the palette and press Enter.'),
+  );
   const search = page.getByRole('searchbox', { name: /Search \d+ templates/ });
   await search.fill('Writes a line');
   await press('Enter');

@@ -24,6 +24,7 @@ interface Entry {
 
 export class Documents {
   private readonly entries = new Map<Doc, Entry>();
+  private readonly others = new Set<() => Promise<void>>();
 
   constructor(
     private readonly connection: Connection,
@@ -43,8 +44,15 @@ export class Documents {
     return { opened: entry.opened, release };
   }
 
+  /** What else is edited is sent with the texts: files that are edited by their members. */
+  join(flushed: () => Promise<void>): () => void {
+    this.others.add(flushed);
+    return () => void this.others.delete(flushed);
+  }
+
   /** Sends what was typed and not yet sent, in all texts; gives the version of each that the server then has. */
   async flushAll(): Promise<Map<Doc, number>> {
+    await Promise.allSettled([...this.others].map((flushed) => flushed()));
     const flushed = await Promise.allSettled(
       [...this.entries].map(async ([doc, entry]): Promise<[Doc, number]> => {
         const { shared } = await entry.opened;

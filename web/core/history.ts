@@ -22,9 +22,12 @@ export interface Edited {
   last: Change | null;
 }
 
-interface Change {
+export interface Change {
   steps: JsonStep[];
   undo: JsonStep[];
+  /** The text of the file before and after, as far as it is known: undo leads back to each byte. */
+  before: string | null;
+  after: string | null;
   row?: Row | undefined;
 }
 
@@ -36,10 +39,16 @@ export function createHistory(value: Json) {
   );
 }
 
-export function change(history: History, steps: JsonStep[], row?: Row): JsonStep[] {
+/** `before`: the text of the file, if it is known. */
+export function change(
+  history: History,
+  steps: JsonStep[],
+  before: string | null = null,
+  row?: Row,
+): JsonStep[] {
   const { value, last } = history.getState();
   const after = applySteps(value, steps);
-  const made: Change = { steps, undo: after.undo, row };
+  const made: Change = { steps, undo: after.undo, before, after: null, row };
   const { futureStates, pause, resume } = history.temporal.getState();
   if (last && futureStates.length === 0 && goesOn(last.row, row)) {
     pause();
@@ -62,6 +71,8 @@ function merged(first: Change, then: Change): Change {
   return {
     steps: [...first.steps.filter(elsewhere(then.steps)), ...then.steps],
     undo: [...then.undo.filter(elsewhere(first.undo)), ...first.undo],
+    before: first.before,
+    after: null,
     row: then.row,
   };
 }

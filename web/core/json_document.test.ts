@@ -13,7 +13,19 @@ class Server {
   version = 1;
   waiting: { steps: JsonStep[]; done: (answer: Answer) => void; failed: (why: Error) => void }[] =
     [];
+  edited: string[] = [];
+  /** As a person wrote it; what is patched is written in the server's own form. */
+  typed: string | null = null;
   readonly link = {
+    edit: (_version: number, changes: { from: number; to: number; text: string }[]) => {
+      let text = this.text;
+      for (const one of [...changes].reverse())
+        text = text.slice(0, one.from) + one.text + text.slice(one.to);
+      this.edited.push(text);
+      this.typed = text;
+      this.value = JSON.parse(text) as Json;
+      return Promise.resolve({ version: ++this.version });
+    },
     open: () =>
       Promise.resolve({
         text: this.text,
@@ -25,10 +37,11 @@ class Server {
       new Promise<Answer>((done, failed) => this.waiting.push({ steps, done, failed })),
   };
   get text() {
-    return JSON.stringify(this.value);
+    return this.typed ?? JSON.stringify(this.value);
   }
   async answer() {
     const one = this.waiting.shift();
+    this.typed = null;
     this.value = applySteps(this.value, one?.steps ?? []).value;
     one?.done({ version: ++this.version, text: this.text });
     await Promise.resolve();
@@ -55,6 +68,25 @@ const made = () => {
 };
 
 describe('a JSON file that is edited', () => {
+  test('UndoAndRedoLeadToTheTextsThatThereWereByteForByte', async () => {
+    const server = new Server();
+    const written = '{ "list": [1.0],\n"a": 1 }';
+    server.typed = written;
+    server.value = JSON.parse(written) as Json;
+    const file = new JsonDocument(server.link, { text: written, version: 1 });
+    file.commit(set('a', 2));
+    await server.answer();
+    expect(server.text).toBe('{"list":[1],"a":2}');
+    file.undo();
+    await file.flushed();
+    expect(server.edited).toEqual([written]);
+    expect(file.value).toEqual({ list: [1], a: 1 });
+    file.redo();
+    await file.flushed();
+    expect(file.value).toEqual({ list: [1], a: 2 });
+    expect(server.edited).toEqual([written, '{"list":[1],"a":2}']);
+  });
+
   test('AChangeShowsAtOnceAndTheNextWaitsForItsAnswer', async () => {
     const { server, file } = made();
     file.commit(set('a', 2));

@@ -5,12 +5,29 @@ import type { Commands, Json, JsonStep } from '../protocol/messages';
 import { CommandError } from './connection';
 import type { DocTopic } from './document';
 import { Emitter } from './emitter';
-import { change, createHistory, redo, replace, undo, type History, type Row } from './history';
+import {
+  change,
+  createHistory,
+  redo,
+  replace,
+  undo,
+  type Change,
+  type History,
+  type Row,
+} from './history';
+import { textDiff } from './text_diff';
 
 export interface JsonLink {
   open(): Promise<Commands['doc.open']['out']>;
   patch(version: number, steps: JsonStep[]): Promise<Commands['doc.patch']['out']>;
+  edit(
+    version: number,
+    changes: Commands['doc.edit']['in']['changes'],
+  ): Promise<Commands['doc.edit']['out']>;
 }
+
+/** What the server is still to be told: steps, or the text that there was. */
+type Order = { steps: JsonStep[]; of: Change | null } | { text: string };
 
 export class JsonDocument {
   readonly changed = new Emitter<void>();
@@ -20,8 +37,10 @@ export class JsonDocument {
 
   private readonly history: History;
   private version: number;
-  private sent: JsonStep[] | null = null;
-  private unsent: JsonStep[] = [];
+  /** The server's text of that version. */
+  private text: string;
+  private sent: Order | null = null;
+  private unsent: Order[] = [];
   private latest: DocTopic | null = null;
   private settled: (() => void)[] = [];
 
@@ -30,6 +49,7 @@ export class JsonDocument {
     opened: { text: string; version: number },
   ) {
     this.version = opened.version;
+    this.text = opened.text;
     this.history = createHistory({});
     this.take(opened.text);
   }
@@ -49,15 +69,34 @@ export class JsonDocument {
   /** One change, taken back by one undo; those of a row are taken back together. */
   commit(steps: JsonStep[], row?: Row): void {
     if (steps.length === 0 || this.broken !== null) return;
-    this.tell(change(this.history, steps, row));
+    change(this.history, steps, this.coming, row);
+    this.tell({ steps, of: this.history.getState().last });
   }
 
+  /** To the text that there was, if nothing came between; else by steps that take it back. */
   undo(): void {
-    this.tell(undo(this.history) ?? []);
+    const { last } = this.history.getState();
+    const steps = undo(this.history);
+    if (steps) this.tell(this.back(last?.after, last?.before) ?? { steps, of: null });
   }
 
   redo(): void {
-    this.tell(redo(this.history) ?? []);
+    const steps = redo(this.history);
+    const { last } = this.history.getState();
+    if (steps) this.tell(this.back(last?.before, last?.after) ?? { steps, of: last });
+  }
+
+  private back(from: string | null | undefined, to: string | null | undefined): Order | null {
+    return typeof from === 'string' && typeof to === 'string' && this.coming === from
+      ? { text: to }
+      : null;
+  }
+
+  /** The text once all is done that is under way; null: only the server knows. */
+  private get coming(): string | null {
+    const last = this.unsent.at(-1) ?? this.sent;
+    if (last === null) return this.text;
+    return 'text' in last ? last.text : null;
   }
 
   /** What the topic "doc" says; while a change is under way it waits for the answer. */
@@ -71,29 +110,51 @@ export class JsonDocument {
     return this.sent ? new Promise((resolve) => this.settled.push(resolve)) : Promise.resolve();
   }
 
-  private tell(steps: JsonStep[]): void {
-    if (steps.length === 0) return;
-    this.unsent.push(...steps);
+  private tell(order: Order): void {
+    const waiting = this.unsent.at(-1);
+    if (waiting && 'steps' in waiting && 'steps' in order)
+      // Several changes in one message: the text between them is nobody's.
+      this.unsent[this.unsent.length - 1] = {
+        steps: [...waiting.steps, ...order.steps],
+        of: null,
+      };
+    else this.unsent.push(order);
     this.changed.emit();
     this.flush();
   }
 
   private flush(): void {
     if (this.sent) return;
-    if (this.unsent.length === 0) {
+    const next = this.unsent.shift();
+    if (!next) {
       for (const resolve of this.settled.splice(0)) resolve();
       return;
     }
-    this.sent = this.unsent;
-    this.unsent = [];
-    this.link.patch(this.version, this.sent).then(
-      ({ version, text }) => this.accepted(version, text),
+    this.sent = next;
+    this.send(next).then(
+      ({ version, text }) => {
+        if ('steps' in next && next.of) next.of.after = text;
+        this.accepted(version, text);
+      },
       (error: unknown) => this.refused(error),
     );
   }
 
+  private async send(order: Order): Promise<{ version: number; text: string }> {
+    if ('steps' in order) return this.link.patch(this.version, order.steps);
+    const changes = textDiff(this.text, order.text).map(({ from, to, insert }) => ({
+      from,
+      to,
+      text: insert,
+    }));
+    if (changes.length === 0) return { version: this.version, text: this.text };
+    const { version } = await this.link.edit(this.version, changes);
+    return { version, text: order.text };
+  }
+
   private accepted(version: number, text: string): void {
     this.version = version;
+    this.text = text;
     this.sent = null;
     const state = this.latest;
     this.latest = null;
@@ -123,6 +184,7 @@ export class JsonDocument {
 
   private adopt(text: string, version: number): void {
     this.version = version;
+    this.text = text;
     this.unsent = [];
     this.take(text);
     this.changed.emit();

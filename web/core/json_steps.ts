@@ -15,12 +15,12 @@ export function applySteps(value: Json, steps: readonly JsonStep[]): Stepped {
   for (const step of steps) {
     const [next, back] = applyStep(current, step, 0);
     current = next;
-    undo.unshift(back);
+    undo.unshift(...back);
   }
   return { value: current, undo };
 }
 
-function applyStep(value: Json, step: JsonStep, depth: number): [Json, JsonStep] {
+function applyStep(value: Json, step: JsonStep, depth: number): [Json, JsonStep[]] {
   const key = step.at[depth];
   if (depth === step.at.length - 1) return applyHere(value, key, step);
   if (Array.isArray(value) && typeof key === 'number' && key in value) {
@@ -34,8 +34,11 @@ function applyStep(value: Json, step: JsonStep, depth: number): [Json, JsonStep]
   throw new Error(`There is nothing at ${JSON.stringify(step.at)}.`);
 }
 
-function applyHere(value: Json, key: Json | undefined, step: JsonStep): [Json, JsonStep] {
-  if (Array.isArray(value) && typeof key === 'number') return applyToList(value, key, step);
+function applyHere(value: Json, key: Json | undefined, step: JsonStep): [Json, JsonStep[]] {
+  if (Array.isArray(value) && typeof key === 'number') {
+    const [next, back] = applyToList(value, key, step);
+    return [next, [back]];
+  }
   if (isTable(value) && typeof key === 'string') return applyToTable(value, key, step);
   throw new Error(`There is nothing at ${JSON.stringify(step.at)}.`);
 }
@@ -58,23 +61,36 @@ function applyToList(list: Json[], index: number, step: JsonStep): [Json, JsonSt
   }
 }
 
-function applyToTable(table: Record<string, Json>, key: string, step: JsonStep): [Json, JsonStep] {
+/** The order of members counts: one that comes back comes back to its place. */
+function applyToTable(
+  table: Record<string, Json>,
+  key: string,
+  step: JsonStep,
+): [Json, JsonStep[]] {
   const { at } = step;
-  const there = Object.hasOwn(table, key);
-  const before: JsonStep = there
-    ? { do: 'set', at, value: table[key] ?? null }
-    : { do: 'remove', at };
+  const index = Object.keys(table).indexOf(key);
+  const before: JsonStep[] =
+    index >= 0 ? [{ do: 'set', at, value: table[key] ?? null }] : [{ do: 'remove', at }];
   switch (step.do) {
     case 'set':
       return [{ ...table, [key]: step.value ?? null }, before];
     case 'remove': {
       const { [key]: _gone, ...rest } = table;
-      return [rest, before];
+      return [rest, [...before, { do: 'move', at, to: index }]];
     }
-    case 'insert':
     case 'move':
-      throw new Error(`"${step.do}" is for lists; ${JSON.stringify(at)} is in an object.`);
+      if (index < 0) throw new Error(`There is nothing at ${JSON.stringify(at)}.`);
+      return [moved(table, index, step.to ?? 0), [{ do: 'move', at, to: index }]];
+    case 'insert':
+      throw new Error(`"insert" is for lists; ${JSON.stringify(at)} is in an object.`);
   }
+}
+
+function moved(table: Record<string, Json>, from: number, to: number): Record<string, Json> {
+  const members = Object.entries(table);
+  return Object.fromEntries(
+    members.toSpliced(from, 1).toSpliced(to, 0, ...members.slice(from, from + 1)),
+  );
 }
 
 function isTable(value: Json): value is Record<string, Json> {

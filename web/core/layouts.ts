@@ -36,7 +36,7 @@ export const layoutPlans: Record<LayoutName, Split> = {
   Draw: {
     is: 'row',
     parts: [
-      left,
+      { ...left, panels: ['palette', 'project'] },
       {
         is: 'column',
         parts: [

@@ -49,6 +49,7 @@ export const documents: {
       gone: !doc,
     };
   },
+  templates: () => ({ toolboxes: [] }),
   findings: (model) => ({
     findings: [...model.compiled.values()].flatMap((one) => one.findings),
     more: 0,

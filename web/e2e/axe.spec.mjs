@@ -48,8 +48,16 @@ for (const theme of ['dark', 'light']) {
         );
         await look(studio, name);
       }
+      await layout('Draw');
+      await page.getByRole('group', { name: /^followWall, actor/ }).focus();
+      await press('Space');
+      await seen(page.getByRole('heading', { name: 'followWall' }));
+      for (const shown of ['All data arrows', 'Text', 'What it does'])
+        await page.getByRole('switch', { name: shown }).click();
+      await look(studio, 'a plan with all that stands beside it');
       await layout('Script');
       for (const panel of [
+        'Palette',
         'Network',
         'Breakpoints',
         'Search',

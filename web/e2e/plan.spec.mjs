@@ -9,6 +9,7 @@ test(
   async (studio) => {
     const { page, press, button, layout } = studio;
     await layout('Draw');
+    await page.getByRole('switch', { name: 'What it does' }).click();
     const live = page.getByRole('complementary', { name: 'What the plan does' });
     await seen(live);
     await live.getByRole('button', { name: 'Start' }).click();
@@ -27,6 +28,7 @@ test(
 test('mistakes in a plan are told at their place', wall, async (studio) => {
   const { page, press, type, layout, button } = studio;
   await layout('Draw');
+  await page.getByRole('switch', { name: 'Text' }).click();
   const text = page.getByRole('textbox', { name: /Text of/ }).first();
   await text.click();
   await press('Control+f');

@@ -339,6 +339,53 @@ export interface SceneObject {
   on: boolean;
 }
 
+/** An input of a template of plans. */
+export interface PlanInput {
+  name: Name;
+  type: 'any' | 'bool' | 'int' | 'float' | 'string' | 'object';
+  unit: string;
+  help: string;
+  /** without it, it must be fed */
+  default?: Json;
+  low?: number;
+  high?: number;
+}
+
+/** An output of a template of plans. */
+export interface PlanOutput {
+  name: Name;
+  type: 'any' | 'bool' | 'int' | 'float' | 'string' | 'object';
+  unit: string;
+  help: string;
+}
+
+/** A state of an actor, an event of a supervisor. */
+export interface PlanOutcome {
+  name: Name;
+  help: string;
+}
+
+/** What an actor or supervisor of a plan is an instance of. */
+export interface PlanTemplate {
+  name: Name;
+  kind: 'actor' | 'computation' | 'supervisor';
+  help: string;
+  /** SVG path data on a 24 x 24 field */
+  icon: string;
+  inputs: PlanInput[];
+  outputs: PlanOutput[];
+  outcomes: PlanOutcome[];
+  /** of a supervisor; 0: it waits for its event */
+  period_ms: number;
+}
+
+/** Templates for one platform. */
+export interface PlanToolbox {
+  name: Name;
+  help: string;
+  templates: PlanTemplate[];
+}
+
 /** A variable of a plan that runs. */
 export interface PlanVariable {
   name: Name;
@@ -928,6 +975,10 @@ export interface Topics {
     /** by document: the text they are for */
     versions: Record<string, number>;
   } };
+  /** What plans of the project can be made of. That of a shared library is not known. */
+  'templates': { kind: 'document'; of: Record<never, never>; is: {
+    toolboxes: PlanToolbox[];
+  } };
   /** What the compiler knows of a script. */
   'script': { kind: 'document'; of: {
     doc: Doc;
@@ -1094,6 +1145,11 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Point: '[number; 2]',
   Colour: '[number; 3]',
   SceneObject: { id: 'line(128)', number: 'number', kind: 'word(wall|box|cylinder|patch|light|infrared)', size: '[number; 2]?', radius: 'number?', height: 'number', mass: 'number', colour: 'Colour', on: 'bool' },
+  PlanInput: { name: 'Name', type: 'word(any|bool|int|float|string|object)', unit: 'line(32)', help: 'line(1000)', default: 'json?', low: 'number?', high: 'number?' },
+  PlanOutput: { name: 'Name', type: 'word(any|bool|int|float|string|object)', unit: 'line(32)', help: 'line(1000)' },
+  PlanOutcome: { name: 'Name', help: 'line(1000)' },
+  PlanTemplate: { name: 'Name', kind: 'word(actor|computation|supervisor)', help: 'line(1000)', icon: 'line(8192)', inputs: '[PlanInput; 256]', outputs: '[PlanOutput; 256]', outcomes: '[PlanOutcome; 256]', period_ms: 'number' },
+  PlanToolbox: { name: 'Name', help: 'line(1000)', templates: '[PlanTemplate; 1000]' },
   PlanVariable: { name: 'Name', type: 'word(bool|int|float|string|object)', value: 'json', unit: 'line(32)' },
   PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
   PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]' },
@@ -1186,6 +1242,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'files': { kind: 'document', is: { files: '[FileEntry; 2000]', more: 'bool' } },
   'doc': { kind: 'document', is: { version: 'int(0..4294967295)', text: 'text(2097152)', unsaved: 'bool', by: 'int(0..1000000000)', disk: 'text(2097152)?', gone: 'bool' } },
   'findings': { kind: 'document', is: { findings: '[Finding; 2000]', more: 'int(0..1000000)', versions: '{int(0..4294967295); 2000}' } },
+  'templates': { kind: 'document', is: { toolboxes: '[PlanToolbox; 200]' } },
   'script': { kind: 'document', is: { version: 'int(0..4294967295)', good: 'bool', node: 'Name', for: 'line(200)', bytecode: 'Meter', variables: 'Meter', stack: 'Meter', handlers: '[Handler; 1000]', code_lines: '[int(1..10000000); 65536]' } },
   'scripts': { kind: 'document', is: { parts: '[ScriptPart; 1000]', files: '[SharedFile; 200]' } },
   'robot': { kind: 'document', is: { target: 'line(256)', name: 'line(256)', kind: 'word(none|simulator|bus)', state: 'word(none|connecting|connected|lost|failed)', why: 'text(1000)?', since_wall: 'number?', nodes: '[Node; 1024]', twins: '[line(300); 100]', load: 'number?', lost: 'number', events_a_second: 'number' } },

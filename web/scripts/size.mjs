@@ -48,7 +48,7 @@ async function main() {
       const bytes = await fetched(await context.newPage(), address, seen);
       const sum = sumOf(bytes);
       console.log(`figure: ${name}: ${(sum / 1000).toFixed(0)} kB in ${bytes.size} files`);
-      const late = [...bytes.keys()].filter((file) => /solid_view/.test(file));
+      const late = [...bytes.keys()].filter((file) => /solid_view|plan_canvas/.test(file));
       if (late.length > 0) console.log(`fetched before it is needed: ${late}`);
       if (sum > kBytesMax || late.length > 0) {
         failed = true;

@@ -5,6 +5,7 @@
 
 #include "serve/edit/named_paths.hpp"
 #include "serve/edit/script_findings.hpp"
+#include "serve/edit/template_list.hpp"
 #include "session/project_file.hpp"
 
 namespace vagus::serve {
@@ -28,6 +29,10 @@ Json list_of_findings(const std::vector<Finding>& findings) {
 Findings::Findings(Desk& desk, Files& files, Scripts& scripts, const EditedProject& project)
     : desk_(desk), files_(files), scripts_(scripts), project_(project) {
     desk_.board().document("findings", [this](const Json&) { return document(); });
+    desk_.board().document("templates", [this](const Json&) {
+        refresh_toolboxes();
+        return template_list(toolboxes_.library->templates());
+    });
 }
 
 void Findings::text_changed(const std::string& path) {
@@ -85,6 +90,7 @@ void Findings::project_changed() {
     due_ = due_at_last_ = now_;
     find_scope();
     desk_.board().touch("findings");
+    desk_.board().touch("templates");
 }
 
 // ---- which files ----
@@ -183,6 +189,7 @@ void Findings::refresh_toolboxes() {
     toolbox_paths_ = project_.toolboxes;
     toolboxes_ = load_toolboxes(files_, toolbox_paths_);
     ++toolboxes_generation_;
+    desk_.board().touch("templates");
 }
 
 void Findings::begin_round() {

@@ -27,7 +27,7 @@ class Findings {
 public:
     using Json = nlohmann::json;
 
-    // All borrowed. Declares the topic findings.
+    // All borrowed. Declares the topics findings and templates.
     Findings(Desk& desk, Files& files, Scripts& scripts, const EditedProject& project);
 
     void text_changed(const std::string& path);

@@ -192,6 +192,26 @@ TEST_F(EditTest, PlansKnowTheToolboxesOfTheProjectAsTheyAreEdited) {
     EXPECT_THAT(findings(), IsEmpty());
 }
 
+TEST_F(EditTest, PagesAreToldWhatPlansCanBeMadeOfAsToolboxesAreEdited) {
+    write("arm.toolbox.json", kToolbox);
+    write("arm.aesl", project("motor.left.target = 1\n", arm_events()));
+    enter({.toolboxes = {"arm.toolbox.json"}});
+    const Json first = document("templates")["toolboxes"];
+    EXPECT_EQ(first.front()["name"], "core");
+    EXPECT_EQ(first.front()["templates"][0], Json::parse(R"({
+        "name": "Wait", "kind": "actor", "help": "Waits so long.",
+        "icon": "M12 2a10 10 0 1 0 0 20a10 10 0 0 0 0-20M12 6v6l4 3",
+        "inputs": [{ "name": "seconds", "type": "float", "unit": "s", "help": "how long" }],
+        "outputs": [], "outcomes": [{ "name": "Done", "help": "the time is over" }],
+        "period_ms": 10 })"));
+    EXPECT_EQ(first.back()["name"], "arm");
+    EXPECT_EQ(first.back()["templates"][0]["name"], "Lift");
+    EXPECT_EQ(first.back()["templates"][0]["outcomes"][0]["name"], "Done");
+    put("arm.toolbox.json", "\"Lift\"", "\"Lower\"");
+    findings();
+    EXPECT_EQ(document("templates")["toolboxes"].back()["templates"][0]["name"], "Lower");
+}
+
 constexpr std::string_view kWorld =
     "{\n  \"format\": \"vagus-world/1\",\n  \"size\": [1, 1],\n  \"robots\": [{ \"name\": \"t\", "
     "\"type\": \"thymio2\", \"at\": [0.5, 0.5], \"script\": \"s.aesl\" }]\n}\n";

@@ -13,6 +13,7 @@ import {
   IconListSearch,
   IconMap2,
   IconNetwork,
+  IconPuzzle,
   IconSettings,
   IconTerminal2,
   IconVariable,
@@ -43,6 +44,13 @@ export const panels: readonly Panel[] = [
     title: text.panels.project,
     icon: IconFolders,
     view: late(() => import('../panels/project_panel')),
+  },
+  {
+    id: 'palette',
+    like: 'project',
+    title: text.panels.palette,
+    icon: IconPuzzle,
+    view: late(() => import('../panels/palette_panel')),
   },
   {
     id: 'problems',

@@ -1,21 +1,81 @@
-import { Suspense } from 'react';
+import { Suspense, useEffect } from 'react';
 import { late } from '../../parts/late';
 import type { Doc } from '../../../protocol/messages';
+import { useStudio, useTopic, useWindow } from '../../hooks';
+import { FindingNotice } from '../finding_notice';
+import { DiskNotice } from '../script/script_notices';
+import { planDeskOf } from './plan_desk';
 import { PlanLive } from './plan_live';
+import { togglePlanOption, usePlanOptions } from './plan_options';
+import { PlanTools } from './plan_tools';
 import '../../look/plan.css';
 
 const ScriptView = late(() => import('../script/script_view'));
+const PlanCanvas = late(() => import('./canvas/plan_canvas'));
 
-/** A plan as text, and beside it what it does while it runs. */
+/** A plan drawn; beside it, if wanted, its text, and what it does while it runs. */
 export default function PlanDocument({ doc }: { doc: Doc }) {
+  const options = usePlanOptions();
+  useRevealed(doc);
   return (
     <div className="plan">
-      <div className="plan__text">
+      <div className="plan__main">
+        <PlanTools doc={doc} />
+        <DiskNotice doc={doc} />
+        {options.text ? null : <Found doc={doc} />}
         <Suspense fallback={null}>
-          <ScriptView doc={doc} isScript={false} />
+          <PlanCanvas doc={doc} />
         </Suspense>
       </div>
-      <PlanLive doc={doc} />
+      {options.text ? (
+        <div className="plan__text">
+          <Suspense fallback={null}>
+            <ScriptView doc={doc} isScript={false} />
+          </Suspense>
+        </div>
+      ) : null}
+      {options.live ? <PlanLive doc={doc} /> : null}
     </div>
   );
+}
+
+function Found({ doc }: { doc: Doc }) {
+  const studio = useStudio();
+  return (
+    <FindingNotice
+      doc={doc}
+      onShow={({ element }) => selectOnBoard(planDeskOf(studio), doc, element)}
+    />
+  );
+}
+
+function selectOnBoard(
+  desk: ReturnType<typeof planDeskOf>,
+  doc: Doc,
+  element: string | undefined,
+): boolean {
+  const { shown } = desk;
+  const key = element && shown?.board.doc === doc ? shown.board.keyOf(element) : null;
+  if (!shown || !key) return false;
+  shown.board.select(key);
+  shown.focus(key);
+  return true;
+}
+
+/** A place in the text is asked for: the element that is meant is chosen, else the text is shown. */
+function useRevealed(doc: Doc): void {
+  const studio = useStudio();
+  const reveal = useWindow((window) => window.reveal);
+  const findings = useTopic('findings', {})?.findings;
+  useEffect(() => {
+    if (reveal?.what !== 'doc' || reveal.doc !== doc || !reveal.at) return;
+    const { line, column } = reveal.at;
+    const meant = findings?.find(
+      (one) => one.doc === doc && one.at.line === line && one.at.column === column,
+    );
+    if (!selectOnBoard(planDeskOf(studio), doc, meant?.element))
+      togglePlanOption(studio, 'text', true);
+    // Findings that come later are no reason to show this one again.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [studio, doc, reveal]);
 }

@@ -16,6 +16,8 @@ export interface ShownWorld {
 
 export class WorldDesk {
   readonly changed = new Emitter<void>();
+  /** Someone works in a world. */
+  readonly used = new Emitter<void>();
   version = 0;
   private readonly worlds: ShownWorld[] = [];
   private forms = 0;
@@ -41,6 +43,7 @@ export class WorldDesk {
   }
 
   use(world: ShownWorld): void {
+    this.used.emit();
     const at = this.worlds.indexOf(world);
     if (this.shown === world || at < 0) return;
     this.worlds.splice(at, 1);

@@ -121,6 +121,7 @@ export function useJsonDocument(doc: Doc | null): {
         setFile(made);
         ends = [
           made.trouble.on((what) => studio.tell(what)),
+          studio.documents.join(() => made.flushed()),
           studio.connection.watch('doc', { doc }, { value: (value) => made.told(asDoc(value)) }),
         ];
       },
@@ -140,7 +141,11 @@ async function openJson(studio: Studio, doc: Doc): Promise<JsonDocument> {
   await studio.documents.flushAll();
   const open = () => studio.send('doc.open', { doc });
   return new JsonDocument(
-    { open, patch: (version, steps) => studio.send('doc.patch', { doc, version, steps }) },
+    {
+      open,
+      patch: (version, steps) => studio.send('doc.patch', { doc, version, steps }),
+      edit: (version, changes) => studio.send('doc.edit', { doc, version, changes }),
+    },
     await open(),
   );
 }

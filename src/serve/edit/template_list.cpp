@@ -1,0 +1,93 @@
+#include "serve/edit/template_list.hpp"
+
+#include "plan/value.hpp"
+#include "serve/edit/text_places.hpp"
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr size_t kToolboxesMax = 200;
+constexpr size_t kTemplatesMax = 1000;  // of a toolbox
+constexpr size_t kPartsMax = 256;       // inputs, outputs, outcomes of a template
+constexpr size_t kNameMax = 128;
+constexpr size_t kUnitMax = 32;
+constexpr size_t kHelpMax = 1000;
+constexpr size_t kIconMax = 8192;
+
+template <typename List, typename Make>
+Json list_of(const List& from, size_t most, Make make) {
+    Json list = Json::array();
+    for (const auto& one : from) {
+        if (list.size() < most) list.push_back(make(one));
+    }
+    return list;
+}
+
+std::string_view type_of(const std::optional<plan::Type>& type) {
+    return type ? plan::name_of(*type) : "any";
+}
+
+Json value_of(const plan::Value& value) {
+    switch (value.type()) {
+        case plan::Type::Bool:
+            return value.boolean();
+        case plan::Type::Int:
+            return value.integer();
+        case plan::Type::Float:
+            return value.number();
+        case plan::Type::String:
+            return value.string();
+        case plan::Type::Object:
+            break;
+    }
+    return nullptr;
+}
+
+Json input_of(const plan::Input& input) {
+    Json json = {{"name", line_of(input.name, kNameMax)},
+                 {"type", type_of(input.type)},
+                 {"unit", line_of(input.unit, kUnitMax)},
+                 {"help", line_of(input.help, kHelpMax)}};
+    if (input.fallback) json["default"] = value_of(*input.fallback);
+    if (input.low) json["low"] = *input.low;
+    if (input.high) json["high"] = *input.high;
+    return json;
+}
+
+Json output_of(const plan::OutputDeclaration& output) {
+    return {{"name", line_of(output.name, kNameMax)},
+            {"type", type_of(output.type)},
+            {"unit", line_of(output.unit, kUnitMax)},
+            {"help", line_of(output.help, kHelpMax)}};
+}
+
+Json outcome_of(const plan::Outcome& outcome) {
+    return {{"name", line_of(outcome.name, kNameMax)}, {"help", line_of(outcome.help, kHelpMax)}};
+}
+
+Json template_of(const plan::Template& of) {
+    return {{"name", line_of(of.name, kNameMax)},
+            {"kind", plan::name_of(of.kind)},
+            {"help", line_of(of.help, kHelpMax)},
+            // One that is too long is none: half a drawing would be a wrong one.
+            {"icon", of.icon.size() <= kIconMax ? of.icon : ""},
+            {"inputs", list_of(of.inputs, kPartsMax, input_of)},
+            {"outputs", list_of(of.outputs, kPartsMax, output_of)},
+            {"outcomes", list_of(of.outcomes, kPartsMax, outcome_of)},
+            {"period_ms", of.period_ms}};
+}
+
+}  // namespace
+
+Json template_list(const plan::Library& of) {
+    return {{"toolboxes", list_of(of.toolboxes(), kToolboxesMax, [](const plan::Toolbox& toolbox) {
+                 return Json{{"name", line_of(toolbox.name, kNameMax)},
+                             {"help", line_of(toolbox.help, kHelpMax)},
+                             {"templates", list_of(toolbox.templates, kTemplatesMax, template_of)}};
+             })}};
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,92 @@
+// What can be done on the canvas that is looked at. Keys count while the focus is in it.
+
+import type { Command } from '../../../../core/registry';
+import type { Studio } from '../../../../core/studio';
+import { drives } from '../../../commands/looks';
+import { text } from '../../../text';
+import { planDeskOf, type ShownPlan } from '../plan_desk';
+
+const titles = text.commands;
+type DrawId = Extract<keyof typeof titles, `draw.${string}`>;
+
+export interface CanvasActs {
+  fit(): void;
+  zoom(by: number): void;
+  properties(): void;
+  rename(): void;
+}
+
+export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
+  const shown = () => planDeskOf(studio).shown;
+  const make = (
+    id: DrawId,
+    keys: string[],
+    run: (plan: ShownPlan) => void,
+    may: (plan: ShownPlan) => boolean = () => true,
+  ): Command => ({
+    id,
+    title: titles[id],
+    group: text.groups.draw,
+    within: 'plan',
+    keys,
+    enabled() {
+      const plan = shown();
+      return plan !== undefined && may(plan);
+    },
+    run() {
+      const plan = shown();
+      if (plan) run(plan);
+    },
+  });
+  const edits = () => drives(studio);
+  const has = ({ board }: ShownPlan) => edits() && board.selected !== null;
+  const named = ({ board }: ShownPlan) =>
+    edits() && (board.element(board.selected) ?? board.variable(board.selected)) !== undefined;
+  const isActor = ({ board }: ShownPlan) => edits() && board.actor(board.selected) !== undefined;
+  return [
+    make('draw.fit', ['1'], () => acts.fit()),
+    make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),
+    make('draw.zoomOut', ['-'], () => acts.zoom(0.8)),
+    make(
+      'draw.undo',
+      ['Ctrl+Z'],
+      ({ board }) => board.file.undo(),
+      ({ board }) => edits() && board.file.canUndo,
+    ),
+    make(
+      'draw.redo',
+      ['Ctrl+Y', 'Ctrl+Shift+Z'],
+      ({ board }) => board.file.redo(),
+      ({ board }) => edits() && board.file.canRedo,
+    ),
+    make(
+      'draw.remove',
+      ['Delete', 'Backspace'],
+      ({ board, focus }) => focus(board.remove(board.selected ?? '')),
+      has,
+    ),
+    make('draw.rename', ['F2'], () => acts.rename(), named),
+    make(
+      'draw.duplicate',
+      ['Ctrl+D'],
+      ({ board, focus }) => {
+        const key = board.duplicate(board.selected ?? '');
+        if (key !== null) focus(key);
+      },
+      isActor,
+    ),
+    make('draw.variable', [], ({ board }) => void board.addVariable(), edits),
+    make(
+      'draw.properties',
+      ['Enter'],
+      () => acts.properties(),
+      ({ board }) => board.selected !== null,
+    ),
+    make(
+      'draw.none',
+      ['Escape'],
+      ({ board }) => board.select(null),
+      ({ board }) => board.selected !== null,
+    ),
+  ];
+}

@@ -1,0 +1,83 @@
+// What joins a canvas to its board: nodes, moves, and the desk that palette and forms work on.
+
+import { useReactFlow, type NodeChange } from '@xyflow/react';
+import { useCallback, useEffect, useMemo, useState } from 'react';
+import type { PlanBoard } from '../../../../core/plan/board';
+import { revealPanel, update } from '../../../../core/window_state';
+import { useStudio, useTopic } from '../../../hooks';
+import { planDeskOf, type ShownPlan } from '../plan_desk';
+import { canvasCommands } from './canvas_commands';
+import { FlowNodes, type PlanNode } from './flow_nodes';
+
+export const kFit = { padding: 0.06, maxZoom: 1 };
+
+export function useNodes(board: PlanBoard, drives: boolean): PlanNode[] {
+  const [made] = useState(() => new FlowNodes());
+  const all = useTopic('findings', {})?.findings;
+  const findings = useMemo(
+    () => (all ?? []).filter((one) => one.doc === board.doc),
+    [all, board.doc],
+  );
+  const { version } = board;
+  return useMemo(
+    () => (version >= 0 ? made.of(board, findings, drives) : []),
+    [made, board, version, findings, drives],
+  );
+}
+
+/** Moves by mouse and arrow keys arrive here; each becomes one edit when it has ended. */
+export function useNodeChanges(board: PlanBoard) {
+  return useCallback(
+    (changes: NodeChange<PlanNode>[]) => {
+      for (const change of changes) {
+        if (change.type === 'select' && change.selected) board.select(change.id);
+        if (change.type !== 'position' || !change.position) continue;
+        board.hold(change.id, change.position);
+        if (!change.dragging) board.letGo();
+      }
+    },
+    [board],
+  );
+}
+
+/** Palette, forms and commands work on this canvas once it is used. */
+export function useOnDesk(board: PlanBoard, frame: React.RefObject<HTMLDivElement | null>) {
+  const studio = useStudio();
+  const flow = useReactFlow();
+  const shown = useMemo<ShownPlan>(
+    () => ({
+      board,
+      middle() {
+        const { left, top, width, height } =
+          frame.current?.getBoundingClientRect() ?? new DOMRect();
+        return flow.screenToFlowPosition({ x: left + width / 2 - 84, y: top + height / 3 });
+      },
+      focus(key) {
+        requestAnimationFrame(() =>
+          frame.current
+            ?.querySelector<HTMLElement>(`.react-flow__node[data-id="${CSS.escape(key)}"]`)
+            ?.focus(),
+        );
+      },
+    }),
+    [board, flow, frame],
+  );
+  useEffect(() => planDeskOf(studio).add(shown), [studio, shown]);
+  useEffect(() => {
+    const properties = () => revealPanel(studio.window, 'properties');
+    return studio.registry.add(
+      canvasCommands(studio, {
+        fit: () => void flow.fitView(kFit),
+        zoom: (by) => void flow.zoomTo(flow.getZoom() * by),
+        properties,
+        rename: () => planDeskOf(studio).renames.emit(),
+      }),
+    );
+  }, [studio, flow]);
+  return useCallback(() => {
+    planDeskOf(studio).use(shown);
+    const { doc } = shown.board;
+    if (studio.window.getState().doc !== doc)
+      update(studio.window, (draft) => void (draft.doc = doc));
+  }, [studio, shown]);
+}

@@ -1,0 +1,109 @@
+import {
+  Background,
+  BackgroundVariant,
+  MiniMap,
+  ReactFlow,
+  ReactFlowProvider,
+} from '@xyflow/react';
+import '@xyflow/react/dist/base.css';
+import { useRef } from 'react';
+import type { Doc } from '../../../../protocol/messages';
+import type { PlanBoard } from '../../../../core/plan/board';
+import { kSnap } from '../../../../core/plan/place';
+import { useDrives } from '../../../hooks';
+import { Blank } from '../../../parts/blank';
+import { text } from '../../../text';
+import { useBoard } from '../plan_desk';
+import { usePlanOptions } from '../plan_options';
+import { ArrowsLayer } from './arrows_layer';
+import { kFit, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
+import { ConnectMenu } from './connect_menu';
+import type { PlanNode } from './flow_nodes';
+import { LiveContext, useLiveStore } from './live_store';
+import { nodeTypes } from './nodes';
+import { useDropping } from './use_dropping';
+import { ConnectContext, useConnecting } from './use_connecting';
+import { usePlanBoard } from './use_board';
+import '../../../look/draw.css';
+
+const words = text.draw;
+
+/** A plan drawn: chosen, moved, connected by mouse and keyboard. */
+export default function PlanCanvas({ doc }: { doc: Doc }) {
+  const { board, failed } = usePlanBoard(doc);
+  if (failed !== null) return <Blank title={words.failed}>{failed}</Blank>;
+  if (!board) return null;
+  return (
+    <ReactFlowProvider>
+      <Canvas key={doc} board={board} />
+    </ReactFlowProvider>
+  );
+}
+
+function Canvas({ board }: { board: PlanBoard }) {
+  const drives = useDrives();
+  useBoard(board);
+  const nodes = useNodes(board, drives);
+  const frame = useRef<HTMLDivElement>(null);
+  const use = useOnDesk(board, frame);
+  const { connect, asked, close } = useConnecting(board, drives);
+  const dropping = useDropping(board, drives);
+  const live = useLiveStore(board);
+  const options = usePlanOptions();
+  const onNodesChange = useNodeChanges(board);
+  if (board.file.broken !== null) return <Blank title={words.broken}>{board.file.broken}</Blank>;
+  return (
+    <LiveContext value={live}>
+      <ConnectContext value={connect}>
+        <div
+          className="pcanvas"
+          ref={frame}
+          data-place="plan"
+          role="region"
+          aria-label={words.canvas(board.model.name)}
+          onPointerDownCapture={use}
+          onFocusCapture={use}
+          {...dropping}
+        >
+          <ReactFlow<PlanNode>
+            nodes={nodes}
+            edges={kNoEdges}
+            nodeTypes={nodeTypes}
+            onNodesChange={onNodesChange}
+            onNodeClick={(_event, node) => board.select(node.id)}
+            onPaneClick={() => board.select(null)}
+            onNodeDoubleClick={(_event, node) => board.select(node.id)}
+            nodesConnectable={false}
+            snapToGrid
+            snapGrid={kGrid}
+            minZoom={0.1}
+            maxZoom={2}
+            fitView
+            fitViewOptions={kFit}
+            deleteKeyCode={null}
+            selectionKeyCode={null}
+            multiSelectionKeyCode={null}
+            zoomActivationKeyCode={null}
+            panActivationKeyCode={null}
+            zoomOnDoubleClick={false}
+            onlyRenderVisibleElements={nodes.length > kManyNodes}
+            ariaLabelConfig={words.aria}
+            proOptions={kNoName}
+          >
+            <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
+            <ArrowsLayer board={board} allData={options.data} />
+            {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
+          </ReactFlow>
+          {board.model.actors.length === 0 ? <p className="pcanvas__empty">{words.empty}</p> : null}
+          {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
+        </div>
+      </ConnectContext>
+    </LiveContext>
+  );
+}
+
+const kNoEdges: never[] = [];
+const kGrid: [number, number] = [kSnap, kSnap];
+const kManyNodes = 300;
+/** The name of the library stands in the licences. */
+const kNoName = { hideAttribution: true };

@@ -1,0 +1,95 @@
+import { supervisorKey } from '../../../../core/plan/arrows';
+import type { PlanBoard } from '../../../../core/plan/board';
+import { kStart } from '../../../../core/plan/model';
+import { useDrives } from '../../../hooks';
+import { Quiet } from '../../../parts/blank';
+import { text } from '../../../text';
+import { RoleShape } from '../canvas/template_icon';
+import { useBoard, type ShownPlan } from '../plan_desk';
+import { ElementForm } from './element_form';
+import { FormHead } from './form_head';
+import { Leads } from './leads';
+import { VariableForm } from './variable_form';
+
+const words = text.draw;
+
+/** What is chosen in a plan, to be changed exactly. */
+export function PlanForm({ plan }: { plan: ShownPlan }) {
+  const board = useBoard(plan.board);
+  const drives = useDrives();
+  const { selected } = board;
+  if (selected === null) return <Quiet>{text.empty.properties}</Quiet>;
+  const arrow = board.arrow(selected);
+  const key = arrow ? arrow.source : selected;
+  return (
+    <section className="props" key={key} aria-label={text.panels.properties}>
+      <Chosen board={board} chosen={key} disabled={!drives} />
+    </section>
+  );
+}
+
+function Chosen(props: { board: PlanBoard; chosen: string; disabled: boolean }) {
+  const { board, chosen, disabled } = props;
+  const element = board.element(chosen);
+  const variable = board.variable(chosen);
+  if (chosen === kStart) return <StartForm board={board} disabled={disabled} />;
+  if (variable)
+    return (
+      <>
+        <FormHead board={board} chosen={chosen} name={variable.name} about={words.variable} />
+        <VariableForm board={board} name={variable.name} disabled={disabled} />
+      </>
+    );
+  if (!element) return <Quiet>{text.empty.properties}</Quiet>;
+  const about = [element.template, element.toolbox].filter(Boolean).join(' · ');
+  return (
+    <>
+      <FormHead
+        board={board}
+        chosen={chosen}
+        name={element.name}
+        about={about}
+        icon={element.known?.icon ?? ''}
+        help={element.known?.help ?? ''}
+      />
+      <ElementForm board={board} chosen={chosen} element={element} disabled={disabled} />
+      {'supervisors' in element ? <Hanging board={board} keys={element.supervisors} /> : null}
+    </>
+  );
+}
+
+function StartForm({ board, disabled }: { board: PlanBoard; disabled: boolean }) {
+  const first = [{ name: '', target: board.model.first, help: '' }];
+  return (
+    <>
+      <header className="props__head">
+        <h2 className="props__name">{words.start}</h2>
+      </header>
+      <Leads board={board} source={kStart} outcomes={first} disabled={disabled} />
+      <Hanging board={board} keys={board.model.globals} />
+    </>
+  );
+}
+
+/** The supervisors under an element; a press chooses one. */
+function Hanging(props: { board: PlanBoard; keys: PlanBoard['model']['globals'] }) {
+  const { board, keys } = props;
+  return (
+    <section className="planform__part" aria-label={words.supervisors}>
+      <h3>{words.supervisors}</h3>
+      {keys.length === 0 ? <Quiet>{words.noSupervisors}</Quiet> : null}
+      {keys.map((one) => (
+        <button
+          key={one.name}
+          type="button"
+          className="tool"
+          onClick={() => board.select(supervisorKey(one))}
+        >
+          <RoleShape kind="supervisor" label={words.roles.supervisor} />
+          <span className="ellipsis">{one.name}</span>
+          <span className="muted ellipsis">{one.template}</span>
+        </button>
+      ))}
+    </section>
+  );
+}

@@ -1,0 +1,63 @@
+import { IconArrowBackUp, IconArrowForwardUp } from '@tabler/icons-react';
+import { useEffect, useReducer } from 'react';
+import type { Doc } from '../../../protocol/messages';
+import { useDrives, useStudio } from '../../hooks';
+import { Button } from '../../parts/button';
+import { kStroke } from '../../parts/icons';
+import { text } from '../../text';
+import { usePlanDesk } from './plan_desk';
+import { togglePlanOption, usePlanOptions, type PlanOptions } from './plan_options';
+
+const words = text.draw;
+const size = { size: 14, stroke: kStroke };
+
+/** Above the drawing: undo, and what is shown beside and in it. */
+export function PlanTools({ doc }: { doc: Doc }) {
+  const studio = useStudio();
+  const drives = useDrives();
+  const { shown } = usePlanDesk(studio);
+  const file = shown?.board.doc === doc ? shown.board.file : undefined;
+  const [, redraw] = useReducer((count: number) => count + 1, 0);
+  useEffect(() => file?.changed.on(redraw), [file]);
+  return (
+    <div className="plan__bar">
+      <Button
+        kind="plain"
+        small
+        disabled={!drives || !file?.canUndo}
+        tip={`${words.undo}  (Ctrl+Z)`}
+        icon={<IconArrowBackUp {...size} />}
+        onClick={() => file?.undo()}
+      />
+      <Button
+        kind="plain"
+        small
+        disabled={!drives || !file?.canRedo}
+        tip={`${words.redo}  (Ctrl+Y)`}
+        icon={<IconArrowForwardUp {...size} />}
+        onClick={() => file?.redo()}
+      />
+      <span className="grow" />
+      <Switch name="data" />
+      <Switch name="map" />
+      <Switch name="text" />
+      <Switch name="live" />
+    </div>
+  );
+}
+
+function Switch({ name }: { name: keyof PlanOptions }) {
+  const studio = useStudio();
+  const options = usePlanOptions();
+  return (
+    <button
+      type="button"
+      role="switch"
+      className="switch"
+      aria-checked={options[name]}
+      onClick={() => togglePlanOption(studio, name)}
+    >
+      {words.switches[name]}
+    </button>
+  );
+}

@@ -1,0 +1,190 @@
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import type { Json, JsonStep, PlanTemplate, PlanToolbox } from '../../protocol/messages';
+import { change, createHistory, redo, undo } from '../history';
+import { applySteps } from '../json_steps';
+import * as edit from './edit';
+import { planModel } from './model';
+
+const bare = { help: '', icon: '', inputs: [], outputs: [], outcomes: [], period_ms: 0 };
+const wait: PlanTemplate = { ...bare, name: 'Wait', kind: 'actor' };
+const toolboxes: PlanToolbox[] = [{ name: 'core', help: '', templates: [wait] }];
+
+const file: Json = {
+  format: 'vagus-plan/1',
+  name: 'P',
+  configuration: { far: { type: 'float', initial: 3 }, old: { type: 'int' } },
+  start: { actor: 'a' },
+  actors: {
+    a: { template: 'Wait', in: { seconds: 'far * far2 & "far"' }, states: { Done: 'b' } },
+    b: {
+      template: 'Wait',
+      states: { Done: 'b' },
+      supervisors: { s: { template: 'Timeout', events: { Timeout: 'a', More: 'b' } } },
+    },
+    c: { template: 'Wait', out: { end: 'far' } },
+  },
+  layout: { a: [0, 0], b: [240, 0] },
+  x: { kept: [1] },
+};
+const model = planModel(file, toolboxes);
+const after = (steps: JsonStep[]) => applySteps(file, steps).value as Record<string, Json>;
+const text = (value: Json | undefined) => JSON.stringify(value);
+
+describe('edits of a plan', () => {
+  it('move in the layout, also where there is none', () => {
+    expect(edit.placeSteps(file, 'c', { x: 8, y: 16 })).toEqual([
+      { do: 'set', at: ['layout', 'c'], value: [8, 16] },
+    ]);
+    expect(edit.placeSteps({ name: 'P' }, 'c', { x: 8, y: 16 })).toEqual([
+      { do: 'set', at: ['layout'], value: { c: [8, 16] } },
+    ]);
+  });
+
+  it('connect states, events and the start, and take arrows away', () => {
+    const [a, , c] = model.actors;
+    const s = model.actors[1]?.supervisors[0];
+    if (!a || !c || !s) throw new Error('the plan lacks something');
+    expect(edit.connectSteps(file, c, 'Done', 'a')).toEqual([
+      { do: 'set', at: ['actors', 'c', 'states'], value: { Done: 'a' } },
+    ]);
+    expect(edit.connectSteps(file, s, 'Timeout', '@ignore')).toEqual([
+      { do: 'set', at: ['actors', 'b', 'supervisors', 's', 'events', 'Timeout'], value: '@ignore' },
+    ]);
+    expect(edit.connectSteps(file, '@start', '', 'b')).toEqual([
+      { do: 'set', at: ['start', 'actor'], value: 'b' },
+    ]);
+    expect(edit.connectSteps(file, a, 'Done', null)).toEqual([
+      { do: 'remove', at: ['actors', 'a', 'states', 'Done'] },
+    ]);
+    expect(edit.connectSteps(file, c, 'Done', null)).toEqual([]);
+  });
+
+  it('add an actor with a name of its own; the first one is where the plan begins', () => {
+    const empty: Json = { format: 'vagus-plan/1', name: 'P', actors: {} };
+    const found = { toolbox: 'drive', template: { ...wait, name: 'Turn' } };
+    const none = planModel(empty, toolboxes);
+    const { name, steps } = edit.addActor(empty, none, found, { x: 80, y: 80 });
+    expect(name).toBe('turn');
+    expect(applySteps(empty, steps).value).toEqual({
+      format: 'vagus-plan/1',
+      name: 'P',
+      toolboxes: ['drive'],
+      start: { actor: 'turn' },
+      actors: { turn: { template: 'Turn' } },
+      layout: { turn: [80, 80] },
+    });
+    expect(edit.freeName(model, 'a')).toBe('a2');
+    expect(edit.freeName(model, 'a', new Set(['a2']))).toBe('a3');
+  });
+
+  it('remove an actor with its place and all arrows to it', () => {
+    const removed = after(edit.removeActor(file, model, 'b'));
+    expect(text(removed['actors'])).toBe(
+      '{"a":{"template":"Wait","in":{"seconds":"far * far2 & \\"far\\""},"states":{}},' +
+        '"c":{"template":"Wait","out":{"end":"far"}}}',
+    );
+    expect(text(removed['layout'])).toBe('{"a":[0,0]}');
+    expect(after(edit.removeActor(file, model, 'a'))['start']).toEqual({});
+  });
+
+  it('rename an actor at its place, with its place and all arrows to it', () => {
+    const renamed = after(edit.renameActor(file, model, 'b', 'go'));
+    expect(text(renamed['actors'])).toBe(
+      '{"a":{"template":"Wait","in":{"seconds":"far * far2 & \\"far\\""},"states":{"Done":"go"}},' +
+        '"go":{"template":"Wait","states":{"Done":"go"},"supervisors":' +
+        '{"s":{"template":"Timeout","events":{"Timeout":"a","More":"go"}}}},' +
+        '"c":{"template":"Wait","out":{"end":"far"}}}',
+    );
+    expect(text(renamed['layout'])).toBe('{"a":[0,0],"go":[240,0]}');
+    expect(after(edit.renameActor(file, model, 'a', 'z'))['start']).toEqual({ actor: 'z' });
+  });
+
+  it('rename a variable in formulas and outputs, not in texts and other names', () => {
+    const renamed = after(edit.renameVariable(file, model, 'far', 'wide'));
+    expect(Object.keys(renamed['configuration'] ?? {})).toEqual(['wide', 'old']);
+    expect(edit.valueAt(renamed, ['actors', 'a', 'in', 'seconds'])).toBe('wide * far2 & "far"');
+    expect(edit.valueAt(renamed, ['actors', 'c', 'out', 'end'])).toBe('wide');
+  });
+
+  it('copy an actor with its supervisors under names of their own', () => {
+    const { name, steps } = edit.duplicate(file, model, 'b', { x: 0, y: 80 });
+    expect(name).toBe('b2');
+    expect(
+      Object.keys((edit.valueAt(after(steps), ['actors', 'b2', 'supervisors']) ?? {}) as object),
+    ).toEqual(['s2']);
+  });
+
+  it('write constants as numbers, all else as formulas', () => {
+    expect(['3', '-0.5', 'true', '1.0', '0x3', '1e3', ' 7 '].map(edit.formulaJson)).toEqual([
+      3,
+      -0.5,
+      true,
+      '1.0',
+      '0x3',
+      '1e3',
+      7,
+    ]);
+    expect(edit.feedSteps(file, ['actors', 'a'], 'seconds', ' ')).toEqual([
+      { do: 'remove', at: ['actors', 'a', 'in', 'seconds'] },
+    ]);
+  });
+
+  it('refuse names that plans cannot have', () => {
+    expect(edit.whyNoName(model, 'a b', 'actor')).toBe('form');
+    expect(edit.whyNoName(model, 'b', 'actor')).toBe('taken');
+    expect(edit.whyNoName(model, 's', 'actor')).toBeNull();
+    expect(edit.whyNoName(model, 'true', 'variable')).toBe('form');
+  });
+});
+
+describe('undo and redo', () => {
+  it('lead back to the same file, member by member in its order', () => {
+    const act = fc.record({ kind: fc.nat(6), a: fc.nat(5), b: fc.nat(5) });
+    fc.assert(
+      fc.property(fc.array(act, { maxLength: 12 }), (acts) => {
+        const history = createHistory(file);
+        const states = [text(file)];
+        for (const { kind, a, b } of acts) {
+          change(history, stepsOf(history.getState().value, kind, a, b));
+          states.push(text(history.getState().value));
+        }
+        for (let index = states.length - 2; index >= 0; index--) {
+          // What the server is told leads it there, too.
+          const server = history.getState().value;
+          const steps = undo(history) ?? [];
+          expect(text(applySteps(server, steps).value)).toBe(states[index]);
+          expect(text(history.getState().value)).toBe(states[index]);
+        }
+        for (const state of states.slice(1)) {
+          redo(history);
+          expect(text(history.getState().value)).toBe(state);
+        }
+      }),
+      { numRuns: 1000 },
+    );
+  }, 120_000);
+});
+
+function stepsOf(value: Json, kind: number, a: number, b: number): JsonStep[] {
+  const now = planModel(value, toolboxes);
+  const actor = now.actors[a % Math.max(1, now.actors.length)];
+  const other = now.actors[b % Math.max(1, now.actors.length)];
+  const found = { toolbox: 'core', template: wait };
+  const at = { x: a * 8, y: b * 8 };
+  if (!actor || !other || kind === 0) return edit.addActor(value, now, found, at).steps;
+  switch (kind) {
+    case 1:
+      return edit.removeActor(value, now, actor.name);
+    case 2:
+      return edit.renameActor(value, now, actor.name, edit.freeName(now, 'other'));
+    case 3:
+      return edit.connectSteps(value, actor, 'Done', other.name);
+    case 4:
+      return edit.placeSteps(value, actor.name, at);
+    case 5:
+      return edit.duplicate(value, now, actor.name, at).steps;
+    default:
+      return edit.feedSteps(value, actor.keys, 'seconds', a > 2 ? String(b) : '');
+  }
+}

@@ -1,0 +1,156 @@
+// Where elements stand: where the file says, else where there is room. What the user placed stays.
+
+import { kConfiguration, kStart, type Actor, type PlanModel } from './model';
+import {
+  actorBlock,
+  around,
+  blockAt,
+  kPill,
+  kStartSize,
+  overlaps,
+  pillBoxes,
+  type Block,
+  type Box,
+  type Point,
+} from './shape';
+
+export interface Scene {
+  start: Block;
+  actors: readonly Block[];
+  pills: readonly { name: string; box: Box }[];
+  configuration: Point;
+}
+
+const kColumn = 240;
+const kGap = 48;
+const kFirst: Point = { x: 80, y: 80 };
+/** Positions snap to this when they are dragged. */
+export const kSnap = 8;
+
+export const snapped = (value: number) => Math.round(value / kSnap) * kSnap;
+
+export function sceneOf(model: PlanModel): Scene {
+  const actors = placeActors(model);
+  const startAt = placeOf(model, kStart) ?? freePlaceForStart(model, actors);
+  const start = blockAt(kStart, startAt, kStartSize, model.globals);
+  const configuration = placeOf(model, kConfiguration) ?? aboveAll([...actors, start], model);
+  return { start, actors, configuration, pills: pillBoxes(model, configuration) };
+}
+
+function placeOf(model: PlanModel, name: string): Point | undefined {
+  const at = model.places.get(name);
+  return at && { x: at[0], y: at[1] };
+}
+
+/** Those without a place stand in columns, by how many arrows lead to them from the start. */
+function placeActors(model: PlanModel): Block[] {
+  const known = new Map<string, Block>();
+  for (const actor of model.actors) {
+    const at = placeOf(model, actor.name);
+    if (at) known.set(actor.name, actorBlock(actor, at));
+  }
+  const left = model.actors.filter((actor) => !known.has(actor.name));
+  const taken = around([...known.values()].map((block) => block.whole));
+  const top = known.size > 0 ? taken.y + taken.height + kGap : kFirst.y + startHeight(model) + kGap;
+  const corner = { x: known.size > 0 ? taken.x : kFirst.x, y: top };
+  for (const block of inColumns(left, ranks(model), corner)) known.set(block.name, block);
+  return model.actors.flatMap((actor) => known.get(actor.name) ?? []);
+}
+
+function startHeight(model: PlanModel): number {
+  return blockAt(kStart, kFirst, kStartSize, model.globals).whole.height;
+}
+
+function inColumns(
+  actors: readonly Actor[],
+  rankOf: ReadonlyMap<string, number>,
+  corner: Point,
+): Block[] {
+  const columns = new Map<number, Actor[]>();
+  for (const actor of actors) {
+    const rank = rankOf.get(actor.name) ?? 0;
+    columns.set(rank, [...(columns.get(rank) ?? []), actor]);
+  }
+  const ordered = [...columns].sort(([a], [b]) => a - b).map(([, column]) => column);
+  return ordered.flatMap((column, index) => {
+    let y = corner.y;
+    return column.map((actor) => {
+      const block = actorBlock(actor, { x: corner.x + index * kColumn, y });
+      y = snapped(y + block.whole.height + kGap);
+      return block;
+    });
+  });
+}
+
+/** How many arrows from the start, or after all that can be reached. */
+function ranks(model: PlanModel): Map<string, number> {
+  const found = new Map<string, number>();
+  const next = new Map(model.actors.map((actor) => [actor.name, targetsOf(actor)]));
+  const roots = [
+    ...(model.first === null ? [] : [model.first]),
+    ...model.globals.flatMap((one) => one.outcomes.flatMap(({ target }) => target ?? [])),
+    ...model.actors.map((actor) => actor.name),
+  ];
+  for (const root of roots) {
+    if (!next.has(root) || found.has(root)) continue;
+    spread(root, next, found);
+  }
+  return found;
+}
+
+function spread(
+  root: string,
+  next: ReadonlyMap<string, readonly string[]>,
+  found: Map<string, number>,
+): void {
+  found.set(root, 0);
+  const queue = [root];
+  for (let name = queue.shift(); name !== undefined; name = queue.shift())
+    for (const target of next.get(name) ?? []) {
+      if (!next.has(target) || found.has(target)) continue;
+      found.set(target, (found.get(name) ?? 0) + 1);
+      queue.push(target);
+    }
+}
+
+function targetsOf(actor: Actor): string[] {
+  const outcomes = [actor, ...actor.supervisors].flatMap((one) => one.outcomes);
+  return outcomes.flatMap(({ target }) => target ?? []);
+}
+
+/** Above the first actor, else left of it, else above everything. */
+function freePlaceForStart(model: PlanModel, actors: readonly Block[]): Point {
+  const first = actors.find((block) => block.name === model.first) ?? actors[0];
+  if (!first) return kFirst;
+  const height = startHeight(model);
+  const all = around(actors.map((block) => block.whole));
+  const { x, y } = first.box;
+  const places: Point[] = [
+    { x, y: y - height - kGap },
+    { x: x - kColumn, y },
+    { x, y: all.y - height - kGap },
+  ];
+  const fits = (at: Point) => {
+    const { whole } = blockAt(kStart, at, kStartSize, model.globals);
+    return !actors.some((block) => overlaps(block.whole, whole, kGap / 2));
+  };
+  return places.find(fits) ?? places[2] ?? kFirst;
+}
+
+function aboveAll(blocks: readonly Block[], model: PlanModel): Point {
+  const { x, y } = around(blocks.map((block) => block.whole));
+  const boxes = pillBoxes(model, { x: 0, y: 0 }).map(({ box }) => box);
+  return { x, y: y - around(boxes).height - kPill.height - kGap };
+}
+
+/** The nearest place at or below a point where an element of that size covers nothing. */
+export function freePlace(scene: Scene, wanted: Point, size = { width: 168, height: 92 }): Point {
+  const boxes = [scene.start, ...scene.actors].map((block) => block.whole);
+  const at = { x: snapped(wanted.x), y: snapped(wanted.y) };
+  for (let tries = 0; tries <= boxes.length; tries++) {
+    const inTheWay = boxes.find((box) => overlaps(box, { ...at, ...size }, kGap / 2));
+    if (!inTheWay) break;
+    at.y = snapped(inTheWay.y + inTheWay.height + kGap);
+  }
+  return at;
+}

@@ -1,0 +1,272 @@
+import { readdirSync, readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import type { Json, PlanTemplate, PlanToolbox } from '../../protocol/messages';
+import { drawingOf, type Drawing } from './arrows';
+import { dataArrows, namesIn } from './data';
+import { planModel, supervisorsOf } from './model';
+import { crossings, eachStretch, roundedPath } from './path';
+import { freePlace, sceneOf, type Scene } from './place';
+import { kApart } from './route';
+import { overlaps, type Box, type Point } from './shape';
+import { findTemplate, matching } from './templates';
+
+function template(name: string, kind: PlanTemplate['kind'], outcomes: string[]): PlanTemplate {
+  const named = outcomes.map((one) => ({ name: one, help: '' }));
+  const bare = { help: '', icon: '', inputs: [], outputs: [], period_ms: 10 };
+  return { name, kind, outcomes: named, ...bare };
+}
+
+const toolboxes: PlanToolbox[] = [
+  {
+    name: 'core',
+    help: '',
+    templates: [
+      template('Wait', 'actor', ['Done']),
+      template('For', 'computation', ['Loop', 'Done']),
+      template('Timeout', 'supervisor', ['Timeout']),
+      template('Watch', 'supervisor', ['True']),
+    ],
+  },
+  { name: 'drive', help: 'Wheels.', templates: [template('Forward', 'actor', ['There'])] },
+];
+
+function files(): { name: string; value: Json }[] {
+  const root = new URL('../../../', import.meta.url).pathname;
+  const all = [`${root}testdata/golden/plans`, ...folders(`${root}examples`)].flatMap((folder) =>
+    readdirSync(folder)
+      .filter((name) => name.endsWith('.plan.json'))
+      .map((name) => `${folder}/${name}`),
+  );
+  return all.flatMap((path) => {
+    try {
+      return [
+        { name: path.slice(root.length), value: JSON.parse(readFileSync(path, 'utf8')) as Json },
+      ];
+    } catch {
+      // Some golden plans are no JSON: what the checker says of them is tested elsewhere.
+      return [];
+    }
+  });
+}
+
+function folders(root: string): string[] {
+  return readdirSync(root, { withFileTypes: true })
+    .filter((one) => one.isDirectory())
+    .map((one) => `${root}/${one.name}`);
+}
+
+const small: Json = {
+  format: 'vagus-plan/1',
+  name: 'P',
+  toolboxes: ['drive'],
+  configuration: { far: { type: 'float', initial: 3, unit: 'cm' }, count: { type: 'int' } },
+  start: {
+    actor: 'go',
+    supervisors: { end: { template: 'Timeout', events: { Timeout: '@terminate' } } },
+  },
+  actors: {
+    go: {
+      template: 'Forward',
+      in: { distance: "far * 2 & ' count '" },
+      out: { end: 'count' },
+      states: { There: 'count', Lost: 'rest' },
+      supervisors: { look: { template: 'Watch', events: { True: 'nowhere' } } },
+    },
+    count: { template: 'For', states: { Loop: 'go' } },
+    sub: { plan: 'q.plan.json', states: { OK: '@terminate' } },
+  },
+  layout: { go: [80, 160], gone: [1, 2] },
+};
+
+describe('the model of a plan', () => {
+  const model = planModel(small, toolboxes);
+
+  it('knows roles, states that are declared first, and where they lead', () => {
+    expect(model.actors.map(({ name, role }) => [name, role])).toEqual([
+      ['go', 'actor'],
+      ['count', 'computation'],
+      ['sub', 'subplan'],
+    ]);
+    const led = model.actors.map(({ outcomes }) => outcomes.map((one) => [one.name, one.target]));
+    expect(led).toEqual([
+      [
+        ['There', 'count'],
+        ['Lost', 'rest'],
+      ],
+      [
+        ['Loop', 'go'],
+        ['Done', null],
+      ],
+      [
+        ['OK', '@terminate'],
+        ['Interrupted', null],
+        ['Error', null],
+      ],
+    ]);
+    expect(supervisorsOf(model).map(({ owner, name, keys }) => [owner, name, keys])).toEqual([
+      ['@start', 'end', ['start', 'supervisors', 'end']],
+      ['go', 'look', ['actors', 'go', 'supervisors', 'look']],
+    ]);
+  });
+
+  it('finds variables in formulas, not in texts and functions', () => {
+    expect([...namesIn(`min(a, b2) + "c" & 'd' + 1e3 + _e`)]).toEqual(['a', 'b2', '_e']);
+    const go = model.actors[0];
+    expect(go && dataArrows(model, go)).toEqual([
+      { variable: 'far', element: 'go', port: 'distance', is: 'in' },
+      { variable: 'count', element: 'go', port: 'end', is: 'out' },
+    ]);
+  });
+
+  it('looks for templates in core first, then in what the plan lists', () => {
+    expect(findTemplate(toolboxes, [], 'Forward', false)).toBeUndefined();
+    expect(findTemplate(toolboxes, ['drive'], 'Forward', false)?.toolbox).toBe('drive');
+    expect(findTemplate(toolboxes, ['drive'], 'Timeout', false)).toBeUndefined();
+    const found = matching(toolboxes, 'drive for');
+    expect(found.map((one) => one.templates.map(({ name }) => name))).toEqual([['Forward']]);
+  });
+});
+
+describe('places', () => {
+  const model = planModel(small, toolboxes);
+  const scene = sceneOf(model);
+
+  it('are those of the file, else where nothing stands', () => {
+    const go = scene.actors[0];
+    // Head 44, two states of 22, foot 4; below it, after 4, the supervisor of 40.
+    expect(go?.box).toEqual({ x: 80, y: 160, width: 168, height: 92 });
+    expect(go?.supervisors[0]?.box).toEqual({ x: 88, y: 256, width: 152, height: 40 });
+    // Above the first actor, with 48 between: the tag of 30 and its supervisor of 4 + 40.
+    expect(scene.start.box).toEqual({ x: 80, y: 38, width: 84, height: 30 });
+    expectApart(scene);
+  });
+
+  it('of what is added are free', () => {
+    // Below the block that ends at 296, and the sub-plan from 344 to 458; 506 is no multiple of 8.
+    expect(freePlace(scene, { x: 83, y: 165 })).toEqual({ x: 80, y: 504 });
+    expect(freePlace(scene, { x: 1003, y: 5 })).toEqual({ x: 1000, y: 8 });
+  });
+});
+
+describe('ways', () => {
+  it('have rounded corners, smaller where there is no room', () => {
+    const points = [
+      { x: 0, y: 0 },
+      { x: 20, y: 0 },
+      { x: 20, y: 8 },
+      { x: 60, y: 8 },
+    ];
+    expect(roundedPath(points)).toBe('M0 0L16 0Q20 0 20 4L20 4Q20 8 24 8L60 8');
+  });
+
+  it('cross where both go on', () => {
+    const level = { id: 'a', points: [at(0, 10), at(100, 10)] };
+    const upright = { id: 'b', points: [at(50, 0), at(50, 90)] };
+    const found = crossings([level, upright], (id) => id);
+    expect(found).toEqual(new Map([['b', [{ x: 50, y: 10, isLevel: false }]]]));
+    expect(crossings([level, upright], () => 'one').size).toBe(0);
+  });
+
+  it('lead from rows to tags beside them, and nowhere without a target', () => {
+    const model = planModel(small, toolboxes);
+    const drawing = drawingOf(model, sceneOf(model));
+    expect(drawing.tags.map(({ id, is }) => [id, is])).toEqual([
+      ['@start/end.Timeout', 'terminate'],
+      ['sub.OK', 'terminate'],
+    ]);
+    expect(drawing.loose.map(({ id }) => id)).toEqual([
+      'go.Lost',
+      'go/look.True',
+      'count.Done',
+      'sub.Interrupted',
+      'sub.Error',
+    ]);
+    expect(drawing.arrows.map(({ id, target }) => `${id} ${target}`)).toEqual([
+      '@start. go',
+      'go.There count',
+      'count.Loop go',
+      '@start/end.Timeout @terminate',
+      'sub.OK @terminate',
+    ]);
+  });
+
+  it('of all sample and golden plans go round boxes and keep apart', () => {
+    const all = files();
+    expect(all.length).toBeGreaterThan(60);
+    for (const { name, value } of all) {
+      const model = planModel(value, toolboxes);
+      const scene = sceneOf(model);
+      expectDrawn(name, scene, drawingOf(model, scene));
+    }
+  });
+});
+
+const at = (x: number, y: number): Point => ({ x, y });
+
+function expectApart(scene: Scene): void {
+  const boxes = [scene.start, ...scene.actors].map((block) => block.whole);
+  boxes.forEach((box, index) => {
+    for (const other of boxes.slice(index + 1)) expect(overlaps(box, other)).toBe(false);
+  });
+}
+
+function boxesOf(scene: Scene, drawing: Drawing): Box[] {
+  return [
+    ...[scene.start, ...scene.actors].flatMap((block) => [
+      block.box,
+      ...block.supervisors.map(({ box }) => box),
+    ]),
+    ...scene.pills.map(({ box }) => box),
+    ...drawing.tags.map(({ box }) => box),
+  ];
+}
+
+/** Every arrow is there, has right angles, runs through no box, and beside no other one's. */
+function expectDrawn(name: string, scene: Scene, drawing: Drawing): void {
+  const boxes = boxesOf(scene, drawing);
+  const routes = drawing.arrows.map((arrow) => ({
+    aim: arrow.target.startsWith('@') ? arrow.id : arrow.target,
+    id: arrow.id,
+    points: drawing.routes.get(arrow.id)?.points ?? [],
+  }));
+  expect(new Set(routes.map(({ id }) => id)).size, name).toBe(routes.length);
+  for (const { id, points } of routes) {
+    expect(points.length, `${name} ${id}`).toBeGreaterThanOrEqual(2);
+    eachStretch(points, (from, to) => {
+      expect(from.x === to.x || from.y === to.y, `${name} ${id} is upright`).toBe(true);
+      for (const box of boxes)
+        expect(
+          overlaps(box, stretchBox(from, to)),
+          `${name} ${id} ${JSON.stringify([from, to, box])}`,
+        ).toBe(false);
+    });
+  }
+  routes.forEach((one, index) => {
+    for (const other of routes.slice(index + 1))
+      if (one.aim !== other.aim)
+        expect(besides(one.points, other.points), `${name} ${one.id} ${other.id}`).toBe(false);
+  });
+}
+
+function stretchBox(a: Point, b: Point): Box {
+  const x = Math.min(a.x, b.x);
+  const y = Math.min(a.y, b.y);
+  return { x, y, width: Math.abs(a.x - b.x), height: Math.abs(a.y - b.y) };
+}
+
+/** Two stretches run side by side, nearer than they may. */
+function besides(a: readonly Point[], b: readonly Point[]): boolean {
+  let found = false;
+  eachStretch(a, (p, q) =>
+    eachStretch(b, (r, s) => {
+      const level = p.y === q.y;
+      if (level !== (r.y === s.y)) return;
+      const apart = level ? Math.abs(p.y - r.y) : Math.abs(p.x - r.x);
+      const [a1, a2, b1, b2] = level ? [p.x, q.x, r.x, s.x] : [p.y, q.y, r.y, s.y];
+      const both =
+        Math.min(Math.max(a1, a2), Math.max(b1, b2)) - Math.max(Math.min(a1, a2), Math.min(b1, b2));
+      if (apart < kApart && both > 0) found = true;
+    }),
+  );
+  return found;
+}

@@ -16,7 +16,7 @@ export const revealSentence: Extension = ViewPlugin.fromClass(
       const told = change.transactions.some((one) =>
         one.effects.some((effect) => effect.is(setFindings)),
       );
-      if (told && change.view.hasFocus) reveal(change.view);
+      if ((told || change.geometryChanged) && change.view.hasFocus) reveal(change.view);
     }
   },
 );
@@ -25,13 +25,17 @@ function reveal(view: EditorView): void {
   view.requestMeasure({ key: reveal, read: hiddenBelow, write: scrollBy });
 }
 
-/** How much of the caret's line, with what stands below it, is out of sight; 0 if the caret is, too. */
+/** A notice that comes above the text pushes the caret's line out of sight by so much. */
+const kPushedMaxPx = 64;
+
+/** How much of the caret's line, with what stands below it, is out of sight; 0 if the caret is far away. */
 function hiddenBelow(view: EditorView): number {
   const { scrollTop, clientHeight } = view.scrollDOM;
   const line = view.lineBlockAt(view.state.selection.main.head);
   const { top: above } = view.documentPadding;
-  const isSeen = line.top + above >= scrollTop && line.top + above < scrollTop + clientHeight;
-  return isSeen ? Math.max(0, line.bottom + above - scrollTop - clientHeight) : 0;
+  const below = line.top + above - scrollTop;
+  const isNear = below >= 0 && below < clientHeight + kPushedMaxPx;
+  return isNear ? Math.max(0, line.bottom + above - scrollTop - clientHeight) : 0;
 }
 
 function scrollBy(hidden: number, view: EditorView): void {

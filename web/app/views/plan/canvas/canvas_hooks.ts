@@ -1,7 +1,7 @@
 // What joins a canvas to its board: nodes, moves, and the desk that palette and forms work on.
 
-import { useReactFlow, type NodeChange } from '@xyflow/react';
-import { useCallback, useEffect, useMemo, useState } from 'react';
+import { useReactFlow, useStore, type NodeChange } from '@xyflow/react';
+import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic } from '../../../hooks';
@@ -10,6 +10,21 @@ import { canvasCommands } from './canvas_commands';
 import { FlowNodes, type PlanNode } from './flow_nodes';
 
 export const kFit = { padding: 0.06, maxZoom: 1 };
+
+/** The whole plan stays in sight while its panel changes, until a person chooses what is looked at. */
+export function useFitted() {
+  const flow = useReactFlow();
+  const width = useStore((state) => state.width);
+  const height = useStore((state) => state.height);
+  const chosen = useRef(false);
+  useEffect(() => {
+    if (!chosen.current && width > 0 && height > 0) void flow.fitView(kFit);
+  }, [flow, width, height]);
+  return useCallback((event: MouseEvent | TouchEvent | null) => {
+    // Moves by the program have no event.
+    if (event) chosen.current = true;
+  }, []);
+}
 
 export function useNodes(board: PlanBoard, drives: boolean): PlanNode[] {
   const [made] = useState(() => new FlowNodes());

@@ -16,7 +16,7 @@ import { text } from '../../../text';
 import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
 import { ArrowsLayer } from './arrows_layer';
-import { kFit, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
+import { kFit, useFitted, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { ConnectMenu } from './connect_menu';
 import type { PlanNode } from './flow_nodes';
 import { LiveContext, useLiveStore } from './live_store';
@@ -51,6 +51,7 @@ function Canvas({ board }: { board: PlanBoard }) {
   const live = useLiveStore(board);
   const options = usePlanOptions();
   const onNodesChange = useNodeChanges(board);
+  const onMoveStart = useFitted();
   if (board.file.broken !== null) return <Blank title={words.broken}>{board.file.broken}</Blank>;
   return (
     <LiveContext value={live}>
@@ -70,6 +71,7 @@ function Canvas({ board }: { board: PlanBoard }) {
             edges={kNoEdges}
             nodeTypes={nodeTypes}
             onNodesChange={onNodesChange}
+            onMoveStart={onMoveStart}
             onNodeClick={(_event, node) => board.select(node.id)}
             onPaneClick={() => board.select(null)}
             onNodeDoubleClick={(_event, node) => board.select(node.id)}

@@ -9,7 +9,8 @@ import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { canvasCommands } from './canvas_commands';
 import { FlowNodes, type PlanNode } from './flow_nodes';
 
-export const kFit = { padding: 0.06, maxZoom: 1 };
+/** Room around the boxes for the arrows that go around them. */
+export const kFit = { padding: { x: '48px', y: '24px' }, maxZoom: 1 } as const;
 
 /** The whole plan stays in sight while its panel changes, until a person chooses what is looked at. */
 export function useFitted() {

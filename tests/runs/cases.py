@@ -185,7 +185,7 @@ class TwoPlans(Runs):
             short = self.write("short.plan.json", json.dumps(DRIVE).replace("1000", "5"))
             for _ in range(2):
                 run_vagus("plan", "run", short, *words)
-            first.wait_line(rf'^another plan or host on {target} commands the same nodes as this plan: it sent "')
+            first.wait_line(rf'^vagus: another plan or host on {target} commands the same nodes as this plan: it sent "')
             first.signal(signal.SIGTERM)
             self.assertIn(first.wait_end(), (0, 3, 4))
             said = [line for line in first.lines if "commands the same nodes" in line]

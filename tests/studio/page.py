@@ -161,6 +161,13 @@ def open_live(port, small_window=False):
 # ---- what a page sees --------------------------------------------------------------------------
 
 
+def is_run(process):
+    try:
+        return b"run-host" in pathlib.Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
+    except FileNotFoundError:
+        return False
+
+
 def merged(value, patch):
     """RFC 7396."""
     if not isinstance(patch, dict):
@@ -364,10 +371,10 @@ class Studio:
         self.program.__exit__()
 
     def children(self):
-        """Its processes: runs."""
+        """The processes of its runs; others look for robots in the network."""
         number = self.program.process.pid
         listed = pathlib.Path(f"/proc/{number}/task/{number}/children").read_text(encoding="ascii").split()
-        return [int(child) for child in listed]
+        return [int(child) for child in listed if is_run(child)]
 
     def memory(self):
         """Bytes that it holds now."""

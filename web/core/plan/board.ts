@@ -28,7 +28,6 @@ export class PlanBoard {
   readonly changed = new Emitter<void>();
   /** Said to who cannot see it. */
   readonly spoken = new Emitter<string>();
-  version = 0;
   /** Key of an element, or id of an arrow. */
   selected: string | null = null;
   /** An arrow is being drawn from there. */
@@ -217,7 +216,6 @@ export class PlanBoard {
   }
 
   private tell(): void {
-    this.version++;
     this.changed.emit();
   }
 }

@@ -34,7 +34,7 @@ export function useNodes(board: PlanBoard, drives: boolean): PlanNode[] {
     () => (all ?? []).filter((one) => one.doc === board.doc),
     [all, board.doc],
   );
-  const { version } = board;
+  const version = board.changed.count;
   return useMemo(
     () => (version >= 0 ? made.of(board, findings, drives) : []),
     [made, board, version, findings, drives],

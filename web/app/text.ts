@@ -179,6 +179,7 @@ export const text = {
     'world.add.epuck': 'World: add an e-puck',
     'world.add.carbot': 'World: add a Carbot',
     'draw.fit': 'Plan: fit it into the window',
+    'draw.find': 'Plan: find an element',
     'draw.zoomIn': 'Plan: zoom in',
     'draw.zoomOut': 'Plan: zoom out',
     'draw.undo': 'Plan: undo',
@@ -809,6 +810,9 @@ export const text = {
       arrow.is === 'in'
         ? `${arrow.variable} feeds ${arrow.port} of ${arrow.element}`
         : `${arrow.port} of ${arrow.element} goes to ${arrow.variable}`,
+    find: 'Find in the plan',
+    found: 'What was found',
+    notFound: (typed: string) => `Nothing in the plan has “${typed}” in it.`,
     connectTo: 'Connect to',
     connect: (name: string) => `${name}: connect to…`,
     disconnect: 'Take the arrow away',

@@ -239,7 +239,7 @@ async function plans(browser) {
     await page.getByRole('radio', { name: 'Draw' }).click();
     await page.locator('.pactor').first().waitFor();
     const before = performance.now();
-    await page.getByRole('region', { name: 'Plan Large, drawn' }).focus();
+    await page.locator('.pcanvas').click({ position: { x: 60, y: 20 } });
     await page.keyboard.press('Control+f');
     await page.getByRole('combobox', { name: 'Find in the plan' }).fill(`step${2 * kActors - 1}`);
     await page.keyboard.press('Enter');

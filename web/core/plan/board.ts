@@ -17,7 +17,7 @@ import {
 } from './model';
 import { Draft, paste, partOf, type Part } from './part';
 import { freePlace, sceneOf, type Scene } from './place';
-import { kNodeWidth, type Point } from './shape';
+import { kNodeWidth, type Box, type Point } from './shape';
 import type { Found, Toolboxes } from './templates';
 
 /** Apart from actors: a variable of that name. */
@@ -28,7 +28,7 @@ const kWhileHeldMs = 12;
 const kAtOnceMs = 80;
 const kTurnMs = 20;
 /** So often a drawing that is being finished is shown. */
-const kShownMs = 300;
+const kShownMs = 1000;
 
 export type Source = Actor | Supervisor | typeof kStart;
 
@@ -222,6 +222,19 @@ export class PlanBoard {
     const part = this.part();
     const [first] = part?.layout.values() ?? [];
     if (part) this.paste(part, { x: (first?.x ?? 0) + 24, y: (first?.y ?? 0) + 24 });
+  }
+
+  /** Where an element stands. */
+  boxOf(key: string): Box | undefined {
+    const { start, actors, pills } = this.scene;
+    if (key === kStart) return start.box;
+    const supervisor = this.supervisor(key);
+    const hanging = [start, ...actors].find((one) => one.name === supervisor?.owner)?.supervisors;
+    return (
+      this.blockOf(key)?.box ??
+      hanging?.find((one) => one.supervisor.name === supervisor?.name)?.box ??
+      pills.find((one) => pillKey(one.name) === key)?.box
+    );
   }
 
   private blockOf(name: string) {

@@ -259,7 +259,7 @@ export const text = {
     views: 'Views',
     tabs: { plan: 'Plan', world: 'World', variables: 'Variables', console: 'Console' },
     noPlan: 'Run starts the plan of this project, if it has one.',
-    noProject: 'There is no project on this robot yet; vagus deploy sends the first.',
+    noProject: 'No project is open. On a robot, vagus deploy sends the first.',
   },
   target: {
     none: 'No target',

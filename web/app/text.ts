@@ -260,6 +260,12 @@ export const text = {
     hangs: 'The run does not answer. What was recorded is kept.',
     again: 'Run again',
   },
+  phone: {
+    views: 'Views',
+    tabs: { plan: 'Plan', world: 'World', variables: 'Variables', console: 'Console' },
+    noPlan: 'Run starts the plan of this project, if it has one.',
+    noProject: 'No project is open. On a robot, vagus deploy sends the first.',
+  },
   target: {
     none: 'No target',
     choose: 'Choose a target',

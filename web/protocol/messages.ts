@@ -476,6 +476,26 @@ export interface NodeNote {
   what: string;
 }
 
+/** A file of a project that is sent to a robot. */
+export interface DeployFile {
+  /** from the border of the project */
+  path: Path;
+  size: number;
+  /** in hexadecimal digits */
+  sha256: string;
+}
+
+/** A version of the project on a robot. */
+export interface Deployed {
+  /** 0: the folder as it was given */
+  version: number;
+  name: string;
+  /** when it came */
+  when_wall?: number;
+  /** in force */
+  current: boolean;
+}
+
 /** Someone who asks for the wheel. */
 export interface Asked {
   client: number;
@@ -529,6 +549,41 @@ export interface Commands {
   }; out: Record<never, never> };
   /** Lets the wheel go. */
   'driver.leave': { in: Record<never, never>; out: Record<never, never> };
+  /** A robot that serves itself: announces another version of its project. */
+  'deploy.begin': { in: {
+    name: string;
+    /** the folder of its vagus.json, from the border of the project; empty: the border itself */
+    project: string;
+    files: DeployFile[];
+  }; out: Record<never, never> };
+  /** Bytes of an announced file; the files in their order, each from its first byte to its last, an empty one by one empty part. */
+  'deploy.part': { in: {
+    path: Path;
+    from: number;
+    base64: string;
+  }; out: Record<never, never> };
+  /** Checks what came, stops the run, puts the version in force and starts it. The version before is in force again if it does not start within 10 s. */
+  'deploy.commit': { in: Record<never, never>; out: {
+    /** stopped: somebody pressed Stop before it ran; waiting: it is in force and does not start yet */
+    result: 'started' | 'stopped' | 'refused' | 'rolled_back' | 'waiting';
+    /** that is in force now */
+    version: number;
+    findings: Finding[];
+    why?: string;
+  } };
+  /** The version before is in force again, and started. */
+  'deploy.back': { in: Record<never, never>; out: {
+    /** stopped: somebody pressed Stop before it ran; waiting: it is in force and does not start yet */
+    result: 'started' | 'stopped' | 'refused' | 'rolled_back' | 'waiting';
+    /** that is in force now */
+    version: number;
+    findings: Finding[];
+    why?: string;
+  } };
+  /** Versions that are kept. */
+  'deploy.list': { in: Record<never, never>; out: {
+    versions: Deployed[];
+  } };
   /** Copies an example into the user's folder and opens it. */
   'project.example': { in: {
     id: string;
@@ -1160,6 +1215,8 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   ListingLine: { line: 'int(0..10000000)', address: 'int(0..65535)', words: 'int(1..65535)', text: 'line(200)' },
   Failed: { node: 'NodeId', why: 'text(2000)' },
   NodeNote: { node: 'NodeId', what: 'text(2000)' },
+  DeployFile: { path: 'Path', size: 'int(0..16777216)', sha256: 'line(64)' },
+  Deployed: { version: 'int(0..4294967295)', name: 'line(200)', when_wall: 'number?', current: 'bool' },
   Asked: { client: 'int(1..1000000000)', name: 'line(100)', until_wall: 'number' },
 };
 export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; out: Fields }>> = {
@@ -1170,6 +1227,11 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'driver.ask': { may: 'drive', out: { driver: 'bool' } },
   'driver.answer': { may: 'driver', out: {} },
   'driver.leave': { may: 'driver', out: {} },
+  'deploy.begin': { may: 'driver', out: {} },
+  'deploy.part': { may: 'driver', out: {} },
+  'deploy.commit': { may: 'driver', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
+  'deploy.back': { may: 'driver', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
+  'deploy.list': { may: 'look', out: { versions: '[Deployed; 100]' } },
   'project.example': { may: 'driver', out: { path: 'line(1024)' } },
   'project.open': { may: 'driver', out: { path: 'line(1024)' } },
   'project.new': { may: 'driver', out: { path: 'line(1024)' } },

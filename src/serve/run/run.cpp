@@ -11,6 +11,8 @@ namespace vagus::serve {
 
 using Json = nlohmann::json;
 
+static constexpr const char* kLateInTrace = "\"kind\":\"late\"";  // docs/formats.md, traces
+
 // The latest bytes of a kind, sent when they are new.
 struct FlowWatch final : BinaryWatch {
     explicit FlowWatch(const Run::Flow& its_flow) : flow(its_flow) {}
@@ -77,6 +79,7 @@ Status Run::open(const RunOrder& order, Time now) {
     t_ = 0;
     plan_ = Json::object();
     trace_.clear();
+    late_checks_ = 0;
     frames_.clear();
     shown_ = Json::object();
     Json told = {{"do", "open"},
@@ -283,6 +286,7 @@ void Run::hear_json(const Json& told) {
         desk_.board().touch("plan");
     } else if (what == "trace") {
         trace_.push_back(told["line"]);
+        if (trace_.back().find(kLateInTrace) != std::string::npos) ++late_checks_;
         if (trace_.size() > kTraceKept) trace_.pop_front();
     } else if (what == "over") {
         rest();
@@ -328,6 +332,7 @@ void Run::hear_end(const ChildEnd& end) {
     state_ = State::Dead;
     has_world_ = false;
     child_.reset();
+    ++deaths_;
     if (plan_.contains("state") && plan_["state"] != "ended") {
         plan_["state"] = "ended";
         plan_["result"] = "Error";

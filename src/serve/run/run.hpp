@@ -104,6 +104,10 @@ public:
 
     double time() const { return t_; }
     std::optional<double> load() const { return load_; }
+    double measured_speed() const { return real_; }
+    uint64_t deaths() const { return deaths_; }  // of run hosts
+    // Checks of supervisors that began late, in this run.
+    uint64_t late_checks() const { return late_checks_; }
     std::string robot_of(uint16_t node) const;
     size_t node_count() const;
     // Sources that the world has loaded into nodes.
@@ -155,6 +159,7 @@ private:
     bool rests_ = true;
     bool opens_plan_ = false;
     bool has_world_ = false;
+    uint64_t deaths_ = 0, late_checks_ = 0;
 
     std::optional<Child> child_;
     State state_ = State::None;

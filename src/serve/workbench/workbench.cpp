@@ -27,10 +27,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
       library_(places.library),
       settings_(places.settings),
       scripts_(files_,
-               [this](const std::string& name, uint16_t id) {
-                   const auto live = robot_.target_of(name, id);
-                   return live ? *live : session::known_node(name);
-               }),
+               [this](const std::string& name, uint16_t id) { return target_of(name, id); }),
       editing_(desk, files_, scripts_),
       robot_(desk, files_, scripts_, breakpoints_),
       run_(desk, places.program) {
@@ -84,6 +81,7 @@ Workbench::~Workbench() = default;
 
 void Workbench::say(const std::string& kind, const std::string& text) {
     desk_.board().add("console", {{"t", clock()}, {"kind", kind}, {"text", text}});
+    line_(kind, text);
 }
 
 // Seconds: of the simulation, or since a bus was connected.
@@ -204,6 +202,7 @@ Status Workbench::open_example(const std::string& id, Time now) {
 void Workbench::enter(OpenedProject project) {
     project.copy_of = library_.example_of(project.root);
     project_ = std::move(project);
+    if (!places_.target.empty()) project_->target = places_.target;
     files_.enter(project_->root, project_->only);
     scripts_.prefer(project_->scripts);
     scripts_.reread();

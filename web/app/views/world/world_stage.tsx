@@ -3,6 +3,7 @@ import { late } from '../../parts/late';
 import type { JsonDocument } from '../../../core/json_document';
 import type { WorldModel } from '../../../core/world/model';
 import { useStudio } from '../../hooks';
+import { usePastTime } from '../../past_hooks';
 import { text } from '../../text';
 import { CameraPicture } from './camera_picture';
 import { deskOf, useModel, type ShownWorld } from './desk';
@@ -59,6 +60,7 @@ export function WorldStage({
       )}
       <div className="world__over">
         {live ? <StatusChip model={model} /> : null}
+        {live ? <NowNote /> : null}
         <PlacingNote model={model} />
         {children}
       </div>
@@ -103,6 +105,11 @@ function PlacingNote({ model }: { model: WorldModel }) {
   return followed ? (
     <p className="world__chip">{text.world.following(nameOfThing(followed))}</p>
   ) : null;
+}
+
+/** What the dashed outline is. */
+function NowNote() {
+  return usePastTime() === null ? null : <p className="world__chip">{text.past.dashed}</p>;
 }
 
 function Spoken({ model }: { model: WorldModel }) {

@@ -40,6 +40,10 @@ describe('the lanes of a timeline', () => {
     feed.want(null);
     await settle();
     expect(asked).toEqual([1]);
+    // Until more is known of the same seconds.
+    feed.want(wish(1), 'until 0.5 s');
+    await settle();
+    expect(asked).toEqual([1, 1]);
   });
 
   it('say why there are none, and come when there are', async () => {

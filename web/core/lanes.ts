@@ -20,6 +20,7 @@ export class LanesFeed {
   /** Why there is no answer. */
   problem: string | null = null;
   private wish: LanesWish | null = null;
+  private state = '';
   private asked = '';
   private busy = false;
 
@@ -28,14 +29,16 @@ export class LanesFeed {
     private readonly later: (milliseconds: number, act: () => void) => () => void,
   ) {}
 
-  want(wish: LanesWish | null): void {
+  /** state: of what goes on within these seconds; another one is another question. */
+  want(wish: LanesWish | null, state = ''): void {
     this.wish = wish;
+    this.state = state;
     if (!this.busy) void this.ask();
   }
 
   private async ask(): Promise<void> {
     const { wish } = this;
-    const text = JSON.stringify(wish);
+    const text = `${this.state} ${JSON.stringify(wish)}`;
     if (!wish || text === this.asked) return;
     this.busy = true;
     this.asked = text;

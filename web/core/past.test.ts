@@ -71,6 +71,17 @@ describe('the past', () => {
     expect(past.value(4, 40)).toBeUndefined();
   });
 
+  it('takes a plan that is one, and no other', async () => {
+    const { past, asked } = aPast();
+    past.look(50);
+    const plan = { state: 'running', t: 50, levels: [], story: [] };
+    await asked[0]?.answer({ plan });
+    expect(past.plan?.state).toBe('running');
+    past.look(51);
+    await asked[1]?.answer({ plan: { ...plan, levels: 7 } });
+    expect(past.plan).toBeNull();
+  });
+
   it('is over when the person comes back, though an answer is under way', async () => {
     const { past, asked } = aPast();
     past.look(50);

@@ -148,7 +148,7 @@ export class Past {
   private show(instant: Instant): void {
     this.instant = instant;
     const { plan } = instant;
-    const good = plan !== undefined && misfit(plan, topicTable.plan.is ?? {}) === null;
+    const good = plan !== undefined && misfit(plan, topicTable.plan.is ?? {}) === '';
     this.plan = good ? (plan as unknown as PlanThen) : null;
     this.words = new Map();
     for (const { node, address, words } of instant.values) {

@@ -1,6 +1,7 @@
 import { Menu } from '@mantine/core';
 import {
   IconChevronDown,
+  IconHistory,
   IconPlayerPauseFilled,
   IconPlayerPlayFilled,
   IconPlayerStopFilled,
@@ -31,11 +32,13 @@ export function Clock() {
   // On a bus there is a clock only while a plan runs.
   if (isBus && state === 'none') return null;
   const Icon =
-    state === 'running'
-      ? IconPlayerPlayFilled
-      : state === 'none' || state === 'ended'
-        ? IconPlayerStopFilled
-        : IconPlayerPauseFilled;
+    past !== null
+      ? IconHistory
+      : state === 'running'
+        ? IconPlayerPlayFilled
+        : state === 'none' || state === 'ended'
+          ? IconPlayerStopFilled
+          : IconPlayerPauseFilled;
   const button = (
     <button type="button" className={`clock clock--${past === null ? state : 'past'}`} title={why}>
       <Icon className="icon" size={14} aria-hidden />

@@ -1,6 +1,6 @@
 import { curvePath, placeIn } from '../../../core/timeline';
 import { text } from '../../text';
-import type { LaneView } from './lane_marks';
+import type { LaneView } from './lane_view';
 import type { HistoryCurve } from './rows';
 
 /** A word over time, or the load that a node puts on the bus. */

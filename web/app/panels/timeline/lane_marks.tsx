@@ -1,23 +1,11 @@
 import { placeIn } from '../../../core/timeline';
 import { Curve } from './lane_curve';
-import type { Span } from '../../../core/ring';
+import { Events } from './lane_events';
+import { extentOf, fitting, type LaneShape, type LaneView } from './lane_view';
 import { text } from '../../text';
-import type { HistoryLane, Row } from './rows';
+import type { Row } from './rows';
 
 const words = text.timeline;
-/** A letter of the interface at its smallest, in pixels. */
-const kLetter = 6.4;
-
-export interface LaneView {
-  span: Span;
-  /** The seconds that the server's answer is about. */
-  answered: Span;
-  width: number;
-  /** The instant that is shown, and until when something is known. */
-  at: number;
-  end: number;
-}
-
 /** What stands in one row. */
 export function LaneShapes({ row, view }: { row: Row; view: LaneView }) {
   switch (row.is) {
@@ -35,20 +23,7 @@ export function LaneShapes({ row, view }: { row: Row; view: LaneView }) {
   }
 }
 
-interface Shape {
-  lane: HistoryLane;
-  view: LaneView;
-  height: number;
-}
-type LaneBar = HistoryLane['bars'][number];
-
-function extentOf({ from, to }: LaneBar, { span, width, end }: LaneView) {
-  const x = Math.max(-2, placeIn(span, from, width));
-  const right = Math.min(width + 2, placeIn(span, to ?? end, width));
-  return { x, width: Math.max(1.5, right - x) };
-}
-
-function Bars({ lane, view, height }: Shape) {
+function Bars({ lane, view, height }: LaneShape) {
   return lane.bars.map((bar) => {
     const place = extentOf(bar, view);
     const on = bar.from <= view.at && view.at < (bar.to ?? Infinity);
@@ -72,7 +47,7 @@ function Bars({ lane, view, height }: Shape) {
   });
 }
 
-function Watching({ lane, view, height }: Shape) {
+function Watching({ lane, view, height }: LaneShape) {
   const { span, width } = view;
   const places = lane.marks.map(({ t }) => placeIn(span, t, width));
   return (
@@ -105,47 +80,6 @@ function Watching({ lane, view, height }: Shape) {
   );
 }
 
-function Events({ lane, view, height }: Shape) {
-  const { span, width } = view;
-  const places = lane.marks.map(({ t }) => placeIn(span, t, width));
-  return (
-    <>
-      {lane.bars.map((bar) => (
-        <rect
-          key={bar.from}
-          {...extentOf(bar, view)}
-          y={height / 2 - 4}
-          height={8}
-          className="tl__run"
-        >
-          <title>{[bar.name, words.many(bar.count ?? 1)].filter(Boolean).join(': ')}</title>
-        </rect>
-      ))}
-      {lane.marks.map(({ t, name, count }, index) => {
-        const x = places[index] ?? 0;
-        const room = (places[index + 1] ?? width) - x - 12;
-        return (
-          <g key={t}>
-            <path d={`M${x.toFixed(1)} 3V${height - 3}`} className="tl__event">
-              <title>{name ?? words.many(count ?? 1)}</title>
-            </path>
-            <text x={x + 4} y={height / 2 + 4} className="tl__label">
-              {fitting(name ?? '', room)}
-            </text>
-          </g>
-        );
-      })}
-    </>
-  );
-}
-
 function hexagon(x: number, y: number): string {
   return `M${x - 7} ${y}l3.5 -6h7l3.5 6l-3.5 6h-7z`;
-}
-
-/** As much of a name as there is room for, or nothing. */
-function fitting(name: string, room: number): string {
-  const letters = Math.floor(room / kLetter);
-  if (name.length <= letters) return name;
-  return letters >= 5 ? `${name.slice(0, letters - 1)}…` : '';
 }

@@ -4,7 +4,8 @@ import { movedSpan, placeIn, ticksOf, timeAt } from '../../../core/timeline';
 import { useStudio } from '../../hooks';
 import { usePastTime } from '../../past_hooks';
 import { text } from '../../text';
-import { LaneShapes, type LaneView } from './lane_marks';
+import { LaneShapes } from './lane_marks';
+import type { LaneView } from './lane_view';
 import { snapped, snapsOf, type Row } from './rows';
 import { showAll, viewOf, zoomBy } from './view_store';
 

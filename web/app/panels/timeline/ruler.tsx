@@ -2,7 +2,7 @@ import { useRef } from 'react';
 import { shownTime } from '../../../core/numbers';
 import { movedSpan, placeIn, ticksOf, timeAt } from '../../../core/timeline';
 import { useStudio } from '../../hooks';
-import type { LaneView } from './lane_marks';
+import type { LaneView } from './lane_view';
 import { viewOf } from './view_store';
 
 /** Seconds, the cursor and now, as heads over the lanes. Dragged, it moves what is in sight. */

@@ -37,8 +37,9 @@ export function useLanes(shown: boolean, width: number) {
       words: JSON.parse(words) as number[][],
       ...(trace === null ? {} : { trace }),
     };
-    feed.want(ready ? wish : null);
-    // Another run has other lanes in the same seconds; what goes on, while it is in sight.
+    // What is over does not change; what goes on does while it is in sight.
+    const known = trace === null ? Math.min(to, span.to) : 0;
+    feed.want(ready ? wish : null, `${run} ${known}`);
   }, [feed, ready, chosen, width, words, trace, run, from, to]);
   const lanes = useSyncExternalStore(
     useMemo(() => (listener: () => void) => feed.changed.on(listener), [feed]),

@@ -32,6 +32,7 @@ export function WorldStage({
   const frame = useRef<HTMLDivElement>(null);
   const eye = useRef<Eye | null>(null);
   const options = useWorldOptions();
+  const looksBack = usePastTime() !== null;
   const [failed, setFailed] = useState(false);
   useShown(frame, model, file);
   useHands(frame, model, eye, options.snap);
@@ -59,12 +60,12 @@ export function WorldStage({
         flat
       )}
       <div className="world__over">
-        {live ? <StatusChip model={model} /> : null}
-        {live ? <NowNote /> : null}
+        {live && !looksBack ? <StatusChip model={model} /> : null}
+        {live && looksBack ? <p className="world__chip">{text.past.dashed}</p> : null}
         <PlacingNote model={model} />
         {children}
       </div>
-      {live && options.picture ? <CameraPicture model={model} /> : null}
+      {live && options.picture && !looksBack ? <CameraPicture model={model} /> : null}
       <Spoken model={model} />
     </div>
   );
@@ -105,11 +106,6 @@ function PlacingNote({ model }: { model: WorldModel }) {
   return followed ? (
     <p className="world__chip">{text.world.following(nameOfThing(followed))}</p>
   ) : null;
-}
-
-/** What the dashed outline is. */
-function NowNote() {
-  return usePastTime() === null ? null : <p className="world__chip">{text.past.dashed}</p>;
 }
 
 function Spoken({ model }: { model: WorldModel }) {

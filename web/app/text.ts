@@ -380,6 +380,7 @@ export const text = {
     ready: 'Ready',
     runsScript: (node: string, time: string) => `${node}: the script of ${time} runs`,
     pausedAt: (node: string, line: number) => `${node} stands at line ${line}`,
+    looksBack: (at: string, end: string) => `Looking back: ${at} of ${end} s`,
     keys: {
       next: 'next panel',
       commands: 'commands',
@@ -389,6 +390,7 @@ export const text = {
       upload: 'upload',
       continue: 'continue',
       step: 'step',
+      step20: '20 ms',
       tab: 'next',
       open: 'open',
       help: 'help',

@@ -8,6 +8,7 @@ const words = text.timeline;
 export function Events({ lane, view, height }: LaneShape) {
   const { span, width } = view;
   const places = lane.marks.map(({ t }) => placeIn(span, t, width));
+  const runs = lane.bars.map(({ from }) => placeIn(span, from, width));
   return (
     <>
       {lane.bars.map((bar) => (
@@ -23,7 +24,7 @@ export function Events({ lane, view, height }: LaneShape) {
       ))}
       {lane.marks.map(({ t, name, count }, index) => {
         const x = places[index] ?? 0;
-        const room = (places[index + 1] ?? width) - x - 12;
+        const room = nextAfter(x, [...places, ...runs], width) - x - 12;
         return (
           <g key={t}>
             <path d={`M${x.toFixed(1)} 3V${height - 3}`} className="tl__event">
@@ -37,4 +38,9 @@ export function Events({ lane, view, height }: LaneShape) {
       })}
     </>
   );
+}
+
+/** Where the next thing in the lane begins. */
+function nextAfter(x: number, places: readonly number[], width: number): number {
+  return places.reduce((least, one) => (one > x ? Math.min(least, one) : least), width);
 }

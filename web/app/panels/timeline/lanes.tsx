@@ -36,6 +36,7 @@ export function Lanes({ rows, view }: { rows: readonly Row[]; view: LaneView }) 
       role="slider"
       tabIndex={0}
       data-inset
+      data-autofocus
       data-place="past"
       aria-label={words.cursor}
       aria-description={words.help}

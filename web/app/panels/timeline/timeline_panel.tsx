@@ -19,8 +19,8 @@ const kLabels = 148;
 export default function TimelinePanel() {
   const frame = useRef<HTMLDivElement>(null);
   const shown = useShown(frame);
-  const width = useWidth(frame) - kLabels;
-  const { lanes, answered, span, curves } = useLanes(shown, width);
+  const width = Math.max(useWidth(frame) - kLabels, 1);
+  const { known, lanes, answered, span, curves } = useLanes(shown, width);
   const nodes = useTopic('robot', {})?.nodes ?? [];
   const at = usePastTime();
   const end = useEnd();
@@ -30,7 +30,7 @@ export default function TimelinePanel() {
   const view = { span, answered, width, at: at ?? end, end };
   return (
     <div className="tl" ref={frame}>
-      {rows.length === 0 || width <= 0 ? (
+      {!known ? (
         <Quiet>{words.nothing}</Quiet>
       ) : (
         <>

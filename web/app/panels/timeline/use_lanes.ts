@@ -5,9 +5,9 @@ import { LanesFeed } from '../../../core/lanes';
 import { placeOf, pickName } from '../../../core/picks';
 import type { Span } from '../../../core/ring';
 import { newestSpan } from '../../../core/timeline';
-import { useStudio, useTopic } from '../../hooks';
+import { useChanges, useStudio, useTopic } from '../../hooks';
 import { useTraceName } from '../../past_hooks';
-import { useChanges, useVariablesOf } from '../../robot_hooks';
+import { useVariablesOf } from '../../robot_hooks';
 import type { CurveName } from './rows';
 import { useTimelineView, viewOf } from './view_store';
 
@@ -27,7 +27,8 @@ export function useLanes(shown: boolean, width: number) {
   const to = history?.to ?? 0;
   const run = history?.run ?? 0;
   const words = JSON.stringify(curves.map(({ node, address }) => [node, address]));
-  const ready = shown && width > 0 && (trace !== null || (history && history.kind !== 'none'));
+  const known = trace !== null || (history !== undefined && history.kind !== 'none');
+  const ready = shown && width > 1 && known;
   useEffect(() => {
     const span = chosen ?? newestSpan(from, to);
     const wish = {
@@ -38,8 +39,8 @@ export function useLanes(shown: boolean, width: number) {
       ...(trace === null ? {} : { trace }),
     };
     // What is over does not change; what goes on does while it is in sight.
-    const known = trace === null ? Math.min(to, span.to) : 0;
-    feed.want(ready ? wish : null, `${run} ${known}`);
+    const until = trace === null ? Math.min(to, span.to) : 0;
+    feed.want(ready ? wish : null, `${run} ${until}`);
   }, [feed, ready, chosen, width, words, trace, run, from, to]);
   const lanes = useSyncExternalStore(
     useMemo(() => (listener: () => void) => feed.changed.on(listener), [feed]),
@@ -47,7 +48,7 @@ export function useLanes(shown: boolean, width: number) {
   );
   const span: Span = chosen ?? feed.span ?? newestSpan(from, to);
   useEffect(() => viewOf(studio).setState({ drawn: span }));
-  return { lanes: ready ? lanes : null, answered: feed.span ?? span, span, curves };
+  return { known, lanes: ready ? lanes : null, answered: feed.span ?? span, span, curves };
 }
 
 /** The variables of the plots, as words of nodes. */

@@ -238,11 +238,14 @@ void Run::hear(const Packet& packet) {
     heard_ = now_;
     if (packet.kind == 'J') return hear_json(Json::parse(packet.bytes, nullptr, false));
     if (opening_) return;
+    if (packet.kind == 'H') return told_.records(packet.bytes);
     if (packet.kind != 'F') return hear_flow(packet);
-    wire::Frame frame;
-    if (!decode_frame(packet.bytes, frame)) return;
+    Carried carried{{}, 0.0};
+    if (packet.bytes.size() < sizeof(double)) return;
+    std::memcpy(&*carried.t, packet.bytes.data(), sizeof(double));
+    if (!decode_frame(packet.bytes.substr(sizeof(double)), carried.frame)) return;
     ++frames_in_;
-    frames_.push_back(frame);
+    frames_.push_back(carried);
 }
 
 void Run::hear_flow(const Packet& packet) {
@@ -287,6 +290,7 @@ void Run::hear_json(const Json& told) {
     } else if (what == "trace") {
         trace_.push_back(told["line"]);
         if (trace_.back().find(kLateInTrace) != std::string::npos) ++late_checks_;
+        told_.trace(trace_.back());
         if (trace_.size() > kTraceKept) trace_.pop_front();
     } else if (what == "over") {
         rest();

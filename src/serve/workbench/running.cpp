@@ -40,6 +40,7 @@ Status Workbench::choose_target(const std::string& target) {
     if (!connected.ok()) return connected.error();
     bus_ = std::move(connected.value());
     bus_since_ = now_;
+    record_bus("");
     robot_.connect(*bus_, target, target, "bus", now_);
     return Status::done();
 }
@@ -82,6 +83,7 @@ Status Workbench::open_world(const std::string& plan, const Json& set, bool keep
     ++start_;
     opening_ = Opening{now_ + kDescribeWithin, false, then_go};
     loaded_by_world_.clear();
+    record_plan(order);
     return run_.open(order, now_);
 }
 
@@ -213,6 +215,7 @@ void Workbench::start_plan_on_bus(const Call& call, RunOrder order, bool go) {
         tell_failed_loads(failed);
         if (start != start_) return;
         opening_ = Opening{.go = go};
+        record_bus(order.plan);
         const Status opened = run_.open(order, now_);
         if (!opened.ok()) world_failed(opened.error().what);
     });

@@ -30,7 +30,8 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
                [this](const std::string& name, uint16_t id) { return target_of(name, id); }),
       editing_(desk, files_, scripts_),
       robot_(desk, files_, scripts_, breakpoints_),
-      run_(desk, places.program) {
+      run_(desk, places.program),
+      history_(desk, files_) {
     const auto tell = [this](const std::string& kind, const std::string& text) {
         say(kind, with_short_paths(text));
     };
@@ -68,6 +69,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     run_.on_opened([this] { world_opened(); });
     run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
     run_.on_plan_died([this] { plan_died(); });
+    record_history();
     desk.on_people([this] { desk_.board().touch("studio"); });
     declare_topics();
     declare_project_commands();
@@ -232,6 +234,7 @@ EditedProject Workbench::edited_project() const {
 
 void Workbench::close() {
     leave_target();
+    history_.forget();
     files_.leave();
     scripts_.reread();
     breakpoints_ = {};
@@ -335,6 +338,7 @@ void Workbench::tick(Time now) {
     run_.tick(now);
     watch_run();
     robot_.tick(now);
+    if (run_.is_open() || bus_) history_.tick(history_clock());
     add_missing_scripts();
     get_nodes_ready();
     stop_nodes();

@@ -25,6 +25,7 @@
 #include "serve/run/run.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/workbench/history_desk.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
 #include "serve/workbench/opened.hpp"
@@ -111,6 +112,12 @@ private:
     Json studio_document() const;
     Json list_folder(const std::string& path) const;
 
+    // ---- recording.cpp: what the history is told ----
+    void record_history();
+    void record_plan(const RunOrder& order);
+    void record_bus(const std::string& plan);
+    double history_clock() const;
+
     // ---- running.cpp: what runs ----
     void declare_run_commands();
     void declare_plan_commands();
@@ -156,6 +163,8 @@ private:
     Editing editing_;
     Robot robot_;
     Run run_;
+    HistoryDesk history_;
+    Time history_since_{};  // of a bus
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};
     Targets targets_;

@@ -32,6 +32,7 @@ struct RunOrder {
     std::string plan;   // empty: the world alone
     std::vector<std::string> toolboxes;
     nlohmann::json set = nlohmann::json::object();
+    std::string from;  // the actor that the plan begins with; empty: its start
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
     bool keep_poses = false;   // robots stand where they stood before
@@ -102,6 +103,15 @@ public:
     using SetDone = std::function<void(const std::string& why)>;
     void set_variable(int level, const std::string& name, const Json& value, SetDone done);
 
+    // Plan files have been saved: what the plan that runs is made of is to take over (P31). What
+    // came of it is in the document of the plan, and is said.
+    void change_plan(const std::vector<std::string>& files);
+    // Whether it could take over now, if files had these texts: `done` gets what stands in its way,
+    // or nothing if the plan that runs is not made of them.
+    using Reasons = std::optional<std::vector<std::string>>;
+    void check_change(const std::map<std::string, std::string>& texts,
+                      std::function<void(const Reasons& reasons)> done);
+
     double time() const { return t_; }
     std::optional<double> load() const { return load_; }
     std::string robot_of(uint16_t node) const;
@@ -132,6 +142,7 @@ private:
     void hear_end(const ChildEnd& end);
     std::string last_actor() const;
     void forget_asked(const std::string& why);
+    void keep_change(const std::vector<std::string>& files, const Json& told);
     void declare_topics();
     void show_what_is_watched();
     Json clock_document() const;
@@ -163,6 +174,8 @@ private:
     uint64_t frames_in_ = 0, frames_out_ = 0;
     Json scene_ = Json::object();
     Json plan_ = Json::object();
+    Json change_;  // what came of the last save while the plan ran; null: none
+    uint64_t changes_ = 0;
     std::deque<std::string> trace_;
     double t_ = 0, real_ = 0, speed_ = 1;
     bool paused_ = true;

@@ -44,7 +44,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
         robot_.script_changed(path);
         if (project_ && path == project_->project_file) project_file_changed();
     });
-    editing_.on_saved([this](const std::string& path) { world_saved(path); });
+    editing_.on_saved([this](const std::string& path) { file_saved(path); });
     editing_.on_renamed([this](const std::string& from, const std::string& to) {
         breakpoints_.rename(from, to);
         keep_breakpoints();
@@ -341,6 +341,7 @@ void Workbench::tick(Time now) {
     stop_nodes();
     rest();
     editing_.tick(now);
+    change_plan();
     if (desk_.board().watched("targets") && targets_.look(now)) desk_.board().touch("targets");
 }
 

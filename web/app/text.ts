@@ -893,6 +893,25 @@ export const text = {
     nothing: 'Nothing yet.',
     other: (name: string) => `${name} runs`,
     errors: 'Mend the errors first; a plan with errors does not start.',
+    change: {
+      takes: 'Saving changes the running plan at once.',
+      cannot: 'Saving cannot change the running plan; it runs so from the next start on:',
+      refused: 'The plan as it was runs on. What was saved cannot take over while it runs:',
+      save: 'Save',
+      anew: 'Stop and start anew',
+    },
+    from: {
+      title: (actor: string) => `Run from ${actor}`,
+      help: 'The variables begin with these values.',
+      noVariables: 'This plan has no variables.',
+      bad: {
+        bool: 'true or false',
+        int: 'a whole number',
+        float: 'a number',
+        string: 'a text',
+      },
+      run: 'Run',
+    },
   },
   console: {
     label: 'Console',

@@ -64,7 +64,9 @@ void ChangeOracle::see(const plan::TraceEvent& event) {
     const auto depth = static_cast<size_t>(std::count(event.plan.begin(), event.plan.end(), '/'));
     if (std::holds_alternative<plan::PlanStarted>(event.what)) {
         levels_.resize(depth);
-        Level level{.path = event.plan, .file = "main.plan.json"};
+        Level level;
+        level.path = event.plan;
+        level.file = "main.plan.json";
         if (depth > 0) level.file = levels_.back().started["plan"];
         activate(level, plan(level)["start"]["actor"]);
         levels_.push_back(std::move(level));

@@ -151,8 +151,7 @@ class Changes(Case):
         self.wait(lambda: self.plan.value["state"] == "ended", "the end, since there are enough")
         self.assertEqual(self.plan.value["result"], "OK")
         self.assertNotIn("round", [line["text"] for line in self.plan.value["story"]])
-        page.do("plan.start", doc=FILE, **{"from": "enuf"})
-        self.wait_line("error", 'has no actor "enuf"')
+        self.assertIn('has no actor "enuf"', self.refused("failed", "plan.start", doc=FILE, **{"from": "enuf"}))
 
     def test_a_studio_that_is_killed_in_the_middle_of_a_change_leaves_nothing_half(self):
         seed = int(os.environ.get("VAGUS_SEED") or random.SystemRandom().randrange(1 << 32))

@@ -193,6 +193,7 @@ export const text = {
     'draw.variable': 'Plan: new variable',
     'draw.properties': 'Plan: properties of what is chosen',
     'draw.none': 'Plan: choose nothing',
+    'draw.runFrom': 'Plan: run from the chosen actor…',
     'plan.start': 'Start this plan',
     'plan.pause': 'Pause the plan',
     'plan.continue': 'Continue the plan',
@@ -906,6 +907,8 @@ export const text = {
       anew: 'Stop and start anew',
     },
     from: {
+      menu: 'Run from here…',
+      duplicate: 'Duplicate',
       title: (actor: string) => `Run from ${actor}`,
       help: 'The variables begin with these values.',
       noVariables: 'This plan has no variables.',

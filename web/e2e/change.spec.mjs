@@ -56,74 +56,90 @@ async function choose(studio, name) {
   return studio.page.getByRole('region', { name: 'Properties' });
 }
 
-test('a plan that runs takes over what is saved; the page says so before', project, async (studio) => {
-  const { page, press } = studio;
-  const live = await runs(studio);
-  const form = await choose(studio, 'say, actor Log');
-  await form.getByLabel('text').fill("word & '!'");
-  await press('Enter');
-  const line = page.getByRole('status').filter({ hasText: 'Saving changes the running plan at once.' });
-  await seen(line);
-  await line.getByRole('button', { name: 'Save' }).click();
-  await gone(line);
-  await reads(live, /P: the new version runs/);
-  await seen(page.getByRole('img', { name: 'saved, on the robot, runs' }));
-  // Drawn anew while it runs: an actor that the new version brings is live.
-  await reads(live, /stay/);
-});
+test(
+  'a plan that runs takes over what is saved; the page says so before',
+  project,
+  async (studio) => {
+    const { page, press } = studio;
+    const live = await runs(studio);
+    const form = await choose(studio, 'say, actor Log');
+    await form.getByLabel('text').fill("word & '!'");
+    await press('Enter');
+    const line = page
+      .getByRole('status')
+      .filter({ hasText: 'Saving changes the running plan at once.' });
+    await seen(line);
+    await line.getByRole('button', { name: 'Save' }).click();
+    await gone(line);
+    await reads(live, /P: the new version runs/);
+    await seen(page.getByRole('img', { name: 'saved, on the robot, runs' }));
+    // Drawn anew while it runs: an actor that the new version brings is live.
+    await reads(live, /stay/);
+  },
+);
 
-test('what cannot take over is refused with every reason, and runs when it starts anew', project, async (studio) => {
-  const { page, press } = studio;
-  const live = await runs(studio);
-  await choose(studio, 'stay, actor Wait');
-  await element(page, 'stay, actor Wait').focus();
-  await press('Delete');
-  const before = page.getByRole('status').filter({ hasText: 'Saving cannot change the running plan' });
-  await seen(before);
-  await reads(before, /has no start actor|"stay"|start/);
-  await press('Control+z');
-  await gone(before);
-  // Another template under the same name: the text beside the drawing says so.
-  await page.getByRole('switch', { name: 'Text' }).click();
-  const editor = page.getByRole('textbox', { name: /Text of/ }).first();
-  await editor.click();
-  await press('Control+f');
-  await page.getByLabel('Find', { exact: true }).fill('"seconds": "seconds"');
-  await press('Enter', 'Escape');
-  await studio.type('"seconds": "seconds", "more": 1');
-  await seen(before);
-  await reads(before, /more/);
-  await press('Control+s');
-  const after = page.getByRole('status').filter({ hasText: 'The plan as it was runs on.' });
-  await seen(after);
-  await reads(after, /more/);
-  await seen(page.getByRole('img', { name: 'saved, the robot has an older one, runs' }));
-  await reads(live, /runs/);
-});
+test(
+  'what cannot take over is refused with every reason, and runs when it starts anew',
+  project,
+  async (studio) => {
+    const { page, press } = studio;
+    const live = await runs(studio);
+    await choose(studio, 'stay, actor Wait');
+    await element(page, 'stay, actor Wait').focus();
+    await press('Delete');
+    const before = page
+      .getByRole('status')
+      .filter({ hasText: 'Saving cannot change the running plan' });
+    await seen(before);
+    await reads(before, /has no start actor|"stay"|start/);
+    await press('Control+z');
+    await gone(before);
+    // Another template under the same name: the text beside the drawing says so.
+    await page.getByRole('switch', { name: 'Text' }).click();
+    const editor = page.getByRole('textbox', { name: /Text of/ }).first();
+    await editor.click();
+    await press('Control+f');
+    await page.getByLabel('Find', { exact: true }).fill('"seconds": "seconds"');
+    await press('Enter', 'Escape');
+    await studio.type('"seconds": "seconds", "more": 1');
+    await seen(before);
+    await reads(before, /more/);
+    await press('Control+s');
+    const after = page.getByRole('status').filter({ hasText: 'The plan as it was runs on.' });
+    await seen(after);
+    await reads(after, /more/);
+    await seen(page.getByRole('img', { name: 'saved, the robot has an older one, runs' }));
+    await reads(live, /runs/);
+  },
+);
 
-test('a run begins at an actor of one’s choice with values of one’s choice', project, async (studio) => {
-  const { page, press, layout } = studio;
-  await layout('Draw');
-  await page.getByRole('switch', { name: 'What it does' }).click();
-  const live = page.getByRole('complementary', { name: 'What the plan does' });
-  await element(page, 'say, actor Log').focus();
-  await press('Space', 'Control+Enter');
-  const form = page.getByRole('dialog', { name: 'Run from say' });
-  await seen(form);
-  const seconds = form.getByLabel(/^seconds/);
-  assert.equal(await seconds.inputValue(), '1000');
-  assert.equal(await form.getByLabel(/^word/).inputValue(), 'hello');
-  await seconds.fill('ten');
-  await seen(form.getByText('a number'));
-  assert.equal(await form.getByRole('button', { name: 'Run', exact: true }).isDisabled(), true);
-  await seconds.fill('10');
-  await form.getByLabel(/^word/).fill('good morning');
-  await press('Enter');
-  await gone(form);
-  await reads(live, /good morning/);
-  await reads(live, /hold/);
-  assert.equal(await live.getByLabel('Value of seconds').inputValue(), '10');
-});
+test(
+  'a run begins at an actor of one’s choice with values of one’s choice',
+  project,
+  async (studio) => {
+    const { page, press, layout } = studio;
+    await layout('Draw');
+    await page.getByRole('switch', { name: 'What it does' }).click();
+    const live = page.getByRole('complementary', { name: 'What the plan does' });
+    await element(page, 'say, actor Log').focus();
+    await press('Space', 'Control+Enter');
+    const form = page.getByRole('dialog', { name: 'Run from say' });
+    await seen(form);
+    const seconds = form.getByLabel(/^seconds/);
+    assert.equal(await seconds.inputValue(), '1000');
+    assert.equal(await form.getByLabel(/^word/).inputValue(), 'hello');
+    await seconds.fill('ten');
+    await seen(form.getByText('a number'));
+    assert.equal(await form.getByRole('button', { name: 'Run', exact: true }).isDisabled(), true);
+    await seconds.fill('10');
+    await form.getByLabel(/^word/).fill('good morning');
+    await press('Enter');
+    await gone(form);
+    await reads(live, /good morning/);
+    await reads(live, /hold/);
+    assert.equal(await live.getByLabel('Value of seconds').inputValue(), '10');
+  },
+);
 
 test('the menu of an actor holds what can be done with it', project, async (studio) => {
   const { page, layout, press } = studio;

@@ -46,7 +46,9 @@ export function PlanChange({ doc }: { doc: Doc }) {
         <Button
           small
           disabled={!drives}
-          onClick={() => studio.order('plan.start', plan.doc === undefined ? {} : { doc: plan.doc })}
+          onClick={() =>
+            studio.order('plan.start', plan.doc === undefined ? {} : { doc: plan.doc })
+          }
         >
           {words.anew}
         </Button>
@@ -78,11 +80,7 @@ function Line(props: { good: boolean; what: string; reasons: readonly string[]; 
 
 function useUnsaved(doc: Doc): boolean {
   const { file } = partOf(doc);
-  return usePart(
-    'files',
-    {},
-    (is) => is?.files.find((one) => one.path === file)?.unsaved ?? false,
-  );
+  return usePart('files', {}, (is) => is?.files.find((one) => one.path === file)?.unsaved ?? false);
 }
 
 /** Asked again whenever the text or what is active is another one. */

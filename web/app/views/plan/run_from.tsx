@@ -38,7 +38,8 @@ export default function RunFrom() {
         <p className="quiet">{fields.length === 0 ? words.noVariables : words.help}</p>
         {fields.map((one, index) => (
           <label key={one.name}>
-            {one.name} <span className="muted">{[one.type, one.unit].filter(Boolean).join(', ')}</span>
+            {one.name}{' '}
+            <span className="muted">{[one.type, one.unit].filter(Boolean).join(', ')}</span>
             <input
               className="field field--ui num"
               autoFocus={index === 0}

@@ -3,6 +3,7 @@
 import { kStart } from '../../../../core/plan/model';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
+import { update } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
@@ -54,7 +55,10 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     ...make(id, [key], run, (plan) => hasClipboard() && may(plan)),
     keysAreEvents: true,
   });
+  const isActor = ({ board }: ShownPlan) => edits() && board.actor(board.selected) !== undefined;
+  const runFrom = () => update(studio.window, (draft) => void (draft.overlay = 'runFrom'));
   return [
+    make('draw.runFrom', ['Ctrl+Enter'], runFrom, isActor),
     make('draw.fit', ['1'], () => acts.fit()),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),
     make('draw.zoomOut', ['-'], () => acts.zoom(0.8)),

@@ -20,6 +20,7 @@ import { kFit, useFitted, useNodeChanges, useNodes, useOnDesk } from './canvas_h
 import { ConnectMenu } from './connect_menu';
 import type { PlanNode } from './flow_nodes';
 import { LiveContext, useLiveStore } from './live_store';
+import { NodeMenu, useNodeMenu } from './node_menu';
 import { nodeTypes } from './nodes';
 import { useClipboard } from './plan_clipboard';
 import { useDropping } from './use_dropping';
@@ -50,6 +51,7 @@ function Canvas({ board }: { board: PlanBoard }) {
   const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
   const dropping = useDropping(board, drives);
+  const menu = useNodeMenu(board);
   const live = useLiveStore(board);
   const options = usePlanOptions();
   const onNodesChange = useNodeChanges(board);
@@ -76,6 +78,7 @@ function Canvas({ board }: { board: PlanBoard }) {
             onNodesChange={onNodesChange}
             onMoveStart={onMoveStart}
             onPaneClick={() => board.select(null)}
+            onNodeContextMenu={menu.onNodeContextMenu}
             nodesConnectable={false}
             snapToGrid
             snapGrid={kGrid}
@@ -99,6 +102,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           </ReactFlow>
           {board.model.actors.length === 0 ? <p className="pcanvas__empty">{words.empty}</p> : null}
           {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
+          {menu.asked ? <NodeMenu asked={menu.asked} onClose={menu.close} /> : null}
         </div>
       </ConnectContext>
     </LiveContext>

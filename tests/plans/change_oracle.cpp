@@ -35,9 +35,10 @@ bool same_supervisor(const Json& now, const Json& next) {
 }
 
 bool all_there(const Json& now, const Json& next) {
-    return std::all_of(now.items().begin(), now.items().end(), [&next](const auto& one) {
-        return next.contains(one.key()) && same_supervisor(one.value(), next[one.key()]);
-    });
+    for (const auto& [name, supervisor] : now.items()) {
+        if (!next.contains(name) || !same_supervisor(supervisor, next[name])) return false;
+    }
+    return true;
 }
 
 std::string text_of(const Json& variable) {
@@ -106,7 +107,8 @@ bool ChangeOracle::accepts(const Texts& next) const {
 }
 
 bool ChangeOracle::accepts(const Level& level, const Json& next) const {
-    for (const auto& [name, variable] : part(plan(level), "configuration").items()) {
+    const Json variables = part(plan(level), "configuration");
+    for (const auto& [name, variable] : variables.items()) {
         if (!next["configuration"].contains(name)) continue;
         const Json& other = next["configuration"][name];
         if (other["type"] != variable["type"]) return false;
@@ -121,7 +123,8 @@ bool ChangeOracle::accepts(const Level& level, const Json& next) const {
     if (names(part(actor, "in")) != names(part(level.started, "in"))) return false;
     if (!all_there(part(level.started, "supervisors"), part(actor, "supervisors"))) return false;
     Json watching = Json::object();
-    for (const auto& [name, global] : part(plan(level)["start"], "supervisors").items()) {
+    const Json globals = part(plan(level)["start"], "supervisors");
+    for (const auto& [name, global] : globals.items()) {
         if (watches(level, name)) watching[name] = global;
     }
     return all_there(watching, part(next["start"], "supervisors"));

@@ -100,8 +100,8 @@ test(
     await editor.click();
     await press('Control+f');
     await page.getByLabel('Find', { exact: true }).fill('"seconds": "seconds"');
-    await press('Enter', 'Escape');
-    await studio.type('"seconds": "seconds", "more": 1');
+    await press('Enter', 'Escape', 'ArrowRight');
+    await studio.type(', "more": 1');
     await seen(before);
     await reads(before, /more/);
     await press('Control+s');
@@ -122,7 +122,9 @@ test(
     await page.getByRole('switch', { name: 'What it does' }).click();
     const live = page.getByRole('complementary', { name: 'What the plan does' });
     await element(page, 'say, actor Log').focus();
-    await press('Space', 'Control+Enter');
+    await press('Space');
+    await seen(page.getByRole('heading', { name: 'say' }));
+    await press('r');
     const form = page.getByRole('dialog', { name: 'Run from say' });
     await seen(form);
     const seconds = form.getByLabel(/^seconds/);

@@ -163,29 +163,34 @@ void Run::change_plan(const std::vector<std::string>& files) {
 }
 
 void Run::keep_change(const std::vector<std::string>& files, const Json& told) {
-    if (!told.contains("reasons")) return;  // none of its files, or the plan has ended
+    const Reasons reasons = reasons_in(told);
+    if (!reasons) return;  // none of its files, or the plan has ended
     Json docs = Json::array();
     for (const std::string& file : files) docs.push_back(doc_of_(file));
-    const Json& reasons = told["reasons"];
-    const bool taken = reasons.empty();
+    const bool taken = reasons->empty();
     change_ = {{"number", ++changes_},
                {"t", t_},
                {"state", taken ? "taken" : "refused"},
                {"docs", docs},
-               {"reasons", reasons}};
+               {"reasons", *reasons}};
     desk_.board().touch("plan");
     if (taken) return;
     std::string text = "the plan that runs cannot change so; it goes on as it was:";
-    for (const std::string reason : reasons) text += "\n" + reason;
+    for (const std::string& reason : *reasons) text += "\n" + reason;
     say_("warning", text);
+}
+
+Run::Reasons Run::reasons_in(const Json& told) const {
+    if (!told.contains("reasons")) return std::nullopt;
+    std::vector<std::string> reasons;
+    for (const std::string reason : told["reasons"]) reasons.push_back(short_(reason));
+    return reasons;
 }
 
 void Run::check_change(const std::map<std::string, std::string>& texts,
                        std::function<void(const Reasons& reasons)> done) {
-    ask({{"do", "plan.check"}, {"texts", texts}}, [done = std::move(done)](const Json& told) {
-        if (!told.contains("reasons")) return done(std::nullopt);
-        done(told["reasons"].get<std::vector<std::string>>());
-    });
+    ask({{"do", "plan.check"}, {"texts", texts}},
+        [this, done = std::move(done)](const Json& told) { done(reasons_in(told)); });
 }
 
 // Nobody will answer any more.

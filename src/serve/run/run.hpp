@@ -54,6 +54,10 @@ public:
     void set_doc_of(std::function<std::string(const std::string& file)> doc_of) {
         doc_of_ = std::move(doc_of);
     }
+    // A sentence with paths of this computer, for pages.
+    void set_short(std::function<std::string(const std::string& text)> shorten) {
+        short_ = std::move(shorten);
+    }
     // The world stands and its nodes can be talked to.
     void on_opened(std::function<void()> opened) { opened_ = std::move(opened); }
     // It cannot be opened: a sentence, or several lines of the checker.
@@ -142,6 +146,7 @@ private:
     void hear_end(const ChildEnd& end);
     std::string last_actor() const;
     void forget_asked(const std::string& why);
+    Reasons reasons_in(const Json& told) const;
     void keep_change(const std::vector<std::string>& files, const Json& told);
     void declare_topics();
     void show_what_is_watched();
@@ -153,6 +158,7 @@ private:
     const std::string program_;
     std::function<void(const std::string&, const std::string&)> say_ = [](auto&, auto&) {};
     std::function<std::string(const std::string&)> doc_of_ = [](const std::string& f) { return f; };
+    std::function<std::string(const std::string&)> short_ = [](const std::string& t) { return t; };
     std::function<void()> opened_ = [] {};
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
     std::function<void()> plan_died_ = [] {};

@@ -68,6 +68,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     });
     run_.set_doc_of(
         [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
+    run_.set_short([this](const std::string& text) { return with_short_paths(text); });
     run_.on_opened([this] { world_opened(); });
     run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
     run_.on_plan_died([this] { plan_died(); });

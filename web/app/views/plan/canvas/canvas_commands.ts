@@ -58,7 +58,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
   const isActor = ({ board }: ShownPlan) => edits() && board.actor(board.selected) !== undefined;
   const runFrom = () => update(studio.window, (draft) => void (draft.overlay = 'runFrom'));
   return [
-    make('draw.runFrom', ['Ctrl+Enter'], runFrom, isActor),
+    make('draw.runFrom', ['R'], runFrom, isActor),
     make('draw.fit', ['1'], () => acts.fit()),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),
     make('draw.zoomOut', ['-'], () => acts.zoom(0.8)),

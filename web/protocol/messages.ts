@@ -474,6 +474,18 @@ export interface PlanLevel {
   supervisors: PlanSupervisor[];
 }
 
+/** A new version of the plan that runs (P31). */
+export interface PlanChange {
+  /** counts up */
+  number: number;
+  t: number;
+  state: 'taken' | 'refused';
+  /** what was saved */
+  docs: Doc[];
+  /** why it was refused */
+  reasons: string[];
+}
+
 /** A change of one value of a JSON file. */
 export interface JsonStep {
   do: 'set' | 'remove' | 'insert' | 'move';
@@ -976,7 +988,18 @@ export interface Commands {
   'plan.start': { in: {
     doc?: Doc;
     set?: Record<string, Json>;
+    /** the actor that it begins with, instead of its start */
+    from?: Name;
   }; out: Record<never, never> };
+  /** Whether saving the document as it is now would change the plan that runs (P31). */
+  'plan.check_change': { in: {
+    doc: Doc;
+  }; out: {
+    /** the plan that runs is made of it */
+    runs: boolean;
+    /** why the plan that runs could not change so; none: it would take over at once */
+    reasons: string[];
+  } };
   /** Pauses the plan. */
   'plan.pause': { in: Record<never, never>; out: Record<never, never> };
   /** Continues the plan. */
@@ -1232,6 +1255,8 @@ export interface Topics {
     levels: PlanLevel[];
     /** what happened, the newest last */
     story: Line[];
+    /** what came of the last save while it ran */
+    change?: PlanChange;
   } };
   /** What is kept of the run that goes, or went last: history.at and history.lanes show it. */
   'history': { kind: 'document'; of: Record<never, never>; is: {
@@ -1351,6 +1376,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanVariable: { name: 'Name', type: 'word(bool|int|float|string|object)', value: 'json', unit: 'line(32)' },
   PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
   PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]' },
+  PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
   JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', to: 'int(0..1000000)?' },
   Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
   FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world)' },
@@ -1426,6 +1452,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'run.end': { may: 'driver', out: {} },
   'clock.speed': { may: 'driver', out: {} },
   'plan.start': { may: 'driver', out: {} },
+  'plan.check_change': { may: 'look', out: { runs: 'bool', reasons: '[text(2000); 1000]' } },
   'plan.pause': { may: 'driver', out: {} },
   'plan.continue': { may: 'driver', out: {} },
   'plan.step': { may: 'driver', out: {} },
@@ -1459,7 +1486,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'node': { kind: 'document', is: { name: 'Name', variables: '[Variable; 4096]', events: '[LocalEvent; 256]', natives: '[Native; 512]' } },
   'breakpoints': { kind: 'document', is: { breakpoints: '[Breakpoint; 1000]' } },
   'clock': { kind: 'document', is: { t: 'number', wall: 'number', state: 'word(none|running|paused|ended|hanging|dead)', speed: 'number', real: 'number', why: 'text(2000)?' } },
-  'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]' } },
+  'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]', change: 'PlanChange?' } },
   'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
   'state': { kind: 'document', is: { values: 'json' } },
   'scene': { kind: 'document', is: { name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },

@@ -42,7 +42,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
         robot_.script_changed(path);
         if (project_ && path == project_->project_file) project_file_changed();
     });
-    editing_.on_saved([this](const std::string& path) { world_saved(path); });
+    editing_.on_saved([this](const std::string& path) { file_saved(path); });
     editing_.on_renamed([this](const std::string& from, const std::string& to) {
         breakpoints_.rename(from, to);
         keep_breakpoints();
@@ -66,6 +66,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     });
     run_.set_doc_of(
         [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
+    run_.set_short([this](const std::string& text) { return with_short_paths(text); });
     run_.on_opened([this] { world_opened(); });
     run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
     run_.on_plan_died([this] { plan_died(); });
@@ -344,6 +345,7 @@ void Workbench::tick(Time now) {
     stop_nodes();
     rest();
     editing_.tick(now);
+    change_plan();
     if (desk_.board().watched("targets") && targets_.look(now)) desk_.board().touch("targets");
 }
 

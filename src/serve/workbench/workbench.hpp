@@ -128,13 +128,18 @@ private:
     // Opens the world, and the plan if there is one to run; it stands until its nodes are ready.
     Status open_world(const std::string& plan, const Json& set, bool keep_poses, bool then_go);
     RunOrder order_of(const std::string& plan, const Json& set) const;
+    Status open_order(RunOrder order, bool keep_poses, bool then_go);
     bool world_has_changed() const;
     void reopen_world();
     void world_saved(const std::string& path);
+    void file_saved(const std::string& path);
+    void change_plan();
+    void check_change(const Call& call);
     void world_opened();
     void world_failed(const std::string& why);
     void start(const Call& call);
-    void start_plan(const Call& call, const std::string& plan, const Json& set, bool go);
+    // `call` may say with which values, and from which actor.
+    void start_plan(const Call& call, const std::string& plan, bool go);
     void start_plan_on_bus(const Call& call, RunOrder order, bool go);
     void plan_joined_bus();
     void plan_died();
@@ -192,6 +197,7 @@ private:
     std::optional<Time> nodes_stop_at_;
     std::vector<Call> stop_calls_;
     std::optional<Time> rest_at_;
+    std::vector<std::string> saved_plans_;             // the run is not told of them yet
     std::string opened_world_;                         // text of the world that stands there
     std::map<uint16_t, std::string> loaded_by_world_;  // source by node
 };

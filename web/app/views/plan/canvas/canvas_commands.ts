@@ -3,6 +3,7 @@
 import { kStart } from '../../../../core/plan/model';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
+import { update } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
@@ -55,7 +56,10 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     ...make(id, [key], run, (plan) => hasClipboard() && may(plan)),
     keysAreEvents: true,
   });
+  const isActor = ({ board }: ShownPlan) => edits() && board.actor(board.selected) !== undefined;
+  const runFrom = () => update(studio.window, (draft) => void (draft.overlay = 'runFrom'));
   return [
+    make('draw.runFrom', ['R'], runFrom, isActor),
     make('draw.fit', ['1'], () => acts.fit()),
     make('draw.find', ['Ctrl+F', '/'], () => acts.find()),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),

@@ -21,6 +21,7 @@ import { ConnectMenu } from './connect_menu';
 import { FindBar } from './find_bar';
 import type { PlanNode } from './flow_nodes';
 import { LiveContext, useLiveStore } from './live_store';
+import { NodeMenu, useNodeMenu } from './node_menu';
 import { nodeTypes } from './nodes';
 import { useClipboard } from './plan_clipboard';
 import { useDropping } from './use_dropping';
@@ -53,6 +54,7 @@ function Canvas({ board }: { board: PlanBoard }) {
   const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
   const dropping = useDropping(board, drives);
+  const menu = useNodeMenu(board);
   const live = useLiveStore(board);
   const options = usePlanOptions();
   const onNodesChange = useNodeChanges(board);
@@ -79,6 +81,7 @@ function Canvas({ board }: { board: PlanBoard }) {
             onNodesChange={onNodesChange}
             onMoveStart={onMoveStart}
             onPaneClick={() => board.select(null)}
+            onNodeContextMenu={menu.onNodeContextMenu}
             nodesConnectable={false}
             snapToGrid
             snapGrid={kGrid}
@@ -113,6 +116,7 @@ function Canvas({ board }: { board: PlanBoard }) {
             />
           ) : null}
           {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
+          {menu.asked ? <NodeMenu asked={menu.asked} onClose={menu.close} /> : null}
         </div>
       </ConnectContext>
     </LiveContext>

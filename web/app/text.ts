@@ -830,6 +830,7 @@ export const text = {
     supervisors: 'Supervisors',
     noSupervisors: 'None watch.',
     unfed: 'must be fed',
+    offers: 'What may stand here',
     default: (value: string) => `${value}  default`,
     variable: 'variable',
     type: 'Type',

@@ -191,6 +191,7 @@ export const text = {
     'draw.cut': 'Plan: cut what is chosen',
     'draw.paste': 'Plan: paste',
     'draw.variable': 'Plan: new variable',
+    'draw.note': 'Plan: new note',
     'draw.properties': 'Plan: properties of what is chosen',
     'draw.none': 'Plan: choose nothing',
     'plan.start': 'Start this plan',
@@ -769,6 +770,7 @@ export const text = {
     noPlan: 'Open a plan to add to it.',
     add: (name: string, role: string) => `${name}, ${role}`,
     variable: 'New variable',
+    note: 'New note',
     whose:
       'Choose an actor or Start first: a supervisor watches for one of them. Or drop it there.',
   },
@@ -809,6 +811,13 @@ export const text = {
       arrow.is === 'in'
         ? `${arrow.variable} feeds ${arrow.port} of ${arrow.element}`
         : `${arrow.port} of ${arrow.element} goes to ${arrow.variable}`,
+    note: 'Note',
+    noteText: 'Text of the note',
+    emptyNote: 'Double-click to write',
+    noteLabel: (text: string) => `Note: ${text.split('\n')[0] || 'empty'}`,
+    noNotes: 'This file keeps something else under "x.notes", where notes would stand.',
+    width: 'Width',
+    height: 'Height',
     connectTo: 'Connect to',
     connect: (name: string) => `${name}: connect to…`,
     disconnect: 'Take the arrow away',

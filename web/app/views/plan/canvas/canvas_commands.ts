@@ -3,6 +3,7 @@
 import { kStart } from '../../../../core/plan/model';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
+import { toast } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
@@ -43,7 +44,10 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
   const edits = () => drives(studio);
   const has = ({ board }: ShownPlan) => edits() && board.selected !== null;
   const named = ({ board }: ShownPlan) =>
-    edits() && (board.element(board.selected) ?? board.variable(board.selected)) !== undefined;
+    edits() &&
+    (board.element(board.selected) ??
+      board.variable(board.selected) ??
+      board.note(board.selected)) !== undefined;
   const hasPart = ({ board }: ShownPlan) => board.part() !== null;
   const clipboard = (
     id: DrawId,
@@ -100,11 +104,19 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       (plan) => edits() && hasPart(plan),
     ),
     clipboard('draw.paste', 'Ctrl+V', (plan) => pasteByCommand(studio, plan), edits),
+    make(
+      'draw.note',
+      ['N'],
+      ({ board, middle }) => {
+        if (board.addNote(middle()) === null) toast(studio.window, 'error', text.draw.noNotes);
+      },
+      edits,
+    ),
     make('draw.variable', [], ({ board }) => void board.addVariable(), edits),
     make(
       'draw.properties',
       ['Enter'],
-      () => acts.properties(),
+      ({ board }) => (board.note(board.selected) && edits() ? acts.rename() : acts.properties()),
       ({ board }) => board.selected !== null,
     ),
     make(

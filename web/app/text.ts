@@ -192,6 +192,8 @@ export const text = {
     'draw.paste': 'Plan: paste',
     'draw.variable': 'Plan: new variable',
     'draw.note': 'Plan: new note',
+    'draw.exportSvg': 'Plan: export as SVG',
+    'draw.exportPng': 'Plan: export as PNG',
     'draw.properties': 'Plan: properties of what is chosen',
     'draw.none': 'Plan: choose nothing',
     'plan.start': 'Start this plan',
@@ -811,6 +813,10 @@ export const text = {
       arrow.is === 'in'
         ? `${arrow.variable} feeds ${arrow.port} of ${arrow.element}`
         : `${arrow.port} of ${arrow.element} goes to ${arrow.variable}`,
+    exportPicture: 'Export the drawing',
+    asSvg: 'As SVG',
+    asPng: 'As PNG',
+    noPicture: 'The browser cannot draw a picture of this size. Export it as SVG.',
     note: 'Note',
     noteText: 'Text of the note',
     emptyNote: 'Double-click to write',

@@ -7,6 +7,7 @@ import { toast } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
+import { exportPng, exportSvg } from './export_picture';
 import { copyByCommand, cut, hasClipboard, pasteByCommand } from './plan_clipboard';
 
 const titles = text.commands;
@@ -112,6 +113,8 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       },
       edits,
     ),
+    make('draw.exportSvg', [], (plan) => exportSvg(studio, plan)),
+    make('draw.exportPng', [], (plan) => exportPng(studio, plan)),
     make('draw.variable', [], ({ board }) => void board.addVariable(), edits),
     make(
       'draw.properties',

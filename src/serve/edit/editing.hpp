@@ -18,6 +18,7 @@
 #include "serve/edit/file_desk.hpp"
 #include "serve/edit/finding.hpp"
 #include "serve/edit/findings.hpp"
+#include "serve/edit/plan_desk.hpp"
 #include "serve/edit/script_desk.hpp"
 #include "serve/edit/search.hpp"
 
@@ -67,6 +68,7 @@ private:
     ScriptDesk script_desk_;
     Search search_;
     Findings findings_;
+    PlanDesk plan_desk_;
 };
 
 }  // namespace vagus::serve

@@ -58,6 +58,16 @@ export default function PalettePanel() {
             {words.variable}
           </button>
         ) : null}
+        {typed === '' ? (
+          <button
+            type="button"
+            className="btn btn--small palettepanel__variable"
+            disabled={!may}
+            onClick={() => studio.registry.run('draw.note')}
+          >
+            {words.note}
+          </button>
+        ) : null}
       </div>
       {shown ? null : <Quiet>{words.noPlan}</Quiet>}
     </div>

@@ -488,6 +488,15 @@ export interface PlanChange {
   reasons: string[];
 }
 
+/** Lines of generated code that belong to an element; one element may have several. */
+export interface CodeMark {
+  /** that lead to an element of the plan: actors, followWall */
+  keys: string[];
+  /** line */
+  first: number;
+  last: number;
+}
+
 /** A word of formulas. */
 export interface FormulaWord {
   /** as it is written */
@@ -866,6 +875,29 @@ export interface Commands {
     steps: JsonStep[];
   }; out: {
     findings: Finding[];
+  } };
+  /** The C++ program of a plan as it is edited now (vagus plan generate): NAME.cpp. A plan with errors has none; then the findings say why. */
+  'plan.code': { in: {
+    doc: Doc;
+  }; out: {
+    /** of the file */
+    name: string;
+    text: string;
+    marks: CodeMark[];
+    /** errors */
+    findings: Finding[];
+  } };
+  /** A template of the project's own: into its toolbox file, which is made and listed in vagus.json if need be, with the events it needs and handlers in the script of a node. Unchanged it works and does something harmless. All of it, or nothing. */
+  'template.new': { in: {
+    name: Name;
+    kind: 'actor' | 'supervisor';
+    /** whose node does the work */
+    script: Doc;
+    help: string;
+  }; out: {
+    toolbox: string;
+    /** in the script, where its author goes on */
+    at: Place;
   } };
   /** Adds an event or constant to an .aesl file. */
   'define.add': { in: {
@@ -1398,6 +1430,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
   PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]' },
   PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
+  CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
   FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
   JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', to: 'int(0..1000000)?' },
   Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
@@ -1451,6 +1484,8 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'text.search': { may: 'look', out: { spots: '[Spot; 5000]', more: 'bool', why: 'line(300)?' } },
   'text.replace': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
   'plan.check': { may: 'look', out: { findings: '[Finding; 2000]' } },
+  'plan.code': { may: 'look', out: { name: 'line(256)', text: 'text(4194304)', marks: '[CodeMark; 20000]', findings: '[Finding; 2000]' } },
+  'template.new': { may: 'driver', out: { toolbox: 'line(256)', at: 'Place' } },
   'define.add': { may: 'driver', out: {} },
   'define.change': { may: 'driver', out: { places: 'int(0..100000)' } },
   'define.remove': { may: 'driver', out: {} },

@@ -21,6 +21,7 @@
 #include "serve/edit/plan_desk.hpp"
 #include "serve/edit/script_desk.hpp"
 #include "serve/edit/search.hpp"
+#include "serve/edit/template_desk.hpp"
 
 namespace vagus::serve {
 
@@ -69,6 +70,7 @@ private:
     Search search_;
     Findings findings_;
     PlanDesk plan_desk_;
+    TemplateDesk template_desk_;
 };
 
 }  // namespace vagus::serve

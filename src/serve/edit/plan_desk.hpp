@@ -1,4 +1,4 @@
-// What editors ask about plans: plan.check.
+// What editors ask about plans: plan.check, plan.code.
 #pragma once
 
 #include "serve/edit/findings.hpp"
@@ -14,6 +14,7 @@ public:
 
 private:
     void check(const Call& call);
+    void code(const Call& call);
 
     Files& files_;
     Findings& findings_;

@@ -12,6 +12,7 @@ import { text } from '../text';
 import { RoleShape, TemplateIcon } from '../views/plan/canvas/template_icon';
 import { planDeskOf, usePlanDesk } from '../views/plan/plan_desk';
 import { dragged, kTemplateData } from '../views/plan/template_drag';
+import { NewTemplateButton } from './palette/new_template_button';
 import '../look/palette.css';
 
 const words = text.templates;
@@ -68,6 +69,7 @@ export default function PalettePanel() {
             {words.note}
           </button>
         ) : null}
+        {typed === '' ? <NewTemplateButton /> : null}
       </div>
       {shown ? null : <Quiet>{words.noPlan}</Quiet>}
     </div>

@@ -43,6 +43,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
       <Switch name="data" />
       <Switch name="map" />
       <Switch name="text" />
+      <Switch name="code" />
       <Switch name="live" />
     </div>
   );

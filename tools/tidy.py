@@ -64,7 +64,7 @@ ROOMS = {
         ("scripts", "script/"),
         ("editing", "edit/"),
         ("robot", "robot/"),
-        ("a run", "host/ run/"),
+        ("a run", "host/ history/ run/"),
         ("the whole", "workbench/"),
         ("on a robot", "field/"),
     ],

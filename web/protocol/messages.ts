@@ -277,6 +277,64 @@ export interface Happening {
   text: string;
 }
 
+/** Something that lasted, on a timeline. */
+export interface HistoryBar {
+  from: number;
+  /** missing: it goes on */
+  to?: number;
+  name?: string;
+  /** how it ended: a state, or interrupted */
+  end?: string;
+  /** of those that are drawn as this one */
+  count?: number;
+}
+
+/** Something that happened, on a timeline. */
+export interface HistoryMark {
+  t: number;
+  name?: string;
+  /** where an event led */
+  to?: string;
+  count?: number;
+}
+
+/** A row of a timeline. */
+export interface HistoryLane {
+  kind: 'actors' | 'supervisor' | 'events';
+  /** instance path of the plan; empty for events */
+  path: string;
+  /** of the supervisor, of the source of events */
+  name: string;
+  bars: HistoryBar[];
+  marks: HistoryMark[];
+}
+
+/** A word over time. */
+export interface HistoryCurve {
+  node: number;
+  /** missing: the load that the node puts on the bus, in hundredths of a percent */
+  address?: number;
+  /** the lowest value of each column of equal time, null where it is not recorded */
+  low?: Json;
+  /** the highest */
+  high: Json;
+}
+
+/** Words of a node as they were. */
+export interface HistoryWords {
+  node: NodeId;
+  address: number;
+  /** null: not recorded */
+  words: Json[];
+}
+
+/** What a node did, and where it stood. */
+export interface HistoryNode {
+  node: NodeId;
+  state: string;
+  line?: number;
+}
+
 /** A line of the console. */
 export interface Line {
   number: number;
@@ -414,6 +472,18 @@ export interface PlanLevel {
   inputs: Json;
   variables: PlanVariable[];
   supervisors: PlanSupervisor[];
+}
+
+/** A new version of the plan that runs (P31). */
+export interface PlanChange {
+  /** counts up */
+  number: number;
+  t: number;
+  state: 'taken' | 'refused';
+  /** what was saved */
+  docs: Doc[];
+  /** why it was refused */
+  reasons: string[];
 }
 
 /** A change of one value of a JSON file. */
@@ -918,7 +988,18 @@ export interface Commands {
   'plan.start': { in: {
     doc?: Doc;
     set?: Record<string, Json>;
+    /** the actor that it begins with, instead of its start */
+    from?: Name;
   }; out: Record<never, never> };
+  /** Whether saving the document as it is now would change the plan that runs (P31). */
+  'plan.check_change': { in: {
+    doc: Doc;
+  }; out: {
+    /** the plan that runs is made of it */
+    runs: boolean;
+    /** why the plan that runs could not change so; none: it would take over at once */
+    reasons: string[];
+  } };
   /** Pauses the plan. */
   'plan.pause': { in: Record<never, never>; out: Record<never, never> };
   /** Continues the plan. */
@@ -933,6 +1014,70 @@ export interface Commands {
     name: Name;
     value: Json;
   }; out: Record<never, never> };
+  /** An instant of the run, or of a trace that is kept as a file. What was not recorded is null or missing. */
+  'history.at': { in: {
+    t: number;
+    /** words of nodes that are asked for: [node, address, count] */
+    ranges?: Json[];
+    /** so many of the last happenings until then */
+    events?: number;
+    trace?: Path;
+  }; out: {
+    run: number;
+    t: number;
+    /** until when something is known */
+    to: number;
+    /** as the topic plan was; missing without a plan */
+    plan?: Json;
+    /** when the plan made its last step before */
+    before?: number;
+    /** when it made its next one */
+    next?: number;
+    values: HistoryWords[];
+    /** [index in the scene, x, y, angle] */
+    robots: Json[];
+    /** [number, x, y, angle] */
+    objects: Json[];
+    nodes: HistoryNode[];
+    events: Happening[];
+    /** missing: thinned out, up to 0.2 s older than asked */
+    exact?: boolean;
+  } };
+  /** What a timeline draws of a span of time: what falls into one of its pixels is merged. */
+  'history.lanes': { in: {
+    from: number;
+    to: number;
+    /** pixels */
+    width: number;
+    /** [node, address] */
+    words?: Json[];
+    trace?: Path;
+  }; out: {
+    run: number;
+    from: number;
+    to: number;
+    lanes: HistoryLane[];
+    curves: HistoryCurve[];
+    loads: HistoryCurve[];
+    /** events of sources that had no room */
+    left_out: number;
+  } };
+  /** Reads a trace that is kept as a file, NAME.trace.jsonl. */
+  'history.open': { in: {
+    trace: Path;
+  }; out: {
+    from: number;
+    to: number;
+    lines: number;
+    /** lines that are none of a trace */
+    refused: number;
+    /** the project has the plan of that name */
+    plan: boolean;
+  } };
+  /** Keeps the trace of the run as a file of the project. */
+  'history.save': { in: Record<never, never>; out: {
+    path: Path;
+  } };
   /** Puts a robot or an object somewhere else, as a hand would. */
   'world.move': { in: {
     robot?: string;
@@ -1110,6 +1255,23 @@ export interface Topics {
     levels: PlanLevel[];
     /** what happened, the newest last */
     story: Line[];
+    /** what came of the last save while it ran */
+    change?: PlanChange;
+  } };
+  /** What is kept of the run that goes, or went last: history.at and history.lanes show it. */
+  'history': { kind: 'document'; of: Record<never, never>; is: {
+    /** another one for each run */
+    run: number;
+    kind: 'none' | 'simulated' | 'bus' | 'trace';
+    name: string;
+    from: number;
+    to: number;
+    /** what is older is thinned out to 5 instants a second */
+    fine_from?: number;
+    /** older lines of the trace are not kept */
+    plan_from?: number;
+    /** older events are not kept */
+    events_from?: number;
   } };
   /** What state.put kept. */
   'state': { kind: 'document'; of: Record<never, never>; is: {
@@ -1193,6 +1355,12 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Parameter: { name: 'Name', size: 'int(-65535..65535)' },
   LocalEvent: { name: 'Name', help: 'line(400)' },
   Happening: { number: 'number', t: 'number', wall: 'number', kind: 'word(event|state|fault|appeared|gone|loaded|plan|lost)', node: 'int(0..65534)', source: 'line(128)', name: 'line(200)', args: 'Words', text: 'text(1000)' },
+  HistoryBar: { from: 'number', to: 'number?', name: 'line(200)?', end: 'line(200)?', count: 'number?' },
+  HistoryMark: { t: 'number', name: 'line(200)?', to: 'line(200)?', count: 'number?' },
+  HistoryLane: { kind: 'word(actors|supervisor|events)', path: 'line(4096)', name: 'line(200)', bars: '[HistoryBar; 20000]', marks: '[HistoryMark; 20000]' },
+  HistoryCurve: { node: 'int(0..65534)', address: 'int(0..65535)?', low: 'json?', high: 'json' },
+  HistoryWords: { node: 'NodeId', address: 'int(0..65535)', words: '[json; 20000]' },
+  HistoryNode: { node: 'NodeId', state: 'line(32)', line: 'int(1..10000000)?' },
   Line: { number: 'number', t: 'number', kind: 'word(note|warning|error|log)', text: 'text(4000)' },
   Suggestion: { label: 'line(200)', kind: 'word(variable|constant|event|native|sub|keyword|function|actor|supervisor|template|value)', detail: 'line(300)', help: 'text(1000)', insert: 'line(400)' },
   Spot: { doc: 'Doc', at: 'Place', end: 'Place', line_text: 'line(400)' },
@@ -1208,6 +1376,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanVariable: { name: 'Name', type: 'word(bool|int|float|string|object)', value: 'json', unit: 'line(32)' },
   PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
   PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]' },
+  PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
   JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', to: 'int(0..1000000)?' },
   Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
   FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world)' },
@@ -1283,11 +1452,16 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'run.end': { may: 'driver', out: {} },
   'clock.speed': { may: 'driver', out: {} },
   'plan.start': { may: 'driver', out: {} },
+  'plan.check_change': { may: 'look', out: { runs: 'bool', reasons: '[text(2000); 1000]' } },
   'plan.pause': { may: 'driver', out: {} },
   'plan.continue': { may: 'driver', out: {} },
   'plan.step': { may: 'driver', out: {} },
   'plan.stop': { may: 'driver', out: {} },
   'plan.set': { may: 'driver', out: {} },
+  'history.at': { may: 'look', out: { run: 'number', t: 'number', to: 'number', plan: 'json?', before: 'number?', next: 'number?', values: '[HistoryWords; 256]', robots: '[json; 1024]', objects: '[json; 10000]', nodes: '[HistoryNode; 2048]', events: '[Happening; 2000]', exact: 'bool?' } },
+  'history.lanes': { may: 'look', out: { run: 'number', from: 'number', to: 'number', lanes: '[HistoryLane; 600]', curves: '[HistoryCurve; 16]', loads: '[HistoryCurve; 64]', left_out: 'number' } },
+  'history.open': { may: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
+  'history.save': { may: 'driver', out: { path: 'Path' } },
   'world.move': { may: 'driver', out: {} },
   'world.put': { may: 'driver', out: { number: 'number' } },
   'world.take': { may: 'driver', out: {} },
@@ -1312,7 +1486,8 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'node': { kind: 'document', is: { name: 'Name', variables: '[Variable; 4096]', events: '[LocalEvent; 256]', natives: '[Native; 512]' } },
   'breakpoints': { kind: 'document', is: { breakpoints: '[Breakpoint; 1000]' } },
   'clock': { kind: 'document', is: { t: 'number', wall: 'number', state: 'word(none|running|paused|ended|hanging|dead)', speed: 'number', real: 'number', why: 'text(2000)?' } },
-  'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]' } },
+  'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]', change: 'PlanChange?' } },
+  'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
   'state': { kind: 'document', is: { values: 'json' } },
   'scene': { kind: 'document', is: { name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },
   'happenings': { kind: 'stream', item: 'Happening' },

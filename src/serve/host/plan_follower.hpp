@@ -26,10 +26,18 @@ public:
                  std::function<std::string(const std::string& file)> doc_of);
 
     void see(const plan::TraceEvent& event);
+    // A new version has taken over (P31): what it was made of, borrowed as the first.
+    void change(const std::vector<plan::Plan>& plans);
     // A debugger holds the plan there: before an actor that the trace does not know yet.
     void stand_at(const run::Where& where);
     nlohmann::json document(double now, bool paused) const;
     bool over() const { return result_.has_value(); }
+    // Supervisors that watch now, of all levels.
+    struct Watching {
+        std::string path, name;
+        bool global = false;
+    };
+    std::vector<Watching> watching() const;
     // Counts actors that have started: for a step to the next one.
     uint64_t activations() const { return activations_; }
 
@@ -51,7 +59,7 @@ private:
     const plan::Plan* plan_inside(const Level* outer) const;
     nlohmann::json level_json(const Level& level) const;
 
-    const std::vector<plan::Plan>& plans_;
+    const std::vector<plan::Plan>* plans_;
     std::function<std::string(const std::string&)> doc_of_;
     std::vector<Level> levels_;
     std::deque<nlohmann::json> story_;

@@ -13,8 +13,10 @@
 #include "serve/host/bus_run.hpp"
 #include "serve/host/frames.hpp"
 #include "serve/host/pacer.hpp"
+#include "serve/host/plan_change.hpp"
 #include "serve/host/plan_follower.hpp"
 #include "serve/host/plan_talk.hpp"
+#include "serve/host/recorder.hpp"
 #include "serve/host/scene.hpp"
 #include "serve/process.hpp"
 #include "session/bus_names.hpp"
@@ -69,6 +71,11 @@ private:
         if (number) told["number"] = *number;
         tell(told);
     }
+    void tell_answer(const PlanTalk::Answered& one) {
+        Json told = {{"say", "answer"}, {"request", one.request}, {"why", one.why}};
+        if (one.reasons) told["reasons"] = *one.reasons;
+        tell(told);
+    }
     void tell_line(const char* kind, const std::string& text) {
         tell({{"say", "line"}, {"kind", kind}, {"text", text}});
     }
@@ -95,7 +102,17 @@ private:
 
     void send_frames() {
         wire::Frame frame;
-        while (session_->world().bus().take(link_, frame)) pipe_.send('F', encode_frame(frame));
+        while (session_->world().bus().take(link_, frame)) {
+            pipe_.send('F', stamped(encode_frame(frame)));
+        }
+    }
+
+    // What changed in the world. A server that takes nothing misses it, not the run.
+    void send_records() {
+        if (recorder_.overflows()) recorder_.forget();
+        if (pipe_.has_unsent()) return;
+        const std::string records = recorder_.take();
+        if (!records.empty()) pipe_.send('H', records);
     }
 
     // ---- opening ----
@@ -110,6 +127,8 @@ private:
             if (on_bus()) told["paused"].get<bool>() ? talk_->hold() : talk_->go_on();
         } else if (what == "plan.set") {
             set_variable(told);
+        } else if (what == "plan.change" || what == "plan.check") {
+            change_plan(told);
         } else if (what == "step") {
             pacer_.step(std::chrono::milliseconds(told["ms"].get<int>()));
         } else if (what == "plan.step") {
@@ -168,6 +187,7 @@ private:
         words.bus = order.value("bus", "");
         words.project = order.value("project", "");
         words.robot = order.value("robot", "");
+        words.from = order.value("from", "");
         words.max_time = "1e13";  // the person at the studio ends it
         for (const auto& [name, value] : order["set"].items()) {
             words.set.push_back(name + "=" +
@@ -179,6 +199,7 @@ private:
         heard_ = session::events_heard(plan.plans(), library.templates());
         follower_.emplace(plan.plans(), [](const std::string& file) { return file; });
         talk_.emplace(plan.graph());
+        change_.emplace(plan, order["plan"], *talk_);
         if (on_bus()) return run_on_bus();
         prepared_->listen([this](const plan::TraceEvent& event) { see(event); });
         prepared_->pace([this](Time at) { instant(at); });
@@ -193,12 +214,13 @@ private:
 
     // Nobody comes to what was asked and not answered yet.
     void end_talk() {
-        for (const PlanTalk::Answered& one : talk_->forget()) tell_answer(one.request, one.why);
+        for (const PlanTalk::Answered& one : talk_->forget()) tell_answer(one);
         talk_.reset();
     }
 
     void forget_plan() {
         follower_.reset();
+        change_.reset();
         heard_.clear();
         session_ = nullptr;
         prepared_.reset();
@@ -275,6 +297,18 @@ private:
         if (!on_bus() && pacer_.paused()) pacer_.step(1ms);
     }
 
+    // A new version of the plan, or the question whether it could take over (P31).
+    void change_plan(const Json& told) {
+        if (!change_) return tell_answer(told["request"], "no plan runs");
+        using Ask = PlanChange::Ask;
+        const auto answer = told["do"] == "plan.change"
+                                ? change_->take(told)
+                                : change_->check(told, on_bus() ? Ask::ByTheTalk : Ask::AtOnce);
+        if (answer) return tell_answer(*answer);
+        // A run answers between two decisions: one instant must pass.
+        if (!on_bus() && pacer_.paused()) pacer_.step(1ms);
+    }
+
     static plan::Value value_of(const Json& json) {
         if (json.is_boolean()) return plan::Value(json.get<bool>());
         if (json.is_number_integer()) return plan::Value(json.get<int64_t>());
@@ -285,7 +319,10 @@ private:
     void hear_plan() {
         if (!talk_) return;
         const PlanTalk::Heard heard = talk_->hear();
-        for (const PlanTalk::Answered& one : heard.answers) tell_answer(one.request, one.why);
+        for (const PlanTalk::Answered& one : heard.answers) {
+            if (change_) change_->note(one);
+            tell_answer(one);
+        }
         if (!heard.stepped || !on_bus()) return;
         follower_->stand_at(*heard.stepped);
         pacer_.set(true, pacer_.speed(), wall_now());
@@ -293,6 +330,7 @@ private:
 
     void begin_session(session::SimSession& session, const Json& order) {
         session_ = &session;
+        recorder_.begin();
         const auto link = session.world().bus().add({.name = "studio"});
         if (!link.ok()) return fail(link.error().what);
         link_ = link.value();
@@ -339,6 +377,8 @@ private:
     void instant(Time at) {
         at_ = at;
         send_frames();
+        recorder_.look(session_->world());
+        if (recorder_.is_due_to_send()) send_records();
         for (;;) {
             const Time wall = wall_now();
             if (wall >= next_tell_ || wall >= next_poses_) look_around(wall);
@@ -376,6 +416,7 @@ private:
     void look_around(Time wall) {
         take_packets();
         pipe_.flush();
+        send_records();
         if (wall >= next_poses_) {
             next_poses_ = wall + kPosesEvery;
             pipe_.send('P', stamped(poses_of(session_->world())));
@@ -419,6 +460,9 @@ private:
 
     // ---- the plan ----
     void see(const plan::TraceEvent& event) {
+        if (const auto* changed = std::get_if<plan::PlanChanged>(&event.what)) {
+            follower_->change(change_->took(*changed->graph));
+        }
         const uint64_t before = follower_->activations();
         follower_->see(event);
         tell({{"say", "trace"}, {"line", plan::format_trace(event)}});
@@ -521,10 +565,12 @@ private:
     std::optional<PlanFollower> follower_;
     std::set<std::string> heard_;  // events, by the plan
     std::optional<PlanTalk> talk_;
+    std::optional<PlanChange> change_;
     Duration bus_time_{};                 // of a plan on a bus
     Time bus_time_at_{};                  // when it was counted
     std::optional<uint32_t> put_number_;  // of the hand at work
 
+    Recorder recorder_;
     Pacer pacer_;
     bool step_to_actor_ = false;
     int holds_ = 0;

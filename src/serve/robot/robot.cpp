@@ -377,7 +377,12 @@ void Robot::tick(Time now) {
         if (connection_ == Connection::Connected) network_->list_nodes();
         desk_.board().touch("robot");
     }
-    for (const wire::Frame& frame : carrier_->take()) network_->receive(now, frame);
+    for (const Carried& carried : carrier_->take()) {
+        network_->receive(now, carried.frame);
+        heard_t_ = carried.t;
+        for (const debug::Event& event : network_->take_events()) hear(event);
+    }
+    heard_t_.reset();
     watch_what_is_shown();
     network_->tick(now);
     for (const debug::Event& event : network_->take_events()) hear(event);

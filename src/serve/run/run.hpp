@@ -32,6 +32,7 @@ struct RunOrder {
     std::string plan;   // empty: the world alone
     std::vector<std::string> toolboxes;
     nlohmann::json set = nlohmann::json::object();
+    std::string from;  // the actor that the plan begins with; empty: its start
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
     bool keep_poses = false;   // robots stand where they stood before
@@ -53,12 +54,22 @@ public:
     void set_doc_of(std::function<std::string(const std::string& file)> doc_of) {
         doc_of_ = std::move(doc_of);
     }
+    // A sentence with paths of this computer, for pages.
+    void set_short(std::function<std::string(const std::string& text)> shorten) {
+        short_ = std::move(shorten);
+    }
     // The world stands and its nodes can be talked to.
     void on_opened(std::function<void()> opened) { opened_ = std::move(opened); }
     // It cannot be opened: a sentence, or several lines of the checker.
     void on_failed(std::function<void(const std::string& why)> failed) {
         failed_ = std::move(failed);
     }
+    // What it tells for the history: a line of the trace, or records of the world.
+    struct Told {
+        std::function<void(const std::string& line)> trace = [](auto&) {};
+        std::function<void(const std::string& bytes)> records = [](auto&) {};
+    };
+    void on_told(Told told) { told_ = std::move(told); }
     // Its process has died while a plan ran, or was about to: the plan can put nothing in order.
     void on_plan_died(std::function<void()> died) { plan_died_ = std::move(died); }
 
@@ -102,6 +113,15 @@ public:
     using SetDone = std::function<void(const std::string& why)>;
     void set_variable(int level, const std::string& name, const Json& value, SetDone done);
 
+    // Plan files have been saved: what the plan that runs is made of is to take over (P31). What
+    // came of it is in the document of the plan, and is said.
+    void change_plan(const std::vector<std::string>& files);
+    // Whether it could take over now, if files had these texts: `done` gets what stands in its way,
+    // or nothing if the plan that runs is not made of them.
+    using Reasons = std::optional<std::vector<std::string>>;
+    void check_change(const std::map<std::string, std::string>& texts,
+                      std::function<void(const Reasons& reasons)> done);
+
     double time() const { return t_; }
     std::optional<double> load() const { return load_; }
     double measured_speed() const { return real_; }
@@ -120,7 +140,7 @@ public:
 
     // ---- Carrier ----
     void send(const wire::Frame& frame) override;
-    std::vector<wire::Frame> take() override { return std::exchange(frames_, {}); }
+    std::vector<Carried> take() override { return std::exchange(frames_, {}); }
     Connection connection() const override;
     std::string why() const override { return why_; }
     std::vector<LinkView> links() const override;
@@ -136,6 +156,8 @@ private:
     void hear_end(const ChildEnd& end);
     std::string last_actor() const;
     void forget_asked(const std::string& why);
+    Reasons reasons_in(const Json& told) const;
+    void keep_change(const std::vector<std::string>& files, const Json& told);
     void declare_topics();
     void show_what_is_watched();
     Json clock_document() const;
@@ -146,9 +168,11 @@ private:
     const std::string program_;
     std::function<void(const std::string&, const std::string&)> say_ = [](auto&, auto&) {};
     std::function<std::string(const std::string&)> doc_of_ = [](const std::string& f) { return f; };
+    std::function<std::string(const std::string&)> short_ = [](const std::string& t) { return t; };
     std::function<void()> opened_ = [] {};
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
     std::function<void()> plan_died_ = [] {};
+    Told told_;
     uint64_t asked_ = 0;
     std::map<uint64_t, Answer> answers_;  // of the host, by number of what was asked
     std::map<uint16_t, std::string> programs_;
@@ -164,10 +188,12 @@ private:
     std::optional<Child> child_;
     State state_ = State::None;
     std::string why_;
-    std::vector<wire::Frame> frames_;
+    std::vector<Carried> frames_;
     uint64_t frames_in_ = 0, frames_out_ = 0;
     Json scene_ = Json::object();
     Json plan_ = Json::object();
+    Json change_;  // what came of the last save while the plan ran; null: none
+    uint64_t changes_ = 0;
     std::deque<std::string> trace_;
     double t_ = 0, real_ = 0, speed_ = 1;
     bool paused_ = true;

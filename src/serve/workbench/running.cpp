@@ -40,6 +40,7 @@ Status Workbench::choose_target(const std::string& target) {
     if (!connected.ok()) return connected.error();
     bus_ = std::move(connected.value());
     bus_since_ = now_;
+    record_bus("");
     robot_.connect(*bus_, target, target, "bus", now_);
     return Status::done();
 }
@@ -74,7 +75,10 @@ RunOrder Workbench::order_of(const std::string& plan, const Json& set) const {
 
 Status Workbench::open_world(const std::string& plan, const Json& set, bool keep_poses,
                              bool then_go) {
-    RunOrder order = order_of(plan, set);
+    return open_order(order_of(plan, set), keep_poses, then_go);
+}
+
+Status Workbench::open_order(RunOrder order, bool keep_poses, bool then_go) {
     order.keep_poses = keep_poses;
     const auto text = files_.text(project_->world);
     opened_world_ = text.ok() ? text.value() : "";
@@ -82,6 +86,7 @@ Status Workbench::open_world(const std::string& plan, const Json& set, bool keep
     ++start_;
     opening_ = Opening{now_ + kDescribeWithin, false, then_go};
     loaded_by_world_.clear();
+    record_plan(order);
     return run_.open(order, now_);
 }
 
@@ -89,6 +94,33 @@ Status Workbench::open_world(const std::string& plan, const Json& set, bool keep
 bool Workbench::world_has_changed() const {
     const auto text = files_.text(project_->world);
     return text.ok() && text.value() != opened_world_;
+}
+
+void Workbench::file_saved(const std::string& path) {
+    if (kind_of_file(path) == "plan") saved_plans_.push_back(path);
+    world_saved(path);
+}
+
+// Together, once all of them are saved: they may need each other (P31).
+void Workbench::change_plan() {
+    std::vector<std::string> files;
+    for (const std::string& path : std::exchange(saved_plans_, {})) {
+        if (project_) files.push_back(project_->real(path));
+    }
+    if (!files.empty() && run_.plan_runs()) run_.change_plan(files);
+}
+
+void Workbench::check_change(const Call& call) {
+    const std::string doc = call.in["doc"];
+    const auto text = files_.text(doc);
+    if (!text.ok()) return call.fail(text.error());
+    if (!project_ || !run_.plan_runs()) {
+        return call.done({{"runs", false}, {"reasons", Json::array()}});
+    }
+    run_.check_change({{project_->real(doc), text.value()}}, [call](const Run::Reasons& reasons) {
+        call.done({{"runs", reasons.has_value()},
+                   {"reasons", reasons.value_or(std::vector<std::string>())}});
+    });
 }
 
 // A world that only stands there shows at once what was saved.
@@ -165,9 +197,14 @@ void Workbench::reopen_world() {
 
 bool Workbench::save_all(const Call& call) {
     const auto saved = files_.save_all();
-    if (saved.ok()) return true;
-    call.fail(saved.error());
-    return false;
+    if (!saved.ok()) {
+        call.fail(saved.error());
+        return false;
+    }
+    for (const std::string& path : saved.value()) {
+        if (kind_of_file(path) == "plan") saved_plans_.push_back(path);
+    }
+    return true;
 }
 
 void Workbench::start(const Call& call) {
@@ -183,7 +220,7 @@ void Workbench::start(const Call& call) {
     }
     if (run_.plan_runs()) return go_on(call);
     if (!project_->plan.empty()) {
-        return start_plan(call, project_->plan, call.in.value("set", Json::object()), true);
+        return start_plan(call, project_->plan, true);
     }
     start_scripts(call);
 }
@@ -213,6 +250,7 @@ void Workbench::start_plan_on_bus(const Call& call, RunOrder order, bool go) {
         tell_failed_loads(failed);
         if (start != start_) return;
         opening_ = Opening{.go = go};
+        record_bus(order.plan);
         const Status opened = run_.open(order, now_);
         if (!opened.ok()) world_failed(opened.error().what);
     });
@@ -240,13 +278,16 @@ void Workbench::plan_died() {
     });
 }
 
-void Workbench::start_plan(const Call& call, const std::string& plan, const Json& set, bool go) {
+void Workbench::start_plan(const Call& call, const std::string& plan, bool go) {
     if (opening_call_) return call.fail("conflict", kBeingStarted);
-    if (bus_) return start_plan_on_bus(call, order_of(plan, set), go);
+    saved_plans_.clear();  // it begins with what is saved
+    RunOrder order = order_of(plan, call.in.value("set", Json::object()));
+    order.from = call.in.value("from", "");
+    if (bus_) return start_plan_on_bus(call, std::move(order), go);
     if (project_->world.empty()) return call.fail("unavailable", kNoWorld);
     const bool keep = run_.time() > 0 && !world_has_changed();
     opening_call_.emplace(call);
-    const Status opened = open_world(plan, set, keep, go);
+    const Status opened = open_order(std::move(order), keep, go);
     if (!opened.ok()) world_failed(opened.error().what);
 }
 
@@ -384,7 +425,7 @@ void Workbench::declare_plan_commands() {
         const std::string plan = call.in.value("doc", project_->plan);
         if (plan.empty()) return call.fail("not_found", "the project has no plan");
         if (!save_all(call)) return;
-        start_plan(call, plan, call.in.value("set", Json::object()), true);
+        start_plan(call, plan, true);
     });
     const auto while_it_runs = [this](const char* name, std::function<void(const Call&)> act) {
         desk_.command(name, [this, act = std::move(act)](const Call& call) {
@@ -392,6 +433,7 @@ void Workbench::declare_plan_commands() {
             act(call);
         });
     };
+    desk_.command("plan.check_change", [this](const Call& call) { check_change(call); });
     while_it_runs("plan.pause", [this](const Call& call) {
         run_.pause();
         call.done();
@@ -420,7 +462,7 @@ void Workbench::declare_plan_commands() {
             return call.fail("not_found", "the project has no plan");
         }
         if (!save_all(call)) return;
-        start_plan(call, project_->plan, Json::object(), false);
+        start_plan(call, project_->plan, false);
     });
 }
 

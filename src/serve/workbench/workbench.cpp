@@ -30,7 +30,8 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
                [this](const std::string& name, uint16_t id) { return target_of(name, id); }),
       editing_(desk, files_, scripts_),
       robot_(desk, files_, scripts_, breakpoints_),
-      run_(desk, places.program) {
+      run_(desk, places.program),
+      history_(desk, files_) {
     const auto tell = [this](const std::string& kind, const std::string& text) {
         say(kind, with_short_paths(text));
     };
@@ -41,7 +42,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
         robot_.script_changed(path);
         if (project_ && path == project_->project_file) project_file_changed();
     });
-    editing_.on_saved([this](const std::string& path) { world_saved(path); });
+    editing_.on_saved([this](const std::string& path) { file_saved(path); });
     editing_.on_renamed([this](const std::string& from, const std::string& to) {
         breakpoints_.rename(from, to);
         keep_breakpoints();
@@ -65,9 +66,11 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     });
     run_.set_doc_of(
         [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
+    run_.set_short([this](const std::string& text) { return with_short_paths(text); });
     run_.on_opened([this] { world_opened(); });
     run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
     run_.on_plan_died([this] { plan_died(); });
+    record_history();
     desk.on_people([this] { desk_.board().touch("studio"); });
     declare_topics();
     declare_project_commands();
@@ -232,6 +235,7 @@ EditedProject Workbench::edited_project() const {
 
 void Workbench::close() {
     leave_target();
+    history_.forget();
     files_.leave();
     scripts_.reread();
     breakpoints_ = {};
@@ -335,11 +339,13 @@ void Workbench::tick(Time now) {
     run_.tick(now);
     watch_run();
     robot_.tick(now);
+    if (run_.is_open() || bus_) history_.tick(history_clock());
     add_missing_scripts();
     get_nodes_ready();
     stop_nodes();
     rest();
     editing_.tick(now);
+    change_plan();
     if (desk_.board().watched("targets") && targets_.look(now)) desk_.board().touch("targets");
 }
 

@@ -25,6 +25,7 @@
 #include "serve/run/run.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/workbench/history_desk.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
 #include "serve/workbench/opened.hpp"
@@ -111,6 +112,12 @@ private:
     Json studio_document() const;
     Json list_folder(const std::string& path) const;
 
+    // ---- recording.cpp: what the history is told ----
+    void record_history();
+    void record_plan(const RunOrder& order);
+    void record_bus(const std::string& plan);
+    double history_clock() const;
+
     // ---- running.cpp: what runs ----
     void declare_run_commands();
     void declare_plan_commands();
@@ -121,13 +128,18 @@ private:
     // Opens the world, and the plan if there is one to run; it stands until its nodes are ready.
     Status open_world(const std::string& plan, const Json& set, bool keep_poses, bool then_go);
     RunOrder order_of(const std::string& plan, const Json& set) const;
+    Status open_order(RunOrder order, bool keep_poses, bool then_go);
     bool world_has_changed() const;
     void reopen_world();
     void world_saved(const std::string& path);
+    void file_saved(const std::string& path);
+    void change_plan();
+    void check_change(const Call& call);
     void world_opened();
     void world_failed(const std::string& why);
     void start(const Call& call);
-    void start_plan(const Call& call, const std::string& plan, const Json& set, bool go);
+    // `call` may say with which values, and from which actor.
+    void start_plan(const Call& call, const std::string& plan, bool go);
     void start_plan_on_bus(const Call& call, RunOrder order, bool go);
     void plan_joined_bus();
     void plan_died();
@@ -156,6 +168,8 @@ private:
     Editing editing_;
     Robot robot_;
     Run run_;
+    HistoryDesk history_;
+    Time history_since_{};  // of a bus
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};
     Targets targets_;
@@ -183,6 +197,7 @@ private:
     std::optional<Time> nodes_stop_at_;
     std::vector<Call> stop_calls_;
     std::optional<Time> rest_at_;
+    std::vector<std::string> saved_plans_;             // the run is not told of them yet
     std::string opened_world_;                         // text of the world that stands there
     std::map<uint16_t, std::string> loaded_by_world_;  // source by node
 };

@@ -5,6 +5,7 @@ import { countsOf } from '../../core/findings';
 import { partOf } from '../../core/paths';
 import { usePart, useStudio, useTopic } from '../hooks';
 import { FileIcon, kStroke } from '../parts/icons';
+import { PastBadge } from '../parts/past_badge';
 import { Marks, marksOf, SavedMark } from '../parts/marks';
 import { text } from '../text';
 import { fileKindOf, kindOf, nameOf, secondNameOf } from './documents';
@@ -35,6 +36,7 @@ export function DocumentTitle({ doc }: { doc: Doc }) {
       {icon}
       <span>{nameOf(studio, doc)}</span>{' '}
       {second ? <span className="muted num">{second}</span> : null}
+      {kindOf(doc) === 'plan' ? <PastBadge /> : null}
       {errors > 0 ? (
         <IconAlertOctagon
           className="icon is-error"
@@ -57,9 +59,13 @@ export function DocumentTitle({ doc }: { doc: Doc }) {
 
 function PlanMarks({ doc, saved }: { doc: Doc; saved: boolean }) {
   const plan = useTopic('plan', {});
-  const loaded = plan && plan.doc === doc && plan.state !== 'none' && plan.state !== 'ended';
+  const goes = plan?.state === 'running' || plan?.state === 'paused';
+  const loaded = goes && (plan.doc === doc || plan.levels.some((level) => level.doc === doc));
   const runs = !loaded ? 'none' : plan.state === 'paused' ? 'held' : 'runs';
-  return <Marks saved={saved} loaded={loaded ? 'current' : 'none'} runs={runs} />;
+  // What was saved and could not take over: the one before runs on.
+  const older = plan?.change?.state === 'refused' && plan.change.docs.includes(doc);
+  const is = !loaded ? 'none' : older ? 'older' : 'current';
+  return <Marks saved={saved} loaded={is} runs={runs} />;
 }
 
 export function PanelTitle({ id }: { id: string }) {
@@ -71,6 +77,7 @@ export function PanelTitle({ id }: { id: string }) {
   return (
     <span className="paneltitle">
       {panel?.title ?? id}
+      {panel?.past ? <PastBadge /> : null}
       {Subtitle ? (
         <Suspense fallback={null}>
           <Subtitle />

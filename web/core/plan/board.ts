@@ -4,7 +4,7 @@
 import type { Doc, Json, JsonStep } from '../../protocol/messages';
 import { Emitter } from '../emitter';
 import type { JsonDocument } from '../json_document';
-import { drawingOf, supervisorKey, type Drawing } from './arrows';
+import { drawingOf, goOn, supervisorKey, type Drawing } from './arrows';
 import * as edit from './edit';
 import {
   kConfiguration,
@@ -15,12 +15,20 @@ import {
   type PlanModel,
   type Supervisor,
 } from './model';
+import { Draft, paste, partOf, type Part } from './part';
 import { freePlace, sceneOf, type Scene } from './place';
-import type { Point } from './shape';
+import { kNodeWidth, type Box, type Point } from './shape';
 import type { Found, Toolboxes } from './templates';
 
 /** Apart from actors: a variable of that name. */
 export const pillKey = (name: string) => `$${name}`;
+
+// For the ways of arrows: while something is dragged, at first, and in each turn after it.
+const kWhileHeldMs = 12;
+const kAtOnceMs = 80;
+const kTurnMs = 20;
+/** So often a drawing that is being finished is shown. */
+const kShownMs = 1000;
 
 export type Source = Actor | Supervisor | typeof kStart;
 
@@ -28,38 +36,68 @@ export class PlanBoard {
   readonly changed = new Emitter<void>();
   /** Said to who cannot see it. */
   readonly spoken = new Emitter<string>();
-  version = 0;
-  /** Key of an element, or id of an arrow. */
-  selected: string | null = null;
   /** An arrow is being drawn from there. */
   drawn: { id: string; at: Point } | null = null;
   model: PlanModel;
   scene: Scene;
   drawing: Drawing;
+  private chosen = new Set<string>();
   private held = new Map<string, Point>();
+  private finishing = false;
 
   constructor(
     readonly doc: Doc,
     readonly file: JsonDocument,
     private toolboxes: Toolboxes,
+    private readonly clock: () => number = () => performance.now(),
   ) {
     this.model = planModel(file.value, toolboxes);
     this.scene = sceneOf(this.model);
-    this.drawing = drawingOf(this.model, this.scene);
+    this.drawing = drawingOf(this.model, this.scene, { isTime: this.within(kAtOnceMs) });
+    this.finish();
   }
 
   /** The file or the templates are others now. */
   refresh(toolboxes: Toolboxes = this.toolboxes): void {
     this.toolboxes = toolboxes;
     this.model = planModel(this.file.value, toolboxes);
-    if (this.selected !== null && !this.has(this.selected)) this.selected = null;
+    this.chosen = new Set([...this.chosen].filter((key) => this.has(key)));
     this.redraw();
   }
 
+  // ---- what is chosen ----
+
+  /** Keys of elements, or the id of an arrow. */
+  get selection(): ReadonlySet<string> {
+    return this.chosen;
+  }
+
+  /** What forms are about: what was chosen last. */
+  get selected(): string | null {
+    return [...this.chosen].at(-1) ?? null;
+  }
+
   select(key: string | null): void {
-    if (key === this.selected) return;
-    this.selected = key;
+    this.selectAll(key === null ? [] : [key]);
+  }
+
+  selectAll(keys: Iterable<string>): void {
+    const wanted = new Set([...keys].filter((key) => this.has(key)));
+    if (wanted.size === this.chosen.size && [...wanted].every((key) => this.chosen.has(key)))
+      return;
+    this.chosen = wanted;
     this.tell();
+  }
+
+  /** Also that one, or no longer that one. */
+  choose(key: string, also: boolean): void {
+    const others = [...this.chosen].filter((one) => one !== key && this.arrow(one) === undefined);
+    this.selectAll(also ? [...others, key] : others);
+  }
+
+  /** The actors that are chosen. */
+  get chosenActors(): ReadonlySet<string> {
+    return new Set(this.model.actors.flatMap(({ name }) => (this.chosen.has(name) ? name : [])));
   }
 
   // ---- what there is ----
@@ -109,9 +147,9 @@ export class PlanBoard {
 
   // ---- moving ----
 
-  /** While it is dragged: shown there, not yet in the file. */
-  hold(name: string, at: Point): void {
-    this.held.set(name, at);
+  /** While they are dragged: shown there, not yet in the file. */
+  hold(places: Iterable<readonly [string, Point]>): void {
+    for (const [name, at] of places) this.held.set(name, at);
     this.redraw();
   }
 
@@ -154,11 +192,53 @@ export class PlanBoard {
     return this.added(edit.addVariable(this.file.value, this.model), pillKey);
   }
 
-  duplicate(name: string): string | null {
-    const block = this.scene.actors.find((one) => one.name === name);
-    if (!block) return null;
-    const at = freePlace(this.scene, { x: block.box.x + 24, y: block.box.y + 24 });
-    return this.added(edit.duplicate(this.file.value, this.model, name, at), (one) => one);
+  /** What is chosen, as it can be pasted; null: nothing that can. */
+  part(): Part | null {
+    const supervisors = supervisorsOf(this.model).filter((one) =>
+      this.chosen.has(supervisorKey(one)),
+    );
+    return partOf(
+      this.file.value,
+      this.model,
+      { actors: this.chosenActors, supervisors },
+      (name) => this.blockOf(name)?.box ?? { x: 0, y: 0 },
+    );
+  }
+
+  /** Puts a part where nothing is covered, near a point, and chooses it. */
+  paste(part: Part, near: Point): void {
+    const size = sizeOf(part);
+    const { selected } = this;
+    const owner = this.actor(selected)?.name ?? this.supervisor(selected)?.owner ?? kStart;
+    const made = paste(this.file.value, this.model, part, {
+      at: freePlace(this.scene, near, size),
+      owner,
+    });
+    this.commit(made.steps);
+    this.selectAll([...made.actors, ...made.supervisors.map((name) => `${owner}/${name}`)]);
+  }
+
+  duplicate(): void {
+    const part = this.part();
+    const [first] = part?.layout.values() ?? [];
+    if (part) this.paste(part, { x: (first?.x ?? 0) + 24, y: (first?.y ?? 0) + 24 });
+  }
+
+  /** Where an element stands. */
+  boxOf(key: string): Box | undefined {
+    const { start, actors, pills } = this.scene;
+    if (key === kStart) return start.box;
+    const supervisor = this.supervisor(key);
+    const hanging = [start, ...actors].find((one) => one.name === supervisor?.owner)?.supervisors;
+    return (
+      this.blockOf(key)?.box ??
+      hanging?.find((one) => one.supervisor.name === supervisor?.name)?.box ??
+      pills.find((one) => pillKey(one.name) === key)?.box
+    );
+  }
+
+  private blockOf(name: string) {
+    return this.scene.actors.find((one) => one.name === name);
   }
 
   private added(made: edit.Added, keyOf: (name: string) => string): string {
@@ -168,17 +248,29 @@ export class PlanBoard {
     return key;
   }
 
-  /** Removes an element, a variable, or where an arrow leads; gives the key of what is near it. */
-  remove(key: string): string {
-    const { value } = this.file;
+  /** Removes what is chosen, as one change; gives the key of what is near it. */
+  removeChosen(): string {
+    const { selected } = this;
+    const near = this.supervisor(selected)?.owner ?? this.arrow(selected)?.source ?? kStart;
+    const draft = new Draft(this.file.value);
+    for (const key of this.chosen) draft.do(this.removal(draft.file, key));
+    this.commit(draft.steps);
+    return this.actor(near) ? near : kStart;
+  }
+
+  /** Of an element, a variable, or where an arrow leads. */
+  private removal(file: Json, key: string): JsonStep[] {
+    const keys = this.supervisor(key)?.keys ?? this.variableKeys(key);
     const arrow = this.arrow(key);
-    const supervisor = this.supervisor(key);
+    if (this.actor(key)) return edit.removeActor(file, planModel(file, this.toolboxes), key);
+    if (keys) return edit.dropSteps(file, keys);
+    const source = arrow && this.source(arrow.source);
+    return source ? edit.connectSteps(file, source, arrow.outcome, null) : [];
+  }
+
+  private variableKeys(key: string): string[] | undefined {
     const variable = this.variable(key);
-    if (this.actor(key)) this.commit(edit.removeActor(value, this.model, key));
-    else if (supervisor) this.commit(edit.dropSteps(value, supervisor.keys));
-    else if (variable) this.commit(edit.dropSteps(value, ['configuration', variable.name]));
-    else if (arrow) this.connect(arrow.source, arrow.outcome, null);
-    return supervisor?.owner ?? arrow?.source ?? kStart;
+    return variable && ['configuration', variable.name];
   }
 
   rename(key: string, to: string): void {
@@ -210,14 +302,57 @@ export class PlanBoard {
   private redraw(): void {
     const places = new Map(this.model.places);
     for (const [name, { x, y }] of this.held) places.set(name, [x, y]);
-    const model = this.held.size > 0 ? { ...this.model, places } : this.model;
+    const isHeld = this.held.size > 0;
+    const model = isHeld ? { ...this.model, places } : this.model;
     this.scene = sceneOf(model);
-    this.drawing = drawingOf(model, this.scene);
+    this.drawing = drawingOf(model, this.scene, {
+      isTime: this.within(isHeld ? kWhileHeldMs : kAtOnceMs),
+      before: this.drawing,
+      keeps: isHeld,
+    });
     this.tell();
+    this.finish();
+  }
+
+  /** Finds the ways that are only sketched, bit by bit: the page stays quick meanwhile. */
+  private finish(): void {
+    if (this.finishing || !this.drawing.isSketch) return;
+    this.finishing = true;
+    let shown = this.clock();
+    const turn = () => {
+      this.finishing = false;
+      this.drawing = goOn(this.drawing, { isTime: this.within(kTurnMs) });
+      if (!this.drawing.isSketch || this.clock() - shown > kShownMs) {
+        shown = this.clock();
+        this.tell();
+      }
+      if (!this.drawing.isSketch) return;
+      this.finishing = true;
+      setTimeout(turn);
+    };
+    setTimeout(turn);
+  }
+
+  private within(ms: number): () => boolean {
+    const end = this.clock() + ms;
+    return () => this.clock() >= end;
   }
 
   private tell(): void {
-    this.version++;
     this.changed.emit();
   }
 }
+
+/** About what a part covers: its actors are not yet laid out. */
+function sizeOf(part: Part): { width: number; height: number } {
+  const places = [...part.layout.values()];
+  if (places.length === 0) return { width: 0, height: 0 };
+  const spread = (values: number[]) => Math.max(...values) - Math.min(...values);
+  return {
+    width: spread(places.map(({ x }) => x)) + kNodeWidth,
+    height: spread(places.map(({ y }) => y)) + 2 * kRowOfBlocks,
+  };
+}
+
+/** An actor with two states and two supervisors, about. */
+const kRowOfBlocks = 92;

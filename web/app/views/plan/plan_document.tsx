@@ -4,6 +4,7 @@ import type { Doc } from '../../../protocol/messages';
 import { useStudio, useTopic, useWindow } from '../../hooks';
 import { FindingNotice } from '../finding_notice';
 import { DiskNotice } from '../script/script_notices';
+import { PlanChange } from './plan_change';
 import { planDeskOf } from './plan_desk';
 import { PlanLive } from './plan_live';
 import { togglePlanOption, usePlanOptions } from './plan_options';
@@ -22,6 +23,7 @@ export default function PlanDocument({ doc }: { doc: Doc }) {
       <div className="plan__main">
         <PlanTools doc={doc} />
         <DiskNotice doc={doc} />
+        <PlanChange doc={doc} />
         {options.text ? null : <Found doc={doc} />}
         <Suspense fallback={null}>
           <PlanCanvas doc={doc} />

@@ -6,11 +6,11 @@ import {
   ReactFlowProvider,
 } from '@xyflow/react';
 import '@xyflow/react/dist/base.css';
-import { useRef } from 'react';
+import { useCallback, useRef, useState } from 'react';
 import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { kSnap } from '../../../../core/plan/place';
-import { useDrives } from '../../../hooks';
+import { useDrives, useStudio } from '../../../hooks';
 import { Blank } from '../../../parts/blank';
 import { text } from '../../../text';
 import { useBoard } from '../plan_desk';
@@ -18,9 +18,12 @@ import { usePlanOptions } from '../plan_options';
 import { ArrowsLayer } from './arrows_layer';
 import { kFit, useFitted, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { ConnectMenu } from './connect_menu';
+import { FindBar } from './find_bar';
 import type { PlanNode } from './flow_nodes';
 import { LiveContext, useLiveStore } from './live_store';
+import { NodeMenu, useNodeMenu } from './node_menu';
 import { nodeTypes } from './nodes';
+import { useClipboard } from './plan_clipboard';
 import { useDropping } from './use_dropping';
 import { ConnectContext, useConnecting } from './use_connecting';
 import { usePlanBoard } from './use_board';
@@ -45,9 +48,13 @@ function Canvas({ board }: { board: PlanBoard }) {
   useBoard(board);
   const nodes = useNodes(board, drives);
   const frame = useRef<HTMLDivElement>(null);
-  const use = useOnDesk(board, frame);
+  const [finds, setFinds] = useState(false);
+  const find = useCallback(() => setFinds(true), []);
+  const { shown, use } = useOnDesk(board, frame, find);
+  const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
   const dropping = useDropping(board, drives);
+  const menu = useNodeMenu(board);
   const live = useLiveStore(board);
   const options = usePlanOptions();
   const onNodesChange = useNodeChanges(board);
@@ -65,6 +72,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           onPointerDownCapture={use}
           onFocusCapture={use}
           {...dropping}
+          {...clipboard}
         >
           <ReactFlow<PlanNode>
             nodes={nodes}
@@ -72,9 +80,8 @@ function Canvas({ board }: { board: PlanBoard }) {
             nodeTypes={nodeTypes}
             onNodesChange={onNodesChange}
             onMoveStart={onMoveStart}
-            onNodeClick={(_event, node) => board.select(node.id)}
             onPaneClick={() => board.select(null)}
-            onNodeDoubleClick={(_event, node) => board.select(node.id)}
+            onNodeContextMenu={menu.onNodeContextMenu}
             nodesConnectable={false}
             snapToGrid
             snapGrid={kGrid}
@@ -83,8 +90,8 @@ function Canvas({ board }: { board: PlanBoard }) {
             fitView
             fitViewOptions={kFit}
             deleteKeyCode={null}
-            selectionKeyCode={null}
-            multiSelectionKeyCode={null}
+            selectionKeyCode="Shift"
+            multiSelectionKeyCode={kAlso}
             zoomActivationKeyCode={null}
             panActivationKeyCode={null}
             zoomOnDoubleClick={false}
@@ -97,7 +104,19 @@ function Canvas({ board }: { board: PlanBoard }) {
             {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
           </ReactFlow>
           {board.model.actors.length === 0 ? <p className="pcanvas__empty">{words.empty}</p> : null}
+          {finds ? (
+            <FindBar
+              board={board}
+              onFound={(key) => {
+                setFinds(false);
+                board.select(key);
+                shown.focus(key);
+              }}
+              onClose={() => setFinds(false)}
+            />
+          ) : null}
           {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
+          {menu.asked ? <NodeMenu asked={menu.asked} onClose={menu.close} /> : null}
         </div>
       </ConnectContext>
     </LiveContext>
@@ -106,6 +125,7 @@ function Canvas({ board }: { board: PlanBoard }) {
 
 const kNoEdges: never[] = [];
 const kGrid: [number, number] = [kSnap, kSnap];
+const kAlso = ['Control', 'Meta', 'Shift'];
 const kManyNodes = 300;
 /** The name of the library stands in the licences. */
 const kNoName = { hideAttribution: true };

@@ -17,6 +17,7 @@ export interface CanvasActs {
   zoom(by: number): void;
   properties(): void;
   rename(): void;
+  find(): void;
 }
 
 export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
@@ -60,6 +61,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
   return [
     make('draw.runFrom', ['R'], runFrom, isActor),
     make('draw.fit', ['1'], () => acts.fit()),
+    make('draw.find', ['Ctrl+F', '/'], () => acts.find()),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),
     make('draw.zoomOut', ['-'], () => acts.zoom(0.8)),
     make(

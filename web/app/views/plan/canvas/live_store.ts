@@ -7,7 +7,8 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { livePlan, noPlan, type LivePlan } from '../../../../core/plan/live';
 import { shownLevel } from '../../../../core/plan_view';
-import { useTopic } from '../../../hooks';
+import { ledHere } from '../../../../core/plan/led_here';
+import { usePastTime, useShownPlan } from '../../../past_hooks';
 
 export type LiveStore = StoreApi<LivePlan>;
 export const LiveContext = createContext<LiveStore>(createStore<LivePlan>()(() => noPlan));
@@ -19,14 +20,15 @@ export function useLive<T>(select: (live: LivePlan) => T): T {
 /** Follows the running plan, if it is the one on the board. */
 export function useLiveStore(board: PlanBoard): LiveStore {
   const [store] = useState(() => createStore<LivePlan>()(() => noPlan));
-  const plan = useTopic('plan', {});
+  const plan = useShownPlan();
+  const looksBack = usePastTime() !== null;
   useEffect(() => {
     const level = plan?.levels[shownLevel(plan.levels, board.doc, null)];
     const isOurs = plan !== undefined && plan.state !== 'none' && level?.doc === board.doc;
-    store.setState(
-      isOurs ? livePlan(store.getState(), plan, level, board.model, board.drawing) : noPlan,
-      true,
-    );
-  }, [store, plan, board]);
+    const before = looksBack ? noPlan : store.getState();
+    const live = isOurs ? livePlan(before, plan, level, board.model, board.drawing) : noPlan;
+    const taken = isOurs && looksBack ? ledHere(plan, level, board.drawing) : live.taken;
+    store.setState({ ...live, taken }, true);
+  }, [store, plan, board, looksBack]);
   return store;
 }

@@ -6,7 +6,7 @@ import {
   ReactFlowProvider,
 } from '@xyflow/react';
 import '@xyflow/react/dist/base.css';
-import { useRef } from 'react';
+import { useCallback, useRef, useState } from 'react';
 import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { kSnap } from '../../../../core/plan/place';
@@ -18,6 +18,7 @@ import { usePlanOptions } from '../plan_options';
 import { ArrowsLayer } from './arrows_layer';
 import { kFit, useFitted, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { ConnectMenu } from './connect_menu';
+import { FindBar } from './find_bar';
 import type { PlanNode } from './flow_nodes';
 import { LiveContext, useLiveStore } from './live_store';
 import { NodeMenu, useNodeMenu } from './node_menu';
@@ -47,7 +48,9 @@ function Canvas({ board }: { board: PlanBoard }) {
   useBoard(board);
   const nodes = useNodes(board, drives);
   const frame = useRef<HTMLDivElement>(null);
-  const { shown, use } = useOnDesk(board, frame);
+  const [finds, setFinds] = useState(false);
+  const find = useCallback(() => setFinds(true), []);
+  const { shown, use } = useOnDesk(board, frame, find);
   const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
   const dropping = useDropping(board, drives);
@@ -101,6 +104,17 @@ function Canvas({ board }: { board: PlanBoard }) {
             {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
           </ReactFlow>
           {board.model.actors.length === 0 ? <p className="pcanvas__empty">{words.empty}</p> : null}
+          {finds ? (
+            <FindBar
+              board={board}
+              onFound={(key) => {
+                setFinds(false);
+                board.select(key);
+                shown.focus(key);
+              }}
+              onClose={() => setFinds(false)}
+            />
+          ) : null}
           {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
           {menu.asked ? <NodeMenu asked={menu.asked} onClose={menu.close} /> : null}
         </div>

@@ -4,6 +4,9 @@ import assert from 'node:assert/strict';
 import { makeProject } from './support/robots.mjs';
 import { gone, reads, seen, test } from './support/studio.mjs';
 
+const kLate = {
+  late: { template: 'Timeout', in: { seconds: 100000 }, events: { Timeout: 'say' } },
+};
 // "stay" is active for ever: what is said of it is true at any moment.
 const kPlan = {
   format: 'vagus-plan/1',
@@ -14,7 +17,12 @@ const kPlan = {
   },
   start: { actor: 'stay' },
   actors: {
-    stay: { template: 'Wait', in: { seconds: 'seconds' }, states: { Done: 'say' } },
+    stay: {
+      template: 'Wait',
+      in: { seconds: 'seconds' },
+      states: { Done: 'say' },
+      supervisors: kLate,
+    },
     say: { template: 'Log', in: { text: 'word' }, states: { Done: 'hold' } },
     hold: { template: 'WaitForever' },
   },
@@ -91,25 +99,26 @@ test(
       .getByRole('status')
       .filter({ hasText: 'Saving cannot change the running plan' });
     await seen(before);
-    await reads(before, /has no start actor|"stay"|start/);
+    await reads(before, /\[P15\]/);
     await press('Control+z');
     await gone(before);
-    // Another template under the same name: the text beside the drawing says so.
-    await page.getByRole('switch', { name: 'Text' }).click();
-    const editor = page.getByRole('textbox', { name: /Text of/ }).first();
-    await editor.click();
-    await press('Control+f');
-    await page.getByLabel('Find', { exact: true }).fill('"seconds": "seconds"');
-    await press('Enter', 'Escape', 'ArrowRight');
-    await studio.type(', "more": 1');
+    // A supervisor of the active actor, which watches.
+    await element(page, 'late, supervisor Timeout').focus();
+    await press('Space');
+    await seen(page.getByRole('heading', { name: 'late' }));
+    await press('Delete');
     await seen(before);
-    await reads(before, /more/);
+    await reads(before, /the supervisor "late" watches/);
     await press('Control+s');
     const after = page.getByRole('status').filter({ hasText: 'The plan as it was runs on.' });
     await seen(after);
-    await reads(after, /more/);
+    await reads(after, /the supervisor "late" watches/);
     await seen(page.getByRole('img', { name: 'saved, the robot has an older one, runs' }));
     await reads(live, /runs/);
+    await after.getByRole('button', { name: 'Stop and start anew' }).click();
+    await gone(after);
+    await seen(page.getByRole('img', { name: 'saved, on the robot, runs' }));
+    await reads(live, /stay/);
   },
 );
 

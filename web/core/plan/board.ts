@@ -16,10 +16,12 @@ import {
   type PlanModel,
   type Supervisor,
 } from './model';
+import { extract, type Extracted, type WhyNot } from './extract';
 import * as notes from './notes';
 import { Draft, paste, partOf, type Part } from './part';
 import { freePlace, sceneOf, type Scene } from './place';
 import { kNodeWidth, type Box, type Point } from './shape';
+import type { SubPlans } from './sub_plans';
 import type { Found, Toolboxes } from './templates';
 
 /** Apart from actors: a variable of that name. */
@@ -52,18 +54,20 @@ export class PlanBoard {
     readonly doc: Doc,
     readonly file: JsonDocument,
     private toolboxes: Toolboxes,
+    private subPlans: SubPlans = new Map(),
     private readonly clock: () => number = () => performance.now(),
   ) {
-    this.model = planModel(file.value, toolboxes);
+    this.model = planModel(file.value, toolboxes, subPlans);
     this.scene = sceneOf(this.model);
     this.drawing = drawingOf(this.model, this.scene, { isTime: this.within(kAtOnceMs) });
     this.finish();
   }
 
   /** The file or the templates are others now. */
-  refresh(toolboxes: Toolboxes = this.toolboxes): void {
+  refresh(toolboxes: Toolboxes = this.toolboxes, subPlans: SubPlans = this.subPlans): void {
     this.toolboxes = toolboxes;
-    this.model = planModel(this.file.value, toolboxes);
+    this.subPlans = subPlans;
+    this.model = planModel(this.file.value, toolboxes, subPlans);
     this.chosen = new Set([...this.chosen].filter((key) => this.has(key)));
     this.redraw();
   }
@@ -221,6 +225,18 @@ export class PlanBoard {
   addActor(found: Found, wanted: Point): string {
     const at = freePlace(this.scene, wanted);
     return this.added(edit.addActor(this.file.value, this.model, found, at), (name) => name);
+  }
+
+  /** Another plan as an actor; `path` counts from the folder of this one. */
+  addSubPlan(path: string, wanted: Point): string {
+    const at = freePlace(this.scene, wanted);
+    return this.added(edit.addSubPlan(this.file.value, this.model, path, at), (name) => name);
+  }
+
+  /** The chosen actors as a plan of their own, in that file; nothing is changed yet. */
+  extract(made: { name: string; path: string }): Extracted | WhyNot {
+    const placeOf = (name: string) => this.blockOf(name)?.box ?? { x: 0, y: 0 };
+    return extract(this.file.value, this.model, this.chosenActors, { ...made, placeOf });
   }
 
   /** Attached to an actor, or to @start. */

@@ -119,7 +119,11 @@ public:
         }
         return Reply(Done{});
     }
-    Result<Reply> answer(Continue&) { return go_on(false); }
+    Result<Reply> answer(Continue& asked) {
+        const bool met = why_ == Stopped::Why::Breakpoint || why_ == Stopped::Why::Step;
+        if (paused_ && met && !asked.from_met) return Reply(Done{});
+        return go_on(false);
+    }
     Result<Reply> answer(Step&) { return go_on(true); }
     Result<Reply> answer(Abort&) {
         abort_asked_ = true;
@@ -159,6 +163,7 @@ public:
     void stop(Stopped::Why why, std::vector<int> breakpoints = {}) {
         paused_ = true;
         step_ = false;
+        why_ = why;
         mailbox_.report(Stopped{why, std::move(breakpoints), where()});
     }
 
@@ -185,12 +190,23 @@ public:
     }
 
     const At first_;
+    // The next request; while there is none, what else the thread has to do.
+    Posted wait() {
+        if (!meanwhile_) return mailbox_.wait();
+        for (;;) {
+            if (auto posted = mailbox_.take()) return std::move(*posted);
+            meanwhile_();
+        }
+    }
+
     Mailbox mailbox_;
     // From here on: the deciding thread's.
+    std::function<void()> meanwhile_;
     Breakpoints breakpoints_;
     plan::Machine* machine_ = nullptr;
     Time now_{0};
     bool paused_ = false;
+    Stopped::Why why_ = Stopped::Why::Start;
     bool step_ = false;     // stop before the next begin
     bool stepped_ = false;  // that is now
     bool abort_asked_ = false;
@@ -219,6 +235,10 @@ std::optional<Report> Debugger::wait_report(Duration at_most) {
     return core_->mailbox_.wait_report(at_most);
 }
 
+void Debugger::while_paused(std::function<void()> meanwhile) {
+    core_->meanwhile_ = std::move(meanwhile);
+}
+
 void Debugger::attach(plan::Machine& machine, std::function<void()> wake) {
     Core& core = *core_;
     core.machine_ = &machine;
@@ -240,8 +260,7 @@ bool Debugger::serve(Time now) {
     core.stop_if_met();
     if (core.paused_ && !was_paused) return true;  // the executor first makes all stand still
     if (core.abort_asked_ || core.machine_->over()) return false;
-    std::optional<Posted> posted =
-        core.paused_ ? std::optional(core.mailbox_.wait()) : core.mailbox_.take();
+    std::optional<Posted> posted = core.paused_ ? std::optional(core.wait()) : core.mailbox_.take();
     if (!posted) return false;
     Result<Reply> reply =
         std::visit([&core](auto& asked) { return core.answer(asked); }, posted->request);

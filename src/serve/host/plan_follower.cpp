@@ -95,8 +95,8 @@ void PlanFollower::stand_at(const run::Where& where) {
 void PlanFollower::see(const plan::TraceEvent& event) {
     const double t = seconds(event.at);
     Level& level = level_at(event.plan);
+    counts_.see(event);
     if (const auto* start = std::get_if<plan::ActorStarted>(&event.what)) {
-        ++activations_;
         enter(level, start->actor, start->activation, t);
         for (const auto& [name, value] : start->in)
             level.inputs[std::string(name)] = json_of(value);
@@ -159,15 +159,18 @@ Json PlanFollower::level_json(const Level& level) const {
     }
     const std::string template_name =
         !level.actor ? "" : level.actor->template_name.value_or(level.actor->plan.value_or(""));
-    return {{"path", level.path},
-            {"doc", level.plan ? doc_of_(level.plan->file) : ""},
-            {"actor", level.actor ? level.actor->name : ""},
-            {"template", template_name},
-            {"activation", level.activation},
-            {"since", level.since},
-            {"inputs", level.inputs},
-            {"variables", std::move(variables)},
-            {"supervisors", std::move(supervisors)}};
+    Json json = {{"path", level.path},
+                 {"doc", level.plan ? doc_of_(level.plan->file) : ""},
+                 {"actor", level.actor ? level.actor->name : ""},
+                 {"template", template_name},
+                 {"activation", level.activation},
+                 {"since", level.since},
+                 {"inputs", level.inputs},
+                 {"variables", std::move(variables)},
+                 {"supervisors", std::move(supervisors)},
+                 {"counts", counts_.counts(level.path)}};
+    if (Json taken = counts_.taken(level.path); !taken.is_null()) json["taken"] = std::move(taken);
+    return json;
 }
 
 Json PlanFollower::document(double now, bool paused) const {

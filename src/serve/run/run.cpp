@@ -85,6 +85,7 @@ Status Run::open(const RunOrder& order, Time now) {
                  {"plan", order.plan},
                  {"toolboxes", order.toolboxes},
                  {"set", order.set},
+                 {"breakpoints", order.breakpoints},
                  {"robot", order.robot},
                  {"bus", order.bus},
                  {"project", order.project}};
@@ -99,6 +100,7 @@ Status Run::open(const RunOrder& order, Time now) {
 void Run::close() {
     child_.reset();
     forget_asked("the run has ended");
+    breakpoints_told_(Json::array());
     has_world_ = false;
     programs_.clear();
     state_ = State::None;
@@ -150,6 +152,12 @@ void Run::lend_hand(const Json& order, HandDone done) {
 
 void Run::set_variable(int level, const std::string& name, const Json& value, SetDone done) {
     ask({{"do", "plan.set"}, {"level", level}, {"name", name}, {"value", value}},
+        [done = std::move(done)](const Json& told) { done(told["why"]); });
+}
+
+void Run::raise(const std::string& supervisor, const std::string& event, const Json& outputs,
+                SetDone done) {
+    ask({{"do", "plan.raise"}, {"supervisor", supervisor}, {"event", event}, {"outputs", outputs}},
         [done = std::move(done)](const Json& told) { done(told["why"]); });
 }
 
@@ -281,6 +289,8 @@ void Run::hear_json(const Json& told) {
     } else if (what == "plan") {
         plan_ = told["plan"];
         desk_.board().touch("plan");
+    } else if (what == "breakpoints") {
+        breakpoints_told_(told["list"]);
     } else if (what == "trace") {
         trace_.push_back(told["line"]);
         if (trace_.size() > kTraceKept) trace_.pop_front();
@@ -335,6 +345,7 @@ void Run::hear_end(const ChildEnd& end) {
         desk_.board().touch("plan");
     }
     forget_asked(why_);
+    breakpoints_told_(Json::array());
     opens_plan_ = false;
     failed_(why_);
     say_("error", why_);

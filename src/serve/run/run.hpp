@@ -32,6 +32,7 @@ struct RunOrder {
     std::string plan;   // empty: the world alone
     std::vector<std::string> toolboxes;
     nlohmann::json set = nlohmann::json::object();
+    nlohmann::json breakpoints = nlohmann::json::array();  // as PlanBreakpoints::orders()
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
     bool keep_poses = false;   // robots stand where they stood before
@@ -58,6 +59,10 @@ public:
     // It cannot be opened: a sentence, or several lines of the checker.
     void on_failed(std::function<void(const std::string& why)> failed) {
         failed_ = std::move(failed);
+    }
+    // What the debugger of the plan says of its breakpoints: [{number, hits, set, why}].
+    void on_breakpoints(std::function<void(const Json& list)> told) {
+        breakpoints_told_ = std::move(told);
     }
     // Its process has died while a plan ran, or was about to: the plan can put nothing in order.
     void on_plan_died(std::function<void()> died) { plan_died_ = std::move(died); }
@@ -101,6 +106,9 @@ public:
     // Writes a variable of the plan; `done` gets why not, or nothing.
     using SetDone = std::function<void(const std::string& why)>;
     void set_variable(int level, const std::string& name, const Json& value, SetDone done);
+    // Raises an event of a supervisor that watches, as if it had done so itself.
+    void raise(const std::string& supervisor, const std::string& event, const Json& outputs,
+               SetDone done);
 
     double time() const { return t_; }
     std::optional<double> load() const { return load_; }
@@ -145,6 +153,7 @@ private:
     std::function<void()> opened_ = [] {};
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
     std::function<void()> plan_died_ = [] {};
+    std::function<void(const Json&)> breakpoints_told_ = [](const Json&) {};
     uint64_t asked_ = 0;
     std::map<uint64_t, Answer> answers_;  // of the host, by number of what was asked
     std::map<uint16_t, std::string> programs_;

@@ -69,6 +69,7 @@ RunOrder Workbench::order_of(const std::string& plan, const Json& set) const {
         for (const auto& [name, value] : project_->start_set) order.set[name] = value;
     }
     order.set.update(set);
+    order.breakpoints = plan_breakpoint_orders();
     return order;
 }
 

@@ -47,6 +47,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     editing_.on_saved([this](const std::string& path) { world_saved(path); });
     editing_.on_renamed([this](const std::string& from, const std::string& to) {
         breakpoints_.rename(from, to);
+        plan_breakpoints_.rename_file(from, to);
         keep_breakpoints();
     });
     robot_.on_breakpoints_changed([this] { keep_breakpoints(); });
@@ -71,12 +72,16 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     run_.on_opened([this] { world_opened(); });
     run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
     run_.on_plan_died([this] { plan_died(); });
+    run_.on_breakpoints([this](const Json& list) {
+        if (plan_breakpoints_.note(list)) desk_.board().touch("breakpoints");
+    });
     desk.on_people([this] { desk_.board().touch("studio"); });
     declare_topics();
     declare_project_commands();
     declare_kept_commands();
     declare_run_commands();
     declare_plan_commands();
+    declare_debug_commands();
     declare_world_commands();
 }
 
@@ -103,6 +108,10 @@ void Workbench::declare_topics() {
     board.document("targets", [this](const Json&) { return targets_.document(); });
     board.document("state", [this](const Json&) {
         return Json{{"values", state_.values().value("window", Json::object())}};
+    });
+    board.document("breakpoints", [this](const Json&) {
+        return Json{{"breakpoints", robot_.breakpoints_list()},
+                    {"plans", plan_breakpoints_.list()}};
     });
     board.stream("console", Protocol::get().limit("lines_kept"));
 }
@@ -209,6 +218,7 @@ void Workbench::enter(OpenedProject project) {
     scripts_.reread();
     state_ = Kept((project_->root / ".vagus" / "state.json").string());
     breakpoints_.from_json(state_.get("breakpoints"));
+    plan_breakpoints_.from_json(state_.get("plan_breakpoints"));
     editing_.set_project(edited_project());
     library_.opened(project_->file, project_->name, desk_.wall_ms());
     for (const std::string& path : files_.recovered()) {
@@ -236,6 +246,7 @@ void Workbench::close() {
     files_.leave();
     scripts_.reread();
     breakpoints_ = {};
+    plan_breakpoints_ = {};
     state_ = {};
     project_.reset();
     editing_.set_project({});
@@ -321,8 +332,10 @@ void Workbench::declare_kept_commands() {
 
 void Workbench::keep_breakpoints() {
     if (!project_) return;
-    const Status kept = state_.put("breakpoints", breakpoints_.to_json());
-    if (!kept.ok()) say("warning", kept.error().what);
+    for (const Status& kept : {state_.put("breakpoints", breakpoints_.to_json()),
+                               state_.put("plan_breakpoints", plan_breakpoints_.to_json())}) {
+        if (!kept.ok()) say("warning", kept.error().what);
+    }
 }
 
 // ---- time ----

@@ -22,6 +22,7 @@
 #include "serve/robot/breakpoints.hpp"
 #include "serve/robot/bus_carrier.hpp"
 #include "serve/robot/robot.hpp"
+#include "serve/run/plan_breakpoints.hpp"
 #include "serve/run/run.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
@@ -80,6 +81,12 @@ private:
     Json studio_document() const;
     Json list_folder(const std::string& path) const;
 
+    // ---- plan_debugging.cpp: breakpoints of plans, events by hand ----
+    void declare_debug_commands();
+    void set_plan_breakpoint(const Call& call);
+    void plan_breakpoints_changed();
+    Json plan_breakpoint_orders() const;
+
     // ---- running.cpp: what runs ----
     void declare_run_commands();
     void declare_plan_commands();
@@ -121,6 +128,7 @@ private:
     Files files_;
     Scripts scripts_;
     ScriptBreakpoints breakpoints_;
+    PlanBreakpoints plan_breakpoints_;
     Editing editing_;
     Robot robot_;
     Run run_;

@@ -7,7 +7,7 @@ import { licences } from './scripts/licences.mjs';
 export default defineConfig({
   base: './',
   plugins: [react(), licences(), gzip()],
-  // The dev server passes the live connection on to the stand-in or to a running studio.
+  // The dev server passes the live connection on to a running studio.
   server: {
     host: '127.0.0.1',
     proxy: { '/live': { target: process.env['STUDIO'] ?? 'http://127.0.0.1:7357', ws: true } },
@@ -20,5 +20,5 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 900,
   },
-  test: { include: ['{protocol,core,app,aesl,dev}/**/*.test.{ts,tsx}'], environment: 'node' },
+  test: { include: ['{protocol,core,app,aesl}/**/*.test.{ts,tsx}'], environment: 'node' },
 });

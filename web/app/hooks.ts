@@ -4,6 +4,7 @@ import { createContext, useCallback, useContext, useSyncExternalStore } from 're
 import { useStore } from 'zustand';
 import type { Topics } from '../protocol/messages';
 import type { Link } from '../core/connection';
+import type { Emitter } from '../core/emitter';
 import { readSettings, type Settings } from '../core/settings';
 import type { Studio } from '../core/studio';
 import type { DocumentTopic } from '../core/topics';
@@ -54,6 +55,14 @@ export function usePart<T extends DocumentTopic, P>(
 // The key is the text of an "of" that was typed where it came in.
 function asOf<T extends DocumentTopic>(key: string): Topics[T]['of'] {
   return JSON.parse(key) as Topics[T]['of'];
+}
+
+/** Renders anew when something has changed; the number says how often it has. */
+export function useChanges(changed: Emitter<void>): number {
+  return useSyncExternalStore(
+    useCallback((listener: () => void) => changed.on(listener), [changed]),
+    () => changed.count,
+  );
 }
 
 export function useWindow<T>(select: (state: WindowState) => T): T {

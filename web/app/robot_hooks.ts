@@ -1,10 +1,9 @@
 // How components look at the robot's variables, events and plots.
 
-import { useEffect, useMemo, useState, useSyncExternalStore, type RefObject } from 'react';
+import { useEffect, useState, useSyncExternalStore, type RefObject } from 'react';
 import type { NodeId, Variable } from '../protocol/messages';
-import type { Emitter } from '../core/emitter';
 import type { PickList } from '../core/picks';
-import { useStudio } from './hooks';
+import { useChanges, useStudio } from './hooks';
 
 /** True while a part of the page can be seen: its tab is in front and it is scrolled into view. */
 export function useShown(place: RefObject<HTMLElement | null>): boolean {
@@ -18,22 +17,6 @@ export function useShown(place: RefObject<HTMLElement | null>): boolean {
     return () => observer.disconnect();
   }, [place]);
   return shown;
-}
-
-/** Renders anew when something has changed; the number says how often it has. */
-export function useChanges(changed: Emitter<void>): number {
-  const counter = useMemo(() => ({ count: 0 }), []);
-  return useSyncExternalStore(
-    useMemo(
-      () => (listener: () => void) =>
-        changed.on(() => {
-          counter.count++;
-          listener();
-        }),
-      [changed, counter],
-    ),
-    () => counter.count,
-  );
 }
 
 export function usePicks(list: PickList) {

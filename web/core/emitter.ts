@@ -1,6 +1,8 @@
 // A list of listeners. The only way in core to tell others that something happened.
 
 export class Emitter<T> {
+  /** How often something has happened: what looks later sees whether it missed anything. */
+  count = 0;
   private readonly listeners = new Set<(value: T) => void>();
 
   on(listener: (value: T) => void): () => void {
@@ -9,6 +11,7 @@ export class Emitter<T> {
   }
 
   emit(value: T): void {
+    this.count++;
     for (const listener of [...this.listeners]) listener(value);
   }
 }

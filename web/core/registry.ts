@@ -10,6 +10,8 @@ export interface Command {
   keys?: string[];
   /** Its keys count only while the focus is in a place of that name (data-place). */
   within?: string;
+  /** The browser makes an event of its own of its keys, which does it: they are only shown. */
+  keysAreEvents?: boolean;
   /** Why not now, or true. Without it the command is always there. */
   enabled?(): boolean;
   /** Not offered in the palette: it makes sense only at its place. */
@@ -65,6 +67,7 @@ export class Registry {
       if (typing && typesText(pressed)) continue;
       for (const command of this.snapshot) {
         if (command.within !== undefined && !isWithin(command.within)) continue;
+        if (command.keysAreEvents) continue;
         if (command.keys?.some((key) => normalKey(key) === pressed) && this.run(command.id))
           return true;
       }

@@ -5,7 +5,8 @@ import { test } from 'node:test';
 import { chromium } from 'playwright-core';
 import { makeProject, startNode } from './support/robots.mjs';
 import { atEnd, startServer } from './support/server.mjs';
-import { browserOptions, hands } from './support/studio.mjs';
+import { browserOptions } from './support/browser.mjs';
+import { hands } from './support/studio.mjs';
 import { until } from './support/until.mjs';
 
 const kKills = Number(process.env.VAGUS_KILLS ?? 10);

@@ -184,6 +184,40 @@ test(
   },
 );
 
+test(
+  'elements are chosen together, copied as text, pasted, and taken back',
+  wall,
+  async (studio) => {
+    const { page, layout, press, button } = studio;
+    await layout('Draw');
+    await element(page, 'followWall, actor').click();
+    await element(page, 'parallelToWall, actor').click({ modifiers: ['Control'] });
+    await press('Control+c');
+    const copied = JSON.parse(await page.evaluate(() => navigator.clipboard.readText()));
+    assert.equal(copied.format, 'vagus-plan-part/1');
+    assert.deepEqual(Object.keys(copied.actors).sort(), ['followWall', 'parallelToWall']);
+    await press('Control+v');
+    await seen(element(page, 'followWall2, actor WallForward'));
+    await seen(element(page, 'parallelToWall2, actor Turn'));
+    // Arrows between the two lead to the copies.
+    await arrow(page, 'parallelToWall2 TurnSuccessful leads to followWall2').waitFor({
+      state: 'attached',
+    });
+    // The copies are chosen: both go.
+    await press('Delete');
+    await gone(element(page, 'followWall2, actor'));
+    await gone(element(page, 'parallelToWall2, actor'));
+    await button('Undo').click();
+    await seen(element(page, 'followWall2, actor'));
+    await button('Undo').click();
+    await gone(element(page, 'followWall2, actor'));
+    await page.evaluate(() => navigator.clipboard.writeText('something else'));
+    await element(page, 'Start').focus();
+    await press('Control+v');
+    await seen(page.getByText('There are no elements of a plan in the clipboard.'));
+  },
+);
+
 test('text and drawing are one file', wall, async (studio) => {
   const { page, layout, press } = studio;
   await layout('Draw');

@@ -1,4 +1,4 @@
-// The layers of the pages: protocol <- core <- app; aesl stands alone; nothing that ships knows dev.
+// The layers of the pages: protocol <- core <- app; aesl stands alone.
 // An arrow means "may import". Packages that draw stay out of core.
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join, relative, resolve } from 'node:path';
@@ -9,7 +9,6 @@ const may = {
   core: ['protocol', 'core'],
   aesl: ['aesl'],
   app: ['protocol', 'core', 'aesl', 'app'],
-  dev: ['protocol', 'core', 'dev'],
 };
 const packages = {
   protocol: /^$/,

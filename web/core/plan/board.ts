@@ -15,8 +15,9 @@ import {
   type PlanModel,
   type Supervisor,
 } from './model';
+import { Draft, paste, partOf, type Part } from './part';
 import { freePlace, sceneOf, type Scene } from './place';
-import type { Point } from './shape';
+import { kNodeWidth, type Point } from './shape';
 import type { Found, Toolboxes } from './templates';
 
 /** Apart from actors: a variable of that name. */
@@ -28,14 +29,12 @@ export class PlanBoard {
   readonly changed = new Emitter<void>();
   /** Said to who cannot see it. */
   readonly spoken = new Emitter<string>();
-  version = 0;
-  /** Key of an element, or id of an arrow. */
-  selected: string | null = null;
   /** An arrow is being drawn from there. */
   drawn: { id: string; at: Point } | null = null;
   model: PlanModel;
   scene: Scene;
   drawing: Drawing;
+  private chosen = new Set<string>();
   private held = new Map<string, Point>();
 
   constructor(
@@ -52,14 +51,43 @@ export class PlanBoard {
   refresh(toolboxes: Toolboxes = this.toolboxes): void {
     this.toolboxes = toolboxes;
     this.model = planModel(this.file.value, toolboxes);
-    if (this.selected !== null && !this.has(this.selected)) this.selected = null;
+    this.chosen = new Set([...this.chosen].filter((key) => this.has(key)));
     this.redraw();
   }
 
+  // ---- what is chosen ----
+
+  /** Keys of elements, or the id of an arrow. */
+  get selection(): ReadonlySet<string> {
+    return this.chosen;
+  }
+
+  /** What forms are about: what was chosen last. */
+  get selected(): string | null {
+    return [...this.chosen].at(-1) ?? null;
+  }
+
   select(key: string | null): void {
-    if (key === this.selected) return;
-    this.selected = key;
+    this.selectAll(key === null ? [] : [key]);
+  }
+
+  selectAll(keys: Iterable<string>): void {
+    const wanted = new Set([...keys].filter((key) => this.has(key)));
+    if (wanted.size === this.chosen.size && [...wanted].every((key) => this.chosen.has(key)))
+      return;
+    this.chosen = wanted;
     this.tell();
+  }
+
+  /** Also that one, or no longer that one. */
+  choose(key: string, also: boolean): void {
+    const others = [...this.chosen].filter((one) => one !== key && this.arrow(one) === undefined);
+    this.selectAll(also ? [...others, key] : others);
+  }
+
+  /** The actors that are chosen. */
+  get chosenActors(): ReadonlySet<string> {
+    return new Set(this.model.actors.flatMap(({ name }) => (this.chosen.has(name) ? name : [])));
   }
 
   // ---- what there is ----
@@ -109,9 +137,9 @@ export class PlanBoard {
 
   // ---- moving ----
 
-  /** While it is dragged: shown there, not yet in the file. */
-  hold(name: string, at: Point): void {
-    this.held.set(name, at);
+  /** While they are dragged: shown there, not yet in the file. */
+  hold(places: Iterable<readonly [string, Point]>): void {
+    for (const [name, at] of places) this.held.set(name, at);
     this.redraw();
   }
 
@@ -154,11 +182,40 @@ export class PlanBoard {
     return this.added(edit.addVariable(this.file.value, this.model), pillKey);
   }
 
-  duplicate(name: string): string | null {
-    const block = this.scene.actors.find((one) => one.name === name);
-    if (!block) return null;
-    const at = freePlace(this.scene, { x: block.box.x + 24, y: block.box.y + 24 });
-    return this.added(edit.duplicate(this.file.value, this.model, name, at), (one) => one);
+  /** What is chosen, as it can be pasted; null: nothing that can. */
+  part(): Part | null {
+    const supervisors = supervisorsOf(this.model).filter((one) =>
+      this.chosen.has(supervisorKey(one)),
+    );
+    return partOf(
+      this.file.value,
+      this.model,
+      { actors: this.chosenActors, supervisors },
+      (name) => this.blockOf(name)?.box ?? { x: 0, y: 0 },
+    );
+  }
+
+  /** Puts a part where nothing is covered, near a point, and chooses it. */
+  paste(part: Part, near: Point): void {
+    const size = sizeOf(part);
+    const { selected } = this;
+    const owner = this.actor(selected)?.name ?? this.supervisor(selected)?.owner ?? kStart;
+    const made = paste(this.file.value, this.model, part, {
+      at: freePlace(this.scene, near, size),
+      owner,
+    });
+    this.commit(made.steps);
+    this.selectAll([...made.actors, ...made.supervisors.map((name) => `${owner}/${name}`)]);
+  }
+
+  duplicate(): void {
+    const part = this.part();
+    const [first] = part?.layout.values() ?? [];
+    if (part) this.paste(part, { x: (first?.x ?? 0) + 24, y: (first?.y ?? 0) + 24 });
+  }
+
+  private blockOf(name: string) {
+    return this.scene.actors.find((one) => one.name === name);
   }
 
   private added(made: edit.Added, keyOf: (name: string) => string): string {
@@ -168,17 +225,29 @@ export class PlanBoard {
     return key;
   }
 
-  /** Removes an element, a variable, or where an arrow leads; gives the key of what is near it. */
-  remove(key: string): string {
-    const { value } = this.file;
+  /** Removes what is chosen, as one change; gives the key of what is near it. */
+  removeChosen(): string {
+    const { selected } = this;
+    const near = this.supervisor(selected)?.owner ?? this.arrow(selected)?.source ?? kStart;
+    const draft = new Draft(this.file.value);
+    for (const key of this.chosen) draft.do(this.removal(draft.file, key));
+    this.commit(draft.steps);
+    return this.actor(near) ? near : kStart;
+  }
+
+  /** Of an element, a variable, or where an arrow leads. */
+  private removal(file: Json, key: string): JsonStep[] {
+    const keys = this.supervisor(key)?.keys ?? this.variableKeys(key);
     const arrow = this.arrow(key);
-    const supervisor = this.supervisor(key);
+    if (this.actor(key)) return edit.removeActor(file, planModel(file, this.toolboxes), key);
+    if (keys) return edit.dropSteps(file, keys);
+    const source = arrow && this.source(arrow.source);
+    return source ? edit.connectSteps(file, source, arrow.outcome, null) : [];
+  }
+
+  private variableKeys(key: string): string[] | undefined {
     const variable = this.variable(key);
-    if (this.actor(key)) this.commit(edit.removeActor(value, this.model, key));
-    else if (supervisor) this.commit(edit.dropSteps(value, supervisor.keys));
-    else if (variable) this.commit(edit.dropSteps(value, ['configuration', variable.name]));
-    else if (arrow) this.connect(arrow.source, arrow.outcome, null);
-    return supervisor?.owner ?? arrow?.source ?? kStart;
+    return variable && ['configuration', variable.name];
   }
 
   rename(key: string, to: string): void {
@@ -217,7 +286,20 @@ export class PlanBoard {
   }
 
   private tell(): void {
-    this.version++;
     this.changed.emit();
   }
 }
+
+/** About what a part covers: its actors are not yet laid out. */
+function sizeOf(part: Part): { width: number; height: number } {
+  const places = [...part.layout.values()];
+  if (places.length === 0) return { width: 0, height: 0 };
+  const spread = (values: number[]) => Math.max(...values) - Math.min(...values);
+  return {
+    width: spread(places.map(({ x }) => x)) + kNodeWidth,
+    height: spread(places.map(({ y }) => y)) + 2 * kRowOfBlocks,
+  };
+}
+
+/** An actor with two states and two supervisors, about. */
+const kRowOfBlocks = 92;

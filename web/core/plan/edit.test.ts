@@ -4,7 +4,8 @@ import type { Json, JsonStep, PlanTemplate, PlanToolbox } from '../../protocol/m
 import { change, createHistory, redo, undo } from '../history';
 import { applySteps } from '../json_steps';
 import * as edit from './edit';
-import { planModel } from './model';
+import { planModel, type PlanModel } from './model';
+import { kPartMax, parsePart, partOf, partText, paste, type Part } from './part';
 
 const bare = { help: '', icon: '', inputs: [], outputs: [], outcomes: [], period_ms: 0 };
 const wait: PlanTemplate = { ...bare, name: 'Wait', kind: 'actor' };
@@ -107,12 +108,65 @@ describe('edits of a plan', () => {
     expect(edit.valueAt(renamed, ['actors', 'c', 'out', 'end'])).toBe('wide');
   });
 
-  it('copy an actor with its supervisors under names of their own', () => {
-    const { name, steps } = edit.duplicate(file, model, 'b', { x: 0, y: 80 });
-    expect(name).toBe('b2');
-    expect(
-      Object.keys((edit.valueAt(after(steps), ['actors', 'b2', 'supervisors']) ?? {}) as object),
-    ).toEqual(['s2']);
+  it('copy actors with their supervisors and variables as text, and paste them with free names', () => {
+    const chosen = { actors: new Set(['a', 'b']), supervisors: [] };
+    const places: Record<string, number> = { a: 100, b: 340 };
+    const part = partOf(file, model, chosen, (name) => ({ x: places[name] ?? 0, y: 50 }));
+    if (!part) throw new Error('nothing was copied');
+    expect(parsePart(partText(part))).toEqual(part);
+    expect(Object.keys(part.configuration)).toEqual(['far']);
+    const pasted = paste(file, model, part, { at: { x: 8, y: 200 }, owner: '@start' });
+    expect(pasted.actors).toEqual(['a2', 'b2']);
+    const now = after(pasted.steps);
+    expect(edit.valueAt(now, ['actors', 'a2'])).toEqual({
+      template: 'Wait',
+      in: { seconds: 'far * far2 & "far"' },
+      states: { Done: 'b2' },
+    });
+    // The event "More" led to b itself, "Timeout" to a: both are in the part.
+    expect(edit.valueAt(now, ['actors', 'b2'])).toEqual({
+      template: 'Wait',
+      states: { Done: 'b2' },
+      supervisors: { s2: { template: 'Timeout', events: { Timeout: 'a2', More: 'b2' } } },
+    });
+    expect(now['layout']).toEqual({ a: [0, 0], b: [240, 0], a2: [8, 200], b2: [248, 200] });
+  });
+
+  it('paste into another plan what it lacks; arrows to what is not there lead nowhere', () => {
+    const other: Json = { format: 'vagus-plan/1', name: 'Q', actors: { b: { template: 'Wait' } } };
+    const part: Part = {
+      toolboxes: ['drive'],
+      configuration: { far: { type: 'int' } },
+      actors: { a: { template: 'Wait', states: { Done: 'gone', Lost: 'b', End: '@terminate' } } },
+      supervisors: { s: { template: 'Timeout', events: { Timeout: 'a' } } },
+      layout: new Map([['a', { x: 0, y: 0 }]]),
+    };
+    const pasted = paste(other, planModel(other, []), part, { at: { x: 16, y: 8 }, owner: 'b' });
+    expect(applySteps(other, pasted.steps).value).toEqual({
+      format: 'vagus-plan/1',
+      name: 'Q',
+      toolboxes: ['drive'],
+      configuration: { far: { type: 'int' } },
+      actors: {
+        b: {
+          template: 'Wait',
+          supervisors: { s: { template: 'Timeout', events: { Timeout: 'a' } } },
+        },
+        a: { template: 'Wait', states: { Lost: 'b', End: '@terminate' } },
+      },
+      layout: { a: [16, 8] },
+    });
+  });
+
+  it('take no other text for a part of a plan', () => {
+    const named = (more: string) => `{"format": "vagus-plan-part/1"${more}}`;
+    expect(parsePart('')).toBeNull();
+    expect(parsePart('{"format": "vagus-plan/1"}')).toBeNull();
+    expect(parsePart(named(','))).toBeNull();
+    expect(parsePart(named(', "actors": [1]'))?.actors).toEqual({});
+    expect(parsePart(named(', "actors": {"a": 1, "b": {}}'))?.actors).toEqual({ b: {} });
+    const long = named(`, "x": "${'x'.repeat(kPartMax)}"`);
+    expect(parsePart(long)).toBeNull();
   });
 
   it('write constants as numbers, all else as formulas', () => {
@@ -166,6 +220,13 @@ describe('undo and redo', () => {
   }, 120_000);
 });
 
+function copyOf(value: Json, now: PlanModel, names: string[]): Part {
+  const chosen = { actors: new Set(names), supervisors: [] };
+  const part = partOf(value, now, chosen, () => ({ x: 0, y: 0 }));
+  if (!part) throw new Error('there is nothing to copy');
+  return part;
+}
+
 function stepsOf(value: Json, kind: number, a: number, b: number): JsonStep[] {
   const now = planModel(value, toolboxes);
   const actor = now.actors[a % Math.max(1, now.actors.length)];
@@ -183,7 +244,10 @@ function stepsOf(value: Json, kind: number, a: number, b: number): JsonStep[] {
     case 4:
       return edit.placeSteps(value, actor.name, at);
     case 5:
-      return edit.duplicate(value, now, actor.name, at).steps;
+      return paste(value, now, copyOf(value, now, [actor.name, other.name]), {
+        at,
+        owner: '@start',
+      }).steps;
     default:
       return edit.feedSteps(value, actor.keys, 'seconds', a > 2 ? String(b) : '');
   }

@@ -2,7 +2,7 @@
 // know stays where it is.
 
 import type { Json, JsonStep } from '../../protocol/messages';
-import { memberOf, listOf, tableOf, textOf, type Table } from './json';
+import { memberOf, listOf, tableOf, textOf } from './json';
 import {
   kStart,
   supervisorsOf,
@@ -116,24 +116,6 @@ export function addVariable(file: Json, model: PlanModel): Added {
   return {
     name,
     steps: setSteps(file, ['configuration', name], { type: 'float', initial: 0 }),
-  };
-}
-
-/** The same actor again, with its supervisors under names of their own. */
-export function duplicate(file: Json, model: PlanModel, name: string, at: Point): Added {
-  const copy = freeName(model, name);
-  const value = tableOf(valueAt(file, ['actors', name]));
-  const names = new Set([copy]);
-  const supervisors: Table = {};
-  for (const [old, one] of Object.entries(tableOf(value['supervisors']))) {
-    const free = freeName(model, old, names);
-    names.add(free);
-    supervisors[free] = one;
-  }
-  const whole = names.size > 1 ? { ...value, supervisors } : value;
-  return {
-    name: copy,
-    steps: [...setSteps(file, ['actors', copy], whole), ...placeSteps(file, copy, at)],
   };
 }
 

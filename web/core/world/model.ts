@@ -47,7 +47,6 @@ export class WorldModel {
   /** Said to those who listen: where something stands now. */
   readonly spoken = new Emitter<string>();
   /** Counts up with changed, for useSyncExternalStore. */
-  version = 0;
 
   stage: Stage = emptyStage;
   selected: string | null = null;
@@ -261,7 +260,6 @@ export class WorldModel {
   }
 
   private tell(): void {
-    this.version++;
     this.changed.emit();
     this.drawn.emit();
   }

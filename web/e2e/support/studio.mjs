@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, test as nodeTest } from 'node:test';
-import { chromium } from 'playwright-core';
+import { launchBrowser } from './browser.mjs';
 import { atEnd, root, startServer } from './server.mjs';
 import { kPatience, until } from './until.mjs';
 
@@ -20,22 +20,8 @@ after(async () => {
   await browser?.close();
 });
 
-export const browserOptions = {
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: [
-    '--no-sandbox',
-    '--disable-gpu',
-    '--enable-unsafe-swiftshader',
-    '--disable-quic',
-    '--no-first-run',
-    '--disable-background-networking',
-    '--disable-component-update',
-    '--disable-sync',
-  ],
-};
-
 async function theBrowser() {
-  browser ??= await chromium.launch(browserOptions);
+  browser ??= await launchBrowser();
   return browser;
 }
 

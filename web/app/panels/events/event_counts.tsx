@@ -3,10 +3,9 @@ import { useEffect } from 'react';
 import { shortCount, shownRate, shownTime } from '../../../core/numbers';
 import type { Count } from '../../../core/happenings';
 import { addToPlot } from '../../commands/robot_commands';
-import { useStudio } from '../../hooks';
+import { useChanges, useStudio } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { kStroke } from '../../parts/icons';
-import { useChanges } from '../../robot_hooks';
 import { text } from '../../text';
 
 const words = text.events;

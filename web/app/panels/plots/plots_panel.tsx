@@ -1,9 +1,9 @@
 import { useEffect, useRef, useState, type DragEvent } from 'react';
 import { Emitter } from '../../../core/emitter';
 import { plotPick } from '../../commands/robot_commands';
-import { useStudio, useWindow } from '../../hooks';
+import { useChanges, useStudio, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
-import { useChanges, useShown } from '../../robot_hooks';
+import { useShown } from '../../robot_hooks';
 import { text } from '../../text';
 import { PickForm } from '../variables/pick_form';
 import { droppedPick, takesPick } from '../variables/watch_panel';

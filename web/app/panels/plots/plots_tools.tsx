@@ -8,11 +8,10 @@ import {
 } from '@tabler/icons-react';
 import { spans } from '../../../core/plot';
 import { update } from '../../../core/window_state';
-import { useStudio, useWindow } from '../../hooks';
+import { useChanges, useStudio, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { CommandItem, StudioMenu } from '../../parts/menu';
-import { useChanges } from '../../robot_hooks';
 import { text } from '../../text';
 
 const words = text.plots;

@@ -2,9 +2,8 @@ import { IconChartLine, IconEyeMinus, IconEyePlus, IconX } from '@tabler/icons-r
 import { pickKey, pickName, type Pick } from '../../../core/picks';
 import { sourceKey } from '../../../core/plot';
 import { plotPick } from '../../commands/robot_commands';
-import { useStudio } from '../../hooks';
+import { useChanges, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
-import { useChanges } from '../../robot_hooks';
 import { text } from '../../text';
 
 const words = text.variables;

@@ -1,10 +1,12 @@
 // What can be done on the canvas that is looked at. Keys count while the focus is in it.
 
+import { kStart } from '../../../../core/plan/model';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
+import { copyByCommand, cut, hasClipboard, pasteByCommand } from './plan_clipboard';
 
 const titles = text.commands;
 type DrawId = Extract<keyof typeof titles, `draw.${string}`>;
@@ -21,7 +23,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
   const make = (
     id: DrawId,
     keys: string[],
-    run: (plan: ShownPlan) => void,
+    run: (plan: ShownPlan) => void | Promise<void>,
     may: (plan: ShownPlan) => boolean = () => true,
   ): Command => ({
     id,
@@ -35,14 +37,23 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     },
     run() {
       const plan = shown();
-      if (plan) run(plan);
+      return plan && run(plan);
     },
   });
   const edits = () => drives(studio);
   const has = ({ board }: ShownPlan) => edits() && board.selected !== null;
   const named = ({ board }: ShownPlan) =>
     edits() && (board.element(board.selected) ?? board.variable(board.selected)) !== undefined;
-  const isActor = ({ board }: ShownPlan) => edits() && board.actor(board.selected) !== undefined;
+  const hasPart = ({ board }: ShownPlan) => board.part() !== null;
+  const clipboard = (
+    id: DrawId,
+    key: string,
+    run: (plan: ShownPlan) => Promise<void>,
+    may: (plan: ShownPlan) => boolean,
+  ): Command => ({
+    ...make(id, [key], run, (plan) => hasClipboard() && may(plan)),
+    keysAreEvents: true,
+  });
   return [
     make('draw.fit', ['1'], () => acts.fit()),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),
@@ -62,7 +73,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     make(
       'draw.remove',
       ['Delete', 'Backspace'],
-      ({ board, focus }) => focus(board.remove(board.selected ?? '')),
+      ({ board, focus }) => focus(board.removeChosen()),
       has,
     ),
     make('draw.rename', ['F2'], () => acts.rename(), named),
@@ -70,11 +81,25 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       'draw.duplicate',
       ['Ctrl+D'],
       ({ board, focus }) => {
-        const key = board.duplicate(board.selected ?? '');
-        if (key !== null) focus(key);
+        board.duplicate();
+        focus(board.selected ?? kStart);
       },
-      isActor,
+      (plan) => edits() && hasPart(plan),
     ),
+    make('draw.all', ['Ctrl+A'], ({ board }) =>
+      board.selectAll(board.model.actors.map((one) => one.name)),
+    ),
+    clipboard('draw.copy', 'Ctrl+C', copyByCommand, hasPart),
+    clipboard(
+      'draw.cut',
+      'Ctrl+X',
+      async (plan) => {
+        await copyByCommand(plan);
+        cut(plan);
+      },
+      (plan) => edits() && hasPart(plan),
+    ),
+    clipboard('draw.paste', 'Ctrl+V', (plan) => pasteByCommand(studio, plan), edits),
     make('draw.variable', [], ({ board }) => void board.addVariable(), edits),
     make(
       'draw.properties',

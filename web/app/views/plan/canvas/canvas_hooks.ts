@@ -3,6 +3,7 @@
 import { useReactFlow, useStore, type NodeChange } from '@xyflow/react';
 import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
+import type { Point } from '../../../../core/plan/shape';
 import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
@@ -34,26 +35,40 @@ export function useNodes(board: PlanBoard, drives: boolean): PlanNode[] {
     () => (all ?? []).filter((one) => one.doc === board.doc),
     [all, board.doc],
   );
-  const { version } = board;
+  const version = board.changed.count;
   return useMemo(
     () => (version >= 0 ? made.of(board, findings, drives) : []),
     [made, board, version, findings, drives],
   );
 }
 
-/** Moves by mouse and arrow keys arrive here; each becomes one edit when it has ended. */
+/** What is chosen, and moves by mouse and arrow keys; each move becomes one edit when it has ended. */
 export function useNodeChanges(board: PlanBoard) {
   return useCallback(
     (changes: NodeChange<PlanNode>[]) => {
-      for (const change of changes) {
-        if (change.type === 'select' && change.selected) board.select(change.id);
-        if (change.type !== 'position' || !change.position) continue;
-        board.hold(change.id, change.position);
-        if (!change.dragging) board.letGo();
-      }
+      choose(board, changes);
+      const moves = changes.flatMap((one) => (one.type === 'position' ? one : []));
+      const places = moves.flatMap(({ id, position }): [string, Point][] =>
+        position ? [[id, position]] : [],
+      );
+      if (places.length === 0) return;
+      board.hold(places);
+      if (!moves.some((one) => one.dragging)) board.letGo();
     },
     [board],
   );
+}
+
+function choose(board: PlanBoard, changes: readonly NodeChange<PlanNode>[]): void {
+  const chosen = changes.flatMap((one) => (one.type === 'select' ? one : []));
+  if (chosen.length === 0) return;
+  const gone = new Set(chosen.flatMap((one) => (one.selected ? [] : one.id)));
+  const come = chosen.flatMap((one) => (one.selected ? one.id : []));
+  const isArrow = (key: string) => board.arrow(key) !== undefined;
+  const kept = [...board.selection].filter(
+    (key) => !gone.has(key) && !(come.length > 0 && isArrow(key)),
+  );
+  board.selectAll([...kept, ...come]);
 }
 
 /** Palette, forms and commands work on this canvas once it is used. */
@@ -90,10 +105,11 @@ export function useOnDesk(board: PlanBoard, frame: React.RefObject<HTMLDivElemen
       }),
     );
   }, [studio, flow]);
-  return useCallback(() => {
+  const use = useCallback(() => {
     planDeskOf(studio).use(shown);
     const { doc } = shown.board;
     if (studio.window.getState().doc !== doc)
       update(studio.window, (draft) => void (draft.doc = doc));
   }, [studio, shown]);
+  return { shown, use };
 }

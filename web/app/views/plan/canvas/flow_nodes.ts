@@ -62,7 +62,7 @@ function startNode(board: PlanBoard, drives: boolean): StartNode {
     type: 'start',
     ...placed(board.scene.start.box),
     draggable: drives,
-    selected: board.selected === kStart,
+    selected: board.selection.has(kStart),
     ariaLabel: words.startLabel(leads),
     data: { side: board.drawing.sides.get(arrowId(kStart, '')) ?? 'right', leads },
   };
@@ -84,7 +84,7 @@ function actorNode(
       type: 'actor',
       ...placed(block.box),
       draggable: drives,
-      selected: board.selected === name,
+      selected: board.selection.has(name),
       ariaLabel: words.elementLabel(words.roles[actor.role], name, actor.template, counts.errors),
       data: {
         actor,
@@ -111,7 +111,7 @@ function supervisorNodes(
       type: 'supervisor',
       ...placed(box),
       draggable: false,
-      selected: board.selected === key,
+      selected: board.selection.has(key),
       ariaLabel: words.elementLabel(words.roles.supervisor, name, template, counts.errors),
       data: {
         supervisor,
@@ -148,7 +148,7 @@ function pillNodes(board: PlanBoard): PillNode[] {
       type: 'pill',
       ...placed(box),
       draggable: false,
-      selected: board.selected === key,
+      selected: board.selection.has(key),
       ariaLabel: words.variableLabel(name, variable.type),
       data: { variable, near: used.has(name) },
     };

@@ -10,7 +10,7 @@ import { useRef } from 'react';
 import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { kSnap } from '../../../../core/plan/place';
-import { useDrives } from '../../../hooks';
+import { useDrives, useStudio } from '../../../hooks';
 import { Blank } from '../../../parts/blank';
 import { text } from '../../../text';
 import { useBoard } from '../plan_desk';
@@ -21,6 +21,7 @@ import { ConnectMenu } from './connect_menu';
 import type { PlanNode } from './flow_nodes';
 import { LiveContext, useLiveStore } from './live_store';
 import { nodeTypes } from './nodes';
+import { useClipboard } from './plan_clipboard';
 import { useDropping } from './use_dropping';
 import { ConnectContext, useConnecting } from './use_connecting';
 import { usePlanBoard } from './use_board';
@@ -45,7 +46,8 @@ function Canvas({ board }: { board: PlanBoard }) {
   useBoard(board);
   const nodes = useNodes(board, drives);
   const frame = useRef<HTMLDivElement>(null);
-  const use = useOnDesk(board, frame);
+  const { shown, use } = useOnDesk(board, frame);
+  const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
   const dropping = useDropping(board, drives);
   const live = useLiveStore(board);
@@ -65,6 +67,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           onPointerDownCapture={use}
           onFocusCapture={use}
           {...dropping}
+          {...clipboard}
         >
           <ReactFlow<PlanNode>
             nodes={nodes}
@@ -72,9 +75,7 @@ function Canvas({ board }: { board: PlanBoard }) {
             nodeTypes={nodeTypes}
             onNodesChange={onNodesChange}
             onMoveStart={onMoveStart}
-            onNodeClick={(_event, node) => board.select(node.id)}
             onPaneClick={() => board.select(null)}
-            onNodeDoubleClick={(_event, node) => board.select(node.id)}
             nodesConnectable={false}
             snapToGrid
             snapGrid={kGrid}
@@ -83,8 +84,8 @@ function Canvas({ board }: { board: PlanBoard }) {
             fitView
             fitViewOptions={kFit}
             deleteKeyCode={null}
-            selectionKeyCode={null}
-            multiSelectionKeyCode={null}
+            selectionKeyCode="Shift"
+            multiSelectionKeyCode={kAlso}
             zoomActivationKeyCode={null}
             panActivationKeyCode={null}
             zoomOnDoubleClick={false}
@@ -106,6 +107,7 @@ function Canvas({ board }: { board: PlanBoard }) {
 
 const kNoEdges: never[] = [];
 const kGrid: [number, number] = [kSnap, kSnap];
+const kAlso = ['Control', 'Meta', 'Shift'];
 const kManyNodes = 300;
 /** The name of the library stands in the licences. */
 const kNoName = { hideAttribution: true };

@@ -1,5 +1,6 @@
 import type { PlanTemplate } from '../../../../protocol/messages';
 import type { Actor } from '../../../../core/plan/model';
+import '../../../look/palette.css';
 
 const kSubPlan = 'M3 4h18v16H3zM7 8h10v8H7z';
 

@@ -53,7 +53,10 @@ export function FormHead(props: {
         disabled={!drives}
         tip={`${words.remove}  (Delete)`}
         icon={<IconTrash {...size} />}
-        onClick={() => desk.shown?.focus(board.remove(chosen))}
+        onClick={() => {
+          board.select(chosen);
+          desk.shown?.focus(board.removeChosen());
+        }}
       />
     </header>
   );

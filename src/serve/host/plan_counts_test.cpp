@@ -32,8 +32,9 @@ TEST(PlanCounts, CountTurnsAndAddUpTheTimeOfThoseThatAreOver) {
 }
 
 TEST(PlanCounts, NameTheArrowThatWasTakenAndCountIt) {
-    EXPECT_EQ(counted().taken("P"), Json::parse(R"(
-        {"number": 3, "is": "event", "element": "touch", "outcome": "Pressed", "target": "back"})"));
+    EXPECT_EQ(counted().taken("P"), Json::parse(R"({
+        "number": 3, "is": "event", "element": "touch", "outcome": "Pressed",
+        "target": "back"})"));
     PlanCounts first;
     first.see({0s, "P", plan::ActorStarted{"go", 1, {}}});
     EXPECT_EQ(first.taken("P")["is"], "start");

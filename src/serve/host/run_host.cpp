@@ -12,6 +12,7 @@
 #include "embed/prepared_run.hpp"
 #include "serve/host/bus_run.hpp"
 #include "serve/host/frames.hpp"
+#include "serve/host/hand.hpp"
 #include "serve/host/pacer.hpp"
 #include "serve/host/plan_follower.hpp"
 #include "serve/host/plan_stops.hpp"
@@ -503,73 +504,10 @@ private:
 
     // ---- a hand from above ----
     void act(const std::string& what, const Json& told) {
-        const Status done = hand(what, told);
+        const auto done = hand(session_->world(), what, told);
         tell_answer(told["request"], done.ok() ? "" : done.error().what,
-                    std::exchange(put_number_, std::nullopt));
+                    done.ok() ? done.value() : std::nullopt);
         next_poses_ = Time{};
-    }
-
-    Status hand(const std::string& what, const Json& told) {
-        sim::World& world = session_->world();
-        if (told.contains("at")) TRY(check_inside(told["at"][0], told["at"][1]));
-        if (what == "take") return world.remove(sim::ObjectId{told["object"]});
-        if (what == "light") return world.switch_light(sim::ObjectId{told["object"]}, told["on"]);
-        if (what == "put") return put(told);
-        if (what == "move" && told.contains("object")) return move_object(told);
-        const auto robot = world.find_robot(told["robot"].get<std::string>());
-        if (!robot) {
-            return Error{Code::NotFound, "there is no such robot in the world"};
-        }
-        if (what == "tap") return world.tap(*robot);
-        if (what == "press") {
-            const std::string button = told["button"];
-            return told["down"].get<bool>() ? world.press(*robot, button)
-                                            : world.release(*robot, button);
-        }
-        const auto robots = world.robots();
-        const double angle = told.value("angle", robots[robot->number - 1].pose.angle);
-        return world.move(*robot, {{told["at"][0], told["at"][1]}, angle});
-    }
-
-    Status check_inside(double x, double y) const {
-        const sim::WorldDefinition& world = session_->world().definition();
-        const bool inside = x >= 0 && x <= world.width && y >= 0 && y <= world.height;
-        if (world.open || inside) return Status::done();
-        return Error{Code::BadInput,
-                     fmt::format("{:g}, {:g} m lies outside of the walls: the world is {:g} by "
-                                 "{:g} m",
-                                 x, y, world.width, world.height)};
-    }
-
-    Status move_object(const Json& told) {
-        sim::World& world = session_->world();
-        const sim::ObjectId id{told["object"]};
-        for (const sim::ObjectView& object : world.objects()) {
-            if (object.id != id) continue;
-            const double angle = told.value("angle", object.pose.angle);
-            return world.move(id, {{told["at"][0], told["at"][1]}, angle});
-        }
-        return Error{Code::NotFound, "there is no such object in the world any more"};
-    }
-
-    Status put(const Json& told) {
-        sim::ObjectDefinition object;
-        const std::string kind = told["kind"];
-        object.kind = kind == "wall"  ? sim::ObjectKind::Wall
-                      : kind == "box" ? sim::ObjectKind::Box
-                                      : sim::ObjectKind::Cylinder;
-        object.at = {told["at"][0], told["at"][1]};
-        object.angle = told.value("angle", 0.0);
-        if (kind == "cylinder") {
-            object.radius = told.value("radius", 0.05);
-        } else {
-            object.width = told.contains("size") ? told["size"][0].get<double>() : 0.2;
-            object.length = told.contains("size") ? told["size"][1].get<double>() : 0.2;
-        }
-        const auto added = session_->world().add(object);
-        if (!added.ok()) return added.error();
-        put_number_ = added.value().number;
-        return Status::done();
     }
 
     Pipe pipe_;
@@ -586,10 +524,9 @@ private:
     std::set<std::string> heard_;  // events, by the plan
     std::optional<PlanTalk> talk_;
     PlanStops stops_;
-    std::vector<uint64_t> broken_at_;     // breakpoints that hold the plan, by their numbers
-    Duration bus_time_{};                 // of a plan on a bus
-    Time bus_time_at_{};                  // when it was counted
-    std::optional<uint32_t> put_number_;  // of the hand at work
+    std::vector<uint64_t> broken_at_;  // breakpoints that hold the plan, by their numbers
+    Duration bus_time_{};              // of a plan on a bus
+    Time bus_time_at_{};               // when it was counted
 
     Pacer pacer_;
     int holds_ = 0;

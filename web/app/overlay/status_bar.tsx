@@ -6,6 +6,7 @@ import {
 } from '@tabler/icons-react';
 import { countsOf } from '../../core/findings';
 import { standsAt } from '../../core/run_state';
+import { kindOf } from '../dock/documents';
 import { usePart, useStudio, useTopic, useWindow } from '../hooks';
 import { Kbd } from '../parts/kbd';
 import { kStroke } from '../parts/icons';
@@ -51,12 +52,21 @@ function Left() {
 function Runs() {
   const doc = useWindow((state) => state.doc);
   const nodes = useTopic('robot', {})?.nodes ?? [];
+  const holds = usePart('plan', {}, (is) => is?.stands_at?.[0]);
+  const broken = useTopic('breakpoints', {})?.plans.find((one) => one.number === holds);
   const standing = nodes.find((node) => standsAt(node) !== undefined);
   if (standing?.at)
     return (
       <span className="status__part">
         <IconPlayerPause size={13} stroke={kStroke} aria-hidden />
         {text.status.pausedAt(standing.name, standing.at.line)}
+      </span>
+    );
+  if (broken)
+    return (
+      <span className="status__part">
+        <IconPlayerPause size={13} stroke={kStroke} aria-hidden />
+        {text.breakpoints.pausedAt(text.breakpoints.place(broken))}
       </span>
     );
   const node = nodes.find((one) => one.doc === doc);
@@ -88,6 +98,7 @@ function Hints({ started }: { started: boolean }) {
   else {
     if (paused) hints.push(['F5', words.continue], ['F10', words.step]);
     else if (errors > 0) hints.push(['Alt+Enter', words.fix]);
+    if (doc !== null && kindOf(doc) === 'plan') hints.push(['F9', words.breakpoint]);
     if (doc?.includes('#')) hints.push(['F9', words.breakpoint], ['Ctrl+U', words.upload]);
     hints.push(['F6', words.next]);
     if (layout === 'Draw' || !doc?.includes('#'))

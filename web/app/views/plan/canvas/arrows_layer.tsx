@@ -52,9 +52,10 @@ const ActionArrow = memo(function ActionArrow(props: {
   near: boolean;
 }) {
   const { board, arrow, route, gaps, near } = props;
-  const taken = useLive((live) => live.taken === arrow.id);
+  // The number draws it anew when it is taken again.
+  const taken = useLive((live) => (live.taken === arrow.id ? live.takenNumber : 0));
   if (!route) return null;
-  const kind = taken ? 'taken' : near ? 'near' : 'plain';
+  const kind = taken > 0 ? 'taken' : near ? 'near' : 'plain';
   const path = roundedPath(shortened(route));
   return (
     <g
@@ -71,7 +72,7 @@ const ActionArrow = memo(function ActionArrow(props: {
         />
       ))}
       <path className="parrow__hand" d={path} />
-      <path className="parrow__line" d={path} markerEnd={`url(#plan-head-${kind})`} />
+      <path key={taken} className="parrow__line" d={path} markerEnd={`url(#plan-head-${kind})`} />
     </g>
   );
 });

@@ -8,6 +8,7 @@ import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { canvasCommands } from './canvas_commands';
+import { debugCommands } from './debug_commands';
 import { FlowNodes, type PlanNode } from './flow_nodes';
 
 /** Room around the boxes for the arrows that go around them. */
@@ -96,14 +97,15 @@ export function useOnDesk(board: PlanBoard, frame: React.RefObject<HTMLDivElemen
   useEffect(() => planDeskOf(studio).add(shown), [studio, shown]);
   useEffect(() => {
     const properties = () => revealPanel(studio.window, 'properties');
-    return studio.registry.add(
-      canvasCommands(studio, {
+    return studio.registry.add([
+      ...debugCommands(studio, properties),
+      ...canvasCommands(studio, {
         fit: () => void flow.fitView(kFit),
         zoom: (by) => void flow.zoomTo(flow.getZoom() * by),
         properties,
         rename: () => planDeskOf(studio).renames.emit(),
       }),
-    );
+    ]);
   }, [studio, flow]);
   const use = useCallback(() => {
     planDeskOf(studio).use(shown);

@@ -65,6 +65,10 @@ const kApart = 22;
 function Thin(props: { arrow: DataArrow; box: Box; pill: Box; index: number }) {
   const { arrow, box, pill, index } = props;
   const value = useLive((live) => live.values.get(arrow.variable));
+  const gave = useLive((live) =>
+    arrow.is === 'in' && live.actor === arrow.element ? live.inputs.get(arrow.port) : undefined,
+  );
+  const label = text.draw.dataNow(arrow, value, gave);
   const at = { x: box.x + 14 + ((index * kApart) % (box.width - 28)), y: box.y };
   const from = { x: pill.x + 24 + ((index * 9) % (pill.width - 48)), y: pill.y + pill.height };
   const isIn = arrow.is === 'in';
@@ -73,8 +77,8 @@ function Thin(props: { arrow: DataArrow; box: Box; pill: Box; index: number }) {
   const end = isIn ? at : from;
   const by = isIn ? -5 : 5;
   return (
-    <g role="img" aria-label={text.draw.data(arrow)}>
-      <title>{value === undefined ? text.draw.data(arrow) : `${arrow.variable} = ${value}`}</title>
+    <g role="img" aria-label={label}>
+      <title>{label}</title>
       <path className="pdata__hand" d={path} />
       <path className="pdata__line" d={path} />
       <path className="pdata__head" d={`M${end.x - 3} ${end.y + by}l3 ${-by}l3 ${by}`} />

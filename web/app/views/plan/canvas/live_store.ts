@@ -23,10 +23,7 @@ export function useLiveStore(board: PlanBoard): LiveStore {
   useEffect(() => {
     const level = plan?.levels[shownLevel(plan.levels, board.doc, null)];
     const isOurs = plan !== undefined && plan.state !== 'none' && level?.doc === board.doc;
-    store.setState(
-      isOurs ? livePlan(store.getState(), plan, level, board.model, board.drawing) : noPlan,
-      true,
-    );
+    store.setState(isOurs ? livePlan(plan, level, board.model) : noPlan, true);
   }, [store, plan, board]);
   return store;
 }

@@ -427,7 +427,7 @@ class Plans(Case):
         self.wait(lambda: self.plan.value.get("stands_at"), "the condition")
         self.assertEqual(self.rounds(), 3)
         page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="sey")
-        self.wait(lambda: "did you mean say?" in self.breakpoints.value["plans"][1].get("why", ""), "why it is not set")
+        self.wait(lambda: any("did you mean say?" in one.get("why", "") for one in self.breakpoints.value["plans"]), "why it is not set")
 
     def test_an_event_is_raised_by_hand(self):
         def make(folder):

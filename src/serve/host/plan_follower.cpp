@@ -123,11 +123,11 @@ void PlanFollower::see(const plan::TraceEvent& event) {
     } else if (const auto* over = std::get_if<plan::PlanEnded>(&event.what)) {
         happen(t, over->result == plan::PlanResult::Error ? "error" : "note",
                fmt::format("{} is over: {}", event.plan, plan::name_of(over->result)));
-        if (levels_.size() == 1) {
-            result_ = plan::name_of(over->result);
-            message_ = over->message;
-        }
-        levels_.pop_back();
+        if (levels_.size() > 1) return levels_.pop_back();
+        // What it has counted and written can still be looked at.
+        level.actor = nullptr;
+        result_ = plan::name_of(over->result);
+        message_ = over->message;
     } else {
         return;
     }
@@ -141,7 +141,7 @@ Json PlanFollower::level_json(const Level& level) const {
         for (const plan::Rule& rule : one.events) events.push_back(rule.name);
         supervisors.push_back({{"name", one.name},
                                {"global", global},
-                               {"watching", !level.resting.contains(one.name)},
+                               {"watching", !result_ && !level.resting.contains(one.name)},
                                {"events", std::move(events)}});
     };
     if (level.plan) {

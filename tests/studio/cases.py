@@ -1,4 +1,5 @@
 """What a person does with a simulated robot in the studio, and what every page sees of it."""
+import copy
 import struct
 import sys
 import unittest
@@ -443,6 +444,30 @@ class Plans(Case):
         self.wait_plan("ended")
         self.assertEqual(self.plan.value["result"], "Interrupted")
         self.assertIn("late: Timeout → @terminate", [line["text"] for line in self.plan.value["story"]])
+
+    def test_a_plan_goes_on_into_the_handler_of_its_event(self):
+        def make(folder):
+            send = {"template": "Send", "in": {"event": "'go'", "args": "'0'"}, "states": {"Sent": "say"}}
+            plan = copy.deepcopy(PLAN)
+            plan["actors"]["say"]["states"]["Done"] = "send"
+            plan["actors"]["send"] = send | {"states": {"Sent": "wait"}}
+            projects.write(folder, "rounds.plan.json", plan)
+            projects.thymio(folder, plan="rounds.plan.json")
+        page = self.open(make)
+        (spot,) = page.do("script.handlers", events=["go"])["spots"]
+        self.assertEqual((spot["doc"], spot["at"], spot["line_text"]), (DOC, {"line": 7, "column": 9}, "onevent go"))
+        self.refused("unavailable", "plan.into", events=["go"])
+        page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="send")
+        page.do("run.start")
+        self.wait(lambda: self.plan.value.get("stands_at"), "the breakpoint")
+        self.assertIn("no script", self.refused("not_found", "plan.into", events=["gone"]))
+        self.assertEqual(page.do("plan.into", events=["go"])["spots"], [spot])
+        self.wait_node(state="paused", why="breakpoint", at={"line": 8, "column": 1})
+        self.wait_clock("paused")
+        self.assertEqual(self.breakpoints.value["breakpoints"], [])  # nobody has set one
+        page.do("plan.break.clear")
+        page.do("run.start")
+        self.wait(lambda: self.rounds() and self.rounds() > 2, "rounds: it stood once")
 
     def test_turns_are_counted_and_the_arrow_taken_is_told(self):
         page = self.open_plan()

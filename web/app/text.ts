@@ -180,6 +180,8 @@ export const text = {
     'world.add.carbot': 'World: add a Carbot',
     'draw.break': 'Plan: breakpoint at what is chosen',
     'draw.breakEdit': 'Plan: when its breakpoint stops',
+    'draw.into': 'Plan: step into the script',
+    'draw.script': 'Plan: go to the script',
     'draw.fit': 'Plan: fit it into the window',
     'draw.zoomIn': 'Plan: zoom in',
     'draw.zoomOut': 'Plan: zoom out',
@@ -200,6 +202,7 @@ export const text = {
     'plan.continue': 'Continue the plan',
     'plan.step': 'Plan: on to the next actor',
     'plan.stop': 'Stop the plan',
+    'plan.show': 'Plan: show the active actor',
   },
   panel: (title: string) => `Show ${title}`,
   panels: {
@@ -323,6 +326,7 @@ export const text = {
     notSaved: 'Not saved',
     ready: 'Ready',
     runsScript: (node: string, time: string) => `${node}: the script of ${time} runs`,
+    showActor: (actor: string) => `Show ${actor}`,
     pausedAt: (node: string, line: number) => `${node} stands at line ${line}`,
     keys: {
       next: 'next panel',
@@ -823,6 +827,7 @@ export const text = {
     turns: (times: number, seconds: number) => `×${times} ${seconds.toFixed(1)} s`,
     times: (times: number) => `×${times}`,
     debugging: 'Look for a mistake',
+    noScript: (events: string) => `No script of the project handles ${events}.`,
     active: {
       label: 'What works now',
       show: (actor: string) => `Show ${actor} in the drawing`,

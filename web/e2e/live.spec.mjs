@@ -1,4 +1,5 @@
 // A plan that runs, on its drawing: breakpoints, what it counts, what it stands at.
+import assert from 'node:assert/strict';
 import { makeProject } from './support/robots.mjs';
 import { gone, reads, seen, test } from './support/studio.mjs';
 
@@ -109,3 +110,30 @@ test('what the formulas gave stands below the drawing', rounds, async (studio) =
   await reads(line, /rest\s+activation \d+\s+seconds 0\.1 s/);
   await press('Shift+F5');
 });
+
+test(
+  'from an actor to the line of its script on the node, and back',
+  { words: ['--example', 'follow-wall'] },
+  async (studio) => {
+    const { page, press, layout, editor } = studio;
+    await layout('Draw');
+    const actor = element(page, 'searchFirstWall, actor Forward');
+    await actor.focus();
+    await press('Space', 'F12');
+    await seen(editor('drive'));
+    await seen(page.locator('.cm-activeLine', { hasText: 'onevent drive.forward' }));
+    await page.getByRole('tab', { name: /WallFollow/ }).click();
+    await actor.focus();
+    await press('F9', 'F5');
+    await seen(page.getByText('Paused by the breakpoint searchFirstWall; the plan stands'));
+    await actor.focus();
+    await press('Control+F10');
+    await reads(page.getByRole('contentinfo', { name: 'Status' }), /drive stands at line \d+/);
+    await seen(page.locator('.cm-standing'));
+    await page.getByRole('button', { name: 'Show searchFirstWall' }).click();
+    await seen(actor);
+    // The breakpoint that led there is nobody's.
+    await studio.command('Breakpoints');
+    assert.equal(await shows(page).count(), 1);
+  },
+);

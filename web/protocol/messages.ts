@@ -401,6 +401,8 @@ export interface PlanTemplate {
   outcomes: PlanOutcome[];
   /** of a supervisor; 0: it waits for its event */
   period_ms: number;
+  /** events that begin its work on nodes */
+  starts: Name[];
 }
 
 /** Templates for one platform. */
@@ -741,6 +743,12 @@ export interface Commands {
   }; out: {
     doc: Doc;
   } };
+  /** Where scripts handle one of these events, at the name of the event; in the order of the events. */
+  'script.handlers': { in: {
+    events: Name[];
+  }; out: {
+    spots: Spot[];
+  } };
   /** Whether a text can be the name of something in a script. */
   'script.format_name': { in: {
     name: string;
@@ -922,6 +930,12 @@ export interface Commands {
   'plan.step': { in: Record<never, never>; out: Record<never, never> };
   /** Ends the plan as from outside (P28). */
   'plan.stop': { in: Record<never, never>; out: Record<never, never> };
+  /** The plan goes on until the handler of one of these events begins on a node, which then stands there. */
+  'plan.into': { in: {
+    events: Name[];
+  }; out: {
+    spots: Spot[];
+  } };
   /** Raises an event of a supervisor that watches, as if it had done so itself. */
   'plan.raise': { in: {
     supervisor: Name;
@@ -945,12 +959,6 @@ export interface Commands {
   'plan.break.clear': { in: {
     number?: number;
     doc?: Doc;
-  }; out: Record<never, never> };
-  /** An actor or supervisor has another name: its breakpoints follow. */
-  'plan.break.rename': { in: {
-    doc: Doc;
-    from: Name;
-    to: Name;
   }; out: Record<never, never> };
   /** Writes a variable of a running plan (P29). */
   'plan.set': { in: {
@@ -1232,7 +1240,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanInput: { name: 'Name', type: 'word(any|bool|int|float|string|object)', unit: 'line(32)', help: 'line(1000)', default: 'json?', low: 'number?', high: 'number?' },
   PlanOutput: { name: 'Name', type: 'word(any|bool|int|float|string|object)', unit: 'line(32)', help: 'line(1000)' },
   PlanOutcome: { name: 'Name', help: 'line(1000)' },
-  PlanTemplate: { name: 'Name', kind: 'word(actor|computation|supervisor)', help: 'line(1000)', icon: 'line(8192)', inputs: '[PlanInput; 256]', outputs: '[PlanOutput; 256]', outcomes: '[PlanOutcome; 256]', period_ms: 'number' },
+  PlanTemplate: { name: 'Name', kind: 'word(actor|computation|supervisor)', help: 'line(1000)', icon: 'line(8192)', inputs: '[PlanInput; 256]', outputs: '[PlanOutput; 256]', outcomes: '[PlanOutcome; 256]', period_ms: 'number', starts: '[Name; 64]' },
   PlanToolbox: { name: 'Name', help: 'line(1000)', templates: '[PlanTemplate; 1000]' },
   PlanVariable: { name: 'Name', type: 'word(bool|int|float|string|object)', value: 'json', unit: 'line(32)' },
   PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
@@ -1280,6 +1288,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'script.rename': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
   'script.listing': { may: 'look', out: { lines: '[ListingLine; 65536]' } },
   'script.add': { may: 'driver', out: { doc: 'Doc' } },
+  'script.handlers': { may: 'look', out: { spots: '[Spot; 1000]' } },
   'script.format_name': { may: 'look', out: { good: 'bool', why: 'line(300)?' } },
   'text.search': { may: 'look', out: { spots: '[Spot; 5000]', more: 'bool', why: 'line(300)?' } },
   'text.replace': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
@@ -1311,10 +1320,10 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'plan.continue': { may: 'driver', out: {} },
   'plan.step': { may: 'driver', out: {} },
   'plan.stop': { may: 'driver', out: {} },
+  'plan.into': { may: 'driver', out: { spots: '[Spot; 1000]' } },
   'plan.raise': { may: 'driver', out: {} },
   'plan.break.set': { may: 'driver', out: { number: 'number' } },
   'plan.break.clear': { may: 'driver', out: {} },
-  'plan.break.rename': { may: 'driver', out: {} },
   'plan.set': { may: 'driver', out: {} },
   'world.move': { may: 'driver', out: {} },
   'world.put': { may: 'driver', out: { number: 'number' } },

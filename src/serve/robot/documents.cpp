@@ -179,6 +179,7 @@ Json Robot::network_document() const {
 Json Robot::breakpoints_list() const {
     Json list = Json::array();
     for (const ScriptBreakpoint& one : breakpoints_.all()) {
+        if (one.once) continue;
         Json json = {{"doc", one.doc},       {"line", one.line},       {"condition", one.condition},
                      {"ignore", one.ignore}, {"enabled", one.enabled}, {"hits", one.hits},
                      {"set", one.set}};

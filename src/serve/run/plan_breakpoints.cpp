@@ -65,18 +65,11 @@ void PlanBreakpoints::clear(std::optional<uint64_t> number, const std::optional<
     });
 }
 
-void PlanBreakpoints::rename_file(const std::string& from, const std::string& to) {
+void PlanBreakpoints::rename(const std::string& from, const std::string& to) {
     for (PlanBreakpoint& one : all_) {
         const std::string rest = one.doc.substr(std::min(from.size(), one.doc.size()));
         const bool meant = one.doc.starts_with(from) && (rest.empty() || rest.front() == '/');
         if (meant) one.doc = to + rest;
-    }
-}
-
-void PlanBreakpoints::rename_element(const std::string& doc, const std::string& from,
-                                     const std::string& to) {
-    for (PlanBreakpoint& one : all_) {
-        if (one.doc == doc && one.element == from) one.element = to;
     }
 }
 

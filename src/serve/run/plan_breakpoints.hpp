@@ -39,9 +39,8 @@ public:
     Result<PlanBreakpoint*> set(const PlanBreakpoint& wanted);
     // Without a number all of the document, without a document all.
     void clear(std::optional<uint64_t> number, const std::optional<std::string>& doc);
-    // A file, or an element of a plan, has another name.
-    void rename_file(const std::string& from, const std::string& to);
-    void rename_element(const std::string& doc, const std::string& from, const std::string& to);
+    // A file has another name.
+    void rename(const std::string& from, const std::string& to);
 
     // What the run host is told; `path_of` gives the file of a document.
     Json orders(const std::function<std::string(const std::string& doc)>& path_of) const;

@@ -77,13 +77,11 @@ TEST(PlanBreakpoints, AreKeptWithoutWhatBelongsToARun) {
     EXPECT_FALSE(read.all()[0].enabled);
 }
 
-TEST(PlanBreakpoints, FollowNewNamesOfFilesAndElements) {
+TEST(PlanBreakpoints, FollowTheNewNameOfAFile) {
     PlanBreakpoints all;
     (void)all.set(at_actor("go")).ok();
-    all.rename_element("W.plan.json", "go", "drive");
-    all.rename_element("other.plan.json", "drive", "no");
-    all.rename_file("W.plan.json", "plans/W.plan.json");
-    EXPECT_EQ(all.all()[0].element, "drive");
+    all.rename("W.plan.json", "plans/W.plan.json");
+    all.rename("plans/W", "no");
     EXPECT_EQ(all.all()[0].doc, "plans/W.plan.json");
     all.clear(std::nullopt, "W.plan.json");
     EXPECT_EQ(all.all().size(), 1u);

@@ -135,6 +135,7 @@ void Workbench::end_start() {
 }
 
 void Workbench::give_up_start(const std::string& why) {
+    if (const auto into = std::exchange(into_, std::nullopt)) into->call.fail("failed", why);
     ++start_;
     opening_.reset();
     const std::optional<Call> call = opening_call_;

@@ -47,7 +47,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     editing_.on_saved([this](const std::string& path) { world_saved(path); });
     editing_.on_renamed([this](const std::string& from, const std::string& to) {
         breakpoints_.rename(from, to);
-        plan_breakpoints_.rename_file(from, to);
+        plan_breakpoints_.rename(from, to);
         keep_breakpoints();
     });
     robot_.on_breakpoints_changed([this] { keep_breakpoints(); });
@@ -351,6 +351,7 @@ void Workbench::tick(Time now) {
     robot_.tick(now);
     add_missing_scripts();
     get_nodes_ready();
+    go_into_script();
     stop_nodes();
     rest();
     editing_.tick(now);
@@ -369,7 +370,7 @@ void Workbench::watch_run() {
 Time Workbench::next_tick(Time now) const {
     Time next = std::min({run_.next_tick(), robot_.next_tick(), editing_.next_tick()});
     if (desk_.board().watched("targets")) next = std::min(next, now + kLookEvery);
-    if (opening_ || nodes_stop_at_ || rest_at_) next = std::min(next, now + 20ms);
+    if (opening_ || into_ || nodes_stop_at_ || rest_at_) next = std::min(next, now + 20ms);
     return next;
 }
 

@@ -35,7 +35,8 @@ namespace vagus::serve {
 
 // A run waits so long for the nodes of its world to describe themselves.
 constexpr Duration kDescribeWithin = 3s;
-constexpr int kStepMs = 10;  // of run.step, unless it says otherwise
+constexpr Duration kIntoWithin = 1s;  // nodes get breakpoints; then a plan goes on without the rest
+constexpr int kStepMs = 10;           // of run.step, unless it says otherwise
 
 struct WorkbenchPlaces {
     LibraryPlaces library;
@@ -86,6 +87,9 @@ private:
     void set_plan_breakpoint(const Call& call);
     void plan_breakpoints_changed();
     Json plan_breakpoint_orders() const;
+    Json handlers_of(const std::vector<std::string>& events);
+    void step_into_script(const Call& call);
+    void go_into_script();
 
     // ---- running.cpp: what runs ----
     void declare_run_commands();
@@ -150,6 +154,13 @@ private:
     // Counts what makes a start void: another one, Stop, another target. What was begun for it and
     // finds another number lets nothing run any more.
     uint64_t start_ = 0;
+    // The plan goes on once the nodes have the breakpoints of a step into a script.
+    struct Into {
+        Call call;
+        Json spots;
+        Time until{};
+    };
+    std::optional<Into> into_;
     // Stop, under way.
     std::optional<Time> nodes_stop_at_;
     std::vector<Call> stop_calls_;

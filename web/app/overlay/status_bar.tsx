@@ -60,6 +60,7 @@ function Runs() {
       <span className="status__part">
         <IconPlayerPause size={13} stroke={kStroke} aria-hidden />
         {text.status.pausedAt(standing.name, standing.at.line)}
+        <ActiveActor />
       </span>
     );
   if (broken)
@@ -75,6 +76,22 @@ function Runs() {
     <span className="status__part">
       {text.status.runsScript(node.name, timeOf(node.loaded_wall))}
     </span>
+  );
+}
+
+/** From the line where a node stands back to the drawing. */
+function ActiveActor() {
+  const { registry } = useStudio();
+  const actor = usePart('plan', {}, (is) =>
+    is?.state === 'running' || is?.state === 'paused'
+      ? is.levels.findLast((level) => level.actor !== '')?.actor
+      : undefined,
+  );
+  if (actor === undefined) return null;
+  return (
+    <button type="button" className="status__actor" onClick={() => registry.run('plan.show')}>
+      {text.status.showActor(actor)}
+    </button>
   );
 }
 

@@ -23,6 +23,21 @@ export function toggleBreak(studio: Studio, board: PlanBoard, key: string): void
   else studio.order('plan.break.set', { doc: board.doc, ...place });
 }
 
+/** An actor or supervisor has another name. */
+export function renameBreaks(
+  studio: Studio,
+  doc: string,
+  is: 'actor' | 'supervisor',
+  from: string,
+  to: string,
+): void {
+  for (const one of studio.topics.get('breakpoints', {})?.plans ?? []) {
+    const isOfIts = (one.kind === 'event') === (is === 'supervisor') && one.kind !== 'condition';
+    if (one.doc === doc && one.element === from && isOfIts)
+      changeBreak(studio, { ...one, element: to }, {});
+  }
+}
+
 /** What is not told stays as it is. */
 export function changeBreak(
   studio: Studio,

@@ -3,6 +3,7 @@
 import { placeOf } from '../../../../core/plan/breaks';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
+import { revealDoc, toast } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
 import { toggleBreak } from '../break_acts';
@@ -19,7 +20,28 @@ export function debugCommands(studio: Studio, properties: () => void): Command[]
     return drives(studio) && board !== undefined && placeOf(board.model, key()) !== null;
   };
   const group = text.groups.draw;
+  const starts = () => shown()?.board.element(shown()?.board.selected ?? null)?.known?.starts ?? [];
+  const plan = () => studio.topics.get('plan', {})?.state;
   return [
+    {
+      id: 'draw.script',
+      title: titles['draw.script'],
+      group,
+      within: 'plan',
+      keys: ['F12'],
+      enabled: () => starts().length > 0,
+      run: () => goToScript(studio, 'script.handlers', starts()),
+    },
+    {
+      id: 'draw.into',
+      title: titles['draw.into'],
+      group,
+      within: 'plan',
+      keys: ['Ctrl+F10'],
+      enabled: () =>
+        drives(studio) && starts().length > 0 && (plan() === 'running' || plan() === 'paused'),
+      run: () => goToScript(studio, 'plan.into', starts()),
+    },
     {
       id: 'draw.break',
       title: titles['draw.break'],
@@ -49,6 +71,18 @@ export function debugCommands(studio: Studio, properties: () => void): Command[]
       },
     },
   ];
+}
+
+/** Opens the first handler of the events by which an element works on a node. */
+async function goToScript(
+  studio: Studio,
+  command: 'script.handlers' | 'plan.into',
+  events: string[],
+): Promise<void> {
+  const { spots } = await studio.send(command, { events });
+  const first = spots[0];
+  if (first) revealDoc(studio.window, first.doc, first.at);
+  else toast(studio.window, 'note', text.draw.noScript(events.join(', ')));
 }
 
 function focusedRow(): string | undefined {

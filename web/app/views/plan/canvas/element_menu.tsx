@@ -3,7 +3,7 @@ import { CommandItem, StudioMenu } from '../../../parts/menu';
 import { text } from '../../../text';
 import type { MenuAt } from './use_element_menu';
 
-const debugging = ['draw.break', 'draw.breakEdit'];
+const debugging = ['draw.break', 'draw.breakEdit', 'draw.into', 'draw.script'];
 const editing = ['draw.properties', 'draw.rename', 'draw.duplicate', 'draw.remove'];
 
 /** What can be done with the element under the pointer, or the one that has the keyboard. */

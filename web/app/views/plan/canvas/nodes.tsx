@@ -79,7 +79,10 @@ function Badge() {
 function Turns({ of }: { of: string }) {
   const times = useLive((live) => live.turns.get(of)?.times ?? 0);
   const seconds = useLive((live) => live.turns.get(of)?.seconds ?? 0);
+  // In its first turn the badge has the time.
+  const first = useLive((live) => live.actor === of && times === 1);
   if (times === 0) return null;
+  if (first) return <span className="pturns num"> {words.times(times)}</span>;
   return <span className="pturns num"> {words.turns(times, seconds)}</span>;
 }
 
@@ -90,11 +93,13 @@ export const SupervisorHexagon = memo(function SupervisorHexagon(props: NodeProp
   const raised = useLive((live) =>
     rows.some((row) => row.id === live.taken) ? live.takenNumber : 0,
   );
+  const held = useLive((live) => live.standsAt.length > 0);
   const times = useLive((live) => live.turns.get(supervisorKey(supervisor))?.times ?? 0);
   const classes = [rows.length > 1 ? 'psup psup--many' : 'psup'];
   if (selected) classes.push('is-selected');
   if (watching) classes.push('is-watching');
   if (raised > 0) classes.push('is-raised', `is-raised--${raised % 2}`);
+  if (raised > 0 && held) classes.push('is-held');
   if (findings.errors > 0) classes.push('has-error');
   const Icon = raised > 0 ? IconBolt : watching ? IconEye : IconEyeClosed;
   return (

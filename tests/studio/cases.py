@@ -416,6 +416,17 @@ class Plans(Case):
         page.do("plan.break.clear")
         self.wait(lambda: not self.breakpoints.value["plans"], "no breakpoint")
 
+    def test_a_plan_stands_at_its_first_actor_before_the_world_begins(self):
+        page = self.open_plan()
+        page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="say")
+        page.do("run.start")  # is answered when the nodes are ready
+        self.wait(lambda: self.plan.value.get("stands_at"), "the breakpoint")
+        self.wait_clock("paused")
+        self.assertEqual((self.clock.value["t"], self.plan.value["levels"][0]["activation"]), (0, 1))
+        page.do("run.start")
+        self.wait(lambda: self.plan.value["levels"][0]["activation"] == 5, "the second round")
+        self.wait_clock("paused")
+
     def test_breakpoints_of_a_plan_are_kept_and_those_that_do_not_fit_say_why(self):
         page = self.open_plan()
         self.assertIn("needs one", self.refused("bad_input", "plan.break.set", doc="rounds.plan.json", kind="condition"))

@@ -127,6 +127,12 @@ void Run::step(int milliseconds) {
     desk_.board().touch("clock");
 }
 
+void Run::begin() {
+    if (!plan_.contains("stands_at")) return go_on();
+    rests_ = false;
+    desk_.board().touch("clock");
+}
+
 void Run::rest() {
     rests_ = true;
     pause();

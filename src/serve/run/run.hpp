@@ -90,6 +90,9 @@ public:
     double speed() const { return speed_; }
     bool paused() const { return paused_; }
     bool rests() const { return rests_; }
+    // The first start of a run: it goes on, unless its plan has come to a breakpoint already, at
+    // the instant 0, while its nodes were made ready.
+    void begin();
     bool plan_runs() const;
     // The plan that runs waits for an event of that name.
     bool plan_hears(const std::string& event) const {

@@ -123,7 +123,7 @@ void Workbench::get_nodes_ready() {
     robot_.load_changed(true, [this, go, start = start_](const std::vector<std::string>& failed) {
         if (!failed.empty()) say("error", joined(failed));
         if (start != start_) return;
-        if (go) run_.go_on();
+        if (go) run_.begin();
         end_start();
     });
 }

@@ -23,6 +23,7 @@ import { planCommands } from './commands/plan_commands';
 import { problemCommands } from './commands/problem_commands';
 import { robotCommands } from './commands/robot_commands';
 import { nodeCommands, runCommands } from './commands/run_commands';
+import { pastCommands } from './commands/past_commands';
 import { viewCommands } from './commands/view_commands';
 import { worldCommands } from './commands/world_commands';
 import { StudioContext } from './hooks';
@@ -46,6 +47,7 @@ function start(): void {
     fileCommands,
     problemCommands,
     viewCommands,
+    pastCommands,
     robotCommands,
     nodeCommands,
     runCommands,

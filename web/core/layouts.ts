@@ -30,7 +30,7 @@ export type Box = PanelArea | DocumentArea | Split;
 
 const left: PanelArea = { is: 'panels', panels: ['project'], size: 232, wide: 288 };
 const all: readonly DocumentKind[] = ['plan', 'script', 'world', 'other'];
-const dock = ['problems', 'events', 'plots', 'console'];
+const dock = ['problems', 'events', 'timeline', 'plots', 'console'];
 
 export const layoutPlans: Record<LayoutName, Split> = {
   Draw: {
@@ -118,7 +118,7 @@ export const layoutPlans: Record<LayoutName, Split> = {
       },
       {
         is: 'panels',
-        panels: ['events', 'problems', 'plots', 'console'],
+        panels: ['events', 'problems', 'timeline', 'plots', 'console'],
         size: 276,
         wide: 320,
         narrow: 180,

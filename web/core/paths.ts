@@ -34,3 +34,8 @@ export function badName(name: string): string {
   if (/^[. ]|[. ]$/.test(name)) return 'No dot or space at the beginning or end.';
   return '';
 }
+
+/** The trace of a plan's run, kept as a file. */
+export function isTrace(path: Path): boolean {
+  return path.endsWith('.trace.jsonl');
+}

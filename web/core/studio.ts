@@ -5,6 +5,7 @@ import { CommandError, Connection } from './connection';
 import { Documents } from './documents';
 import { Happenings } from './happenings';
 import type { Identity } from './identity';
+import { Past } from './past';
 import { PickList } from './picks';
 import { Plotter } from './plotter';
 import { Registry } from './registry';
@@ -22,6 +23,8 @@ export class Studio {
   readonly words: LiveWords;
   readonly happenings: Happenings;
   readonly plotter: Plotter;
+  /** Now, or the instant that is looked back at. */
+  readonly past: Past;
   /** The variables of the watch table. */
   readonly watched = new PickList();
   /** Of the project that is looked at; '' if there is none, null until the server has said it. */
@@ -45,8 +48,21 @@ export class Studio {
     this.words = new LiveWords(this.connection, timed);
     this.happenings = new Happenings(this.connection, timed);
     this.plotter = new Plotter(this.connection, this.topics, this.happenings, timed);
+    this.past = this.makePast();
     this.registry.failed.on((problem) => this.tell(problem));
     this.topics.subscribe('studio', {}, () => this.lookAtProject());
+  }
+
+  private makePast(): Past {
+    const { words } = this;
+    const past = new Past(this.connection, this.topics, () => words.ranges());
+    past.changed.on(() =>
+      words.showThen(past.at === null ? null : (node, address) => past.value(node, address)),
+    );
+    words.asked.on(() => past.ask());
+    past.failed.on((problem) => this.tell(problem));
+    this.topics.subscribe('history', {}, () => past.told());
+    return past;
   }
 
   /** Another project, or none: what is known of the one before is forgotten before anyone looks. */
@@ -57,6 +73,7 @@ export class Studio {
     this.folder = folder;
     if (first) return;
     this.documents.forget();
+    this.past.closeTrace();
     this.topics.forget(['studio', 'start', 'targets']);
     forgetProject(this.window);
   }

@@ -5,6 +5,7 @@
 
 import type { NodeId } from '../protocol/messages';
 import type { Connection } from './connection';
+import { Emitter } from './emitter';
 import { eachRecord } from './values';
 
 /** A changed value stays marked so long while its node runs. */
@@ -32,7 +33,11 @@ export interface Seen {
   changed: boolean[];
   /** While the node stands: what it was when it stood last. */
   before: (number | undefined)[];
+  /** The values are those of an instant of the past; before: what they are now. */
+  past?: true;
 }
+
+export type WordThen = (node: NodeId, address: number) => number | undefined;
 
 interface Looker {
   look: Look;
@@ -59,6 +64,9 @@ export interface WordsWorld {
 }
 
 export class LiveWords {
+  /** Other words are looked at. */
+  readonly asked = new Emitter<void>();
+  private then: WordThen | null = null;
   private readonly nodes = new Map<NodeId, NodeWords>();
   private readonly dirty = new Set<Looker>();
   private readonly marked = new Set<Looker>();
@@ -95,6 +103,24 @@ export class LiveWords {
     this.paint();
   }
 
+  /** Shows words as they were; null: as they are. */
+  showThen(then: WordThen | null): void {
+    if (then === null && this.then === null) return;
+    this.then = then;
+    for (const node of this.nodes.values())
+      for (const looker of node.lookers) this.dirty.add(looker);
+    this.paint();
+  }
+
+  /** What is looked at, of all nodes: node, address, count. */
+  ranges(): [NodeId, number, number][] {
+    return [...this.nodes].flatMap(([id, { lookers }]) =>
+      rangesOf([...lookers].map(({ look }) => look)).map(
+        ([address, count]): [NodeId, number, number] => [id, address, count],
+      ),
+    );
+  }
+
   value(node: NodeId, address: number): number | undefined {
     return this.nodes.get(node)?.words.get(address);
   }
@@ -129,6 +155,7 @@ export class LiveWords {
     const asked = JSON.stringify(ranges);
     if (asked === node.asked) return;
     node.asked = asked;
+    this.asked.emit();
     const endBefore = node.end;
     node.end = () => {};
     // The new one comes before the old one ends: what both ask for is not interrupted.
@@ -205,6 +232,7 @@ export class LiveWords {
   private seen({ look }: Looker): Seen {
     const node = this.nodeOf(look.node);
     const now = this.world.now();
+    if (this.then) return seenThen(look, node.words, this.then);
     const seen: Seen = { values: [], changed: [], before: [] };
     for (let address = look.first; address < look.first + look.count; address++) {
       const value = node.words.get(address);
@@ -219,6 +247,17 @@ export class LiveWords {
     }
     return seen;
   }
+}
+
+/** As they were, beside what they are. */
+function seenThen(look: Look, now: ReadonlyMap<number, number>, then: WordThen): Seen {
+  const addresses = Array.from({ length: look.count }, (_, index) => look.first + index);
+  return {
+    values: addresses.map((address) => then(look.node, address)),
+    changed: addresses.map(() => false),
+    before: addresses.map((address) => now.get(address)),
+    past: true,
+  };
 }
 
 /** One range for each variable that is looked at, by address. */

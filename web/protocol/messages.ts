@@ -301,6 +301,64 @@ export interface Happening {
   text: string;
 }
 
+/** Something that lasted, on a timeline. */
+export interface HistoryBar {
+  from: number;
+  /** missing: it goes on */
+  to?: number;
+  name?: string;
+  /** how it ended: a state, or interrupted */
+  end?: string;
+  /** of those that are drawn as this one */
+  count?: number;
+}
+
+/** Something that happened, on a timeline. */
+export interface HistoryMark {
+  t: number;
+  name?: string;
+  /** where an event led */
+  to?: string;
+  count?: number;
+}
+
+/** A row of a timeline. */
+export interface HistoryLane {
+  kind: 'actors' | 'supervisor' | 'events';
+  /** instance path of the plan; empty for events */
+  path: string;
+  /** of the supervisor, of the source of events */
+  name: string;
+  bars: HistoryBar[];
+  marks: HistoryMark[];
+}
+
+/** A word over time. */
+export interface HistoryCurve {
+  node: number;
+  /** missing: the load that the node puts on the bus, in hundredths of a percent */
+  address?: number;
+  /** the lowest value of each column of equal time, null where it is not recorded */
+  low?: Json;
+  /** the highest */
+  high: Json;
+}
+
+/** Words of a node as they were. */
+export interface HistoryWords {
+  node: NodeId;
+  address: number;
+  /** null: not recorded */
+  words: Json[];
+}
+
+/** What a node did, and where it stood. */
+export interface HistoryNode {
+  node: NodeId;
+  state: string;
+  line?: number;
+}
+
 /** A line of the console. */
 export interface Line {
   number: number;
@@ -528,6 +586,26 @@ export interface NodeNote {
   what: string;
 }
 
+/** A file of a project that is sent to a robot. */
+export interface DeployFile {
+  /** from the border of the project */
+  path: Path;
+  size: number;
+  /** in hexadecimal digits */
+  sha256: string;
+}
+
+/** A version of the project on a robot. */
+export interface Deployed {
+  /** 0: the folder as it was given */
+  version: number;
+  name: string;
+  /** when it came */
+  when_wall?: number;
+  /** in force */
+  current: boolean;
+}
+
 /** Someone who asks for the wheel. */
 export interface Asked {
   client: number;
@@ -581,6 +659,41 @@ export interface Commands {
   }; out: Record<never, never> };
   /** Lets the wheel go. */
   'driver.leave': { in: Record<never, never>; out: Record<never, never> };
+  /** A robot that serves itself: announces another version of its project. */
+  'deploy.begin': { in: {
+    name: string;
+    /** the folder of its vagus.json, from the border of the project; empty: the border itself */
+    project: string;
+    files: DeployFile[];
+  }; out: Record<never, never> };
+  /** Bytes of an announced file; the files in their order, each from its first byte to its last, an empty one by one empty part. */
+  'deploy.part': { in: {
+    path: Path;
+    from: number;
+    base64: string;
+  }; out: Record<never, never> };
+  /** Checks what came, stops the run, puts the version in force and starts it. The version before is in force again if it does not start within 10 s. */
+  'deploy.commit': { in: Record<never, never>; out: {
+    /** stopped: somebody pressed Stop before it ran; waiting: it is in force and does not start yet */
+    result: 'started' | 'stopped' | 'refused' | 'rolled_back' | 'waiting';
+    /** that is in force now */
+    version: number;
+    findings: Finding[];
+    why?: string;
+  } };
+  /** The version before is in force again, and started. */
+  'deploy.back': { in: Record<never, never>; out: {
+    /** stopped: somebody pressed Stop before it ran; waiting: it is in force and does not start yet */
+    result: 'started' | 'stopped' | 'refused' | 'rolled_back' | 'waiting';
+    /** that is in force now */
+    version: number;
+    findings: Finding[];
+    why?: string;
+  } };
+  /** Versions that are kept. */
+  'deploy.list': { in: Record<never, never>; out: {
+    versions: Deployed[];
+  } };
   /** Copies an example into the user's folder and opens it. */
   'project.example': { in: {
     id: string;
@@ -966,6 +1079,70 @@ export interface Commands {
     name: Name;
     value: Json;
   }; out: Record<never, never> };
+  /** An instant of the run, or of a trace that is kept as a file. What was not recorded is null or missing. */
+  'history.at': { in: {
+    t: number;
+    /** words of nodes that are asked for: [node, address, count] */
+    ranges?: Json[];
+    /** so many of the last happenings until then */
+    events?: number;
+    trace?: Path;
+  }; out: {
+    run: number;
+    t: number;
+    /** until when something is known */
+    to: number;
+    /** as the topic plan was; missing without a plan */
+    plan?: Json;
+    /** when the plan made its last step before */
+    before?: number;
+    /** when it made its next one */
+    next?: number;
+    values: HistoryWords[];
+    /** [index in the scene, x, y, angle] */
+    robots: Json[];
+    /** [number, x, y, angle] */
+    objects: Json[];
+    nodes: HistoryNode[];
+    events: Happening[];
+    /** missing: thinned out, up to 0.2 s older than asked */
+    exact?: boolean;
+  } };
+  /** What a timeline draws of a span of time: what falls into one of its pixels is merged. */
+  'history.lanes': { in: {
+    from: number;
+    to: number;
+    /** pixels */
+    width: number;
+    /** [node, address] */
+    words?: Json[];
+    trace?: Path;
+  }; out: {
+    run: number;
+    from: number;
+    to: number;
+    lanes: HistoryLane[];
+    curves: HistoryCurve[];
+    loads: HistoryCurve[];
+    /** events of sources that had no room */
+    left_out: number;
+  } };
+  /** Reads a trace that is kept as a file, NAME.trace.jsonl. */
+  'history.open': { in: {
+    trace: Path;
+  }; out: {
+    from: number;
+    to: number;
+    lines: number;
+    /** lines that are none of a trace */
+    refused: number;
+    /** the project has the plan of that name */
+    plan: boolean;
+  } };
+  /** Keeps the trace of the run as a file of the project. */
+  'history.save': { in: Record<never, never>; out: {
+    path: Path;
+  } };
   /** Puts a robot or an object somewhere else, as a hand would. */
   'world.move': { in: {
     robot?: string;
@@ -1147,6 +1324,21 @@ export interface Topics {
     /** what happened, the newest last */
     story: Line[];
   } };
+  /** What is kept of the run that goes, or went last: history.at and history.lanes show it. */
+  'history': { kind: 'document'; of: Record<never, never>; is: {
+    /** another one for each run */
+    run: number;
+    kind: 'none' | 'simulated' | 'bus' | 'trace';
+    name: string;
+    from: number;
+    to: number;
+    /** what is older is thinned out to 5 instants a second */
+    fine_from?: number;
+    /** older lines of the trace are not kept */
+    plan_from?: number;
+    /** older events are not kept */
+    events_from?: number;
+  } };
   /** What state.put kept. */
   'state': { kind: 'document'; of: Record<never, never>; is: {
     values: Json;
@@ -1230,6 +1422,12 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Parameter: { name: 'Name', size: 'int(-65535..65535)' },
   LocalEvent: { name: 'Name', help: 'line(400)' },
   Happening: { number: 'number', t: 'number', wall: 'number', kind: 'word(event|state|fault|appeared|gone|loaded|plan|lost)', node: 'int(0..65534)', source: 'line(128)', name: 'line(200)', args: 'Words', text: 'text(1000)' },
+  HistoryBar: { from: 'number', to: 'number?', name: 'line(200)?', end: 'line(200)?', count: 'number?' },
+  HistoryMark: { t: 'number', name: 'line(200)?', to: 'line(200)?', count: 'number?' },
+  HistoryLane: { kind: 'word(actors|supervisor|events)', path: 'line(4096)', name: 'line(200)', bars: '[HistoryBar; 20000]', marks: '[HistoryMark; 20000]' },
+  HistoryCurve: { node: 'int(0..65534)', address: 'int(0..65535)?', low: 'json?', high: 'json' },
+  HistoryWords: { node: 'NodeId', address: 'int(0..65535)', words: '[json; 20000]' },
+  HistoryNode: { node: 'NodeId', state: 'line(32)', line: 'int(1..10000000)?' },
   Line: { number: 'number', t: 'number', kind: 'word(note|warning|error|log)', text: 'text(4000)' },
   Suggestion: { label: 'line(200)', kind: 'word(variable|constant|event|native|sub|keyword|function|actor|supervisor|template|value)', detail: 'line(300)', help: 'text(1000)', insert: 'line(400)' },
   Spot: { doc: 'Doc', at: 'Place', end: 'Place', line_text: 'line(400)' },
@@ -1254,6 +1452,8 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   ListingLine: { line: 'int(0..10000000)', address: 'int(0..65535)', words: 'int(1..65535)', text: 'line(200)' },
   Failed: { node: 'NodeId', why: 'text(2000)' },
   NodeNote: { node: 'NodeId', what: 'text(2000)' },
+  DeployFile: { path: 'Path', size: 'int(0..16777216)', sha256: 'line(64)' },
+  Deployed: { version: 'int(0..4294967295)', name: 'line(200)', when_wall: 'number?', current: 'bool' },
   Asked: { client: 'int(1..1000000000)', name: 'line(100)', until_wall: 'number' },
 };
 export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; out: Fields }>> = {
@@ -1264,6 +1464,11 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'driver.ask': { may: 'drive', out: { driver: 'bool' } },
   'driver.answer': { may: 'driver', out: {} },
   'driver.leave': { may: 'driver', out: {} },
+  'deploy.begin': { may: 'driver', out: {} },
+  'deploy.part': { may: 'driver', out: {} },
+  'deploy.commit': { may: 'driver', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
+  'deploy.back': { may: 'driver', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
+  'deploy.list': { may: 'look', out: { versions: '[Deployed; 100]' } },
   'project.example': { may: 'driver', out: { path: 'line(1024)' } },
   'project.open': { may: 'driver', out: { path: 'line(1024)' } },
   'project.new': { may: 'driver', out: { path: 'line(1024)' } },
@@ -1325,6 +1530,10 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'plan.break.set': { may: 'driver', out: { number: 'number' } },
   'plan.break.clear': { may: 'driver', out: {} },
   'plan.set': { may: 'driver', out: {} },
+  'history.at': { may: 'look', out: { run: 'number', t: 'number', to: 'number', plan: 'json?', before: 'number?', next: 'number?', values: '[HistoryWords; 256]', robots: '[json; 1024]', objects: '[json; 10000]', nodes: '[HistoryNode; 2048]', events: '[Happening; 2000]', exact: 'bool?' } },
+  'history.lanes': { may: 'look', out: { run: 'number', from: 'number', to: 'number', lanes: '[HistoryLane; 600]', curves: '[HistoryCurve; 16]', loads: '[HistoryCurve; 64]', left_out: 'number' } },
+  'history.open': { may: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
+  'history.save': { may: 'driver', out: { path: 'Path' } },
   'world.move': { may: 'driver', out: {} },
   'world.put': { may: 'driver', out: { number: 'number' } },
   'world.take': { may: 'driver', out: {} },
@@ -1350,6 +1559,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'breakpoints': { kind: 'document', is: { breakpoints: '[Breakpoint; 1000]', plans: '[PlanBreakpoint; 1000]' } },
   'clock': { kind: 'document', is: { t: 'number', wall: 'number', state: 'word(none|running|paused|ended|hanging|dead)', speed: 'number', real: 'number', why: 'text(2000)?' } },
   'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', stands_at: '[number; 1000]?', levels: '[PlanLevel; 64]', story: '[Line; 200]' } },
+  'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
   'state': { kind: 'document', is: { values: 'json' } },
   'scene': { kind: 'document', is: { name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },
   'happenings': { kind: 'stream', item: 'Happening' },

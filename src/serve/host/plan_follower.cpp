@@ -133,6 +133,21 @@ void PlanFollower::see(const plan::TraceEvent& event) {
     }
 }
 
+std::vector<PlanFollower::Watching> PlanFollower::watching() const {
+    std::vector<Watching> found;
+    for (const Level& level : levels_) {
+        if (!level.plan) continue;
+        for (const plan::Supervisor& one : level.plan->globals) {
+            if (!level.resting.contains(one.name)) found.push_back({level.path, one.name, true});
+        }
+        if (!level.actor) continue;
+        for (const plan::Supervisor& one : level.actor->supervisors) {
+            found.push_back({level.path, one.name, false});
+        }
+    }
+    return found;
+}
+
 Json PlanFollower::level_json(const Level& level) const {
     Json variables = Json::array();
     Json supervisors = Json::array();

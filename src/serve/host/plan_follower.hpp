@@ -31,6 +31,12 @@ public:
     void stand_at(const run::Where& where);
     nlohmann::json document(double now, bool paused) const;
     bool over() const { return result_.has_value(); }
+    // Supervisors that watch now, of all levels.
+    struct Watching {
+        std::string path, name;
+        bool global = false;
+    };
+    std::vector<Watching> watching() const;
 
 private:
     struct Level {

@@ -17,6 +17,7 @@
 #include "serve/host/plan_follower.hpp"
 #include "serve/host/plan_stops.hpp"
 #include "serve/host/plan_talk.hpp"
+#include "serve/host/recorder.hpp"
 #include "serve/host/scene.hpp"
 #include "serve/process.hpp"
 #include "session/bus_names.hpp"
@@ -97,7 +98,17 @@ private:
 
     void send_frames() {
         wire::Frame frame;
-        while (session_->world().bus().take(link_, frame)) pipe_.send('F', encode_frame(frame));
+        while (session_->world().bus().take(link_, frame)) {
+            pipe_.send('F', stamped(encode_frame(frame)));
+        }
+    }
+
+    // What changed in the world. A server that takes nothing misses it, not the run.
+    void send_records() {
+        if (recorder_.overflows()) recorder_.forget();
+        if (pipe_.has_unsent()) return;
+        const std::string records = recorder_.take();
+        if (!records.empty()) pipe_.send('H', records);
     }
 
     // ---- opening ----
@@ -361,6 +372,7 @@ private:
 
     void begin_session(session::SimSession& session, const Json& order) {
         session_ = &session;
+        recorder_.begin();
         const auto link = session.world().bus().add({.name = "studio"});
         if (!link.ok()) return fail(link.error().what);
         link_ = link.value();
@@ -407,6 +419,8 @@ private:
     void instant(Time at) {
         at_ = at;
         send_frames();
+        recorder_.look(session_->world());
+        if (recorder_.is_due_to_send()) send_records();
         for (;;) {
             const Time wall = wall_now();
             if (wall >= next_tell_ || wall >= next_poses_) look_around(wall);
@@ -444,6 +458,7 @@ private:
     void look_around(Time wall) {
         take_packets();
         pipe_.flush();
+        send_records();
         if (wall >= next_poses_) {
             next_poses_ = wall + kPosesEvery;
             pipe_.send('P', stamped(poses_of(session_->world())));
@@ -528,6 +543,7 @@ private:
     Duration bus_time_{};              // of a plan on a bus
     Time bus_time_at_{};               // when it was counted
 
+    Recorder recorder_;
     Pacer pacer_;
     int holds_ = 0;
     uint64_t instants_ = 0;

@@ -1,6 +1,7 @@
 // One run, in a process of its own: a world, its nodes, its bus and a plan on one clock that is
 // paced by the wall clock. It hears what to do, and tells all there is to see, over a socket pair;
-// packets of kind J are JSON, F a frame of the bus, P poses, R rays, I a picture.
+// packets of kind J are JSON, F a frame of the bus, P poses, R rays, I a picture, H records for the
+// history (serve/history/record.hpp). What it tells of F, P, R, I begins with the time, a double.
 //
 //     vagus run-host      (not for people: the studio starts it)
 //

@@ -47,10 +47,10 @@ void BusCarrier::hear(const net::Event& event) {
     }
 }
 
-std::vector<wire::Frame> BusCarrier::take() {
-    std::vector<wire::Frame> frames;
+std::vector<Carried> BusCarrier::take() {
+    std::vector<Carried> frames;
     wire::Frame frame;
-    while (hub_.take(own_, frame)) frames.push_back(frame);
+    while (hub_.take(own_, frame)) frames.push_back({frame});
     return frames;
 }
 

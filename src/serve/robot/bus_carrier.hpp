@@ -25,7 +25,7 @@ public:
     Result<std::string> open_door();
 
     void send(const wire::Frame& frame) override { hub_.receive(own_, frame); }
-    std::vector<wire::Frame> take() override;
+    std::vector<Carried> take() override;
     Connection connection() const override { return connection_; }
     std::string why() const override { return why_; }
     std::vector<LinkView> links() const override;

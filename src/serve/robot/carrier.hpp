@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,12 @@ struct LinkView {
     uint64_t frames_in = 0, frames_out = 0, lost = 0;
 };
 
+// A frame, and when it travelled by the clock of a simulation.
+struct Carried {
+    wire::Frame frame;
+    std::optional<double> t = {};
+};
+
 enum class Connection { Connecting, Connected, Lost, Failed };
 
 class Carrier {
@@ -24,7 +31,7 @@ public:
     virtual ~Carrier() = default;
     virtual void send(const wire::Frame& frame) = 0;
     // What came since.
-    virtual std::vector<wire::Frame> take() = 0;
+    virtual std::vector<Carried> take() = 0;
     virtual Connection connection() const = 0;
     // Why it is lost or failed: a sentence.
     virtual std::string why() const = 0;

@@ -11,14 +11,16 @@ using Json = nlohmann::json;
 
 void Robot::happen(const char* kind, uint16_t node, const std::string& name,
                    const std::string& text, const std::vector<int16_t>& args) {
-    desk_.board().add("happenings", {{"t", hints_.time()},
-                                     {"wall", desk_.wall_ms()},
-                                     {"kind", kind},
-                                     {"node", node},
-                                     {"source", node == 0 ? "main" : name_of(node)},
-                                     {"name", name},
-                                     {"args", args},
-                                     {"text", text}});
+    const Json happening = {{"t", time()},
+                            {"wall", desk_.wall_ms()},
+                            {"kind", kind},
+                            {"node", node},
+                            {"source", node == 0 ? "main" : name_of(node)},
+                            {"name", name},
+                            {"args", args},
+                            {"text", text}};
+    told_.happening(happening);
+    desk_.board().add("happenings", happening);
 }
 
 void Robot::hear(const debug::Event& event, const debug::NodeDescribed& described) {
@@ -54,6 +56,7 @@ void Robot::hear(const debug::Event& event, const debug::StateChanged& state) {
         known.why = "asked";
     }
     const bool stands = state.state != debug::ProgramState::Running && state.at.line > 0;
+    told_.stands(time(), event.node, debug::name_of(state.state), stands ? state.at.line : 0);
     happen("state", event.node, debug::name_of(state.state),
            stands ? fmt::format("line {}", state.at.line) : "");
 }

@@ -106,6 +106,18 @@ std::string Robot::described_name(uint16_t node) const {
     return view && view->described ? view->name : std::string();
 }
 
+RobotCounts Robot::counts() const {
+    RobotCounts counts{.events = events_};
+    if (!network_) return counts;
+    counts.lost = network_->counts().dropped;
+    for (const LinkView& link : carrier_->links()) counts.lost += link.lost;
+    for (const uint16_t node : live_nodes()) {
+        ++counts.nodes;
+        if (network_->node(node)->state == debug::ProgramState::Running) ++counts.running;
+    }
+    return counts;
+}
+
 std::vector<uint16_t> Robot::without_script() const {
     std::vector<uint16_t> nodes = live_nodes();
     std::erase_if(nodes, [this](uint16_t node) { return !doc_of(node).empty(); });
@@ -365,7 +377,12 @@ void Robot::tick(Time now) {
         if (connection_ == Connection::Connected) network_->list_nodes();
         desk_.board().touch("robot");
     }
-    for (const wire::Frame& frame : carrier_->take()) network_->receive(now, frame);
+    for (const Carried& carried : carrier_->take()) {
+        network_->receive(now, carried.frame);
+        heard_t_ = carried.t;
+        for (const debug::Event& event : network_->take_events()) hear(event);
+    }
+    heard_t_.reset();
     watch_what_is_shown();
     network_->tick(now);
     for (const debug::Event& event : network_->take_events()) hear(event);

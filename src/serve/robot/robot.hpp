@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,25 @@ struct RobotHints {
     };
 };
 
+// Since the target was connected.
+struct RobotCounts {
+    uint64_t events = 0, lost = 0;  // events of nodes; frames that did not fit somewhere
+    size_t nodes = 0, running = 0;  // that are there
+};
+
+// For the history: what happened, a Happening of the protocol; where a node stands; words that were
+// seen, and words that nobody looks at any more.
+struct RobotTold {
+    using Words = std::span<const int16_t>;
+    std::function<void(const nlohmann::json& happening)> happening = [](auto&) {};
+    std::function<void(double t, uint16_t node, const std::string& state, int line)> stands =
+        [](double, uint16_t, auto&, int) {};
+    std::function<void(double t, uint16_t node, uint16_t address, Words values)> words =
+        [](double, uint16_t, uint16_t, Words) {};
+    std::function<void(double t, uint16_t node, uint16_t address, uint16_t count)> unwatched =
+        [](double, uint16_t, uint16_t, uint16_t) {};
+};
+
 class Robot {
 public:
     using Json = nlohmann::json;
@@ -57,6 +77,7 @@ public:
     ~Robot();
 
     void set_hints(RobotHints hints) { hints_ = std::move(hints); }
+    void on_told(RobotTold told) { told_ = std::move(told); }
     // What is told to the people: a line of the console.
     void on_say(std::function<void(const std::string& kind, const std::string& text)> say) {
         say_ = std::move(say);
@@ -93,6 +114,7 @@ public:
     std::vector<uint16_t> without_script() const;
     // So many nodes are there and have told what they are.
     bool all_described(size_t count) const { return live_nodes().size() >= count; }
+    RobotCounts counts() const;
     // A document has another text: marks and breakpoints follow.
     void script_changed(const std::string& file);
     // Breakpoints are as the project keeps them: sets them on the nodes.
@@ -173,9 +195,11 @@ private:
     void happen(const char* kind, uint16_t node, const std::string& name, const std::string& text,
                 const std::vector<int16_t>& args = {});
     void watch_what_is_shown();
+    void tell_unwatched(uint16_t node, const debug::NodeView& view, const std::string& name);
     static std::map<std::string, std::pair<uint32_t, uint32_t>> variables_of(
         const debug::NodeView& view);
     void count_rates(Time now);
+    double time() const { return heard_t_ ? *heard_t_ : hints_.time(); }
     void restore(uint16_t node);
     ScriptBreakpoint* breakpoint_of(uint16_t node, int line);
     std::string doc_of(uint16_t node) const;
@@ -191,6 +215,7 @@ private:
     Scripts& scripts_;
     ScriptBreakpoints& breakpoints_;
     RobotHints hints_;
+    RobotTold told_;
     std::function<void(const std::string&, const std::string&)> say_ = [](auto&, auto&) {};
     std::function<void()> breakpoints_changed_ = [] {};
 
@@ -199,6 +224,7 @@ private:
     Connection connection_ = Connection::Connecting;
     std::unique_ptr<debug::Network> network_;
     Time now_{};
+    std::optional<double> heard_t_;  // of the frame that is heard, by the clock of a simulation
     std::map<uint16_t, Known> known_;
     std::vector<std::unique_ptr<Batch>> batches_;
 

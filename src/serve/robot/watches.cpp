@@ -145,12 +145,22 @@ void Robot::watch_what_is_shown() {
             if (range.ok()) (void)network_->watch(node, range.value(), kWatchedEvery).ok();
         }
         for (const std::string& name : watched_[node]) {
-            if (!names.contains(name)) network_->unwatch(node, name);
+            if (names.contains(name)) continue;
+            network_->unwatch(node, name);
+            tell_unwatched(node, *view, name);
         }
         // Who looks again wants what is, not what was.
         if (names.empty()) values_.erase(node);
         watched_[node] = std::move(names);
     }
+}
+
+void Robot::tell_unwatched(uint16_t node, const debug::NodeView& view, const std::string& name) {
+    const auto places = variables_of(view);
+    const auto place = places.find(name);
+    if (place == places.end()) return;
+    told_.unwatched(time(), node, static_cast<uint16_t>(place->second.first),
+                    static_cast<uint16_t>(place->second.second));
 }
 
 // Names with address and size: the node's, then the script's.
@@ -175,11 +185,12 @@ void Robot::hear(const debug::Event& event, const debug::VariableChanged& change
     const auto place = places.find(changed.name);
     if (place == places.end()) return;
     auto address = static_cast<uint16_t>(place->second.first);
+    told_.words(time(), event.node, address, changed.values);
     for (const int16_t value : changed.values) {
         values_[event.node][address] = value;
         const auto samples = samples_.find({event.node, address});
         if (samples != samples_.end()) {
-            samples->second.kept.push_back({hints_.time(), value});
+            samples->second.kept.push_back({time(), value});
             ++samples->second.end;
             if (samples->second.kept.size() > kSamplesKept) samples->second.kept.pop_front();
         }

@@ -11,6 +11,8 @@ namespace vagus::serve {
 
 using Json = nlohmann::json;
 
+static constexpr const char* kLateInTrace = "\"kind\":\"late\"";  // docs/formats.md, traces
+
 // The latest bytes of a kind, sent when they are new.
 struct FlowWatch final : BinaryWatch {
     explicit FlowWatch(const Run::Flow& its_flow) : flow(its_flow) {}
@@ -77,6 +79,7 @@ Status Run::open(const RunOrder& order, Time now) {
     t_ = 0;
     plan_ = Json::object();
     trace_.clear();
+    late_checks_ = 0;
     frames_.clear();
     shown_ = Json::object();
     Json told = {{"do", "open"},
@@ -249,11 +252,14 @@ void Run::hear(const Packet& packet) {
     heard_ = now_;
     if (packet.kind == 'J') return hear_json(Json::parse(packet.bytes, nullptr, false));
     if (opening_) return;
+    if (packet.kind == 'H') return told_.records(packet.bytes);
     if (packet.kind != 'F') return hear_flow(packet);
-    wire::Frame frame;
-    if (!decode_frame(packet.bytes, frame)) return;
+    Carried carried{{}, 0.0};
+    if (packet.bytes.size() < sizeof(double)) return;
+    std::memcpy(&*carried.t, packet.bytes.data(), sizeof(double));
+    if (!decode_frame(packet.bytes.substr(sizeof(double)), carried.frame)) return;
     ++frames_in_;
-    frames_.push_back(frame);
+    frames_.push_back(carried);
 }
 
 void Run::hear_flow(const Packet& packet) {
@@ -299,6 +305,8 @@ void Run::hear_json(const Json& told) {
         breakpoints_told_(told["list"]);
     } else if (what == "trace") {
         trace_.push_back(told["line"]);
+        if (trace_.back().find(kLateInTrace) != std::string::npos) ++late_checks_;
+        told_.trace(trace_.back());
         if (trace_.size() > kTraceKept) trace_.pop_front();
     } else if (what == "over") {
         rest();
@@ -344,6 +352,7 @@ void Run::hear_end(const ChildEnd& end) {
     state_ = State::Dead;
     has_world_ = false;
     child_.reset();
+    ++deaths_;
     if (plan_.contains("state") && plan_["state"] != "ended") {
         plan_["state"] = "ended";
         plan_["result"] = "Error";

@@ -64,6 +64,12 @@ public:
     void on_breakpoints(std::function<void(const Json& list)> told) {
         breakpoints_told_ = std::move(told);
     }
+    // What it tells for the history: a line of the trace, or records of the world.
+    struct Told {
+        std::function<void(const std::string& line)> trace = [](auto&) {};
+        std::function<void(const std::string& bytes)> records = [](auto&) {};
+    };
+    void on_told(Told told) { told_ = std::move(told); }
     // Its process has died while a plan ran, or was about to: the plan can put nothing in order.
     void on_plan_died(std::function<void()> died) { plan_died_ = std::move(died); }
 
@@ -115,6 +121,10 @@ public:
 
     double time() const { return t_; }
     std::optional<double> load() const { return load_; }
+    double measured_speed() const { return real_; }
+    uint64_t deaths() const { return deaths_; }  // of run hosts
+    // Checks of supervisors that began late, in this run.
+    uint64_t late_checks() const { return late_checks_; }
     std::string robot_of(uint16_t node) const;
     size_t node_count() const;
     // Sources that the world has loaded into nodes.
@@ -127,7 +137,7 @@ public:
 
     // ---- Carrier ----
     void send(const wire::Frame& frame) override;
-    std::vector<wire::Frame> take() override { return std::exchange(frames_, {}); }
+    std::vector<Carried> take() override { return std::exchange(frames_, {}); }
     Connection connection() const override;
     std::string why() const override { return why_; }
     std::vector<LinkView> links() const override;
@@ -157,6 +167,7 @@ private:
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
     std::function<void()> plan_died_ = [] {};
     std::function<void(const Json&)> breakpoints_told_ = [](const Json&) {};
+    Told told_;
     uint64_t asked_ = 0;
     std::map<uint64_t, Answer> answers_;  // of the host, by number of what was asked
     std::map<uint16_t, std::string> programs_;
@@ -167,11 +178,12 @@ private:
     bool rests_ = true;
     bool opens_plan_ = false;
     bool has_world_ = false;
+    uint64_t deaths_ = 0, late_checks_ = 0;
 
     std::optional<Child> child_;
     State state_ = State::None;
     std::string why_;
-    std::vector<wire::Frame> frames_;
+    std::vector<Carried> frames_;
     uint64_t frames_in_ = 0, frames_out_ = 0;
     Json scene_ = Json::object();
     Json plan_ = Json::object();

@@ -40,6 +40,7 @@ Status Workbench::choose_target(const std::string& target) {
     if (!connected.ok()) return connected.error();
     bus_ = std::move(connected.value());
     bus_since_ = now_;
+    record_bus("");
     robot_.connect(*bus_, target, target, "bus", now_);
     return Status::done();
 }
@@ -83,6 +84,7 @@ Status Workbench::open_world(const std::string& plan, const Json& set, bool keep
     ++start_;
     opening_ = Opening{now_ + kDescribeWithin, false, then_go};
     loaded_by_world_.clear();
+    record_plan(order);
     return run_.open(order, now_);
 }
 
@@ -121,9 +123,10 @@ void Workbench::get_nodes_ready() {
     opening_.reset();
     robot_.place_breakpoints();
     robot_.load_changed(true, [this, go, start = start_](const std::vector<std::string>& failed) {
-        if (!failed.empty()) say("error", joined(failed));
+        tell_failed_loads(failed);
         if (start != start_) return;
         if (go) run_.begin();
+        if (go) ++runs_;
         end_start();
     });
 }
@@ -132,6 +135,12 @@ void Workbench::end_start() {
     const std::optional<Call> call = opening_call_;
     opening_call_.reset();
     if (call) call->done();
+}
+
+void Workbench::tell_failed_loads(const std::vector<std::string>& failed) {
+    if (failed.empty()) return;
+    failed_loads_ = joined(failed);
+    say("error", failed_loads_);
 }
 
 void Workbench::give_up_start(const std::string& why) {
@@ -186,7 +195,7 @@ void Workbench::start(const Call& call) {
 // A plan that was held, and the nodes of a bus that stand.
 void Workbench::go_on(const Call& call) {
     robot_.load_changed(true, [this, call, start = start_](const std::vector<std::string>& failed) {
-        if (!failed.empty()) say("error", joined(failed));
+        tell_failed_loads(failed);
         if (start != start_) return call.fail("failed", kStoppedMeanwhile);
         run_.go_on();
         if (bus_) robot_.run_all([](auto) {});
@@ -205,9 +214,10 @@ void Workbench::start_plan_on_bus(const Call& call, RunOrder order, bool go) {
     ++start_;
     robot_.load_changed(true, [this, order = std::move(order), go,
                                start = start_](const std::vector<std::string>& failed) {
-        if (!failed.empty()) say("error", joined(failed));
+        tell_failed_loads(failed);
         if (start != start_) return;
         opening_ = Opening{.go = go};
+        record_bus(order.plan);
         const Status opened = run_.open(order, now_);
         if (!opened.ok()) world_failed(opened.error().what);
     });
@@ -222,6 +232,7 @@ void Workbench::plan_joined_bus() {
         if (!failed.empty()) say("warning", joined(failed));
         if (start != start_) return;
         go ? run_.go_on() : run_.tell({{"do", "plan.step"}});
+        ++runs_;
         end_start();
     });
 }
@@ -255,12 +266,13 @@ void Workbench::start_scripts(const Call& call) {
     }
     rest_at_.reset();
     robot_.load_changed(true, [this, call, start = start_](const std::vector<std::string>& failed) {
-        if (!failed.empty()) say("error", joined(failed));
+        tell_failed_loads(failed);
         if (start != start_) return call.fail("failed", kStoppedMeanwhile);
         robot_.run_standing([this, call, start](const std::vector<std::string>& stayed) {
             if (!stayed.empty()) say("warning", joined(stayed));
             if (start != start_) return call.fail("failed", kStoppedMeanwhile);
             if (simulates()) run_.go_on();
+            ++runs_;
             call.done();
         });
     });
@@ -315,7 +327,10 @@ void Workbench::stop_everything() {
 }
 
 void Workbench::declare_run_commands() {
-    desk_.command("stop", [this](const Call& call) { stop(call); });
+    desk_.command("stop", [this](const Call& call) {
+        stopped_();
+        stop(call);
+    });
     desk_.command("run.start", [this](const Call& call) { start(call); });
     desk_.command("run.step", [this](const Call& call) { step(call); });
     desk_.command("run.pause", [this](const Call& call) {

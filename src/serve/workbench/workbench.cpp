@@ -27,13 +27,11 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
       library_(places.library),
       settings_(places.settings),
       scripts_(files_,
-               [this](const std::string& name, uint16_t id) {
-                   const auto live = robot_.target_of(name, id);
-                   return live ? *live : session::known_node(name);
-               }),
+               [this](const std::string& name, uint16_t id) { return target_of(name, id); }),
       editing_(desk, files_, scripts_),
       robot_(desk, files_, scripts_, breakpoints_),
-      run_(desk, places.program) {
+      run_(desk, places.program),
+      history_(desk, files_) {
     const auto tell = [this](const std::string& kind, const std::string& text) {
         say(kind, with_short_paths(text));
     };
@@ -75,6 +73,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     run_.on_breakpoints([this](const Json& list) {
         if (plan_breakpoints_.note(list)) desk_.board().touch("breakpoints");
     });
+    record_history();
     desk.on_people([this] { desk_.board().touch("studio"); });
     declare_topics();
     declare_project_commands();
@@ -89,6 +88,7 @@ Workbench::~Workbench() = default;
 
 void Workbench::say(const std::string& kind, const std::string& text) {
     desk_.board().add("console", {{"t", clock()}, {"kind", kind}, {"text", text}});
+    line_(kind, text);
 }
 
 // Seconds: of the simulation, or since a bus was connected.
@@ -213,6 +213,7 @@ Status Workbench::open_example(const std::string& id, Time now) {
 void Workbench::enter(OpenedProject project) {
     project.copy_of = library_.example_of(project.root);
     project_ = std::move(project);
+    if (!places_.target.empty()) project_->target = places_.target;
     files_.enter(project_->root, project_->only);
     scripts_.prefer(project_->scripts);
     scripts_.reread();
@@ -243,6 +244,7 @@ EditedProject Workbench::edited_project() const {
 
 void Workbench::close() {
     leave_target();
+    history_.forget();
     files_.leave();
     scripts_.reread();
     breakpoints_ = {};
@@ -349,6 +351,7 @@ void Workbench::tick(Time now) {
     run_.tick(now);
     watch_run();
     robot_.tick(now);
+    if (run_.is_open() || bus_) history_.tick(history_clock());
     add_missing_scripts();
     get_nodes_ready();
     go_into_script();

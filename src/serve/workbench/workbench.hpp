@@ -26,6 +26,7 @@
 #include "serve/run/run.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/workbench/history_desk.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
 #include "serve/workbench/opened.hpp"
@@ -40,9 +41,22 @@ constexpr int kStepMs = 10;           // of run.step, unless it says otherwise
 
 struct WorkbenchPlaces {
     LibraryPlaces library;
-    std::string settings;  // file
-    std::string program;   // vagus, for run hosts
-    std::string home;      // where choosing a folder begins
+    std::string settings;     // file
+    std::string program;      // vagus, for run hosts
+    std::string home;         // where choosing a folder begins
+    std::string target = {};  // of every project that is opened; empty: its own
+};
+
+// What can be counted of a robot that works, since the server began.
+struct Figures {
+    uint64_t runs = 0, deaths = 0;  // started; processes that died
+    bool plan_runs = false;
+    double seconds = 0;        // the run's clock
+    double speed = 0;          // of a simulation against the wall clock, measured
+    uint64_t late_checks = 0;  // of supervisors, in this run
+    RobotCounts robot = {};
+    std::optional<double> bus_load = {};  // 0 to 1
+    size_t clients = 0;
 };
 
 class Workbench {
@@ -61,6 +75,24 @@ public:
     void hear(const net::Event& event);
     void tick(Time now);
     Time next_tick(Time now) const;
+    // ---- for a robot that works by itself ----
+    const std::optional<OpenedProject>& project() const { return project_; }
+    // Nodes that the project's scripts are for and that have not told what they are, by their
+    // names; on a bus only.
+    std::vector<std::string> missing_nodes() const;
+    // What run.start and stop do. `done` gets why it does not run, or nothing.
+    void start_run(std::function<void(const std::string& why)> done);
+    void stop_run(std::function<void()> done);
+    // What a node of that name is: the one that is there, or one that is known.
+    aesl::Target target_of(const std::string& name, uint16_t id) const;
+    Figures figures() const;
+    // Each line of the console, too.
+    void on_line(std::function<void(const std::string& kind, const std::string& text)> line) {
+        line_ = std::move(line);
+    }
+    // Somebody has pressed Stop.
+    void on_stop(std::function<void()> stopped) { stopped_ = std::move(stopped); }
+
     // The nodes stand and the plan has ended, as far as a dying server can: its last act.
     void stop_everything();
 
@@ -91,6 +123,12 @@ private:
     void step_into_script(const Call& call);
     void go_into_script();
 
+    // ---- recording.cpp: what the history is told ----
+    void record_history();
+    void record_plan(const RunOrder& order);
+    void record_bus(const std::string& plan);
+    double history_clock() const;
+
     // ---- running.cpp: what runs ----
     void declare_run_commands();
     void declare_plan_commands();
@@ -114,6 +152,7 @@ private:
     void go_on(const Call& call);
     void start_scripts(const Call& call);
     void end_start();
+    void tell_failed_loads(const std::vector<std::string>& failed);
     void give_up_start(const std::string& why);
     void step(const Call& call);
     void stop(const Call& call);
@@ -136,12 +175,19 @@ private:
     Editing editing_;
     Robot robot_;
     Run run_;
+    HistoryDesk history_;
+    Time history_since_{};  // of a bus
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};
     Targets targets_;
 
+    std::function<void(const std::string&, const std::string&)> line_ = [](auto&, auto&) {};
+    std::function<void()> stopped_ = [] {};
+
     std::optional<OpenedProject> project_;
     Time now_{};
+    uint64_t runs_ = 0;
+    std::string failed_loads_;                        // of the start under way
     std::pair<int, uint64_t> watched_run_ = {-1, 0};  // descriptor, generation
     // A world that opens, or a plan on a bus: what is done once its nodes are there.
     struct Opening {

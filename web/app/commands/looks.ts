@@ -36,6 +36,7 @@ export function followAlways(studio: Studio): () => void {
       'breakpoints',
       'state',
       'plan',
+      'history',
     ] as const
   ).map((topic) => studio.topics.subscribe(topic, {}, () => {}));
   return () => ends.forEach((end) => end());

@@ -11,7 +11,8 @@ const group = text.groups.run;
 
 /** Run, pause, step and stop: of the whole robot by keys, of one node by its tab. */
 export function runCommands(studio: Studio): Command[] {
-  const may = () => drives(studio) && projectOf(studio) !== null;
+  // At an instant of the past nothing that runs is changed; Stop is for now, always.
+  const may = () => drives(studio) && projectOf(studio) !== null && studio.past.at === null;
   const state = () => runStateOf(robotOf(studio), clockOf(studio), studio.topics.get('plan', {}));
   return [
     {

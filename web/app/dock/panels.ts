@@ -16,6 +16,7 @@ import {
   IconPuzzle,
   IconSettings,
   IconTerminal2,
+  IconTimeline,
   IconVariable,
   type TablerIcon,
 } from '@tabler/icons-react';
@@ -31,6 +32,8 @@ export interface Panel {
   /** The panel it opens beside where a layout does not hold it; without it, with the problems. */
   like?: string;
   icon: TablerIcon;
+  /** It shows the past when a person looks back. */
+  past?: true;
   view: ComponentType;
   /** Buttons at the right of the panel's head. */
   tools?: ComponentType;
@@ -61,6 +64,7 @@ export const panels: readonly Panel[] = [
   },
   {
     id: 'events',
+    past: true,
     least: 180,
     like: 'watch',
     title: text.panels.events,
@@ -69,7 +73,16 @@ export const panels: readonly Panel[] = [
     tools: late(() => import('../panels/events/events_tools'), 'button'),
   },
   {
+    id: 'timeline',
+    least: 220,
+    title: text.panels.timeline,
+    icon: IconTimeline,
+    view: late(() => import('../panels/timeline/timeline_panel')),
+    tools: late(() => import('../panels/timeline/timeline_tools'), 'button'),
+  },
+  {
     id: 'plots',
+    past: true,
     least: 220,
     title: text.panels.plots,
     icon: IconChartLine,
@@ -98,6 +111,7 @@ export const panels: readonly Panel[] = [
   },
   {
     id: 'variables',
+    past: true,
     like: 'watch',
     title: text.panels.variables,
     icon: IconVariable,
@@ -105,6 +119,7 @@ export const panels: readonly Panel[] = [
   },
   {
     id: 'watch',
+    past: true,
     like: 'variables',
     title: text.panels.watch,
     icon: IconEye,
@@ -112,6 +127,7 @@ export const panels: readonly Panel[] = [
   },
   {
     id: 'world',
+    past: true,
     like: 'documents',
     title: text.panels.world,
     icon: IconMap2,

@@ -5,6 +5,7 @@ import { countsOf } from '../../core/findings';
 import { partOf } from '../../core/paths';
 import { usePart, useStudio, useTopic } from '../hooks';
 import { FileIcon, kStroke } from '../parts/icons';
+import { PastBadge } from '../parts/past_badge';
 import { Marks, marksOf, SavedMark } from '../parts/marks';
 import { text } from '../text';
 import { fileKindOf, kindOf, nameOf, secondNameOf } from './documents';
@@ -35,6 +36,7 @@ export function DocumentTitle({ doc }: { doc: Doc }) {
       {icon}
       <span>{nameOf(studio, doc)}</span>{' '}
       {second ? <span className="muted num">{second}</span> : null}
+      {kindOf(doc) === 'plan' ? <PastBadge /> : null}
       {errors > 0 ? (
         <IconAlertOctagon
           className="icon is-error"
@@ -71,6 +73,7 @@ export function PanelTitle({ id }: { id: string }) {
   return (
     <span className="paneltitle">
       {panel?.title ?? id}
+      {panel?.past ? <PastBadge /> : null}
       {Subtitle ? (
         <Suspense fallback={null}>
           <Subtitle />

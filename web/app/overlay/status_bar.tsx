@@ -2,14 +2,17 @@ import {
   IconAlertOctagon,
   IconAlertTriangle,
   IconCircleCheck,
+  IconHistory,
   IconPlayerPause,
 } from '@tabler/icons-react';
 import { countsOf } from '../../core/findings';
+import { shownTime } from '../../core/numbers';
 import { standsAt } from '../../core/run_state';
 import { kindOf } from '../dock/documents';
 import { usePart, useStudio, useTopic, useWindow } from '../hooks';
 import { Kbd } from '../parts/kbd';
 import { kStroke } from '../parts/icons';
+import { useEnd, usePastTime } from '../past_hooks';
 import { text } from '../text';
 
 const words = text.status.keys;
@@ -50,10 +53,19 @@ function Left() {
 }
 
 function Runs() {
+  const at = usePastTime();
+  const end = useEnd();
   const doc = useWindow((state) => state.doc);
   const nodes = useTopic('robot', {})?.nodes ?? [];
   const holds = usePart('plan', {}, (is) => is?.stands_at?.[0]);
   const broken = useTopic('breakpoints', {})?.plans.find((one) => one.number === holds);
+  if (at !== null)
+    return (
+      <span className="status__part">
+        <IconHistory size={13} stroke={kStroke} aria-hidden />
+        {text.status.looksBack(shownTime(at), shownTime(end))}
+      </span>
+    );
   const standing = nodes.find((node) => standsAt(node) !== undefined);
   if (standing?.at)
     return (
@@ -103,6 +115,7 @@ function Hints({ started }: { started: boolean }) {
   const layout = useWindow((state) => state.layout);
   const doc = useWindow((state) => state.doc);
   const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
+  const looksBack = usePastTime() !== null;
   const paused = usePart('clock', {}, (is) => is?.state === 'paused');
   const hints: Hint[] = [];
   if (!started)
@@ -113,7 +126,8 @@ function Hints({ started }: { started: boolean }) {
       ['F1', words.help],
     );
   else {
-    if (paused) hints.push(['F5', words.continue], ['F10', words.step]);
+    if (looksBack) hints.push(['Esc', text.past.escape], ['←→', words.step20]);
+    else if (paused) hints.push(['F5', words.continue], ['F10', words.step]);
     else if (errors > 0) hints.push(['Alt+Enter', words.fix]);
     if (doc !== null && kindOf(doc) === 'plan') hints.push(['F9', words.breakpoint]);
     if (doc?.includes('#')) hints.push(['F9', words.breakpoint], ['Ctrl+U', words.upload]);

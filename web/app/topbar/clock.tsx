@@ -1,11 +1,14 @@
 import { Menu } from '@mantine/core';
 import {
   IconChevronDown,
+  IconHistory,
   IconPlayerPauseFilled,
   IconPlayerPlayFilled,
   IconPlayerStopFilled,
 } from '@tabler/icons-react';
-import { useDrives, usePart, useStudio } from '../hooks';
+import { usePart, useStudio } from '../hooks';
+import { useEnd, useMayAct, usePastTime } from '../past_hooks';
+import { shownTime } from '../../core/numbers';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { CommandItem, StudioMenu } from '../parts/menu';
@@ -16,7 +19,9 @@ const speeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0];
 /** The run's clock, what it does, and its speed. */
 export function Clock() {
   const studio = useStudio();
-  const drives = useDrives();
+  const drives = useMayAct();
+  const past = usePastTime();
+  const end = useEnd();
   // In parts: a clock that stands comes ten times a second, too, with another time of the wall.
   const state = usePart('clock', {}, (is) => is?.state ?? 'none');
   const t = usePart('clock', {}, (is) => is?.t ?? 0);
@@ -27,16 +32,22 @@ export function Clock() {
   // On a bus there is a clock only while a plan runs.
   if (isBus && state === 'none') return null;
   const Icon =
-    state === 'running'
-      ? IconPlayerPlayFilled
-      : state === 'none' || state === 'ended'
-        ? IconPlayerStopFilled
-        : IconPlayerPauseFilled;
+    past !== null
+      ? IconHistory
+      : state === 'running'
+        ? IconPlayerPlayFilled
+        : state === 'none' || state === 'ended'
+          ? IconPlayerStopFilled
+          : IconPlayerPauseFilled;
   const button = (
-    <button type="button" className={`clock clock--${state}`} title={why}>
+    <button type="button" className={`clock clock--${past === null ? state : 'past'}`} title={why}>
       <Icon className="icon" size={14} aria-hidden />
-      <span className="clock__time">{t.toFixed(state === 'paused' ? 3 : 1)} s</span>
-      <span className="clock__state">{text.run[state]}</span>
+      <span className="clock__time">
+        {past === null ? t.toFixed(state === 'paused' ? 3 : 1) : shownTime(past)} s
+      </span>
+      <span className="clock__state">
+        {past === null ? text.run[state] : text.past.agoShort((end - past).toFixed(1))}
+      </span>
       <span className="clock__line" />
       <span className="hidden-text">{text.menu.speed}</span>
       <span className="clock__speed num">{text.run.speed(speed)}</span>

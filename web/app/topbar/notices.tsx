@@ -5,12 +5,14 @@ import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
 import { Notice } from './notice';
+import { PastNotice } from './past_notice';
 import { RunNotice } from './run_notice';
 
 /** A line under the top bar when something stands between the person and the robot. */
 export function Notices() {
   return (
     <div className="notices">
+      <PastNotice />
       <LinkNotice />
       <RunNotice />
       <RobotNotice />

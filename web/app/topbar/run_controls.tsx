@@ -8,7 +8,9 @@ import { runStateOf } from '../../core/run_state';
 import { useDrives, usePart, useStudio, useTopic } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
+import { usePastTime } from '../past_hooks';
 import { text } from '../text';
+import { PastControls } from './past_controls';
 
 const size = { size: 16, stroke: kStroke };
 
@@ -20,16 +22,27 @@ export function RunControls() {
   const state = runStateOf(useTopic('robot', {}), clock && { state: clock }, useTopic('plan', {}));
   const paused = state === 'held';
   const runs = state === 'running';
+  const looksBack = usePastTime() !== null;
   const run = (id: string) => () => void registry.run(id);
+  const stop = (
+    <Button
+      className="is-stop"
+      tip={text.run.stop}
+      keys="Shift+F5"
+      icon={<IconPlayerStop {...size} />}
+      onClick={run('run.stop')}
+    />
+  );
+  if (looksBack)
+    return (
+      <div className="runbar" role="group" aria-label={text.run.controls}>
+        {stop}
+        <PastControls />
+      </div>
+    );
   return (
     <div className="runbar" role="group" aria-label={text.run.controls}>
-      <Button
-        className="is-stop"
-        tip={text.run.stop}
-        keys="Shift+F5"
-        icon={<IconPlayerStop {...size} />}
-        onClick={run('run.stop')}
-      />
+      {stop}
       {paused ? (
         <Button
           kind="primary"

@@ -4,7 +4,7 @@
 import type { Doc, Json, JsonStep } from '../../protocol/messages';
 import { Emitter } from '../emitter';
 import type { JsonDocument } from '../json_document';
-import { drawingOf, supervisorKey, type Drawing } from './arrows';
+import { drawingOf, goOn, supervisorKey, type Drawing } from './arrows';
 import * as edit from './edit';
 import {
   kConfiguration,
@@ -17,11 +17,18 @@ import {
 } from './model';
 import { Draft, paste, partOf, type Part } from './part';
 import { freePlace, sceneOf, type Scene } from './place';
-import { kNodeWidth, type Point } from './shape';
+import { kNodeWidth, type Box, type Point } from './shape';
 import type { Found, Toolboxes } from './templates';
 
 /** Apart from actors: a variable of that name. */
 export const pillKey = (name: string) => `$${name}`;
+
+// For the ways of arrows: while something is dragged, at first, and in each turn after it.
+const kWhileHeldMs = 12;
+const kAtOnceMs = 80;
+const kTurnMs = 20;
+/** So often a drawing that is being finished is shown. */
+const kShownMs = 1000;
 
 export type Source = Actor | Supervisor | typeof kStart;
 
@@ -36,15 +43,18 @@ export class PlanBoard {
   drawing: Drawing;
   private chosen = new Set<string>();
   private held = new Map<string, Point>();
+  private finishing = false;
 
   constructor(
     readonly doc: Doc,
     readonly file: JsonDocument,
     private toolboxes: Toolboxes,
+    private readonly clock: () => number = () => performance.now(),
   ) {
     this.model = planModel(file.value, toolboxes);
     this.scene = sceneOf(this.model);
-    this.drawing = drawingOf(this.model, this.scene);
+    this.drawing = drawingOf(this.model, this.scene, { isTime: this.within(kAtOnceMs) });
+    this.finish();
   }
 
   /** The file or the templates are others now. */
@@ -214,6 +224,19 @@ export class PlanBoard {
     if (part) this.paste(part, { x: (first?.x ?? 0) + 24, y: (first?.y ?? 0) + 24 });
   }
 
+  /** Where an element stands. */
+  boxOf(key: string): Box | undefined {
+    const { start, actors, pills } = this.scene;
+    if (key === kStart) return start.box;
+    const supervisor = this.supervisor(key);
+    const hanging = [start, ...actors].find((one) => one.name === supervisor?.owner)?.supervisors;
+    return (
+      this.blockOf(key)?.box ??
+      hanging?.find((one) => one.supervisor.name === supervisor?.name)?.box ??
+      pills.find((one) => pillKey(one.name) === key)?.box
+    );
+  }
+
   private blockOf(name: string) {
     return this.scene.actors.find((one) => one.name === name);
   }
@@ -279,10 +302,40 @@ export class PlanBoard {
   private redraw(): void {
     const places = new Map(this.model.places);
     for (const [name, { x, y }] of this.held) places.set(name, [x, y]);
-    const model = this.held.size > 0 ? { ...this.model, places } : this.model;
+    const isHeld = this.held.size > 0;
+    const model = isHeld ? { ...this.model, places } : this.model;
     this.scene = sceneOf(model);
-    this.drawing = drawingOf(model, this.scene);
+    this.drawing = drawingOf(model, this.scene, {
+      isTime: this.within(isHeld ? kWhileHeldMs : kAtOnceMs),
+      before: this.drawing,
+      keeps: isHeld,
+    });
     this.tell();
+    this.finish();
+  }
+
+  /** Finds the ways that are only sketched, bit by bit: the page stays quick meanwhile. */
+  private finish(): void {
+    if (this.finishing || !this.drawing.isSketch) return;
+    this.finishing = true;
+    let shown = this.clock();
+    const turn = () => {
+      this.finishing = false;
+      this.drawing = goOn(this.drawing, { isTime: this.within(kTurnMs) });
+      if (!this.drawing.isSketch || this.clock() - shown > kShownMs) {
+        shown = this.clock();
+        this.tell();
+      }
+      if (!this.drawing.isSketch) return;
+      this.finishing = true;
+      setTimeout(turn);
+    };
+    setTimeout(turn);
+  }
+
+  private within(ms: number): () => boolean {
+    const end = this.clock() + ms;
+    return () => this.clock() >= end;
   }
 
   private tell(): void {

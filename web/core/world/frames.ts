@@ -1,7 +1,7 @@
 // Frames of the topics poses, rays and picture: how their bytes are read. A frame that is cut short
 // gives what is whole in it.
 
-import type { Colour } from '../../protocol/messages';
+import type { Colour, Json } from '../../protocol/messages';
 import type { Point, Pose } from './geometry';
 
 export interface PosesFrame {
@@ -52,6 +52,29 @@ export function readPoses(bytes: DataView): PosesFrame {
   for (let i = 0; i < objects && at + kObjectBytes <= bytes.byteLength; i++, at += kObjectBytes)
     frame.objects.push({ number: bytes.getUint32(at, true), pose: poseAt(bytes, at + 4) });
   return frame;
+}
+
+/** Where things stood at an instant of the past, as the server tells it. */
+export function posesThen(instant: {
+  robots: readonly Json[];
+  objects: readonly Json[];
+}): PosesFrame {
+  const frame: PosesFrame = { robots: [], objects: [] };
+  for (const one of instant.robots) {
+    const [index, x, y, angle] = numbersOf(one);
+    frame.robots[index] = { x, y, angle };
+  }
+  for (const one of instant.objects) {
+    const [number, x, y, angle] = numbersOf(one);
+    frame.objects.push({ number, pose: { x, y, angle } });
+  }
+  return frame;
+}
+
+function numbersOf(json: Json): [number, number, number, number] {
+  const list = Array.isArray(json) ? json : [];
+  const at = (index: number) => Number(list[index] ?? NaN);
+  return [at(0), at(1), at(2), at(3)];
 }
 
 export function readRays(bytes: DataView): RaysFrame {

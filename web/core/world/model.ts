@@ -72,6 +72,7 @@ export class WorldModel {
 
   private poses = new Map<string, Pose>();
   private held = new Map<string, Pose>();
+  private readonly then = new Map<string, Pose>();
   private order: Standing[] | null = null;
   private robots: Thing[] = [];
 
@@ -91,6 +92,7 @@ export class WorldModel {
   /** Another world: nothing of the one before is left over. */
   clear(): void {
     this.poses.clear();
+    this.then.clear();
     this.held.clear();
     this.trails.clear();
     this.looks = [];
@@ -109,6 +111,27 @@ export class WorldModel {
     });
     for (const { number, pose } of frame.objects) this.poses.set(keyOfObject(number), pose);
     this.moved();
+  }
+
+  /** Things as they stood then, while those of now are remembered; null: now again. */
+  showThen(frame: PosesFrame | null): void {
+    if (!frame && this.then.size === 0) return;
+    this.then.clear();
+    frame?.robots.forEach((pose, index) => {
+      const robot = this.robots[index];
+      if (robot) this.then.set(robot.key, pose);
+    });
+    for (const { number, pose } of frame?.objects ?? []) this.then.set(keyOfObject(number), pose);
+    this.moved();
+  }
+
+  /** Where robots are now, while the past is shown. */
+  robotsNow(): readonly Standing[] {
+    if (this.then.size === 0) return [];
+    return this.robots.flatMap((thing) => {
+      const pose = this.poses.get(thing.key);
+      return pose ? [{ thing, pose }] : [];
+    });
   }
 
   setRays({ looks, lamps }: RaysFrame): void {
@@ -130,7 +153,8 @@ export class WorldModel {
   }
 
   poseOf(thing: Thing): Pose {
-    return this.held.get(thing.key) ?? this.poses.get(thing.key) ?? thing.pose;
+    const then = this.then.get(thing.key);
+    return then ?? this.held.get(thing.key) ?? this.poses.get(thing.key) ?? thing.pose;
   }
 
   /** Everything whose place is known, from the ground up. */

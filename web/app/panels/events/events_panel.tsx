@@ -5,6 +5,7 @@ import { shortCount } from '../../../core/numbers';
 import { useChanges, useStudio, useTopic, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { VirtualRows } from '../../parts/virtual_rows';
+import { usePastEvents } from '../../past_hooks';
 import { useShown } from '../../robot_hooks';
 import { text } from '../../text';
 import { EventBar } from './event_bar';
@@ -82,13 +83,15 @@ function useShownItems(): { items: readonly Happening[]; held: number } {
   const { filter, paused } = useWindow((state) => state.events);
   const [filtered] = useState(() => new Filtered());
   const test = useMemo(() => passes(filter), [filter]);
+  const then = usePastEvents();
   const last = useRef<number>(Infinity);
   if (!paused) last.current = Infinity;
   else if (last.current === Infinity) last.current = happenings.items.at(-1)?.number ?? -1;
   const all = filtered.of(happenings.items, test);
   const limit = last.current;
   return useMemo(() => {
+    if (then) return { items: then.filter(test).toReversed(), held: 0 };
     const seen = limit === Infinity ? all : all.filter((item) => item.number <= limit);
     return { items: seen.toReversed(), held: all.length - seen.length };
-  }, [all, limit]);
+  }, [all, limit, then, test]);
 }

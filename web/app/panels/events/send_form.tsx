@@ -2,7 +2,8 @@ import { useState } from 'react';
 import type { Definition } from '../../../protocol/messages';
 import { readWords } from '../../../core/numbers';
 import { toast, update } from '../../../core/window_state';
-import { useDrives, useStudio, useTopic } from '../../hooks';
+import { useStudio, useTopic } from '../../hooks';
+import { useMayAct } from '../../past_hooks';
 import { Quiet } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
@@ -59,7 +60,7 @@ export function SendForm() {
 }
 
 function SendButton({ good }: { good: boolean }) {
-  const drives = useDrives();
+  const drives = useMayAct();
   const robot = useTopic('robot', {});
   const there = robot !== undefined && robot.kind !== 'none';
   return (

@@ -10,7 +10,8 @@ import {
 } from '@tabler/icons-react';
 import type { NodeId } from '../../../protocol/messages';
 import { nodeActs, orderNodes, type NodeAct } from '../../commands/run_commands';
-import { useDrives, useStudio } from '../../hooks';
+import { useStudio } from '../../hooks';
+import { useMayAct } from '../../past_hooks';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 
@@ -37,7 +38,7 @@ export function NodeControls({
   can?(act: NodeAct): boolean;
 }) {
   const studio = useStudio();
-  const drives = useDrives();
+  const drives = useMayAct();
   const order = (act: NodeAct) =>
     void orderNodes(studio, act, nodes).catch((problem: unknown) => studio.tell(problem));
   return (

@@ -29,7 +29,13 @@ const kPointsPerPixel = 2;
 const stepped = uPlot.paths.stepped?.({ align: 1 });
 const kFont = '11px "Inter Variable", Inter, system-ui, sans-serif';
 
-export function makeChart(host: HTMLElement, plotter: Plotter, cursor: PlotCursor): uPlot {
+/** pastTime: the instant that is looked back at. */
+export function makeChart(
+  host: HTMLElement,
+  plotter: Plotter,
+  cursor: PlotCursor,
+  pastTime: () => number | null,
+): uPlot {
   const colour = coloursOf(host);
   const { curves } = plotter.state;
   const options: uPlot.Options = {
@@ -74,6 +80,7 @@ export function makeChart(host: HTMLElement, plotter: Plotter, cursor: PlotCurso
       })),
     ],
     hooks: {
+      draw: [(plot) => drawPast(plot, pastTime(), colour('--past'))],
       setCursor: [
         (plot) => {
           const { left } = plot.cursor;
@@ -95,6 +102,23 @@ export function makeChart(host: HTMLElement, plotter: Plotter, cursor: PlotCurso
     },
   };
   return new uPlot(options, dataOf(plotter, options.width), host);
+}
+
+/** The cursor of all panels, as a line over the curves. */
+function drawPast(plot: uPlot, at: number | null, colour: string): void {
+  if (at === null) return;
+  const x = plot.valToPos(at, 'x', true);
+  const { left, top, width, height } = plot.bbox;
+  if (x < left || x > left + width) return;
+  const { ctx } = plot;
+  ctx.save();
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 2;
+  ctx.beginPath();
+  ctx.moveTo(x, top);
+  ctx.lineTo(x, top + height);
+  ctx.stroke();
+  ctx.restore();
 }
 
 export function dataOf(plotter: Plotter, width: number): uPlot.AlignedData {

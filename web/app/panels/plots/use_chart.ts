@@ -3,6 +3,8 @@
 
 import { useEffect, useRef, type RefObject } from 'react';
 import type uPlot from 'uplot';
+import type { Studio } from '../../../core/studio';
+import { spanWith } from '../../../core/timeline';
 import { useStudio } from '../../hooks';
 import { useShownTheme } from '../../robot_hooks';
 import { dataOf, makeChart, pressPlot, wheelPlot, type PlotCursor } from './chart';
@@ -11,7 +13,7 @@ import { pictureOfPlot } from './plot_picture';
 
 export function useChart(host: RefObject<HTMLDivElement | null>, cursor: PlotCursor): void {
   const studio = useStudio();
-  const { plotter } = studio;
+  const { plotter, past } = studio;
   const theme = useShownTheme();
   const made = useRef<string>('');
   useEffect(() => {
@@ -20,7 +22,8 @@ export function useChart(host: RefObject<HTMLDivElement | null>, cursor: PlotCur
     let plot: uPlot | null = null;
     const make = () => {
       plot?.destroy();
-      plot = plotter.state.curves.length > 0 ? makeChart(place, plotter, cursor) : null;
+      plot =
+        plotter.state.curves.length > 0 ? makeChart(place, plotter, cursor, () => past.at) : null;
       made.current = keyOf();
     };
     const keyOf = () => JSON.stringify(plotter.state.curves);
@@ -42,6 +45,7 @@ export function useChart(host: RefObject<HTMLDivElement | null>, cursor: PlotCur
     const ends = [
       plotter.drawn.on(() => plotter.held === null && draw()),
       plotter.changed.on(changed),
+      past.changed.on(() => (followPast(studio), plot?.redraw())),
       showPlot(studio, () => (plot ? pictureOfPlot(plot, plotter, place) : Promise.resolve(null))),
     ];
     return () => {
@@ -51,5 +55,16 @@ export function useChart(host: RefObject<HTMLDivElement | null>, cursor: PlotCur
       ends.forEach((end) => end());
       plot?.destroy();
     };
-  }, [studio, plotter, host, cursor, theme]);
+  }, [studio, plotter, past, host, cursor, theme]);
+}
+
+/** The instant that is looked back at is in sight; now again, the newest are. */
+function followPast({ past, plotter }: Studio): void {
+  if (past.at === null) {
+    if (plotter.held && !plotter.paused) plotter.zoom(null);
+    return;
+  }
+  const view = plotter.view();
+  const seen = spanWith(view, past.at);
+  if (seen !== view || plotter.held === null) plotter.zoom(seen);
 }

@@ -2,8 +2,9 @@
 
 import { useCallback, useMemo, useState } from 'react';
 import type { Path } from '../../../protocol/messages';
+import { openTrace } from '../../commands/past_commands';
 import { documentsIn } from '../../dock/documents';
-import { folderOf } from '../../../core/paths';
+import { folderOf, isTrace } from '../../../core/paths';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc, toast, update } from '../../../core/window_state';
 import { useStudio } from '../../hooks';
@@ -53,6 +54,7 @@ export function useTree(): TreeState {
       },
       open: (row) => {
         if (row.kind === 'folder') return toggle(row.path, !row.open);
+        if (isTrace(row.path)) return void openTrace(studio, row.path);
         for (const doc of documentsIn(studio, row.path).reverse())
           revealDoc(studio.window, doc, null);
       },

@@ -4,6 +4,7 @@ import { shownWord, type NumberForm } from '../../../core/numbers';
 import { barsOf } from '../../../core/variable_rows';
 import type { Seen } from '../../../core/words';
 import { useStudio } from '../../hooks';
+import { text } from '../../text';
 
 export interface Place {
   node: NodeId;
@@ -46,10 +47,12 @@ export function LiveValue({
   const isLong = place.count > kValuesShown;
   const show = (seen: Seen) => {
     last.current = seen;
-    if (!isLong) write(value.current, valueText(seen.values, form));
+    const known = !seen.past || seen.values.some((one) => one !== undefined);
+    if (!isLong) write(value.current, known ? valueText(seen.values, form) : text.past.notRecorded);
     const changed = seen.changed.some(Boolean);
     if (row.current) row.current.toggleAttribute('data-changed', changed);
-    const old = seen.before.some((one) => one !== undefined) && changed;
+    row.current?.toggleAttribute('data-past', seen.past === true);
+    const old = seen.past === true || (seen.before.some((one) => one !== undefined) && changed);
     write(before.current, old && seen.values.length === 1 ? valueText(seen.before, form) : '');
     bars.current?.setAttribute('d', barsPath(seen.values));
   };
@@ -110,6 +113,6 @@ function barsPath(values: readonly (number | undefined)[]): string {
     .join('');
 }
 
-function write(element: HTMLElement | null, text: string): void {
-  if (element && element.textContent !== text) element.textContent = text;
+function write(element: HTMLElement | null, what: string): void {
+  if (element && element.textContent !== what) element.textContent = what;
 }

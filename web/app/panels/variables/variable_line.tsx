@@ -2,7 +2,7 @@ import { IconChevronDown, IconChevronRight } from '@tabler/icons-react';
 import { useEffect, useRef, useState } from 'react';
 import type { NumberForm } from '../../../core/numbers';
 import { pickName, type Pick } from '../../../core/picks';
-import { useDrives } from '../../hooks';
+import { useMayAct } from '../../past_hooks';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 import { PickButtons } from './pick_buttons';
@@ -31,7 +31,7 @@ export function VariableLine({
   onToggle?: (() => void) | undefined;
   inWatch?: boolean;
 }) {
-  const drives = useDrives();
+  const drives = useMayAct();
   const row = useRef<HTMLDivElement>(null);
   const [edits, setEdits] = useState(false);
   const { variable } = place;

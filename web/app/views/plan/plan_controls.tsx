@@ -7,7 +7,8 @@ import {
 import type { Doc, Topics } from '../../../protocol/messages';
 import { countsOf } from '../../../core/findings';
 import { update } from '../../../core/window_state';
-import { useDrives, useStudio, useTopic } from '../../hooks';
+import { useStudio, useTopic } from '../../hooks';
+import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
@@ -18,7 +19,7 @@ const size = { size: 14, stroke: kStroke };
 /** State of the plan, and run, pause, step, stop of it alone. */
 export function PlanControls({ doc, plan }: { doc: Doc; plan: Topics['plan']['is'] | undefined }) {
   const { registry, window: store } = useStudio();
-  const drives = useDrives();
+  const drives = useMayAct();
   const { errors } = countsOf(useTopic('findings', {})?.findings ?? [], doc);
   const state = plan?.state ?? 'none';
   const goes = state === 'running' || state === 'paused';

@@ -2,7 +2,7 @@ import { useEffect, useState } from 'react';
 import type { Doc, PlanLevel } from '../../../protocol/messages';
 import { shownLevel } from '../../../core/plan_view';
 import { shownName } from '../../../core/paths';
-import { useTopic } from '../../hooks';
+import { useShownPlan } from '../../past_hooks';
 import { Blank } from '../../parts/blank';
 import { text } from '../../text';
 import { ActiveActor } from './active_actor';
@@ -15,7 +15,7 @@ const words = text.plan;
 
 /** What a plan does, as a list: where it is, who watches, its variables, what happened. */
 export function PlanLive({ doc }: { doc: Doc }) {
-  const plan = useTopic('plan', {});
+  const plan = useShownPlan();
   const [chosen, choose] = useState<string | null>(null);
   const state = plan?.state ?? 'none';
   useEffect(() => {

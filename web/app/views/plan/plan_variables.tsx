@@ -1,7 +1,8 @@
 import { useState } from 'react';
 import type { PlanVariable } from '../../../protocol/messages';
 import { typedValue, valueOf } from '../../../core/plan_view';
-import { useDrives, useStudio } from '../../hooks';
+import { useStudio } from '../../hooks';
+import { useMayAct } from '../../past_hooks';
 import { text } from '../../text';
 
 const words = text.plan;
@@ -24,7 +25,7 @@ export function PlanVariables(props: { level: number; variables: readonly PlanVa
 
 function Variable({ level, variable }: { level: number; variable: PlanVariable }) {
   const studio = useStudio();
-  const drives = useDrives();
+  const drives = useMayAct();
   const { name, type, value, unit } = variable;
   const [draft, setDraft] = useState<string | null>(null);
   const typed = draft === null ? undefined : typedValue(type, draft);

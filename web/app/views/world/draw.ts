@@ -59,6 +59,7 @@ export function drawWorld(
   if (options.rays) drawRays(scene);
   for (const { thing, pose } of model.standing())
     if (thing.kind === 'robot') drawRobot(scene, thing, pose);
+  drawNow(scene);
   drawLamps(scene);
   drawPlacing(scene);
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -221,6 +222,19 @@ function drawRobot({ ctx, colours, view }: Scene, thing: Thing, pose: Pose): voi
   ctx.strokeStyle = colours.robotSide;
   ctx.lineWidth = edge * 0.8;
   ctx.stroke();
+}
+
+/** While the past is shown: where robots are now, dashed. */
+function drawNow({ ctx, model, colours, view }: Scene): void {
+  ctx.setLineDash([5 / view.scale, 4 / view.scale]);
+  ctx.strokeStyle = colours.front;
+  ctx.lineWidth = 1.5 / view.scale;
+  for (const { thing, pose } of model.robotsNow()) {
+    ctx.beginPath();
+    shapePath(ctx, thing, pose);
+    ctx.stroke();
+  }
+  ctx.setLineDash([]);
 }
 
 export function reachAhead(thing: Thing): number {

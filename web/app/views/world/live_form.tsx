@@ -3,7 +3,8 @@ import { degrees, radians, type Pose } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import { isLamp, type Thing } from '../../../core/world/stage';
 import { useEffect, useState } from 'react';
-import { useDrives, useStudio, useTopic } from '../../hooks';
+import { useStudio, useTopic } from '../../hooks';
+import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
 import { useModel } from './desk';
@@ -19,7 +20,7 @@ const kEveryMs = 300;
 /** The chosen thing of a running world: where it is, and what a hand can do with it. */
 export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) {
   const studio = useStudio();
-  const drives = useDrives();
+  const drives = useMayAct();
   const { follows } = useModel(model);
   const pose = usePose(model, thing);
   const move = (change: Partial<Pose>) =>

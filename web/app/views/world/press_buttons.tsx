@@ -1,5 +1,6 @@
 import { useEffect, useRef } from 'react';
-import { useDrives, useStudio, useTopic } from '../../hooks';
+import { useStudio, useTopic } from '../../hooks';
+import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
 
@@ -8,7 +9,7 @@ const words = text.world;
 /** Buttons and touch sensors of a robot: down as long as they are held, by mouse or by key. */
 export function PressButtons({ robot }: { robot: string }) {
   const studio = useStudio();
-  const drives = useDrives();
+  const drives = useMayAct();
   const known = useTopic('scene', {})?.robots.find((one) => one.name === robot);
   if (!known) return null;
   return (
@@ -35,7 +36,7 @@ export function PressButtons({ robot }: { robot: string }) {
 
 function HeldButton({ robot, button }: { robot: string; button: string }) {
   const studio = useStudio();
-  const drives = useDrives();
+  const drives = useMayAct();
   const down = useRef(false);
   const press = (to: boolean) => {
     if (down.current === to) return;

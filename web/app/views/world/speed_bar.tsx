@@ -4,7 +4,8 @@ import {
   IconPlayerSkipForward,
   IconRotate2,
 } from '@tabler/icons-react';
-import { useDrives, usePart, useStudio } from '../../hooks';
+import { usePart, useStudio } from '../../hooks';
+import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
@@ -18,7 +19,7 @@ const size = { size: 14, stroke: kStroke };
 /** How fast the simulation goes: from one instant at a time to as fast as it can. */
 export function SpeedBar() {
   const studio = useStudio();
-  const drives = useDrives();
+  const drives = useMayAct();
   const state = usePart('clock', {}, (is) => is?.state);
   const speed = usePart('clock', {}, (is) => is?.speed);
   const real = usePart('clock', {}, (is) => is?.real.toFixed(1) ?? '');

@@ -6,10 +6,11 @@ import { JsonDocument } from '../../../core/json_document';
 import { folderOf, joinPath } from '../../../core/paths';
 import type { Studio } from '../../../core/studio';
 import { stageOfFile } from '../../../core/world/file';
-import { readPoses, readRays } from '../../../core/world/frames';
+import { posesThen, readPoses, readRays } from '../../../core/world/frames';
 import { WorldModel } from '../../../core/world/model';
 import { stageOfScene } from '../../../core/world/stage';
 import { useDrives, useStudio, useTopic } from '../../hooks';
+import { useMayAct, usePastTime } from '../../past_hooks';
 import { FileActs } from './file_acts';
 import { LiveActs } from './live_acts';
 import { useWorldOptions } from './options';
@@ -43,10 +44,12 @@ export function useHasScene(): boolean {
 /** Follows the running world while it is seen. */
 export function useLive(model: WorldModel, on: boolean): void {
   const studio = useStudio();
-  const drives = useDrives();
+  const drives = useMayAct();
   const scene = useTopic('scene', on ? {} : null);
   const world = useTopic('studio', {})?.project?.world;
   const { rays } = useWorldOptions();
+  // Nobody kept what a sensor looked at: the past is shown without.
+  const looksBack = usePastTime() !== null;
   useEffect(() => {
     if (!on || !scene) return;
     model.setStage(stageOfScene(scene));
@@ -56,15 +59,22 @@ export function useLive(model: WorldModel, on: boolean): void {
   }, [studio, model, on, drives]);
   useEffect(() => {
     if (!on) return;
-    return studio.connection.watch(
-      'poses',
-      {},
-      { frame: (t, payload) => model.setPoses(t, readPoses(payload)) },
-      kPosesRate,
-    );
+    const { past } = studio;
+    const show = () => model.showThen(past.instant ? posesThen(past.instant) : null);
+    const ends = [
+      studio.connection.watch(
+        'poses',
+        {},
+        { frame: (t, payload) => model.setPoses(t, readPoses(payload)) },
+        kPosesRate,
+      ),
+      past.changed.on(show),
+    ];
+    show();
+    return () => ends.forEach((end) => end());
   }, [studio, model, on]);
   useEffect(() => {
-    if (!on || !rays) return;
+    if (!on || !rays || looksBack) return;
     const end = studio.connection.watch(
       'rays',
       {},
@@ -75,7 +85,7 @@ export function useLive(model: WorldModel, on: boolean): void {
       end();
       model.setRays({ looks: [], lamps: [] });
     };
-  }, [studio, model, on, rays]);
+  }, [studio, model, on, rays, looksBack]);
   useImage(model, on ? scene?.image : undefined, world);
 }
 

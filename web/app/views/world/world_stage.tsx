@@ -3,6 +3,7 @@ import { late } from '../../parts/late';
 import type { JsonDocument } from '../../../core/json_document';
 import type { WorldModel } from '../../../core/world/model';
 import { useStudio } from '../../hooks';
+import { usePastTime } from '../../past_hooks';
 import { text } from '../../text';
 import { CameraPicture } from './camera_picture';
 import { deskOf, useModel, type ShownWorld } from './desk';
@@ -31,6 +32,7 @@ export function WorldStage({
   const frame = useRef<HTMLDivElement>(null);
   const eye = useRef<Eye | null>(null);
   const options = useWorldOptions();
+  const looksBack = usePastTime() !== null;
   const [failed, setFailed] = useState(false);
   useShown(frame, model, file);
   useHands(frame, model, eye, options.snap);
@@ -58,11 +60,12 @@ export function WorldStage({
         flat
       )}
       <div className="world__over">
-        {live ? <StatusChip model={model} /> : null}
+        {live && !looksBack ? <StatusChip model={model} /> : null}
+        {live && looksBack ? <p className="world__chip">{text.past.dashed}</p> : null}
         <PlacingNote model={model} />
         {children}
       </div>
-      {live && options.picture ? <CameraPicture model={model} /> : null}
+      {live && options.picture && !looksBack ? <CameraPicture model={model} /> : null}
       <Spoken model={model} />
     </div>
   );

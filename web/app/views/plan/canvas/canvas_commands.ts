@@ -16,6 +16,7 @@ export interface CanvasActs {
   zoom(by: number): void;
   properties(): void;
   rename(): void;
+  find(): void;
 }
 
 export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
@@ -56,6 +57,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
   });
   return [
     make('draw.fit', ['1'], () => acts.fit()),
+    make('draw.find', ['Ctrl+F', '/'], () => acts.find()),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),
     make('draw.zoomOut', ['-'], () => acts.zoom(0.8)),
     make(

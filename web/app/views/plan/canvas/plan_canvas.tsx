@@ -6,7 +6,7 @@ import {
   ReactFlowProvider,
 } from '@xyflow/react';
 import '@xyflow/react/dist/base.css';
-import { useRef } from 'react';
+import { useCallback, useRef, useState } from 'react';
 import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { kSnap } from '../../../../core/plan/place';
@@ -21,6 +21,7 @@ import { DotsContext, useDots } from './break_dots';
 import { kFit, useFitted, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { ConnectMenu } from './connect_menu';
 import { ElementMenu } from './element_menu';
+import { FindBar } from './find_bar';
 import type { PlanNode } from './flow_nodes';
 import { LiveContext, useLiveStore } from './live_store';
 import { nodeTypes } from './nodes';
@@ -50,7 +51,9 @@ function Canvas({ board }: { board: PlanBoard }) {
   useBoard(board);
   const nodes = useNodes(board, drives);
   const frame = useRef<HTMLDivElement>(null);
-  const { shown, use } = useOnDesk(board, frame);
+  const [finds, setFinds] = useState(false);
+  const find = useCallback(() => setFinds(true), []);
+  const { shown, use } = useOnDesk(board, frame, find);
   const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
   const dropping = useDropping(board, drives);
@@ -107,6 +110,17 @@ function Canvas({ board }: { board: PlanBoard }) {
             </ReactFlow>
             {board.model.actors.length === 0 ? (
               <p className="pcanvas__empty">{words.empty}</p>
+            ) : null}
+            {finds ? (
+              <FindBar
+                board={board}
+                onFound={(key) => {
+                  setFinds(false);
+                  board.select(key);
+                  shown.focus(key);
+                }}
+                onClose={() => setFinds(false)}
+              />
             ) : null}
             {menu ? <ElementMenu at={menu} onClose={closeMenu} /> : null}
             {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}

@@ -1,0 +1,103 @@
+#include "serve/history/event_past.hpp"
+
+#include <algorithm>
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+namespace {
+
+Json happening_of(const PastEvent& event, uint64_t number) {
+    return {{"number", number},   {"t", event.t},       {"wall", event.wall},
+            {"kind", event.kind}, {"node", event.node}, {"source", event.source},
+            {"name", event.name}, {"args", event.args}, {"text", event.text}};
+}
+
+// Marks of one pixel become one at once, so that a flood makes no long list.
+void add_mark(std::deque<Mark>& marks, const PastEvent& event, double pixel) {
+    const bool joins = !marks.empty() && event.t - marks.back().t < pixel;
+    if (!joins) return marks.push_back({event.t, event.name});
+    ++marks.back().count;
+    if (marks.back().name != event.name) marks.back().name.clear();
+}
+
+}  // namespace
+
+size_t PastEvent::bytes() const {
+    return sizeof(PastEvent) + kind.size() + source.size() + name.size() + text.size() +
+           args.size() * sizeof(int16_t);
+}
+
+void EventPast::add(PastEvent event) {
+    event.t = to_ = std::max(to_, event.t);
+    bytes_ += event.bytes();
+    events_.push_back(std::move(event));
+    const auto full = [&] {
+        return events_.size() > kPastEvents || bytes_ > kPastEventBytes ||
+               events_.front().t < to_ - kPastEventSeconds;
+    };
+    while (events_.size() > 1 && full()) {
+        bytes_ -= events_.front().bytes();
+        events_.pop_front();
+        ++first_;
+    }
+}
+
+Json EventPast::until(double t, size_t most) const {
+    const auto end =
+        std::upper_bound(events_.begin(), events_.end(), t,
+                         [](double instant, const PastEvent& event) { return instant < event.t; });
+    const auto count = static_cast<size_t>(end - events_.begin());
+    Json list = Json::array();
+    for (size_t i = count - std::min(count, most); i < count; ++i) {
+        list.push_back(happening_of(events_[i], first_ + i));
+    }
+    return list;
+}
+
+std::vector<Json> EventPast::lanes(const LaneWindow& window, size_t& left_out) const {
+    std::map<std::string, Lane> lanes;
+    auto event =
+        std::lower_bound(events_.begin(), events_.end(), window.from,
+                         [](const PastEvent& one, double instant) { return one.t < instant; });
+    for (; event != events_.end() && event->t <= window.to; ++event) {
+        if (event->kind != "event") continue;
+        if (!lanes.contains(event->source) && lanes.size() >= kEventLanesMax) {
+            ++left_out;
+            continue;
+        }
+        add_mark(lanes[event->source].marks, *event, window.pixel());
+    }
+    std::vector<Json> found;
+    for (auto& [source, lane] : lanes) {
+        lane.kind = "events";
+        lane.name = source;
+        found.push_back(lane.shown_in_runs(window));
+    }
+    return found;
+}
+
+void EventPast::stand(double t, uint16_t node, const std::string& state, int line) {
+    if (!stood_.contains(node) && stood_.size() >= kNodesKept) return;
+    std::deque<Stood>& stood = stood_[node];
+    stood.push_back({t, state, line});
+    if (stood.size() > kNodeStatesKept) stood.pop_front();
+}
+
+Json EventPast::nodes_at(double t) const {
+    Json nodes = Json::array();
+    for (const auto& [node, stood] : stood_) {
+        const auto after =
+            std::upper_bound(stood.begin(), stood.end(), t,
+                             [](double instant, const Stood& one) { return instant < one.t; });
+        if (after == stood.begin()) continue;
+        const Stood& last = *std::prev(after);
+        Json one = {{"node", node}, {"state", last.state}};
+        if (last.line > 0) one["line"] = last.line;
+        nodes.push_back(std::move(one));
+    }
+    return nodes;
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,45 @@
+// Writes down what changes in a simulated world, for the history of the run: words of all nodes,
+// where things stand, how busy the bus is. Changes only, at instants of simulated time; what the
+// server has no time for is left out, and the next record tells the whole again.
+#pragma once
+
+#include <string>
+
+#include "serve/history/tape.hpp"
+#include "sim/world.hpp"
+
+namespace vagus::serve {
+
+constexpr Duration kRecordEvery = std::chrono::milliseconds(20);
+constexpr Duration kLoadEvery = std::chrono::milliseconds(200);  // it costs more to know
+constexpr size_t kRecordedNodes = 32;  // at that pace; with more of them, less often
+constexpr size_t kRecordsAtOnce = 64u << 10;
+constexpr size_t kRecordsMax = 1u << 20;  // bytes that wait for the server
+
+class Recorder {
+public:
+    // Another world.
+    void begin();
+    // Looks, if it is time to.
+    void look(const sim::World& world);
+    bool is_due_to_send() const { return writer_.size() >= kRecordsAtOnce; }
+    // What was written since; may be empty.
+    std::string take() { return writer_.take(); }
+    bool overflows() const { return writer_.size() >= kRecordsMax; }
+    // The server did not take it: nothing of it counts.
+    void forget();
+
+private:
+    void look_at_nodes(const sim::World& world);
+    void look_at_things(const sim::World& world);
+    void look_at_loads(const sim::World& world);
+    void see(uint16_t node, std::span<const int16_t> words);
+    void see(uint32_t key, const Standing& standing);
+
+    RecordWriter writer_;
+    std::map<uint16_t, std::vector<int16_t>> words_;
+    std::map<uint32_t, Standing> things_;
+    Time next_{}, next_load_{};
+};
+
+}  // namespace vagus::serve

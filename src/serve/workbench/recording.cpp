@@ -1,0 +1,52 @@
+// What the history is told, by the run and by the robot, and when it begins anew.
+#include "serve/workbench/workbench.hpp"
+
+namespace vagus::serve {
+
+// Seconds of what is kept: those of a simulation, or since the bus or the plan on it began.
+double Workbench::history_clock() const {
+    if (!bus_) return run_.time();
+    return std::chrono::duration<double>(now_ - history_since_).count();
+}
+
+void Workbench::record_history() {
+    history_.set_doc_of(
+        [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
+    run_.on_told({
+        .trace = [this](const std::string& line) { history_.trace(line); },
+        .records = [this](const std::string& bytes) { history_.records(bytes); },
+    });
+    // A simulation stamps what it tells; on a bus the time is that of hearing it.
+    const auto at = [this](double t) { return bus_ ? history_clock() : t; };
+    robot_.on_told({
+        .happening = [this, at](const Json& one) { history_.happening(one, at(one["t"])); },
+        .stands = [this, at](double t, uint16_t node, const std::string& state,
+                             int line) { history_.stands(at(t), node, state, line); },
+        // Of a simulation the records tell all words.
+        .words =
+            [this](double, uint16_t node, uint16_t address, std::span<const int16_t> values) {
+                if (bus_) history_.words(history_clock(), node, address, values);
+            },
+        .unwatched =
+            [this](double, uint16_t node, uint16_t address, uint16_t count) {
+                if (bus_) history_.unwatched(history_clock(), node, address, count);
+            },
+    });
+}
+
+void Workbench::record_plan(const RunOrder& order) {
+    History::Beginning beginning{.name = order.plan.empty() ? order.world : order.plan};
+    beginning.name = beginning.name.substr(beginning.name.rfind('/') + 1);
+    if (!order.plan.empty()) beginning.plans = read_plans(order.plan);
+    history_.begin(std::move(beginning));
+}
+
+void Workbench::record_bus(const std::string& plan) {
+    history_since_ = now_;
+    History::Beginning beginning{.kind = "bus", .name = project_ ? project_->target : ""};
+    if (!plan.empty()) beginning.plans = read_plans(plan);
+    history_.forget();
+    history_.begin(std::move(beginning));
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,196 @@
+"""What the server keeps of a run: any instant of it, what a timeline draws, and traces as files."""
+import json
+import unittest
+
+import projects
+from cases import Case
+from projects import PLAN
+
+
+def levels_of(instant):
+    return instant["plan"]["levels"]
+
+
+def value_of(instant, name):
+    return next(one["value"] for one in levels_of(instant)[0]["variables"] if one["name"] == name)
+
+
+class HistoryCase(Case):
+    def open_plan(self):
+        page = self.open()
+        projects.write(self.folder, "Rounds.plan.json", PLAN)
+        projects.write(self.folder, "vagus.json", {**json.loads((self.folder / "vagus.json").read_text(encoding="utf-8")),
+                                                   "plan": "Rounds.plan.json"})
+        page.do("project.open", path=str(self.folder))
+        self.history = page.watch("history")
+        return page
+
+    def run_for(self, seconds):
+        self.page.do("plan.start")
+        self.wait(lambda: self.clock.value["t"] > seconds, f"{seconds} s of a run")
+
+    def words(self, *names):
+        described = self.page.watch("node", node=1)
+        self.wait(lambda: described.value and described.value["variables"], "a description")
+        places = {one["name"]: one["address"] for one in described.value["variables"]}
+        return [places[name] for name in names]
+
+
+class AnInstant(HistoryCase):
+    def test_ThePlanOfAnInstantIsThatOfItsTrace(self):
+        """A round takes 0.1 s: at 0.05 s none is done, at 0.25 s two, and the third waits since 0.2 s."""
+        self.open_plan()
+        self.run_for(1)
+        for t, rounds, since in ((0.05, 0, 0), (0.1, 1, 0.1), (0.25, 2, 0.2), (0.999, 9, 0.9)):
+            instant = self.page.do("history.at", t=t)
+            self.assertEqual((instant["t"], value_of(instant, "rounds")), (t, rounds), instant)
+            self.assertEqual(levels_of(instant)[0]["actor"], "wait")
+            self.assertAlmostEqual(levels_of(instant)[0]["since"], since, places=6)
+        # Decisions are made without time: wait ends each tenth of a second, and the four steps of a round follow at once.
+        around = self.page.do("history.at", t=0.25)
+        self.assertAlmostEqual(around["before"], 0.2, places=6)
+        self.assertAlmostEqual(around["next"], 0.3, places=6)
+
+    def test_AllVariablesAreKeptThoughNobodyLooked(self):
+        """n counts the ticks of 10 ms, last is twice n: also at an instant, and a second later n is 100 more."""
+        self.open_plan()
+        n, last = self.words("n", "last")
+        self.run_for(1.6)
+        first, later = (self.page.do("history.at", t=t, ranges=[[1, n, 1], [1, last, 1]]) for t in (0.5, 1.5))
+        values = [[one["words"][0] for one in instant["values"]] for instant in (first, later)]
+        for now, twice in values:
+            self.assertEqual(twice, 2 * now)
+        self.assertEqual(values[1][0] - values[0][0], 100)
+
+    def test_ARobotIsWhereItWas(self):
+        self.open_plan()
+        self.run_for(0.3)
+        self.page.do("run.pause")
+        stood = self.settled()
+        self.page.do("world.move", robot="alice", at=[1.5, 1.25], angle=0)
+        self.page.do("run.start")
+        self.wait(lambda: self.clock.value["t"] > stood + 0.3, "time after the hand")
+        before, after = (self.page.do("history.at", t=t)["robots"][0] for t in (stood - 0.05, stood + 0.2))
+        self.assertEqual([round(one, 3) for one in before[1:3]], [0.5, 0.5])
+        self.assertEqual([round(one, 3) for one in after[1:3]], [1.5, 1.25])
+
+    def test_EventsOfAnInstantAreThoseUntilThen(self):
+        self.open_plan()
+        self.run_for(1)
+        events = self.page.do("history.at", t=0.5, events=2000)["events"]
+        told = [one["args"][0] for one in events if one["name"] == "told"]
+        self.assertEqual(told, list(range(told[0], told[0] + len(told))))
+        self.assertTrue(all(one["t"] <= 0.5 for one in events))
+        # One each 10 ms: none of the last 20 ms is missing.
+        self.assertGreater(events[-1]["t"], 0.48)
+        few = self.page.do("history.at", t=0.5, events=3)["events"]
+        self.assertEqual([one["number"] for one in few], [one["number"] for one in events[-3:]])
+
+    def test_WhatRanStaysUntilSomethingElseGoes(self):
+        self.open_plan()
+        self.run_for(0.5)
+        self.page.do("stop")
+        self.wait_clock("none")
+        run, to = self.history.value["run"], self.history.value["to"]
+        self.page.do("run.reset")
+        self.wait(lambda: self.clock.value["t"] == 0, "a world at its start")
+        self.assertEqual(self.history.value["run"], run)
+        self.assertEqual(value_of(self.page.do("history.at", t=0.25), "rounds"), 2)
+        self.assertGreaterEqual(self.history.value["to"], to)
+        self.page.do("plan.start")
+        self.wait(lambda: self.history.value["run"] != run and self.history.value["to"] > 0.1, "another run")
+
+
+class ATimeline(HistoryCase):
+    def lanes(self, start, end, width, **more):
+        return self.page.do("history.lanes", **{"from": start, "to": end}, width=width, **more)
+
+    def test_BarsAreTheActivationsOfActors(self):
+        self.open_plan()
+        self.run_for(1)
+        lanes = self.lanes(0, 1, 1000)
+        actors = next(lane for lane in lanes["lanes"] if lane["kind"] == "actors")
+        waits = [(round(bar["from"], 6), round(bar["to"], 6), bar["end"]) for bar in actors["bars"]
+                 if bar.get("name") == "wait" and "to" in bar]
+        self.assertEqual(waits[:3], [(0, 0.1, "Done"), (0.1, 0.2, "Done"), (0.2, 0.3, "Done")])
+
+    def test_AWideWindowHasNoMoreBarsThanPixels(self):
+        self.open_plan()
+        self.run_for(1)
+        lanes = self.lanes(0, 1000, 50, words=[[1, 0]])
+        for lane in lanes["lanes"]:
+            self.assertLessEqual(len(lane["bars"]) + len(lane["marks"]), 100, lane["name"])
+        self.assertEqual(len(lanes["curves"][0]["high"]), 50)
+        # Nothing is known of what has not been yet.
+        self.assertIsNone(lanes["curves"][0]["high"][-1])
+
+    def test_ACurveHasTheLowestAndTheHighestOfEachPixel(self):
+        self.open_plan()
+        [n] = self.words("n")
+        self.run_for(1)
+        curve = self.lanes(0.2, 0.8, 6, words=[[1, n]])["curves"][0]
+        for low, high in zip(curve["low"], curve["high"]):
+            # A pixel is 0.1 s, in which n grows by 10; what holds at its edge is seen from both sides, and a look is 20 ms.
+            self.assertTrue(8 <= high - low <= 12, (low, high))
+
+
+class Traces(HistoryCase):
+    def test_ATraceIsSavedAndOpenedWithoutARun(self):
+        page = self.open_plan()
+        page.do("plan.start", set={"limit": 5})
+        self.wait(lambda: self.plan.value["state"] == "ended", "the end of the plan")
+        path = page.do("history.save")["path"]
+        self.assertEqual(path, "Rounds-1.trace.jsonl")
+        self.assertEqual(page.do("history.save")["path"], "Rounds-2.trace.jsonl")
+        lines = [json.loads(line) for line in (self.folder / path).read_text(encoding="utf-8").splitlines()]
+        self.assertEqual((lines[0]["kind"], lines[-1]["kind"], lines[-1]["t"]), ("plan-start", "plan-end", 0.5))
+        page.do("target.leave")
+        opened = page.do("history.open", trace=path)
+        self.assertEqual(opened, {"from": 0, "to": 0.5, "lines": len(lines), "refused": 0, "plan": True})
+        then = page.do("history.at", t=0.25, trace=path)
+        self.assertEqual((value_of(then, "rounds"), levels_of(then)[0]["actor"]), (2, "wait"))
+        self.assertEqual(page.do("history.at", t=0.5, trace=path)["plan"]["result"], "OK")
+
+    def test_AFileThatIsNoTraceSaysWhereAndWhy(self):
+        page = self.open_plan()
+        good = '{"t":0.000000,"plan":"Nobody","kind":"plan-start"}\n'
+        for name, content in (("empty", ""), ("text", "hello\n"), ("list", "[1]\n"), ("early", '{"t":-1,"plan":"a","kind":"b"}\n'),
+                              ("binary", "\x00\x01\n")):
+            projects.write(self.folder, f"{name}.trace.jsonl", content)
+            said = self.refused("bad_input", "history.open", trace=f"{name}.trace.jsonl")
+            self.assertIn(f"{name}.trace.jsonl:1: expected", said)
+        projects.write(self.folder, "half.trace.jsonl", good + good[:20] + "\n" + good)
+        opened = page.do("history.open", trace="half.trace.jsonl")
+        self.assertEqual((opened["lines"], opened["refused"], opened["plan"]), (2, 1, False))
+        for outside in ("../vagus.json", "/etc/passwd", "no.trace.jsonl", ".vagus/state.json"):
+            with self.assertRaises(Exception):
+                page.do("history.open", trace=outside)
+
+    def test_WithoutARunThereIsNothingToSave(self):
+        self.open_plan()
+        self.assertIn("no plan has run", self.refused("unavailable", "history.save"))
+
+
+class Hostile(HistoryCase):
+    def test_WhatCannotBeMeantIsRefusedWithItsPlace(self):
+        self.open_plan()
+        self.run_for(0.2)
+        for fields, part in (({"t": -1}, "in.t"), ({"t": 1e13}, "in.t"), ({"t": 0, "ranges": [[1, 2]]}, "in.ranges[0]"),
+                             ({"t": 0, "ranges": [[1, 0, 1], "x"]}, "in.ranges[1]"), ({"t": 0, "ranges": [[1, -1, 1]]}, "in.ranges[0]"),
+                             ({"t": 0, "ranges": [[70000, 0, 1]]}, "in.ranges[0]")):
+            self.assertIn(part, self.refused("bad_input", "history.at", **fields))
+        for start, end, more, part in ((1, 1, {}, "in.to"), (2, 1, {}, "in.to"), (-1, 1, {}, "in.from"),
+                                       (0, 1, {"words": [[1]]}, "in.words[0]"), (0, 1, {"words": [{}]}, "in.words[0]")):
+            said = self.refused("bad_input", "history.lanes", **{"from": start, "to": end}, width=10, **more)
+            self.assertIn(part, said)
+        self.refused("bad_message", "history.lanes", **{"from": 0, "to": 1}, width=5000)
+        self.refused("bad_message", "history.at", t=0, events=3000)
+        # Far away, and words that no node has: unknown, not refused.
+        found = self.page.do("history.at", t=1e12, ranges=[[1, 65535, 1], [9, 0, 2], [1, 65535, 65535]])
+        self.assertEqual(found["values"][0]["words"], [None])
+        self.assertEqual(found["values"][1]["words"], [None, None])
+        self.assertLessEqual(found["t"], found["to"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,95 @@
+import { kPastStep } from '../../core/past';
+import type { Command } from '../../core/registry';
+import type { Studio } from '../../core/studio';
+import { revealPanel, toast } from '../../core/window_state';
+import { text } from '../text';
+import { drives } from './looks';
+
+const titles = text.commands;
+const group = text.groups.past;
+
+/** Looking back: the cursor, step by step, and now again. Its keys are those of the timeline. */
+export function pastCommands(studio: Studio): Command[] {
+  const { past } = studio;
+  const looksBack = () => past.at !== null;
+  const known = () => past.end > past.start;
+  const within = 'past';
+  const stepped = (forward: boolean) => () => past.stepOfPlan(forward);
+  return [
+    {
+      id: 'past.back',
+      title: titles['past.back'],
+      group,
+      keys: ['Escape'],
+      enabled: looksBack,
+      run: () => past.back(),
+    },
+    {
+      id: 'past.earlier',
+      title: titles['past.earlier'],
+      group,
+      keys: ['ArrowLeft'],
+      within,
+      enabled: known,
+      run: () => past.step(-kPastStep),
+    },
+    {
+      id: 'past.later',
+      title: titles['past.later'],
+      group,
+      keys: ['ArrowRight'],
+      within,
+      enabled: looksBack,
+      run: () => past.step(kPastStep),
+    },
+    {
+      id: 'past.stepBefore',
+      title: titles['past.stepBefore'],
+      group,
+      keys: ['Shift+ArrowLeft'],
+      within,
+      enabled: known,
+      run: stepped(false),
+    },
+    {
+      id: 'past.stepAfter',
+      title: titles['past.stepAfter'],
+      group,
+      keys: ['Shift+ArrowRight'],
+      within,
+      enabled: looksBack,
+      run: stepped(true),
+    },
+    {
+      id: 'past.lookBack',
+      title: titles['past.lookBack'],
+      group,
+      // From anywhere; the keys above only where time is looked at.
+      keys: ['Alt+F10'],
+      enabled: known,
+      run: stepped(false),
+    },
+    {
+      id: 'trace.save',
+      title: titles['trace.save'],
+      group,
+      enabled: () => drives(studio) && studio.topics.get('plan', {})?.state !== 'none',
+      async run() {
+        const { path } = await studio.send('history.save', {});
+        toast(studio.window, 'ok', text.past.saved(path));
+      },
+    },
+  ];
+}
+
+/** Shows a trace that is kept as a file: its plan at each instant, without a run. */
+export async function openTrace(studio: Studio, path: string): Promise<void> {
+  try {
+    const { plan, refused } = await studio.past.openTrace(path);
+    revealPanel(studio.window, 'timeline');
+    if (!plan) toast(studio.window, 'warning', text.past.noPlan(path));
+    if (refused > 0) toast(studio.window, 'warning', text.past.refused(path, refused));
+  } catch (problem) {
+    studio.tell(problem);
+  }
+}

@@ -1,0 +1,39 @@
+import { IconArrowBarToRight, IconPlayerTrackNext, IconPlayerTrackPrev } from '@tabler/icons-react';
+import { useStudio } from '../hooks';
+import { Button } from '../parts/button';
+import { kStroke } from '../parts/icons';
+import { useTraceName } from '../past_hooks';
+import { text } from '../text';
+
+const size = { size: 16, stroke: kStroke };
+const words = text.past;
+
+/** While a person looks back, run and pause give way to steps in time. */
+export function PastControls() {
+  const { registry } = useStudio();
+  const trace = useTraceName();
+  const run = (id: string) => () => void registry.run(id);
+  return (
+    <>
+      <Button
+        className="btn--past"
+        icon={<IconArrowBarToRight {...size} />}
+        onClick={run('past.back')}
+      >
+        {trace === null ? words.back : words.close}
+      </Button>
+      <Button
+        tip={words.stepBefore}
+        keys="Shift+ArrowLeft"
+        icon={<IconPlayerTrackPrev {...size} />}
+        onClick={run('past.stepBefore')}
+      />
+      <Button
+        tip={words.stepAfter}
+        keys="Shift+ArrowRight"
+        icon={<IconPlayerTrackNext {...size} />}
+        onClick={run('past.stepAfter')}
+      />
+    </>
+  );
+}

@@ -1,0 +1,47 @@
+import { IconHistory } from '@tabler/icons-react';
+import { useEffect } from 'react';
+import { shownTime } from '../../core/numbers';
+import { shownName } from '../../core/paths';
+import { usePart } from '../hooks';
+import { kStroke } from '../parts/icons';
+import { Kbd } from '../parts/kbd';
+import { useEnd, usePastTime, useTraceName } from '../past_hooks';
+import { text } from '../text';
+import '../look/timeline.css';
+
+const words = text.past;
+const size = { size: 14, stroke: kStroke };
+
+/** Past is never mistaken for now: what everything shows, and the way out. */
+export function PastNotice() {
+  const at = usePastTime();
+  useEffect(() => {
+    document.documentElement.toggleAttribute('data-past', at !== null);
+  }, [at]);
+  return at === null ? null : <Bar at={at} />;
+}
+
+function Bar({ at }: { at: number }) {
+  const trace = useTraceName();
+  const end = useEnd();
+  const thinned = usePart('history', {}, (is) => is?.fine_from ?? 0) > at && trace === null;
+  const ago = (end - at).toFixed(1);
+  return (
+    <div className="pastbar" role="region" aria-label={words.label} data-place="past">
+      <IconHistory className="icon" {...size} aria-hidden />
+      <b>{trace === null ? words.ago(ago) : words.trace(shownName(trace))}</b>
+      <span className="ellipsis">
+        {words.everything(shownTime(at))} {trace === null ? words.goesOn : words.nothingRuns}
+        {thinned ? ` ${words.thinned}` : ''}
+      </span>
+      <span className="grow" />
+      {/* Said once when it begins, not at each step. */}
+      <span className="hidden-text" role="status">
+        {words.said}
+      </span>
+      <span>
+        <Kbd keys="Esc" /> {trace === null ? words.escape : words.close}
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,170 @@
+// What is shown: now, or an instant of the past. One cursor for all panels of this page; an instant
+// is asked from the server, the newest wish only, while the run goes on.
+
+import { misfit } from '../protocol/check';
+import {
+  topicTable,
+  type Commands,
+  type NodeId,
+  type Path,
+  type Topics,
+} from '../protocol/messages';
+import type { Connection } from './connection';
+import { Emitter } from './emitter';
+import type { TopicCache } from './topics';
+
+export type Instant = Commands['history.at']['out'];
+export type PlanThen = Topics['plan']['is'];
+
+/** The keys go so far at a time, in seconds; so often the server looks at a world. */
+export const kPastStep = 0.02;
+/** So many of the last happenings come with an instant. */
+export const kPastEvents = 300;
+
+export interface OpenTrace {
+  path: Path;
+  from: number;
+  to: number;
+}
+
+/** Words of a node that somebody shows: [node, address, count]. */
+export type Range = [node: NodeId, address: number, count: number];
+
+export class Past {
+  /** The cursor, the instant that is shown, or the trace has changed. */
+  readonly changed = new Emitter<void>();
+  readonly failed = new Emitter<unknown>();
+  /** The cursor, in seconds; null: now. */
+  at: number | null = null;
+  /** What came of it last; null until then. */
+  instant: Instant | null = null;
+  /** Its plan; null: none ran. */
+  plan: PlanThen | null = null;
+  /** A trace that was opened as a file: nothing runs. */
+  trace: OpenTrace | null = null;
+
+  private asking = false;
+  private askAgain = false;
+  private words = new Map<NodeId, ReadonlyMap<number, number>>();
+  private run: number | null = null;
+
+  constructor(
+    private readonly connection: Connection,
+    private readonly topics: TopicCache,
+    private readonly ranges: () => Range[],
+  ) {}
+
+  /** Until when something is known. */
+  get end(): number {
+    return this.trace?.to ?? this.topics.get('history', {})?.to ?? 0;
+  }
+
+  get start(): number {
+    return this.trace?.from ?? this.topics.get('history', {})?.from ?? 0;
+  }
+
+  /** Shows that instant. What is not over yet cannot be looked at. */
+  look(t: number): void {
+    this.at = Math.min(Math.max(t, this.start), this.end);
+    this.changed.emit();
+    this.ask();
+  }
+
+  /** So many seconds on; backwards also from now. */
+  step(by: number): void {
+    this.look(Math.round(((this.at ?? this.end) + by) * 1e6) / 1e6);
+  }
+
+  /** To where the plan made its next step, or the one before. */
+  async stepOfPlan(forward: boolean): Promise<void> {
+    const t = this.at ?? this.end;
+    const out = await this.connection.send('history.at', this.input(t, 0));
+    const to = forward ? out.next : out.before;
+    if (to !== undefined) this.look(to);
+  }
+
+  /** Now again; from a trace there is no now, it stays open. */
+  back(): void {
+    if (this.trace) return this.closeTrace();
+    this.at = null;
+    this.forget();
+  }
+
+  async openTrace(path: Path): Promise<Commands['history.open']['out']> {
+    const opened = await this.connection.send('history.open', { trace: path });
+    this.trace = { path, from: opened.from, to: opened.to };
+    this.look(opened.from);
+    return opened;
+  }
+
+  closeTrace(): void {
+    this.trace = null;
+    this.at = null;
+    this.forget();
+  }
+
+  /** Another run has begun: its past is another one. */
+  told(): void {
+    const run = this.topics.get('history', {})?.run ?? null;
+    const another = this.run !== null && run !== this.run;
+    this.run = run;
+    if (another && !this.trace && this.at !== null) this.back();
+  }
+
+  /** A word as it was; undefined: not recorded. */
+  value(node: NodeId, address: number): number | undefined {
+    return this.words.get(node)?.get(address);
+  }
+
+  /** Rows have come into sight: their words of that instant are asked for, too. */
+  ask(): void {
+    if (this.at === null) return;
+    if (this.asking) {
+      this.askAgain = true;
+      return;
+    }
+    void this.fetch(this.at);
+  }
+
+  private async fetch(t: number): Promise<void> {
+    this.asking = true;
+    try {
+      const instant = await this.connection.send('history.at', this.input(t, kPastEvents));
+      if (this.at !== null) this.show(instant);
+    } catch (problem) {
+      this.failed.emit(problem);
+    }
+    this.asking = false;
+    if (!this.askAgain) return;
+    this.askAgain = false;
+    this.ask();
+  }
+
+  private input(t: number, events: number): Commands['history.at']['in'] {
+    const trace = this.trace ? { trace: this.trace.path } : {};
+    return { t, events, ranges: this.ranges(), ...trace };
+  }
+
+  private show(instant: Instant): void {
+    this.instant = instant;
+    const { plan } = instant;
+    const good = plan !== undefined && misfit(plan, topicTable.plan.is ?? {}) === '';
+    this.plan = good ? (plan as unknown as PlanThen) : null;
+    this.words = new Map();
+    for (const { node, address, words } of instant.values) {
+      const known = new Map(this.words.get(node));
+      words.forEach((word, index) => {
+        if (typeof word === 'number') known.set(address + index, word);
+      });
+      this.words.set(node, known);
+    }
+    this.changed.emit();
+  }
+
+  private forget(): void {
+    this.instant = null;
+    this.plan = null;
+    this.words = new Map();
+    this.changed.emit();
+  }
+}

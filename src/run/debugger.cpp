@@ -119,7 +119,11 @@ public:
         }
         return Reply(Done{});
     }
-    Result<Reply> answer(Continue&) { return go_on(false); }
+    Result<Reply> answer(Continue& asked) {
+        const bool met = why_ == Stopped::Why::Breakpoint || why_ == Stopped::Why::Step;
+        if (paused_ && met && !asked.from_met) return Reply(Done{});
+        return go_on(false);
+    }
     Result<Reply> answer(Step&) { return go_on(true); }
     Result<Reply> answer(Abort&) {
         abort_asked_ = true;
@@ -164,6 +168,7 @@ public:
     void stop(Stopped::Why why, std::vector<int> breakpoints = {}) {
         paused_ = true;
         step_ = false;
+        why_ = why;
         mailbox_.report(Stopped{why, std::move(breakpoints), where()});
     }
 
@@ -189,7 +194,7 @@ public:
             waiting_.pop_front();
             return first;
         }
-        return paused_ ? std::optional(mailbox_.wait()) : mailbox_.take();
+        return paused_ ? std::optional(wait()) : mailbox_.take();
     }
 
     void add(std::vector<int> hits) { met_.insert(met_.end(), hits.begin(), hits.end()); }
@@ -204,12 +209,23 @@ public:
     }
 
     const At first_;
+    // The next request; while there is none, what else the thread has to do.
+    Posted wait() {
+        if (!meanwhile_) return mailbox_.wait();
+        for (;;) {
+            if (auto posted = mailbox_.take()) return std::move(*posted);
+            meanwhile_();
+        }
+    }
+
     Mailbox mailbox_;
     // From here on: the deciding thread's.
+    std::function<void()> meanwhile_;
     Breakpoints breakpoints_;
     plan::Machine* machine_ = nullptr;
     Time now_{0};
     bool paused_ = false;
+    Stopped::Why why_ = Stopped::Why::Start;
     bool step_ = false;     // stop before the next begin
     bool stepped_ = false;  // that is now
     bool abort_asked_ = false;
@@ -237,6 +253,10 @@ Result<uint64_t> Debugger::post(Request request) {
 
 std::optional<Report> Debugger::wait_report(Duration at_most) {
     return core_->mailbox_.wait_report(at_most);
+}
+
+void Debugger::while_paused(std::function<void()> meanwhile) {
+    core_->meanwhile_ = std::move(meanwhile);
 }
 
 void Debugger::attach(plan::Machine& machine, std::function<void()> wake) {

@@ -46,7 +46,10 @@ struct ListBreakpoints {};
 struct Pause {
     std::optional<Time> at = {};
 };
-struct Continue {};
+struct Continue {
+    // false: only from a pause that was asked for, not from one at a breakpoint or after a step.
+    bool from_met = true;
+};
 // On to the next actor that is about to begin, at any level.
 struct Step {};
 // The run ends as by an abort from outside (P28).
@@ -140,6 +143,9 @@ public:
     Result<uint64_t> post(Request request);
     // The next report, waiting so long for one. Of more than kDebugQueueMax the oldest are lost.
     std::optional<Report> wait_report(Duration at_most);
+    // For who has but the deciding thread: called again and again while the run is paused and no
+    // request waits, instead of blocking. It may post(). Set it before the run.
+    void while_paused(std::function<void()> meanwhile);
 
     // ---- for executors, on their deciding thread ----
     // A run begins. `wake` is called from any thread when a request has come.

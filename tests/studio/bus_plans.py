@@ -117,7 +117,7 @@ class BusPlans(Case):
         page.do("plan.step")
         self.wait(lambda: self.plan.value["levels"] and self.plan.value["levels"][0]["actor"] == "say", "the second actor")
         self.wait_plan("paused")
-        self.assertEqual([event["args"] for event in self.events("go")], [[150]])
+        self.wait(lambda: [event["args"] for event in self.events("go")] == [[150]], "the event of the first actor")
 
     def test_stop_ends_the_plan_and_makes_nodes_and_wheels_stand(self):
         page = self.open_robot()

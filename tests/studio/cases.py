@@ -1,4 +1,5 @@
 """What a person does with a simulated robot in the studio, and what every page sees of it."""
+import copy
 import struct
 import sys
 import unittest
@@ -382,6 +383,113 @@ class Plans(Case):
         page.do("plan.step")
         self.wait(lambda: self.plan.value["levels"] and self.plan.value["levels"][0]["actor"], "an actor")
         self.wait_plan("paused")
+
+    def plan_breakpoint(self):
+        (there,) = self.breakpoints.value["plans"]
+        return there
+
+    def test_a_plan_stands_at_its_breakpoint_and_the_world_with_it(self):
+        page = self.open_plan()
+        number = page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="say", stop_at=2)["number"]
+        page.do("run.start")
+        self.wait(lambda: self.plan.value.get("stands_at") == [number], "the breakpoint")
+        self.wait_plan("paused")
+        self.wait_clock("paused")
+        level = self.plan.value["levels"][0]
+        self.assertEqual((level["actor"], level["activation"]), ("say", 5))  # say, wait, count, enough, say
+        stood = self.clock.value["t"]
+        self.wait(lambda: self.plan_breakpoint()["hits"] == 2 and self.plan_breakpoint()["set"], "two hits")
+        self.wait_node(state="running")  # and it answers
+        page.do("plan.set", level=0, name="rounds", value=100)
+        self.wait(lambda: self.rounds() == 100, "the variable")
+        self.assertEqual((self.plan.value["state"], self.clock.value["t"]), ("paused", stood))
+        page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="say", enabled=False)
+        page.do("plan.continue")
+        self.wait(lambda: self.rounds() > 101, "rounds from there")
+        self.assertNotIn("stands_at", self.plan.value)
+        page.do("plan.break.set", doc="rounds.plan.json", kind="state", element="say", outcome="Done")  # while it runs
+        self.wait(lambda: self.plan.value.get("stands_at"), "the second breakpoint")
+        page.do("plan.step")
+        self.wait(lambda: "stands_at" not in self.plan.value and self.plan.value["state"] == "paused", "the next actor")
+        page.do("stop")  # also from where it stands
+        self.wait(lambda: self.plan.value["state"] in ("ended", "none"), "the end of the plan")
+        page.do("plan.break.clear")
+        self.wait(lambda: not self.breakpoints.value["plans"], "no breakpoint")
+
+    def test_a_plan_stands_at_its_first_actor_before_the_world_begins(self):
+        page = self.open_plan()
+        page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="say")
+        page.do("run.start")  # is answered when the nodes are ready
+        self.wait(lambda: self.plan.value.get("stands_at"), "the breakpoint")
+        self.wait_clock("paused")
+        self.assertEqual((self.clock.value["t"], self.plan.value["levels"][0]["activation"]), (0, 1))
+        page.do("run.start")
+        self.wait(lambda: self.plan.value["levels"][0]["activation"] == 5, "the second round")
+        self.wait_clock("paused")
+
+    def test_breakpoints_of_a_plan_are_kept_and_those_that_do_not_fit_say_why(self):
+        page = self.open_plan()
+        self.assertIn("needs one", self.refused("bad_input", "plan.break.set", doc="rounds.plan.json", kind="condition"))
+        page.do("plan.break.set", doc="rounds.plan.json", kind="condition", condition="rounds == 3")
+        page.do("project.close")
+        page.do("project.open", path=str(self.folder))
+        self.wait(lambda: self.breakpoints.value["plans"], "the breakpoint of before")
+        self.assertFalse(self.plan_breakpoint()["set"])
+        page.do("run.start")
+        self.wait(lambda: self.plan.value.get("stands_at"), "the condition")
+        self.assertEqual(self.rounds(), 3)
+        page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="sey")
+        self.wait(lambda: any("did you mean say?" in one.get("why", "") for one in self.breakpoints.value["plans"]), "why it is not set")
+
+    def test_an_event_is_raised_by_hand(self):
+        def make(folder):
+            late = {"template": "Timeout", "in": {"seconds": 1000}, "events": {"Timeout": "@terminate"}}
+            projects.write(folder, "rounds.plan.json", projects.PLAN | {"start": {"actor": "say", "supervisors": {"late": late}}})
+            projects.thymio(folder, plan="rounds.plan.json")
+        page = self.open(make)
+        self.refused("unavailable", "plan.raise", supervisor="late", event="Timeout")
+        page.do("run.start")
+        self.wait(lambda: self.rounds(), "a round")
+        self.assertIn("late", self.refused("bad_input", "plan.raise", supervisor="lat", event="Timeout"))
+        page.do("plan.raise", supervisor="late", event="Timeout")
+        self.wait_plan("ended")
+        self.assertEqual(self.plan.value["result"], "Interrupted")
+        self.assertIn("late: Timeout → @terminate", [line["text"] for line in self.plan.value["story"]])
+
+    def test_a_plan_goes_on_into_the_handler_of_its_event(self):
+        def make(folder):
+            send = {"template": "Send", "in": {"event": "'go'", "args": "'0'"}, "states": {"Sent": "say"}}
+            plan = copy.deepcopy(PLAN)
+            plan["actors"]["say"]["states"]["Done"] = "send"
+            plan["actors"]["send"] = send | {"states": {"Sent": "wait"}}
+            projects.write(folder, "rounds.plan.json", plan)
+            projects.thymio(folder, plan="rounds.plan.json")
+        page = self.open(make)
+        (spot,) = page.do("script.handlers", events=["go"])["spots"]
+        self.assertEqual((spot["doc"], spot["at"], spot["line_text"]), (DOC, {"line": 7, "column": 9}, "onevent go"))
+        self.refused("unavailable", "plan.into", events=["go"])
+        page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="send")
+        page.do("run.start")
+        self.wait(lambda: self.plan.value.get("stands_at"), "the breakpoint")
+        self.assertIn("no script", self.refused("not_found", "plan.into", events=["gone"]))
+        self.assertEqual(page.do("plan.into", events=["go"])["spots"], [spot])
+        self.wait_node(state="paused", why="breakpoint", at={"line": 8, "column": 1})
+        self.wait_clock("paused")
+        self.assertEqual(self.breakpoints.value["breakpoints"], [])  # nobody has set one
+        page.do("plan.break.clear")
+        page.do("run.start")
+        self.wait(lambda: self.rounds() and self.rounds() > 2, "rounds: it stood once")
+
+    def test_turns_are_counted_and_the_arrow_taken_is_told(self):
+        page = self.open_plan()
+        page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="say", stop_at=3)
+        page.do("run.start")
+        self.wait(lambda: self.plan.value.get("stands_at"), "the breakpoint")
+        level = self.plan.value["levels"][0]
+        counts = {one["name"]: (one["is"], one["times"]) for one in level["counts"]}
+        self.assertEqual(counts, {name: ("actor", 2) for name in ("say", "wait", "count", "enough")})
+        taken = level["taken"]
+        self.assertEqual((taken["is"], taken["element"], taken["outcome"], taken["target"]), ("state", "enough", "False", "say"))
 
     def test_a_plan_with_a_mistake_says_where(self):
         page = self.open_plan()

@@ -190,6 +190,10 @@ export const text = {
     'world.add.thymio2': 'World: add a Thymio II',
     'world.add.epuck': 'World: add an e-puck',
     'world.add.carbot': 'World: add a Carbot',
+    'draw.break': 'Plan: breakpoint at what is chosen',
+    'draw.breakEdit': 'Plan: when its breakpoint stops',
+    'draw.into': 'Plan: step into the script',
+    'draw.script': 'Plan: go to the script',
     'draw.fit': 'Plan: fit it into the window',
     'draw.find': 'Plan: find an element',
     'draw.zoomIn': 'Plan: zoom in',
@@ -215,6 +219,7 @@ export const text = {
     'plan.continue': 'Continue the plan',
     'plan.step': 'Plan: on to the next actor',
     'plan.stop': 'Stop the plan',
+    'plan.show': 'Plan: show the active actor',
   },
   panel: (title: string) => `Show ${title}`,
   panels: {
@@ -288,7 +293,7 @@ export const text = {
     properties: 'Select a thing in a world: what it is stands here, to be changed.',
     problems: 'No problems.',
     watch: 'Nothing watched. Press + or drag a variable here.',
-    breakpoints: 'None. Click beside a line of a script, or press F9 in it.',
+    breakpoints: 'None. Press F9 at a line of a script or at an element of a plan.',
     events: 'No event since the start.',
     console: 'Nothing said yet. What the server, the run and the plan say stands here.',
     plots: 'Nothing plotted. Press the curve beside a variable.',
@@ -394,6 +399,7 @@ export const text = {
     notSaved: 'Not saved',
     ready: 'Ready',
     runsScript: (node: string, time: string) => `${node}: the script of ${time} runs`,
+    showActor: (actor: string) => `Show ${actor}`,
     pausedAt: (node: string, line: number) => `${node} stands at line ${line}`,
     looksBack: (at: string, end: string) => `Looking back: ${at} of ${end} s`,
     keys: {
@@ -903,6 +909,50 @@ export const text = {
       arrow.is === 'in'
         ? `${arrow.variable} feeds ${arrow.port} of ${arrow.element}`
         : `${arrow.port} of ${arrow.element} goes to ${arrow.variable}`,
+    dataNow(
+      arrow: { variable: string; element: string; port: string; is: 'in' | 'out' },
+      value: string | undefined,
+      gave: string | undefined,
+    ) {
+      const now = value === undefined ? '' : `: ${arrow.variable} is ${value}`;
+      const input = gave === undefined ? '' : `, its formula gave ${gave}`;
+      return `${text.draw.data(arrow)}${now}${input}`;
+    },
+    turns: (times: number, seconds: number) => `×${times} ${seconds.toFixed(1)} s`,
+    times: (times: number) => `×${times}`,
+    debugging: 'Look for a mistake',
+    noScript: (events: string) => `No script of the project handles ${events}.`,
+    active: {
+      label: 'What works now',
+      show: (actor: string) => `Show ${actor} in the drawing`,
+      activation: (count: number) => `activation ${count}`,
+    },
+    break: {
+      title: 'Breakpoints',
+      conditionHint: 'distance < 5',
+      from: 'from hit',
+      stops: ({ kind, outcome }: { kind: string; outcome: string }) =>
+        kind === 'actor'
+          ? 'before it begins'
+          : kind === 'state'
+            ? `when it ends in ${outcome}`
+            : outcome === ''
+              ? 'at any of its events'
+              : `at ${outcome}`,
+      dot: (one: { condition: string; stop_at: number; enabled: boolean }) =>
+        [
+          'Breakpoint',
+          one.condition && ` if ${one.condition}`,
+          one.stop_at > 1 && `, from hit ${one.stop_at}`,
+          !one.enabled && ', off',
+        ]
+          .filter(Boolean)
+          .join(''),
+    },
+    raise: {
+      title: 'Raise by hand',
+      event: (name: string) => `Raise ${name}`,
+    },
     find: 'Find in the plan',
     found: 'What was found',
     notFound: (typed: string) => `Nothing in the plan has “${typed}” in it.`,
@@ -1038,6 +1088,20 @@ export const text = {
       },
       run: 'Run',
     },
+  },
+  breakpoints: {
+    place: (one: { kind: string; element: string; outcome: string; condition: string }) =>
+      one.kind === 'condition'
+        ? `when ${one.condition}`
+        : one.outcome === ''
+          ? one.element
+          : `${one.element} · ${one.outcome}`,
+    from: (hit: number) => `from hit ${hit}`,
+    holds: 'stands here',
+    when: 'Stop when',
+    whenHint: 'a formula, as distance < 5',
+    add: 'Add',
+    pausedAt: (place: string) => `Paused by the breakpoint ${place}; the plan stands`,
   },
   console: {
     label: 'Console',

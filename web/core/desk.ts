@@ -14,6 +14,10 @@ export class Desk<View> {
     return this.views.at(-1);
   }
 
+  find(is: (view: View) => boolean): View | undefined {
+    return this.views.find(is);
+  }
+
   add(view: View): () => void {
     // Below those that are there: a view comes to the top when it is used.
     this.views.unshift(view);

@@ -199,6 +199,7 @@ describe('a plan that runs', () => {
     inputs: {},
     variables: [],
     supervisors: [],
+    counts: [],
   });
   test('TheLevelOfTheDocumentIsShownUnlessAnotherIsChosen', () => {
     const levels = [level('A', 'a.plan.json'), level('A/b', 'b.plan.json')];

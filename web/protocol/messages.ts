@@ -190,6 +190,30 @@ export interface Breakpoint {
   why?: string;
 }
 
+/** A breakpoint of a plan. */
+export interface PlanBreakpoint {
+  /** handle for plan.break.set and plan.break.clear */
+  number: number;
+  doc: Doc;
+  /** before the actor begins; when it has ended in the state; when the supervisor has raised the event; when a write makes the condition true */
+  kind: 'actor' | 'state' | 'event' | 'condition';
+  /** actor or supervisor; empty for a condition */
+  element: string;
+  /** state or event; empty: any */
+  outcome: string;
+  /** a formula that must hold, too */
+  condition: string;
+  /** it stops at this hit and at each after it */
+  stop_at: number;
+  enabled: boolean;
+  /** of the run */
+  hits: number;
+  /** the plan runs with it */
+  set: boolean;
+  /** why it is not set, or why its condition cannot be evaluated */
+  why?: string;
+}
+
 /** A node of the target. */
 export interface Node {
   id: NodeId;
@@ -437,6 +461,8 @@ export interface PlanTemplate {
   outcomes: PlanOutcome[];
   /** of a supervisor; 0: it waits for its event */
   period_ms: number;
+  /** events that begin its work on nodes */
+  starts: Name[];
 }
 
 /** Templates for one platform. */
@@ -462,6 +488,30 @@ export interface PlanSupervisor {
   events: Name[];
 }
 
+/** How often an element of a plan had its turn in this run, and how long it took. */
+export interface PlanCount {
+  is: 'actor' | 'supervisor';
+  name: Name;
+  /** an actor has begun, a supervisor has raised an event */
+  times: number;
+  /** all in all, of the activations that are over */
+  seconds: number;
+  /** of the last one that is over */
+  last: number;
+}
+
+/** The arrow that a plan took last. */
+export interface PlanTaken {
+  /** counts up through all plans of the run */
+  number: number;
+  is: 'start' | 'state' | 'event';
+  /** actor or supervisor; empty of the start */
+  element: string;
+  /** state or event */
+  outcome: string;
+  target: string;
+}
+
 /** A plan that runs, with its active actor; the outermost first. */
 export interface PlanLevel {
   /** instance path: WallFollow/calibrate */
@@ -474,6 +524,8 @@ export interface PlanLevel {
   inputs: Json;
   variables: PlanVariable[];
   supervisors: PlanSupervisor[];
+  counts: PlanCount[];
+  taken?: PlanTaken;
 }
 
 /** A new version of the plan that runs (P31). */
@@ -837,6 +889,12 @@ export interface Commands {
   }; out: {
     doc: Doc;
   } };
+  /** Where scripts handle one of these events, at the name of the event; in the order of the events. */
+  'script.handlers': { in: {
+    events: Name[];
+  }; out: {
+    spots: Spot[];
+  } };
   /** Whether a text can be the name of something in a script. */
   'script.format_name': { in: {
     name: string;
@@ -1059,6 +1117,36 @@ export interface Commands {
   'plan.step': { in: Record<never, never>; out: Record<never, never> };
   /** Ends the plan as from outside (P28). */
   'plan.stop': { in: Record<never, never>; out: Record<never, never> };
+  /** The plan goes on until the handler of one of these events begins on a node, which then stands there. */
+  'plan.into': { in: {
+    events: Name[];
+  }; out: {
+    spots: Spot[];
+  } };
+  /** Raises an event of a supervisor that watches, as if it had done so itself. */
+  'plan.raise': { in: {
+    supervisor: Name;
+    event: Name;
+    outputs?: Record<string, Json>;
+  }; out: Record<never, never> };
+  /** Sets a breakpoint of a plan, or changes the one at that place or of that number; also when nothing runs. */
+  'plan.break.set': { in: {
+    number?: number;
+    doc: Doc;
+    kind: 'actor' | 'state' | 'event' | 'condition';
+    element?: string;
+    outcome?: string;
+    condition?: string;
+    stop_at?: number;
+    enabled?: boolean;
+  }; out: {
+    number: number;
+  } };
+  /** Removes a breakpoint of a plan, those of a document, or all. */
+  'plan.break.clear': { in: {
+    number?: number;
+    doc?: Doc;
+  }; out: Record<never, never> };
   /** Writes a variable of a running plan (P29). */
   'plan.set': { in: {
     level: number;
@@ -1283,9 +1371,10 @@ export interface Topics {
     events: LocalEvent[];
     natives: Native[];
   } };
-  /** All breakpoints of scripts. */
+  /** All breakpoints, of scripts and of plans. */
   'breakpoints': { kind: 'document'; of: Record<never, never>; is: {
     breakpoints: Breakpoint[];
+    plans: PlanBreakpoint[];
   } };
   /** The clock of the run. t is sent at most 10 times a second. */
   'clock': { kind: 'document'; of: Record<never, never>; is: {
@@ -1305,6 +1394,8 @@ export interface Topics {
     t: number;
     result?: 'OK' | 'Interrupted' | 'Error';
     message?: string;
+    /** numbers of the breakpoints that hold it */
+    stands_at?: number[];
     levels: PlanLevel[];
     /** what happened, the newest last */
     story: Line[];
@@ -1400,6 +1491,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Handler: { kind: 'word(init|event|sub)', name: 'Name', line: 'int(0..10000000)', words: 'int(0..65535)' },
   Meter: { used: 'int(0..65535)', of: 'int(0..65535)' },
   Breakpoint: { doc: 'Doc', line: 'int(1..10000000)', condition: 'line(500)', ignore: 'int(0..1000000)', enabled: 'bool', hits: 'int(0..4294967295)', set: 'bool', why: 'line(300)?' },
+  PlanBreakpoint: { number: 'number', doc: 'Doc', kind: 'word(actor|state|event|condition)', element: 'line(128)', outcome: 'line(128)', condition: 'line(500)', stop_at: 'number', enabled: 'bool', hits: 'number', set: 'bool', why: 'text(2000)?' },
   Node: { id: 'NodeId', name: 'Name', robot: 'line(128)', state: 'word(unknown|running|paused|stopped|gone)', protocol: 'int(0..255)', described: 'bool', doc: 'Doc?', program: 'word(none|unknown|older|current)', loaded_wall: 'number?', at: 'Place?', why: 'word(asked|breakpoint|step|fault|start)?', fault: 'text(500)?', busy: 'line(100)?' },
   Link: { name: 'line(300)', nodes: '[NodeId; 1024]', frames_in: 'number', frames_out: 'number', lost: 'number' },
   Traffic: { from: 'int(0..65534)', event: 'Name', count: 'number', to: '[int(0..65534); 1024]' },
@@ -1424,11 +1516,13 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanInput: { name: 'Name', type: 'word(any|bool|int|float|string|object)', unit: 'line(32)', help: 'line(1000)', default: 'json?', low: 'number?', high: 'number?' },
   PlanOutput: { name: 'Name', type: 'word(any|bool|int|float|string|object)', unit: 'line(32)', help: 'line(1000)' },
   PlanOutcome: { name: 'Name', help: 'line(1000)' },
-  PlanTemplate: { name: 'Name', kind: 'word(actor|computation|supervisor)', help: 'line(1000)', icon: 'line(8192)', inputs: '[PlanInput; 256]', outputs: '[PlanOutput; 256]', outcomes: '[PlanOutcome; 256]', period_ms: 'number' },
+  PlanTemplate: { name: 'Name', kind: 'word(actor|computation|supervisor)', help: 'line(1000)', icon: 'line(8192)', inputs: '[PlanInput; 256]', outputs: '[PlanOutput; 256]', outcomes: '[PlanOutcome; 256]', period_ms: 'number', starts: '[Name; 64]' },
   PlanToolbox: { name: 'Name', help: 'line(1000)', templates: '[PlanTemplate; 1000]' },
   PlanVariable: { name: 'Name', type: 'word(bool|int|float|string|object)', value: 'json', unit: 'line(32)' },
   PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
-  PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]' },
+  PlanCount: { is: 'word(actor|supervisor)', name: 'Name', times: 'number', seconds: 'number', last: 'number' },
+  PlanTaken: { number: 'number', is: 'word(start|state|event)', element: 'line(128)', outcome: 'line(128)', target: 'line(128)' },
+  PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]', counts: '[PlanCount; 2000]', taken: 'PlanTaken?' },
   PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
   CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
   FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
@@ -1480,6 +1574,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'script.rename': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
   'script.listing': { may: 'look', out: { lines: '[ListingLine; 65536]' } },
   'script.add': { may: 'driver', out: { doc: 'Doc' } },
+  'script.handlers': { may: 'look', out: { spots: '[Spot; 1000]' } },
   'script.format_name': { may: 'look', out: { good: 'bool', why: 'line(300)?' } },
   'text.search': { may: 'look', out: { spots: '[Spot; 5000]', more: 'bool', why: 'line(300)?' } },
   'text.replace': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
@@ -1515,6 +1610,10 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'plan.continue': { may: 'driver', out: {} },
   'plan.step': { may: 'driver', out: {} },
   'plan.stop': { may: 'driver', out: {} },
+  'plan.into': { may: 'driver', out: { spots: '[Spot; 1000]' } },
+  'plan.raise': { may: 'driver', out: {} },
+  'plan.break.set': { may: 'driver', out: { number: 'number' } },
+  'plan.break.clear': { may: 'driver', out: {} },
   'plan.set': { may: 'driver', out: {} },
   'history.at': { may: 'look', out: { run: 'number', t: 'number', to: 'number', plan: 'json?', before: 'number?', next: 'number?', values: '[HistoryWords; 256]', robots: '[json; 1024]', objects: '[json; 10000]', nodes: '[HistoryNode; 2048]', events: '[Happening; 2000]', exact: 'bool?' } },
   'history.lanes': { may: 'look', out: { run: 'number', from: 'number', to: 'number', lanes: '[HistoryLane; 600]', curves: '[HistoryCurve; 16]', loads: '[HistoryCurve; 64]', left_out: 'number' } },
@@ -1542,9 +1641,9 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'robot': { kind: 'document', is: { target: 'line(256)', name: 'line(256)', kind: 'word(none|simulator|bus)', state: 'word(none|connecting|connected|lost|failed)', why: 'text(1000)?', since_wall: 'number?', nodes: '[Node; 1024]', twins: '[line(300); 100]', load: 'number?', lost: 'number', events_a_second: 'number' } },
   'network': { kind: 'document', is: { links: '[Link; 256]', traffic: '[Traffic; 2000]' } },
   'node': { kind: 'document', is: { name: 'Name', variables: '[Variable; 4096]', events: '[LocalEvent; 256]', natives: '[Native; 512]' } },
-  'breakpoints': { kind: 'document', is: { breakpoints: '[Breakpoint; 1000]' } },
+  'breakpoints': { kind: 'document', is: { breakpoints: '[Breakpoint; 1000]', plans: '[PlanBreakpoint; 1000]' } },
   'clock': { kind: 'document', is: { t: 'number', wall: 'number', state: 'word(none|running|paused|ended|hanging|dead)', speed: 'number', real: 'number', why: 'text(2000)?' } },
-  'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]', change: 'PlanChange?' } },
+  'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', stands_at: '[number; 1000]?', levels: '[PlanLevel; 64]', story: '[Line; 200]', change: 'PlanChange?' } },
   'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
   'state': { kind: 'document', is: { values: 'json' } },
   'scene': { kind: 'document', is: { name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },

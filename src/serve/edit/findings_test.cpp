@@ -254,7 +254,7 @@ TEST_F(EditTest, PagesAreToldWhatPlansCanBeMadeOfAsToolboxesAreEdited) {
         "icon": "M12 2a10 10 0 1 0 0 20a10 10 0 0 0 0-20M12 6v6l4 3",
         "inputs": [{ "name": "seconds", "type": "float", "unit": "s", "help": "how long" }],
         "outputs": [], "outcomes": [{ "name": "Done", "help": "the time is over" }],
-        "period_ms": 10 })"));
+        "period_ms": 10, "starts": [] })"));
     EXPECT_EQ(first.back()["name"], "arm");
     EXPECT_EQ(first.back()["templates"][0]["name"], "Lift");
     EXPECT_EQ(first.back()["templates"][0]["outcomes"][0]["name"], "Done");

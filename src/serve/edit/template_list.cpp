@@ -15,6 +15,7 @@ namespace {
 constexpr size_t kToolboxesMax = 200;
 constexpr size_t kTemplatesMax = 1000;  // of a toolbox
 constexpr size_t kPartsMax = 256;       // inputs, outputs, outcomes of a template
+constexpr size_t kStartsMax = 64;       // events that begin its work on nodes
 constexpr size_t kNameMax = 128;
 constexpr size_t kUnitMax = 32;
 constexpr size_t kHelpMax = 1000;
@@ -80,7 +81,9 @@ Json template_of(const plan::Template& of) {
             {"inputs", list_of(of.inputs, kPartsMax, input_of)},
             {"outputs", list_of(of.outputs, kPartsMax, output_of)},
             {"outcomes", list_of(of.outcomes, kPartsMax, outcome_of)},
-            {"period_ms", of.period_ms}};
+            {"period_ms", of.period_ms},
+            {"starts", list_of(of.bus.starts, kStartsMax,
+                               [](const std::string& event) { return line_of(event, kNameMax); })}};
 }
 
 Json word_of(std::string_view name, std::string_view is, std::string_view form,

@@ -111,8 +111,8 @@ void PlanFollower::change(const std::vector<plan::Plan>& plans) {
 void PlanFollower::see(const plan::TraceEvent& event) {
     const double t = seconds(event.at);
     Level& level = level_at(event.plan);
+    counts_.see(event);
     if (const auto* start = std::get_if<plan::ActorStarted>(&event.what)) {
-        ++activations_;
         enter(level, start->actor, start->activation, t);
         for (const auto& [name, value] : start->in)
             level.inputs[std::string(name)] = json_of(value);
@@ -141,11 +141,11 @@ void PlanFollower::see(const plan::TraceEvent& event) {
     } else if (const auto* over = std::get_if<plan::PlanEnded>(&event.what)) {
         happen(t, over->result == plan::PlanResult::Error ? "error" : "note",
                fmt::format("{} is over: {}", event.plan, plan::name_of(over->result)));
-        if (levels_.size() == 1) {
-            result_ = plan::name_of(over->result);
-            message_ = over->message;
-        }
-        levels_.pop_back();
+        if (levels_.size() > 1) return levels_.pop_back();
+        // What it has counted and written can still be looked at.
+        level.actor = nullptr;
+        result_ = plan::name_of(over->result);
+        message_ = over->message;
     } else {
         return;
     }
@@ -174,7 +174,7 @@ Json PlanFollower::level_json(const Level& level) const {
         for (const plan::Rule& rule : one.events) events.push_back(rule.name);
         supervisors.push_back({{"name", one.name},
                                {"global", global},
-                               {"watching", !level.resting.contains(one.name)},
+                               {"watching", !result_ && !level.resting.contains(one.name)},
                                {"events", std::move(events)}});
     };
     if (level.plan) {
@@ -192,15 +192,18 @@ Json PlanFollower::level_json(const Level& level) const {
     }
     const std::string template_name =
         !level.actor ? "" : level.actor->template_name.value_or(level.actor->plan.value_or(""));
-    return {{"path", level.path},
-            {"doc", level.plan ? doc_of_(level.plan->file) : ""},
-            {"actor", level.actor ? level.actor->name : ""},
-            {"template", template_name},
-            {"activation", level.activation},
-            {"since", level.since},
-            {"inputs", level.inputs},
-            {"variables", std::move(variables)},
-            {"supervisors", std::move(supervisors)}};
+    Json json = {{"path", level.path},
+                 {"doc", level.plan ? doc_of_(level.plan->file) : ""},
+                 {"actor", level.actor ? level.actor->name : ""},
+                 {"template", template_name},
+                 {"activation", level.activation},
+                 {"since", level.since},
+                 {"inputs", level.inputs},
+                 {"variables", std::move(variables)},
+                 {"supervisors", std::move(supervisors)},
+                 {"counts", counts_.counts(level.path)}};
+    if (Json taken = counts_.taken(level.path); !taken.is_null()) json["taken"] = std::move(taken);
+    return json;
 }
 
 Json PlanFollower::document(double now, bool paused) const {

@@ -12,6 +12,7 @@
 #include "plan/model.hpp"
 #include "plan/trace.hpp"
 #include "run/debugger.hpp"
+#include "serve/host/plan_counts.hpp"
 
 namespace vagus::serve {
 
@@ -38,8 +39,6 @@ public:
         bool global = false;
     };
     std::vector<Watching> watching() const;
-    // Counts actors that have started: for a step to the next one.
-    uint64_t activations() const { return activations_; }
 
 private:
     struct Level {
@@ -61,10 +60,10 @@ private:
 
     const std::vector<plan::Plan>* plans_;
     std::function<std::string(const std::string&)> doc_of_;
+    PlanCounts counts_;
     std::vector<Level> levels_;
     std::deque<nlohmann::json> story_;
     uint64_t lines_ = 0;
-    uint64_t activations_ = 0;
     std::optional<std::string> result_;
     std::string message_;
 };

@@ -12,6 +12,7 @@ void PlanTalk::hold() {
 
 void PlanTalk::go_on() {
     if (stepping_) hold();  // a debugger ends a step by a pause only
+    stands_ = false;
     (void)debugger_.post(run::Continue{}).ok();
 }
 
@@ -19,62 +20,63 @@ void PlanTalk::step() {
     hold();  // a debugger steps from a pause
     (void)debugger_.post(run::Step{}).ok();
     stepping_ = true;
+    stands_ = false;
+}
+
+void PlanTalk::give_up_step() {
+    if (stepping_) go_on();
 }
 
 void PlanTalk::abort() {
+    stands_ = false;
     (void)debugger_.post(run::Abort{}).ok();
 }
 
-void PlanTalk::set(uint64_t request, Write write, Then then) {
-    hold();
-    const auto posted = debugger_.post(
-        run::SetVariable{write.level, std::move(write.variable), std::move(write.value)});
-    if (posted.ok()) {
-        asked_[posted.value()] = request;
-    } else {
-        refused_.push_back({request, posted.error().what});
-    }
-    if (then == Then::GoOn) go_on();
+void PlanTalk::ask(run::Request request, Answered answered) {
+    const auto posted = debugger_.post(std::move(request));
+    if (!posted.ok()) return answered(posted.error());
+    asked_[posted.value()] = std::move(answered);
 }
 
-// A debugger takes it while the plan runs and while it is held.
-void PlanTalk::take_version(uint64_t request, plan::NewVersion next, bool only_ask) {
-    const auto posted = debugger_.post(run::TakeVersion{std::move(next), only_ask});
-    if (posted.ok()) {
-        asked_[posted.value()] = request;
-    } else {
-        refused_.push_back({request, posted.error().what});
-    }
+void PlanTalk::ask_held(run::Request request, Answered answered, Then then) {
+    const bool steps = stepping_;
+    if (!stands_) hold();
+    ask(std::move(request), std::move(answered));
+    if (stands_ || then == Then::Hold) return;
+    if (steps) return step();
+    // It may have come to a breakpoint meanwhile: then it stays there.
+    (void)debugger_.post(run::Continue{.from_met = false}).ok();
 }
 
 PlanTalk::Heard PlanTalk::hear() {
-    Heard heard{std::exchange(refused_, {}), std::nullopt};
+    Heard heard;
     while (const auto report = debugger_.wait_report(Duration{})) {
         if (const auto* stopped = std::get_if<run::Stopped>(&*report)) {
-            const bool at_actor = stopped->why == run::Stopped::Why::Step;
-            if (at_actor && std::exchange(stepping_, false)) heard.stepped = stopped->where;
+            if (stopped->why == run::Stopped::Why::Step && std::exchange(stepping_, false)) {
+                heard.stepped = stopped->where;
+                stands_ = true;
+            } else if (stopped->why == run::Stopped::Why::Breakpoint) {
+                heard.broken = *stopped;
+                stepping_ = false;
+                stands_ = true;
+            }
             continue;
         }
         const auto* answer = std::get_if<run::Answer>(&*report);
         const auto asked = answer ? asked_.find(answer->request) : asked_.end();
         if (asked == asked_.end()) continue;
-        PlanTalk::Answered answered{asked->second, "", {}};
-        if (!answer->reply.ok()) answered.why = answer->reply.error().what;
-        const auto* change =
-            answer->reply.ok() ? std::get_if<run::Change>(&answer->reply.value()) : nullptr;
-        if (change) answered.reasons = change->reasons;
-        heard.answers.push_back(std::move(answered));
+        const Answered answered = std::move(asked->second);
         asked_.erase(asked);
+        answered(answer->reply);
     }
     return heard;
 }
 
-std::vector<PlanTalk::Answered> PlanTalk::forget() {
-    std::vector<Answered> left = hear().answers;
-    for (const auto& [number, request] : std::exchange(asked_, {})) {
-        left.push_back({request, "the plan has ended"});
+void PlanTalk::forget() {
+    (void)hear();
+    for (const auto& [number, answered] : std::exchange(asked_, {})) {
+        answered(Error{Code::Unavailable, "the plan has ended"});
     }
-    return left;
 }
 
 }  // namespace vagus::serve

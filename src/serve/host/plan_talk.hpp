@@ -1,9 +1,13 @@
 // A plan that runs, as the host talks with it: through its debugger, between two of its decisions.
-// Each request of a page has a number and gets one answer, also when the plan ends before it came
-// to it.
+// Whatever is asked gets one answer, also when the plan ends before it came to it.
+//
+//     PlanTalk talk(graph);
+//     talk.ask_held(run::SetVariable{0, "n", value}, answered, PlanTalk::Then::GoOn);
+//     const PlanTalk::Heard heard = talk.hear();  // now and then; it calls `answered`
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,46 +24,40 @@ public:
     run::Debugger& debugger() { return debugger_; }
 
     void hold();   // also a step
-    void go_on();  // also from within a step
+    void go_on();  // also from within a step, and from a breakpoint
     // On to the next actor that begins, and held there.
     void step();
+    void give_up_step();
     void abort();
+    // Held by what it came to: a breakpoint, or the actor after a step.
+    bool stands() const { return stands_; }
 
+    using Answered = std::function<void(const Result<run::Reply>& reply)>;
+    // At once, also while it runs.
+    void ask(run::Request request, Answered answered);
+    // What a debugger does for a plan that is held only. A plan that stands by itself stays so.
     enum class Then { Hold, GoOn };
-    struct Write {
-        int level = 0;
-        std::string variable;
-        plan::Value value;
-    };
-    // Its answer will have the number `request`.
-    void set(uint64_t request, Write write, Then then);
+    void ask_held(run::Request request, Answered answered, Then then);
 
-    // A new version of the plan (P31): the answer has what stands in its way. `only_ask`: it takes
-    // over in no case.
-    void take_version(uint64_t request, plan::NewVersion next, bool only_ask);
-    // The same question, answered at once; between two decisions, on the thread of the run.
+    // What stands in the way of a new version (P31), at once: between two decisions, on the thread
+    // of the run.
     std::vector<std::string> reasons_against(const plan::NewVersion& next) const {
         return debugger_.reasons_against(next);
     }
 
-    struct Answered {
-        uint64_t request = 0;
-        std::string why;                                       // why it was not done; empty: it is
-        std::optional<std::vector<std::string>> reasons = {};  // against a new version
-    };
     struct Heard {
-        std::vector<Answered> answers;
-        std::optional<run::Where> stepped;  // held before an actor, after step()
+        std::optional<run::Where> stepped;   // held before an actor, after step()
+        std::optional<run::Stopped> broken;  // held at a breakpoint
     };
     Heard hear();
-    // The plan is over: what nobody will come to any more.
-    std::vector<Answered> forget();
+    // The plan is over: answers what nobody will come to any more.
+    void forget();
 
 private:
     run::Debugger debugger_;
     bool stepping_ = false;
-    std::map<uint64_t, uint64_t> asked_;  // number at the debugger to request
-    std::vector<Answered> refused_;       // before they came to the debugger
+    bool stands_ = false;
+    std::map<uint64_t, Answered> asked_;  // by number at the debugger
 };
 
 }  // namespace vagus::serve

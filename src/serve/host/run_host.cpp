@@ -12,9 +12,11 @@
 #include "embed/prepared_run.hpp"
 #include "serve/host/bus_run.hpp"
 #include "serve/host/frames.hpp"
+#include "serve/host/hand.hpp"
 #include "serve/host/pacer.hpp"
 #include "serve/host/plan_change.hpp"
 #include "serve/host/plan_follower.hpp"
+#include "serve/host/plan_stops.hpp"
 #include "serve/host/plan_talk.hpp"
 #include "serve/host/recorder.hpp"
 #include "serve/host/scene.hpp"
@@ -71,7 +73,7 @@ private:
         if (number) told["number"] = *number;
         tell(told);
     }
-    void tell_answer(const PlanTalk::Answered& one) {
+    void tell_answer(const PlanChange::Answer& one) {
         Json told = {{"say", "answer"}, {"request", one.request}, {"why", one.why}};
         if (one.reasons) told["reasons"] = *one.reasons;
         tell(told);
@@ -122,13 +124,16 @@ private:
             order_ = told;
             open_ = true;
         } else if (what == "pace") {
-            step_to_actor_ = false;
-            pacer_.set(told["paused"], told["speed"], wall_now());
-            if (on_bus()) told["paused"].get<bool>() ? talk_->hold() : talk_->go_on();
+            set_pace(told["paused"], told["speed"]);
         } else if (what == "plan.set") {
             set_variable(told);
         } else if (what == "plan.change" || what == "plan.check") {
             change_plan(told);
+        } else if (what == "plan.raise") {
+            raise(told);
+        } else if (what == "plan.breakpoints") {
+            stops_.want(told["list"]);
+            tend_stops();
         } else if (what == "step") {
             pacer_.step(std::chrono::milliseconds(told["ms"].get<int>()));
         } else if (what == "plan.step") {
@@ -199,10 +204,14 @@ private:
         heard_ = session::events_heard(plan.plans(), library.templates());
         follower_.emplace(plan.plans(), [](const std::string& file) { return file; });
         talk_.emplace(plan.graph());
-        change_.emplace(plan, order["plan"], *talk_);
+        change_.emplace(plan, order["plan"], *talk_,
+                        [this](const PlanChange::Answer& one) { tell_answer(one); });
+        stops_.want(order.value("breakpoints", Json::array()));
+        stops_.tend(*talk_);
         if (on_bus()) return run_on_bus();
         prepared_->listen([this](const plan::TraceEvent& event) { see(event); });
         prepared_->pace([this](Time at) { instant(at); });
+        talk_->debugger().while_paused([this] { stand(); });
         begin_session(prepared_->world()->session(), order);
         const auto ended = prepared_->run(&talk_->debugger());
         if (!ended.ok()) tell_line("error", ended.error().what);
@@ -214,8 +223,11 @@ private:
 
     // Nobody comes to what was asked and not answered yet.
     void end_talk() {
-        for (const PlanTalk::Answered& one : talk_->forget()) tell_answer(one);
+        talk_->forget();
         talk_.reset();
+        stops_.forget();
+        tell_stops();
+        broken_at_.clear();
     }
 
     void forget_plan() {
@@ -272,41 +284,64 @@ private:
     }
 
     // ---- the plan, by its debugger ----
+    void set_pace(bool paused, double speed) {
+        pacer_.set(paused, speed, wall_now());
+        if (!paused) broken_at_.clear();
+        if (!talk_) return;
+        if (!on_bus()) return talk_->give_up_step();  // the clock holds the plan of a world
+        paused ? talk_->hold() : talk_->go_on();
+    }
+
     void step_to_actor() {
-        if (on_bus()) {
-            talk_->step();
-        } else {
-            step_to_actor_ = true;
-        }
+        if (talk_) talk_->step();
+        broken_at_.clear();
         pacer_.set(false, pacer_.speed(), wall_now());
     }
 
     void stop_plan() {
-        // A plan in real time that is held hears nothing but its debugger.
-        if (on_bus()) return talk_->abort();
-        if (prepared_) prepared_->abort();
+        // A plan that is held hears nothing but its debugger.
+        if (talk_ && (on_bus() || talk_->stands())) talk_->abort();
+        if (prepared_ && !on_bus()) prepared_->abort();
     }
 
     void set_variable(const Json& told) {
-        if (!talk_) return tell_answer(told["request"], "no plan runs");
+        ask_held(told["request"],
+                 run::SetVariable{told["level"], told["name"], value_of(told["value"])});
+    }
+
+    // As if the supervisor had raised it.
+    void raise(const Json& told) {
+        run::RaiseEvent event{told["supervisor"], told["event"], {}};
+        for (const auto& [name, value] : told["outputs"].items()) {
+            event.outputs.emplace_back(name, value_of(value));
+        }
+        ask_held(told["request"], std::move(event));
+    }
+
+    void ask_held(uint64_t request, run::Request asked) {
+        if (!talk_) return tell_answer(request, "no plan runs");
         // In a world the clock holds the plan, not its debugger.
         const bool stays = on_bus() && pacer_.held();
-        talk_->set(told["request"], {told["level"], told["name"], value_of(told["value"])},
-                   stays ? PlanTalk::Then::Hold : PlanTalk::Then::GoOn);
+        talk_->ask_held(
+            std::move(asked),
+            [this, request](const Result<run::Reply>& reply) {
+                tell_answer(request, reply.ok() ? "" : reply.error().what);
+            },
+            stays ? PlanTalk::Then::Hold : PlanTalk::Then::GoOn);
         // A run answers between two decisions: one instant must pass.
-        if (!on_bus() && pacer_.paused()) pacer_.step(1ms);
+        if (!on_bus() && !talk_->stands() && pacer_.paused()) pacer_.step(1ms);
     }
 
     // A new version of the plan, or the question whether it could take over (P31).
     void change_plan(const Json& told) {
         if (!change_) return tell_answer(told["request"], "no plan runs");
         using Ask = PlanChange::Ask;
-        const auto answer = told["do"] == "plan.change"
-                                ? change_->take(told)
-                                : change_->check(told, on_bus() ? Ask::ByTheTalk : Ask::AtOnce);
-        if (answer) return tell_answer(*answer);
+        if (told["do"] == "plan.check") {
+            return change_->check(told, on_bus() ? Ask::ByTheTalk : Ask::AtOnce);
+        }
+        change_->take(told);
         // A run answers between two decisions: one instant must pass.
-        if (!on_bus() && pacer_.paused()) pacer_.step(1ms);
+        if (!on_bus() && !talk_->stands() && pacer_.paused()) pacer_.step(1ms);
     }
 
     static plan::Value value_of(const Json& json) {
@@ -319,13 +354,44 @@ private:
     void hear_plan() {
         if (!talk_) return;
         const PlanTalk::Heard heard = talk_->hear();
-        for (const PlanTalk::Answered& one : heard.answers) {
-            if (change_) change_->note(one);
-            tell_answer(one);
-        }
-        if (!heard.stepped || !on_bus()) return;
-        follower_->stand_at(*heard.stepped);
+        tend_stops();
+        if (heard.stepped) stand_at(*heard.stepped, {});
+        if (heard.broken) stand_at(heard.broken->where, stops_.numbers(heard.broken->breakpoints));
+    }
+
+    // What the plan came to holds it, and the clock of its world with it.
+    void stand_at(const run::Where& where, std::vector<uint64_t> breakpoints) {
+        follower_->stand_at(where);
+        broken_at_ = std::move(breakpoints);
         pacer_.set(true, pacer_.speed(), wall_now());
+        next_tell_ = Time{};
+    }
+
+    void tend_stops() {
+        if (!talk_) return;
+        stops_.tend(*talk_);
+        tell_stops();
+    }
+
+    void tell_stops() {
+        Json list;
+        if (stops_.tell(list)) tell({{"say", "breakpoints"}, {"list", std::move(list)}});
+    }
+
+    // In a world the plan has no thread of its own: while it stands the host hears and tells from
+    // here, and the nodes answer.
+    void stand() {
+        hear_plan();
+        const Time wall = wall_now();
+        if (wall >= next_tell_ || wall >= next_poses_) look_around(wall);
+        if (quit_ || open_) return talk_->abort();
+        if (!pacer_.paused()) {
+            broken_at_.clear();
+            return talk_->go_on();
+        }
+        pipe_.wait(holds_ > 0 ? 1 : kPausedWaitMs);
+        take_packets();
+        if (holds_ > 0) hold();
     }
 
     void begin_session(session::SimSession& session, const Json& order) {
@@ -463,13 +529,8 @@ private:
         if (const auto* changed = std::get_if<plan::PlanChanged>(&event.what)) {
             follower_->change(change_->took(*changed->graph));
         }
-        const uint64_t before = follower_->activations();
         follower_->see(event);
         tell({{"say", "trace"}, {"line", plan::format_trace(event)}});
-        if (step_to_actor_ && follower_->activations() > before) {
-            step_to_actor_ = false;
-            pacer_.set(true, pacer_.speed(), wall_now());
-        }
     }
 
     void tell_plan() {
@@ -478,78 +539,17 @@ private:
     }
     void tell_plan_at(double t) {
         if (!follower_) return;
-        tell({{"say", "plan"}, {"plan", follower_->document(t, pacer_.held())}});
+        Json plan = follower_->document(t, pacer_.held());
+        if (!broken_at_.empty() && !follower_->over()) plan["stands_at"] = broken_at_;
+        tell({{"say", "plan"}, {"plan", std::move(plan)}});
     }
 
     // ---- a hand from above ----
     void act(const std::string& what, const Json& told) {
-        const Status done = hand(what, told);
+        const auto done = hand(session_->world(), what, told);
         tell_answer(told["request"], done.ok() ? "" : done.error().what,
-                    std::exchange(put_number_, std::nullopt));
+                    done.ok() ? done.value() : std::nullopt);
         next_poses_ = Time{};
-    }
-
-    Status hand(const std::string& what, const Json& told) {
-        sim::World& world = session_->world();
-        if (told.contains("at")) TRY(check_inside(told["at"][0], told["at"][1]));
-        if (what == "take") return world.remove(sim::ObjectId{told["object"]});
-        if (what == "light") return world.switch_light(sim::ObjectId{told["object"]}, told["on"]);
-        if (what == "put") return put(told);
-        if (what == "move" && told.contains("object")) return move_object(told);
-        const auto robot = world.find_robot(told["robot"].get<std::string>());
-        if (!robot) {
-            return Error{Code::NotFound, "there is no such robot in the world"};
-        }
-        if (what == "tap") return world.tap(*robot);
-        if (what == "press") {
-            const std::string button = told["button"];
-            return told["down"].get<bool>() ? world.press(*robot, button)
-                                            : world.release(*robot, button);
-        }
-        const auto robots = world.robots();
-        const double angle = told.value("angle", robots[robot->number - 1].pose.angle);
-        return world.move(*robot, {{told["at"][0], told["at"][1]}, angle});
-    }
-
-    Status check_inside(double x, double y) const {
-        const sim::WorldDefinition& world = session_->world().definition();
-        const bool inside = x >= 0 && x <= world.width && y >= 0 && y <= world.height;
-        if (world.open || inside) return Status::done();
-        return Error{Code::BadInput,
-                     fmt::format("{:g}, {:g} m lies outside of the walls: the world is {:g} by "
-                                 "{:g} m",
-                                 x, y, world.width, world.height)};
-    }
-
-    Status move_object(const Json& told) {
-        sim::World& world = session_->world();
-        const sim::ObjectId id{told["object"]};
-        for (const sim::ObjectView& object : world.objects()) {
-            if (object.id != id) continue;
-            const double angle = told.value("angle", object.pose.angle);
-            return world.move(id, {{told["at"][0], told["at"][1]}, angle});
-        }
-        return Error{Code::NotFound, "there is no such object in the world any more"};
-    }
-
-    Status put(const Json& told) {
-        sim::ObjectDefinition object;
-        const std::string kind = told["kind"];
-        object.kind = kind == "wall"  ? sim::ObjectKind::Wall
-                      : kind == "box" ? sim::ObjectKind::Box
-                                      : sim::ObjectKind::Cylinder;
-        object.at = {told["at"][0], told["at"][1]};
-        object.angle = told.value("angle", 0.0);
-        if (kind == "cylinder") {
-            object.radius = told.value("radius", 0.05);
-        } else {
-            object.width = told.contains("size") ? told["size"][0].get<double>() : 0.2;
-            object.length = told.contains("size") ? told["size"][1].get<double>() : 0.2;
-        }
-        const auto added = session_->world().add(object);
-        if (!added.ok()) return added.error();
-        put_number_ = added.value().number;
-        return Status::done();
     }
 
     Pipe pipe_;
@@ -566,13 +566,13 @@ private:
     std::set<std::string> heard_;  // events, by the plan
     std::optional<PlanTalk> talk_;
     std::optional<PlanChange> change_;
-    Duration bus_time_{};                 // of a plan on a bus
-    Time bus_time_at_{};                  // when it was counted
-    std::optional<uint32_t> put_number_;  // of the hand at work
+    PlanStops stops_;
+    std::vector<uint64_t> broken_at_;  // breakpoints that hold the plan, by their numbers
+    Duration bus_time_{};              // of a plan on a bus
+    Time bus_time_at_{};               // when it was counted
 
     Recorder recorder_;
     Pacer pacer_;
-    bool step_to_actor_ = false;
     int holds_ = 0;
     uint64_t instants_ = 0;
     Time at_{};

@@ -35,6 +35,22 @@ void ScriptBreakpoints::clear(const std::optional<std::string>& doc, std::option
     });
 }
 
+Status ScriptBreakpoints::set_once(const std::string& doc, int line) {
+    if (find(doc, line)) return Status::done();
+    TRY(set(doc, line))->once = true;
+    return Status::done();
+}
+
+bool ScriptBreakpoints::clear_once() {
+    return std::erase_if(all_, [](const ScriptBreakpoint& one) { return one.once; }) > 0;
+}
+
+bool ScriptBreakpoints::waits_for_once() const {
+    return std::any_of(all_.begin(), all_.end(), [](const ScriptBreakpoint& one) {
+        return one.once && !one.set && one.why.empty();
+    });
+}
+
 void ScriptBreakpoints::move_lines(const std::string& doc, int at, int lines) {
     for (ScriptBreakpoint& one : all_) {
         if (one.doc == doc && one.line >= at) one.line = std::max(at, one.line + lines);
@@ -62,6 +78,7 @@ void ScriptBreakpoints::rename(const std::string& from, const std::string& to) {
 Json ScriptBreakpoints::to_json() const {
     Json list = Json::array();
     for (const ScriptBreakpoint& one : all_) {
+        if (one.once) continue;
         Json json = {{"doc", one.doc}, {"line", one.line}};
         if (!one.condition.empty()) json["condition"] = one.condition;
         if (one.ignore > 0) json["ignore"] = one.ignore;

@@ -20,6 +20,7 @@ struct ScriptBreakpoint {
     std::string condition;
     uint32_t ignore = 0;  // it stops after so many hits
     bool enabled = true;
+    bool once = false;  // set by the studio itself until a node stands there; nobody sees it
     // ---- of this session ----
     uint32_t hits = 0;
     bool set = false;  // the node said so
@@ -34,6 +35,11 @@ public:
     Result<ScriptBreakpoint*> set(const std::string& doc, int line);
     // Without a line all of the document, without a document all.
     void clear(const std::optional<std::string>& doc, std::optional<int> line);
+    // Where nobody has one: until a node stands at one of these, or nobody waits for it any more.
+    Status set_once(const std::string& doc, int line);
+    bool clear_once();
+    // A node has not said yet whether it has one of these.
+    bool waits_for_once() const;
     // Lines behind a change of a text move along: `at` from 1, `lines` more or fewer.
     void move_lines(const std::string& doc, int at, int lines);
     // A file has another name.

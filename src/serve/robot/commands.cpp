@@ -74,6 +74,7 @@ void Robot::set_breakpoint(const Call& call) {
     one.ignore = call.in.value("ignore", one.ignore);
     one.enabled = call.in.value("enabled", one.enabled);
     one.hits = 0;
+    one.once = false;
     place_breakpoints();
     breakpoints_changed_();
     call.done({{"line", line}});

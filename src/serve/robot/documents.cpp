@@ -43,7 +43,6 @@ void Robot::declare_topics() {
     board.document("robot", [this](const Json&) { return robot_document(); });
     board.document("node", [this](const Json& of) { return node_document(of); });
     board.document("network", [this](const Json&) { return network_document(); });
-    board.document("breakpoints", [this](const Json&) { return breakpoints_document(); });
     board.stream("happenings", Protocol::get().limit("events_kept"));
     declare_watches();
 }
@@ -177,16 +176,17 @@ Json Robot::network_document() const {
     return {{"links", std::move(links)}, {"traffic", std::move(traffic)}};
 }
 
-Json Robot::breakpoints_document() const {
+Json Robot::breakpoints_list() const {
     Json list = Json::array();
     for (const ScriptBreakpoint& one : breakpoints_.all()) {
+        if (one.once) continue;
         Json json = {{"doc", one.doc},       {"line", one.line},       {"condition", one.condition},
                      {"ignore", one.ignore}, {"enabled", one.enabled}, {"hits", one.hits},
                      {"set", one.set}};
         if (!one.why.empty()) json["why"] = one.why;
         list.push_back(std::move(json));
     }
-    return {{"breakpoints", std::move(list)}};
+    return list;
 }
 
 }  // namespace vagus::serve

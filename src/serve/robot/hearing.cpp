@@ -80,6 +80,7 @@ void Robot::hear(const debug::Event& event, const debug::BreakpointHit& hit) {
     }
     known_[event.node].why = "breakpoint";
     hints_.stopped_at_breakpoint();
+    if (breakpoint && breakpoint->once && breakpoints_.clear_once()) place_breakpoints();
     say_("note", fmt::format("{} stands at line {}", name_of(event.node), hit.at.line));
 }
 

@@ -119,6 +119,8 @@ public:
     void script_changed(const std::string& file);
     // Breakpoints are as the project keeps them: sets them on the nodes.
     void place_breakpoints();
+    // [Breakpoint] of the protocol.
+    Json breakpoints_list() const;
 
     void tick(Time now);
     Time next_tick() const;
@@ -207,7 +209,6 @@ private:
     Json node_document(const Json& of) const;
     Json node_line(uint16_t id) const;
     Json network_document() const;
-    Json breakpoints_document() const;
 
     Desk& desk_;
     Files& files_;

@@ -89,6 +89,7 @@ Status Run::open(const RunOrder& order, Time now) {
                  {"plan", order.plan},
                  {"toolboxes", order.toolboxes},
                  {"set", order.set},
+                 {"breakpoints", order.breakpoints},
                  {"robot", order.robot},
                  {"from", order.from},
                  {"bus", order.bus},
@@ -104,6 +105,7 @@ Status Run::open(const RunOrder& order, Time now) {
 void Run::close() {
     child_.reset();
     forget_asked("the run has ended");
+    breakpoints_told_(Json::array());
     has_world_ = false;
     programs_.clear();
     state_ = State::None;
@@ -127,6 +129,12 @@ void Run::tell(const Json& message) {
 void Run::step(int milliseconds) {
     rests_ = false;
     tell({{"do", "step"}, {"ms", milliseconds}});
+    desk_.board().touch("clock");
+}
+
+void Run::begin() {
+    if (!plan_.contains("stands_at")) return go_on();
+    rests_ = false;
     desk_.board().touch("clock");
 }
 
@@ -194,6 +202,12 @@ void Run::check_change(const std::map<std::string, std::string>& texts,
                        std::function<void(const Reasons& reasons)> done) {
     ask({{"do", "plan.check"}, {"texts", texts}},
         [this, done = std::move(done)](const Json& told) { done(reasons_in(told)); });
+}
+
+void Run::raise(const std::string& supervisor, const std::string& event, const Json& outputs,
+                SetDone done) {
+    ask({{"do", "plan.raise"}, {"supervisor", supervisor}, {"event", event}, {"outputs", outputs}},
+        [done = std::move(done)](const Json& told) { done(told["why"]); });
 }
 
 // Nobody will answer any more.
@@ -327,6 +341,8 @@ void Run::hear_json(const Json& told) {
     } else if (what == "plan") {
         plan_ = told["plan"];
         desk_.board().touch("plan");
+    } else if (what == "breakpoints") {
+        breakpoints_told_(told["list"]);
     } else if (what == "trace") {
         trace_.push_back(told["line"]);
         if (trace_.back().find(kLateInTrace) != std::string::npos) ++late_checks_;
@@ -384,6 +400,7 @@ void Run::hear_end(const ChildEnd& end) {
         desk_.board().touch("plan");
     }
     forget_asked(why_);
+    breakpoints_told_(Json::array());
     opens_plan_ = false;
     failed_(why_);
     say_("error", why_);

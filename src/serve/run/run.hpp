@@ -33,6 +33,7 @@ struct RunOrder {
     std::vector<std::string> toolboxes;
     nlohmann::json set = nlohmann::json::object();
     std::string from;  // the actor that the plan begins with; empty: its start
+    nlohmann::json breakpoints = nlohmann::json::array();  // as PlanBreakpoints::orders()
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
     bool keep_poses = false;   // robots stand where they stood before
@@ -63,6 +64,10 @@ public:
     // It cannot be opened: a sentence, or several lines of the checker.
     void on_failed(std::function<void(const std::string& why)> failed) {
         failed_ = std::move(failed);
+    }
+    // What the debugger of the plan says of its breakpoints: [{number, hits, set, why}].
+    void on_breakpoints(std::function<void(const Json& list)> told) {
+        breakpoints_told_ = std::move(told);
     }
     // What it tells for the history: a line of the trace, or records of the world.
     struct Told {
@@ -96,6 +101,9 @@ public:
     double speed() const { return speed_; }
     bool paused() const { return paused_; }
     bool rests() const { return rests_; }
+    // The first start of a run: it goes on, unless its plan has come to a breakpoint already, at
+    // the instant 0, while its nodes were made ready.
+    void begin();
     bool plan_runs() const;
     // The plan that runs waits for an event of that name.
     bool plan_hears(const std::string& event) const {
@@ -112,6 +120,9 @@ public:
     // Writes a variable of the plan; `done` gets why not, or nothing.
     using SetDone = std::function<void(const std::string& why)>;
     void set_variable(int level, const std::string& name, const Json& value, SetDone done);
+    // Raises an event of a supervisor that watches, as if it had done so itself.
+    void raise(const std::string& supervisor, const std::string& event, const Json& outputs,
+               SetDone done);
 
     // Plan files have been saved: what the plan that runs is made of is to take over (P31). What
     // came of it is in the document of the plan, and is said.
@@ -172,6 +183,7 @@ private:
     std::function<void()> opened_ = [] {};
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
     std::function<void()> plan_died_ = [] {};
+    std::function<void(const Json&)> breakpoints_told_ = [](const Json&) {};
     Told told_;
     uint64_t asked_ = 0;
     std::map<uint64_t, Answer> answers_;  // of the host, by number of what was asked

@@ -70,6 +70,7 @@ RunOrder Workbench::order_of(const std::string& plan, const Json& set) const {
         for (const auto& [name, value] : project_->start_set) order.set[name] = value;
     }
     order.set.update(set);
+    order.breakpoints = plan_breakpoint_orders();
     return order;
 }
 
@@ -154,7 +155,7 @@ void Workbench::get_nodes_ready() {
     robot_.load_changed(true, [this, go, start = start_](const std::vector<std::string>& failed) {
         tell_failed_loads(failed);
         if (start != start_) return;
-        if (go) run_.go_on();
+        if (go) run_.begin();
         if (go) ++runs_;
         end_start();
     });
@@ -173,6 +174,7 @@ void Workbench::tell_failed_loads(const std::vector<std::string>& failed) {
 }
 
 void Workbench::give_up_start(const std::string& why) {
+    if (const auto into = std::exchange(into_, std::nullopt)) into->call.fail("failed", why);
     ++start_;
     opening_.reset();
     const std::optional<Call> call = opening_call_;

@@ -45,6 +45,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     editing_.on_saved([this](const std::string& path) { file_saved(path); });
     editing_.on_renamed([this](const std::string& from, const std::string& to) {
         breakpoints_.rename(from, to);
+        plan_breakpoints_.rename(from, to);
         keep_breakpoints();
     });
     robot_.on_breakpoints_changed([this] { keep_breakpoints(); });
@@ -70,6 +71,9 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     run_.on_opened([this] { world_opened(); });
     run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
     run_.on_plan_died([this] { plan_died(); });
+    run_.on_breakpoints([this](const Json& list) {
+        if (plan_breakpoints_.note(list)) desk_.board().touch("breakpoints");
+    });
     record_history();
     desk.on_people([this] { desk_.board().touch("studio"); });
     declare_topics();
@@ -77,6 +81,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     declare_kept_commands();
     declare_run_commands();
     declare_plan_commands();
+    declare_debug_commands();
     declare_world_commands();
 }
 
@@ -104,6 +109,10 @@ void Workbench::declare_topics() {
     board.document("targets", [this](const Json&) { return targets_.document(); });
     board.document("state", [this](const Json&) {
         return Json{{"values", state_.values().value("window", Json::object())}};
+    });
+    board.document("breakpoints", [this](const Json&) {
+        return Json{{"breakpoints", robot_.breakpoints_list()},
+                    {"plans", plan_breakpoints_.list()}};
     });
     board.stream("console", Protocol::get().limit("lines_kept"));
 }
@@ -211,6 +220,7 @@ void Workbench::enter(OpenedProject project) {
     scripts_.reread();
     state_ = Kept((project_->root / ".vagus" / "state.json").string());
     breakpoints_.from_json(state_.get("breakpoints"));
+    plan_breakpoints_.from_json(state_.get("plan_breakpoints"));
     editing_.set_project(edited_project());
     library_.opened(project_->file, project_->name, desk_.wall_ms());
     for (const std::string& path : files_.recovered()) {
@@ -239,6 +249,7 @@ void Workbench::close() {
     files_.leave();
     scripts_.reread();
     breakpoints_ = {};
+    plan_breakpoints_ = {};
     state_ = {};
     project_.reset();
     editing_.set_project({});
@@ -324,8 +335,10 @@ void Workbench::declare_kept_commands() {
 
 void Workbench::keep_breakpoints() {
     if (!project_) return;
-    const Status kept = state_.put("breakpoints", breakpoints_.to_json());
-    if (!kept.ok()) say("warning", kept.error().what);
+    for (const Status& kept : {state_.put("breakpoints", breakpoints_.to_json()),
+                               state_.put("plan_breakpoints", plan_breakpoints_.to_json())}) {
+        if (!kept.ok()) say("warning", kept.error().what);
+    }
 }
 
 // ---- time ----
@@ -342,6 +355,7 @@ void Workbench::tick(Time now) {
     if (run_.is_open() || bus_) history_.tick(history_clock());
     add_missing_scripts();
     get_nodes_ready();
+    go_into_script();
     stop_nodes();
     rest();
     editing_.tick(now);
@@ -361,7 +375,7 @@ void Workbench::watch_run() {
 Time Workbench::next_tick(Time now) const {
     Time next = std::min({run_.next_tick(), robot_.next_tick(), editing_.next_tick()});
     if (desk_.board().watched("targets")) next = std::min(next, now + kLookEvery);
-    if (opening_ || nodes_stop_at_ || rest_at_) next = std::min(next, now + 20ms);
+    if (opening_ || into_ || nodes_stop_at_ || rest_at_) next = std::min(next, now + 20ms);
     return next;
 }
 

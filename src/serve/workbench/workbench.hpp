@@ -22,6 +22,7 @@
 #include "serve/robot/breakpoints.hpp"
 #include "serve/robot/bus_carrier.hpp"
 #include "serve/robot/robot.hpp"
+#include "serve/run/plan_breakpoints.hpp"
 #include "serve/run/run.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
@@ -35,7 +36,8 @@ namespace vagus::serve {
 
 // A run waits so long for the nodes of its world to describe themselves.
 constexpr Duration kDescribeWithin = 3s;
-constexpr int kStepMs = 10;  // of run.step, unless it says otherwise
+constexpr Duration kIntoWithin = 1s;  // nodes get breakpoints; then a plan goes on without the rest
+constexpr int kStepMs = 10;           // of run.step, unless it says otherwise
 
 struct WorkbenchPlaces {
     LibraryPlaces library;
@@ -112,6 +114,15 @@ private:
     Json studio_document() const;
     Json list_folder(const std::string& path) const;
 
+    // ---- plan_debugging.cpp: breakpoints of plans, events by hand ----
+    void declare_debug_commands();
+    void set_plan_breakpoint(const Call& call);
+    void plan_breakpoints_changed();
+    Json plan_breakpoint_orders() const;
+    Json handlers_of(const std::vector<std::string>& events);
+    void step_into_script(const Call& call);
+    void go_into_script();
+
     // ---- recording.cpp: what the history is told ----
     void record_history();
     void record_plan(const RunOrder& order);
@@ -165,6 +176,7 @@ private:
     Files files_;
     Scripts scripts_;
     ScriptBreakpoints breakpoints_;
+    PlanBreakpoints plan_breakpoints_;
     Editing editing_;
     Robot robot_;
     Run run_;
@@ -193,6 +205,13 @@ private:
     // Counts what makes a start void: another one, Stop, another target. What was begun for it and
     // finds another number lets nothing run any more.
     uint64_t start_ = 0;
+    // The plan goes on once the nodes have the breakpoints of a step into a script.
+    struct Into {
+        Call call;
+        Json spots;
+        Time until{};
+    };
+    std::optional<Into> into_;
     // Stop, under way.
     std::optional<Time> nodes_stop_at_;
     std::vector<Call> stop_calls_;

@@ -1,8 +1,10 @@
+import type { PlanLevel } from '../../protocol/messages';
 import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
 import { countsOf } from '../../core/findings';
 import { kindOf } from '../dock/documents';
 import { text } from '../text';
+import { revealElement } from '../views/plan/reveal_element';
 import { drives, projectOf } from './looks';
 
 const titles = text.commands;
@@ -39,7 +41,25 @@ export function planCommands(studio: Studio): Command[] {
     make('plan.continue', () => state() === 'paused'),
     make('plan.step', goes),
     make('plan.stop', goes),
+    {
+      id: 'plan.show',
+      title: titles['plan.show'],
+      group: text.groups.go,
+      keys: ['Alt+F12'],
+      enabled: () => activeActor(studio) !== undefined,
+      run() {
+        const level = activeActor(studio);
+        if (level) revealElement(studio, level.doc, level.actor);
+      },
+    },
   ];
+}
+
+/** The innermost plan that runs with an active actor. */
+function activeActor(studio: Studio): PlanLevel | undefined {
+  const plan = studio.topics.get('plan', {});
+  const goes = plan?.state === 'running' || plan?.state === 'paused';
+  return goes ? plan.levels.findLast((level) => level.actor !== '') : undefined;
 }
 
 /** The plan that is looked at, else that of the project; none with errors. */

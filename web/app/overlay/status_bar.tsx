@@ -8,6 +8,7 @@ import {
 import { countsOf } from '../../core/findings';
 import { shownTime } from '../../core/numbers';
 import { standsAt } from '../../core/run_state';
+import { kindOf } from '../dock/documents';
 import { usePart, useStudio, useTopic, useWindow } from '../hooks';
 import { Kbd } from '../parts/kbd';
 import { kStroke } from '../parts/icons';
@@ -56,6 +57,8 @@ function Runs() {
   const end = useEnd();
   const doc = useWindow((state) => state.doc);
   const nodes = useTopic('robot', {})?.nodes ?? [];
+  const holds = usePart('plan', {}, (is) => is?.stands_at?.[0]);
+  const broken = useTopic('breakpoints', {})?.plans.find((one) => one.number === holds);
   if (at !== null)
     return (
       <span className="status__part">
@@ -69,6 +72,14 @@ function Runs() {
       <span className="status__part">
         <IconPlayerPause size={13} stroke={kStroke} aria-hidden />
         {text.status.pausedAt(standing.name, standing.at.line)}
+        <ActiveActor />
+      </span>
+    );
+  if (broken)
+    return (
+      <span className="status__part">
+        <IconPlayerPause size={13} stroke={kStroke} aria-hidden />
+        {text.breakpoints.pausedAt(text.breakpoints.place(broken))}
       </span>
     );
   const node = nodes.find((one) => one.doc === doc);
@@ -77,6 +88,22 @@ function Runs() {
     <span className="status__part">
       {text.status.runsScript(node.name, timeOf(node.loaded_wall))}
     </span>
+  );
+}
+
+/** From the line where a node stands back to the drawing. */
+function ActiveActor() {
+  const { registry } = useStudio();
+  const actor = usePart('plan', {}, (is) =>
+    is?.state === 'running' || is?.state === 'paused'
+      ? is.levels.findLast((level) => level.actor !== '')?.actor
+      : undefined,
+  );
+  if (actor === undefined) return null;
+  return (
+    <button type="button" className="status__actor" onClick={() => registry.run('plan.show')}>
+      {text.status.showActor(actor)}
+    </button>
   );
 }
 
@@ -102,6 +129,7 @@ function Hints({ started }: { started: boolean }) {
     if (looksBack) hints.push(['Esc', text.past.escape], ['←→', words.step20]);
     else if (paused) hints.push(['F5', words.continue], ['F10', words.step]);
     else if (errors > 0) hints.push(['Alt+Enter', words.fix]);
+    if (doc !== null && kindOf(doc) === 'plan') hints.push(['F9', words.breakpoint]);
     if (doc?.includes('#')) hints.push(['F9', words.breakpoint], ['Ctrl+U', words.upload]);
     hints.push(['F6', words.next]);
     if (layout === 'Draw' || !doc?.includes('#'))

@@ -7,7 +7,15 @@ import * as edit from './edit';
 import { planModel, type PlanModel } from './model';
 import { kPartMax, parsePart, partOf, partText, paste, type Part } from './part';
 
-const bare = { help: '', icon: '', inputs: [], outputs: [], outcomes: [], period_ms: 0 };
+const bare = {
+  help: '',
+  icon: '',
+  inputs: [],
+  outputs: [],
+  outcomes: [],
+  period_ms: 0,
+  starts: [],
+};
 const wait: PlanTemplate = { ...bare, name: 'Wait', kind: 'actor' };
 const toolboxes: PlanToolbox[] = [{ name: 'core', help: '', templates: [wait] }];
 

@@ -1,8 +1,15 @@
-// What of a running plan its drawing shows: who works, who watches, which arrow was just taken.
+// What of a running plan its drawing shows: who works, who watches, which arrow was just taken, how
+// often each element had its turn.
 
 import type { PlanLevel, Topics } from '../../protocol/messages';
-import { supervisorKey, type Drawing } from './arrows';
-import { supervisorsOf, type PlanModel } from './model';
+import { arrowId, supervisorKey } from './arrows';
+import { kStart, supervisorsOf, type PlanModel } from './model';
+
+export interface Turns {
+  times: number;
+  /** All in all, without the activation that runs. */
+  seconds: number;
+}
 
 export interface LivePlan {
   state: Topics['plan']['is']['state'];
@@ -13,8 +20,16 @@ export interface LivePlan {
   activation: number;
   watching: ReadonlySet<string>;
   values: ReadonlyMap<string, string>;
-  /** The arrow that led to the active actor; null: nobody saw it. */
+  /** What the formulas of the active actor gave, by input. */
+  inputs: ReadonlyMap<string, string>;
+  /** The arrow that was taken last; null: none yet. */
   taken: string | null;
+  /** Counts arrows, for one that is taken again. */
+  takenNumber: number;
+  /** By key of an element. */
+  turns: ReadonlyMap<string, Turns>;
+  /** Numbers of the breakpoints that hold it. */
+  standsAt: readonly number[];
 }
 
 export const noPlan: LivePlan = {
@@ -25,24 +40,19 @@ export const noPlan: LivePlan = {
   activation: 0,
   watching: new Set(),
   values: new Map(),
+  inputs: new Map(),
   taken: null,
+  takenNumber: 0,
+  turns: new Map(),
+  standsAt: [],
 };
 
-export function livePlan(
-  before: LivePlan,
-  plan: Topics['plan']['is'],
-  level: PlanLevel,
-  model: PlanModel,
-  drawing: Drawing,
-): LivePlan {
+export function livePlan(plan: Topics['plan']['is'], level: PlanLevel, model: PlanModel): LivePlan {
   const goes = plan.state === 'running' || plan.state === 'paused';
   const watches = new Map(level.supervisors.map((one) => [one.name, one.watching]));
   const watching = supervisorsOf(model).filter(
-    ({ name, owner }) =>
-      watches.get(name) === true && (owner === '@start' || owner === level.actor),
+    ({ name, owner }) => watches.get(name) === true && (owner === kStart || owner === level.actor),
   );
-  const isNext = level.activation !== before.activation;
-  const told = plan.story.slice(-kToldMax).map((line) => line.text);
   return {
     state: plan.state,
     t: plan.t,
@@ -50,37 +60,50 @@ export function livePlan(
     since: level.since,
     activation: level.activation,
     watching: new Set(goes ? watching.map(supervisorKey) : []),
-    values: new Map(level.variables.map(({ name, value }) => [name, shown(value)])),
-    taken: isNext ? takenArrow(before.actor, level.actor, drawing, told) : before.taken,
+    values: new Map(level.variables.map(({ name, value }) => [name, shownValue(value)])),
+    inputs: inputsOf(level),
+    taken: takenArrow(level, model),
+    takenNumber: level.taken?.number ?? 0,
+    turns: turnsOf(level, model),
+    standsAt: plan.stands_at ?? [],
   };
 }
 
-/** Of what happened, so many lines back the reason of the last step is looked for. */
-const kToldMax = 6;
-
-/** From the actor before, one of its supervisors, or a global one; the latest that was told. */
-function takenArrow(
-  from: string,
-  to: string,
-  drawing: Drawing,
-  told: readonly string[],
-): string | null {
-  const leads = drawing.arrows.filter(
-    ({ source, target }) =>
-      target === to &&
-      (from === ''
-        ? source === '@start'
-        : source === from || source.startsWith(`${from}/`) || source.startsWith('@start/')),
-  );
-  if (from === '') return leads[0]?.id ?? null;
-  for (const text of [...told].reverse()) {
-    const meant = leads.find(({ outcome }) => text.includes(outcome));
-    if (meant) return meant.id;
-  }
-  return leads.length === 1 ? (leads[0]?.id ?? null) : null;
+function inputsOf({ inputs }: PlanLevel): Map<string, string> {
+  if (typeof inputs !== 'object' || inputs === null || Array.isArray(inputs)) return new Map();
+  return new Map(Object.entries(inputs).map(([name, value]) => [name, shownValue(value)]));
 }
 
-function shown(value: PlanLevel['variables'][number]['value']): string {
+/** Supervisors are told by their name, which is one of its kind in a plan. */
+function keyOfSupervisor(model: PlanModel, name: string): string | undefined {
+  const found = supervisorsOf(model).find((one) => one.name === name);
+  return found && supervisorKey(found);
+}
+
+function takenArrow({ taken }: PlanLevel, model: PlanModel): string | null {
+  if (!taken) return null;
+  switch (taken.is) {
+    case 'start':
+      return arrowId(kStart, '');
+    case 'state':
+      return arrowId(taken.element, taken.outcome);
+    case 'event': {
+      const key = keyOfSupervisor(model, taken.element);
+      return key === undefined ? null : arrowId(key, taken.outcome);
+    }
+  }
+}
+
+function turnsOf({ counts }: PlanLevel, model: PlanModel): Map<string, Turns> {
+  return new Map(
+    counts.flatMap(({ is, name, times, seconds }): [string, Turns][] => {
+      const key = is === 'actor' ? name : keyOfSupervisor(model, name);
+      return key === undefined ? [] : [[key, { times, seconds }]];
+    }),
+  );
+}
+
+export function shownValue(value: PlanLevel['variables'][number]['value']): string {
   if (typeof value === 'number') return String(Number(value.toFixed(3)));
   return typeof value === 'string' ? value : JSON.stringify(value);
 }

@@ -2,7 +2,15 @@ import { expect, test } from 'vitest';
 import type { PlanToolbox, SharedFile } from '../../protocol/messages';
 import { faultOfName, workingScripts, type WantedTemplate } from './own_template';
 
-const template = { kind: 'actor', help: '', icon: '', inputs: [], outputs: [], outcomes: [] };
+const template = {
+  kind: 'actor',
+  help: '',
+  icon: '',
+  inputs: [],
+  outputs: [],
+  outcomes: [],
+  starts: [],
+};
 const toolboxes = [
   { name: 'core', help: '', templates: [{ ...template, name: 'Wait', period_ms: 0 }] },
 ] as PlanToolbox[];

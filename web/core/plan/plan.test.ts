@@ -12,7 +12,7 @@ import { findTemplate, matching } from './templates';
 
 function template(name: string, kind: PlanTemplate['kind'], outcomes: string[]): PlanTemplate {
   const named = outcomes.map((one) => ({ name: one, help: '' }));
-  const bare = { help: '', icon: '', inputs: [], outputs: [], period_ms: 10 };
+  const bare = { help: '', icon: '', inputs: [], outputs: [], period_ms: 10, starts: [] };
   return { name, kind, outcomes: named, ...bare };
 }
 

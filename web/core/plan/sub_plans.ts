@@ -22,6 +22,7 @@ export function subPlanTemplate(path: string, file: Json): PlanTemplate {
     outputs: seen('out').map(([name, one]) => ({ ...shown(name, one) })),
     outcomes: kStates.map((name) => ({ name, help: '' })),
     period_ms: 0,
+    starts: [],
   };
 }
 

@@ -36,7 +36,7 @@ export function PlanLive({ doc }: { doc: Doc }) {
         ) : null}
         {plan && level ? (
           <>
-            <ActiveActor level={level} t={plan.t} state={plan.state} />
+            {state === 'ended' ? null : <ActiveActor level={level} t={plan.t} state={plan.state} />}
             <PlanWatchers supervisors={level.supervisors} />
             <PlanVariables level={shown} variables={level.variables} />
           </>

@@ -33,6 +33,7 @@ export function ArrowsLayer({ board, allData }: { board: PlanBoard; allData: boo
           const by = port.side === 'left' ? -18 : 18;
           return <path key={id} className="parrow-loose" d={`M${port.x} ${port.y}h${by}`} />;
         })}
+        <TakenArrow board={board} />
         <Drawn board={board} />
       </svg>
     </ViewportPortal>
@@ -47,9 +48,8 @@ const ActionArrow = memo(function ActionArrow(props: {
   near: boolean;
 }) {
   const { board, arrow, route, gaps, near } = props;
-  const taken = useLive((live) => live.taken === arrow.id);
   if (!route) return null;
-  const kind = taken ? 'taken' : near ? 'near' : 'plain';
+  const kind = near ? 'near' : 'plain';
   const path = roundedPath(shortened(route));
   return (
     <g
@@ -66,6 +66,24 @@ const ActionArrow = memo(function ActionArrow(props: {
     </g>
   );
 });
+
+/** The arrow that the plan took last, above those with which it shares its way. */
+function TakenArrow({ board }: { board: PlanBoard }) {
+  const taken = useLive((live) => live.taken);
+  const number = useLive((live) => live.takenNumber);
+  const route = taken === null ? undefined : board.drawing.routes.get(taken);
+  if (!route) return null;
+  return (
+    // One that is taken again fades again.
+    <g key={number} className="parrow parrow--taken" aria-hidden>
+      <path
+        className="parrow__line"
+        d={roundedPath(shortened(route))}
+        markerEnd="url(#plan-head-taken)"
+      />
+    </g>
+  );
+}
 
 function Heads() {
   return (

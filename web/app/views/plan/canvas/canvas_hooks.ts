@@ -8,6 +8,7 @@ import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { canvasCommands } from './canvas_commands';
+import { debugCommands } from './debug_commands';
 import { FlowNodes, type PlanNode } from './flow_nodes';
 
 /** Room around the boxes for the arrows that go around them. */
@@ -123,15 +124,16 @@ export function useOnDesk(
   useEffect(() => planDeskOf(studio).add(shown), [studio, shown]);
   useEffect(() => {
     const properties = () => revealPanel(studio.window, 'properties');
-    return studio.registry.add(
-      canvasCommands(studio, {
+    return studio.registry.add([
+      ...debugCommands(studio, properties),
+      ...canvasCommands(studio, {
         fit: () => void flow.fitView(kFit),
         zoom: (by) => void flow.zoomTo(flow.getZoom() * by),
         properties,
         rename: () => planDeskOf(studio).renames.emit(),
         find,
       }),
-    );
+    ]);
   }, [studio, flow, find]);
   const use = useCallback(() => {
     planDeskOf(studio).use(shown);

@@ -64,10 +64,14 @@ function boxesOf(board: PlanBoard): Map<string, Box> {
 function Thin(props: { arrow: DataArrow; box: Box; pill: Box; index: number }) {
   const { arrow, box, pill, index } = props;
   const value = useLive((live) => live.values.get(arrow.variable));
+  const gave = useLive((live) =>
+    arrow.is === 'in' && live.actor === arrow.element ? live.inputs.get(arrow.port) : undefined,
+  );
+  const label = text.draw.dataNow(arrow, value, gave);
   const { line, head } = dataPath(arrow, box, pill, index);
   return (
-    <g role="img" aria-label={text.draw.data(arrow)}>
-      <title>{value === undefined ? text.draw.data(arrow) : `${arrow.variable} = ${value}`}</title>
+    <g role="img" aria-label={label}>
+      <title>{label}</title>
       <path className="pdata__hand" d={line} />
       <path className="pdata__line" d={line} />
       <path className="pdata__head" d={head} />

@@ -7,8 +7,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { livePlan, noPlan, type LivePlan } from '../../../../core/plan/live';
 import { shownLevel } from '../../../../core/plan_view';
-import { ledHere } from '../../../../core/plan/led_here';
-import { usePastTime, useShownPlan } from '../../../past_hooks';
+import { useShownPlan } from '../../../past_hooks';
 
 export type LiveStore = StoreApi<LivePlan>;
 export const LiveContext = createContext<LiveStore>(createStore<LivePlan>()(() => noPlan));
@@ -21,14 +20,10 @@ export function useLive<T>(select: (live: LivePlan) => T): T {
 export function useLiveStore(board: PlanBoard): LiveStore {
   const [store] = useState(() => createStore<LivePlan>()(() => noPlan));
   const plan = useShownPlan();
-  const looksBack = usePastTime() !== null;
   useEffect(() => {
     const level = plan?.levels[shownLevel(plan.levels, board.doc, null)];
     const isOurs = plan !== undefined && plan.state !== 'none' && level?.doc === board.doc;
-    const before = looksBack ? noPlan : store.getState();
-    const live = isOurs ? livePlan(before, plan, level, board.model, board.drawing) : noPlan;
-    const taken = isOurs && looksBack ? ledHere(plan, level, board.drawing) : live.taken;
-    store.setState({ ...live, taken }, true);
-  }, [store, plan, board, looksBack]);
+    store.setState(isOurs ? livePlan(plan, level, board.model) : noPlan, true);
+  }, [store, plan, board]);
   return store;
 }

@@ -1,10 +1,18 @@
-import { IconEye, IconEyeClosed, IconFlag, IconMinus, IconSquareFilled } from '@tabler/icons-react';
+import {
+  IconBolt,
+  IconEye,
+  IconEyeClosed,
+  IconFlag,
+  IconMinus,
+  IconSquareFilled,
+} from '@tabler/icons-react';
 import { memo } from 'react';
 import type { NodeProps } from '@xyflow/react';
 import { arrowId, supervisorKey } from '../../../../core/plan/arrows';
 import { kStart } from '../../../../core/plan/model';
 import { kStroke } from '../../../parts/icons';
 import { text } from '../../../text';
+import { BreakDot } from './break_dots';
 import type { ActorNode, PillNode, StartNode, SupervisorNode, TagNode } from './flow_nodes';
 import { useLive } from './live_store';
 import { Mark } from './mark';
@@ -42,6 +50,7 @@ export const ActorBox = memo(function ActorBox({ data, selected }: NodeProps<Act
   return (
     <div className={classes.join(' ')} data-plan-actor={actor.name}>
       <Mark {...findings} />
+      <BreakDot at={actor.name} />
       {active ? <Badge /> : null}
       <div className="pactor__head">
         <TemplateIcon icon={actor.known?.icon ?? ''} role={actor.role} />
@@ -49,7 +58,10 @@ export const ActorBox = memo(function ActorBox({ data, selected }: NodeProps<Act
           <b className="ellipsis" title={actor.name}>
             {actor.name}
           </b>
-          <span className="ellipsis">{actor.template}</span>
+          <span className="ellipsis">
+            {actor.template}
+            <Turns of={actor.name} />
+          </span>
         </div>
       </div>
       {rows.map((row) => (
@@ -64,17 +76,33 @@ function Badge() {
   return <span className="pactor__badge num">▶ {words.seconds(seconds)}</span>;
 }
 
+/** How often it had its turn, and how long all in all. */
+function Turns({ of }: { of: string }) {
+  const times = useLive((live) => live.turns.get(of)?.times ?? 0);
+  const seconds = useLive((live) => live.turns.get(of)?.seconds ?? 0);
+  // In its first turn the badge has the time.
+  const first = useLive((live) => live.actor === of && times === 1);
+  if (times === 0) return null;
+  if (first) return <span className="pturns num"> {words.times(times)}</span>;
+  return <span className="pturns num"> {words.turns(times, seconds)}</span>;
+}
+
 export const SupervisorHexagon = memo(function SupervisorHexagon(props: NodeProps<SupervisorNode>) {
   const { data, selected } = props;
   const { supervisor, rows, findings } = data;
   const watching = useLive((live) => live.watching.has(supervisorKey(supervisor)));
-  const raised = useLive((live) => rows.some((row) => row.id === live.taken));
+  const raised = useLive((live) =>
+    rows.some((row) => row.id === live.taken) ? live.takenNumber : 0,
+  );
+  const held = useLive((live) => live.standsAt.length > 0);
+  const times = useLive((live) => live.turns.get(supervisorKey(supervisor))?.times ?? 0);
   const classes = [rows.length > 1 ? 'psup psup--many' : 'psup'];
   if (selected) classes.push('is-selected');
   if (watching) classes.push('is-watching');
-  if (raised) classes.push('is-raised');
+  if (raised > 0) classes.push('is-raised', `is-raised--${raised % 2}`);
+  if (raised > 0 && held) classes.push('is-held');
   if (findings.errors > 0) classes.push('has-error');
-  const Icon = watching ? IconEye : IconEyeClosed;
+  const Icon = raised > 0 ? IconBolt : watching ? IconEye : IconEyeClosed;
   return (
     <div
       className={classes.join(' ')}
@@ -83,8 +111,12 @@ export const SupervisorHexagon = memo(function SupervisorHexagon(props: NodeProp
     >
       <div className="psup__shape" />
       <Mark {...findings} />
+      <BreakDot at={supervisorKey(supervisor)} />
       <Icon className="psup__eye" size={14} stroke={kStroke} aria-hidden />
-      <b className="ellipsis">{supervisor.name}</b>
+      <b className="ellipsis">
+        {supervisor.name}
+        {times > 0 ? <span className="pturns num"> {words.times(times)}</span> : null}
+      </b>
       {rows.map((row) => (
         <Row key={row.id} {...row} source={supervisorKey(supervisor)} />
       ))}

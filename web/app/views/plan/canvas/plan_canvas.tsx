@@ -15,17 +15,20 @@ import { Blank } from '../../../parts/blank';
 import { text } from '../../../text';
 import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
+import { ActiveLine } from './active_line';
 import { ArrowsLayer } from './arrows_layer';
+import { DotsContext, useDots } from './break_dots';
 import { kFit, useFitted, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { ConnectMenu } from './connect_menu';
+import { ElementMenu } from './element_menu';
 import { FindBar } from './find_bar';
 import type { PlanNode } from './flow_nodes';
 import { LiveContext, useLiveStore } from './live_store';
-import { NodeMenu, useNodeMenu } from './node_menu';
 import { NoteContext, useNoteActs } from './note_context';
 import { nodeTypes } from './nodes';
 import { useClipboard } from './plan_clipboard';
 import { useDropping } from './use_dropping';
+import { useElementMenu } from './use_element_menu';
 import { ConnectContext, useConnecting } from './use_connecting';
 import { usePlanBoard } from './use_board';
 import '../../../look/draw.css';
@@ -56,8 +59,9 @@ function Canvas({ board }: { board: PlanBoard }) {
   const { connect, asked, close } = useConnecting(board, drives);
   const notes = useNoteActs(board, drives);
   const dropping = useDropping(board, drives);
-  const menu = useNodeMenu(board);
   const live = useLiveStore(board);
+  const dots = useDots(board);
+  const { menu, closeMenu, onNodeContextMenu } = useElementMenu(board);
   const options = usePlanOptions();
   const onNodesChange = useNodeChanges(board);
   const onMoveStart = useFitted();
@@ -66,63 +70,66 @@ function Canvas({ board }: { board: PlanBoard }) {
     <LiveContext value={live}>
       <ConnectContext value={connect}>
         <NoteContext value={notes}>
-          <div
-            className="pcanvas"
-            ref={frame}
-            data-place="plan"
-            role="region"
-            aria-label={words.canvas(board.model.name)}
-            onPointerDownCapture={use}
-            onFocusCapture={use}
-            {...dropping}
-            {...clipboard}
-          >
-            <ReactFlow<PlanNode>
-              nodes={nodes}
-              edges={kNoEdges}
-              nodeTypes={nodeTypes}
-              onNodesChange={onNodesChange}
-              onMoveStart={onMoveStart}
-              onPaneClick={() => board.select(null)}
-              onNodeContextMenu={menu.onNodeContextMenu}
-              nodesConnectable={false}
-              snapToGrid
-              snapGrid={kGrid}
-              minZoom={0.1}
-              maxZoom={2}
-              fitView
-              fitViewOptions={kFit}
-              deleteKeyCode={null}
-              selectionKeyCode="Shift"
-              multiSelectionKeyCode={kAlso}
-              zoomActivationKeyCode={null}
-              panActivationKeyCode={null}
-              zoomOnDoubleClick={false}
-              onlyRenderVisibleElements={nodes.length > kManyNodes}
-              ariaLabelConfig={words.aria}
-              proOptions={kNoName}
+          <DotsContext value={dots}>
+            <div
+              className="pcanvas"
+              ref={frame}
+              data-place="plan"
+              role="region"
+              aria-label={words.canvas(board.model.name)}
+              onPointerDownCapture={use}
+              onFocusCapture={use}
+              {...dropping}
+              {...clipboard}
             >
-              <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
-              <ArrowsLayer board={board} allData={options.data} />
-              {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
-            </ReactFlow>
-            {board.model.actors.length === 0 ? (
-              <p className="pcanvas__empty">{words.empty}</p>
-            ) : null}
-            {finds ? (
-              <FindBar
-                board={board}
-                onFound={(key) => {
-                  setFinds(false);
-                  board.select(key);
-                  shown.focus(key);
-                }}
-                onClose={() => setFinds(false)}
-              />
-            ) : null}
-            {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
-            {menu.asked ? <NodeMenu asked={menu.asked} onClose={menu.close} /> : null}
-          </div>
+              <ReactFlow<PlanNode>
+                nodes={nodes}
+                edges={kNoEdges}
+                nodeTypes={nodeTypes}
+                onNodesChange={onNodesChange}
+                onMoveStart={onMoveStart}
+                onNodeContextMenu={onNodeContextMenu}
+                onPaneClick={() => board.select(null)}
+                nodesConnectable={false}
+                snapToGrid
+                snapGrid={kGrid}
+                minZoom={0.1}
+                maxZoom={2}
+                fitView
+                fitViewOptions={kFit}
+                deleteKeyCode={null}
+                selectionKeyCode="Shift"
+                multiSelectionKeyCode={kAlso}
+                zoomActivationKeyCode={null}
+                panActivationKeyCode={null}
+                zoomOnDoubleClick={false}
+                onlyRenderVisibleElements={nodes.length > kManyNodes}
+                ariaLabelConfig={words.aria}
+                proOptions={kNoName}
+              >
+                <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
+                <ArrowsLayer board={board} allData={options.data} />
+                {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
+              </ReactFlow>
+              {board.model.actors.length === 0 ? (
+                <p className="pcanvas__empty">{words.empty}</p>
+              ) : null}
+              {finds ? (
+                <FindBar
+                  board={board}
+                  onFound={(key) => {
+                    setFinds(false);
+                    board.select(key);
+                    shown.focus(key);
+                  }}
+                  onClose={() => setFinds(false)}
+                />
+              ) : null}
+              {menu ? <ElementMenu at={menu} onClose={closeMenu} /> : null}
+              {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
+            </div>
+            <ActiveLine board={board} onShow={(key) => (board.select(key), shown.focus(key))} />
+          </DotsContext>
         </NoteContext>
       </ConnectContext>
     </LiveContext>

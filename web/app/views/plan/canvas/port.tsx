@@ -1,6 +1,7 @@
 import { memo, useContext } from 'react';
 import type { Side } from '../../../../core/plan/route';
 import { text } from '../../../text';
+import { BreakDot } from './break_dots';
 import { ConnectContext } from './use_connecting';
 
 export interface RowData {
@@ -18,7 +19,8 @@ export const Row = memo(function Row(props: RowData & { source: string }) {
   const classes = ['prow', `prow--${side}`];
   if (target === null) classes.push('is-loose');
   return (
-    <div className={classes.join(' ')} style={{ top: y - 11 }} title={outcome}>
+    <div className={classes.join(' ')} style={{ top: y - 11 }} title={outcome} data-plan-row={id}>
+      <BreakDot at={id} />
       <span className="ellipsis">{outcome}</span>
       <Port id={id} source={source} outcome={outcome} side={side} leads={target} y={11} />
     </div>

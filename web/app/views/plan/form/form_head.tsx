@@ -6,6 +6,7 @@ import { useDrives, useStudio } from '../../../hooks';
 import { Button } from '../../../parts/button';
 import { kStroke } from '../../../parts/icons';
 import { text } from '../../../text';
+import { renameBreaks } from '../break_acts';
 import { TemplateIcon } from '../canvas/template_icon';
 import { planDeskOf } from '../plan_desk';
 
@@ -64,6 +65,7 @@ export function FormHead(props: {
 
 function NameField(props: { board: PlanBoard; chosen: string; name: string; onDone: () => void }) {
   const { board, chosen, name, onDone } = props;
+  const studio = useStudio();
   const [typed, type] = useState(name);
   const is = board.variable(chosen)
     ? 'variable'
@@ -72,7 +74,10 @@ function NameField(props: { board: PlanBoard; chosen: string; name: string; onDo
       : 'actor';
   const why = typed === name ? null : whyNoName(board.model, typed, is);
   const done = () => {
-    if (typed !== name && why === null) board.rename(chosen, typed);
+    if (typed !== name && why === null) {
+      board.rename(chosen, typed);
+      if (is !== 'variable') renameBreaks(studio, board.doc, is, name, typed);
+    }
     onDone();
   };
   return (

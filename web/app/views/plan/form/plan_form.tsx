@@ -6,10 +6,12 @@ import { Quiet } from '../../../parts/blank';
 import { text } from '../../../text';
 import { RoleShape } from '../canvas/template_icon';
 import { useBoard, type ShownPlan } from '../plan_desk';
+import { BreakPart } from './break_part';
 import { ElementForm } from './element_form';
 import { FormHead } from './form_head';
 import { Leads } from './leads';
 import { NoteForm } from './note_form';
+import { RaisePart } from './raise_part';
 import { VariableForm } from './variable_form';
 
 const words = text.draw;
@@ -64,7 +66,12 @@ function Chosen(props: { board: PlanBoard; chosen: string; disabled: boolean }) 
         help={element.known?.help ?? ''}
       />
       <ElementForm board={board} chosen={chosen} element={element} disabled={disabled} />
-      {'supervisors' in element ? <Hanging board={board} keys={element.supervisors} /> : null}
+      {'supervisors' in element ? (
+        <Hanging board={board} keys={element.supervisors} />
+      ) : (
+        <RaisePart board={board} supervisor={element} />
+      )}
+      <BreakPart board={board} chosen={chosen} outcomes={element.outcomes} disabled={disabled} />
     </>
   );
 }

@@ -1,0 +1,146 @@
+// What pages ask of the debugger of a plan: breakpoints, which the project keeps whether a plan
+// runs or not, and events that a person raises.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "aesl/mentions.hpp"
+#include "serve/workbench/workbench.hpp"
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr size_t kHandlersMax = 1000;  // that script.handlers gives
+constexpr size_t kLineTextMax = 400;
+
+std::string line_at(const std::string& source, size_t offset) {
+    const size_t before = offset == 0 ? std::string::npos : source.rfind('\n', offset - 1);
+    const size_t from = before == std::string::npos ? 0 : before + 1;
+    const std::string line = source.substr(from, source.find('\n', offset) - from);
+    return line.size() <= kLineTextMax ? line : std::string();
+}
+
+// The first line with code below that of a handler; 0: there is none, or it does not compile.
+int first_line_of(const CompiledScript& script, int handler) {
+    int first = 0;
+    if (!script.result.ok()) return first;
+    for (const uint16_t line : script.result.program.lines) {
+        if (line > handler && (first == 0 || line < first)) first = line;
+    }
+    return first;
+}
+
+Json place(const aesl::Position& at) {
+    return {{"line", at.line}, {"column", at.column}};
+}
+
+}  // namespace
+
+// Before a run and during it the host has the same list.
+Json Workbench::plan_breakpoint_orders() const {
+    return plan_breakpoints_.orders(
+        [this](const std::string& doc) { return project_ ? project_->real(doc) : doc; });
+}
+
+void Workbench::plan_breakpoints_changed() {
+    desk_.board().touch("breakpoints");
+    keep_breakpoints();
+    run_.tell({{"do", "plan.breakpoints"}, {"list", plan_breakpoint_orders()}});
+}
+
+void Workbench::set_plan_breakpoint(const Call& call) {
+    if (!project_) return call.fail("unavailable", "no project is open; open one first");
+    PlanBreakpoint wanted;
+    wanted.number = static_cast<uint64_t>(call.in.value("number", 0.0));
+    wanted.doc = call.in["doc"];
+    wanted.kind = call.in["kind"];
+    wanted.element = call.in.value("element", "");
+    wanted.outcome = call.in.value("outcome", "");
+    wanted.condition = call.in.value("condition", "");
+    wanted.stop_at = call.in.value("stop_at", uint64_t{1});
+    wanted.enabled = call.in.value("enabled", true);
+    const auto set = plan_breakpoints_.set(wanted);
+    if (!set.ok()) return call.fail(set.error());
+    const uint64_t number = set.value()->number;
+    plan_breakpoints_changed();
+    call.done({{"number", number}});
+}
+
+// ---- from an element to its script ----
+
+Json Workbench::handlers_of(const std::vector<std::string>& events) {
+    Json spots = Json::array();
+    for (const std::string& event : events) {
+        for (const ScriptPart& part : scripts_.parts()) {
+            const CompiledScript* script = scripts_.compiled(part.doc);
+            if (!script) continue;
+            for (const aesl::Mention& one : aesl::mentions(script->source, script->common)) {
+                if (!one.handles || one.name != event || spots.size() >= kHandlersMax) continue;
+                spots.push_back({{"doc", part.doc},
+                                 {"at", place(one.at)},
+                                 {"end", place(one.end)},
+                                 {"line_text", line_at(script->source, one.offset)}});
+            }
+        }
+    }
+    return spots;
+}
+
+// Its nodes get a breakpoint that goes away with the first stop.
+void Workbench::step_into_script(const Call& call) {
+    if (!run_.plan_runs()) return call.fail("unavailable", "no plan runs");
+    const Json spots = handlers_of(call.in["events"]);
+    breakpoints_.clear_once();
+    bool set = false;
+    for (const Json& spot : spots) {
+        const std::string doc = spot["doc"];
+        const int line = first_line_of(*scripts_.compiled(doc), spot["at"]["line"]);
+        if (line > 0 && breakpoints_.set_once(doc, line).ok()) set = true;
+    }
+    if (!set) {
+        return call.fail("not_found",
+                         "no script of the project handles the events by which this works on a "
+                         "node; write onevent with one of their names");
+    }
+    if (into_) into_->call.fail("conflict", "another step into a script was asked for");
+    robot_.place_breakpoints();
+    into_.emplace(Into{call, spots, now_ + kIntoWithin});
+}
+
+void Workbench::go_into_script() {
+    if (!into_ || (breakpoints_.waits_for_once() && now_ < into_->until)) return;
+    const Into into = std::move(*into_);
+    into_.reset();
+    run_.go_on();
+    into.call.done({{"spots", into.spots}});
+}
+
+void Workbench::declare_debug_commands() {
+    desk_.command("script.handlers", [this](const Call& call) {
+        call.done({{"spots", handlers_of(call.in["events"])}});
+    });
+    desk_.command("plan.into", [this](const Call& call) { step_into_script(call); });
+    desk_.command("plan.break.set", [this](const Call& call) { set_plan_breakpoint(call); });
+    desk_.command("plan.break.clear", [this](const Call& call) {
+        std::optional<uint64_t> number;
+        std::optional<std::string> doc;
+        if (call.in.contains("number")) number = static_cast<uint64_t>(call.in["number"]);
+        if (call.in.contains("doc")) doc = call.in["doc"];
+        plan_breakpoints_.clear(number, doc);
+        plan_breakpoints_changed();
+        call.done();
+    });
+    desk_.command("plan.raise", [this](const Call& call) {
+        if (!run_.plan_runs()) return call.fail("unavailable", "no plan runs");
+        run_.raise(call.in["supervisor"], call.in["event"],
+                   call.in.value("outputs", Json::object()), [call](const std::string& why) {
+                       if (why.empty()) return call.done();
+                       call.fail("bad_input", why);
+                   });
+    });
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,52 @@
+// What a person does with breakpoints of a plan, wherever they are shown.
+
+import type { PlanBreakpoint } from '../../../protocol/messages';
+import { isAt, placeOf, type BreakPlace } from '../../../core/plan/breaks';
+import type { PlanBoard } from '../../../core/plan/board';
+import type { Studio } from '../../../core/studio';
+
+export function breakAt(
+  studio: Studio,
+  doc: string,
+  place: BreakPlace,
+): PlanBreakpoint | undefined {
+  const all = studio.topics.get('breakpoints', {})?.plans ?? [];
+  return all.find((one) => one.doc === doc && isAt(one, place));
+}
+
+/** Sets one at an element or arrow, or takes it away. */
+export function toggleBreak(studio: Studio, board: PlanBoard, key: string): void {
+  const place = placeOf(board.model, key);
+  if (!place) return;
+  const there = breakAt(studio, board.doc, place);
+  if (there) studio.order('plan.break.clear', { number: there.number });
+  else studio.order('plan.break.set', { doc: board.doc, ...place });
+}
+
+/** An actor or supervisor has another name. */
+export function renameBreaks(
+  studio: Studio,
+  doc: string,
+  is: 'actor' | 'supervisor',
+  from: string,
+  to: string,
+): void {
+  for (const one of studio.topics.get('breakpoints', {})?.plans ?? []) {
+    const isOfIts = (one.kind === 'event') === (is === 'supervisor') && one.kind !== 'condition';
+    if (one.doc === doc && one.element === from && isOfIts)
+      changeBreak(studio, { ...one, element: to }, {});
+  }
+}
+
+/** What is not told stays as it is. */
+export function changeBreak(
+  studio: Studio,
+  one: PlanBreakpoint,
+  to: Partial<Pick<PlanBreakpoint, 'condition' | 'stop_at' | 'enabled'>>,
+): void {
+  const { number, doc, kind, element, outcome, condition, stop_at, enabled } = one;
+  studio.order('plan.break.set', {
+    ...{ number, doc, kind, element, outcome, condition, stop_at, enabled },
+    ...to,
+  });
+}

@@ -1,0 +1,33 @@
+import type { PlanBoard } from '../../../../core/plan/board';
+import { useBoard } from '../plan_desk';
+import { text } from '../../../text';
+import { useLive } from './live_store';
+
+const words = text.draw.active;
+
+/** Below the drawing while the plan runs: who works, and what its formulas gave. */
+export function ActiveLine({ board, onShow }: { board: PlanBoard; onShow: (key: string) => void }) {
+  const actor = useLive((live) => live.actor);
+  const activation = useLive((live) => live.activation);
+  const inputs = useLive((live) => live.inputs);
+  const { model } = useBoard(board);
+  if (actor === '') return null;
+  const known = model.actors.find((one) => one.name === actor)?.known?.inputs ?? [];
+  const unitOf = (name: string) => known.find((one) => one.name === name)?.unit ?? '';
+  return (
+    <footer className="pactive" aria-label={words.label}>
+      <button
+        type="button"
+        className="pactive__actor"
+        aria-label={words.show(actor)}
+        onClick={() => onShow(actor)}
+      >
+        ▶ {actor}
+      </button>
+      <span className="muted">{words.activation(activation)}</span>
+      <span className="pactive__inputs ellipsis">
+        {[...inputs].map(([name, value]) => `${name} ${value} ${unitOf(name)}`.trim()).join(' · ')}
+      </span>
+    </footer>
+  );
+}

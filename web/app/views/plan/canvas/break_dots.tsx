@@ -1,0 +1,46 @@
+import { createContext, useContext, useMemo, useRef } from 'react';
+import type { PlanBoard } from '../../../../core/plan/board';
+import { discOf, keyOfBreak, type Disc } from '../../../../core/plan/breaks';
+import { useTopic } from '../../../hooks';
+import { text } from '../../../text';
+import { useBoard } from '../plan_desk';
+import { useLive } from './live_store';
+
+export interface Dot {
+  number: number;
+  disc: Disc;
+  label: string;
+}
+
+/** Breakpoints by the key of what they stand at. */
+export const DotsContext = createContext<ReadonlyMap<string, Dot>>(new Map());
+
+/** The same map as long as nothing is drawn otherwise: hits do not draw the plan anew. */
+export function useDots(board: PlanBoard): ReadonlyMap<string, Dot> {
+  const all = useTopic('breakpoints', {})?.plans;
+  const { model } = useBoard(board);
+  const before = useRef<{ told: string; dots: ReadonlyMap<string, Dot> }>(undefined);
+  return useMemo(() => {
+    const dots = (all ?? []).flatMap((one): [string, Dot][] => {
+      const key = one.doc === board.doc ? keyOfBreak(model, one) : null;
+      if (key === null) return [];
+      return [[key, { number: one.number, disc: discOf(one), label: text.draw.break.dot(one) }]];
+    });
+    const told = JSON.stringify(dots);
+    if (before.current?.told !== told) before.current = { told, dots: new Map(dots) };
+    return before.current.dots;
+  }, [all, model, board]);
+}
+
+/** A red disc at an actor, a row or a supervisor that has a breakpoint. */
+export function BreakDot({ at }: { at: string }) {
+  const dot = useContext(DotsContext).get(at);
+  return dot ? <Shown {...dot} /> : null;
+}
+
+function Shown({ number, disc, label }: Dot) {
+  const holds = useLive((live) => live.standsAt.includes(number));
+  const classes = ['disc', 'pdot', `disc--${disc}`];
+  if (holds) classes.push('is-hit');
+  return <span className={classes.join(' ')} role="img" aria-label={label} title={label} />;
+}

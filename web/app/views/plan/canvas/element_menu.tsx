@@ -1,0 +1,32 @@
+import { Menu } from '@mantine/core';
+import { CommandItem, StudioMenu } from '../../../parts/menu';
+import { text } from '../../../text';
+import type { MenuAt } from './use_element_menu';
+
+const debugging = ['draw.break', 'draw.breakEdit', 'draw.into', 'draw.script'];
+const editing = ['draw.properties', 'draw.rename', 'draw.duplicate', 'draw.remove'];
+
+/** What can be done with the element under the pointer, or the one that has the keyboard. */
+export function ElementMenu({ at, onClose }: { at: MenuAt; onClose: () => void }) {
+  return (
+    <StudioMenu
+      opened
+      onChange={(open) => {
+        if (open) return;
+        onClose();
+        at.beside?.focus();
+      }}
+      button={<span className="pasked" style={{ left: at.x, top: at.y }} />}
+    >
+      <CommandItem id="draw.runFrom" title={text.plan.from.menu} />
+      <Menu.Label>{text.draw.debugging}</Menu.Label>
+      {debugging.map((id) => (
+        <CommandItem key={id} id={id} />
+      ))}
+      <Menu.Divider />
+      {editing.map((id) => (
+        <CommandItem key={id} id={id} />
+      ))}
+    </StudioMenu>
+  );
+}

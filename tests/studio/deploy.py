@@ -7,13 +7,15 @@ import pathlib
 import random
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 
 import projects
-from field import Robots
+from field import Robots, Served
 from harness import free_port, run_vagus, vagus
 from page import Page, Refused
+from secure import certificate
 
 KILLS = int(os.environ.get("VAGUS_KILLS") or 10)
 
@@ -185,6 +187,19 @@ class Deploy(Robots):
         outcome = page.do("deploy.commit")
         self.assertEqual((outcome["result"], outcome["version"]), ("refused", 0))
         self.wait_passed()
+
+    def test_by_tls_only_to_who_is_who_he_says(self):
+        place = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        cert, key = certificate(place, "robot", "127.0.0.1")
+        self.own = place
+        robot = self.enterContext(Served(projects.thymio(place / "robot"), "--start", "--tls-cert", cert, "--tls-key", key))
+        words = ("deploy", self.make(1), f"https://127.0.0.1:{robot.port}/", "--token-file", robot.folder / "data" / "token")
+        self.assertIn("certificate verify failed", run_vagus(*words, status=1))
+        other, _ = certificate(place, "other", "127.0.0.1")
+        self.assertIn("certificate verify failed", run_vagus(*words, "--tls-cert", other, status=1))
+        elsewhere, _ = certificate(place, "elsewhere", "127.0.0.2")
+        self.assertIn("certificate verify failed", run_vagus(*words, "--tls-cert", elsewhere, status=1))
+        self.assertEqual(run_vagus(*words, "--tls-cert", cert), "version 1 runs")
 
     def test_an_empty_folder_waits_for_its_first_project(self):
         Robots.serve(self, "--start", make=lambda folder: folder.mkdir())

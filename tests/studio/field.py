@@ -52,7 +52,7 @@ class Served(Studio):
     def start(self, *arguments):
         self.program = vagus("serve", self.project, *(arguments or self.arguments), "--port", 0, "--data", self.folder / "data", "--config",
                              self.folder / "config", "--pages", self.folder / "pages", cwd=self.folder, env=self.env)
-        self.port = int(self.program.wait_line(r"^serve http://127\.0\.0\.1:(\d+)/$").group(1))
+        self.port = int(self.program.wait_line(r"^serve https?://127\.0\.0\.1:(\d+)/$").group(1))
         self.token = (self.folder / "data" / "token").read_text(encoding="ascii").strip()
 
     def metrics(self):

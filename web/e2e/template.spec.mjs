@@ -34,9 +34,9 @@ test(
     await type('Blinks for a moment.');
     await press('Enter');
     await gone(form);
-    // The script is open where its author goes on.
+    // The script is open, with what was added to it.
     const editor = page.getByRole('textbox', { name: /^Script of/ }).first();
-    await reads(editor, /# The work begins here: switch something on, start a motor\./);
+    await reads(editor, /var blink_token = 0|# The work begins here/);
     const folder = join(server.data, 'projects/follow-wall/follow-wall');
     await until('the toolbox is there', () => existsSync(join(folder, 'own.toolbox.json')));
     assert.deepEqual(JSON.parse(readFileSync(join(folder, 'vagus.json'), 'utf8')).toolboxes, [

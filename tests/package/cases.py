@@ -79,9 +79,9 @@ class Package(unittest.TestCase):
             token = (home / ".local/share/vagus/token").read_text(encoding="ascii").strip()
             with Page(port, token) as page:
                 clock = page.watch("clock")
-                page.wait(lambda: clock.value["state"] == "running", "a run")
+                page.wait(lambda: clock.value and clock.value["state"] == "running", "a run")
                 start = page.watch("start")
-                self.assertIn("follow-wall", page.wait(lambda: [one["id"] for one in start.value["examples"]], "the examples"))
+                self.assertIn("follow-wall", page.wait(lambda: start.value and [one["id"] for one in start.value["examples"]], "the examples"))
             served.process.terminate()
             self.assertEqual(served.wait_end(), 0)
 

@@ -79,7 +79,7 @@ class Manager:
         self.socket.close()
 
 
-class Field(Case):
+class Robots(Case):
     def serve(self, *arguments, make=projects.thymio, env=None, **options):
         """A robot that serves itself, and one page that looks."""
         self.own = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-field-"))
@@ -110,6 +110,8 @@ class Field(Case):
         self.until(as_expected, f"metrics {expected}")
         return values
 
+
+class Field(Robots):
     def test_a_world_runs_from_the_boot_on(self):
         self.serve("--start")
         self.wait_clock("running")

@@ -97,6 +97,8 @@ export interface Finding {
   /** one sentence */
   what: string;
   fixes: Fix[];
+  /** in a plan: keys and indices that lead to what is meant */
+  keys?: Json[];
 }
 
 /** Why a command was not done. */
@@ -486,6 +488,25 @@ export interface PlanChange {
   reasons: string[];
 }
 
+/** Lines of generated code that belong to an element; one element may have several. */
+export interface CodeMark {
+  /** that lead to an element of the plan: actors, followWall */
+  keys: string[];
+  /** line */
+  first: number;
+  last: number;
+}
+
+/** A word of formulas. */
+export interface FormulaWord {
+  /** as it is written */
+  name: string;
+  is: 'function' | 'operator' | 'constant';
+  /** clamp(x, low, high) */
+  form: string;
+  help: string;
+}
+
 /** A change of one value of a JSON file. */
 export interface JsonStep {
   do: 'set' | 'remove' | 'insert' | 'move';
@@ -848,6 +869,36 @@ export interface Commands {
     changed: Doc[];
     places: number;
   } };
+  /** What would be wrong with a plan after some steps. Nothing is changed. */
+  'plan.check': { in: {
+    doc: Doc;
+    steps: JsonStep[];
+  }; out: {
+    findings: Finding[];
+  } };
+  /** The C++ program of a plan as it is edited now (vagus plan generate): NAME.cpp. A plan with errors has none; then the findings say why. */
+  'plan.code': { in: {
+    doc: Doc;
+  }; out: {
+    /** of the file */
+    name: string;
+    text: string;
+    marks: CodeMark[];
+    /** errors */
+    findings: Finding[];
+  } };
+  /** A template of the project's own: into its toolbox file, which is made and listed in vagus.json if need be, with the events it needs and handlers in the script of a node. Unchanged it works and does something harmless. All of it, or nothing. */
+  'template.new': { in: {
+    name: Name;
+    kind: 'actor' | 'supervisor';
+    /** whose node does the work */
+    script: Doc;
+    help: string;
+  }; out: {
+    toolbox: string;
+    /** in the script, where its author goes on */
+    at: Place;
+  } };
   /** Adds an event or constant to an .aesl file. */
   'define.add': { in: {
     file: Path;
@@ -1178,6 +1229,8 @@ export interface Topics {
   /** What plans of the project can be made of. That of a shared library is not known. */
   'templates': { kind: 'document'; of: Record<never, never>; is: {
     toolboxes: PlanToolbox[];
+    /** what formulas can be made of, apart from variables */
+    formulas: FormulaWord[];
   } };
   /** What the compiler knows of a script. */
   'script': { kind: 'document'; of: {
@@ -1336,7 +1389,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Edit: { doc: 'Doc', from: 'int(0..2097152)', to: 'int(0..2097152)', text: 'text(2097152)' },
   Change: { from: 'int(0..2097152)', to: 'int(0..2097152)', text: 'text(2097152)' },
   Fix: { label: 'line(200)', edits: '[Edit; 100]' },
-  Finding: { doc: 'Doc', severity: 'word(error|warning)', code: 'line(64)', element: 'line(256)?', at: 'Place', end: 'Place', what: 'text(2000)', fixes: '[Fix; 8]' },
+  Finding: { doc: 'Doc', severity: 'word(error|warning)', code: 'line(64)', element: 'line(256)?', at: 'Place', end: 'Place', what: 'text(2000)', fixes: '[Fix; 8]', keys: '[json; 100]?' },
   Problem: { code: 'word(bad_message|unknown_command|not_allowed|not_driver|not_found|bad_input|conflict|limit|unavailable|timeout|failed)', what: 'text(4000)', place: 'line(600)?' },
   FileEntry: { path: 'Path', kind: 'word(folder|script|plan|world|toolbox|project|picture|text|other)', size: 'int(0..1000000000000)', unsaved: 'bool' },
   Found: { target: 'line(256)', name: 'line(256)', kind: 'word(simulator|serial|local|network)', help: 'line(300)' },
@@ -1377,6 +1430,8 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
   PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]' },
   PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
+  CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
+  FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
   JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', to: 'int(0..1000000)?' },
   Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
   FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world)' },
@@ -1428,6 +1483,9 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'script.format_name': { may: 'look', out: { good: 'bool', why: 'line(300)?' } },
   'text.search': { may: 'look', out: { spots: '[Spot; 5000]', more: 'bool', why: 'line(300)?' } },
   'text.replace': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
+  'plan.check': { may: 'look', out: { findings: '[Finding; 2000]' } },
+  'plan.code': { may: 'look', out: { name: 'line(256)', text: 'text(4194304)', marks: '[CodeMark; 20000]', findings: '[Finding; 2000]' } },
+  'template.new': { may: 'driver', out: { toolbox: 'line(256)', at: 'Place' } },
   'define.add': { may: 'driver', out: {} },
   'define.change': { may: 'driver', out: { places: 'int(0..100000)' } },
   'define.remove': { may: 'driver', out: {} },
@@ -1478,7 +1536,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'files': { kind: 'document', is: { files: '[FileEntry; 2000]', more: 'bool' } },
   'doc': { kind: 'document', is: { version: 'int(0..4294967295)', text: 'text(2097152)', unsaved: 'bool', by: 'int(0..1000000000)', disk: 'text(2097152)?', gone: 'bool' } },
   'findings': { kind: 'document', is: { findings: '[Finding; 2000]', more: 'int(0..1000000)', versions: '{int(0..4294967295); 2000}' } },
-  'templates': { kind: 'document', is: { toolboxes: '[PlanToolbox; 200]' } },
+  'templates': { kind: 'document', is: { toolboxes: '[PlanToolbox; 200]', formulas: '[FormulaWord; 200]' } },
   'script': { kind: 'document', is: { version: 'int(0..4294967295)', good: 'bool', node: 'Name', for: 'line(200)', bytecode: 'Meter', variables: 'Meter', stack: 'Meter', handlers: '[Handler; 1000]', code_lines: '[int(1..10000000); 65536]' } },
   'scripts': { kind: 'document', is: { parts: '[ScriptPart; 1000]', files: '[SharedFile; 200]' } },
   'robot': { kind: 'document', is: { target: 'line(256)', name: 'line(256)', kind: 'word(none|simulator|bus)', state: 'word(none|connecting|connected|lost|failed)', why: 'text(1000)?', since_wall: 'number?', nodes: '[Node; 1024]', twins: '[line(300); 100]', load: 'number?', lost: 'number', events_a_second: 'number' } },

@@ -160,8 +160,12 @@ private:
         show_figures(now);
     }
 
+    // Everything runs that should: what waits for its first project, or was stopped by a person,
+    // has nothing to start.
     bool ready() const {
-        return options_.start ? starter_.state() == Starter::State::Started
+        if (!bench_->project()) return true;
+        const Starter::State state = starter_.state();
+        return options_.start ? state == Starter::State::Started || state == Starter::State::Idle
                               : bench_->missing_nodes().empty();
     }
 

@@ -12,12 +12,16 @@ import {
   planModel,
   supervisorsOf,
   type Actor,
+  type Note,
   type PlanModel,
   type Supervisor,
 } from './model';
+import { extract, type Extracted, type WhyNot } from './extract';
+import * as notes from './notes';
 import { Draft, paste, partOf, type Part } from './part';
 import { freePlace, sceneOf, type Scene } from './place';
 import { kNodeWidth, type Box, type Point } from './shape';
+import type { SubPlans } from './sub_plans';
 import type { Found, Toolboxes } from './templates';
 
 /** Apart from actors: a variable of that name. */
@@ -44,23 +48,26 @@ export class PlanBoard {
   private chosen = new Set<string>();
   private held = new Map<string, Point>();
   private finishing = false;
+  private heldSizes = new Map<string, notes.Size>();
 
   constructor(
     readonly doc: Doc,
     readonly file: JsonDocument,
     private toolboxes: Toolboxes,
+    private subPlans: SubPlans = new Map(),
     private readonly clock: () => number = () => performance.now(),
   ) {
-    this.model = planModel(file.value, toolboxes);
+    this.model = planModel(file.value, toolboxes, subPlans);
     this.scene = sceneOf(this.model);
     this.drawing = drawingOf(this.model, this.scene, { isTime: this.within(kAtOnceMs) });
     this.finish();
   }
 
   /** The file or the templates are others now. */
-  refresh(toolboxes: Toolboxes = this.toolboxes): void {
+  refresh(toolboxes: Toolboxes = this.toolboxes, subPlans: SubPlans = this.subPlans): void {
     this.toolboxes = toolboxes;
-    this.model = planModel(this.file.value, toolboxes);
+    this.subPlans = subPlans;
+    this.model = planModel(this.file.value, toolboxes, subPlans);
     this.chosen = new Set([...this.chosen].filter((key) => this.has(key)));
     this.redraw();
   }
@@ -122,6 +129,24 @@ export class PlanBoard {
     return this.model.variables.find((one) => pillKey(one.name) === key);
   }
 
+  note(key: string | null): Note | undefined {
+    return this.model.notes.find((one) => notes.noteKey(one.index) === key);
+  }
+
+  /** As they are drawn: one that is held stands where it is held. */
+  get notes(): readonly Note[] {
+    return this.model.notes.map((one) => {
+      const key = notes.noteKey(one.index);
+      const at = this.held.get(key);
+      const size = this.heldSizes.get(key);
+      return {
+        ...one,
+        at: at ? [at.x, at.y] : one.at,
+        size: size ? [size.width, size.height] : one.size,
+      };
+    });
+  }
+
   /** The key of what a finding or the live plan calls by its name. */
   keyOf(name: string): string | null {
     if (this.actor(name)) return name;
@@ -141,6 +166,7 @@ export class PlanBoard {
       key === kConfiguration ||
       this.element(key) !== undefined ||
       this.variable(key) !== undefined ||
+      this.note(key) !== undefined ||
       this.drawing.sides.has(key)
     );
   }
@@ -153,12 +179,31 @@ export class PlanBoard {
     this.redraw();
   }
 
+  /** The same for the size of a note. */
+  holdSize(key: string, size: notes.Size): void {
+    this.heldSizes.set(key, notes.fitting(size));
+    this.tell();
+  }
+
   letGo(): void {
     const held = [...this.held];
+    const sizes = [...this.heldSizes];
     this.held.clear();
-    const moved = held.filter(([name, at]) => !this.stands(name, at));
-    this.commit(moved.flatMap(([name, at]) => edit.placeSteps(this.file.value, name, at)));
+    this.heldSizes.clear();
+    this.commit([
+      ...held.flatMap(([key, at]) => this.moved(key, at)),
+      ...sizes.flatMap(([key, size]) => {
+        const note = this.note(key);
+        return note ? notes.resizeNote(note, size) : [];
+      }),
+    ]);
     this.redraw();
+  }
+
+  private moved(key: string, at: Point): JsonStep[] {
+    const note = this.note(key);
+    if (note) return notes.moveNote(note, at);
+    return this.stands(key, at) ? [] : edit.placeSteps(this.file.value, key, at);
   }
 
   private stands(name: string, { x, y }: Point): boolean {
@@ -182,6 +227,18 @@ export class PlanBoard {
     return this.added(edit.addActor(this.file.value, this.model, found, at), (name) => name);
   }
 
+  /** Another plan as an actor; `path` counts from the folder of this one. */
+  addSubPlan(path: string, wanted: Point): string {
+    const at = freePlace(this.scene, wanted);
+    return this.added(edit.addSubPlan(this.file.value, this.model, path, at), (name) => name);
+  }
+
+  /** The chosen actors as a plan of their own, in that file; nothing is changed yet. */
+  extract(made: { name: string; path: string }): Extracted | WhyNot {
+    const placeOf = (name: string) => this.blockOf(name)?.box ?? { x: 0, y: 0 };
+    return extract(this.file.value, this.model, this.chosenActors, { ...made, placeOf });
+  }
+
   /** Attached to an actor, or to @start. */
   addSupervisor(found: Found, owner: string): string {
     const made = edit.addSupervisor(this.file.value, this.model, found, owner);
@@ -190,6 +247,16 @@ export class PlanBoard {
 
   addVariable(): string {
     return this.added(edit.addVariable(this.file.value, this.model), pillKey);
+  }
+
+  /** An empty one, to be written at once; null: the file keeps something else in their place. */
+  addNote(near: Point): string | null {
+    const at = freePlace(this.scene, near, notes.kNoteSize);
+    const made = notes.addNote(this.file.value, at);
+    if (!made) return null;
+    this.commit(made.steps);
+    this.select(made.key);
+    return made.key;
   }
 
   /** What is chosen, as it can be pasted; null: nothing that can. */
@@ -253,7 +320,7 @@ export class PlanBoard {
     const { selected } = this;
     const near = this.supervisor(selected)?.owner ?? this.arrow(selected)?.source ?? kStart;
     const draft = new Draft(this.file.value);
-    for (const key of this.chosen) draft.do(this.removal(draft.file, key));
+    for (const key of notes.inRemovalOrder(this.chosen)) draft.do(this.removal(draft.file, key));
     this.commit(draft.steps);
     return this.actor(near) ? near : kStart;
   }
@@ -262,6 +329,8 @@ export class PlanBoard {
   private removal(file: Json, key: string): JsonStep[] {
     const keys = this.supervisor(key)?.keys ?? this.variableKeys(key);
     const arrow = this.arrow(key);
+    const note = this.note(key);
+    if (note) return notes.removeNote(file, note.index);
     if (this.actor(key)) return edit.removeActor(file, planModel(file, this.toolboxes), key);
     if (keys) return edit.dropSteps(file, keys);
     const source = arrow && this.source(arrow.source);

@@ -98,6 +98,19 @@ export function addActor(file: Json, model: PlanModel, found: Found, at: Point):
   };
 }
 
+export function addSubPlan(file: Json, model: PlanModel, path: string, at: Point): Added {
+  const name = freeName(model, path.replace(/^.*\//, '').replace(/\.plan\.json$/, ''));
+  const first = model.first === null ? setSteps(file, ['start', 'actor'], name) : [];
+  return {
+    name,
+    steps: [
+      ...first,
+      ...setSteps(file, ['actors', name], { plan: path }),
+      ...placeSteps(file, name, at),
+    ],
+  };
+}
+
 export function addSupervisor(file: Json, model: PlanModel, found: Found, owner: string): Added {
   const name = freeName(model, found.template.name);
   const keys = owner === kStart ? ['start'] : ['actors', owner];

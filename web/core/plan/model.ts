@@ -3,6 +3,7 @@
 
 import type { Json, PlanTemplate } from '../../protocol/messages';
 import { listOf, memberOf, tableOf, textOf, type Table } from './json';
+import type { SubPlans } from './sub_plans';
 import { findTemplate, type Toolboxes } from './templates';
 
 export const kStart = '@start';
@@ -50,6 +51,8 @@ export interface Variable {
 }
 
 export interface Note {
+  /** In the list of the file. */
+  index: number;
   text: string;
   at: readonly [number, number];
   size: readonly [number, number];
@@ -69,7 +72,11 @@ export interface PlanModel {
 
 const kSubPlanStates = ['OK', 'Interrupted', 'Error'];
 
-export function planModel(file: Json, toolboxes: Toolboxes): PlanModel {
+export function planModel(
+  file: Json,
+  toolboxes: Toolboxes,
+  subPlans: SubPlans = new Map(),
+): PlanModel {
   const listed = listOf(memberOf(file, 'toolboxes')).map(textOf);
   const start = memberOf(file, 'start');
   const supervisors = (owner: string, from: Json | undefined, keys: Keys) =>
@@ -82,7 +89,7 @@ export function planModel(file: Json, toolboxes: Toolboxes): PlanModel {
     first: textOf(memberOf(start, 'actor')) || null,
     globals: supervisors(kStart, start, ['start']),
     actors: Object.entries(tableOf(memberOf(file, 'actors'))).map(([name, value]) => ({
-      ...actorOf(name, value, toolboxes, listed),
+      ...actorOf(name, value, toolboxes, listed, subPlans),
       supervisors: supervisors(name, value, ['actors', name]),
     })),
     variables: Object.entries(tableOf(memberOf(file, 'configuration'))).map(([name, value]) => ({
@@ -96,7 +103,13 @@ export function planModel(file: Json, toolboxes: Toolboxes): PlanModel {
   };
 }
 
-function actorOf(name: string, value: Json, toolboxes: Toolboxes, listed: readonly string[]) {
+function actorOf(
+  name: string,
+  value: Json,
+  toolboxes: Toolboxes,
+  listed: readonly string[],
+  subPlans: SubPlans,
+) {
   const plan = memberOf(value, 'plan');
   const template = textOf(plan) || textOf(memberOf(value, 'template'));
   const found = plan === undefined ? findTemplate(toolboxes, listed, template, false) : undefined;
@@ -109,7 +122,7 @@ function actorOf(name: string, value: Json, toolboxes: Toolboxes, listed: readon
     role,
     template,
     toolbox: found?.toolbox ?? '',
-    known: found?.template,
+    known: plan === undefined ? found?.template : subPlans.get(template),
     keys: ['actors', name],
     inputs: tableOf(memberOf(value, 'in')),
     outputs: tableOf(memberOf(value, 'out')),
@@ -173,10 +186,10 @@ function pairOf(value: Json | undefined): readonly [number, number] | null {
 }
 
 function notesOf(value: Json | undefined): Note[] {
-  return listOf(value).flatMap((one) => {
+  return listOf(value).flatMap((one, index) => {
     const at = pairOf(memberOf(one, 'at'));
     const size = pairOf(memberOf(one, 'size'));
-    return at && size ? [{ at, size, text: textOf(memberOf(one, 'text')) }] : [];
+    return at && size ? [{ index, at, size, text: textOf(memberOf(one, 'text')) }] : [];
   });
 }
 

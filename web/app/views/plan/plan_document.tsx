@@ -12,6 +12,7 @@ import { PlanTools } from './plan_tools';
 import '../../look/plan.css';
 
 const ScriptView = late(() => import('../script/script_view'));
+const PlanCode = late(() => import('./code/plan_code'));
 const PlanCanvas = late(() => import('./canvas/plan_canvas'));
 
 /** A plan drawn; beside it, if wanted, its text, and what it does while it runs. */
@@ -33,6 +34,13 @@ export default function PlanDocument({ doc }: { doc: Doc }) {
         <div className="plan__text">
           <Suspense fallback={null}>
             <ScriptView doc={doc} isScript={false} />
+          </Suspense>
+        </div>
+      ) : null}
+      {options.code ? (
+        <div className="plan__text">
+          <Suspense fallback={null}>
+            <PlanCode doc={doc} />
           </Suspense>
         </div>
       ) : null}

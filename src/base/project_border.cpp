@@ -8,6 +8,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What Vagus keeps beside a project. A project in there, such as an older version of the one
+// around it, is no part of that one.
+constexpr const char* kKeptFolder = ".vagus";
+
 fs::path folder_of(const std::string& file) {
     const fs::path folder = fs::path(file).parent_path();
     return folder.empty() ? fs::path(".") : folder;
@@ -38,7 +42,7 @@ std::string project_border(const std::string& file) {
     fs::path folder = without_links(folder_of(file));
     while (true) {
         if (holds_project(folder)) border = folder.string();
-        if (folder == folder.parent_path()) return border;
+        if (folder == folder.parent_path() || folder.filename() == kKeptFolder) return border;
         folder = folder.parent_path();
     }
 }

@@ -45,6 +45,15 @@ TEST_F(ProjectBorderTest, TheOutermostProjectIsTheBorderAndTheInnermostIsOpened)
     EXPECT_EQ(project_border(path("outside/w.world.json")), "");
 }
 
+// An older version of a project stands below it, and is no part of it.
+TEST_F(ProjectBorderTest, WhatIsKeptBesideAProjectIsNoPartOfIt) {
+    const fs::path kept = fs::path(path("all")) / ".vagus" / "versions" / "1" / "files";
+    fs::create_directories(kept / "one");
+    EXPECT_TRUE(write_file((kept / "vagus.json").string(), "{}").ok());
+    EXPECT_EQ(project_border((kept / "one" / "w.world.json").string()), kept.string());
+    EXPECT_EQ(project_border((kept.parent_path() / "w.world.json").string()), "");
+}
+
 TEST_F(ProjectBorderTest, PathsCountFromTheFolderOfTheFile) {
     EXPECT_EQ(found("all/one/w.json", "s.aesl"), "all/one/s.aesl");
     EXPECT_EQ(found("all/one/w.json", "../other/s.aesl"), "all/other/s.aesl");

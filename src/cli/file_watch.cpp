@@ -1,14 +1,24 @@
 #include "cli/file_watch.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace vagus::cli {
 
 FileWatch::FileWatch(std::vector<std::string> paths) {
-    for (std::string& path : paths) {
+    (void)add(paths);
+}
+
+bool FileWatch::add(const std::vector<std::string>& paths) {
+    bool added = false;
+    for (const std::string& path : paths) {
+        const bool known = std::any_of(files_.begin(), files_.end(),
+                                       [&path](const Watched& file) { return file.path == path; });
         const Mark mark = look(path);
-        files_.push_back({std::move(path), mark, mark});
+        if (!known) files_.push_back({path, mark, mark});
+        added = added || !known;
     }
+    return added;
 }
 
 FileWatch::Mark FileWatch::look(const std::string& path) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "cli/man_page.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 
@@ -272,6 +273,10 @@ void shape_help(CLI::App& app) {
     }
 }
 
+std::string own_help(CLI::App& app) {
+    return app.get_formatter()->make_help(&app, "", CLI::AppFormatMode::Normal);
+}
+
 std::string bash_completion(CLI::App& app) {
     std::string names;
     std::string takes;
@@ -286,7 +291,7 @@ std::string manual_page(CLI::App& app) {
         "Made by `vagus page manual`; do not edit. What the outputs look like is in "
         "[formats.md](formats.md).\n\n"
         "```\n" +
-        app.help("", CLI::AppFormatMode::Normal) + "```\n\n";
+        own_help(app) + "```\n\n";
     for (CLI::App* verb : verbs_of(app)) add_help(*verb, page);
     page.pop_back();
     return page;
@@ -297,10 +302,12 @@ void add_page(CLI::App& app, int& exit_code) {
     verb->group("");
     auto kind = std::make_shared<std::string>();  // owners: CLI11's option and the callback
     CLI::Option* option = verb->add_option("KIND", *kind, "which")->required();
-    takes_one_of(*option, {"bash", "manual"});
+    takes_one_of(*option, {"bash", "man", "manual"});
     verb->footer("Example:\n  vagus page bash > completions/vagus.bash");
     verb->callback([kind, &app, &exit_code] {
-        print(*kind == "bash" ? bash_completion(app) : manual_page(app));
+        print(*kind == "bash"  ? bash_completion(app)
+              : *kind == "man" ? man_page(app)
+                               : manual_page(app));
         exit_code = kExitDone;
     });
 }

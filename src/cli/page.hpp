@@ -1,6 +1,6 @@
 // What is derived from the description of the command line, so that it cannot drift apart from it:
 // the completion of the shell (completions/vagus.bash) and the page docs/cli.md. `vagus page
-// bash|manual` prints them, `./test` compares.
+// bash|man|manual` prints them, `./test` compares.
 #pragma once
 
 #include <string>
@@ -11,6 +11,8 @@ class App;
 
 namespace vagus::cli {
 
+// The help of the app itself: App::help() gives that of the verb which was typed.
+std::string own_help(CLI::App& app);
 std::string bash_completion(CLI::App& app);
 std::string manual_page(CLI::App& app);
 

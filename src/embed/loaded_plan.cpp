@@ -1,8 +1,11 @@
 #include "embed/loaded_plan.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "base/nearest.hpp"
 #include "base/project_border.hpp"
 #include "toolbox/shadowed.hpp"
 
@@ -10,18 +13,22 @@ namespace vagus::embed {
 
 namespace {
 
-// One file whose text is here; the others are on the disk.
-class TextAndDisk final : public plan::Files {
+// Files whose texts are here; the others are on the disk.
+class TextsAndDisk final : public plan::Files {
 public:
-    TextAndDisk(const std::string& path, std::string text)
-        : path_(path), text_(std::move(text)), disk_(path) {}
+    TextsAndDisk(const std::string& path, const std::map<std::string, std::string>& texts)
+        : texts_(texts), disk_(path) {}
     Result<std::string> read(const std::string& path) const override {
-        return path == path_ ? Result<std::string>(text_) : disk_.read(path);
+        const auto found = texts_.find(normal(path));
+        return found != texts_.end() ? Result<std::string>(found->second) : disk_.read(path);
+    }
+
+    static std::string normal(const std::string& path) {
+        return std::filesystem::path(path).lexically_normal().string();
     }
 
 private:
-    std::string path_;
-    std::string text_;
+    const std::map<std::string, std::string>& texts_;  // by normal path
     PlanDisk disk_;
 };
 
@@ -60,9 +67,17 @@ LoadedPlan LoadedPlan::from_file(const std::string& path, const run::CodeLibrary
 
 LoadedPlan LoadedPlan::from_text(std::string text, const std::string& path,
                                  const run::CodeLibrary& library) {
-    const std::string normal = std::filesystem::path(path).lexically_normal().string();
-    const TextAndDisk files(normal, std::move(text));
-    return LoadedPlan(plan::check(normal, files, library.templates()), library);
+    const std::string normal = TextsAndDisk::normal(path);
+    return from_texts(normal, {{normal, std::move(text)}}, library);
+}
+
+LoadedPlan LoadedPlan::from_texts(const std::string& path,
+                                  const std::map<std::string, std::string>& texts,
+                                  const run::CodeLibrary& library) {
+    std::map<std::string, std::string> by_path;
+    for (const auto& [file, text] : texts) by_path.emplace(TextsAndDisk::normal(file), text);
+    const TextsAndDisk files(path, by_path);
+    return LoadedPlan(plan::check(path, files, library.templates()), library);
 }
 
 LoadedPlan LoadedPlan::from_code(MakePlan make, const run::CodeLibrary& library) {
@@ -70,6 +85,25 @@ LoadedPlan LoadedPlan::from_code(MakePlan make, const run::CodeLibrary& library)
     return LoadedPlan(
         plan::check(std::move(assembly.plans), std::move(assembly.findings), library.templates()),
         library);
+}
+
+Result<LoadedPlan> LoadedPlan::starting_at(const std::string& actor) const {
+    auto graph = std::make_shared<plan::Graph>(*graph_);
+    plan::GraphPlan& plan = graph->plans.front();
+    const int start = plan::find_actor(plan, actor);
+    if (start < 0) {
+        std::vector<std::string> known;
+        for (const plan::GraphActor& one : plan.actors) known.push_back(one.name);
+        const std::string near = nearest(actor, known);
+        return Error{Code::NotFound,
+                     fmt::format("the plan {} has no actor \"{}\"; {}", plan.name, actor,
+                                 near.empty() ? fmt::format("it has {}", fmt::join(known, ", "))
+                                              : fmt::format("did you mean {}?", near))};
+    }
+    plan.start = start;
+    LoadedPlan other = *this;
+    other.graph_ = std::move(graph);
+    return other;
 }
 
 std::string LoadedPlan::report() const {

@@ -6,12 +6,15 @@
 //     if (!plan.ok()) return complain(plan.report());    // FILE:LINE: error: sentence [RULE]
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "embed/plan_code.hpp"
+#include "plan/change.hpp"
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
 #include "run/code.hpp"
@@ -46,6 +49,10 @@ public:
     // `path` is what findings call the text; sub-plans are found beside it.
     static LoadedPlan from_text(std::string text, const std::string& path,
                                 const run::CodeLibrary& library);
+    // The same with the texts of several files; those that are not among them are on the disk.
+    static LoadedPlan from_texts(const std::string& path,
+                                 const std::map<std::string, std::string>& texts,
+                                 const run::CodeLibrary& library);
     // A plan written in C++ (plan_code.hpp).
     static LoadedPlan from_code(MakePlan make, const run::CodeLibrary& library);
 
@@ -57,6 +64,12 @@ public:
 
     // Only if ok().
     const plan::Graph& graph() const { return *graph_; }
+    // As a new version for a run of an earlier one (P31); `files` are those that it is about.
+    plan::NewVersion as_version(std::vector<std::string> files) const {
+        return {graph_, std::move(files)};
+    }
+    // The same plan, its run beginning at another actor of the outermost plan.
+    Result<LoadedPlan> starting_at(const std::string& actor) const;
     const std::vector<plan::Plan>& plans() const { return *plans_; }  // what it was made of
     const std::vector<Parameter>& parameters() const { return parameters_; }
     const run::CodeLibrary& library() const { return *library_; }

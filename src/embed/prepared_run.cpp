@@ -83,6 +83,12 @@ Status check_names(const session::BusNames& names, const LoadedPlan& what) {
     return usage("the plan names events that its bus does not have\n" + lines);
 }
 
+Result<LoadedPlan> start_of(const LoadedPlan& what, const std::string& actor) {
+    Result<LoadedPlan> started = what.starting_at(actor);
+    if (started.ok()) return started;
+    return usage(fmt::format("--from {}: {}", actor, started.error().what));
+}
+
 // Time that follows the wall clock from the first call on.
 class Pace {
 public:
@@ -329,7 +335,8 @@ PreparedRun::~PreparedRun() = default;
 Result<std::unique_ptr<PreparedRun>> PreparedRun::prepare(const LoadedPlan& what,
                                                           const RunWords& words,
                                                           toolbox::Parts& parts) {
-    auto insides = std::make_unique<Insides>(what, words, parts);
+    const LoadedPlan started = words.from.empty() ? what : TRY(start_of(what, words.from));
+    auto insides = std::make_unique<Insides>(started, words, parts);
     TRY(insides->take_options());
     // make_unique cannot reach the constructor.
     return std::unique_ptr<PreparedRun>(new PreparedRun(std::move(insides)));

@@ -4,9 +4,12 @@
 
 namespace vagus::embed {
 
-const std::vector<RunOption>& run_options() {
+namespace {
+
+// How the plan runs.
+std::vector<RunOption> options_of_the_plan() {
     using Words = RunWords;
-    static const std::vector<RunOption> kOptions = {
+    return {
         {.name = "--toolbox",
          .value = "FILE",
          .help = "more templates: a toolbox file or a shared library; again for more",
@@ -16,6 +19,10 @@ const std::vector<RunOption>& run_options() {
          .value = "NAME=VALUE",
          .help = "a variable's value at the start; again for more",
          .many = &Words::set},
+        {.name = "--from",
+         .value = "ACTOR",
+         .help = "begins with this actor instead of the plan's start",
+         .one = &Words::from},
         {.name = "--clock",
          .value = "real|virtual",
          .help = "real or virtual time (real)",
@@ -34,6 +41,13 @@ const std::vector<RunOption>& run_options() {
          .help = "where its trace goes; - is stdout",
          .one = &Words::trace,
          .endings = {".jsonl"}},
+    };
+}
+
+// What it drives.
+std::vector<RunOption> options_of_its_robot() {
+    using Words = RunWords;
+    return {
         {.name = "--world",
          .value = "FILE",
          .help = "a world of which the plan drives a robot",
@@ -60,7 +74,21 @@ const std::vector<RunOption>& run_options() {
          .value = "FILE",
          .help = "what the nodes of --bus were loaded with: names of events",
          .one = &Words::project,
-         .endings = {".aesl"}}};
+         .endings = {".aesl"}},
+    };
+}
+
+std::vector<RunOption> all_options() {
+    std::vector<RunOption> all = options_of_the_plan();
+    const std::vector<RunOption> more = options_of_its_robot();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+}  // namespace
+
+const std::vector<RunOption>& run_options() {
+    static const std::vector<RunOption> kOptions = all_options();
     return kOptions;
 }
 

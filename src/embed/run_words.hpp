@@ -15,6 +15,7 @@ namespace vagus::embed {
 struct RunWords {
     std::vector<std::string> toolboxes = {};
     std::vector<std::string> set = {};
+    std::string from = {};   // the actor that it begins with, instead of the plan's start
     std::string clock = {};  // real or virtual (real)
     std::string seed = {};   // of the plan (1) and of the world (that of its file)
     std::string max_time = {};

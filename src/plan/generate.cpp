@@ -152,20 +152,24 @@ public:
                const OwnToolboxes& own)
         : checked_(checked), plan_(plan), plan_names_(names), own_(own) {}
 
-    std::string write() {
+    MarkedText write() {
         for (const PlanNames& names : plan_names_) names_.take(names.as_actor.name);
         give_objects();
-        const std::string actors = write_actors();
-        const std::string supervisors = write_supervisors();
-        const std::string configuration = write_configuration();
-        const std::string rules = write_start() + write_rules();
+        MarkedText body;
+        body += write_actors();
+        body += write_supervisors();
+        body += write_configuration();
+        body += write_start();
+        body += write_rules();
         const PlanNames& own = names_of(plan_);
-        std::string text =
-            fmt::format("// The plan {}.\n#include \"{}.hpp\"\n\n", plan_.name, own.file);
+        MarkedText text;
+        text += fmt::format("// The plan {}.\n#include \"{}.hpp\"\n\n", plan_.name, own.file);
         text += write_includes();
         text += fmt::format("{}::Plan {}::{}() {{\n", "vagus::embed", kNamespace, own.make);
-        const std::string body = actors + supervisors + configuration + rules;
-        return text + write_usings(body) + body + "    return plan;\n}\n";
+        text += write_usings(body.text());
+        text += body;
+        text += "    return plan;\n}\n";
+        return text;
     }
 
 private:
@@ -173,21 +177,31 @@ private:
         return plan_names_[static_cast<size_t>(&plan - checked_.plans.data())];
     }
 
+    using Keys = std::vector<std::string>;
+
+    static Keys keys_of(const Actor& actor) { return {"actors", actor.name}; }
+    static Keys keys_of(const Supervisor& supervisor, const Actor* of) {
+        if (!of) return {"start", "supervisors", supervisor.name};
+        return {"actors", of->name, "supervisors", supervisor.name};
+    }
+
     // ---- names ----
 
     void give_objects() {
         for (const Actor& actor : plan_.actors) use_class(actor);
-        each_supervisor([this](const Supervisor& supervisor) { use_class(supervisor); });
+        each_supervisor(
+            [this](const Supervisor& supervisor, const Actor*) { use_class(supervisor); });
         for (const Actor& actor : plan_.actors) actors_[actor.name] = names_.give(actor.name);
-        each_supervisor([this](const Supervisor& supervisor) {
+        each_supervisor([this](const Supervisor& supervisor, const Actor*) {
             supervisors_[supervisor.name] = names_.give(supervisor.name);
         });
     }
 
-    void each_supervisor(const std::function<void(const Supervisor&)>& act) const {
-        for (const Supervisor& supervisor : plan_.globals) act(supervisor);
+    // With the actor that it is attached to; a global one has none.
+    void each_supervisor(const std::function<void(const Supervisor&, const Actor*)>& act) const {
+        for (const Supervisor& supervisor : plan_.globals) act(supervisor, nullptr);
         for (const Actor& actor : plan_.actors) {
-            for (const Supervisor& supervisor : actor.supervisors) act(supervisor);
+            for (const Supervisor& supervisor : actor.supervisors) act(supervisor, &actor);
         }
     }
 
@@ -264,23 +278,28 @@ private:
         return text;
     }
 
-    std::string write_actors() const {
-        std::string text = "\n    // ---- actors ----\n";
-        for (const Actor& actor : plan_.actors) text += write_object(actor, actors_.at(actor.name));
+    MarkedText write_actors() const {
+        MarkedText text;
+        text += "\n    // ---- actors ----\n";
+        for (const Actor& actor : plan_.actors) {
+            text.add(write_object(actor, actors_.at(actor.name)), keys_of(actor));
+        }
         return text;
     }
 
-    std::string write_supervisors() const {
-        std::string text;
-        each_supervisor([this, &text](const Supervisor& supervisor) {
+    MarkedText write_supervisors() const {
+        MarkedText text;
+        each_supervisor([this, &text](const Supervisor& supervisor, const Actor* of) {
+            if (text.text().empty()) text += "\n    // ---- supervisors ----\n";
             const std::string& name = supervisors_.at(supervisor.name);
-            text += write_object(supervisor, name);
+            std::string lines = write_object(supervisor, name);
             if (supervisor.period_ms) {
-                text +=
+                lines +=
                     fmt::format("    {}.period_ms({});\n", name, supervisor.period_ms->integer());
             }
+            text.add(lines, keys_of(supervisor, of));
         });
-        return text.empty() ? text : "\n    // ---- supervisors ----\n" + text;
+        return text;
     }
 
     // One object with its entries, in the order of declaration.
@@ -328,18 +347,21 @@ private:
         return fmt::format("    {}.writes_in_order({});\n", object, braces(names));
     }
 
-    std::string write_configuration() const {
+    MarkedText write_configuration() const {
         std::string toolboxes;
         for (const ToolboxName& toolbox : plan_.toolboxes) {
             toolboxes +=
                 fmt::format("{}{}", toolboxes.empty() ? "" : ", ", cpp_string(toolbox.name));
         }
-        std::string text = "\n    // ---- the plan ----\n";
+        MarkedText text;
+        text += "\n    // ---- the plan ----\n";
         std::vector<std::string> arguments = {cpp_string(plan_.name)};
         if (!toolboxes.empty()) arguments.push_back("{" + toolboxes + "}");
         text += call("Plan plan", arguments);
         if (!plan_.help.empty()) text += fmt::format("    plan.help({});\n", in_lines(plan_.help));
-        for (const Variable& variable : plan_.configuration) text += write_variable(variable);
+        for (const Variable& variable : plan_.configuration) {
+            text.add(write_variable(variable), {"configuration", variable.name});
+        }
         return text;
     }
 
@@ -363,10 +385,11 @@ private:
         return call("plan.variable", arguments);
     }
 
-    std::string write_start() const {
-        std::string text = call("plan.start_with", {actors_.at(*plan_.start_actor)});
+    MarkedText write_start() const {
+        MarkedText text;
+        text.add(call("plan.start_with", {actors_.at(*plan_.start_actor)}), {"start"});
         for (const Supervisor& supervisor : plan_.globals) {
-            text += write_events("plan.always", {}, supervisor);
+            text.add(write_events("plan.always", {}, supervisor), keys_of(supervisor, nullptr));
         }
         return text;
     }
@@ -387,25 +410,31 @@ private:
         return text;
     }
 
-    std::string write_rules() const {
-        std::string text;
+    MarkedText write_rules() const {
+        MarkedText text;
         for (const Actor& actor : plan_.actors) {
-            const std::string& object = actors_.at(actor.name);
-            text += fmt::format("\n    // {}\n", actor.name);
-            const Class of = class_of(actor);
-            for (const Rule& rule : actor.states) {
-                text +=
-                    call("plan.after",
+            text += "\n";
+            text.add(write_states(actor), keys_of(actor));
+            for (const Supervisor& supervisor : actor.supervisors) {
+                text.add(write_events("plan.during", {actors_.at(actor.name)}, supervisor),
+                         keys_of(supervisor, &actor));
+            }
+        }
+        text += "\n";
+        return text;
+    }
+
+    std::string write_states(const Actor& actor) const {
+        const std::string& object = actors_.at(actor.name);
+        std::string text = fmt::format("    // {}\n", actor.name);
+        const Class of = class_of(actor);
+        for (const Rule& rule : actor.states) {
+            text += call("plan.after",
                          {object, fmt::format("{}::{}", of.path, of.names->outcomes.at(rule.name)),
                           target(rule.target)});
-            }
-            for (const Supervisor& supervisor : actor.supervisors) {
-                text += write_events("plan.during", {object}, supervisor);
-            }
-            if (actor.states.empty() && actor.supervisors.empty())
-                text += call("plan.add", {object});
         }
-        return text + "\n";
+        if (actor.states.empty() && actor.supervisors.empty()) text += call("plan.add", {object});
+        return text;
     }
 
     const Checked& checked_;
@@ -472,6 +501,12 @@ std::string write_cmake(const std::vector<PlanNames>& names) {
 
 }  // namespace
 
+MarkedText generate_code(const Checked& checked, const OwnToolboxes& own) {
+    assert(checked.ok());
+    const std::vector<PlanNames> names = name_plans(checked);
+    return CodeWriter(checked, checked.plans.front(), names, own).write();
+}
+
 std::map<std::string, std::string> generate(const Checked& checked, const OwnToolboxes& own) {
     assert(checked.ok());
     const std::vector<PlanNames> names = name_plans(checked);
@@ -483,7 +518,7 @@ std::map<std::string, std::string> generate(const Checked& checked, const OwnToo
     for (size_t i = 0; i < names.size(); ++i) {
         const Plan& plan = checked.plans[i];
         files[names[i].file + ".hpp"] = write_header(plan, names[i], sub_plans.contains(&plan));
-        files[names[i].file + ".cpp"] = CodeWriter(checked, plan, names, own).write();
+        files[names[i].file + ".cpp"] = CodeWriter(checked, plan, names, own).write().text();
     }
     const std::vector<const Toolbox*> toolboxes = listed(checked, own);
     for (const Toolbox* toolbox : toolboxes) {

@@ -19,8 +19,8 @@ public:
             .name = plan.name, .file = plan.file, .variables = {}, .globals = {}, .actors = {}};
         for (const Variable& variable : plan.configuration) {
             slots_.emplace(variable.name, static_cast<int>(slots_.size()));
-            made.variables.push_back({variable.name, *variable.type, initial_of(variable),
-                                      variable.access == Access::Shared});
+            made.variables.push_back(
+                {variable.name, *variable.type, initial_of(variable), *variable.access});
         }
         for (size_t i = 0; i < plan.actors.size(); ++i) {
             actors_.emplace(plan.actors[i].name, static_cast<int>(i));
@@ -66,12 +66,11 @@ private:
 
     void bind_sub_plan(GraphActor& actor, const Plan& sub) {
         actor.sub_plan = static_cast<int>(&sub - checked_.plans.data());
-        size_t input = 0;
+        actor.sub_plan_file = sub.file;
         for (size_t i = 0; i < sub.configuration.size(); ++i) {
             const Variable& variable = sub.configuration[i];
             const int slot = static_cast<int>(i);
-            if (is_input(*variable.access)) actor.inputs[input++].inner_slot = slot;
-            if (is_output(*variable.access)) actor.inner_outputs.push_back(slot);
+            if (is_output(*variable.access)) actor.inner_outputs.push_back(variable.name);
             if (variable.access == Access::Shared) {
                 actor.shared.emplace_back(slot, slots_.at(variable.name));
             }
@@ -139,7 +138,27 @@ private:
     std::map<std::string, int> actors_;
 };
 
+template <typename Named>
+int index_of(const std::vector<Named>& among, std::string_view name) {
+    for (size_t i = 0; i < among.size(); ++i) {
+        if (among[i].name == name) return static_cast<int>(i);
+    }
+    return -1;
+}
+
 }  // namespace
+
+int find_variable(const GraphPlan& plan, std::string_view name) {
+    return index_of(plan.variables, name);
+}
+
+int find_actor(const GraphPlan& plan, std::string_view name) {
+    return index_of(plan.actors, name);
+}
+
+int find_supervisor(const std::vector<GraphSupervisor>& among, std::string_view name) {
+    return index_of(among, name);
+}
 
 Graph make_graph(const Checked& checked) {
     assert(checked.ok());

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,6 @@ struct GraphInput {
     std::vector<int> slots;          // variables of the formula's names()
     Value value;                     // without formula
     bool fed = false;                // by the plan; else it is the default
-    int inner_slot = -1;             // of a sub-plan's input: the variable in there
 };
 
 struct GraphOutput {
@@ -47,12 +47,13 @@ struct GraphActor {
     std::string name;
     const Template* of = nullptr;  // nullptr: a sub-plan
     int sub_plan = -1;
+    std::string sub_plan_file;       // of a sub-plan
     std::vector<GraphInput> inputs;  // in order of declaration
     std::vector<GraphOutput> outputs;
     std::vector<std::string> states;
     std::vector<int> targets;                 // of each state
     std::vector<std::pair<int, int>> shared;  // sub-plan's slot, this plan's slot
-    std::vector<int> inner_outputs;           // of a sub-plan: slots in there, by `source`
+    std::vector<std::string> inner_outputs;   // of a sub-plan: its variables, by `source`
     std::vector<GraphSupervisor> supervisors;
 };
 
@@ -60,7 +61,7 @@ struct GraphVariable {
     std::string name;
     Type type = Type::Int;
     Value initial;
-    bool shared = false;
+    Access access = Access::Local;
 };
 
 struct GraphPlan {
@@ -75,6 +76,12 @@ struct GraphPlan {
 struct Graph {
     std::vector<GraphPlan> plans;  // the outermost first
 };
+
+// Indices; -1 if there is none of that name.
+int find_variable(const GraphPlan& plan, std::string_view name);
+int find_actor(const GraphPlan& plan, std::string_view name);
+// Among the supervisors of a start tag or of an actor.
+int find_supervisor(const std::vector<GraphSupervisor>& among, std::string_view name);
 
 // `checked` has no error; its library must outlive the graph.
 Graph make_graph(const Checked& checked);

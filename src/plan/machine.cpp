@@ -4,74 +4,29 @@
 
 #include <cassert>
 
+#include "plan/machine_parts.hpp"
+
 namespace vagus::plan {
 
-namespace {
-
-// Whether a global supervisor watches (P23).
-enum class Rest : uint8_t {
-    No,
-    Remedy,  // its event has been taken, or only computations have followed: what comes next is
-             // its remedy
-    Resting  // an actor that is no computation is active; it starts anew with the activation after
+// Outputs as they were started, and who gives them.
+struct Machine::Writer {
+    const Version& version;
+    const std::vector<GraphOutput>& outputs;
+    std::string_view by;
 };
 
-}  // namespace
-
-// What follows when an activation has been stopped.
-struct Machine::After {
-    int target = kTargetTerminate;
-    bool failed = false;
-    std::string message = {};
-};
-
-struct Machine::Watch {
-    WatchId id = 0;  // 0: does not watch
-    Rest rest = Rest::No;
-    int level = 0;
-    bool global = false;
-    int index = 0;
-    const GraphSupervisor* of = nullptr;
-};
-
-// One plan that runs: the outermost, or one inside an actor of the level below.
-struct Machine::Level {
-    const GraphPlan* plan = nullptr;
-    std::string path;
-    std::vector<Value> values;
-    std::vector<Value*> cells;  // into `values`, or into those of an outer level (shared)
-    std::vector<Watch> globals;
-
-    // The activation.
-    int actor = -1;
-    ActivationId activation = 0;
-    Phase phase = Phase::None;
-    std::vector<Watch> own;
-    bool interrupted = false;  // and this from then on:
-    Time interrupted_at{};
-    After after;
-
-    // What the plan inside gave, from its end to end_sub_plan().
-    PlanResult sub_result = PlanResult::Ok;
-    std::vector<std::optional<Value>> sub_outputs;
-
-    const GraphActor& active() const { return plan->actors[static_cast<size_t>(actor)]; }
-};
-
-Machine::Machine(const Graph& graph) : graph_(graph) {}
+Machine::Machine(const Graph& graph) : graph_(&graph) {}
 Machine::~Machine() = default;
 
 // ---- starting ----
 
 void Machine::start(const std::vector<std::pair<int, Value>>& outside, Time now) {
     assert(levels_.empty() && !over_);
-    const GraphPlan& plan = graph_.plans.front();
+    const GraphPlan& plan = graph_->plans.front();
     push_level(plan, plan.name);
-    Level& level = at(0);
-    for (Value& value : level.values) level.cells.push_back(&value);
     trace(0, now, PlanStarted{});
-    for (size_t i = 0; i < plan.variables.size(); ++i) {
-        trace(0, now, VariableWritten{plan.variables[i].name, level.values[i], "initial"});
+    for (const GraphVariable& variable : plan.variables) {
+        trace(0, now, VariableWritten{variable.name, variable.initial, "initial"});
     }
     for (const auto& [slot, value] : outside) {
         cell(0, slot) = value;
@@ -84,9 +39,8 @@ void Machine::start(const std::vector<std::pair<int, Value>>& outside, Time now)
 
 void Machine::push_level(const GraphPlan& plan, std::string path) {
     auto level = std::make_unique<Level>();
-    level->plan = &plan;
     level->path = std::move(path);
-    for (const GraphVariable& variable : plan.variables) level->values.push_back(variable.initial);
+    level->now = make_version(depth(), plan, nullptr);
     level->globals.resize(plan.globals.size());
     levels_.push_back(std::move(level));
 }
@@ -101,18 +55,25 @@ void Machine::start_watch(int level, bool global, int index) {
     Level& l = at(level);
     const auto i = static_cast<size_t>(index);
     Watch& watch = global ? l.globals[i] : l.own[i];
-    const GraphSupervisor& of = global ? l.plan->globals[i] : l.active().supervisors[i];
-    watch = {.id = ++watches_, .level = level, .global = global, .index = index, .of = &of};
+    const GraphSupervisor& of = global ? l.now->plan->globals[i] : l.active->supervisors[i];
+    watch = {.id = ++watches_,
+             .level = level,
+             .global = global,
+             .index = index,
+             .of = &of,
+             .newest = &of,
+             .version = l.now};
     commands_.emplace_back(StartWatch{watch.id, level, global, index, &of});
 }
 
 void Machine::activate(int level, int actor, Time now) {
     Level& l = at(level);
-    l.actor = actor;
+    l.begun = l.now;
+    l.active = l.newest = &l.now->plan->actors[static_cast<size_t>(actor)];
     l.interrupted = false;
     if (at_once_ >= kActivationsAtOnceMax) {
         l.phase = Phase::None;
-        fail_plan(level, l.active().name,
+        fail_plan(level, l.active->name,
                   fmt::format("{} activations have come without any time passing: a loop that "
                               "never waits",
                               kActivationsAtOnceMax),
@@ -123,17 +84,21 @@ void Machine::activate(int level, int actor, Time now) {
     l.activation = ++activations_;
     l.phase = Phase::Pending;
     restart_globals(level);
-    l.own.assign(l.active().supervisors.size(), {});
+    l.own.assign(l.active->supervisors.size(), {});
     for (size_t i = 0; i < l.own.size(); ++i) start_watch(level, false, static_cast<int>(i));
     commands_.emplace_back(Activate{l.activation, level});
 }
 
 void Machine::restart_globals(int level) {
     Level& l = at(level);
-    const Template* of = l.active().of;
+    const Template* of = l.active->of;
     const bool is_computation = of && of->kind == Kind::Computation;
     for (size_t i = 0; i < l.globals.size(); ++i) {
         Watch& watch = l.globals[i];
+        if (watch.id != 0) {
+            watch.of = watch.newest;
+            watch.version = l.now;
+        }
         if (watch.rest == Rest::Remedy) {
             if (!is_computation) watch.rest = Rest::Resting;
         } else if (watch.rest == Rest::Resting) {
@@ -146,8 +111,8 @@ void Machine::begin(ActivationId activation, Time now) {
     const int level = level_of(activation);
     if (level < 0 || at(level).phase != Phase::Pending) return;
     Level& l = at(level);
-    const GraphActor& actor = l.active();
-    Result<std::vector<Value>> in = read(level, actor.inputs);
+    const GraphActor& actor = *l.active;
+    Result<std::vector<Value>> in = read(*l.begun, actor.inputs);
     if (!in.ok()) {
         l.phase = Phase::None;
         fail_plan(level, actor.name, in.error().what, now);
@@ -171,29 +136,40 @@ void Machine::begin(ActivationId activation, Time now) {
     }
 }
 
+// As the newest version of the inner plan says, also if the caller's actor was started before it.
 void Machine::begin_sub_plan(int level, std::vector<Value> in, Time now) {
-    const GraphActor& actor = at(level).active();
-    const GraphPlan& plan = graph_.plans[static_cast<size_t>(actor.sub_plan)];
-    push_level(plan, at(level).path + "/" + actor.name);
+    const GraphActor& caller = *at(level).newest;
+    const GraphPlan& plan = graph_->plans[static_cast<size_t>(caller.sub_plan)];
+    push_level(plan, at(level).path + "/" + caller.name);
     const int inner = level + 1;
-    Level& l = at(inner);
-    for (Value& value : l.values) l.cells.push_back(&value);
-    for (const auto& [slot, outer] : actor.shared) {
-        l.cells[static_cast<size_t>(slot)] = &cell(level, outer);
-    }
     trace(inner, now, PlanStarted{});
-    for (size_t i = 0; i < plan.variables.size(); ++i) {
-        if (plan.variables[i].shared) continue;
-        trace(inner, now, VariableWritten{plan.variables[i].name, l.values[i], "initial"});
+    for (const GraphVariable& variable : plan.variables) {
+        if (variable.access == Access::Shared) continue;
+        trace(inner, now, VariableWritten{variable.name, variable.initial, "initial"});
     }
-    for (size_t i = 0; i < actor.inputs.size(); ++i) {
-        const GraphInput& input = actor.inputs[i];
-        if (!input.fed) continue;
-        cell(inner, input.inner_slot) = in[i];
-        trace(inner, now, VariableWritten{input.name, in[i], "outside"});
-    }
+    const Status fed = feed(inner, *at(level).active, in, now);
+    if (!fed.ok()) return fail_plan(inner, caller.name, fed.error().what, now);
     start_globals(inner, now);
     activate(inner, plan.start, now);
+}
+
+// Its inputs were read as the caller's actor was started with them.
+Status Machine::feed(int level, const GraphActor& caller, const std::vector<Value>& in, Time now) {
+    const GraphPlan& plan = *at(level).now->plan;
+    for (size_t i = 0; i < caller.inputs.size(); ++i) {
+        const GraphInput& input = caller.inputs[i];
+        const int slot = input.fed ? find_variable(plan, input.name) : -1;
+        if (slot < 0) continue;
+        const GraphVariable& variable = plan.variables[static_cast<size_t>(slot)];
+        Result<Value> value = convert(in[i], variable.type);
+        if (!value.ok()) {
+            return Error{Code::BadInput,
+                         fmt::format("the input \"{}\": {}", input.name, value.error().what)};
+        }
+        cell(level, slot) = value.value();
+        trace(level, now, VariableWritten{variable.name, std::move(value.value()), "outside"});
+    }
+    return Status::done();
 }
 
 // ---- what happened ----
@@ -202,13 +178,14 @@ void Machine::end(ActivationId activation, const Given& given, Time now) {
     const int level = level_of(activation);
     if (level < 0 || at(level).phase != Phase::Running) return;
     Level& l = at(level);
-    const GraphActor& actor = l.active();
+    const GraphActor& actor = *l.active;
     const auto outcome = static_cast<size_t>(given.outcome);
-    const int target = actor.targets[outcome];
+    const int target = l.newest->targets[outcome];
     l.phase = Phase::None;
     trace(level, now,
           ActorEnded{actor.name, activation, actor.states[outcome], target_name(level, target)});
-    const Status written = write_outputs(level, actor.outputs, given.outputs, actor.name, now);
+    const Status written =
+        write_outputs(level, {*l.begun, actor.outputs, actor.name}, given.outputs, now);
     if (!written.ok()) {
         fail_plan(level, actor.name, written.error().what, now);
         return;
@@ -233,13 +210,14 @@ void Machine::raise(WatchId id, const Given& given, Time now) {
     const int level = watch->level;
     const GraphSupervisor& of = *watch->of;
     const auto outcome = static_cast<size_t>(given.outcome);
-    const int target = of.targets[outcome];
+    const int target = watch->newest->targets[outcome];
     trace(level, now,
           EventRaised{of.name, of.of->outcomes[outcome].name, target_name(level, target),
                       watch->global, at(level).activation});
     if (target == kTargetIgnore) return;
     After after{.target = target};
-    const Status written = write_outputs(level, of.outputs, given.outputs, of.name, now);
+    const Status written =
+        write_outputs(level, {*watch->version, of.outputs, of.name}, given.outputs, now);
     stop_watch(*watch);
     if (watch->global) watch->rest = Rest::Remedy;
     if (!written.ok()) {
@@ -253,7 +231,7 @@ void Machine::fail(ActivationId activation, std::string_view cause, Time now) {
     const int level = level_of(activation);
     if (level < 0 || at(level).phase != Phase::Running) return;
     at(level).phase = Phase::None;
-    fail_plan(level, at(level).active().name, cause, now);
+    fail_plan(level, at(level).active->name, cause, now);
 }
 
 void Machine::fail_watch(WatchId id, std::string_view cause, Time now) {
@@ -275,7 +253,7 @@ void Machine::stopped(ActivationId activation, Time now) {
 void Machine::overstayed(ActivationId activation, Time now) {
     const int innermost = level_of(activation);
     if (innermost < 0 || at(innermost).phase != Phase::Stopping) return;
-    const GraphActor& actor = at(innermost).active();
+    const GraphActor& actor = *at(innermost).active;
     const std::string message =
         sentence(innermost, actor.name,
                  fmt::format("it did not stop within its grace time of {} ms", actor.of->grace_ms));
@@ -295,7 +273,7 @@ void Machine::abort(Time now) {
 void Machine::log(ActivationId activation, std::string text, Time now) {
     const int level = level_of(activation);
     if (level < 0) return;
-    trace(level, now, TextLogged{at(level).active().name, std::move(text)});
+    trace(level, now, TextLogged{at(level).active->name, std::move(text)});
 }
 
 void Machine::late(WatchId id, Duration by, Time now) {
@@ -346,7 +324,7 @@ void Machine::finish_stop(Time now) {
         Level& l = at(inner);
         const bool ran = l.phase != Phase::Pending;
         trace(inner, now,
-              ActorInterrupted{l.active().name, l.activation, ran, now - l.interrupted_at});
+              ActorInterrupted{l.active->name, l.activation, ran, now - l.interrupted_at});
         l.phase = Phase::None;
         if (inner > level) {
             trace(inner, now, PlanEnded{PlanResult::Interrupted, {}});
@@ -373,7 +351,6 @@ void Machine::follow(int level, int target, PlanResult at_terminate, Time now) {
 // The plan at the innermost level ends; no code of it runs.
 void Machine::end_plan(int level, PlanResult result, std::string message, Time now) {
     assert(level == depth() - 1);
-    Level& l = at(level);
     stop_own(level);
     stop_globals(level);
     trace(level, now, PlanEnded{result, message});
@@ -387,12 +364,21 @@ void Machine::end_plan(int level, PlanResult result, std::string message, Time n
     Level& caller = at(level - 1);
     caller.phase = Phase::SubEnded;
     caller.sub_result = result;
-    caller.sub_outputs.clear();
-    for (const int slot : caller.active().inner_outputs) {
-        caller.sub_outputs.emplace_back(*l.cells[static_cast<size_t>(slot)]);
-    }
+    caller.sub_outputs = outputs_of(level);
     levels_.pop_back();
     commands_.emplace_back(SubPlanOver{caller.activation, level - 1});
+}
+
+// By the caller's declaration, as its actor was started: what is gone since then gives nothing.
+std::vector<std::optional<Value>> Machine::outputs_of(int level) const {
+    const Level& caller = at(level - 1);
+    std::vector<std::optional<Value>> values;
+    const GraphActor& actor = *caller.active;
+    for (const std::string& name : actor.inner_outputs) {
+        const int slot = find_variable(*at(level).now->plan, name);
+        values.push_back(slot < 0 ? std::nullopt : std::optional(cell(level, slot)));
+    }
+    return values;
 }
 
 void Machine::fail_plan(int level, std::string_view element, std::string_view cause, Time now) {
@@ -421,7 +407,8 @@ void Machine::stop_globals(int level) {
 
 // ---- values ----
 
-Result<std::vector<Value>> Machine::read(int level, const std::vector<GraphInput>& inputs) const {
+Result<std::vector<Value>> Machine::read(const Version& version,
+                                         const std::vector<GraphInput>& inputs) {
     std::vector<Value> values;
     values.reserve(inputs.size());
     std::vector<Value> variables;
@@ -431,7 +418,9 @@ Result<std::vector<Value>> Machine::read(int level, const std::vector<GraphInput
             continue;
         }
         variables.clear();
-        for (const int slot : input.slots) variables.push_back(cell(level, slot));
+        for (const int slot : input.slots) {
+            variables.push_back(*version.cells[static_cast<size_t>(slot)]);
+        }
         Result<Value> value = input.formula->evaluate(variables);
         if (value.ok() && input.type) value = convert(value.value(), *input.type);
         if (!value.ok()) {
@@ -446,36 +435,40 @@ Result<std::vector<Value>> Machine::read(int level, const std::vector<GraphInput
 Result<std::vector<Value>> Machine::read_inputs(WatchId id) const {
     const Watch* watch = find(id);
     if (!watch) return Error{Code::NotFound, "this supervisor does not watch any more"};
-    return read(watch->level, watch->of->inputs);
+    return read(*watch->version, watch->of->inputs);
 }
 
-// All are converted, then all are written (P17a).
-Status Machine::write_outputs(int level, const std::vector<GraphOutput>& outputs,
-                              const std::vector<std::optional<Value>>& values, std::string_view by,
-                              Time now) {
+// All are converted, then all are written (P17a). A variable that is gone since the writer was
+// started is nobody's any more (P31).
+Status Machine::write_outputs(int level, const Writer& writer,
+                              const std::vector<std::optional<Value>>& values, Time now) {
+    const GraphPlan& plan = *at(level).now->plan;
     std::vector<std::pair<int, Value>> writes;
-    for (const GraphOutput& output : outputs) {
+    for (const GraphOutput& output : writer.outputs) {
         const auto source = static_cast<size_t>(output.source);
         if (source >= values.size() || !values[source]) continue;
-        const GraphVariable& variable = at(level).plan->variables[static_cast<size_t>(output.slot)];
-        Result<Value> converted = convert(*values[source], variable.type);
+        const auto& named = writer.version.plan->variables[static_cast<size_t>(output.slot)];
+        const bool newest = writer.version.plan == &plan;
+        const int slot = newest ? output.slot : find_variable(plan, named.name);
+        if (slot < 0) continue;
+        Result<Value> converted = convert(*values[source], named.type);
         if (!converted.ok()) {
             return Error{Code::BadInput,
                          fmt::format("the output \"{}\" for the variable \"{}\": {}", output.name,
-                                     variable.name, converted.error().what)};
+                                     named.name, converted.error().what)};
         }
-        writes.emplace_back(output.slot, std::move(converted.value()));
+        writes.emplace_back(slot, std::move(converted.value()));
     }
     for (auto& [slot, value] : writes) {
-        const GraphVariable& variable = at(level).plan->variables[static_cast<size_t>(slot)];
-        trace(level, now, VariableWritten{variable.name, value, by});
+        const GraphVariable& variable = plan.variables[static_cast<size_t>(slot)];
+        trace(level, now, VariableWritten{variable.name, value, writer.by});
         cell(level, slot) = std::move(value);
     }
     return Status::done();
 }
 
 Value& Machine::cell(int level, int slot) const {
-    return *at(level).cells[static_cast<size_t>(slot)];
+    return *at(level).now->cells[static_cast<size_t>(slot)];
 }
 
 const Value& Machine::variable(int slot) const {
@@ -491,7 +484,7 @@ Status Machine::write_outside(int slot, const Value& value, Time now) {
 }
 
 Status Machine::write_outside(int level, int slot, const Value& value, Time now) {
-    const GraphVariable& variable = at(level).plan->variables[static_cast<size_t>(slot)];
+    const GraphVariable& variable = at(level).now->plan->variables[static_cast<size_t>(slot)];
     Value converted = TRY(convert(value, variable.type));
     trace(level, now, VariableWritten{variable.name, converted, "outside"});
     cell(level, slot) = std::move(converted);
@@ -501,7 +494,7 @@ Status Machine::write_outside(int level, int slot, const Value& value, Time now)
 std::string_view Machine::target_name(int level, int target) const {
     if (target == kTargetTerminate) return kTerminate;
     if (target == kTargetIgnore) return kIgnore;
-    return at(level).plan->actors[static_cast<size_t>(target)].name;
+    return at(level).now->plan->actors[static_cast<size_t>(target)].name;
 }
 
 // Names the plan's instance, the element and the cause (P27).
@@ -527,13 +520,13 @@ int Machine::depth() const {
     return static_cast<int>(levels_.size());
 }
 const GraphPlan& Machine::plan_at(int level) const {
-    return *at(level).plan;
+    return *at(level).now->plan;
 }
 const std::string& Machine::path_at(int level) const {
     return at(level).path;
 }
 const GraphActor* Machine::actor_at(int level) const {
-    return at(level).actor < 0 ? nullptr : &at(level).active();
+    return at(level).active;
 }
 ActivationId Machine::activation_at(int level) const {
     return at(level).activation;
@@ -546,6 +539,11 @@ WatchId Machine::watch_at(const WatchPlace& place) const {
     const auto& watches = place.global ? level.globals : level.own;
     const auto index = static_cast<size_t>(place.index);
     return index < watches.size() ? watches[index].id : 0;
+}
+WatchPlace Machine::place_of(WatchId id) const {
+    const Watch* const watch = find(id);
+    assert(watch);
+    return {watch->level, watch->global, watch->index};
 }
 int Machine::stopping_level() const {
     return stopping_from_;

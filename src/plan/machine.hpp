@@ -28,6 +28,7 @@
 
 #include "base/result.hpp"
 #include "base/time.hpp"
+#include "plan/change.hpp"
 #include "plan/graph.hpp"
 #include "plan/trace.hpp"
 
@@ -78,7 +79,11 @@ struct SubPlanOver {
     ActivationId activation;
     int level;  // of the actor
 };
-using Command = std::variant<StartWatch, StopWatch, Activate, StartCode, StopCode, SubPlanOver>;
+// After a change (P31): where each global supervisor stands in its file may be another; place_of()
+// tells.
+struct RankAnew {};
+using Command =
+    std::variant<StartWatch, StopWatch, Activate, StartCode, StopCode, SubPlanOver, RankAnew>;
 
 // Where the activation of a level stands.
 enum class Phase : uint8_t {
@@ -98,6 +103,7 @@ struct WatchPlace {
 
 class Machine {
 public:
+    // The graph is borrowed for the life of the machine.
     explicit Machine(const Graph& graph);
     ~Machine();
     Machine(const Machine&) = delete;
@@ -125,6 +131,12 @@ public:
     // Time has passed since the last activation (P30).
     void time_passed();
 
+    // ---- hot change (P31) ----
+    // A sentence for each thing that stands in the way of the new version now; empty: none.
+    std::vector<std::string> reasons_against(const NewVersion& next) const;
+    // The new version takes over if nothing stands in its way; what does is given back.
+    std::vector<std::string> change(const NewVersion& next, Time now);
+
     // ---- values ----
     // The supervisor's inputs as one snapshot; on an Error tell it to fail_watch().
     Result<std::vector<Value>> read_inputs(WatchId watch) const;
@@ -140,14 +152,16 @@ public:
     PlanResult result() const;
     const std::string& message() const;  // of an error
     bool watching(WatchId watch) const;
-    int depth() const;  // number of plans that run inside one another
-    const GraphPlan& plan_at(int level) const;
+    int depth() const;                          // number of plans that run inside one another
+    const GraphPlan& plan_at(int level) const;  // its newest version
     const std::string& path_at(int level) const;
-    const GraphActor* actor_at(int level) const;
+    const GraphActor* actor_at(int level) const;  // as it was started
     ActivationId activation_at(int level) const;
     Phase phase_at(int level) const;
     // 0: it does not watch now.
     WatchId watch_at(const WatchPlace& place) const;
+    // Of one that watches.
+    WatchPlace place_of(WatchId watch) const;
     // Supervisors at this level and below are not checked while code is being stopped (P18a);
     // nothing is being stopped: -1.
     int stopping_level() const;
@@ -159,6 +173,7 @@ private:
     struct Level;
     struct After;
     struct Watch;
+    struct Version;
 
     // starting
     void push_level(const GraphPlan& plan, std::string path);
@@ -177,20 +192,32 @@ private:
     void end_plan(int level, PlanResult result, std::string message, Time now);
     void fail_plan(int level, std::string_view element, std::string_view cause, Time now);
     // values
-    Result<std::vector<Value>> read(int level, const std::vector<GraphInput>& inputs) const;
-    Status write_outputs(int level, const std::vector<GraphOutput>& outputs,
-                         const std::vector<std::optional<Value>>& values, std::string_view by,
-                         Time now);
+    static Result<std::vector<Value>> read(const Version& version,
+                                           const std::vector<GraphInput>& inputs);
+    struct Writer;
+    Status write_outputs(int level, const Writer& writer,
+                         const std::vector<std::optional<Value>>& values, Time now);
+    Status feed(int level, const GraphActor& caller, const std::vector<Value>& in, Time now);
+    std::vector<std::optional<Value>> outputs_of(int level) const;
     Value& cell(int level, int slot) const;
     std::string_view target_name(int level, int target) const;
     std::string sentence(int level, std::string_view element, std::string_view cause) const;
+    // hot change
+    Underway underway(int level) const;
+    std::shared_ptr<Version> make_version(int level, const GraphPlan& plan,
+                                          const Version* before) const;
+    const GraphPlan* plan_in(const Graph& graph, int level) const;
+    void take_version(int level, const GraphPlan& plan);
+    void take_globals(int level, const GraphPlan& plan);
+    void tell_change(int level, const Version& before, Time now);
     // finding
     Level& at(int level) const;
     int level_of(ActivationId activation) const;
     Watch* find(WatchId watch) const;
     void trace(int level, Time now, decltype(TraceEvent::what) what);
 
-    const Graph& graph_;
+    const Graph* graph_;  // the newest; those before it are named in the trace, and kept
+    std::vector<std::shared_ptr<const Graph>> changes_;
     std::vector<std::unique_ptr<Level>> levels_;
     ActivationId activations_ = 0;
     uint64_t at_once_ = 0;

@@ -89,6 +89,7 @@ public:
         text("element", e.element);
         text("message", e.message);
     }
+    void operator()(const PlanChanged&) { kind("change"); }
 
 private:
     void kind(std::string_view name) { text("kind", name); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,11 +14,13 @@
 
 namespace vagus::plan {
 
+struct Graph;
+
 // How a plan ended.
 enum class PlanResult : uint8_t { Ok, Interrupted, Error };
 std::string_view name_of(PlanResult result);
 
-// Names point into the Graph of the run.
+// Names point into the Graph of the run, or into that of the change before them.
 struct PlanStarted {};
 struct PlanEnded {
     PlanResult result;
@@ -64,12 +67,17 @@ struct ErrorFound {
     std::string_view element;
     std::string message;
 };
+// A new version of this plan was accepted (P31). Owners of the graph: the run, and whoever follows
+// the trace.
+struct PlanChanged {
+    std::shared_ptr<const Graph> graph;
+};
 
 struct TraceEvent {
     Time at{};
     std::string plan;  // instance path: "WallFollow/calibrate"
     std::variant<PlanStarted, PlanEnded, ActorStarted, ActorEnded, EventRaised, ActorInterrupted,
-                 VariableWritten, CheckLate, TextLogged, ErrorFound>
+                 VariableWritten, CheckLate, TextLogged, ErrorFound, PlanChanged>
         what;
 };
 

@@ -74,10 +74,10 @@ bool is(const Breakpoint& breakpoint, Breakpoint::Kind kind, std::string_view el
 }  // namespace
 
 Result<const plan::GraphPlan*> Breakpoints::find_plan(const std::string& name) const {
-    if (name.empty()) return &graph_.plans.front();
+    if (name.empty()) return &graph_->plans.front();
     std::vector<std::string> known;
     const plan::GraphPlan* found = nullptr;
-    for (const plan::GraphPlan& plan : graph_.plans) {
+    for (const plan::GraphPlan& plan : graph_->plans) {
         if (plan.file == name) return &plan;
         known.push_back(plan.name);
         if (plan.name != name) continue;
@@ -116,11 +116,12 @@ Result<int> Breakpoints::add(Breakpoint breakpoint) {
         return Error{Code::BadInput, "a breakpoint stops at its hit 1 or a later one, not at 0"};
     }
     const plan::GraphPlan* plan = TRY(find_plan(breakpoint.plan));
-    TRY(check_names(breakpoint, *plan));
-    Kept kept{.shown = std::move(breakpoint), .plan = plan, .condition = {}, .held = {}};
-    if (!kept.shown.condition.empty()) {
-        kept.condition = TRY(Expression::parse(kept.shown.condition, *plan));
-    }
+    Kept kept{.shown = std::move(breakpoint),
+              .file = plan->file,
+              .plan = plan,
+              .condition = {},
+              .held = {}};
+    TRY(fit(kept));
     const bool outcomes =
         kept.shown.kind == Breakpoint::Kind::State || kept.shown.kind == Breakpoint::Kind::Event;
     if (!outcomes) kept.shown.outcome.clear();
@@ -161,13 +162,37 @@ std::vector<Breakpoint> Breakpoints::list() const {
 }
 
 void Breakpoints::start_anew() {
-    variables_ = TracedVariables(graph_);
+    change(first_);
+    variables_ = TracedVariables(first_);
     for (Kept& kept : kept_) {
         kept.shown.hits = 0;
         kept.shown.trouble.clear();
         kept.held.clear();
     }
     met_.reset();
+}
+
+// A breakpoint whose element or variable is gone in the new version stays in the list and says so;
+// it is met again when a later version has it again.
+void Breakpoints::change(const plan::Graph& graph) {
+    if (&graph == graph_) return;
+    graph_ = &graph;
+    for (Kept& kept : kept_) {
+        kept.plan = nullptr;
+        kept.shown.trouble.clear();
+        const Status fits = fit(kept);
+        if (!fits.ok()) kept.shown.trouble = fits.error().what;
+        if (!fits.ok()) kept.plan = nullptr;
+    }
+}
+
+Status Breakpoints::fit(Kept& kept) const {
+    kept.plan = TRY(find_plan(kept.file));
+    TRY(check_names(kept.shown, *kept.plan));
+    if (!kept.shown.condition.empty()) {
+        kept.condition = TRY(Expression::parse(kept.shown.condition, *kept.plan));
+    }
+    return Status::done();
 }
 
 // ---- hits ----
@@ -227,12 +252,14 @@ std::vector<int> Breakpoints::see(const plan::TraceEvent& event) {
     std::vector<int> stopping;
     if (!write) stopping = settle();
     variables_.see(event);
+    if (const auto* changed = std::get_if<plan::PlanChanged>(&event.what)) change(*changed->graph);
     if (const auto* ended = std::get_if<plan::ActorEnded>(&event.what)) {
         met_ = {Breakpoint::Kind::State, ended->actor, ended->state, level_of(event)};
     } else if (const auto* raised = std::get_if<plan::EventRaised>(&event.what)) {
         met_ = {Breakpoint::Kind::Event, raised->supervisor, raised->event, level_of(event)};
     } else if (std::holds_alternative<plan::PlanStarted>(event.what) ||
-               std::holds_alternative<plan::PlanEnded>(event.what)) {
+               std::holds_alternative<plan::PlanEnded>(event.what) ||
+               std::holds_alternative<plan::PlanChanged>(event.what)) {
         for (Kept& kept : kept_) note_conditions(kept);
     }
     if (write) see_write(stopping);

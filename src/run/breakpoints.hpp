@@ -45,7 +45,8 @@ struct Breakpoint {
 
 class Breakpoints {
 public:
-    explicit Breakpoints(const plan::Graph& graph) : graph_(graph), variables_(graph) {}
+    explicit Breakpoints(const plan::Graph& graph)
+        : first_(graph), graph_(&graph), variables_(graph) {}
 
     // The number that it got. NotFound for names that the plan lacks, with the nearest one.
     Result<int> add(Breakpoint breakpoint);
@@ -64,12 +65,14 @@ public:
 private:
     struct Kept {
         Breakpoint shown;
-        const plan::GraphPlan* plan = nullptr;
+        std::string file;                       // of its plan
+        const plan::GraphPlan* plan = nullptr;  // nullptr: gone in the newest version
         std::optional<Expression> condition;
         std::vector<bool> held;  // by level: whether the condition held there
     };
 
     Result<const plan::GraphPlan*> find_plan(const std::string& name) const;
+    Status fit(Kept& kept) const;
     Status check_names(const Breakpoint& breakpoint, const plan::GraphPlan& plan) const;
     Result<Kept*> find(int id);
     struct Met {  // a state or event, to be decided when its writes are there
@@ -84,7 +87,10 @@ private:
     void see_write(std::vector<int>& stopping);
     void hit(Kept& kept, std::vector<int>& stopping);
 
-    const plan::Graph& graph_;
+    void change(const plan::Graph& graph);
+
+    const plan::Graph& first_;  // with which each run begins
+    const plan::Graph* graph_;  // its newest version (P31), kept by variables_
     TracedVariables variables_;
     std::vector<Kept> kept_;
     std::optional<Met> met_;

@@ -149,6 +149,11 @@ public:
         return Reply(Done{});
     }
 
+    Result<Reply> answer(TakeVersion& asked) {
+        return Reply(Change{asked.only_ask ? machine_->reasons_against(asked.next)
+                                           : machine_->change(asked.next, now_)});
+    }
+
     Where where() const {
         Where seen = look(*machine_);
         seen.at = now_;
@@ -173,6 +178,20 @@ public:
         stepped_ = false;
     }
 
+    // A run that has not begun has no plan yet that could change.
+    bool has_to_wait(const Posted& posted) const {
+        return std::holds_alternative<TakeVersion>(posted.request) && machine_->depth() == 0;
+    }
+
+    std::optional<Posted> next_request() {
+        if (!waiting_.empty() && machine_->depth() > 0) {
+            std::optional<Posted> first = std::move(waiting_.front());
+            waiting_.pop_front();
+            return first;
+        }
+        return paused_ ? std::optional(mailbox_.wait()) : mailbox_.take();
+    }
+
     void add(std::vector<int> hits) { met_.insert(met_.end(), hits.begin(), hits.end()); }
 
     static Result<Reply> reply(const Status& status) {
@@ -194,6 +213,7 @@ public:
     bool step_ = false;     // stop before the next begin
     bool stepped_ = false;  // that is now
     bool abort_asked_ = false;
+    std::deque<Posted> waiting_;        // for the run to begin
     std::vector<int> met_;              // breakpoints, in this decision
     std::optional<Time> instant_;       // at which to pause
     plan::ActivationId announced_ = 0;  // whose begin has been stopped at, or let pass
@@ -225,6 +245,7 @@ void Debugger::attach(plan::Machine& machine, std::function<void()> wake) {
     core.now_ = Time{0};
     core.breakpoints_.start_anew();
     core.met_.clear();
+    core.waiting_.clear();
     core.step_ = core.stepped_ = core.abort_asked_ = false;
     core.instant_.reset();
     core.announced_ = 0;
@@ -240,9 +261,12 @@ bool Debugger::serve(Time now) {
     core.stop_if_met();
     if (core.paused_ && !was_paused) return true;  // the executor first makes all stand still
     if (core.abort_asked_ || core.machine_->over()) return false;
-    std::optional<Posted> posted =
-        core.paused_ ? std::optional(core.mailbox_.wait()) : core.mailbox_.take();
+    std::optional<Posted> posted = core.next_request();
     if (!posted) return false;
+    if (core.has_to_wait(*posted)) {
+        core.waiting_.push_back(std::move(*posted));
+        return true;
+    }
     Result<Reply> reply =
         std::visit([&core](auto& asked) { return core.answer(asked); }, posted->request);
     core.mailbox_.report(Answer{posted->number, std::move(reply)});
@@ -259,6 +283,11 @@ bool Debugger::aborted() const {
 
 void Debugger::see(const plan::TraceEvent& event) {
     core_->add(core_->breakpoints_.see(event));
+}
+
+std::vector<std::string> Debugger::reasons_against(const plan::NewVersion& next) const {
+    if (!core_->machine_) return {"the run has ended or not begun: there is nothing to change"};
+    return core_->machine_->reasons_against(next);
 }
 
 bool Debugger::stops_before_begin() {

@@ -69,9 +69,14 @@ struct RaiseEvent {
     std::string event;
     std::vector<std::pair<std::string, plan::Value>> outputs = {};
 };
+// A new version of plans that run (P31), while they run or are paused. Answer: a Change.
+struct TakeVersion {
+    plan::NewVersion next;
+    bool only_ask = false;  // what stands in its way now; nothing changes
+};
 using Request =
     std::variant<AddBreakpoint, RemoveBreakpoint, EnableBreakpoint, ListBreakpoints, Pause,
-                 Continue, Step, Abort, AskWhere, Evaluate, SetVariable, RaiseEvent>;
+                 Continue, Step, Abort, AskWhere, Evaluate, SetVariable, RaiseEvent, TakeVersion>;
 
 // ---- reports ----
 struct VariableNow {
@@ -99,7 +104,10 @@ struct Where {
     bool paused = false;
     std::vector<LevelNow> levels = {};  // none: before the start
 };
-using Reply = std::variant<Done, int, std::vector<Breakpoint>, plan::Value, Where>;
+struct Change {
+    std::vector<std::string> reasons = {};  // against it, a sentence each; none: accepted
+};
+using Reply = std::variant<Done, int, std::vector<Breakpoint>, plan::Value, Where, Change>;
 
 struct Answer {
     uint64_t request;  // as post() numbered it
@@ -144,6 +152,8 @@ public:
     // An abort was asked for, perhaps before the start: then the run does not start.
     bool aborted() const;
     void see(const plan::TraceEvent& event);
+    // As TakeVersion that only asks, at once.
+    std::vector<std::string> reasons_against(const plan::NewVersion& next) const;
     // Begin is due for the innermost activation: must the run pause first? Then look again at
     // what is due when it goes on.
     bool stops_before_begin();

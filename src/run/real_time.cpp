@@ -44,6 +44,7 @@ private:
     void obey(plan::Activate& command);
     void obey(plan::StartCode& command);
     void obey(plan::StopCode& command);
+    void obey(plan::RankAnew&) {}  // ties are as they arrive (P21)
     void obey(plan::SubPlanOver& command) { machine_.end_sub_plan(command.activation, now()); }
 
     void take(CodeOver& message);

@@ -96,10 +96,13 @@ public:
         return std::nullopt;
     }
 
-    // Whether a check of this supervisor of the plan at that level still runs.
+    // Whether a check of this supervisor of the plan at that level still runs. By its name, which
+    // no other there has: after a change (P31) another version may have started it.
     bool runs(int level, const plan::GraphSupervisor& of) const {
         for (const Ending& one : all_) {
-            if (one.watching.level == level && one.watching.of == &of) return true;
+            const plan::GraphSupervisor& other = *one.watching.of;
+            const bool same = one.watching.level == level && other.name == of.name;
+            if (same && other.of == of.of) return true;
         }
         return false;
     }

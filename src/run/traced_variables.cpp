@@ -1,6 +1,7 @@
 #include "run/traced_variables.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace vagus::run {
 
@@ -12,6 +13,8 @@ void TracedVariables::see(const plan::TraceEvent& event) {
     const int level = level_of(event);
     if (std::holds_alternative<plan::PlanStarted>(event.what)) {
         start_plan(level);
+    } else if (const auto* changed = std::get_if<plan::PlanChanged>(&event.what)) {
+        change(changed->graph);
     } else if (std::holds_alternative<plan::PlanEnded>(event.what)) {
         levels_.resize(static_cast<size_t>(level));
     } else if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
@@ -39,6 +42,27 @@ void TracedVariables::start_plan(int level) {
         started.values.push_back(variable.initial);
     }
     levels_.push_back(std::move(started));
+}
+
+// All plans that run are of the new graph from now on: those that it does not change are the same
+// in it. A plan whose actor has not begun yet knows none.
+void TracedVariables::change(std::shared_ptr<const plan::Graph> graph) {
+    if (graph.get() == graph_) return;  // told once for each plan that runs
+    for (Level& level : levels_) {
+        const Level before = std::exchange(level, {});
+        for (const plan::GraphPlan& plan : graph->plans) {
+            if (plan.file == before.plan->file) level.plan = &plan;
+        }
+        for (const plan::GraphVariable& variable : level.plan->variables) {
+            const int slot = plan::find_variable(*before.plan, variable.name);
+            level.values.push_back(slot < 0 ? variable.initial
+                                            : before.values[static_cast<size_t>(slot)]);
+        }
+        const int actor = before.actor ? plan::find_actor(*level.plan, before.actor->name) : -1;
+        if (actor >= 0) level.actor = &level.plan->actors[static_cast<size_t>(actor)];
+    }
+    graph_ = graph.get();
+    changed_ = std::move(graph);
 }
 
 VariablePlace TracedVariables::place_of(VariablePlace place) const {

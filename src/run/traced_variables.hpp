@@ -2,6 +2,7 @@
 // that also a value which stood only between two writes of one decision is seen.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "plan/graph.hpp"
@@ -20,6 +21,7 @@ struct VariablePlace {
 
 class TracedVariables {
 public:
+    // Borrowed; after a change (P31) what its line of the trace brings counts.
     explicit TracedVariables(const plan::Graph& graph) : graph_(&graph) {}
 
     void see(const plan::TraceEvent& event);
@@ -39,8 +41,10 @@ private:
     const Level& at(int level) const { return levels_[static_cast<size_t>(level)]; }
     VariablePlace place_of(VariablePlace place) const;
     void start_plan(int level);
+    void change(std::shared_ptr<const plan::Graph> graph);
 
-    const plan::Graph* graph_;
+    const plan::Graph* graph_;                    // the newest (P31)
+    std::shared_ptr<const plan::Graph> changed_;  // that, after a change; owners: see PlanChanged
     std::vector<Level> levels_;
     VariablePlace last_write_;
 };

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <deque>
 #include <exception>
+#include <tuple>
 #include <utility>
 
 #include "run/debugger.hpp"
@@ -60,6 +61,7 @@ struct VirtualTime::Watching {
     std::vector<plan::Value> in{};  // with period 0: read at the start
     std::deque<BusEvent> events{};  // with period 0: heard, not yet checked
 
+    std::tuple<int, bool, int> rank() const { return {level, !global, index}; }  // P21
     Duration period() const { return Duration{of->period_us}; }
     bool due(Time now) const { return next <= now || !events.empty(); }
     // The first whole multiple of the period after `now`.
@@ -214,9 +216,8 @@ void VirtualTime::obey(plan::StartWatch& command) {
     auto watching = std::make_unique<Watching>(Watching{
         command.watch, command.level, command.global, command.index, command.supervisor,
         library_.make_supervisor(*command.supervisor->of), WatchContext(*this), now_, now_});
-    const auto rank = [](const Watching& w) { return std::tuple(w.level, !w.global, w.index); };
     const auto place = std::find_if(watching_.begin(), watching_.end(), [&](const auto& other) {
-        return rank(*watching) < rank(*other);
+        return watching->rank() < other->rank();
     });
     watching_.insert(place, std::move(watching));
 }
@@ -239,6 +240,14 @@ void VirtualTime::obey(plan::Activate& command) {
 void VirtualTime::obey(plan::SubPlanOver& command) {
     over_due_ = command;
     begin_due_.reset();
+}
+
+void VirtualTime::obey(plan::RankAnew&) {
+    for (const auto& watching : watching_) {
+        if (watching->global) watching->index = machine_.place_of(watching->id).index;
+    }
+    std::sort(watching_.begin(), watching_.end(),
+              [](const auto& a, const auto& b) { return a->rank() < b->rank(); });
 }
 
 void VirtualTime::obey(plan::StartCode& command) {

@@ -48,6 +48,7 @@ private:
     void obey(plan::StartCode& command);
     void obey(plan::StopCode& command);
     void obey(plan::SubPlanOver& command);
+    void obey(plan::RankAnew& command);
 
     bool take_first_due();
     bool may_check(const Watching& watching) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/text.hpp"
 
@@ -12,17 +13,21 @@ void TraceRules::complain(const plan::TraceEvent& event, const std::string& what
     breaches_.push_back(what + ": " + plan::format_trace(event));
 }
 
-bool TraceRules::is_computation(const std::string& path, std::string_view actor) const {
-    const auto find = [](const plan::GraphPlan& plan, std::string_view name) {
-        return std::find_if(plan.actors.begin(), plan.actors.end(),
-                            [name](const plan::GraphActor& one) { return one.name == name; });
-    };
-    const plan::GraphPlan* plan = &graph_.plans.front();
+// Of an instance path.
+const plan::GraphPlan& TraceRules::plan_of(const std::string& path) const {
+    const plan::GraphPlan* plan = &graph_->plans.front();
     const auto names = split(path, '/');
     for (size_t i = 1; i < names.size(); ++i) {
-        plan = &graph_.plans[static_cast<size_t>(find(*plan, names[i])->sub_plan)];
+        const auto actor = static_cast<size_t>(plan::find_actor(*plan, names[i]));
+        plan = &graph_->plans[static_cast<size_t>(plan->actors[actor].sub_plan)];
     }
-    const plan::Template* of = find(*plan, actor)->of;
+    return *plan;
+}
+
+bool TraceRules::is_computation(const std::string& path, std::string_view actor) const {
+    const plan::GraphPlan& plan = plan_of(path);
+    const auto index = static_cast<size_t>(plan::find_actor(plan, actor));
+    const plan::Template* of = plan.actors[index].of;
     return of && of->kind == plan::Kind::Computation;
 }
 
@@ -51,6 +56,17 @@ void TraceRules::note_raised(const plan::TraceEvent& event, const plan::EventRai
     }
     const bool rests = raised.global && raised.target != plan::kIgnore;
     if (rests) resting[supervisor] = {.since = raised.activation, .remedy = 0};
+}
+
+// A global supervisor that is gone rests no longer: one of that name that comes later is new.
+void TraceRules::note_change(const plan::TraceEvent& event,
+                             std::shared_ptr<const plan::Graph> graph) {
+    changed_ = std::move(graph);
+    graph_ = changed_.get();
+    const plan::GraphPlan& plan = plan_of(event.plan);
+    std::erase_if(plans_[event.plan].resting, [&plan](const auto& one) {
+        return plan::find_supervisor(plan.globals, one.first) < 0;
+    });
 }
 
 void TraceRules::see(const plan::TraceEvent& event) {
@@ -89,8 +105,10 @@ void TraceRules::see(const plan::TraceEvent& event) {
         note_raised(event, *e4);
         plan.writer = e4->target == "@ignore" ? std::string() : std::string(e4->supervisor);
     } else if (const auto* e5 = std::get_if<plan::VariableWritten>(&event.what)) {
-        const bool from_outside = e5->by == "initial" || e5->by == "outside";
+        const bool from_outside = e5->by == "initial" || e5->by == "outside" || e5->by == "change";
         if (!from_outside && e5->by != plan.writer) complain(event, "a loser wrote");
+    } else if (const auto* e6 = std::get_if<plan::PlanChanged>(&event.what)) {
+        note_change(event, e6->graph);
     } else if (std::holds_alternative<plan::ErrorFound>(event.what)) {
         plan.writer.clear();
         plan.active = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@ namespace vagus {
 class TraceRules {
 public:
     // Borrowed: of the plan whose trace it is.
-    explicit TraceRules(const plan::Graph& graph) : graph_(graph) {}
+    explicit TraceRules(const plan::Graph& graph) : graph_(&graph) {}
 
     void see(const plan::TraceEvent& event);
     // After the run; sentences, empty if all held.
@@ -34,12 +35,16 @@ private:
     };
 
     void complain(const plan::TraceEvent& event, const std::string& what);
+    const plan::GraphPlan& plan_of(const std::string& path) const;
     bool is_computation(const std::string& path, std::string_view actor) const;
     void note_activation(const plan::TraceEvent& event, std::string_view actor,
                          uint64_t activation);
     void note_raised(const plan::TraceEvent& event, const plan::EventRaised& raised);
 
-    const plan::Graph& graph_;
+    void note_change(const plan::TraceEvent& event, std::shared_ptr<const plan::Graph> graph);
+
+    const plan::Graph* graph_;                    // the newest version (P31)
+    std::shared_ptr<const plan::Graph> changed_;  // that, after a change
     std::map<std::string, Running> plans_;
     std::set<uint64_t> over_;  // activations that ended or were interrupted
     int64_t last_us_ = 0;

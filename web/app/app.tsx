@@ -9,11 +9,13 @@ import { TopBar } from './topbar/topbar';
 import { Notices } from './topbar/notices';
 import { RobotLife } from './robot_life';
 import { Tips } from './overlay/tips';
+import { usePhone } from './phone/use_phone';
 import { useKeys, useTheme, WindowLife } from './window_life';
 import { text } from './text';
 
 const Dock = late(async () => ({ default: (await import('./dock/dock')).Dock }));
 const StartScreen = late(() => import('./start/start_screen'));
+const Phone = late(async () => ({ default: (await import('./phone/phone')).Phone }));
 
 /** The whole window. */
 export function App() {
@@ -26,22 +28,35 @@ export function App() {
       withGlobalClasses={false}
       withStaticClasses={false}
     >
-      <div className="app">
-        <TopBar />
-        <Notices />
-        <div className="app__main">
-          <Suspense fallback={null}>
-            <Main />
-          </Suspense>
-        </div>
-        <StatusBar />
-      </div>
+      {usePhone() ? (
+        <Suspense fallback={null}>
+          <Phone />
+        </Suspense>
+      ) : (
+        <Desk />
+      )}
       <WindowLife />
       <RobotLife />
       <Overlay />
       <Toasts />
       <Tips />
     </MantineProvider>
+  );
+}
+
+/** Panels beside each other. */
+function Desk() {
+  return (
+    <div className="app">
+      <TopBar />
+      <Notices />
+      <div className="app__main">
+        <Suspense fallback={null}>
+          <Main />
+        </Suspense>
+      </div>
+      <StatusBar />
+    </div>
   );
 }
 

@@ -97,6 +97,8 @@ export interface Finding {
   /** one sentence */
   what: string;
   fixes: Fix[];
+  /** in a plan: keys and indices that lead to what is meant */
+  keys?: Json[];
 }
 
 /** Why a command was not done. */
@@ -474,6 +476,37 @@ export interface PlanLevel {
   supervisors: PlanSupervisor[];
 }
 
+/** A new version of the plan that runs (P31). */
+export interface PlanChange {
+  /** counts up */
+  number: number;
+  t: number;
+  state: 'taken' | 'refused';
+  /** what was saved */
+  docs: Doc[];
+  /** why it was refused */
+  reasons: string[];
+}
+
+/** Lines of generated code that belong to an element; one element may have several. */
+export interface CodeMark {
+  /** that lead to an element of the plan: actors, followWall */
+  keys: string[];
+  /** line */
+  first: number;
+  last: number;
+}
+
+/** A word of formulas. */
+export interface FormulaWord {
+  /** as it is written */
+  name: string;
+  is: 'function' | 'operator' | 'constant';
+  /** clamp(x, low, high) */
+  form: string;
+  help: string;
+}
+
 /** A change of one value of a JSON file. */
 export interface JsonStep {
   do: 'set' | 'remove' | 'insert' | 'move';
@@ -534,6 +567,26 @@ export interface NodeNote {
   what: string;
 }
 
+/** A file of a project that is sent to a robot. */
+export interface DeployFile {
+  /** from the border of the project */
+  path: Path;
+  size: number;
+  /** in hexadecimal digits */
+  sha256: string;
+}
+
+/** A version of the project on a robot. */
+export interface Deployed {
+  /** 0: the folder as it was given */
+  version: number;
+  name: string;
+  /** when it came */
+  when_wall?: number;
+  /** in force */
+  current: boolean;
+}
+
 /** Someone who asks for the wheel. */
 export interface Asked {
   client: number;
@@ -587,6 +640,41 @@ export interface Commands {
   }; out: Record<never, never> };
   /** Lets the wheel go. */
   'driver.leave': { in: Record<never, never>; out: Record<never, never> };
+  /** A robot that serves itself: announces another version of its project. */
+  'deploy.begin': { in: {
+    name: string;
+    /** the folder of its vagus.json, from the border of the project; empty: the border itself */
+    project: string;
+    files: DeployFile[];
+  }; out: Record<never, never> };
+  /** Bytes of an announced file; the files in their order, each from its first byte to its last, an empty one by one empty part. */
+  'deploy.part': { in: {
+    path: Path;
+    from: number;
+    base64: string;
+  }; out: Record<never, never> };
+  /** Checks what came, stops the run, puts the version in force and starts it. The version before is in force again if it does not start within 10 s. */
+  'deploy.commit': { in: Record<never, never>; out: {
+    /** stopped: somebody pressed Stop before it ran; waiting: it is in force and does not start yet */
+    result: 'started' | 'stopped' | 'refused' | 'rolled_back' | 'waiting';
+    /** that is in force now */
+    version: number;
+    findings: Finding[];
+    why?: string;
+  } };
+  /** The version before is in force again, and started. */
+  'deploy.back': { in: Record<never, never>; out: {
+    /** stopped: somebody pressed Stop before it ran; waiting: it is in force and does not start yet */
+    result: 'started' | 'stopped' | 'refused' | 'rolled_back' | 'waiting';
+    /** that is in force now */
+    version: number;
+    findings: Finding[];
+    why?: string;
+  } };
+  /** Versions that are kept. */
+  'deploy.list': { in: Record<never, never>; out: {
+    versions: Deployed[];
+  } };
   /** Copies an example into the user's folder and opens it. */
   'project.example': { in: {
     id: string;
@@ -781,6 +869,36 @@ export interface Commands {
     changed: Doc[];
     places: number;
   } };
+  /** What would be wrong with a plan after some steps. Nothing is changed. */
+  'plan.check': { in: {
+    doc: Doc;
+    steps: JsonStep[];
+  }; out: {
+    findings: Finding[];
+  } };
+  /** The C++ program of a plan as it is edited now (vagus plan generate): NAME.cpp. A plan with errors has none; then the findings say why. */
+  'plan.code': { in: {
+    doc: Doc;
+  }; out: {
+    /** of the file */
+    name: string;
+    text: string;
+    marks: CodeMark[];
+    /** errors */
+    findings: Finding[];
+  } };
+  /** A template of the project's own: into its toolbox file, which is made and listed in vagus.json if need be, with the events it needs and handlers in the script of a node. Unchanged it works and does something harmless. All of it, or nothing. */
+  'template.new': { in: {
+    name: Name;
+    kind: 'actor' | 'supervisor';
+    /** whose node does the work */
+    script: Doc;
+    help: string;
+  }; out: {
+    toolbox: string;
+    /** in the script, where its author goes on */
+    at: Place;
+  } };
   /** Adds an event or constant to an .aesl file. */
   'define.add': { in: {
     file: Path;
@@ -921,7 +1039,18 @@ export interface Commands {
   'plan.start': { in: {
     doc?: Doc;
     set?: Record<string, Json>;
+    /** the actor that it begins with, instead of its start */
+    from?: Name;
   }; out: Record<never, never> };
+  /** Whether saving the document as it is now would change the plan that runs (P31). */
+  'plan.check_change': { in: {
+    doc: Doc;
+  }; out: {
+    /** the plan that runs is made of it */
+    runs: boolean;
+    /** why the plan that runs could not change so; none: it would take over at once */
+    reasons: string[];
+  } };
   /** Pauses the plan. */
   'plan.pause': { in: Record<never, never>; out: Record<never, never> };
   /** Continues the plan. */
@@ -1100,6 +1229,8 @@ export interface Topics {
   /** What plans of the project can be made of. That of a shared library is not known. */
   'templates': { kind: 'document'; of: Record<never, never>; is: {
     toolboxes: PlanToolbox[];
+    /** what formulas can be made of, apart from variables */
+    formulas: FormulaWord[];
   } };
   /** What the compiler knows of a script. */
   'script': { kind: 'document'; of: {
@@ -1177,6 +1308,8 @@ export interface Topics {
     levels: PlanLevel[];
     /** what happened, the newest last */
     story: Line[];
+    /** what came of the last save while it ran */
+    change?: PlanChange;
   } };
   /** What is kept of the run that goes, or went last: history.at and history.lanes show it. */
   'history': { kind: 'document'; of: Record<never, never>; is: {
@@ -1256,7 +1389,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Edit: { doc: 'Doc', from: 'int(0..2097152)', to: 'int(0..2097152)', text: 'text(2097152)' },
   Change: { from: 'int(0..2097152)', to: 'int(0..2097152)', text: 'text(2097152)' },
   Fix: { label: 'line(200)', edits: '[Edit; 100]' },
-  Finding: { doc: 'Doc', severity: 'word(error|warning)', code: 'line(64)', element: 'line(256)?', at: 'Place', end: 'Place', what: 'text(2000)', fixes: '[Fix; 8]' },
+  Finding: { doc: 'Doc', severity: 'word(error|warning)', code: 'line(64)', element: 'line(256)?', at: 'Place', end: 'Place', what: 'text(2000)', fixes: '[Fix; 8]', keys: '[json; 100]?' },
   Problem: { code: 'word(bad_message|unknown_command|not_allowed|not_driver|not_found|bad_input|conflict|limit|unavailable|timeout|failed)', what: 'text(4000)', place: 'line(600)?' },
   FileEntry: { path: 'Path', kind: 'word(folder|script|plan|world|toolbox|project|picture|text|other)', size: 'int(0..1000000000000)', unsaved: 'bool' },
   Found: { target: 'line(256)', name: 'line(256)', kind: 'word(simulator|serial|local|network)', help: 'line(300)' },
@@ -1296,6 +1429,9 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanVariable: { name: 'Name', type: 'word(bool|int|float|string|object)', value: 'json', unit: 'line(32)' },
   PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
   PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]' },
+  PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
+  CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
+  FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
   JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', to: 'int(0..1000000)?' },
   Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
   FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world)' },
@@ -1303,6 +1439,8 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   ListingLine: { line: 'int(0..10000000)', address: 'int(0..65535)', words: 'int(1..65535)', text: 'line(200)' },
   Failed: { node: 'NodeId', why: 'text(2000)' },
   NodeNote: { node: 'NodeId', what: 'text(2000)' },
+  DeployFile: { path: 'Path', size: 'int(0..16777216)', sha256: 'line(64)' },
+  Deployed: { version: 'int(0..4294967295)', name: 'line(200)', when_wall: 'number?', current: 'bool' },
   Asked: { client: 'int(1..1000000000)', name: 'line(100)', until_wall: 'number' },
 };
 export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; out: Fields }>> = {
@@ -1313,6 +1451,11 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'driver.ask': { may: 'drive', out: { driver: 'bool' } },
   'driver.answer': { may: 'driver', out: {} },
   'driver.leave': { may: 'driver', out: {} },
+  'deploy.begin': { may: 'driver', out: {} },
+  'deploy.part': { may: 'driver', out: {} },
+  'deploy.commit': { may: 'driver', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
+  'deploy.back': { may: 'driver', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
+  'deploy.list': { may: 'look', out: { versions: '[Deployed; 100]' } },
   'project.example': { may: 'driver', out: { path: 'line(1024)' } },
   'project.open': { may: 'driver', out: { path: 'line(1024)' } },
   'project.new': { may: 'driver', out: { path: 'line(1024)' } },
@@ -1340,6 +1483,9 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'script.format_name': { may: 'look', out: { good: 'bool', why: 'line(300)?' } },
   'text.search': { may: 'look', out: { spots: '[Spot; 5000]', more: 'bool', why: 'line(300)?' } },
   'text.replace': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
+  'plan.check': { may: 'look', out: { findings: '[Finding; 2000]' } },
+  'plan.code': { may: 'look', out: { name: 'line(256)', text: 'text(4194304)', marks: '[CodeMark; 20000]', findings: '[Finding; 2000]' } },
+  'template.new': { may: 'driver', out: { toolbox: 'line(256)', at: 'Place' } },
   'define.add': { may: 'driver', out: {} },
   'define.change': { may: 'driver', out: { places: 'int(0..100000)' } },
   'define.remove': { may: 'driver', out: {} },
@@ -1364,6 +1510,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'run.end': { may: 'driver', out: {} },
   'clock.speed': { may: 'driver', out: {} },
   'plan.start': { may: 'driver', out: {} },
+  'plan.check_change': { may: 'look', out: { runs: 'bool', reasons: '[text(2000); 1000]' } },
   'plan.pause': { may: 'driver', out: {} },
   'plan.continue': { may: 'driver', out: {} },
   'plan.step': { may: 'driver', out: {} },
@@ -1389,7 +1536,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'files': { kind: 'document', is: { files: '[FileEntry; 2000]', more: 'bool' } },
   'doc': { kind: 'document', is: { version: 'int(0..4294967295)', text: 'text(2097152)', unsaved: 'bool', by: 'int(0..1000000000)', disk: 'text(2097152)?', gone: 'bool' } },
   'findings': { kind: 'document', is: { findings: '[Finding; 2000]', more: 'int(0..1000000)', versions: '{int(0..4294967295); 2000}' } },
-  'templates': { kind: 'document', is: { toolboxes: '[PlanToolbox; 200]' } },
+  'templates': { kind: 'document', is: { toolboxes: '[PlanToolbox; 200]', formulas: '[FormulaWord; 200]' } },
   'script': { kind: 'document', is: { version: 'int(0..4294967295)', good: 'bool', node: 'Name', for: 'line(200)', bytecode: 'Meter', variables: 'Meter', stack: 'Meter', handlers: '[Handler; 1000]', code_lines: '[int(1..10000000); 65536]' } },
   'scripts': { kind: 'document', is: { parts: '[ScriptPart; 1000]', files: '[SharedFile; 200]' } },
   'robot': { kind: 'document', is: { target: 'line(256)', name: 'line(256)', kind: 'word(none|simulator|bus)', state: 'word(none|connecting|connected|lost|failed)', why: 'text(1000)?', since_wall: 'number?', nodes: '[Node; 1024]', twins: '[line(300); 100]', load: 'number?', lost: 'number', events_a_second: 'number' } },
@@ -1397,7 +1544,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'node': { kind: 'document', is: { name: 'Name', variables: '[Variable; 4096]', events: '[LocalEvent; 256]', natives: '[Native; 512]' } },
   'breakpoints': { kind: 'document', is: { breakpoints: '[Breakpoint; 1000]' } },
   'clock': { kind: 'document', is: { t: 'number', wall: 'number', state: 'word(none|running|paused|ended|hanging|dead)', speed: 'number', real: 'number', why: 'text(2000)?' } },
-  'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]' } },
+  'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]', change: 'PlanChange?' } },
   'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
   'state': { kind: 'document', is: { values: 'json' } },
   'scene': { kind: 'document', is: { name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },

@@ -1,7 +1,7 @@
 // What the studio costs and how quick it is, against the real server: node scripts/bench.mjs [--seconds=30]
 import { loadavg, cpus } from 'node:os';
 import { join } from 'node:path';
-import { crowd, longScript } from './bench_projects.mjs';
+import { crowd, largePlan, longScript } from './bench_projects.mjs';
 import { launchBrowser, owning, pause, startServer, until } from './real.mjs';
 import { temporaryFolder } from '../e2e/support/server.mjs';
 import { fetched, sumOf } from './size.mjs';
@@ -212,7 +212,62 @@ async function typing(browser) {
   );
 }
 
-const parts = { start: firstView, crowd: crowded, typing };
+/** A large plan is opened, moved about and looked at near and far; one that is twice as large is searched. */
+async function plans(browser) {
+  await owning(async (owner) => {
+    const folder = largePlan(join(temporaryFolder(owner), 'large'), kActors);
+    const { page, address } = await opened(owner, browser, [folder]);
+    await page.goto(address);
+    const before = performance.now();
+    await page.getByRole('radio', { name: 'Draw' }).click();
+    await page.locator('.pactor').first().waitFor();
+    judge(`a plan of ${kActors} actors opens in`, performance.now() - before, 'ms', 2000);
+    const session = await page.context().newCDPSession(page);
+    const tasks = await traced(session, () => wander(page));
+    judge(
+      `moved about in a plan of ${kActors} actors, tasks of the main thread, p99`,
+      at(tasks, 0.99),
+      'ms',
+      50,
+    );
+    say('the longest', `${at(tasks, 1).toFixed(0)} ms`);
+  });
+  await owning(async (owner) => {
+    const folder = largePlan(join(temporaryFolder(owner), 'larger'), 2 * kActors);
+    const { page, address } = await opened(owner, browser, [folder]);
+    await page.goto(address);
+    await page.getByRole('radio', { name: 'Draw' }).click();
+    await page.locator('.pactor').first().waitFor();
+    const before = performance.now();
+    await page.locator('.pcanvas').click({ position: { x: 60, y: 20 } });
+    await page.keyboard.press('Control+f');
+    await page.getByRole('combobox', { name: 'Find in the plan' }).fill(`step${2 * kActors - 1}`);
+    await page.keyboard.press('Enter');
+    await page.getByRole('heading', { name: `step${2 * kActors - 1}` }).waitFor();
+    say(
+      `the last of ${2 * kActors} actors is found in`,
+      `${(performance.now() - before).toFixed(0)} ms`,
+    );
+  });
+}
+
+const kActors = 500;
+
+/** With the wheel and the mouse, as a person looks for something. */
+async function wander(page) {
+  const { x, y, width, height } = await page.locator('.pcanvas').boundingBox();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  for (let turn = 0; turn < seconds * 4; turn++) {
+    await page.mouse.wheel(0, turn % 8 < 4 ? -240 : 240);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + (turn % 2 ? 90 : -90), y + height / 2, { steps: 5 });
+    await page.mouse.up();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await pause(100);
+  }
+}
+
+const parts = { plans, start: firstView, crowd: crowded, typing };
 const wanted = process.argv.slice(2).filter((one) => one in parts);
 const browser = await launchBrowser();
 // Times of the wall clock mean little while others use the machine.

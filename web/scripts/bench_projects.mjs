@@ -103,3 +103,38 @@ export function longScript(folder) {
     ),
   });
 }
+
+/** A plan of so many actors in a grid, each leading to the next and to one that is near; every third is watched. */
+export function largePlan(folder, actors) {
+  const columns = Math.ceil(Math.sqrt(actors));
+  const name = (at) => `step${at % actors}`;
+  const places = lines(actors, (at) => [
+    name(at),
+    [(at % columns) * 280, Math.floor(at / columns) * 220],
+  ]);
+  const made = lines(actors, (at) => [
+    name(at),
+    {
+      template: 'Wait',
+      in: { seconds: 1 },
+      states: { Done: name(at + 1) },
+      ...(at % 3 ? {} : { supervisors: { [`late${at}`]: late(name(at + columns)) } }),
+    },
+  ]);
+  return write(folder, {
+    'vagus.json': { format: 'vagus-project/1', name: 'Large', plan: 'Large.plan.json' },
+    'Large.plan.json': {
+      format: 'vagus-plan/1',
+      name: 'Large',
+      start: { actor: name(0) },
+      actors: Object.fromEntries(made),
+      layout: Object.fromEntries(places),
+    },
+  });
+}
+
+const late = (target) => ({
+  template: 'Timeout',
+  in: { seconds: 5 },
+  events: { Timeout: target },
+});

@@ -179,7 +179,8 @@ int Prompt::run() {
 void Prompt::start_run() {
     if (runner_.joinable()) runner_.join();
     started_ = running_ = pause_asked_ = false;
-    runner_ = std::thread([this] { ended_ = run_.run(&debugger_); });
+    run_.set_debugger(debugger_);
+    runner_ = std::thread([this] { ended_ = run_.run(); });
 }
 
 // ---- talking to the run ----

@@ -14,6 +14,7 @@
 #include "cli/output.hpp"
 #include "cli/plan/debug.hpp"
 #include "cli/plan/generate.hpp"
+#include "cli/plan/hot_change.hpp"
 #include "cli/plan/run.hpp"
 #include "cli/plan/save_watcher.hpp"
 #include "cli/plan/show.hpp"
@@ -84,8 +85,17 @@ int run_once(const PlanRunOptions& options) {
     return show_run(*run, options);
 }
 
-// Again each time that a file is saved, until a signal ends it. A run that is going on is aborted
-// first.
+// What the watcher of one run does when files are saved: a plan takes over, all else ends the run.
+// False: it has ended it.
+bool take_save(const std::vector<std::string>& saved, FileWatch& watch, PlanRun& run,
+               HotChange& change) {
+    if (change.is_for(saved) && change.hand_in(saved, watch)) return true;
+    run.prepared().abort();
+    return false;
+}
+
+// Again each time that a file is saved which cannot take over in a run that goes on, until a signal
+// ends it. Such a run is aborted first.
 int run_watched(const PlanRunOptions& options) {
     net::watch_for_end();
     std::vector<std::string> files = options.words.toolboxes;
@@ -99,11 +109,17 @@ int run_watched(const PlanRunOptions& options) {
             files = run->files();
             watch = FileWatch(files);
         }
-        const auto abort = [&run] {
+        std::optional<HotChange> change;
+        if (run) {
+            change.emplace(*run, options.file, [](const std::string& line) { say(line + "\n"); });
+            run->set_debugger(change->debugger());
+        }
+        SaveWatcher saves(std::move(watch), [&run, &change](const auto& saved, FileWatch& here) {
+            return run && take_save(saved, here, *run, *change);
+        });
+        const net::EndWatcher end_watcher([&run] {
             if (run) run->prepared().abort();
-        };
-        SaveWatcher saves(std::move(watch), abort);
-        const net::EndWatcher end_watcher(abort);
+        });
         if (run) exit_code = show_run(*run, options);
         const std::optional<std::string> saved = saves.wait();
         if (saved) say(*saved + " was saved: the plan starts anew\n");
@@ -194,7 +210,9 @@ void add_run(CLI::App& plan, int& exit_code) {
                    "beside a world: plain lines also on a terminal");
     verb->add_flag("--quiet", options->quiet, "no lines of what happens, and no view");
     add_theme_option(*verb, options->theme);
-    verb->add_flag("--watch", options->watch, "starts anew when a file that it read is saved");
+    verb->add_flag("--watch", options->watch,
+                   "a plan that is saved takes over while it runs; any other file that it read "
+                   "starts it anew");
     verb->callback([options, &exit_code] {
         exit_code = options->watch ? run_watched(*options) : run_once(*options);
     });

@@ -45,8 +45,8 @@ std::vector<std::string> PlanRun::files() const {
     return files;
 }
 
-run::Ended PlanRun::run(run::Debugger* debugger) {
-    Result<run::Ended> ended = prepared_->run(debugger);
+run::Ended PlanRun::run() {
+    Result<run::Ended> ended = prepared_->run(debugger_);
     if (ended.ok()) return ended.value();
     complain(ended.error());
     return {.result = plan::PlanResult::Error, .message = {}};

@@ -43,6 +43,7 @@ public:
     static std::unique_ptr<PlanRun> prepare(const PlanRunOptions& options);
     ~PlanRun();
 
+    const embed::LoadedPlan& loaded() const { return *plan_; }
     const plan::Graph& graph() const { return plan_->graph(); }
     const plan::Plan& plan() const { return plan_->plans().front(); }  // the outermost
     // All that were read: of the plans, their toolboxes, the world and its scripts.
@@ -50,7 +51,9 @@ public:
     embed::PreparedRun& prepared() { return *prepared_; }
     // Can be called again: each is a run of its own. One that cannot begin has complained, and is
     // over with an error.
-    run::Ended run(run::Debugger* debugger = nullptr);
+    run::Ended run();
+    // Before run(); borrowed.
+    void set_debugger(run::Debugger& debugger) { debugger_ = &debugger; }
 
 private:
     PlanRun();
@@ -59,6 +62,7 @@ private:
     run::CodeLibrary library_;
     std::optional<embed::LoadedPlan> plan_;
     std::unique_ptr<embed::PreparedRun> prepared_;
+    run::Debugger* debugger_ = nullptr;
 };
 
 }  // namespace vagus::cli

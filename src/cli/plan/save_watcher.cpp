@@ -6,7 +6,7 @@
 
 namespace vagus::cli {
 
-SaveWatcher::SaveWatcher(FileWatch watch, std::function<void()> on_save)
+SaveWatcher::SaveWatcher(FileWatch watch, OnSave on_save)
     : watch_(std::move(watch)), on_save_(std::move(on_save)), thread_([this] { look(); }) {}
 
 SaveWatcher::~SaveWatcher() {
@@ -18,9 +18,8 @@ SaveWatcher::~SaveWatcher() {
 void SaveWatcher::look() {
     while (!over_ && !net::end_asked()) {
         const std::vector<std::string> changed = watch_.changed(clock_.now());
-        if (!changed.empty()) {
+        if (!changed.empty() && !on_save_(changed, watch_)) {
             saved_ = changed.front();
-            on_save_();
             return;
         }
         (void)clock_.poll(clock_.now() + kLookEvery);

@@ -60,6 +60,9 @@ struct Say {
     std::optional<std::string> operator()(const plan::ErrorFound& found) {
         return "error: " + found.message;
     }
+    std::optional<std::string> operator()(const plan::PlanChanged&) {
+        return "a new version of the plan runs";
+    }
 };
 
 }  // namespace
@@ -85,6 +88,10 @@ void PlanStory::see(const plan::TraceEvent& event) {
         failed_ = depth == 0 && over->result == plan::PlanResult::Error;
     }
     if (depth >= levels_.size()) return;
+    if (const auto* changed = std::get_if<plan::PlanChanged>(&event.what)) {
+        graph_ = changed->graph.get();
+        levels_[depth].changed.clear();
+    }
     Level& level = levels_[depth];
     if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
         start_actor(depth, started->actor, event.at);
@@ -197,7 +204,10 @@ void PlanStory::add_variables(PlanPanelView& panel, Time now) const {
         const auto changed = levels_[0].changed.find(static_cast<int>(slot));
         const bool fresh = changed != levels_[0].changed.end() && now - changed->second < kFreshFor;
         const plan::Value& value = variables_.value(0, static_cast<int>(slot));
-        const std::string& unit = plan_->configuration[slot].unit;
+        // Of one that a new version brought (P31) the first knows none.
+        const int known_before = plan::find_variable(*plan_, known[slot].name);
+        const std::string unit =
+            known_before < 0 ? "" : plan_->configuration[static_cast<size_t>(known_before)].unit;
         panel.variables.push_back({known[slot].name, shown_value(value), unit, fresh});
     }
 }

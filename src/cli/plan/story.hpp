@@ -52,7 +52,7 @@ private:
     void add_watching(PlanPanelView& panel) const;
     void add_variables(PlanPanelView& panel, Time now) const;
 
-    const plan::Graph* graph_;
+    const plan::Graph* graph_;  // the newest version (P31), kept by variables_
     const plan::Plan* plan_;
     run::TracedVariables variables_;
     std::vector<Level> levels_;  // the outermost first

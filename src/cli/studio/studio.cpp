@@ -6,14 +6,13 @@
 
 #include "cli/options.hpp"
 #include "cli/output.hpp"
+#include "cli/studio/door_options.hpp"
 #include "cli/verbs.hpp"
 #include "serve/process.hpp"
 #include "serve/workbench/studio.hpp"
 
 namespace vagus::cli {
 namespace {
-
-constexpr int kPortMax = 65535;
 
 // There is a screen on which a browser can appear.
 bool has_screen() {
@@ -40,28 +39,6 @@ int run(const serve::StudioOptions& options, bool browser) {
                         : kExitFailed);
 }
 
-// Who may reach it, and how.
-void add_door_options(CLI::App& verb, serve::StudioOptions& options) {
-    verb.add_option("--listen", options.listen,
-                    "an address of this computer; any but 127.0.0.1 needs --token-file")
-        ->type_name("ADDRESS");
-    verb.add_option("--port", options.port, "0 is a free one (default: 8910, if it is free)")
-        ->type_name("N")
-        ->check(CLI::Range(0, kPortMax));
-    takes_file(*verb.add_option("--token-file", options.token_file,
-                                "the token of who may drive; made if it is not there"),
-               {});
-    takes_file(*verb.add_option("--look-token-file", options.look_token_file,
-                                "the token of who may only look; made if it is not there"),
-               {});
-    takes_file(*verb.add_option("--tls-cert", options.tls_cert, "PEM: serve by HTTPS"), {".pem"});
-    takes_file(*verb.add_option("--tls-key", options.tls_key, "PEM: the key of the certificate"),
-               {".pem"});
-    verb.add_option("--host", options.hosts, "a further name that this computer has")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-}
-
 }  // namespace
 
 void add_studio(CLI::App& app, int& exit_code) {
@@ -75,13 +52,12 @@ void add_studio(CLI::App& app, int& exit_code) {
     verb->add_option("--example", options->example,
                      "opens the newest copy of an example instead: --example follow-wall")
         ->type_name("NAME");
-    add_door_options(*verb, *options);
+    add_door_options(*verb, options->door);
     verb->add_option("--data", options->data,
                      "folder of copies, new projects, token (default: ~/.local/share/vagus)")
         ->type_name("FOLDER");
     verb->add_option("--config", options->config, "folder of settings (default: ~/.config/vagus)")
         ->type_name("FOLDER");
-    verb->add_option("--pages", options->pages)->group("");  // for tests
     verb->add_flag("--no-browser", *no_browser, "only print the address");
     verb->footer(
         "It prints `studio http://127.0.0.1:PORT/#token=…`, opens a browser where there is a "
@@ -93,15 +69,7 @@ void add_studio(CLI::App& app, int& exit_code) {
         "  vagus studio --listen 192.168.1.7 --token-file token --tls-cert me.pem --tls-key "
         "me.key");
     verb->callback([options, no_browser, &exit_code] {
-        const bool open_address = options->listen != "127.0.0.1" && options->listen != "::1";
-        if (open_address && options->token_file.empty()) {
-            throw CLI::ValidationError("--listen", options->listen +
-                                                       " needs --token-file FILE: who reaches this "
-                                                       "address must know the token");
-        }
-        if (options->tls_cert.empty() != options->tls_key.empty()) {
-            throw CLI::ValidationError("--tls-cert", "--tls-cert and --tls-key go together");
-        }
+        check_door_options(options->door);
         exit_code = run(*options, !*no_browser);
     });
 }

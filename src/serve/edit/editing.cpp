@@ -12,7 +12,9 @@ Editing::Editing(Desk& desk, Files& files, Scripts& scripts)
       file_desk_(desk, files, project_, listeners_),
       script_desk_(desk, files, scripts),
       search_(desk, files, scripts),
-      findings_(desk, files, scripts, project_) {
+      findings_(desk, files, scripts, project_),
+      plan_desk_(desk, files, findings_),
+      template_desk_(desk, files, scripts, findings_, project_, listeners_) {
     files_.on_change([this](const std::string& path) { text_changed(path); });
 }
 

@@ -18,8 +18,10 @@
 #include "serve/edit/file_desk.hpp"
 #include "serve/edit/finding.hpp"
 #include "serve/edit/findings.hpp"
+#include "serve/edit/plan_desk.hpp"
 #include "serve/edit/script_desk.hpp"
 #include "serve/edit/search.hpp"
+#include "serve/edit/template_desk.hpp"
 
 namespace vagus::serve {
 
@@ -67,6 +69,8 @@ private:
     ScriptDesk script_desk_;
     Search search_;
     Findings findings_;
+    PlanDesk plan_desk_;
+    TemplateDesk template_desk_;
 };
 
 }  // namespace vagus::serve

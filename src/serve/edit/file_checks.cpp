@@ -22,13 +22,23 @@ namespace fs = std::filesystem;
 
 const toolbox::Parts kNoParts;
 
+// The text of one document is another one for this check.
+struct Instead {
+    std::string path = {}, text = {};
+};
+
 class PlanTexts final : public plan::Files {
 public:
-    explicit PlanTexts(const CheckedTexts& texts) : texts_(texts) {}
-    Result<std::string> read(const std::string& path) const override { return texts_.read(path); }
+    PlanTexts(const CheckedTexts& texts, const Instead& instead)
+        : texts_(texts), instead_(instead) {}
+    Result<std::string> read(const std::string& path) const override {
+        if (path == instead_.path) return instead_.text;
+        return texts_.read(path);
+    }
 
 private:
     const CheckedTexts& texts_;
+    const Instead& instead_;
 };
 
 // Sentences of readers that were given a path on the disk.
@@ -103,6 +113,27 @@ Checkup checkup_of(Files& files, const std::string& path, const Look& look) {
     return checkup;
 }
 
+// A plan with the sub-plans that it names.
+Checkup checked_plan(Files& files, const std::string& path, const Instead& instead,
+                     const Toolboxes& toolboxes, const std::optional<session::BusNames>& names) {
+    const CheckedTexts again(files);
+    CheckedTexts reading(files);
+    const PlanTexts texts(reading, instead);
+    const plan::Checked checked = plan::check(path, texts, toolboxes.library->templates());
+    plan::Findings found = checked.findings;
+    if (checked.ok()) add_warnings(checked, names, found);
+    // Nobody knows what a toolbox declares that is not loaded.
+    if (toolboxes.incomplete) {
+        std::erase_if(found, [](const plan::Finding& one) { return one.rule == "P2"; });
+    }
+    Checkup checkup;
+    checkup.read = reading.take_read();
+    const PlanTexts seen(again, instead);
+    checkup.findings =
+        plan_findings(found, [&](const std::string& file) { return seen.read(file); });
+    return checkup;
+}
+
 }  // namespace
 
 Result<std::string> CheckedTexts::read(const std::string& path) const {
@@ -141,21 +172,12 @@ Toolboxes load_toolboxes(Files& files, const std::vector<std::string>& paths) {
 
 Checkup check_plan(Files& files, const std::string& path, const Toolboxes& toolboxes,
                    const std::optional<session::BusNames>& names) {
-    const CheckedTexts texts(files);
-    CheckedTexts reading(files);
-    const plan::Checked checked =
-        plan::check(path, PlanTexts(reading), toolboxes.library->templates());
-    plan::Findings found = checked.findings;
-    if (checked.ok()) add_warnings(checked, names, found);
-    // Nobody knows what a toolbox declares that is not loaded.
-    if (toolboxes.incomplete) {
-        std::erase_if(found, [](const plan::Finding& one) { return one.rule == "P2"; });
-    }
-    Checkup checkup;
-    checkup.read = reading.take_read();
-    checkup.findings =
-        plan_findings(found, [&](const std::string& file) { return texts.read(file); });
-    return checkup;
+    return checked_plan(files, path, {}, toolboxes, names);
+}
+
+Checkup check_plan_as(Files& files, const std::string& path, const std::string& text,
+                      const Toolboxes& toolboxes, const std::optional<session::BusNames>& names) {
+    return checked_plan(files, path, {path, text}, toolboxes, names);
 }
 
 Checkup check_world_file(Files& files, const std::string& path) {

@@ -50,6 +50,9 @@ Toolboxes load_toolboxes(Files& files, const std::vector<std::string>& paths);
 // A plan with the sub-plans that it names.
 Checkup check_plan(Files& files, const std::string& path, const Toolboxes& toolboxes,
                    const std::optional<session::BusNames>& names);
+// The same if its text were another one.
+Checkup check_plan_as(Files& files, const std::string& path, const std::string& text,
+                      const Toolboxes& toolboxes, const std::optional<session::BusNames>& names);
 Checkup check_world_file(Files& files, const std::string& path);
 Checkup check_toolbox_file(Files& files, const std::string& path);
 Checkup check_project_file(Files& files, const std::string& path);

@@ -1,6 +1,7 @@
 #include "serve/edit/file_desk.hpp"
 
 #include <fmt/format.h>
+#include "serve/base64.hpp"
 
 #include <algorithm>
 #include <map>
@@ -14,25 +15,6 @@ namespace vagus::serve {
 namespace {
 
 constexpr size_t kFollowedMax = 100;  // in the answer
-
-std::string base64(std::string_view bytes) {
-    static constexpr std::string_view kLetters =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (size_t at = 0; at < bytes.size(); at += 3) {
-        uint32_t group = 0;
-        for (size_t i = 0; i < 3; ++i) {
-            group = group << 8 |
-                    (at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0u);
-        }
-        for (size_t i = 0; i < 4; ++i) {
-            const bool filled = at + i <= bytes.size();
-            text += filled ? kLetters[group >> (18 - 6 * i) & 63] : '=';
-        }
-    }
-    return text;
-}
 
 // The ending that makes a file of that kind; empty: any.
 std::string_view ending_of(const std::string& kind) {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr size_t kEditsMax = 100;  // of a fix: "[Edit; 100]"
 constexpr size_t kFixesMax = 8;
+constexpr size_t kKeysMax = 100;
 constexpr int kPlaceMax = 10'000'000;
 
 Json json_of(const FindingFix& fix) {
@@ -65,6 +66,7 @@ Json json_of(const Finding& finding) {
                  {"end", json_of(std::max(finding.at, finding.end))},
                  {"what", text_of(finding.what, 2000)},
                  {"fixes", std::move(fixes)}};
+    if (!finding.keys.empty() && finding.keys.size() <= kKeysMax) json["keys"] = finding.keys;
     if (!finding.element.empty()) json["element"] = line_of(finding.element, 256);
     return json;
 }

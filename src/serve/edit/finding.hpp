@@ -30,6 +30,8 @@ struct Finding {
     aesl::Position at, end;
     std::string what;
     std::vector<FindingFix> fixes;
+    // Of a JSON file: keys and indices that lead to what is meant, as in a JsonStep.
+    nlohmann::json keys = nlohmann::json::array();
 };
 
 // As the protocol has it, within its limits.

@@ -30,8 +30,7 @@ Findings::Findings(Desk& desk, Files& files, Scripts& scripts, const EditedProje
     : desk_(desk), files_(files), scripts_(scripts), project_(project) {
     desk_.board().document("findings", [this](const Json&) { return document(); });
     desk_.board().document("templates", [this](const Json&) {
-        refresh_toolboxes();
-        return template_list(toolboxes_.library->templates());
+        return template_list(toolboxes().library->templates());
     });
 }
 
@@ -303,6 +302,11 @@ Time Findings::next_tick() const {
     if (!desk_.board().watched("findings")) return Time::max();
     if (due_) return left_.empty() ? *due_ : std::min(*due_, now_);
     return left_.empty() ? Time::max() : now_;
+}
+
+const Toolboxes& Findings::toolboxes() {
+    refresh_toolboxes();
+    return toolboxes_;
 }
 
 // ---- all of them ----

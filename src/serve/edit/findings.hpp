@@ -34,6 +34,9 @@ public:
     void project_changed();
     // Everything as of now: what is due is checked first.
     std::vector<Finding> all();
+    // What plans can be made of, and what the nodes of the project declare, both as of now.
+    const Toolboxes& toolboxes();
+    std::optional<session::BusNames> bus_names();
 
     void tick(Time now);
     Time next_tick() const;
@@ -67,7 +70,6 @@ private:
     bool holds(const OfFile& known);
     Checkup check(const std::string& path);
     const std::string& nodes_file() const;
-    std::optional<session::BusNames> bus_names();
     void add_events_of(const std::string& file, aesl::CommonDefinitions& common);
 
     Json document();

@@ -13,6 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 std::string project(const std::string& script, const std::string& events = "") {
     return "<!DOCTYPE aesl-source>\n<network>\n" + events +
@@ -111,6 +112,56 @@ TEST_F(EditTest, PlansAreCheckedAsTheyAreEdited) {
     apply(unknown.fixes[0]);
     EXPECT_THAT(text("P.plan.json"), HasSubstr("\"seconds\": \"speed * 2 + speed\""));
     EXPECT_THAT(findings(), IsEmpty());
+}
+
+// A page marks the row of a form by it: the words of the sentence say nothing of where it stands.
+TEST_F(EditTest, FindingsOfPlansSayWhichMemberIsMeant) {
+    write("P.plan.json", plan(kGoodActor));
+    enter({.plan = "P.plan.json"});
+    put("P.plan.json", "\"seconds\": \"speed\"", "\"seconds\": \"sped\"");
+    EXPECT_EQ(finding("P8").keys, Json({"actors", "a", "in", "seconds"}));
+    put("P.plan.json", "\"@terminate\"", "\"@termnate\"");
+    EXPECT_EQ(finding("P17").keys, Json({"actors", "a", "states", "Done"}));
+    const Json first = document("findings")["findings"][0];
+    EXPECT_EQ(first["keys"], Json({"actors", "a", "in", "seconds"}));
+}
+
+TEST_F(EditTest, APlanIsCheckedAsItWouldBeWithoutAChange) {
+    const std::string good = plan(kGoodActor);
+    write("P.plan.json", good);
+    write("note.txt", "");
+    enter({.plan = "P.plan.json"});
+    const auto check = [&](const char* formula) {
+        const Json step = {
+            {"do", "set"}, {"at", {"actors", "a", "in", "seconds"}}, {"value", formula}};
+        return ask("plan.check", {{"doc", "P.plan.json"}, {"steps", {step}}})["findings"];
+    };
+    EXPECT_EQ(check("speed * 2"), Json::array());
+    const Json found = check("speed * (2");
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0]["code"], "P8");
+    EXPECT_EQ(found[0]["keys"], Json({"actors", "a", "in", "seconds"}));
+    EXPECT_EQ(text("P.plan.json"), good);
+    EXPECT_THAT(findings(), IsEmpty());
+    EXPECT_THAT(refusal("plan.check", {{"doc", "note.txt"}, {"steps", Json::array()}}),
+                StartsWith("bad_input: note.txt is no plan"));
+}
+
+TEST_F(EditTest, PagesAreToldTheWordsOfFormulas) {
+    enter();
+    const Json words = document("templates")["formulas"];
+    const auto word = [&](const std::string& name) {
+        for (const Json& one : words) {
+            if (one["name"] == name) return one;
+        }
+        return Json();
+    };
+    EXPECT_EQ(word("abs"), Json({{"name", "abs"},
+                                 {"is", "function"},
+                                 {"form", "abs(x)"},
+                                 {"help", "x without its sign"}}));
+    EXPECT_EQ(word("and")["is"], "operator");
+    EXPECT_EQ(word("true")["is"], "constant");
 }
 
 TEST_F(EditTest, MistypedNamesOfPlansAreMendedByOneClick) {

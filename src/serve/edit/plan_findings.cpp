@@ -27,7 +27,7 @@ size_t find_word(std::string_view text, std::string_view name, size_t from) {
     return text.npos;
 }
 
-// One file with its strings by their places, for mends.
+// One file with its strings by their places, for mends, and the keys that lead to each place.
 class PlanText {
 public:
     explicit PlanText(std::string text) : text_(std::move(text)), places_(text_) {}
@@ -45,6 +45,13 @@ public:
         return fix;
     }
 
+    // Empty: nothing begins there.
+    nlohmann::json keys_to(int line, int column) {
+        if (!read_) read();
+        const auto found = keys_.find({line, column});
+        return found == keys_.end() ? nlohmann::json::array() : found->second;
+    }
+
 private:
     struct Found {
         size_t begin = 0;
@@ -55,7 +62,25 @@ private:
     void read() {
         read_ = true;
         const auto json = read_json(text_);
-        if (const auto* root = std::get_if<Json>(&json)) walk(*root, {});
+        const auto* root = std::get_if<Json>(&json);
+        if (!root) return;
+        walk(*root, {});
+        auto way = nlohmann::json::array();
+        note(*root, way);
+    }
+
+    // A member is found by the place of its key, and by that of its value.
+    void note(const Json& json, nlohmann::json& way) {
+        const auto go = [&](nlohmann::json key, Place at, const Json& value) {
+            way.push_back(std::move(key));
+            keys_.try_emplace({at.line, at.column}, way);
+            keys_.try_emplace({value.at.line, value.at.column}, way);
+            note(value, way);
+            way.erase(way.size() - 1);
+        };
+        size_t index = 0;
+        for (const Json& item : json.items) go(index++, item.at, item);
+        for (const JsonMember& member : json.members) go(member.key, member.at, member.value);
     }
 
     // A string is found at its own place, and at that of the key before it.
@@ -98,6 +123,7 @@ private:
     const TextPlaces places_;
     bool read_ = false;
     std::multimap<PlaceKey, Found> strings_;
+    std::map<PlaceKey, nlohmann::json> keys_;
 };
 
 }  // namespace
@@ -123,6 +149,7 @@ std::vector<Finding> plan_findings(const plan::Findings& findings, const TextOf&
         Finding finding{
             one.file, one.severity, one.rule, one.element, {one.line, std::max(one.column, 1)},
             {},       one.message,  {}};
+        finding.keys = text->second.keys_to(one.line, one.column);
         finding.end = end_of_word(text->second.text(), finding.at);
         if (one.meant) {
             FindingFix fix = text->second.mend(one.file, one);

@@ -1,5 +1,8 @@
 #include "serve/edit/template_list.hpp"
 
+#include <algorithm>
+
+#include "plan/formula_words.hpp"
 #include "plan/value.hpp"
 #include "serve/edit/text_places.hpp"
 
@@ -80,14 +83,41 @@ Json template_of(const plan::Template& of) {
             {"period_ms", of.period_ms}};
 }
 
+Json word_of(std::string_view name, std::string_view is, std::string_view form,
+             std::string_view help) {
+    return {{"name", name}, {"is", is}, {"form", form}, {"help", help}};
+}
+
+Json formula_words() {
+    Json words = Json::array();
+    for (const plan::FormulaFunction& one : plan::formula_functions()) {
+        words.push_back(word_of(one.name, "function", one.form, one.help));
+    }
+    for (const plan::FormulaOperator& one : plan::formula_operators()) {
+        words.push_back(word_of(one.text, "operator", one.form, one.help));
+    }
+    const auto is_operator = [](std::string_view word) {
+        return std::ranges::any_of(plan::formula_operators(),
+                                   [word](const auto& one) { return one.text == word; });
+    };
+    for (const std::string_view word : plan::reserved_words()) {
+        if (!is_operator(word)) words.push_back(word_of(word, "constant", word, ""));
+    }
+    return words;
+}
+
 }  // namespace
 
 Json template_list(const plan::Library& of) {
-    return {{"toolboxes", list_of(of.toolboxes(), kToolboxesMax, [](const plan::Toolbox& toolbox) {
-                 return Json{{"name", line_of(toolbox.name, kNameMax)},
-                             {"help", line_of(toolbox.help, kHelpMax)},
-                             {"templates", list_of(toolbox.templates, kTemplatesMax, template_of)}};
-             })}};
+    return {{"toolboxes", list_of(of.toolboxes(), kToolboxesMax,
+                                  [](const plan::Toolbox& toolbox) {
+                                      return Json{
+                                          {"name", line_of(toolbox.name, kNameMax)},
+                                          {"help", line_of(toolbox.help, kHelpMax)},
+                                          {"templates",
+                                           list_of(toolbox.templates, kTemplatesMax, template_of)}};
+                                  })},
+            {"formulas", formula_words()}};
 }
 
 }  // namespace vagus::serve

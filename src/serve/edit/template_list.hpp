@@ -1,4 +1,5 @@
-// What plans can be made of, as pages are told it: the templates of each toolbox.
+// What plans can be made of, as pages are told it: the templates of each toolbox, the words of
+// formulas.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -117,6 +117,8 @@ std::optional<plan::TraceEvent> TraceLine::event() const {
     } else if (kind == "error") {
         event.what =
             plan::ErrorFound{text_in(json_, "element"), std::string(text_in(json_, "message"))};
+    } else if (kind == "change") {
+        event.what = plan::PlanChanged{};  // a line does not say to what
     } else {
         return std::nullopt;
     }

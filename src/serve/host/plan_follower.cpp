@@ -43,7 +43,7 @@ Json json_of(const plan::Value& value) {
 
 PlanFollower::PlanFollower(const std::vector<plan::Plan>& plans,
                            std::function<std::string(const std::string&)> doc_of)
-    : plans_(plans), doc_of_(std::move(doc_of)) {}
+    : plans_(&plans), doc_of_(std::move(doc_of)) {}
 
 void PlanFollower::happen(double t, const char* kind, const std::string& text) {
     story_.push_back({{"number", lines_++}, {"t", t}, {"kind", kind}, {"text", shortened(text)}});
@@ -52,10 +52,10 @@ void PlanFollower::happen(double t, const char* kind, const std::string& text) {
 
 // The plan of the outermost level, or that which the active actor of `outer` stands for.
 const plan::Plan* PlanFollower::plan_inside(const Level* outer) const {
-    if (!outer) return &plans_.front();
+    if (!outer) return &plans_->front();
     if (!outer->actor || !outer->actor->plan) return nullptr;
     const std::string file = plan::path_of_sub_plan(outer->plan->file, *outer->actor->plan);
-    for (const plan::Plan& one : plans_) {
+    for (const plan::Plan& one : *plans_) {
         if (one.file == file) return &one;
     }
     return nullptr;
@@ -92,6 +92,22 @@ void PlanFollower::stand_at(const run::Where& where) {
     }
 }
 
+void PlanFollower::change(const std::vector<plan::Plan>& plans) {
+    plans_ = &plans;
+    for (Level& level : levels_) {
+        if (!level.plan) continue;
+        const std::string file = level.plan->file;
+        const std::string actor = level.actor ? level.actor->name : "";
+        level.plan = nullptr;
+        level.actor = nullptr;
+        for (const plan::Plan& one : plans) {
+            if (one.file == file) level.plan = &one;
+        }
+        const int index = level.plan ? plan::find_actor(*level.plan, actor) : -1;
+        if (index >= 0) level.actor = &level.plan->actors[static_cast<size_t>(index)];
+    }
+}
+
 void PlanFollower::see(const plan::TraceEvent& event) {
     const double t = seconds(event.at);
     Level& level = level_at(event.plan);
@@ -120,6 +136,8 @@ void PlanFollower::see(const plan::TraceEvent& event) {
         happen(t, "log", logged->text);
     } else if (const auto* error = std::get_if<plan::ErrorFound>(&event.what)) {
         happen(t, "error", fmt::format("{}: {}", error->element, error->message));
+    } else if (std::holds_alternative<plan::PlanChanged>(event.what)) {
+        happen(t, "note", fmt::format("{}: the new version runs", event.plan));
     } else if (const auto* over = std::get_if<plan::PlanEnded>(&event.what)) {
         happen(t, over->result == plan::PlanResult::Error ? "error" : "note",
                fmt::format("{} is over: {}", event.plan, plan::name_of(over->result)));
@@ -191,7 +209,7 @@ Json PlanFollower::document(double now, bool paused) const {
     Json document = {{"state", result_  ? "ended"
                                : paused ? "paused"
                                         : "running"},
-                     {"doc", doc_of_(plans_.front().file)},
+                     {"doc", doc_of_(plans_->front().file)},
                      {"t", now},
                      {"levels", std::move(levels)},
                      {"story", Json(std::vector<Json>(story_.begin(), story_.end()))}};

@@ -26,6 +26,8 @@ public:
                  std::function<std::string(const std::string& file)> doc_of);
 
     void see(const plan::TraceEvent& event);
+    // A new version has taken over (P31): what it was made of, borrowed as the first.
+    void change(const std::vector<plan::Plan>& plans);
     // A debugger holds the plan there: before an actor that the trace does not know yet.
     void stand_at(const run::Where& where);
     nlohmann::json document(double now, bool paused) const;
@@ -57,7 +59,7 @@ private:
     const plan::Plan* plan_inside(const Level* outer) const;
     nlohmann::json level_json(const Level& level) const;
 
-    const std::vector<plan::Plan>& plans_;
+    const std::vector<plan::Plan>* plans_;
     std::function<std::string(const std::string&)> doc_of_;
     std::vector<Level> levels_;
     std::deque<nlohmann::json> story_;

@@ -37,6 +37,16 @@ void PlanTalk::set(uint64_t request, Write write, Then then) {
     if (then == Then::GoOn) go_on();
 }
 
+// A debugger takes it while the plan runs and while it is held.
+void PlanTalk::take_version(uint64_t request, plan::NewVersion next, bool only_ask) {
+    const auto posted = debugger_.post(run::TakeVersion{std::move(next), only_ask});
+    if (posted.ok()) {
+        asked_[posted.value()] = request;
+    } else {
+        refused_.push_back({request, posted.error().what});
+    }
+}
+
 PlanTalk::Heard PlanTalk::hear() {
     Heard heard{std::exchange(refused_, {}), std::nullopt};
     while (const auto report = debugger_.wait_report(Duration{})) {
@@ -48,8 +58,12 @@ PlanTalk::Heard PlanTalk::hear() {
         const auto* answer = std::get_if<run::Answer>(&*report);
         const auto asked = answer ? asked_.find(answer->request) : asked_.end();
         if (asked == asked_.end()) continue;
-        heard.answers.push_back(
-            {asked->second, answer->reply.ok() ? "" : answer->reply.error().what});
+        PlanTalk::Answered answered{asked->second, "", {}};
+        if (!answer->reply.ok()) answered.why = answer->reply.error().what;
+        const auto* change =
+            answer->reply.ok() ? std::get_if<run::Change>(&answer->reply.value()) : nullptr;
+        if (change) answered.reasons = change->reasons;
+        heard.answers.push_back(std::move(answered));
         asked_.erase(asked);
     }
     return heard;

@@ -34,9 +34,18 @@ public:
     // Its answer will have the number `request`.
     void set(uint64_t request, Write write, Then then);
 
+    // A new version of the plan (P31): the answer has what stands in its way. `only_ask`: it takes
+    // over in no case.
+    void take_version(uint64_t request, plan::NewVersion next, bool only_ask);
+    // The same question, answered at once; between two decisions, on the thread of the run.
+    std::vector<std::string> reasons_against(const plan::NewVersion& next) const {
+        return debugger_.reasons_against(next);
+    }
+
     struct Answered {
         uint64_t request = 0;
-        std::string why;  // why it was not done; empty: it is
+        std::string why;                                       // why it was not done; empty: it is
+        std::optional<std::vector<std::string>> reasons = {};  // against a new version
     };
     struct Heard {
         std::vector<Answered> answers;

@@ -13,6 +13,7 @@
 #include "serve/host/bus_run.hpp"
 #include "serve/host/frames.hpp"
 #include "serve/host/pacer.hpp"
+#include "serve/host/plan_change.hpp"
 #include "serve/host/plan_follower.hpp"
 #include "serve/host/plan_talk.hpp"
 #include "serve/host/recorder.hpp"
@@ -70,6 +71,11 @@ private:
         if (number) told["number"] = *number;
         tell(told);
     }
+    void tell_answer(const PlanTalk::Answered& one) {
+        Json told = {{"say", "answer"}, {"request", one.request}, {"why", one.why}};
+        if (one.reasons) told["reasons"] = *one.reasons;
+        tell(told);
+    }
     void tell_line(const char* kind, const std::string& text) {
         tell({{"say", "line"}, {"kind", kind}, {"text", text}});
     }
@@ -121,6 +127,8 @@ private:
             if (on_bus()) told["paused"].get<bool>() ? talk_->hold() : talk_->go_on();
         } else if (what == "plan.set") {
             set_variable(told);
+        } else if (what == "plan.change" || what == "plan.check") {
+            change_plan(told);
         } else if (what == "step") {
             pacer_.step(std::chrono::milliseconds(told["ms"].get<int>()));
         } else if (what == "plan.step") {
@@ -179,6 +187,7 @@ private:
         words.bus = order.value("bus", "");
         words.project = order.value("project", "");
         words.robot = order.value("robot", "");
+        words.from = order.value("from", "");
         words.max_time = "1e13";  // the person at the studio ends it
         for (const auto& [name, value] : order["set"].items()) {
             words.set.push_back(name + "=" +
@@ -190,6 +199,7 @@ private:
         heard_ = session::events_heard(plan.plans(), library.templates());
         follower_.emplace(plan.plans(), [](const std::string& file) { return file; });
         talk_.emplace(plan.graph());
+        change_.emplace(plan, order["plan"], *talk_);
         if (on_bus()) return run_on_bus();
         prepared_->listen([this](const plan::TraceEvent& event) { see(event); });
         prepared_->pace([this](Time at) { instant(at); });
@@ -204,12 +214,13 @@ private:
 
     // Nobody comes to what was asked and not answered yet.
     void end_talk() {
-        for (const PlanTalk::Answered& one : talk_->forget()) tell_answer(one.request, one.why);
+        for (const PlanTalk::Answered& one : talk_->forget()) tell_answer(one);
         talk_.reset();
     }
 
     void forget_plan() {
         follower_.reset();
+        change_.reset();
         heard_.clear();
         session_ = nullptr;
         prepared_.reset();
@@ -286,6 +297,18 @@ private:
         if (!on_bus() && pacer_.paused()) pacer_.step(1ms);
     }
 
+    // A new version of the plan, or the question whether it could take over (P31).
+    void change_plan(const Json& told) {
+        if (!change_) return tell_answer(told["request"], "no plan runs");
+        using Ask = PlanChange::Ask;
+        const auto answer = told["do"] == "plan.change"
+                                ? change_->take(told)
+                                : change_->check(told, on_bus() ? Ask::ByTheTalk : Ask::AtOnce);
+        if (answer) return tell_answer(*answer);
+        // A run answers between two decisions: one instant must pass.
+        if (!on_bus() && pacer_.paused()) pacer_.step(1ms);
+    }
+
     static plan::Value value_of(const Json& json) {
         if (json.is_boolean()) return plan::Value(json.get<bool>());
         if (json.is_number_integer()) return plan::Value(json.get<int64_t>());
@@ -296,7 +319,10 @@ private:
     void hear_plan() {
         if (!talk_) return;
         const PlanTalk::Heard heard = talk_->hear();
-        for (const PlanTalk::Answered& one : heard.answers) tell_answer(one.request, one.why);
+        for (const PlanTalk::Answered& one : heard.answers) {
+            if (change_) change_->note(one);
+            tell_answer(one);
+        }
         if (!heard.stepped || !on_bus()) return;
         follower_->stand_at(*heard.stepped);
         pacer_.set(true, pacer_.speed(), wall_now());
@@ -434,6 +460,9 @@ private:
 
     // ---- the plan ----
     void see(const plan::TraceEvent& event) {
+        if (const auto* changed = std::get_if<plan::PlanChanged>(&event.what)) {
+            follower_->change(change_->took(*changed->graph));
+        }
         const uint64_t before = follower_->activations();
         follower_->see(event);
         tell({{"say", "trace"}, {"line", plan::format_trace(event)}});
@@ -536,6 +565,7 @@ private:
     std::optional<PlanFollower> follower_;
     std::set<std::string> heard_;  // events, by the plan
     std::optional<PlanTalk> talk_;
+    std::optional<PlanChange> change_;
     Duration bus_time_{};                 // of a plan on a bus
     Time bus_time_at_{};                  // when it was counted
     std::optional<uint32_t> put_number_;  // of the hand at work

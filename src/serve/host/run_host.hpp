@@ -6,14 +6,15 @@
 //     vagus run-host      (not for people: the studio starts it)
 //
 // Told:  { "do": "open", "order": N, "world": FILE, "plan": FILE?, "toolboxes": [], "set": {},
-//          "robot": "", "bus": TARGET?, "project": FILE?, "poses": [[x, y, angle], …]? }, then any
-//          of { "do": "pace", "paused": bool, "speed": X } · "step" { ms } · "plan.step" ·
-//          "plan.stop" · "show" { "rays": bool, "pictures": [robot, …] }, and with a "request": N
-//          "plan.set" "move" "put" "take" "press" "tap" "light"
+//          "robot": "", "bus": TARGET?, "project": FILE?, "poses": [[x, y, angle], …]?,
+//          "from": ACTOR? }, then any of { "do": "pace", "paused": bool, "speed": X } ·
+//          "step" { ms } · "plan.step" · "plan.stop" · "show" { "rays": bool,
+//          "pictures": [robot, …] }, and with a "request": N "plan.set" "plan.change" { files }
+//          "plan.check" { texts } "move" "put" "take" "press" "tap" "light"
 // Tells: { "say": "opening", "order": N }, then "opened" { scene? } or "failed" { why } of that
 //        order, "over" when a plan on a bus has ended · "clock" ten times a second, also when
-//        paused · "scene" when it changes · "plan" · "trace" · "line" · "answer" { request, why },
-//        one to each request
+//        paused · "scene" when it changes · "plan" · "trace" · "line" · "answer" { request, why,
+//        reasons? }, one to each request
 #pragma once
 
 namespace vagus::serve {

@@ -106,6 +106,18 @@ std::string Robot::described_name(uint16_t node) const {
     return view && view->described ? view->name : std::string();
 }
 
+RobotCounts Robot::counts() const {
+    RobotCounts counts{.events = events_};
+    if (!network_) return counts;
+    counts.lost = network_->counts().dropped;
+    for (const LinkView& link : carrier_->links()) counts.lost += link.lost;
+    for (const uint16_t node : live_nodes()) {
+        ++counts.nodes;
+        if (network_->node(node)->state == debug::ProgramState::Running) ++counts.running;
+    }
+    return counts;
+}
+
 std::vector<uint16_t> Robot::without_script() const {
     std::vector<uint16_t> nodes = live_nodes();
     std::erase_if(nodes, [this](uint16_t node) { return !doc_of(node).empty(); });

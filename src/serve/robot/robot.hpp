@@ -49,6 +49,12 @@ struct RobotHints {
     };
 };
 
+// Since the target was connected.
+struct RobotCounts {
+    uint64_t events = 0, lost = 0;  // events of nodes; frames that did not fit somewhere
+    size_t nodes = 0, running = 0;  // that are there
+};
+
 // For the history: what happened, a Happening of the protocol; where a node stands; words that were
 // seen, and words that nobody looks at any more.
 struct RobotTold {
@@ -108,6 +114,7 @@ public:
     std::vector<uint16_t> without_script() const;
     // So many nodes are there and have told what they are.
     bool all_described(size_t count) const { return live_nodes().size() >= count; }
+    RobotCounts counts() const;
     // A document has another text: marks and breakpoints follow.
     void script_changed(const std::string& file);
     // Breakpoints are as the project keeps them: sets them on the nodes.

@@ -11,6 +11,8 @@ namespace vagus::serve {
 
 using Json = nlohmann::json;
 
+static constexpr const char* kLateInTrace = "\"kind\":\"late\"";  // docs/formats.md, traces
+
 // The latest bytes of a kind, sent when they are new.
 struct FlowWatch final : BinaryWatch {
     explicit FlowWatch(const Run::Flow& its_flow) : flow(its_flow) {}
@@ -76,7 +78,9 @@ Status Run::open(const RunOrder& order, Time now) {
     heard_ = now_ = now;
     t_ = 0;
     plan_ = Json::object();
+    change_ = nullptr;
     trace_.clear();
+    late_checks_ = 0;
     frames_.clear();
     shown_ = Json::object();
     Json told = {{"do", "open"},
@@ -86,6 +90,7 @@ Status Run::open(const RunOrder& order, Time now) {
                  {"toolboxes", order.toolboxes},
                  {"set", order.set},
                  {"robot", order.robot},
+                 {"from", order.from},
                  {"bus", order.bus},
                  {"project", order.project}};
     if (order.keep_poses && !poses.empty()) told["poses"] = poses;
@@ -151,6 +156,44 @@ void Run::lend_hand(const Json& order, HandDone done) {
 void Run::set_variable(int level, const std::string& name, const Json& value, SetDone done) {
     ask({{"do", "plan.set"}, {"level", level}, {"name", name}, {"value", value}},
         [done = std::move(done)](const Json& told) { done(told["why"]); });
+}
+
+// ---- a new version of the plan (P31) ----
+
+void Run::change_plan(const std::vector<std::string>& files) {
+    ask({{"do", "plan.change"}, {"files", files}},
+        [this, files](const Json& told) { keep_change(files, told); });
+}
+
+void Run::keep_change(const std::vector<std::string>& files, const Json& told) {
+    const Reasons reasons = reasons_in(told);
+    if (!reasons) return;  // none of its files, or the plan has ended
+    Json docs = Json::array();
+    for (const std::string& file : files) docs.push_back(doc_of_(file));
+    const bool taken = reasons->empty();
+    change_ = {{"number", ++changes_},
+               {"t", t_},
+               {"state", taken ? "taken" : "refused"},
+               {"docs", docs},
+               {"reasons", *reasons}};
+    desk_.board().touch("plan");
+    if (taken) return;
+    std::string text = "the plan that runs cannot change so; it goes on as it was:";
+    for (const std::string& reason : *reasons) text += "\n" + reason;
+    say_("warning", text);
+}
+
+Run::Reasons Run::reasons_in(const Json& told) const {
+    if (!told.contains("reasons")) return std::nullopt;
+    std::vector<std::string> reasons;
+    for (const std::string reason : told["reasons"]) reasons.push_back(short_(reason));
+    return reasons;
+}
+
+void Run::check_change(const std::map<std::string, std::string>& texts,
+                       std::function<void(const Reasons& reasons)> done) {
+    ask({{"do", "plan.check"}, {"texts", texts}},
+        [this, done = std::move(done)](const Json& told) { done(reasons_in(told)); });
 }
 
 // Nobody will answer any more.
@@ -286,6 +329,7 @@ void Run::hear_json(const Json& told) {
         desk_.board().touch("plan");
     } else if (what == "trace") {
         trace_.push_back(told["line"]);
+        if (trace_.back().find(kLateInTrace) != std::string::npos) ++late_checks_;
         told_.trace(trace_.back());
         if (trace_.size() > kTraceKept) trace_.pop_front();
     } else if (what == "over") {
@@ -332,6 +376,7 @@ void Run::hear_end(const ChildEnd& end) {
     state_ = State::Dead;
     has_world_ = false;
     child_.reset();
+    ++deaths_;
     if (plan_.contains("state") && plan_["state"] != "ended") {
         plan_["state"] = "ended";
         plan_["result"] = "Error";
@@ -413,6 +458,7 @@ Json Run::plan_document() const {
     Json plan = plan_;
     plan["doc"] = doc_of_(plan["doc"]);
     for (Json& level : plan["levels"]) level["doc"] = doc_of_(level["doc"]);
+    if (!change_.is_null()) plan["change"] = change_;
     return plan;
 }
 

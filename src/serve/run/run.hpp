@@ -32,6 +32,7 @@ struct RunOrder {
     std::string plan;   // empty: the world alone
     std::vector<std::string> toolboxes;
     nlohmann::json set = nlohmann::json::object();
+    std::string from;  // the actor that the plan begins with; empty: its start
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
     bool keep_poses = false;   // robots stand where they stood before
@@ -52,6 +53,10 @@ public:
     // The document of a file of this computer, for pages.
     void set_doc_of(std::function<std::string(const std::string& file)> doc_of) {
         doc_of_ = std::move(doc_of);
+    }
+    // A sentence with paths of this computer, for pages.
+    void set_short(std::function<std::string(const std::string& text)> shorten) {
+        short_ = std::move(shorten);
     }
     // The world stands and its nodes can be talked to.
     void on_opened(std::function<void()> opened) { opened_ = std::move(opened); }
@@ -108,8 +113,21 @@ public:
     using SetDone = std::function<void(const std::string& why)>;
     void set_variable(int level, const std::string& name, const Json& value, SetDone done);
 
+    // Plan files have been saved: what the plan that runs is made of is to take over (P31). What
+    // came of it is in the document of the plan, and is said.
+    void change_plan(const std::vector<std::string>& files);
+    // Whether it could take over now, if files had these texts: `done` gets what stands in its way,
+    // or nothing if the plan that runs is not made of them.
+    using Reasons = std::optional<std::vector<std::string>>;
+    void check_change(const std::map<std::string, std::string>& texts,
+                      std::function<void(const Reasons& reasons)> done);
+
     double time() const { return t_; }
     std::optional<double> load() const { return load_; }
+    double measured_speed() const { return real_; }
+    uint64_t deaths() const { return deaths_; }  // of run hosts
+    // Checks of supervisors that began late, in this run.
+    uint64_t late_checks() const { return late_checks_; }
     std::string robot_of(uint16_t node) const;
     size_t node_count() const;
     // Sources that the world has loaded into nodes.
@@ -138,6 +156,8 @@ private:
     void hear_end(const ChildEnd& end);
     std::string last_actor() const;
     void forget_asked(const std::string& why);
+    Reasons reasons_in(const Json& told) const;
+    void keep_change(const std::vector<std::string>& files, const Json& told);
     void declare_topics();
     void show_what_is_watched();
     Json clock_document() const;
@@ -148,6 +168,7 @@ private:
     const std::string program_;
     std::function<void(const std::string&, const std::string&)> say_ = [](auto&, auto&) {};
     std::function<std::string(const std::string&)> doc_of_ = [](const std::string& f) { return f; };
+    std::function<std::string(const std::string&)> short_ = [](const std::string& t) { return t; };
     std::function<void()> opened_ = [] {};
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
     std::function<void()> plan_died_ = [] {};
@@ -162,6 +183,7 @@ private:
     bool rests_ = true;
     bool opens_plan_ = false;
     bool has_world_ = false;
+    uint64_t deaths_ = 0, late_checks_ = 0;
 
     std::optional<Child> child_;
     State state_ = State::None;
@@ -170,6 +192,8 @@ private:
     uint64_t frames_in_ = 0, frames_out_ = 0;
     Json scene_ = Json::object();
     Json plan_ = Json::object();
+    Json change_;  // what came of the last save while the plan ran; null: none
+    uint64_t changes_ = 0;
     std::deque<std::string> trace_;
     double t_ = 0, real_ = 0, speed_ = 1;
     bool paused_ = true;

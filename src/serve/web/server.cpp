@@ -1,5 +1,5 @@
-// The one file that knows Boost.Beast. One thread runs everything here; the thread that takes
-// events reaches it by posting.
+// Connections, by Boost.Beast; what they are answered is in answers.cpp. One thread runs everything
+// here; the thread that takes events reaches it by posting.
 #include "serve/web/server.hpp"
 
 #include <fmt/format.h>
@@ -25,6 +25,7 @@
 #include <optional>
 #include <thread>
 
+#include "serve/web/answers.hpp"
 #include "serve/web/origin.hpp"
 #include "serve/web/pages.hpp"
 #include "serve/web/tls.hpp"
@@ -42,20 +43,12 @@ using SystemError = boost::system::error_code;
 using asio::as_tuple;
 using asio::awaitable;
 using asio::use_awaitable;
-using Asking = http::request<http::string_body>;
-using Answer = http::response<http::string_body>;
 using std::chrono::seconds;
 
 constexpr size_t kBodyBytesMax = 4096;   // of a request; none of ours has one
 constexpr size_t kFirstBytesMax = 4096;  // read at once when a request begins
 constexpr auto kGoodbyeWithin = seconds(2);
 constexpr size_t kRefusedMax = 64;  // connections that are told at a time that there are too many
-
-// The page runs nothing but its own files; data: pictures are those that it draws itself.
-constexpr const char* kContentPolicy =
-    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self' blob:; "
-    "manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 // Events for the thread that takes them.
 class Inbox {
@@ -226,61 +219,6 @@ private:
     std::string reason_;
 };
 
-void secure(Answer& answer) {
-    answer.set(http::field::server, "Vagus");
-    answer.set("Content-Security-Policy", kContentPolicy);
-    answer.set("X-Content-Type-Options", "nosniff");
-    answer.set("X-Frame-Options", "DENY");
-    answer.set("Referrer-Policy", "no-referrer");
-    answer.set("Cross-Origin-Opener-Policy", "same-origin");
-    answer.set("Cross-Origin-Resource-Policy", "same-origin");
-}
-
-Answer plain(const Asking& asked, http::status status, const std::string& sentence) {
-    Answer answer(status, asked.version());
-    secure(answer);
-    answer.set(http::field::content_type, "text/plain; charset=utf-8");
-    answer.set(http::field::cache_control, "no-store");
-    answer.keep_alive(asked.keep_alive() && status == http::status::ok);
-    answer.body() = sentence + "\n";
-    answer.prepare_payload();
-    return answer;
-}
-
-Answer page_answer(const Asking& asked, const Page& page) {
-    Answer answer(http::status::ok, asked.version());
-    secure(answer);
-    answer.set(http::field::content_type, page.type);
-    answer.set(http::field::cache_control,
-               page.lasting ? "public, max-age=31536000, immutable" : "no-cache");
-    const bool zipped = !page.gzipped.empty() && asked[http::field::accept_encoding].find("gzip") !=
-                                                     beast::string_view::npos;
-    if (zipped) answer.set(http::field::content_encoding, "gzip");
-    answer.keep_alive(asked.keep_alive());
-    const std::string& content = zipped ? page.gzipped : page.content;
-    if (asked.method() == http::verb::head) {
-        answer.content_length(content.size());
-    } else {
-        answer.body() = content;
-        answer.prepare_payload();
-    }
-    return answer;
-}
-
-Answer answer_for(const Asking& asked, const Pages& pages) {
-    if (asked.method() != http::verb::get && asked.method() != http::verb::head) {
-        return plain(asked, http::status::method_not_allowed, "only GET and HEAD are answered");
-    }
-    if (asked.target() == "/healthz") return plain(asked, http::status::ok, "ok");
-    if (asked.target() == "/live") {
-        return plain(asked, http::status::bad_request,
-                     fmt::format("expected a WebSocket with the subprotocol {}", kLiveProtocol));
-    }
-    const Page* page = pages.find({asked.target().data(), asked.target().size()});
-    return page ? page_answer(asked, *page)
-                : plain(asked, http::status::not_found, "there is no such page");
-}
-
 Asked who_asks(const Asking& asked, const Tcp::endpoint& local, bool secure_stream) {
     Asked who;
     who.host = std::string(asked[http::field::host]);
@@ -345,6 +283,9 @@ public:
         asio::post(io_, [this, client, message = std::move(message)]() mutable {
             if (Live* live = find(client)) live->send(std::move(message));
         });
+    }
+    void publish_metrics(std::string text) {
+        asio::post(io_, [this, text = std::move(text)]() mutable { metrics_ = std::move(text); });
     }
     void close(ClientId client, std::string reason) {
         reason.resize(std::min<size_t>(reason.size(), 120));
@@ -478,7 +419,7 @@ private:
             }
             if (refusal) inbox_.put(WebNote{"refused: " + *refusal});
             Answer answer = refusal ? plain(asked, http::status::forbidden, *refusal)
-                                    : answer_for(asked, shared_.pages);
+                                    : answer_for(asked, shown());
             const bool more = answer.keep_alive();
             if (!co_await write(stream, std::move(answer), asked.method() == http::verb::head) ||
                 !more) {
@@ -487,6 +428,11 @@ private:
         }
         SystemError ignored;
         beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    }
+
+    Shown shown() {
+        return {shared_.pages, metrics_, options_.may_look,
+                [this](std::string note) { inbox_.put(WebNote{std::move(note)}); }};
     }
 
     // Waits for the first bytes of the next request: a browser keeps its connections for the parts
@@ -555,6 +501,7 @@ private:
     const WebOptions options_;
     Inbox inbox_;
     Pages pages_;
+    std::optional<std::string> metrics_;  // nothing: there is no such page
     asio::io_context io_{1};
     std::optional<asio::ssl::context> tls_;
     Tcp::acceptor acceptor_;
@@ -588,6 +535,9 @@ void WebServer::send(ClientId client, std::string text) {
 }
 void WebServer::send_binary(ClientId client, std::string bytes) {
     insides_->send(client, {.binary = true, .bytes = std::move(bytes)});
+}
+void WebServer::publish_metrics(std::string text) {
+    insides_->publish_metrics(std::move(text));
 }
 void WebServer::close(ClientId client, std::string reason) {
     insides_->close(client, std::move(reason));

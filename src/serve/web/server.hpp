@@ -7,10 +7,10 @@
 //     for (WebEvent& event : web.take()) hear(event);              // the thread that asks
 //     web.send(client, R"({"id":1,"ok":{}})");
 //
-// What a browser may do here (serve.md, who may do what): GET and HEAD of the pages, /healthz, and
-// the WebSocket at /live. Host must name this machine and Origin, if there is one, the same host:
-// other pages in the same browser and names that point here get nothing. Who is whom is decided by
-// the token, in the first message, by whoever takes the events.
+// What a browser may do here (serve.md, who may do what): GET and HEAD of the pages, /healthz,
+// /metrics with a token, and the WebSocket at /live. Host must name this machine and Origin, if
+// there is one, the same host: other pages in the same browser and names that point here get
+// nothing. Who is whom is decided by the token, in the first message, by whoever takes the events.
 #pragma once
 
 #include <chrono>
@@ -38,10 +38,12 @@ struct ClientId {
 };
 
 struct WebOptions {
-    std::string address = "127.0.0.1";        // an IP address
-    uint16_t port = 0;                        // 0: a free one
-    std::string pages = {};                   // folder of the built pages
-    std::vector<std::string> hosts = {};      // further names of this machine that Host may have
+    std::string address = "127.0.0.1";    // an IP address
+    uint16_t port = 0;                    // 0: a free one
+    std::string pages = {};               // folder of the built pages
+    std::vector<std::string> hosts = {};  // further names of this machine that Host may have
+    // Who may read /metrics; asked on the thread of the server.
+    std::function<bool(std::string_view token)> may_look = [](std::string_view) { return false; };
     std::string tls_cert = {}, tls_key = {};  // PEM files; empty: HTTP
     size_t connections_max = 512;
     size_t message_bytes_max = 4u << 20;
@@ -86,6 +88,8 @@ public:
     // From the thread that takes. Text must be UTF-8. Nothing happens if the client is gone.
     void send(ClientId client, std::string text);
     void send_binary(ClientId client, std::string bytes);
+    // What /metrics shows from now on, to who has a token; before, there is no such page.
+    void publish_metrics(std::string text);
     // Says goodbye with a reason (at most 120 bytes) after what was sent before.
     void close(ClientId client, std::string reason);
 

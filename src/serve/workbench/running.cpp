@@ -75,7 +75,10 @@ RunOrder Workbench::order_of(const std::string& plan, const Json& set) const {
 
 Status Workbench::open_world(const std::string& plan, const Json& set, bool keep_poses,
                              bool then_go) {
-    RunOrder order = order_of(plan, set);
+    return open_order(order_of(plan, set), keep_poses, then_go);
+}
+
+Status Workbench::open_order(RunOrder order, bool keep_poses, bool then_go) {
     order.keep_poses = keep_poses;
     const auto text = files_.text(project_->world);
     opened_world_ = text.ok() ? text.value() : "";
@@ -91,6 +94,33 @@ Status Workbench::open_world(const std::string& plan, const Json& set, bool keep
 bool Workbench::world_has_changed() const {
     const auto text = files_.text(project_->world);
     return text.ok() && text.value() != opened_world_;
+}
+
+void Workbench::file_saved(const std::string& path) {
+    if (kind_of_file(path) == "plan") saved_plans_.push_back(path);
+    world_saved(path);
+}
+
+// Together, once all of them are saved: they may need each other (P31).
+void Workbench::change_plan() {
+    std::vector<std::string> files;
+    for (const std::string& path : std::exchange(saved_plans_, {})) {
+        if (project_) files.push_back(project_->real(path));
+    }
+    if (!files.empty() && run_.plan_runs()) run_.change_plan(files);
+}
+
+void Workbench::check_change(const Call& call) {
+    const std::string doc = call.in["doc"];
+    const auto text = files_.text(doc);
+    if (!text.ok()) return call.fail(text.error());
+    if (!project_ || !run_.plan_runs()) {
+        return call.done({{"runs", false}, {"reasons", Json::array()}});
+    }
+    run_.check_change({{project_->real(doc), text.value()}}, [call](const Run::Reasons& reasons) {
+        call.done({{"runs", reasons.has_value()},
+                   {"reasons", reasons.value_or(std::vector<std::string>())}});
+    });
 }
 
 // A world that only stands there shows at once what was saved.
@@ -122,9 +152,10 @@ void Workbench::get_nodes_ready() {
     opening_.reset();
     robot_.place_breakpoints();
     robot_.load_changed(true, [this, go, start = start_](const std::vector<std::string>& failed) {
-        if (!failed.empty()) say("error", joined(failed));
+        tell_failed_loads(failed);
         if (start != start_) return;
         if (go) run_.go_on();
+        if (go) ++runs_;
         end_start();
     });
 }
@@ -133,6 +164,12 @@ void Workbench::end_start() {
     const std::optional<Call> call = opening_call_;
     opening_call_.reset();
     if (call) call->done();
+}
+
+void Workbench::tell_failed_loads(const std::vector<std::string>& failed) {
+    if (failed.empty()) return;
+    failed_loads_ = joined(failed);
+    say("error", failed_loads_);
 }
 
 void Workbench::give_up_start(const std::string& why) {
@@ -160,9 +197,14 @@ void Workbench::reopen_world() {
 
 bool Workbench::save_all(const Call& call) {
     const auto saved = files_.save_all();
-    if (saved.ok()) return true;
-    call.fail(saved.error());
-    return false;
+    if (!saved.ok()) {
+        call.fail(saved.error());
+        return false;
+    }
+    for (const std::string& path : saved.value()) {
+        if (kind_of_file(path) == "plan") saved_plans_.push_back(path);
+    }
+    return true;
 }
 
 void Workbench::start(const Call& call) {
@@ -178,7 +220,7 @@ void Workbench::start(const Call& call) {
     }
     if (run_.plan_runs()) return go_on(call);
     if (!project_->plan.empty()) {
-        return start_plan(call, project_->plan, call.in.value("set", Json::object()), true);
+        return start_plan(call, project_->plan, true);
     }
     start_scripts(call);
 }
@@ -186,7 +228,7 @@ void Workbench::start(const Call& call) {
 // A plan that was held, and the nodes of a bus that stand.
 void Workbench::go_on(const Call& call) {
     robot_.load_changed(true, [this, call, start = start_](const std::vector<std::string>& failed) {
-        if (!failed.empty()) say("error", joined(failed));
+        tell_failed_loads(failed);
         if (start != start_) return call.fail("failed", kStoppedMeanwhile);
         run_.go_on();
         if (bus_) robot_.run_all([](auto) {});
@@ -205,7 +247,7 @@ void Workbench::start_plan_on_bus(const Call& call, RunOrder order, bool go) {
     ++start_;
     robot_.load_changed(true, [this, order = std::move(order), go,
                                start = start_](const std::vector<std::string>& failed) {
-        if (!failed.empty()) say("error", joined(failed));
+        tell_failed_loads(failed);
         if (start != start_) return;
         opening_ = Opening{.go = go};
         record_bus(order.plan);
@@ -223,6 +265,7 @@ void Workbench::plan_joined_bus() {
         if (!failed.empty()) say("warning", joined(failed));
         if (start != start_) return;
         go ? run_.go_on() : run_.tell({{"do", "plan.step"}});
+        ++runs_;
         end_start();
     });
 }
@@ -235,13 +278,16 @@ void Workbench::plan_died() {
     });
 }
 
-void Workbench::start_plan(const Call& call, const std::string& plan, const Json& set, bool go) {
+void Workbench::start_plan(const Call& call, const std::string& plan, bool go) {
     if (opening_call_) return call.fail("conflict", kBeingStarted);
-    if (bus_) return start_plan_on_bus(call, order_of(plan, set), go);
+    saved_plans_.clear();  // it begins with what is saved
+    RunOrder order = order_of(plan, call.in.value("set", Json::object()));
+    order.from = call.in.value("from", "");
+    if (bus_) return start_plan_on_bus(call, std::move(order), go);
     if (project_->world.empty()) return call.fail("unavailable", kNoWorld);
     const bool keep = run_.time() > 0 && !world_has_changed();
     opening_call_.emplace(call);
-    const Status opened = open_world(plan, set, keep, go);
+    const Status opened = open_order(std::move(order), keep, go);
     if (!opened.ok()) world_failed(opened.error().what);
 }
 
@@ -256,12 +302,13 @@ void Workbench::start_scripts(const Call& call) {
     }
     rest_at_.reset();
     robot_.load_changed(true, [this, call, start = start_](const std::vector<std::string>& failed) {
-        if (!failed.empty()) say("error", joined(failed));
+        tell_failed_loads(failed);
         if (start != start_) return call.fail("failed", kStoppedMeanwhile);
         robot_.run_standing([this, call, start](const std::vector<std::string>& stayed) {
             if (!stayed.empty()) say("warning", joined(stayed));
             if (start != start_) return call.fail("failed", kStoppedMeanwhile);
             if (simulates()) run_.go_on();
+            ++runs_;
             call.done();
         });
     });
@@ -316,7 +363,10 @@ void Workbench::stop_everything() {
 }
 
 void Workbench::declare_run_commands() {
-    desk_.command("stop", [this](const Call& call) { stop(call); });
+    desk_.command("stop", [this](const Call& call) {
+        stopped_();
+        stop(call);
+    });
     desk_.command("run.start", [this](const Call& call) { start(call); });
     desk_.command("run.step", [this](const Call& call) { step(call); });
     desk_.command("run.pause", [this](const Call& call) {
@@ -375,7 +425,7 @@ void Workbench::declare_plan_commands() {
         const std::string plan = call.in.value("doc", project_->plan);
         if (plan.empty()) return call.fail("not_found", "the project has no plan");
         if (!save_all(call)) return;
-        start_plan(call, plan, call.in.value("set", Json::object()), true);
+        start_plan(call, plan, true);
     });
     const auto while_it_runs = [this](const char* name, std::function<void(const Call&)> act) {
         desk_.command(name, [this, act = std::move(act)](const Call& call) {
@@ -383,6 +433,7 @@ void Workbench::declare_plan_commands() {
             act(call);
         });
     };
+    desk_.command("plan.check_change", [this](const Call& call) { check_change(call); });
     while_it_runs("plan.pause", [this](const Call& call) {
         run_.pause();
         call.done();
@@ -411,7 +462,7 @@ void Workbench::declare_plan_commands() {
             return call.fail("not_found", "the project has no plan");
         }
         if (!save_all(call)) return;
-        start_plan(call, project_->plan, Json::object(), false);
+        start_plan(call, project_->plan, false);
     });
 }
 

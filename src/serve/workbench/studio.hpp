@@ -3,25 +3,17 @@
 
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "base/result.hpp"
+#include "serve/workbench/door.hpp"
 
 namespace vagus::serve {
 
-constexpr uint16_t kStudioPort = 8910;  // if it is free; pages find their server again there
-
 struct StudioOptions {
-    std::string project = {};          // a path; empty: the start screen
-    std::string example = {};          // or an example
-    std::string listen = "127.0.0.1";  // an address of this computer
-    int port = -1;                     // 0: a free one; -1: kStudioPort, or else a free one
-    std::string token_file = {};       // of those who drive; made if it is not there
-    std::string look_token_file = {};  // of those who only look; empty: nobody
-    std::string tls_cert = {}, tls_key = {};
-    std::vector<std::string> hosts = {};  // further names of this computer
-    std::string data = {}, config = {};   // folders; empty: the user's
-    std::string pages = {};               // folder; empty: those beside the program
+    std::string project = {};  // a path; empty: the start screen
+    std::string example = {};  // or an example
+    DoorOptions door = {};
+    std::string data = {}, config = {};  // folders; empty: the user's
 };
 
 // What the command line does for it.

@@ -27,10 +27,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
       library_(places.library),
       settings_(places.settings),
       scripts_(files_,
-               [this](const std::string& name, uint16_t id) {
-                   const auto live = robot_.target_of(name, id);
-                   return live ? *live : session::known_node(name);
-               }),
+               [this](const std::string& name, uint16_t id) { return target_of(name, id); }),
       editing_(desk, files_, scripts_),
       robot_(desk, files_, scripts_, breakpoints_),
       run_(desk, places.program),
@@ -45,7 +42,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
         robot_.script_changed(path);
         if (project_ && path == project_->project_file) project_file_changed();
     });
-    editing_.on_saved([this](const std::string& path) { world_saved(path); });
+    editing_.on_saved([this](const std::string& path) { file_saved(path); });
     editing_.on_renamed([this](const std::string& from, const std::string& to) {
         breakpoints_.rename(from, to);
         keep_breakpoints();
@@ -69,6 +66,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     });
     run_.set_doc_of(
         [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
+    run_.set_short([this](const std::string& text) { return with_short_paths(text); });
     run_.on_opened([this] { world_opened(); });
     run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
     run_.on_plan_died([this] { plan_died(); });
@@ -86,6 +84,7 @@ Workbench::~Workbench() = default;
 
 void Workbench::say(const std::string& kind, const std::string& text) {
     desk_.board().add("console", {{"t", clock()}, {"kind", kind}, {"text", text}});
+    line_(kind, text);
 }
 
 // Seconds: of the simulation, or since a bus was connected.
@@ -206,6 +205,7 @@ Status Workbench::open_example(const std::string& id, Time now) {
 void Workbench::enter(OpenedProject project) {
     project.copy_of = library_.example_of(project.root);
     project_ = std::move(project);
+    if (!places_.target.empty()) project_->target = places_.target;
     files_.enter(project_->root, project_->only);
     scripts_.prefer(project_->scripts);
     scripts_.reread();
@@ -345,6 +345,7 @@ void Workbench::tick(Time now) {
     stop_nodes();
     rest();
     editing_.tick(now);
+    change_plan();
     if (desk_.board().watched("targets") && targets_.look(now)) desk_.board().touch("targets");
 }
 

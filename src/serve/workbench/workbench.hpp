@@ -39,9 +39,22 @@ constexpr int kStepMs = 10;  // of run.step, unless it says otherwise
 
 struct WorkbenchPlaces {
     LibraryPlaces library;
-    std::string settings;  // file
-    std::string program;   // vagus, for run hosts
-    std::string home;      // where choosing a folder begins
+    std::string settings;     // file
+    std::string program;      // vagus, for run hosts
+    std::string home;         // where choosing a folder begins
+    std::string target = {};  // of every project that is opened; empty: its own
+};
+
+// What can be counted of a robot that works, since the server began.
+struct Figures {
+    uint64_t runs = 0, deaths = 0;  // started; processes that died
+    bool plan_runs = false;
+    double seconds = 0;        // the run's clock
+    double speed = 0;          // of a simulation against the wall clock, measured
+    uint64_t late_checks = 0;  // of supervisors, in this run
+    RobotCounts robot = {};
+    std::optional<double> bus_load = {};  // 0 to 1
+    size_t clients = 0;
 };
 
 class Workbench {
@@ -60,6 +73,24 @@ public:
     void hear(const net::Event& event);
     void tick(Time now);
     Time next_tick(Time now) const;
+    // ---- for a robot that works by itself ----
+    const std::optional<OpenedProject>& project() const { return project_; }
+    // Nodes that the project's scripts are for and that have not told what they are, by their
+    // names; on a bus only.
+    std::vector<std::string> missing_nodes() const;
+    // What run.start and stop do. `done` gets why it does not run, or nothing.
+    void start_run(std::function<void(const std::string& why)> done);
+    void stop_run(std::function<void()> done);
+    // What a node of that name is: the one that is there, or one that is known.
+    aesl::Target target_of(const std::string& name, uint16_t id) const;
+    Figures figures() const;
+    // Each line of the console, too.
+    void on_line(std::function<void(const std::string& kind, const std::string& text)> line) {
+        line_ = std::move(line);
+    }
+    // Somebody has pressed Stop.
+    void on_stop(std::function<void()> stopped) { stopped_ = std::move(stopped); }
+
     // The nodes stand and the plan has ended, as far as a dying server can: its last act.
     void stop_everything();
 
@@ -97,19 +128,25 @@ private:
     // Opens the world, and the plan if there is one to run; it stands until its nodes are ready.
     Status open_world(const std::string& plan, const Json& set, bool keep_poses, bool then_go);
     RunOrder order_of(const std::string& plan, const Json& set) const;
+    Status open_order(RunOrder order, bool keep_poses, bool then_go);
     bool world_has_changed() const;
     void reopen_world();
     void world_saved(const std::string& path);
+    void file_saved(const std::string& path);
+    void change_plan();
+    void check_change(const Call& call);
     void world_opened();
     void world_failed(const std::string& why);
     void start(const Call& call);
-    void start_plan(const Call& call, const std::string& plan, const Json& set, bool go);
+    // `call` may say with which values, and from which actor.
+    void start_plan(const Call& call, const std::string& plan, bool go);
     void start_plan_on_bus(const Call& call, RunOrder order, bool go);
     void plan_joined_bus();
     void plan_died();
     void go_on(const Call& call);
     void start_scripts(const Call& call);
     void end_start();
+    void tell_failed_loads(const std::vector<std::string>& failed);
     void give_up_start(const std::string& why);
     void step(const Call& call);
     void stop(const Call& call);
@@ -137,8 +174,13 @@ private:
     Time bus_since_{};
     Targets targets_;
 
+    std::function<void(const std::string&, const std::string&)> line_ = [](auto&, auto&) {};
+    std::function<void()> stopped_ = [] {};
+
     std::optional<OpenedProject> project_;
     Time now_{};
+    uint64_t runs_ = 0;
+    std::string failed_loads_;                        // of the start under way
     std::pair<int, uint64_t> watched_run_ = {-1, 0};  // descriptor, generation
     // A world that opens, or a plan on a bus: what is done once its nodes are there.
     struct Opening {
@@ -155,6 +197,7 @@ private:
     std::optional<Time> nodes_stop_at_;
     std::vector<Call> stop_calls_;
     std::optional<Time> rest_at_;
+    std::vector<std::string> saved_plans_;             // the run is not told of them yet
     std::string opened_world_;                         // text of the world that stands there
     std::map<uint16_t, std::string> loaded_by_world_;  // source by node
 };

@@ -59,9 +59,13 @@ export function DocumentTitle({ doc }: { doc: Doc }) {
 
 function PlanMarks({ doc, saved }: { doc: Doc; saved: boolean }) {
   const plan = useTopic('plan', {});
-  const loaded = plan && plan.doc === doc && plan.state !== 'none' && plan.state !== 'ended';
+  const goes = plan?.state === 'running' || plan?.state === 'paused';
+  const loaded = goes && (plan.doc === doc || plan.levels.some((level) => level.doc === doc));
   const runs = !loaded ? 'none' : plan.state === 'paused' ? 'held' : 'runs';
-  return <Marks saved={saved} loaded={loaded ? 'current' : 'none'} runs={runs} />;
+  // What was saved and could not take over: the one before runs on.
+  const older = plan?.change?.state === 'refused' && plan.change.docs.includes(doc);
+  const is = !loaded ? 'none' : older ? 'older' : 'current';
+  return <Marks saved={saved} loaded={is} runs={runs} />;
 }
 
 export function PanelTitle({ id }: { id: string }) {

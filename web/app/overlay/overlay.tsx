@@ -10,6 +10,7 @@ const views = {
   keys: KeysHelp,
   folder: late(() => import('../start/folder_chooser')),
   project: late(() => import('../start/new_project')),
+  runFrom: late(() => import('../views/plan/run_from')),
 };
 
 /** What lies over the window for a moment. Esc and a click beside it end it; run keys still work. */

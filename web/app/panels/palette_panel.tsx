@@ -12,6 +12,7 @@ import { text } from '../text';
 import { RoleShape, TemplateIcon } from '../views/plan/canvas/template_icon';
 import { planDeskOf, usePlanDesk } from '../views/plan/plan_desk';
 import { dragged, kTemplateData } from '../views/plan/template_drag';
+import { NewTemplateButton } from './palette/new_template_button';
 import '../look/palette.css';
 
 const words = text.templates;
@@ -58,6 +59,17 @@ export default function PalettePanel() {
             {words.variable}
           </button>
         ) : null}
+        {typed === '' ? (
+          <button
+            type="button"
+            className="btn btn--small palettepanel__variable"
+            disabled={!may}
+            onClick={() => studio.registry.run('draw.note')}
+          >
+            {words.note}
+          </button>
+        ) : null}
+        {typed === '' ? <NewTemplateButton /> : null}
       </div>
       {shown ? null : <Quiet>{words.noPlan}</Quiet>}
     </div>

@@ -11,7 +11,7 @@ import {
   type Supervisor,
 } from './model';
 import type { Scene } from './place';
-import { outOf, routeAll, type Port, type Routed, type Side, type Way } from './route';
+import { outOf, Routing, type Port, type Routed, type Side, type Way } from './route';
 import { eventRow, kEntry, kTag, overlaps, stateRow, type Block, type Box } from './shape';
 
 export interface Arrow {
@@ -45,6 +45,8 @@ export interface Drawing {
   loose: readonly Loose[];
   tags: readonly Tag[];
   routes: ReadonlyMap<string, Routed>;
+  /** Some ways are only sketched: goOn() finds more of them. */
+  isSketch: boolean;
   /** The side on which each row of an element stands, by id of its arrow. */
   sides: ReadonlyMap<string, Side>;
 }
@@ -54,7 +56,18 @@ const kTagGap = 22;
 
 export const arrowId = (source: string, outcome: string) => `${source}.${outcome}`;
 
-export function drawingOf(model: PlanModel, scene: Scene): Drawing {
+export interface Pace {
+  /** It is time to stop looking for ways. Without it all are found. */
+  isTime?: () => boolean;
+  /** Ways of before that still fit are shown where no better one is found yet. */
+  before?: Drawing;
+  /** They are kept, even where there would be better ones now. */
+  keeps?: boolean;
+}
+
+const routings = new WeakMap<Drawing, Routing>();
+
+export function drawingOf(model: PlanModel, scene: Scene, pace: Pace = {}): Drawing {
   const rows = rowsOf(model, scene);
   const boxes = boxesOf(scene);
   const tags = rows.flatMap((row) => tagOf(row, boxes) ?? []);
@@ -64,14 +77,12 @@ export function drawingOf(model: PlanModel, scene: Scene): Drawing {
   const led = rows.filter(({ target }) => target !== null && entries.has(target));
   const arrows = led.map((row) => ({ ...row, target: row.target ?? '', port: portAt(row) }));
   const all = [...boxes, ...tags.map(({ box }) => box)];
-  const routes = new Map([
-    ...routeAll(
-      all,
-      arrows.map((arrow) => wayOf(arrow, entries.get(arrow.target) ?? [])),
-    ),
-    ...tags.map((tag): [string, Routed] => [tag.id, toTag(tag, ports.get(tag.id))]),
-  ]);
-  return {
+  const routing = new Routing(
+    all,
+    arrows.map((arrow) => wayOf(arrow, entries.get(arrow.target) ?? [])),
+  );
+  if (pace.keeps) for (const known of pace.before?.routes.values() ?? []) routing.keep(known);
+  const drawing: Drawing = {
     arrows: [
       ...arrows,
       ...tags.map((tag) => ({ ...tag, target: targetOf(tag), port: portOfTag(tag, ports) })),
@@ -80,9 +91,24 @@ export function drawingOf(model: PlanModel, scene: Scene): Drawing {
       .filter(({ target, id }) => !tags.some((tag) => tag.id === id) && !entries.has(target ?? ''))
       .map((row) => ({ ...row, port: portAt(row) })),
     tags,
-    routes,
+    routes: new Map(tags.map((tag): [string, Routed] => [tag.id, toTag(tag, ports.get(tag.id))])),
+    isSketch: true,
     sides: new Map([...ports].map(([id, { side }]) => [id, side])),
   };
+  routings.set(drawing, routing);
+  return goOn(drawing, pace);
+}
+
+/** The same drawing with more of its ways found. */
+export function goOn(drawing: Drawing, { isTime = () => false, before }: Pace = {}): Drawing {
+  const routing = routings.get(drawing);
+  if (!routing) return drawing;
+  routing.work(isTime);
+  const rest = routing.rest(before?.routes ?? drawing.routes).map((one) => [one.id, one] as const);
+  const routes = new Map([...drawing.routes, ...rest, ...routing.found]);
+  const next = { ...drawing, routes, isSketch: !routing.done };
+  if (!routing.done) routings.set(next, routing);
+  return next;
 }
 
 interface Row {

@@ -4,7 +4,7 @@
 import type { Doc, Json, JsonStep } from '../../protocol/messages';
 import { Emitter } from '../emitter';
 import type { JsonDocument } from '../json_document';
-import { drawingOf, supervisorKey, type Drawing } from './arrows';
+import { drawingOf, goOn, supervisorKey, type Drawing } from './arrows';
 import * as edit from './edit';
 import {
   kConfiguration,
@@ -12,16 +12,25 @@ import {
   planModel,
   supervisorsOf,
   type Actor,
+  type Note,
   type PlanModel,
   type Supervisor,
 } from './model';
+import * as notes from './notes';
 import { Draft, paste, partOf, type Part } from './part';
 import { freePlace, sceneOf, type Scene } from './place';
-import { kNodeWidth, type Point } from './shape';
+import { kNodeWidth, type Box, type Point } from './shape';
 import type { Found, Toolboxes } from './templates';
 
 /** Apart from actors: a variable of that name. */
 export const pillKey = (name: string) => `$${name}`;
+
+// For the ways of arrows: while something is dragged, at first, and in each turn after it.
+const kWhileHeldMs = 12;
+const kAtOnceMs = 80;
+const kTurnMs = 20;
+/** So often a drawing that is being finished is shown. */
+const kShownMs = 1000;
 
 export type Source = Actor | Supervisor | typeof kStart;
 
@@ -36,15 +45,19 @@ export class PlanBoard {
   drawing: Drawing;
   private chosen = new Set<string>();
   private held = new Map<string, Point>();
+  private finishing = false;
+  private heldSizes = new Map<string, notes.Size>();
 
   constructor(
     readonly doc: Doc,
     readonly file: JsonDocument,
     private toolboxes: Toolboxes,
+    private readonly clock: () => number = () => performance.now(),
   ) {
     this.model = planModel(file.value, toolboxes);
     this.scene = sceneOf(this.model);
-    this.drawing = drawingOf(this.model, this.scene);
+    this.drawing = drawingOf(this.model, this.scene, { isTime: this.within(kAtOnceMs) });
+    this.finish();
   }
 
   /** The file or the templates are others now. */
@@ -112,6 +125,24 @@ export class PlanBoard {
     return this.model.variables.find((one) => pillKey(one.name) === key);
   }
 
+  note(key: string | null): Note | undefined {
+    return this.model.notes.find((one) => notes.noteKey(one.index) === key);
+  }
+
+  /** As they are drawn: one that is held stands where it is held. */
+  get notes(): readonly Note[] {
+    return this.model.notes.map((one) => {
+      const key = notes.noteKey(one.index);
+      const at = this.held.get(key);
+      const size = this.heldSizes.get(key);
+      return {
+        ...one,
+        at: at ? [at.x, at.y] : one.at,
+        size: size ? [size.width, size.height] : one.size,
+      };
+    });
+  }
+
   /** The key of what a finding or the live plan calls by its name. */
   keyOf(name: string): string | null {
     if (this.actor(name)) return name;
@@ -131,6 +162,7 @@ export class PlanBoard {
       key === kConfiguration ||
       this.element(key) !== undefined ||
       this.variable(key) !== undefined ||
+      this.note(key) !== undefined ||
       this.drawing.sides.has(key)
     );
   }
@@ -143,12 +175,31 @@ export class PlanBoard {
     this.redraw();
   }
 
+  /** The same for the size of a note. */
+  holdSize(key: string, size: notes.Size): void {
+    this.heldSizes.set(key, notes.fitting(size));
+    this.tell();
+  }
+
   letGo(): void {
     const held = [...this.held];
+    const sizes = [...this.heldSizes];
     this.held.clear();
-    const moved = held.filter(([name, at]) => !this.stands(name, at));
-    this.commit(moved.flatMap(([name, at]) => edit.placeSteps(this.file.value, name, at)));
+    this.heldSizes.clear();
+    this.commit([
+      ...held.flatMap(([key, at]) => this.moved(key, at)),
+      ...sizes.flatMap(([key, size]) => {
+        const note = this.note(key);
+        return note ? notes.resizeNote(note, size) : [];
+      }),
+    ]);
     this.redraw();
+  }
+
+  private moved(key: string, at: Point): JsonStep[] {
+    const note = this.note(key);
+    if (note) return notes.moveNote(note, at);
+    return this.stands(key, at) ? [] : edit.placeSteps(this.file.value, key, at);
   }
 
   private stands(name: string, { x, y }: Point): boolean {
@@ -180,6 +231,16 @@ export class PlanBoard {
 
   addVariable(): string {
     return this.added(edit.addVariable(this.file.value, this.model), pillKey);
+  }
+
+  /** An empty one, to be written at once; null: the file keeps something else in their place. */
+  addNote(near: Point): string | null {
+    const at = freePlace(this.scene, near, notes.kNoteSize);
+    const made = notes.addNote(this.file.value, at);
+    if (!made) return null;
+    this.commit(made.steps);
+    this.select(made.key);
+    return made.key;
   }
 
   /** What is chosen, as it can be pasted; null: nothing that can. */
@@ -214,6 +275,19 @@ export class PlanBoard {
     if (part) this.paste(part, { x: (first?.x ?? 0) + 24, y: (first?.y ?? 0) + 24 });
   }
 
+  /** Where an element stands. */
+  boxOf(key: string): Box | undefined {
+    const { start, actors, pills } = this.scene;
+    if (key === kStart) return start.box;
+    const supervisor = this.supervisor(key);
+    const hanging = [start, ...actors].find((one) => one.name === supervisor?.owner)?.supervisors;
+    return (
+      this.blockOf(key)?.box ??
+      hanging?.find((one) => one.supervisor.name === supervisor?.name)?.box ??
+      pills.find((one) => pillKey(one.name) === key)?.box
+    );
+  }
+
   private blockOf(name: string) {
     return this.scene.actors.find((one) => one.name === name);
   }
@@ -230,7 +304,7 @@ export class PlanBoard {
     const { selected } = this;
     const near = this.supervisor(selected)?.owner ?? this.arrow(selected)?.source ?? kStart;
     const draft = new Draft(this.file.value);
-    for (const key of this.chosen) draft.do(this.removal(draft.file, key));
+    for (const key of notes.inRemovalOrder(this.chosen)) draft.do(this.removal(draft.file, key));
     this.commit(draft.steps);
     return this.actor(near) ? near : kStart;
   }
@@ -239,6 +313,8 @@ export class PlanBoard {
   private removal(file: Json, key: string): JsonStep[] {
     const keys = this.supervisor(key)?.keys ?? this.variableKeys(key);
     const arrow = this.arrow(key);
+    const note = this.note(key);
+    if (note) return notes.removeNote(file, note.index);
     if (this.actor(key)) return edit.removeActor(file, planModel(file, this.toolboxes), key);
     if (keys) return edit.dropSteps(file, keys);
     const source = arrow && this.source(arrow.source);
@@ -279,10 +355,40 @@ export class PlanBoard {
   private redraw(): void {
     const places = new Map(this.model.places);
     for (const [name, { x, y }] of this.held) places.set(name, [x, y]);
-    const model = this.held.size > 0 ? { ...this.model, places } : this.model;
+    const isHeld = this.held.size > 0;
+    const model = isHeld ? { ...this.model, places } : this.model;
     this.scene = sceneOf(model);
-    this.drawing = drawingOf(model, this.scene);
+    this.drawing = drawingOf(model, this.scene, {
+      isTime: this.within(isHeld ? kWhileHeldMs : kAtOnceMs),
+      before: this.drawing,
+      keeps: isHeld,
+    });
     this.tell();
+    this.finish();
+  }
+
+  /** Finds the ways that are only sketched, bit by bit: the page stays quick meanwhile. */
+  private finish(): void {
+    if (this.finishing || !this.drawing.isSketch) return;
+    this.finishing = true;
+    let shown = this.clock();
+    const turn = () => {
+      this.finishing = false;
+      this.drawing = goOn(this.drawing, { isTime: this.within(kTurnMs) });
+      if (!this.drawing.isSketch || this.clock() - shown > kShownMs) {
+        shown = this.clock();
+        this.tell();
+      }
+      if (!this.drawing.isSketch) return;
+      this.finishing = true;
+      setTimeout(turn);
+    };
+    setTimeout(turn);
+  }
+
+  private within(ms: number): () => boolean {
+    const end = this.clock() + ms;
+    return () => this.clock() >= end;
   }
 
   private tell(): void {

@@ -1,4 +1,4 @@
-// The lines that arrows may run on, with what stands in their way, and the memory of one search.
+// The lines that an arrow may run on, with what stands in its way, and the memory of its search.
 
 import type { Box, Point } from './shape';
 
@@ -6,7 +6,6 @@ import type { Box, Point } from './shape';
 export const kClear = 7;
 /** Between lines of the grid: no box is as narrow, so no step leaps over one. */
 const kPitch = 12;
-const kRim = 96;
 
 export class Grid {
   private readonly xs: number[];
@@ -16,34 +15,31 @@ export class Grid {
   private readonly covered: Uint8Array;
   private readonly costs: Float64Array;
   private readonly from: Int32Array;
-  private readonly seen: Uint32Array;
-  private readonly closed: Uint32Array;
-  private round = 0;
+  private readonly seen: Uint8Array;
+  private readonly closed: Uint8Array;
 
-  constructor(boxes: readonly Box[], stubs: readonly Point[]) {
-    const left = [...boxes.map((box) => box.x), ...stubs.map(({ x }) => x)];
-    const right = [...boxes.map((box) => box.x + box.width), ...stubs.map(({ x }) => x)];
-    const top = [...boxes.map((box) => box.y), ...stubs.map(({ y }) => y)];
-    const bottom = [...boxes.map((box) => box.y + box.height), ...stubs.map(({ y }) => y)];
+  /** Over an area, with more lines through `stubs`. */
+  constructor(area: Box, boxes: readonly Box[], stubs: readonly Point[]) {
+    const { x, y, width, height } = area;
     this.xs = lines(
-      least(left),
-      most(right),
-      stubs.map(({ x }) => x),
+      x,
+      x + width,
+      stubs.map((one) => one.x),
     );
     this.ys = lines(
-      least(top),
-      most(bottom),
-      stubs.map(({ y }) => y),
+      y,
+      y + height,
+      stubs.map((one) => one.y),
     );
-    this.columnOf = new Map(this.xs.map((x, index) => [x, index]));
-    this.rowOf = new Map(this.ys.map((y, index) => [y, index]));
+    this.columnOf = new Map(this.xs.map((one, index) => [one, index]));
+    this.rowOf = new Map(this.ys.map((one, index) => [one, index]));
     const count = this.xs.length * this.ys.length;
     this.covered = new Uint8Array(count);
     for (const box of boxes) this.cover(box);
     this.costs = new Float64Array(count * 4);
     this.from = new Int32Array(count * 4);
-    this.seen = new Uint32Array(count * 4);
-    this.closed = new Uint32Array(count * 4);
+    this.seen = new Uint8Array(count * 4);
+    this.closed = new Uint8Array(count * 4);
   }
 
   /** -1: no line goes there, or a box stands there. */
@@ -69,15 +65,11 @@ export class Grid {
     return next >= 0 && next < this.covered.length && !this.covered[next] ? next : -1;
   }
 
-  begin(): void {
-    this.round++;
-  }
-
   /** True if that is cheaper than what was known. */
   reach(state: number, cost: number, from: number): boolean {
-    if (this.closed[state] === this.round) return false;
-    if (this.seen[state] === this.round && (this.costs[state] ?? 0) <= cost) return false;
-    this.seen[state] = this.round;
+    if (this.closed[state]) return false;
+    if (this.seen[state] && (this.costs[state] ?? 0) <= cost) return false;
+    this.seen[state] = 1;
     this.costs[state] = cost;
     this.from[state] = from;
     return true;
@@ -89,8 +81,8 @@ export class Grid {
 
   /** False if it was done before. */
   close(state: number): boolean {
-    if (this.closed[state] === this.round) return false;
-    this.closed[state] = this.round;
+    if (this.closed[state]) return false;
+    this.closed[state] = 1;
     return true;
   }
 
@@ -111,9 +103,8 @@ export class Grid {
 
 function lines(from: number, to: number, more: readonly number[]): number[] {
   const all = new Set(more);
-  const first = Math.floor((from - kRim) / kPitch);
-  const last = Math.ceil((to + kRim) / kPitch);
-  for (let line = first; line <= last; line++) all.add(line * kPitch);
+  const last = Math.floor(to / kPitch);
+  for (let line = Math.ceil(from / kPitch); line <= last; line++) all.add(line * kPitch);
   return [...all].sort((a, b) => a - b);
 }
 
@@ -131,12 +122,4 @@ function firstAbove(lines: readonly number[], value: number): number {
     else low = middle + 1;
   }
   return low;
-}
-
-function least(values: readonly number[]): number {
-  return values.reduce((a, b) => Math.min(a, b), values[0] ?? 0);
-}
-
-function most(values: readonly number[]): number {
-  return values.reduce((a, b) => Math.max(a, b), values[0] ?? 0);
 }

@@ -50,6 +50,8 @@ export interface Variable {
 }
 
 export interface Note {
+  /** In the list of the file. */
+  index: number;
   text: string;
   at: readonly [number, number];
   size: readonly [number, number];
@@ -173,10 +175,10 @@ function pairOf(value: Json | undefined): readonly [number, number] | null {
 }
 
 function notesOf(value: Json | undefined): Note[] {
-  return listOf(value).flatMap((one) => {
+  return listOf(value).flatMap((one, index) => {
     const at = pairOf(memberOf(one, 'at'));
     const size = pairOf(memberOf(one, 'size'));
-    return at && size ? [{ at, size, text: textOf(memberOf(one, 'text')) }] : [];
+    return at && size ? [{ index, at, size, text: textOf(memberOf(one, 'text')) }] : [];
   });
 }
 

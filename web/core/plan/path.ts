@@ -1,7 +1,8 @@
 // Ways as SVG paths: rounded corners, and where one way crosses another.
 
+import { Cells } from './cells';
 import type { Routed } from './route';
-import type { Point } from './shape';
+import type { Box, Point } from './shape';
 
 export const kCorner = 8;
 
@@ -51,23 +52,34 @@ export function crossings(
   aimOf: (id: string) => string,
 ): Map<string, Crossing[]> {
   const found = new Map<string, Crossing[]>();
-  routes.forEach((upper, index) => {
-    const over = routes.slice(0, index).filter((lower) => aimOf(lower.id) !== aimOf(upper.id));
-    const all = over.flatMap((lower) => meetings(upper.points, lower.points));
-    if (all.length > 0) found.set(upper.id, all);
-  });
+  const drawn = new Cells<Stretch>();
+  for (const { id, points } of routes) {
+    const aim = aimOf(id);
+    const own: Stretch[] = [];
+    const met: Crossing[] = [];
+    eachStretch(points, (from, to) => {
+      own.push({ aim, from, to });
+      for (const lower of drawn.near(stretchBox(from, to))) {
+        const point = lower.aim === aim ? null : crossingOf(from, to, lower.from, lower.to);
+        if (point) met.push({ ...point, isLevel: from.y === to.y });
+      }
+    });
+    for (const one of own) drawn.put(stretchBox(one.from, one.to), one);
+    if (met.length > 0) found.set(id, met);
+  }
   return found;
 }
 
-function meetings(upper: readonly Point[], lower: readonly Point[]): Crossing[] {
-  const met: Crossing[] = [];
-  eachStretch(upper, (a, b) =>
-    eachStretch(lower, (c, d) => {
-      const point = crossingOf(a, b, c, d);
-      if (point) met.push({ ...point, isLevel: a.y === b.y });
-    }),
-  );
-  return met;
+interface Stretch {
+  aim: string;
+  from: Point;
+  to: Point;
+}
+
+export function stretchBox(a: Point, b: Point): Box {
+  const x = Math.min(a.x, b.x);
+  const y = Math.min(a.y, b.y);
+  return { x, y, width: Math.abs(a.x - b.x), height: Math.abs(a.y - b.y) };
 }
 
 function crossingOf(a: Point, b: Point, c: Point, d: Point): Point | null {

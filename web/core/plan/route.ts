@@ -2,10 +2,12 @@
 // targets, and together with those to the same one. A search over a grid of lines (A*), one arrow
 // after the other, the short ones first.
 
-import { Grid, kClear } from './grid';
+import { Field, meetingOf } from './field';
+import { kClear, type Grid } from './grid';
 import { Heap } from './heap';
 import { kApart, Lanes } from './lanes';
-import type { Box, Point } from './shape';
+import { eachStretch, stretchBox } from './path';
+import { around, overlaps, type Box, type Point } from './shape';
 
 export type Side = 'left' | 'right' | 'top' | 'bottom';
 
@@ -36,7 +38,16 @@ const kCrossing = 40;
 const kShared = 0.4;
 /** Of what is looked at first, around source and target. */
 const kMargin = 300;
-const kMuch = 1e4;
+const kFar = 1500;
+/** Of more arrows each is found soon rather than best. */
+const kMany = 40;
+/** How much the way that is left counts: less than it costs finds the best one, more one soon. */
+const kCareful = kShared;
+const kHasty = 1.6;
+/** Places that are looked at before a search is given up. */
+const kLooksMax = 12_000;
+/** Where there is no room an arrow runs beside others, as little as can be found soon. */
+const kBeside = 4;
 
 const kSteps = [
   { x: 1, y: 0 },
@@ -51,25 +62,84 @@ export function outOf(port: Port, by: number): Point {
   return { x: port.x + x * by, y: port.y + y * by };
 }
 
-export function routeAll(boxes: readonly Box[], ways: readonly Way[]): Map<string, Routed> {
-  const stubs = ways.flatMap((way) => [
-    outOf(way.from, kStubOut),
-    ...way.entries.map((entry) => outOf(entry, kStubIn)),
-  ]);
-  const grid = new Grid(boxes, stubs);
-  const lanes = new Lanes();
-  for (const way of ways) {
-    lanes.add(way.aim, [way.from, outOf(way.from, kStubOut)]);
-    // Nobody crosses where a head of an arrow will be.
-    for (const entry of way.entries) lanes.add(way.aim, [entry, outOf(entry, kHeadRoom)]);
+/** The ways of all arrows of a drawing, found one after the other: all at once, or bit by bit. */
+export class Routing {
+  readonly found = new Map<string, Routed>();
+  private readonly field: Field;
+  private readonly lanes = new Lanes();
+  /** The longest first: they are taken from the end. */
+  private readonly left: Way[];
+  private readonly haste: number;
+
+  constructor(boxes: readonly Box[], ways: readonly Way[]) {
+    const stubs = ways.flatMap((way) => [
+      outOf(way.from, kStubOut),
+      ...way.entries.map((entry) => outOf(entry, kStubIn)),
+    ]);
+    this.field = new Field(boxes, stubs);
+    for (const way of ways) {
+      this.lanes.add(way.aim, [way.from, outOf(way.from, kStubOut)]);
+      // Nobody crosses where a head of an arrow will be.
+      for (const entry of way.entries) this.lanes.add(way.aim, [entry, outOf(entry, kHeadRoom)]);
+    }
+    this.haste = ways.length > kMany ? kHasty : kCareful;
+    this.left = [...ways].sort((a, b) => length(b) - length(a));
   }
-  const found = new Map<string, Routed>();
-  for (const way of [...ways].sort((a, b) => length(a) - length(b))) {
-    const points = simplified(new Search(grid, lanes, way).points());
-    lanes.add(way.aim, points);
-    found.set(way.id, { id: way.id, points });
+
+  /** True when all are found. */
+  get done(): boolean {
+    return this.left.length === 0;
   }
-  return found;
+
+  /** Keeps a way as it is, if its ends are the same and no box stands on it. */
+  keep({ id, points }: Routed): void {
+    const at = this.left.findIndex((way) => way.id === id);
+    const way = this.left[at];
+    if (!way || !this.isFree(way, points)) return;
+    this.left.splice(at, 1);
+    this.take(way, points);
+  }
+
+  /** Goes on until all are found or it is time to stop. */
+  work(isTime: () => boolean): void {
+    while (!isTime()) {
+      const way = this.left.pop();
+      if (!way) return;
+      this.take(way, simplified(new Search(this.field, this.lanes, way, this.haste).points()));
+    }
+  }
+
+  /** What is not found yet: as it was, if its ends are where they were, else straight. */
+  rest(before: ReadonlyMap<string, Routed>): Routed[] {
+    return this.left.map((way) => {
+      const known = before.get(way.id);
+      return known && joins(way, known.points)
+        ? known
+        : { id: way.id, points: simplified(straight(way)) };
+    });
+  }
+
+  private take(way: Way, points: readonly Point[]): void {
+    this.lanes.add(way.aim, points);
+    this.found.set(way.id, { id: way.id, points });
+  }
+
+  private isFree(way: Way, points: readonly Point[]): boolean {
+    let isFree = joins(way, points);
+    eachStretch(points, (a, b) => {
+      const stretch = stretchBox(a, b);
+      for (const box of this.field.near(stretch)) if (overlaps(box, stretch)) isFree = false;
+    });
+    return isFree;
+  }
+}
+
+/** The points begin and end where the way does. */
+function joins({ from, entries }: Way, points: readonly Point[]): boolean {
+  const [first] = points;
+  const last = points.at(-1);
+  if (!first || !last || first.x !== from.x || first.y !== from.y) return false;
+  return entries.some(({ x, y }) => x === last.x && y === last.y);
 }
 
 function length({ from, entries }: Way): number {
@@ -80,50 +150,71 @@ class Search {
   private readonly begin: Point;
 
   constructor(
-    private readonly grid: Grid,
+    private readonly field: Field,
     private readonly lanes: Lanes,
     private readonly way: Way,
+    private readonly haste: number,
   ) {
     this.begin = outOf(way.from, kStubOut);
   }
 
-  /** First near by and strictly, then everywhere, then across others; straight if boxes cover it. */
+  /** First near by and strictly, then farther, then across others; straight if boxes cover it. */
   points(): Point[] {
     return (
       this.find(kMargin, false) ??
-      this.find(Infinity, false) ??
-      this.find(Infinity, true) ??
-      this.straight()
+      (this.haste > 1 ? null : this.find(kFar, false)) ??
+      this.find(kFar, true) ??
+      straight(this.way)
     );
   }
 
   private find(margin: number, across: boolean): Point[] | null {
-    const { grid } = this;
+    const grid = this.field.grid(this.area(margin), this.ends());
     const start = grid.node(this.begin);
+    if (start < 0) return null;
     const first = kOfSide[this.way.from.side];
-    const goals = this.goals();
-    const near = this.near(margin);
-    grid.begin();
+    const goals = this.goals(grid);
     const heap = new Heap();
     grid.reach(start * 4 + first, 0, -1);
-    heap.push(this.hope(this.begin, goals), start * 4 + first);
+    const haste = across ? Math.max(1, this.haste) : this.haste;
+    heap.push(this.hope(this.begin, goals, haste), start * 4 + first);
+    let looked = 0;
     for (let state = heap.pop(); state >= 0; state = heap.pop()) {
       if (!grid.close(state)) continue;
       const goal = goals.get(state);
       if (goal) return [this.way.from, ...grid.trail(state), goal];
-      this.expand(state, near, across, heap, goals);
+      if (++looked > kLooksMax && !across) return null;
+      this.expand(grid, state, across, heap, goals, haste);
     }
     return null;
   }
 
+  private ends(): Point[] {
+    return [this.begin, ...this.way.entries.map((entry) => outOf(entry, kStubIn))];
+  }
+
+  /** Around source and target. */
+  private area(margin: number): Box {
+    const { x, y, width, height } = around(
+      this.ends().map((one) => ({ ...one, width: 0, height: 0 })),
+    );
+    const wide = {
+      x: x - margin,
+      y: y - margin,
+      width: width + 2 * margin,
+      height: height + 2 * margin,
+    };
+    return meetingOf(wide, this.field.whole);
+  }
+
   private expand(
+    grid: Grid,
     state: number,
-    near: (at: Point) => boolean,
     across: boolean,
     heap: Heap,
     goals: ReadonlyMap<number, Port>,
+    haste: number,
   ): void {
-    const { grid } = this;
     const node = state >> 2;
     const at = grid.at(node);
     const cost = grid.cost(state);
@@ -133,12 +224,11 @@ class Search {
       const next = grid.next(node, turn);
       if (next < 0) continue;
       const to = grid.at(next);
-      if (!near(to)) continue;
       const step = this.step(at, to, across);
       if (step === null) continue;
       const total = cost + step + (turn === (state & 3) ? 0 : kBend);
       if (grid.reach(next * 4 + turn, total, state))
-        heap.push(total + this.hope(to, goals), next * 4 + turn);
+        heap.push(total + this.hope(to, goals, haste), next * 4 + turn);
     }
   }
 
@@ -147,42 +237,34 @@ class Search {
     const length = Math.abs(to.x - from.x) + Math.abs(to.y - from.y);
     const { blocked, crossings, shared } = this.lanes.meet(this.way.aim, from, to);
     if (blocked && !across) return null;
-    return length * (shared ? kShared : 1) + crossings * kCrossing + (blocked ? kMuch : 0);
+    if (across) return length * (blocked ? kBeside : 1);
+    return length * (shared ? kShared : 1) + crossings * kCrossing;
   }
 
   /** States in which an entry is reached, going in its direction. */
-  private goals(): Map<number, Port> {
+  private goals(grid: Grid): Map<number, Port> {
     const goals = new Map<number, Port>();
     for (const entry of this.way.entries) {
-      const node = this.grid.node(outOf(entry, kStubIn));
+      const node = grid.node(outOf(entry, kStubIn));
       if (node >= 0) goals.set(node * 4 + (kOfSide[entry.side] ^ 2), entry);
     }
     return goals;
   }
 
-  private hope(at: Point, goals: ReadonlyMap<number, Port>): number {
+  private hope(at: Point, goals: ReadonlyMap<number, Port>, haste: number): number {
     let least = Infinity;
     for (const goal of goals.values())
       least = Math.min(least, Math.abs(goal.x - at.x) + Math.abs(goal.y - at.y) - kStubIn);
-    return Math.max(0, least) * kShared;
+    return Math.max(0, least) * haste;
   }
+}
 
-  private near(margin: number): (at: Point) => boolean {
-    if (margin === Infinity) return () => true;
-    const all = [this.begin, ...this.way.entries];
-    const left = Math.min(...all.map(({ x }) => x)) - margin;
-    const right = Math.max(...all.map(({ x }) => x)) + margin;
-    const top = Math.min(...all.map(({ y }) => y)) - margin;
-    const bottom = Math.max(...all.map(({ y }) => y)) + margin;
-    return ({ x, y }) => x >= left && x <= right && y >= top && y <= bottom;
-  }
-
-  private straight(): Point[] {
-    const [entry] = this.way.entries;
-    if (!entry) return [this.way.from, this.begin];
-    const end = outOf(entry, kStubIn);
-    return [this.way.from, this.begin, { x: this.begin.x, y: end.y }, end, entry];
-  }
+function straight({ from, entries }: Way): Point[] {
+  const begin = outOf(from, kStubOut);
+  const [entry] = entries;
+  if (!entry) return [from, begin];
+  const end = outOf(entry, kStubIn);
+  return [from, begin, { x: begin.x, y: end.y }, end, entry];
 }
 
 /** Without points in the middle of a straight line. */

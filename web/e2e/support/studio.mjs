@@ -61,11 +61,17 @@ export async function openStudio(t, { words = [], prepare, ...looks } = {}) {
 }
 
 /** One more window of that server. */
-export async function openWindow(t, server, { width = 1440, height = 900, theme = 'dark' } = {}) {
+export async function openWindow(
+  t,
+  server,
+  { width = 1440, height = 900, theme = 'dark', touch = false } = {},
+) {
   const context = await (
     await theBrowser()
   ).newContext({
     viewport: { width, height },
+    hasTouch: touch,
+    isMobile: touch,
     colorScheme: theme,
     reducedMotion: 'reduce',
     acceptDownloads: true,

@@ -4,6 +4,7 @@ import type { Doc } from '../../../protocol/messages';
 import { useStudio, useTopic, useWindow } from '../../hooks';
 import { FindingNotice } from '../finding_notice';
 import { DiskNotice } from '../script/script_notices';
+import { PlanChange } from './plan_change';
 import { planDeskOf } from './plan_desk';
 import { PlanLive } from './plan_live';
 import { togglePlanOption, usePlanOptions } from './plan_options';
@@ -11,6 +12,7 @@ import { PlanTools } from './plan_tools';
 import '../../look/plan.css';
 
 const ScriptView = late(() => import('../script/script_view'));
+const PlanCode = late(() => import('./code/plan_code'));
 const PlanCanvas = late(() => import('./canvas/plan_canvas'));
 
 /** A plan drawn; beside it, if wanted, its text, and what it does while it runs. */
@@ -22,6 +24,7 @@ export default function PlanDocument({ doc }: { doc: Doc }) {
       <div className="plan__main">
         <PlanTools doc={doc} />
         <DiskNotice doc={doc} />
+        <PlanChange doc={doc} />
         {options.text ? null : <Found doc={doc} />}
         <Suspense fallback={null}>
           <PlanCanvas doc={doc} />
@@ -31,6 +34,13 @@ export default function PlanDocument({ doc }: { doc: Doc }) {
         <div className="plan__text">
           <Suspense fallback={null}>
             <ScriptView doc={doc} isScript={false} />
+          </Suspense>
+        </div>
+      ) : null}
+      {options.code ? (
+        <div className="plan__text">
+          <Suspense fallback={null}>
+            <PlanCode doc={doc} />
           </Suspense>
         </div>
       ) : null}

@@ -10,6 +10,8 @@ import { useStudio } from '../../hooks';
 export interface PlanOptions {
   /** The file as text beside the drawing. */
   text: boolean;
+  /** The C++ program that it is, beside the drawing. */
+  code: boolean;
   /** What it does, as a list. */
   live: boolean;
   /** All data arrows. */
@@ -17,8 +19,8 @@ export interface PlanOptions {
   map: boolean;
 }
 
-const defaults: PlanOptions = { text: false, live: false, data: false, map: true };
-const names = ['text', 'live', 'data', 'map'] as const;
+const defaults: PlanOptions = { text: false, code: false, live: false, data: false, map: true };
+const names = ['text', 'code', 'live', 'data', 'map'] as const;
 
 const stores = new WeakMap<Studio, StoreApi<PlanOptions>>();
 

@@ -5,6 +5,7 @@ import { useDrives, useStudio } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
+import { ExportMenu } from './export_menu';
 import { usePlanDesk } from './plan_desk';
 import { togglePlanOption, usePlanOptions, type PlanOptions } from './plan_options';
 
@@ -37,10 +38,12 @@ export function PlanTools({ doc }: { doc: Doc }) {
         icon={<IconArrowForwardUp {...size} />}
         onClick={() => file?.redo()}
       />
+      <ExportMenu />
       <span className="grow" />
       <Switch name="data" />
       <Switch name="map" />
       <Switch name="text" />
+      <Switch name="code" />
       <Switch name="live" />
     </div>
   );

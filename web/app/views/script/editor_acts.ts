@@ -45,15 +45,21 @@ function here(studio: Studio, doc: Doc, at: number): Place | null {
 
 /** Puts the caret at an offset, in the middle of what is seen if it was out of sight. */
 export function goTo(view: EditorView, offset: number, focus: boolean): void {
-  view.dispatch({
-    selection: { anchor: offset },
-    effects: EditorView.scrollIntoView(offset, { y: 'center' }),
-  });
-  if (focus) takeFocus(view);
+  const show = () =>
+    view.dispatch({
+      selection: { anchor: offset },
+      effects: EditorView.scrollIntoView(offset, { y: 'center' }),
+    });
+  show();
+  if (focus) takeFocus(view, show);
 }
 
-/** A tab that comes to the front just now can take the focus only once it is shown. */
-function takeFocus(view: EditorView, tries = 20): void {
+const kTriesOfFocus = 120;
+
+/** A tab that comes to the front just now can take the focus, and be scrolled, only once it is shown. */
+function takeFocus(view: EditorView, show: () => void, tries = kTriesOfFocus): void {
   view.focus();
-  if (!view.hasFocus && tries > 0) requestAnimationFrame(() => takeFocus(view, tries - 1));
+  if (view.hasFocus && tries < kTriesOfFocus) show();
+  else if (!view.hasFocus && tries > 0)
+    requestAnimationFrame(() => takeFocus(view, show, tries - 1));
 }

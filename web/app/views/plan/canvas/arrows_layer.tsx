@@ -1,9 +1,10 @@
 import { ViewportPortal } from '@xyflow/react';
 import { memo, useMemo } from 'react';
-import type { Arrow, Drawing } from '../../../../core/plan/arrows';
+import type { Arrow } from '../../../../core/plan/arrows';
 import type { PlanBoard } from '../../../../core/plan/board';
-import { crossings, roundedPath, type Crossing } from '../../../../core/plan/path';
+import { roundedPath, type Crossing } from '../../../../core/plan/path';
 import type { Routed } from '../../../../core/plan/route';
+import { gapPath, gapsOf, shortened } from '../../../../core/plan/strokes';
 import { useBoard } from '../plan_desk';
 import { text } from '../../../text';
 import { DataArrows } from './data_layer';
@@ -38,12 +39,6 @@ export function ArrowsLayer({ board, allData }: { board: PlanBoard; allData: boo
   );
 }
 
-function gapsOf(drawing: Drawing): Map<string, Crossing[]> {
-  const aims = new Map(drawing.arrows.map(({ id, target }) => [id, target]));
-  const routes = drawing.arrows.flatMap(({ id }) => drawing.routes.get(id) ?? []);
-  return crossings(routes, (id) => aims.get(id) ?? id);
-}
-
 const ActionArrow = memo(function ActionArrow(props: {
   board: PlanBoard;
   arrow: Arrow;
@@ -63,30 +58,14 @@ const ActionArrow = memo(function ActionArrow(props: {
       aria-label={text.draw.arrow(arrow.source, arrow.outcome, arrow.target)}
       onClick={() => board.select(arrow.id)}
     >
-      {gaps?.map(({ x, y, isLevel }) => (
-        <path
-          key={`${x} ${y}`}
-          className="parrow__gap"
-          d={isLevel ? `M${x - 6} ${y}h12` : `M${x} ${y - 6}v12`}
-        />
+      {gaps?.map((gap) => (
+        <path key={`${gap.x} ${gap.y}`} className="parrow__gap" d={gapPath(gap)} />
       ))}
       <path className="parrow__hand" d={path} />
       <path className="parrow__line" d={path} markerEnd={`url(#plan-head-${kind})`} />
     </g>
   );
 });
-
-const kHead = 9;
-
-/** The line ends where the head begins. */
-function shortened({ points }: Routed) {
-  const last = points.at(-1);
-  const before = points.at(-2);
-  if (!last || !before) return points;
-  const x = last.x - Math.sign(last.x - before.x) * kHead;
-  const y = last.y - Math.sign(last.y - before.y) * kHead;
-  return [...points.slice(0, -1), { x, y }];
-}
 
 function Heads() {
   return (

@@ -3,9 +3,11 @@
 import { kStart } from '../../../../core/plan/model';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
+import { toast, update } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
+import { exportPng, exportSvg } from './export_picture';
 import { copyByCommand, cut, hasClipboard, pasteByCommand } from './plan_clipboard';
 
 const titles = text.commands;
@@ -16,6 +18,7 @@ export interface CanvasActs {
   zoom(by: number): void;
   properties(): void;
   rename(): void;
+  find(): void;
 }
 
 export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
@@ -43,7 +46,10 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
   const edits = () => drives(studio);
   const has = ({ board }: ShownPlan) => edits() && board.selected !== null;
   const named = ({ board }: ShownPlan) =>
-    edits() && (board.element(board.selected) ?? board.variable(board.selected)) !== undefined;
+    edits() &&
+    (board.element(board.selected) ??
+      board.variable(board.selected) ??
+      board.note(board.selected)) !== undefined;
   const hasPart = ({ board }: ShownPlan) => board.part() !== null;
   const clipboard = (
     id: DrawId,
@@ -54,8 +60,12 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     ...make(id, [key], run, (plan) => hasClipboard() && may(plan)),
     keysAreEvents: true,
   });
+  const isActor = ({ board }: ShownPlan) => edits() && board.actor(board.selected) !== undefined;
+  const runFrom = () => update(studio.window, (draft) => void (draft.overlay = 'runFrom'));
   return [
+    make('draw.runFrom', ['R'], runFrom, isActor),
     make('draw.fit', ['1'], () => acts.fit()),
+    make('draw.find', ['Ctrl+F', '/'], () => acts.find()),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),
     make('draw.zoomOut', ['-'], () => acts.zoom(0.8)),
     make(
@@ -100,11 +110,21 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       (plan) => edits() && hasPart(plan),
     ),
     clipboard('draw.paste', 'Ctrl+V', (plan) => pasteByCommand(studio, plan), edits),
+    make(
+      'draw.note',
+      ['N'],
+      ({ board, middle }) => {
+        if (board.addNote(middle()) === null) toast(studio.window, 'error', text.draw.noNotes);
+      },
+      edits,
+    ),
+    make('draw.exportSvg', [], (plan) => exportSvg(studio, plan)),
+    make('draw.exportPng', [], (plan) => exportPng(studio, plan)),
     make('draw.variable', [], ({ board }) => void board.addVariable(), edits),
     make(
       'draw.properties',
       ['Enter'],
-      () => acts.properties(),
+      ({ board }) => (board.note(board.selected) && edits() ? acts.rename() : acts.properties()),
       ({ board }) => board.selected !== null,
     ),
     make(

@@ -3,7 +3,7 @@
 import { useReactFlow, useStore, type NodeChange } from '@xyflow/react';
 import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
-import type { Point } from '../../../../core/plan/shape';
+import type { Box, Point } from '../../../../core/plan/shape';
 import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
@@ -71,8 +71,34 @@ function choose(board: PlanBoard, changes: readonly NodeChange<PlanNode>[]): voi
   board.selectAll([...kept, ...come]);
 }
 
+/** Moves what is seen if an element stands outside of it. */
+function reveal(
+  flow: ReturnType<typeof useReactFlow>,
+  box: Box | undefined,
+  frame: HTMLElement | null,
+): void {
+  if (!box || !frame) return;
+  const { left, top, right, bottom } = frame.getBoundingClientRect();
+  const first = flow.screenToFlowPosition({ x: left, y: top });
+  const last = flow.screenToFlowPosition({ x: right, y: bottom });
+
+  const { x, y, width, height } = box;
+  const isSeen = x >= first.x && y >= first.y && x + width <= last.x && y + height <= last.y;
+  if (!isSeen)
+    void flow.setCenter(x + width / 2, y + height / 2, {
+      zoom: Math.max(flow.getZoom(), kLegible),
+    });
+}
+
+/** Below this zoom names cannot be read. */
+const kLegible = 0.75;
+
 /** Palette, forms and commands work on this canvas once it is used. */
-export function useOnDesk(board: PlanBoard, frame: React.RefObject<HTMLDivElement | null>) {
+export function useOnDesk(
+  board: PlanBoard,
+  frame: React.RefObject<HTMLDivElement | null>,
+  find: () => void,
+) {
   const studio = useStudio();
   const flow = useReactFlow();
   const shown = useMemo<ShownPlan>(
@@ -84,6 +110,7 @@ export function useOnDesk(board: PlanBoard, frame: React.RefObject<HTMLDivElemen
         return flow.screenToFlowPosition({ x: left + width / 2 - 84, y: top + height / 3 });
       },
       focus(key) {
+        reveal(flow, board.boxOf(key), frame.current);
         requestAnimationFrame(() =>
           frame.current
             ?.querySelector<HTMLElement>(`.react-flow__node[data-id="${CSS.escape(key)}"]`)
@@ -102,9 +129,10 @@ export function useOnDesk(board: PlanBoard, frame: React.RefObject<HTMLDivElemen
         zoom: (by) => void flow.zoomTo(flow.getZoom() * by),
         properties,
         rename: () => planDeskOf(studio).renames.emit(),
+        find,
       }),
     );
-  }, [studio, flow]);
+  }, [studio, flow, find]);
   const use = useCallback(() => {
     planDeskOf(studio).use(shown);
     const { doc } = shown.board;

@@ -3,6 +3,7 @@ import { pillKey, type PlanBoard } from '../../../../core/plan/board';
 import { dataArrows, type DataArrow } from '../../../../core/plan/data';
 import { supervisorsOf, type Actor, type Supervisor } from '../../../../core/plan/model';
 import type { Box } from '../../../../core/plan/shape';
+import { dataPath } from '../../../../core/plan/strokes';
 import { text } from '../../../text';
 import { useLive } from './live_store';
 
@@ -60,24 +61,16 @@ function boxesOf(board: PlanBoard): Map<string, Box> {
   ]);
 }
 
-const kApart = 22;
-
 function Thin(props: { arrow: DataArrow; box: Box; pill: Box; index: number }) {
   const { arrow, box, pill, index } = props;
   const value = useLive((live) => live.values.get(arrow.variable));
-  const at = { x: box.x + 14 + ((index * kApart) % (box.width - 28)), y: box.y };
-  const from = { x: pill.x + 24 + ((index * 9) % (pill.width - 48)), y: pill.y + pill.height };
-  const isIn = arrow.is === 'in';
-  const middle = (from.y + at.y) / 2;
-  const path = `M${from.x} ${from.y}C${from.x} ${middle} ${at.x} ${middle} ${at.x} ${at.y}`;
-  const end = isIn ? at : from;
-  const by = isIn ? -5 : 5;
+  const { line, head } = dataPath(arrow, box, pill, index);
   return (
     <g role="img" aria-label={text.draw.data(arrow)}>
       <title>{value === undefined ? text.draw.data(arrow) : `${arrow.variable} = ${value}`}</title>
-      <path className="pdata__hand" d={path} />
-      <path className="pdata__line" d={path} />
-      <path className="pdata__head" d={`M${end.x - 3} ${end.y + by}l3 ${-by}l3 ${by}`} />
+      <path className="pdata__hand" d={line} />
+      <path className="pdata__line" d={line} />
+      <path className="pdata__head" d={head} />
     </g>
   );
 }

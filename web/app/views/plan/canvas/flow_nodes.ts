@@ -7,10 +7,18 @@ import { countsOf, type Counts } from '../../../../core/findings';
 import { arrowId, supervisorKey, type Tag } from '../../../../core/plan/arrows';
 import { pillKey, type PlanBoard } from '../../../../core/plan/board';
 import { dataArrows } from '../../../../core/plan/data';
-import { kStart, type Actor, type Supervisor, type Variable } from '../../../../core/plan/model';
+import {
+  kStart,
+  type Actor,
+  type Note,
+  type Supervisor,
+  type Variable,
+} from '../../../../core/plan/model';
 import { eventRow, stateRow, type Box } from '../../../../core/plan/shape';
+import { noteKey } from '../../../../core/plan/notes';
 import type { Side } from '../../../../core/plan/route';
 import { text } from '../../../text';
+import type { NoteNode } from './note';
 import type { RowData } from './port';
 
 const words = text.draw;
@@ -23,7 +31,7 @@ export type SupervisorNode = Node<
 >;
 export type PillNode = Node<{ variable: Variable; near: boolean }, 'pill'>;
 export type TagNode = Node<{ is: Tag['is'] }, 'tag'>;
-export type PlanNode = StartNode | ActorNode | SupervisorNode | PillNode | TagNode;
+export type PlanNode = StartNode | ActorNode | SupervisorNode | PillNode | TagNode | NoteNode;
 
 export class FlowNodes {
   private known = new Map<string, { key: string; node: PlanNode }>();
@@ -38,6 +46,7 @@ export class FlowNodes {
       ]),
       ...pillNodes(board),
       ...board.drawing.tags.map(tagNode),
+      ...board.notes.map((note) => noteNode(board, note, drives)),
     ];
     const now = new Map<string, { key: string; node: PlanNode }>();
     for (const node of made) {
@@ -166,5 +175,22 @@ function tagNode(tag: Tag): TagNode {
     focusable: false,
     ariaLabel: words[tag.is],
     data: { is: tag.is },
+  };
+}
+
+/** Behind everything else. */
+function noteNode(board: PlanBoard, note: Note, drives: boolean): NoteNode {
+  const [x, y] = note.at;
+  const [width, height] = note.size;
+  const key = noteKey(note.index);
+  return {
+    id: key,
+    type: 'note',
+    ...placed({ x, y, width, height }),
+    zIndex: -1,
+    draggable: drives,
+    selected: board.selection.has(key),
+    ariaLabel: words.noteLabel(note.text),
+    data: { note },
   };
 }

@@ -8,6 +8,7 @@ import { text } from '../../../text';
 import type { ActorNode, PillNode, StartNode, SupervisorNode, TagNode } from './flow_nodes';
 import { useLive } from './live_store';
 import { Mark } from './mark';
+import { NoteCard } from './note';
 import { Port, Row } from './port';
 import { TemplateIcon } from './template_icon';
 
@@ -118,4 +119,5 @@ export const nodeTypes = {
   supervisor: SupervisorHexagon,
   pill: Pill,
   tag: Tag,
+  note: NoteCard,
 };

@@ -6,7 +6,7 @@ import {
   ReactFlowProvider,
 } from '@xyflow/react';
 import '@xyflow/react/dist/base.css';
-import { useRef } from 'react';
+import { useCallback, useRef, useState } from 'react';
 import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { kSnap } from '../../../../core/plan/place';
@@ -18,8 +18,11 @@ import { usePlanOptions } from '../plan_options';
 import { ArrowsLayer } from './arrows_layer';
 import { kFit, useFitted, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { ConnectMenu } from './connect_menu';
+import { FindBar } from './find_bar';
 import type { PlanNode } from './flow_nodes';
 import { LiveContext, useLiveStore } from './live_store';
+import { NodeMenu, useNodeMenu } from './node_menu';
+import { NoteContext, useNoteActs } from './note_context';
 import { nodeTypes } from './nodes';
 import { useClipboard } from './plan_clipboard';
 import { useDropping } from './use_dropping';
@@ -46,10 +49,14 @@ function Canvas({ board }: { board: PlanBoard }) {
   useBoard(board);
   const nodes = useNodes(board, drives);
   const frame = useRef<HTMLDivElement>(null);
-  const { shown, use } = useOnDesk(board, frame);
+  const [finds, setFinds] = useState(false);
+  const find = useCallback(() => setFinds(true), []);
+  const { shown, use } = useOnDesk(board, frame, find);
   const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
+  const notes = useNoteActs(board, drives);
   const dropping = useDropping(board, drives);
+  const menu = useNodeMenu(board);
   const live = useLiveStore(board);
   const options = usePlanOptions();
   const onNodesChange = useNodeChanges(board);
@@ -58,48 +65,65 @@ function Canvas({ board }: { board: PlanBoard }) {
   return (
     <LiveContext value={live}>
       <ConnectContext value={connect}>
-        <div
-          className="pcanvas"
-          ref={frame}
-          data-place="plan"
-          role="region"
-          aria-label={words.canvas(board.model.name)}
-          onPointerDownCapture={use}
-          onFocusCapture={use}
-          {...dropping}
-          {...clipboard}
-        >
-          <ReactFlow<PlanNode>
-            nodes={nodes}
-            edges={kNoEdges}
-            nodeTypes={nodeTypes}
-            onNodesChange={onNodesChange}
-            onMoveStart={onMoveStart}
-            onPaneClick={() => board.select(null)}
-            nodesConnectable={false}
-            snapToGrid
-            snapGrid={kGrid}
-            minZoom={0.1}
-            maxZoom={2}
-            fitView
-            fitViewOptions={kFit}
-            deleteKeyCode={null}
-            selectionKeyCode="Shift"
-            multiSelectionKeyCode={kAlso}
-            zoomActivationKeyCode={null}
-            panActivationKeyCode={null}
-            zoomOnDoubleClick={false}
-            onlyRenderVisibleElements={nodes.length > kManyNodes}
-            ariaLabelConfig={words.aria}
-            proOptions={kNoName}
+        <NoteContext value={notes}>
+          <div
+            className="pcanvas"
+            ref={frame}
+            data-place="plan"
+            role="region"
+            aria-label={words.canvas(board.model.name)}
+            onPointerDownCapture={use}
+            onFocusCapture={use}
+            {...dropping}
+            {...clipboard}
           >
-            <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
-            <ArrowsLayer board={board} allData={options.data} />
-            {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
-          </ReactFlow>
-          {board.model.actors.length === 0 ? <p className="pcanvas__empty">{words.empty}</p> : null}
-          {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
-        </div>
+            <ReactFlow<PlanNode>
+              nodes={nodes}
+              edges={kNoEdges}
+              nodeTypes={nodeTypes}
+              onNodesChange={onNodesChange}
+              onMoveStart={onMoveStart}
+              onPaneClick={() => board.select(null)}
+              onNodeContextMenu={menu.onNodeContextMenu}
+              nodesConnectable={false}
+              snapToGrid
+              snapGrid={kGrid}
+              minZoom={0.1}
+              maxZoom={2}
+              fitView
+              fitViewOptions={kFit}
+              deleteKeyCode={null}
+              selectionKeyCode="Shift"
+              multiSelectionKeyCode={kAlso}
+              zoomActivationKeyCode={null}
+              panActivationKeyCode={null}
+              zoomOnDoubleClick={false}
+              onlyRenderVisibleElements={nodes.length > kManyNodes}
+              ariaLabelConfig={words.aria}
+              proOptions={kNoName}
+            >
+              <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
+              <ArrowsLayer board={board} allData={options.data} />
+              {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
+            </ReactFlow>
+            {board.model.actors.length === 0 ? (
+              <p className="pcanvas__empty">{words.empty}</p>
+            ) : null}
+            {finds ? (
+              <FindBar
+                board={board}
+                onFound={(key) => {
+                  setFinds(false);
+                  board.select(key);
+                  shown.focus(key);
+                }}
+                onClose={() => setFinds(false)}
+              />
+            ) : null}
+            {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
+            {menu.asked ? <NodeMenu asked={menu.asked} onClose={menu.close} /> : null}
+          </div>
+        </NoteContext>
       </ConnectContext>
     </LiveContext>
   );

@@ -1,6 +1,7 @@
+import { useId } from 'react';
 import type { PlanInput } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
-import { feedSteps, keepSteps, shownFormula } from '../../../../core/plan/edit';
+import { keepSteps } from '../../../../core/plan/edit';
 import { textOf } from '../../../../core/plan/json';
 import type { Actor, Supervisor } from '../../../../core/plan/model';
 import { Quiet } from '../../../parts/blank';
@@ -8,6 +9,7 @@ import { text } from '../../../text';
 import { Field } from '../../world/fields';
 import { FormulaField } from './formula_field';
 import { Leads } from './leads';
+import { ElementFindings, Findings, isWrong, useFindingsAt } from './row_findings';
 
 const words = text.draw;
 
@@ -21,18 +23,16 @@ export function ElementForm(props: {
   const { board, chosen, element, disabled } = props;
   return (
     <>
+      <ElementFindings doc={board.doc} keys={element.keys} />
       <section className="planform__part" aria-label={words.inputs}>
         <h3>{words.inputs}</h3>
         {inputsOf(element).map((input) => (
           <FormulaField
             key={input.name}
+            board={board}
+            element={element}
             input={input}
-            value={shownFormula(element.inputs[input.name])}
-            variables={board.model.variables.map((one) => one.name)}
             disabled={disabled}
-            onSet={(typed) =>
-              board.commit(feedSteps(board.file.value, element.keys, input.name, typed))
-            }
           />
         ))}
         {inputsOf(element).length === 0 ? <Quiet>{words.noInputs}</Quiet> : null}
@@ -61,27 +61,49 @@ function Outputs(props: { board: PlanBoard; element: Actor | Supervisor; disable
     <section className="planform__part" aria-label={words.outputs}>
       <h3>{words.outputs}</h3>
       {names.map((name) => (
-        <Field key={name} label={name}>
-          {(id) => (
-            <select
-              id={id}
-              className="field field--small field--ui"
-              value={textOf(element.outputs[name])}
-              disabled={disabled}
-              onChange={(event) =>
-                board.commit(keepSteps(board.file.value, element.keys, name, event.target.value))
-              }
-            >
-              <option value="">{words.dropped}</option>
-              {board.model.variables.map((one) => (
-                <option key={one.name} value={one.name}>
-                  {one.name}
-                </option>
-              ))}
-            </select>
-          )}
-        </Field>
+        <Output key={name} board={board} element={element} name={name} disabled={disabled} />
       ))}
     </section>
+  );
+}
+
+function Output(props: {
+  board: PlanBoard;
+  element: Actor | Supervisor;
+  name: string;
+  disabled: boolean;
+}) {
+  const { board, element, name, disabled } = props;
+  const sentence = useId();
+  const found = useFindingsAt(board.doc, [...element.keys, 'out', name]);
+  const value = textOf(element.outputs[name]);
+  const isKnown = value === '' || board.model.variables.some((one) => one.name === value);
+  return (
+    <>
+      <Field label={name}>
+        {(id) => (
+          <select
+            id={id}
+            className="field field--small field--ui"
+            value={value}
+            disabled={disabled}
+            aria-invalid={isWrong(found)}
+            aria-describedby={found.length > 0 ? sentence : undefined}
+            onChange={(event) =>
+              board.commit(keepSteps(board.file.value, element.keys, name, event.target.value))
+            }
+          >
+            <option value="">{words.dropped}</option>
+            {isKnown ? null : <option value={value}>{value}</option>}
+            {board.model.variables.map((one) => (
+              <option key={one.name} value={one.name}>
+                {one.name}
+              </option>
+            ))}
+          </select>
+        )}
+      </Field>
+      <Findings id={sentence} findings={found} />
+    </>
   );
 }

@@ -1,8 +1,16 @@
 import { useId } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
-import { kStart, targetsFor, type Outcome } from '../../../../core/plan/model';
+import {
+  kStart,
+  targetsFor,
+  type Actor,
+  type Keys,
+  type Outcome,
+  type Supervisor,
+} from '../../../../core/plan/model';
 import { text } from '../../../text';
 import { targetName } from '../canvas/connect_menu';
+import { Findings, isWrong, useFindingsAt } from './row_findings';
 
 const words = text.draw;
 
@@ -34,29 +42,41 @@ function Lead(props: { board: PlanBoard; source: string; outcome: Outcome; disab
     ? targetsFor(board.model, element)
     : board.model.actors.map((one) => one.name);
   const { target } = outcome;
+  const sentence = useId();
+  const found = useFindingsAt(board.doc, leadKeys(element, outcome.name));
   const isKnown = target === null || targets.includes(target);
   return (
-    <div className="planlead">
-      <label htmlFor={id} className="ellipsis" title={outcome.help}>
-        {outcome.name || words.first}
-      </label>
-      <span aria-hidden>→</span>
-      <select
-        id={id}
-        className="field field--small field--ui"
-        value={target ?? ''}
-        disabled={disabled}
-        aria-invalid={target === null || !isKnown}
-        onChange={(event) => board.connect(source, outcome.name, event.target.value || null)}
-      >
-        <option value="">{words.nowhere}</option>
-        {isKnown ? null : <option value={target}>{target}</option>}
-        {targets.map((one) => (
-          <option key={one} value={one}>
-            {targetName(one)}
-          </option>
-        ))}
-      </select>
-    </div>
+    <>
+      <div className="planlead">
+        <label htmlFor={id} className="ellipsis" title={outcome.help}>
+          {outcome.name || words.first}
+        </label>
+        <span aria-hidden>→</span>
+        <select
+          id={id}
+          className="field field--small field--ui"
+          value={target ?? ''}
+          disabled={disabled}
+          aria-invalid={target === null || !isKnown || isWrong(found)}
+          aria-describedby={found.length > 0 ? sentence : undefined}
+          onChange={(event) => board.connect(source, outcome.name, event.target.value || null)}
+        >
+          <option value="">{words.nowhere}</option>
+          {isKnown ? null : <option value={target}>{target}</option>}
+          {targets.map((one) => (
+            <option key={one} value={one}>
+              {targetName(one)}
+            </option>
+          ))}
+        </select>
+      </div>
+      <Findings id={sentence} findings={found} />
+    </>
   );
+}
+
+/** Where the file says what a state or event leads to. */
+function leadKeys(element: Actor | Supervisor | undefined, outcome: string): Keys {
+  if (!element) return ['start', 'actor'];
+  return [...element.keys, 'owner' in element ? 'events' : 'states', outcome];
 }

@@ -9,6 +9,7 @@ import { useBoard, type ShownPlan } from '../plan_desk';
 import { ElementForm } from './element_form';
 import { FormHead } from './form_head';
 import { Leads } from './leads';
+import { NoteForm } from './note_form';
 import { VariableForm } from './variable_form';
 
 const words = text.draw;
@@ -38,6 +39,16 @@ function Chosen(props: { board: PlanBoard; chosen: string; disabled: boolean }) 
       <>
         <FormHead board={board} chosen={chosen} name={variable.name} about={words.variable} />
         <VariableForm board={board} name={variable.name} disabled={disabled} />
+      </>
+    );
+  const note = board.note(chosen);
+  if (note)
+    return (
+      <>
+        <header className="props__head">
+          <h2 className="props__name">{words.note}</h2>
+        </header>
+        <NoteForm board={board} note={note} disabled={disabled} />
       </>
     );
   if (!element) return <Quiet>{text.empty.properties}</Quiet>;

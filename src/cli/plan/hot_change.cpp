@@ -1,0 +1,66 @@
+#include "cli/plan/hot_change.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace vagus::cli {
+
+namespace {
+
+// A run answers between two decisions; one that ends says so, too.
+constexpr Duration kAnswerEvery = std::chrono::seconds(1);
+
+// What the run says to a request; nothing: it is over.
+std::optional<std::vector<std::string>> wait_answer(run::Debugger& debugger, uint64_t request) {
+    for (;;) {
+        const std::optional<run::Report> report = debugger.wait_report(kAnswerEvery);
+        if (!report) continue;
+        if (std::holds_alternative<run::RunOver>(*report)) return std::nullopt;
+        const auto* answer = std::get_if<run::Answer>(&*report);
+        if (!answer || answer->request != request) continue;
+        if (!answer->reply.ok()) return std::vector{answer->reply.error().what};
+        return std::get<run::Change>(answer->reply.value()).reasons;
+    }
+}
+
+}  // namespace
+
+HotChange::HotChange(const PlanRun& run, const std::string& file,
+                     std::function<void(const std::string&)> say)
+    : versions_(run.loaded(), file),
+      debugger_(run.graph(), run::Debugger::At::Run),
+      say_(std::move(say)) {}
+
+bool HotChange::is_for(const std::vector<std::string>& saved) const {
+    return std::all_of(saved.begin(), saved.end(),
+                       [this](const std::string& file) { return versions_.is_part(file); });
+}
+
+bool HotChange::hand_in(const std::vector<std::string>& saved, FileWatch& watch) {
+    embed::PlanVersions::Made made = versions_.read(saved);
+    if (watch.add(versions_.files())) made = versions_.read(saved);
+    if (!made.plan.ok()) {
+        refuse(embed::errors_of(made.plan));
+        return true;
+    }
+    versions_.hand_in(made);
+    const auto posted = debugger_.post(run::TakeVersion{made.next});
+    if (!posted.ok()) return false;
+    const auto reasons = wait_answer(debugger_, posted.value());
+    if (!reasons) return false;
+    if (reasons->empty()) {
+        versions_.took(made.plan.graph());
+        say_(saved.front() + " was saved: the new version runs");
+    } else {
+        versions_.refused(made.plan.graph());
+        refuse(*reasons);
+    }
+    return true;
+}
+
+void HotChange::refuse(const std::vector<std::string>& reasons) {
+    for (const std::string& reason : reasons) say_(reason);
+    say_("the plan as it was runs on");
+}
+
+}  // namespace vagus::cli

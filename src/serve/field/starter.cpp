@@ -1,0 +1,58 @@
+#include "serve/field/starter.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+std::string waits_for(const std::vector<std::string>& missing) {
+    std::string names;
+    for (const std::string& name : missing) names += (names.empty() ? "" : ", ") + name;
+    return "waiting for nodes that are not there yet: " + names;
+}
+
+}  // namespace
+
+void Starter::begin(Time now) {
+    ++attempt_;
+    state_ = State::Waiting;
+    why_ = "it has not begun yet";
+    told_.clear();
+    next_ = now_ = now;
+}
+
+void Starter::give_up() {
+    ++attempt_;
+    state_ = State::Idle;
+    why_ = "it was stopped";
+}
+
+void Starter::wait(const std::string& kind, const std::string& why, Time until) {
+    state_ = State::Waiting;
+    why_ = why;
+    next_ = until;
+    if (why == told_) return;
+    told_ = why;
+    robot_.log(kind, why);
+}
+
+void Starter::tick(Time now) {
+    now_ = now;
+    if (state_ != State::Waiting || now < next_) return;
+    const std::vector<std::string> missing = robot_.missing();
+    if (!missing.empty()) return wait("note", waits_for(missing), now + kLookForNodesEvery);
+    state_ = State::Starting;
+    robot_.start([this, attempt = ++attempt_](const std::string& why) {
+        if (attempt != attempt_) return;
+        if (!why.empty()) {
+            return wait("error", "it does not start: " + why, now_ + kStartAgainAfter);
+        }
+        state_ = State::Started;
+        why_.clear();
+    });
+}
+
+Time Starter::next_tick() const {
+    return state_ == State::Waiting ? next_ : Time::max();
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,60 @@
+// Starts the robot without anybody: as soon as the nodes are there, and again until it runs. Told
+// the time; the rest is handed in, so that it runs in a test with a scripted clock.
+//
+//     Starter starter({.missing = …, .start = …, .log = …});
+//     starter.begin(now);
+//     starter.tick(now);
+//     if (starter.state() == Starter::State::Started) …
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/time.hpp"
+
+namespace vagus::serve {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kLookForNodesEvery = 200ms;
+constexpr Duration kStartAgainAfter = 1s;  // of a start that failed
+
+class Starter {
+public:
+    struct Robot {
+        // Names of nodes that must be there and are not yet.
+        std::function<std::vector<std::string>()> missing;
+        // Lets everything run; `done` gets why it does not, or nothing.
+        std::function<void(std::function<void(const std::string& why)> done)> start;
+        // A sentence for the log; each is told once.
+        std::function<void(const std::string& kind, const std::string& text)> log;
+    };
+    enum class State { Idle, Waiting, Starting, Started };
+
+    explicit Starter(Robot robot) : robot_(std::move(robot)) {}
+
+    void begin(Time now);
+    // Somebody wants it to stand.
+    void give_up();
+
+    State state() const { return state_; }
+    // Why it does not run yet: a sentence.
+    const std::string& why() const { return why_; }
+
+    void tick(Time now);
+    Time next_tick() const;
+
+private:
+    void wait(const std::string& kind, const std::string& why, Time until);
+
+    Robot robot_;
+    State state_ = State::Idle;
+    std::string why_;
+    std::string told_;
+    Time next_{};
+    Time now_{};
+    uint64_t attempt_ = 0;  // an answer to an earlier one says nothing any more
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,73 @@
+// The versions of a project on a robot (docs/decisions/0120). The folder as it was given is version
+// 0 and is never changed; what was deployed stands below it, and a link says which one is in force:
+//
+//     PROJECT/.vagus/versions/incoming/   on its way here
+//                             4/deployed.json, 4/files/…
+//                             current     link to 4; without it version 0 is in force
+//                             trial.json  current has not shown yet that it starts
+//
+// Each change of what is in force is one rename, and everything it leads to is on the disk before:
+// after a power cut at any moment it is the one or the other, whole.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "serve/field/bundle.hpp"
+
+namespace vagus::serve {
+
+constexpr size_t kVersionsKept = 5;  // beside version 0
+
+// A version in force that has not started yet.
+struct VersionTrial {
+    uint32_t version = 0;
+    uint32_t back = 0;   // what is in force again if it does not start
+    uint32_t tries = 0;  // boots that began with it
+};
+
+class Versions {
+public:
+    explicit Versions(std::filesystem::path project);
+
+    // Takes away what a deployment has left that was interrupted. Once, at the boot.
+    void tidy_up();
+
+    uint32_t current() const;
+    std::vector<uint32_t> all() const;  // without 0, the oldest first
+    // The folder of its vagus.json.
+    std::filesystem::path folder(uint32_t version) const;
+    Result<Bundle> bundle(uint32_t version) const;
+    // The one that `version` came after, or the next older one that is there; 0 at last.
+    uint32_t before(uint32_t version) const;
+
+    // ---- another version, on its way here ----
+    // In place of one that was begun before.
+    Status begin();
+    Status add(const std::string& path, std::string_view content);
+    // The folder of its vagus.json, before it has a number.
+    std::filesystem::path incoming(const Bundle& bundle) const;
+    // On the disk, under its number; not in force yet.
+    Result<uint32_t> finish(Bundle bundle);
+    void forget_incoming();
+
+    // ---- what is in force ----
+    Status put_in_force(uint32_t version);
+    std::optional<VersionTrial> trial() const;
+    Status write_trial(const VersionTrial& trial);
+    void end_trial();
+    void remove(uint32_t version);
+    // Of those above, the newest stay.
+    void remove_old();
+
+private:
+    std::filesystem::path place(uint32_t version) const;
+
+    std::filesystem::path project_, root_;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,221 @@
+#include "serve/web/live_client.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/use_future.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <charconv>
+#include <optional>
+
+#include "serve/process.hpp"
+#include "serve/web/server.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using Tcp = asio::ip::tcp;
+using asio::awaitable;
+using asio::use_awaitable;
+using Plain = websocket::stream<beast::tcp_stream>;
+using Secure = websocket::stream<beast::ssl_stream<beast::tcp_stream>>;
+
+constexpr uint16_t kUsualPort = 8910;
+constexpr size_t kAnswerBytesMax = 64u << 20;
+
+Error bad_address(const std::string& text) {
+    return {Code::BadInput, text +
+                                ": expected the address of a server, such as robot.local:8910 or "
+                                "https://192.168.1.7:8910/"};
+}
+
+std::string authority(const ServerAddress& address) {
+    const bool v6 = address.host.find(':') != address.host.npos;
+    return fmt::format("{}:{}", v6 ? "[" + address.host + "]" : address.host, address.port);
+}
+
+template <typename Stream>
+void prepare(Stream& socket) {
+    socket.read_message_max(kAnswerBytesMax);
+    socket.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
+        request.set(http::field::sec_websocket_protocol, kLiveProtocol);
+    }));
+}
+
+template <typename Stream>
+awaitable<std::string> exchange(Stream& socket, uint64_t id, std::string text) {
+    beast::get_lowest_layer(socket).expires_after(kAnswerWithin);
+    co_await socket.async_write(asio::buffer(text), use_awaitable);
+    for (;;) {
+        beast::flat_buffer buffer;
+        co_await socket.async_read(buffer, use_awaitable);
+        std::string came = beast::buffers_to_string(buffer.data());
+        const auto message = nlohmann::json::parse(came, nullptr, false);
+        const bool ours = message.is_object() && message.contains("id") && message["id"] == id;
+        if (ours) co_return came;
+    }
+}
+
+Code code_of(const std::string& word) {
+    if (word == "not_found") return Code::NotFound;
+    if (word == "limit") return Code::Limit;
+    if (word == "not_driver") return Code::Refused;
+    if (word == "bad_input" || word == "bad_message") return Code::BadInput;
+    return Code::Unavailable;
+}
+
+}  // namespace
+
+Result<ServerAddress> parse_address(const std::string& text) {
+    ServerAddress address{.port = kUsualPort};
+    std::string rest = text;
+    const size_t fragment = rest.find("#token=");
+    if (fragment != rest.npos) {
+        address.token = rest.substr(fragment + 7);
+        rest.resize(fragment);
+    }
+    for (const char* scheme : {"http://", "https://"}) {
+        if (!rest.starts_with(scheme)) continue;
+        address.secure = std::string_view(scheme) == "https://";
+        rest.erase(0, std::string_view(scheme).size());
+    }
+    if (rest.ends_with('/')) rest.pop_back();
+    const size_t bracket = rest.rfind(']');
+    const size_t colon = rest.rfind(':');
+    const bool bracketed = rest.starts_with('[') && bracket != rest.npos;
+    if (colon != rest.npos && (!bracketed || colon > bracket)) {
+        const char* end = rest.data() + rest.size();
+        const auto [last, failed] = std::from_chars(&rest[colon + 1], end, address.port);
+        if (failed != std::errc() || last != end || address.port == 0) return bad_address(text);
+        rest.resize(colon);
+    }
+    // An IPv6 address needs its brackets: what follows its last colon may be a port.
+    if (!bracketed && rest.find(':') != rest.npos) return bad_address(text);
+    if (bracketed) rest = rest.substr(1, rest.size() - 2);
+    if (rest.empty() || rest.find_first_of("/ ?#@[]") != rest.npos) return bad_address(text);
+    address.host = rest;
+    return address;
+}
+
+class LiveClient::Insides {
+public:
+    Status connect(const ServerAddress& address, const std::string& name) {
+        try {
+            run(meet(address));
+        } catch (const boost::system::system_error& failed) {
+            return Error{Code::Unavailable,
+                         fmt::format("{}: no server of Vagus answers there: {}; is `vagus serve` "
+                                     "running, and does --listen of it name an address that can be "
+                                     "reached from here?",
+                                     authority(address), failed.code().message())};
+        }
+        std::string client;
+        for (const char byte : random_bytes(8)) {
+            client += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+        }
+        const auto greeted =
+            ask("hello", {{"token", address.token}, {"client", client}, {"name", name}});
+        return greeted.ok() ? Status::done() : Status(greeted.error());
+    }
+
+    Result<Json> ask(const std::string& command, Json in) {
+        const uint64_t id = ++last_;
+        const Json message = {{"id", id}, {"do", command}, {"in", std::move(in)}};
+        try {
+            const std::string text = message.dump();
+            const std::string came =
+                secure_ ? run(exchange(*secure_, id, text)) : run(exchange(*plain_, id, text));
+            const Json answer = Json::parse(came);
+            if (answer.contains("ok")) return answer["ok"];
+            return Error{code_of(answer.at("error").at("code")), answer.at("error").at("what")};
+        } catch (const boost::system::system_error& failed) {
+            return Error{Code::Unavailable, fmt::format("{}: the connection has ended: {}", command,
+                                                        failed.code().message())};
+        } catch (const Json::exception& odd) {
+            return Error{Code::Unavailable,
+                         fmt::format("{}: expected an answer of Vagus: {}", command, odd.what())};
+        }
+    }
+
+    void wait(std::chrono::milliseconds so_long) {
+        asio::steady_timer timer(io_, so_long);
+        timer.wait();
+    }
+
+private:
+    // What an awaitable gives, or throws.
+    template <typename Value>
+    Value run(awaitable<Value> work) {
+        auto future = asio::co_spawn(io_, std::move(work), asio::use_future);
+        io_.restart();
+        io_.run();
+        return future.get();
+    }
+
+    awaitable<void> meet(ServerAddress address) {
+        Tcp::resolver resolver(io_);
+        const auto found = co_await resolver.async_resolve(
+            address.host, std::to_string(address.port), use_awaitable);
+        beast::tcp_stream stream(io_);
+        stream.expires_after(kMeetWithin);
+        co_await stream.async_connect(found, use_awaitable);
+        if (address.secure) {
+            co_await meet_secure(std::move(stream), address);
+        } else {
+            plain_.emplace(std::move(stream));
+            prepare(*plain_);
+            co_await plain_->async_handshake(authority(address), "/live", use_awaitable);
+        }
+    }
+
+    awaitable<void> meet_secure(beast::tcp_stream stream, ServerAddress address) {
+        tls_.set_default_verify_paths();
+        if (!address.certificate.empty()) tls_.load_verify_file(address.certificate);
+        tls_.set_verify_mode(asio::ssl::verify_peer);
+        secure_.emplace(std::move(stream), tls_);
+        auto& layer = secure_->next_layer();
+        layer.set_verify_callback(asio::ssl::host_name_verification(address.host));
+        SSL_set_tlsext_host_name(layer.native_handle(), address.host.c_str());
+        co_await layer.async_handshake(asio::ssl::stream_base::client, use_awaitable);
+        prepare(*secure_);
+        co_await secure_->async_handshake(authority(address), "/live", use_awaitable);
+    }
+
+    asio::io_context io_{1};
+    asio::ssl::context tls_{asio::ssl::context::tls_client};
+    std::optional<Plain> plain_;  // exactly one of these, once connected
+    std::optional<Secure> secure_;
+    uint64_t last_ = 0;
+};
+
+LiveClient::LiveClient(std::unique_ptr<Insides> insides) : insides_(std::move(insides)) {}
+LiveClient::~LiveClient() = default;
+
+Result<std::unique_ptr<LiveClient>> LiveClient::connect(const ServerAddress& address,
+                                                        const std::string& name) {
+    auto insides = std::make_unique<Insides>();
+    TRY(insides->connect(address, name));
+    return std::unique_ptr<LiveClient>(new LiveClient(std::move(insides)));
+}
+
+Result<LiveClient::Json> LiveClient::ask(const std::string& command, Json in) {
+    return insides_->ask(command, std::move(in));
+}
+void LiveClient::wait(std::chrono::milliseconds so_long) {
+    insides_->wait(so_long);
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,32 @@
+import { useState } from 'react';
+import { useDrives } from '../../hooks';
+import { StudioPopover } from '../../parts/popover';
+import { text } from '../../text';
+import { NewTemplateForm } from './new_template_form';
+
+/** "New template…" below the templates that there are. */
+export function NewTemplateButton() {
+  const drives = useDrives();
+  const [isOpen, open] = useState(false);
+  return (
+    <StudioPopover
+      label={text.templates.newTemplate}
+      opened={isOpen}
+      onChange={open}
+      position="right-end"
+      width={300}
+      button={
+        <button
+          type="button"
+          className="btn btn--small palettepanel__variable"
+          disabled={!drives}
+          onClick={() => open(!isOpen)}
+        >
+          {text.templates.newTemplate}
+        </button>
+      }
+    >
+      <NewTemplateForm onDone={() => open(false)} />
+    </StudioPopover>
+  );
+}

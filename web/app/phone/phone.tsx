@@ -1,0 +1,73 @@
+import { Suspense, useState } from 'react';
+import { usePart, useTopic } from '../hooks';
+import { late } from '../parts/late';
+import { Logo } from '../parts/icons';
+import { text } from '../text';
+import { Notices } from '../topbar/notices';
+import { PhoneRun } from './phone_run';
+import { PhoneTabs, type PhoneTab } from './phone_tabs';
+import '../look/phone.css';
+
+const views = {
+  plan: late(() => import('./phone_plan')),
+  world: late(() => import('../panels/world_panel')),
+  variables: late(() => import('../panels/variables/variables_panel')),
+  console: late(() => import('../panels/console_panel')),
+};
+
+/** The window on a telephone: to watch, to stop and to start. Stop stays in sight whatever is shown. */
+export function Phone() {
+  const project = useTopic('studio', {})?.project;
+  return (
+    <div className="phone">
+      <header className="phone__top" data-region="top" aria-label={text.regions.top}>
+        <div className="phone__line">
+          <Logo />
+          <h1 className="ellipsis grow">{project?.name ?? text.name}</h1>
+          <PhoneClock />
+        </div>
+        <PhoneRun />
+      </header>
+      <Notices />
+      {project ? (
+        <PhoneMain key={project.folder} hasPlan={project.plan !== undefined} />
+      ) : (
+        <p className="placeholder">{text.phone.noProject}</p>
+      )}
+    </div>
+  );
+}
+
+function PhoneClock() {
+  const state = usePart('clock', {}, (is) => is?.state ?? 'none');
+  const t = usePart('clock', {}, (is) => is?.t ?? 0);
+  const isBus = usePart('robot', {}, (is) => is?.kind === 'bus');
+  if (isBus && state === 'none') return null;
+  return (
+    <span className={`phone__clock num clock--${state}`}>
+      {text.run[state]} · {t.toFixed(1)} s
+    </span>
+  );
+}
+
+function PhoneMain({ hasPlan }: { hasPlan: boolean }) {
+  const [tab, setTab] = useState<PhoneTab>(hasPlan ? 'plan' : 'world');
+  const View = views[tab];
+  return (
+    <>
+      <PhoneTabs chosen={tab} onChoose={setTab} />
+      <main className="phone__main">
+        <div
+          className="phone__view"
+          role="tabpanel"
+          id="phone-view"
+          aria-label={text.phone.tabs[tab]}
+        >
+          <Suspense fallback={null}>
+            <View />
+          </Suspense>
+        </div>
+      </main>
+    </>
+  );
+}

@@ -1,0 +1,87 @@
+import { NodeResizeControl, type Node, type NodeProps } from '@xyflow/react';
+import { memo, useContext, useEffect, useState } from 'react';
+import type { Note as PlanNote } from '../../../../core/plan/model';
+import { kNoteLeast, noteKey } from '../../../../core/plan/notes';
+import { useStudio } from '../../../hooks';
+import { text } from '../../../text';
+import { planDeskOf } from '../plan_desk';
+import { NoteContext } from './note_context';
+
+export type NoteNode = Node<{ note: PlanNote }, 'note'>;
+
+const words = text.draw;
+
+/** What a person wrote beside the plan: written in place, dragged, drawn larger at its corner. */
+export const NoteCard = memo(function NoteCard({ data, selected }: NodeProps<NoteNode>) {
+  const { note } = data;
+  const notes = useContext(NoteContext);
+  const desk = planDeskOf(useStudio());
+  const key = noteKey(note.index);
+  // A new one is written at once.
+  const [isWritten, write] = useState(note.text === '' && selected && notes !== null);
+  useEffect(
+    () => (selected && notes ? desk.renames.on(() => write(true)) : undefined),
+    [desk, selected, notes],
+  );
+  return (
+    <div
+      className={selected ? 'pnote is-selected' : 'pnote'}
+      onDoubleClick={() => notes && write(true)}
+    >
+      {isWritten && notes ? (
+        <Editor
+          note={note}
+          onWrite={(typed) => notes.write(key, typed)}
+          onEnd={() => write(false)}
+        />
+      ) : (
+        <p className={note.text === '' ? 'pnote__text muted' : 'pnote__text'}>
+          {note.text === '' ? words.emptyNote : note.text}
+        </p>
+      )}
+      {notes ? (
+        <NodeResizeControl
+          className="pnote__corner"
+          position="bottom-right"
+          minWidth={kNoteLeast.width}
+          minHeight={kNoteLeast.height}
+          onResize={(_event, { width, height }) => notes.hold(key, { width, height })}
+          onResizeEnd={() => notes.letGo()}
+        />
+      ) : null}
+    </div>
+  );
+});
+
+function Editor(props: { note: PlanNote; onWrite: (typed: string) => void; onEnd: () => void }) {
+  const { note, onWrite, onEnd } = props;
+  const [typed, type] = useState(note.text);
+  const done = () => {
+    onWrite(typed);
+    onEnd();
+  };
+  return (
+    <textarea
+      className="pnote__editor nodrag nopan nowheel"
+      aria-label={words.noteText}
+      maxLength={kTextMax}
+      autoFocus
+      value={typed}
+      onFocus={({ target }) => target.setSelectionRange(typed.length, typed.length)}
+      onChange={(event) => type(event.target.value)}
+      onBlur={done}
+      onKeyDown={(event) => {
+        event.stopPropagation();
+        const card = event.currentTarget.closest<HTMLElement>('.react-flow__node');
+        if (event.key === 'Enter' && event.ctrlKey) done();
+        else if (event.key === 'Escape') onEnd();
+        else return;
+        event.preventDefault();
+        card?.focus();
+      }}
+    />
+  );
+}
+
+/** Enough for a page; a file is not a book. */
+const kTextMax = 4000;

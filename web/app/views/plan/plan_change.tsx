@@ -1,0 +1,114 @@
+import { IconAlertTriangle, IconArrowsExchange } from '@tabler/icons-react';
+import { useEffect, useMemo, useState, type ReactNode } from 'react';
+import type { Doc, Topics } from '../../../protocol/messages';
+import { ChangeQuestion, type ChangeAnswer } from '../../../core/plan/change';
+import { partOf } from '../../../core/paths';
+import { useDrives, usePart, useStudio, useTopic } from '../../hooks';
+import { Button } from '../../parts/button';
+import { kStroke } from '../../parts/icons';
+import { text } from '../../text';
+
+const words = text.plan.change;
+
+/** What saving would do to the plan that runs, and what the last save has done. */
+export function PlanChange({ doc }: { doc: Doc }) {
+  const studio = useStudio();
+  const drives = useDrives();
+  const plan = useTopic('plan', {});
+  const unsaved = useUnsaved(doc);
+  const goes = plan?.state === 'running' || plan?.state === 'paused';
+  const answer = useAnswer(doc, goes && unsaved, plan);
+  if (!goes) return null;
+  if (unsaved) {
+    if (!answer?.runs) return null;
+    const can = answer.reasons.length === 0;
+    return (
+      <Line
+        good={can}
+        what={can ? words.takes : words.cannot}
+        reasons={answer.reasons}
+        end={
+          <Button small disabled={!drives} onClick={() => studio.registry.run('file.save')}>
+            {words.save}
+          </Button>
+        }
+      />
+    );
+  }
+  const last = plan.change;
+  if (last?.state !== 'refused' || !last.docs.includes(doc)) return null;
+  return (
+    <Line
+      good={false}
+      what={words.refused}
+      reasons={last.reasons}
+      end={
+        <Button
+          small
+          disabled={!drives}
+          onClick={() =>
+            studio.order('plan.start', plan.doc === undefined ? {} : { doc: plan.doc })
+          }
+        >
+          {words.anew}
+        </Button>
+      }
+    />
+  );
+}
+
+function Line(props: { good: boolean; what: string; reasons: readonly string[]; end: ReactNode }) {
+  const { good, what, reasons, end } = props;
+  const Icon = good ? IconArrowsExchange : IconAlertTriangle;
+  return (
+    <div className="notice planchange" role="status">
+      <Icon className="icon" size={14} stroke={kStroke} aria-hidden />
+      <div className="grow">
+        {what}
+        {reasons.length === 0 ? null : (
+          <ul className="planchange__why">
+            {reasons.map((reason, index) => (
+              <li key={index}>{reason}</li>
+            ))}
+          </ul>
+        )}
+      </div>
+      {end}
+    </div>
+  );
+}
+
+function useUnsaved(doc: Doc): boolean {
+  const { file } = partOf(doc);
+  return usePart('files', {}, (is) => is?.files.find((one) => one.path === file)?.unsaved ?? false);
+}
+
+/** Asked again whenever the text or what is active is another one. */
+function useAnswer(
+  doc: Doc,
+  asks: boolean,
+  plan: Topics['plan']['is'] | undefined,
+): ChangeAnswer | null {
+  const studio = useStudio();
+  const version = usePart('doc', asks ? { doc } : null, (is) => is?.version);
+  const active = plan?.levels.map((level) => `${level.path} ${level.activation}`).join(' ');
+  const [answer, setAnswer] = useState<ChangeAnswer | null>(null);
+  const question = useMemo(
+    () =>
+      asks
+        ? new ChangeQuestion(
+            () => studio.send('plan.check_change', { doc }),
+            (ms, act) => studio.world.later(ms, act),
+          )
+        : null,
+    [studio, doc, asks],
+  );
+  useEffect(() => {
+    setAnswer(null);
+    if (!question) return;
+    const end = question.changed.on(() => setAnswer(question.answer));
+    return () => (end(), question.end());
+  }, [question]);
+  useEffect(() => question?.look(), [question, version, active]);
+  return answer;
+}

@@ -1,0 +1,34 @@
+import { expect, test } from 'vitest';
+import type { Finding } from '../../protocol/messages';
+import { findingsAt, findingsOfElement } from './row_findings';
+
+const finding = (what: string, ...keys: string[]): Finding => ({
+  doc: 'P.plan.json',
+  severity: 'error',
+  code: 'P8',
+  at: { line: 1, column: 1 },
+  end: { line: 1, column: 2 },
+  what,
+  fixes: [],
+  keys,
+});
+const all = [
+  finding('a formula', 'actors', 'go', 'in', 'speed'),
+  finding('a state', 'actors', 'go', 'states', 'Done'),
+  finding('not fed', 'actors', 'go'),
+  finding('no such template', 'actors', 'go', 'template'),
+  finding('of its supervisor', 'actors', 'go', 'supervisors', 'see', 'in', 'speed'),
+  finding('of another', 'actors', 'gone', 'in', 'speed'),
+];
+const whats = (findings: Finding[]) => findings.map((one) => one.what);
+
+test('a row shows what means exactly its member', () => {
+  expect(whats(findingsAt(all, ['actors', 'go', 'in', 'speed']))).toEqual(['a formula']);
+  expect(whats(findingsAt(all, ['actors', 'go', 'states', 'Done']))).toEqual(['a state']);
+  expect(findingsAt(all, ['actors', 'go', 'in', 'time'])).toEqual([]);
+});
+
+test('the head of an element shows what no row shows', () => {
+  expect(whats(findingsOfElement(all, ['actors', 'go']))).toEqual(['not fed', 'no such template']);
+  expect(findingsOfElement(all, ['actors', 'go', 'supervisors', 'see'])).toEqual([]);
+});

@@ -1,0 +1,52 @@
+// The lines of a drawing as paths: action arrows up to their heads, the gaps where they cross, data
+// arrows. The canvas and the exported picture draw the same.
+
+import type { Drawing } from './arrows';
+import type { DataArrow } from './data';
+import { crossings, type Crossing } from './path';
+import type { Routed } from './route';
+import type { Box, Point } from './shape';
+
+const kHead = 9;
+
+/** The line ends where the head begins. */
+export function shortened({ points }: Routed): readonly Point[] {
+  const last = points.at(-1);
+  const before = points.at(-2);
+  if (!last || !before) return points;
+  const x = last.x - Math.sign(last.x - before.x) * kHead;
+  const y = last.y - Math.sign(last.y - before.y) * kHead;
+  return [...points.slice(0, -1), { x, y }];
+}
+
+export function gapsOf(drawing: Drawing): Map<string, Crossing[]> {
+  const aims = new Map(drawing.arrows.map(({ id, target }) => [id, target]));
+  const routes = drawing.arrows.flatMap(({ id }) => drawing.routes.get(id) ?? []);
+  return crossings(routes, (id) => aims.get(id) ?? id);
+}
+
+/** Wider than the arrow, across it. */
+export function gapPath({ x, y, isLevel }: Crossing): string {
+  return isLevel ? `M${x - 6} ${y}h12` : `M${x} ${y - 6}v12`;
+}
+
+const kApart = 22;
+
+/** From a variable to an element or back; several of one element stand apart. */
+export function dataPath(
+  arrow: DataArrow,
+  box: Box,
+  pill: Box,
+  index: number,
+): { line: string; head: string } {
+  const at = { x: box.x + 14 + ((index * kApart) % (box.width - 28)), y: box.y };
+  const from = { x: pill.x + 24 + ((index * 9) % (pill.width - 48)), y: pill.y + pill.height };
+  const middle = (from.y + at.y) / 2;
+  const isIn = arrow.is === 'in';
+  const end = isIn ? at : from;
+  const by = isIn ? -5 : 5;
+  return {
+    line: `M${from.x} ${from.y}C${from.x} ${middle} ${at.x} ${middle} ${at.x} ${at.y}`,
+    head: `M${end.x - 3} ${end.y + by}l3 ${-by}l3 ${by}`,
+  };
+}

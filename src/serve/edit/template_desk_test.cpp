@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "serve/edit/test_page.hpp"
+#include "serve/edit/text_places.hpp"
 
 namespace vagus::serve {
 namespace {

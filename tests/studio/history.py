@@ -2,6 +2,7 @@
 import json
 import unittest
 
+import bus_plans
 import projects
 from cases import Case
 from projects import PLAN
@@ -169,6 +170,45 @@ class Traces(HistoryCase):
     def test_WithoutARunThereIsNothingToSave(self):
         self.open_plan()
         self.assertIn("no plan has run", self.refused("unavailable", "history.save"))
+
+
+class OnABus(Case):
+    open_robot, wait_plan = bus_plans.BusPlans.open_robot, bus_plans.BusPlans.wait_plan
+
+    def test_WhatWasNotWatchedIsNotRecorded(self):
+        """speed is watched from some instant on, and not any more after another; last never."""
+        page = self.open_robot()
+        history = page.watch("history")
+        described = page.watch("node", node=1)
+        self.wait(lambda: described.value and described.value["variables"], "a description")
+        places = {one["name"]: one["address"] for one in described.value["variables"]}
+        speed, last = places["motor.left.target"], places["motor.right.target"]
+        ranges = [[1, speed, 1], [1, last, 1]]
+
+        def at(t):
+            return [one["words"][0] for one in page.do("history.at", t=t, ranges=ranges)["values"]]
+
+        before = history.value["to"]
+        watched = page.watch("variables", node=1, ranges=[[speed, 1]])
+        self.wait(lambda: watched.frames, "a value")
+        self.wait(lambda: at(1e6) == [0, None], "a value that is kept")
+        self.assertEqual(at(before / 2), [None, None])
+        page.do("unwatch", watch=len(page.topics))
+        self.wait(lambda: at(1e6) == [None, None], "what nobody watches is not known")
+        self.assertEqual(history.value["kind"], "bus")
+
+    def test_ThePlanOfABusIsKept(self):
+        page = self.open_robot()
+        page.do("run.start", set={"limit": 3})
+        self.wait_plan("ended")
+        history = page.do("history.at", t=1e6)
+        self.assertEqual(history["plan"]["result"], "OK")
+        rounds = next(one["value"] for one in history["plan"]["levels"][0]["variables"] if one["name"] == "rounds") \
+            if history["plan"]["levels"] else 3
+        self.assertEqual(rounds, 3)
+        lanes = page.do("history.lanes", **{"from": 0, "to": 60}, width=1000)
+        names = {bar.get("name") for lane in lanes["lanes"] if lane["kind"] == "actors" for bar in lane["bars"]}
+        self.assertIn("wait", names)
 
 
 class Hostile(HistoryCase):

@@ -245,7 +245,11 @@ export const text = {
     ago: (seconds: string) => `${seconds} s ago.`,
     agoShort: (seconds: string) => `${seconds} s ago`,
     everything: (at: string) => `Everything shows ${at} s.`,
-    goesOn: 'What runs goes on; nothing here changes it.',
+    meanwhile: {
+      goes: 'What runs goes on; nothing here changes it.',
+      stands: 'What runs is paused; nothing here changes it.',
+      over: 'Nothing runs now.',
+    },
     trace: (name: string) => `Trace ${name}.`,
     nothingRuns: 'Nothing runs.',
     thinned: 'Older than ten minutes: kept five times a second.',

@@ -50,6 +50,9 @@ public:
     // ---- what is told ----
     bool record(std::string_view bytes);
     bool trace(const std::string& line);
+    void change_plan(PlanPast::Plans plans) {
+        if (plan_) plan_->change(std::move(plans));
+    }
     void happen(PastEvent event) { events_.add(std::move(event)); }
     void stand(double t, uint16_t node, const std::string& state, int line) {
         events_.stand(t, node, state, line);

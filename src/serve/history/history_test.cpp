@@ -276,6 +276,23 @@ TEST(History, LanesShowWhoWorkedAndWhoWatched) {
               Json::array({{{"from", 0.0}, {"to", 2.7}, {"end", "Done"}, {"count", 2}}}));
 }
 
+TEST(History, AfterAHotChangeThePastKeepsItsOwnPlan) {
+    PlanPast past(
+        walk(), [](const std::string& file) { return file; }, 1e9);
+    ASSERT_TRUE(past.add(trace()[2]));
+    ASSERT_TRUE(past.add(line("1.0", R"("change")")));
+    PlanPast::Plans changed = walk();
+    changed[0].actors[1].name = "rest";  // it was called stop
+    past.change(changed);
+    ASSERT_TRUE(past.add(line("2.0", R"("actor-start","actor":"rest","activation":2,"in":{})")));
+    EXPECT_EQ(past.at(0.5)["levels"][0]["actor"], "go");
+    EXPECT_EQ(past.at(1.5)["levels"][0]["actor"], "go");
+    EXPECT_EQ(past.at(2.5)["levels"][0]["actor"], "rest");
+    // near watched with go from the start to the end of its activation.
+    EXPECT_EQ(past.at(0.5)["levels"][0]["supervisors"].size(), 2u);
+    EXPECT_EQ(past.at(2.5)["levels"][0]["supervisors"].size(), 1u);
+}
+
 TEST(History, ATraceIsGivenBackAsItCame) {
     std::string text;
     for (const std::string& one : trace()) (text += one) += "\n";

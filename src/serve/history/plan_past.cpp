@@ -37,6 +37,14 @@ bool PlanPast::add(const std::string& text) {
     return true;
 }
 
+void PlanPast::change(Plans plans) {
+    if (plans.empty() || !now_ || versions_.size() >= kPlanVersions) return;
+    versions_.push_back(plans_);
+    plans_ = std::make_shared<const Plans>(std::move(plans));
+    now_->change(*plans_);
+    begin_block(to_);
+}
+
 void PlanPast::begin_block(double t) {
     blocks_.push_back({*now_, t, t});
 }

@@ -25,6 +25,7 @@ constexpr size_t kTraceBlockLines = 500;
 constexpr size_t kTraceLines = 200'000;
 constexpr size_t kTraceBytes = 32u << 20;
 constexpr size_t kPlanLanesMax = 500;
+constexpr size_t kPlanVersions = 1000;  // of one run; after that the past shows the last of them
 constexpr double kTraceSeconds = 3600;  // of a run; a trace that is opened is kept whole
 
 class PlanPast {
@@ -38,6 +39,9 @@ public:
 
     // False: this is no line of a trace, and it is not kept.
     bool add(const std::string& line);
+    // From the last line on a new version of the plan runs (P31); what was before keeps its own.
+    void change(Plans plans);
+    std::string file() const { return plans_->front().file; }
     bool empty() const { return blocks_.empty(); }
     std::string name() const { return plans_->front().name; }
     double from() const { return blocks_.empty() ? 0 : blocks_.front().from; }
@@ -72,7 +76,8 @@ private:
     void watch(double t, std::string_view without_path = {});
     Lane* lane(const char* kind, const std::string& path, const std::string& name);
 
-    std::shared_ptr<const Plans> plans_;  // owners: this, as followers borrow it
+    std::shared_ptr<const Plans> plans_;  // the version that runs; owners: this and versions_
+    std::vector<std::shared_ptr<const Plans>> versions_;  // followers of old blocks borrow them
     DocOf doc_of_;
     double seconds_ = kTraceSeconds;
     std::optional<PlanFollower> now_;

@@ -185,7 +185,10 @@ void Robot::hear(const debug::Event& event, const debug::VariableChanged& change
     const auto place = places.find(changed.name);
     if (place == places.end()) return;
     auto address = static_cast<uint16_t>(place->second.first);
-    told_.words(time(), event.node, address, changed.values);
+    // An answer that was under way when nobody watched any more is not told.
+    if (watched_[event.node].contains(changed.name)) {
+        told_.words(time(), event.node, address, changed.values);
+    }
     for (const int16_t value : changed.values) {
         values_[event.node][address] = value;
         const auto samples = samples_.find({event.node, address});

@@ -146,6 +146,9 @@ History& HistoryDesk::told_at(double t) {
 void HistoryDesk::trace(const std::string& line) {
     History& history = next_ ? *next_ : *now_;
     (void)history.trace(line);
+    // Quotes inside of a text are escaped, so this is the kind. What was saved is what runs now.
+    if (!history.plan() || line.find(R"("kind":"change")") == line.npos) return;
+    history.change_plan(read_plans(history.plan()->file()));
 }
 
 void HistoryDesk::records(const std::string& bytes) {

@@ -1,5 +1,6 @@
 import { IconHistory } from '@tabler/icons-react';
 import { useEffect } from 'react';
+import type { Topics } from '../../protocol/messages';
 import { shownTime } from '../../core/numbers';
 import { shownName } from '../../core/paths';
 import { usePart } from '../hooks';
@@ -25,13 +26,15 @@ function Bar({ at }: { at: number }) {
   const trace = useTraceName();
   const end = useEnd();
   const thinned = usePart('history', {}, (is) => is?.fine_from ?? 0) > at && trace === null;
+  const runs = usePart('clock', {}, (is) => stateOf(is?.state));
   const ago = (end - at).toFixed(1);
   return (
     <div className="pastbar" role="region" aria-label={words.label} data-place="past">
       <IconHistory className="icon" {...size} aria-hidden />
       <b>{trace === null ? words.ago(ago) : words.trace(shownName(trace))}</b>
       <span className="ellipsis">
-        {words.everything(shownTime(at))} {trace === null ? words.goesOn : words.nothingRuns}
+        {words.everything(shownTime(at))}{' '}
+        {trace === null ? words.meanwhile[runs] : words.nothingRuns}
         {thinned ? ` ${words.thinned}` : ''}
       </span>
       <span className="grow" />
@@ -44,4 +47,9 @@ function Bar({ at }: { at: number }) {
       </span>
     </div>
   );
+}
+
+function stateOf(state: Topics['clock']['is']['state'] | undefined): 'goes' | 'stands' | 'over' {
+  if (state === 'running') return 'goes';
+  return state === 'paused' ? 'stands' : 'over';
 }

@@ -43,6 +43,28 @@ export function placed(point: Point, pose: Pose): Point {
   };
 }
 
+/** The edge of a shape as dashes of about that length, in the frame of the world. */
+export function dashesAround(shape: Shape, pose: Pose, length = 0.05): [Point, Point][] {
+  const corners = shape.radius > 0 ? corneredDisc(shape.radius) : shape.corners;
+  return corners.flatMap((from, index) => {
+    const to = corners[(index + 1) % corners.length] ?? from;
+    const count = Math.max(1, Math.round(distance(from, to) / (2 * length)));
+    const along = (part: number) =>
+      placed({ x: from.x + (to.x - from.x) * part, y: from.y + (to.y - from.y) * part }, pose);
+    return Array.from({ length: count }, (_, dash): [Point, Point] => [
+      along(dash / count),
+      along((dash + 0.5) / count),
+    ]);
+  });
+}
+
+function corneredDisc(radius: number): Point[] {
+  return Array.from({ length: 16 }, (_, index) => {
+    const angle = (index * Math.PI) / 8;
+    return { x: radius * Math.cos(angle), y: radius * Math.sin(angle) };
+  });
+}
+
 /** From the frame of the world to that of a thing. */
 export function seenFrom(point: Point, pose: Pose): Point {
   const cos = Math.cos(pose.angle);

@@ -1,3 +1,4 @@
+import { memo } from 'react';
 import { placeIn } from '../../../core/timeline';
 import { Curve } from './lane_curve';
 import { Events } from './lane_events';
@@ -6,8 +7,10 @@ import { text } from '../../text';
 import type { Row } from './rows';
 
 const words = text.timeline;
-/** What stands in one row. */
-export function LaneShapes({ row, view }: { row: Row; view: LaneView }) {
+/** What stands in one row; drawn anew when something in it looks different. */
+export const LaneShapes = memo(Shapes, (a, b) => a.row === b.row && looksAlike(a, b));
+
+function Shapes({ row, view }: { row: Row; view: LaneView }) {
   switch (row.is) {
     case 'actors':
       return <Bars lane={row.lane} view={view} height={row.height} />;
@@ -82,4 +85,18 @@ function Watching({ lane, view, height }: LaneShape) {
 
 function hexagon(x: number, y: number): string {
   return `M${x - 7} ${y}l3.5 -6h7l3.5 6l-3.5 6h-7z`;
+}
+
+/** The cursor and now matter to actors and to what is still open. */
+function looksAlike(a: { row: Row; view: LaneView }, b: { row: Row; view: LaneView }): boolean {
+  const [one, other] = [a.view, b.view];
+  const same =
+    one.width === other.width &&
+    one.span.from === other.span.from &&
+    one.span.to === other.span.to &&
+    one.answered === other.answered;
+  if (!same || 'curve' in a.row) return same;
+  const open = a.row.lane.bars.at(-1)?.to === undefined && a.row.is !== 'events';
+  if (open && one.end !== other.end) return false;
+  return a.row.is !== 'actors' || one.at === other.at;
 }

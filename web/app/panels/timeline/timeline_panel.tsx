@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState, type RefObject } from 'react';
+import { useEffect, useMemo, useRef, useState, type RefObject } from 'react';
 import { shownTime } from '../../../core/numbers';
 import { useStudio, useTopic } from '../../hooks';
 import { Quiet } from '../../parts/blank';
@@ -26,7 +26,13 @@ export default function TimelinePanel() {
   const end = useEnd();
   const nameOf = (id: number) =>
     id === 0 ? words.main : (nodes.find((node) => node.id === id)?.name ?? String(id));
-  const rows = lanes ? rowsOf(lanes, curves, nameOf) : [];
+  const names = JSON.stringify([curves, nodes.map(({ id, name }) => [id, name])]);
+  const rows = useMemo(
+    () => (lanes ? rowsOf(lanes, curves, nameOf) : []),
+    // What is named, by its text: lists of the same are made anew all the time.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+    [lanes, names],
+  );
   const view = { span, answered, width, at: at ?? end, end };
   return (
     <div className="tl" ref={frame}>

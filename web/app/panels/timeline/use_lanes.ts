@@ -21,7 +21,7 @@ export function useLanes(shown: boolean, width: number) {
   );
   const curves = useCurves();
   const chosen = useTimelineView((view) => view.span);
-  const history = useTopic('history', shown ? {} : null);
+  const history = useTopic('history', {});
   const trace = useTraceName();
   const from = history?.from ?? 0;
   const to = history?.to ?? 0;

@@ -22,7 +22,7 @@ import {
   type Object3D,
 } from 'three';
 import type { Colour } from '../../../protocol/messages';
-import { reachOf, type Shape } from '../../../core/world/geometry';
+import { dashesAround, reachOf, type Shape } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import { isLamp, type Thing } from '../../../core/world/stage';
 import { gridStep, kWall } from '../../../core/world/view';
@@ -42,6 +42,7 @@ export class SolidDrawer {
   private readonly things = new Group();
   private readonly bodies = new Map<string, Object3D>();
   private readonly trails: Lines;
+  private readonly robotsNow: Lines;
   private readonly rays: Lines;
   private readonly mark: Mesh;
   private readonly placed = new Group();
@@ -53,6 +54,7 @@ export class SolidDrawer {
     private readonly colours: Colours,
   ) {
     this.trails = new Lines(colours.trail);
+    this.robotsNow = new Lines(colours.front);
     this.rays = new Lines(colours.cone);
     this.mark = new Mesh(
       new RingGeometry(1, 1.14, 48),
@@ -60,7 +62,7 @@ export class SolidDrawer {
     );
     this.mark.renderOrder = 2;
     this.root.add(this.ground, this.things, this.trails.object, this.rays.object, this.mark);
-    this.root.add(this.placed);
+    this.root.add(this.placed, this.robotsNow.object);
   }
 
   /** The stage is another one. */
@@ -89,12 +91,14 @@ export class SolidDrawer {
     this.drawTrails(options);
     this.drawRays(options);
     this.drawMark();
+    this.drawNow();
     this.drawPlacing();
   }
 
   dispose(): void {
     for (const part of [this.ground, this.things, this.placed]) drop(part);
     this.trails.dispose();
+    this.robotsNow.dispose();
     this.rays.dispose();
     this.mark.geometry.dispose();
   }
@@ -261,6 +265,15 @@ export class SolidDrawer {
     if (!chosen || !pose || !this.mark.visible) return;
     this.mark.position.set(pose.x, pose.y, 0.01);
     this.mark.scale.setScalar(reachOf(chosen.shape) * 1.05);
+  }
+
+  /** While the past is shown: where robots are now, dashed, on the ground and as high as they are. */
+  private drawNow(): void {
+    this.robotsNow.begin();
+    for (const { thing, pose } of this.model.robotsNow())
+      for (const [from, to] of dashesAround(thing.shape, pose))
+        for (const z of [0.01, thing.height]) this.robotsNow.ribbon(from, to, z);
+    this.robotsNow.end();
   }
 
   private drawPlacing(): void {

@@ -134,6 +134,7 @@ test(
     await seen(actor);
     // The breakpoint that led there is nobody's.
     await studio.command('Breakpoints');
+    await reads(shows(page), /searchFirstWall/);
     assert.equal(await shows(page).count(), 1);
   },
 );

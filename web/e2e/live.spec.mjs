@@ -128,12 +128,13 @@ test(
     await seen(page.getByText('Paused by the breakpoint searchFirstWall; the plan stands'));
     await actor.focus();
     await press('Control+F10');
-    await reads(page.getByRole('contentinfo', { name: 'Status' }), /drive stands at line \d+/);
+    await reads(page.getByRole('contentinfo', { name: 'State' }), /drive stands at line \d+/);
     await seen(page.locator('.cm-standing'));
     await page.getByRole('button', { name: 'Show searchFirstWall' }).click();
     await seen(actor);
     // The breakpoint that led there is nobody's.
     await studio.command('Breakpoints');
+    await reads(shows(page), /searchFirstWall/);
     assert.equal(await shows(page).count(), 1);
   },
 );

@@ -203,6 +203,8 @@ export const text = {
     'draw.remove': 'Plan: remove what is chosen',
     'draw.rename': 'Plan: rename what is chosen',
     'draw.duplicate': 'Plan: duplicate what is chosen',
+    'draw.open': 'Plan: open the sub-plan',
+    'draw.extract': 'Plan: make a sub-plan of what is chosen',
     'draw.all': 'Plan: choose all actors',
     'draw.copy': 'Plan: copy what is chosen',
     'draw.cut': 'Plan: cut what is chosen',
@@ -957,6 +959,27 @@ export const text = {
       title: 'Raise by hand',
       event: (name: string) => `Raise ${name}`,
     },
+    subPlans: {
+      title: 'sub-plans',
+      help: 'Other plans of this project, each as one actor.',
+      back: (name: string) => `Back to ${name}`,
+      made: (name: string) => `The chosen actors are the plan ${name} now.`,
+      whyNot: {
+        entries: (names: string) =>
+          names === ''
+            ? 'Nothing leads to the chosen actors. A sub-plan begins with the one actor that others lead to.'
+            : `Others lead to ${names}. A sub-plan begins with one actor: choose actors of which only one is led to.`,
+        states: (names: string) =>
+          `States of the chosen actors lead to ${names}. A sub-plan is left by OK to one place: choose actors that are left to one.`,
+        events: (names: string) =>
+          `Events of the chosen actors lead to ${names}. A sub-plan is left by Interrupted to one place: choose actors that are left to one.`,
+        interrupted: (names: string) =>
+          `An event of ${names} ends the plan as interrupted, which a sub-plan cannot do for its caller. Leave that supervisor out.`,
+      },
+    },
+    newTarget: 'A new one',
+    newOf: (template: string) => `new ${template}`,
+    filterTargets: 'Actor or template',
     find: 'Find in the plan',
     found: 'What was found',
     notFound: (typed: string) => `Nothing in the plan has “${typed}” in it.`,

@@ -39,6 +39,8 @@ export interface WindowState {
   toasts: Toast[];
   problem: number;
   listing: Record<Doc, boolean>;
+  /** The plan from which a sub-plan was opened. */
+  callers: Record<Doc, Doc>;
   /** A small form at a line of a script. */
   form: { doc: Doc; is: 'rename' | 'breakpoint'; line: number } | null;
   references: { name: string; spots: Spot[] } | null;
@@ -66,6 +68,7 @@ export function createWindowStore() {
     toasts: [],
     problem: -1,
     listing: {},
+    callers: {},
     form: null,
     references: null,
     events: { filter: allEvents, paused: false, counts: false, send: false },

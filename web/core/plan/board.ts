@@ -245,6 +245,17 @@ export class PlanBoard {
     return this.added(made, (name) => `${owner}/${name}`);
   }
 
+  /** A new actor to which a state or event leads at once. */
+  addTarget(found: Found, wanted: Point, from: { source: string; outcome: string }): string {
+    const at = freePlace(this.scene, wanted);
+    const source = this.source(from.source);
+    const made = edit.addActor(this.file.value, this.model, found, at);
+    const draft = new Draft(this.file.value);
+    draft.do(made.steps);
+    if (source) draft.do(edit.connectSteps(draft.file, source, from.outcome, made.name));
+    return this.added({ name: made.name, steps: draft.steps }, (name) => name);
+  }
+
   addVariable(): string {
     return this.added(edit.addVariable(this.file.value, this.model), pillKey);
   }

@@ -1,7 +1,8 @@
-import { IconArrowBackUp, IconArrowForwardUp } from '@tabler/icons-react';
+import { IconArrowBackUp, IconArrowForwardUp, IconChevronRight } from '@tabler/icons-react';
 import { useEffect, useReducer } from 'react';
 import type { Doc } from '../../../protocol/messages';
-import { useDrives, useStudio } from '../../hooks';
+import { revealDoc } from '../../../core/window_state';
+import { useDrives, useStudio, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
@@ -22,6 +23,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
   useEffect(() => file?.changed.on(redraw), [file]);
   return (
     <div className="plan__bar">
+      <Back doc={doc} />
       <Button
         kind="plain"
         small
@@ -46,6 +48,28 @@ export function PlanTools({ doc }: { doc: Doc }) {
       <Switch name="code" />
       <Switch name="live" />
     </div>
+  );
+}
+
+/** From a sub-plan to the plan from which it was opened. */
+function Back({ doc }: { doc: Doc }) {
+  const studio = useStudio();
+  const caller = useWindow((window) => window.callers[doc]);
+  if (caller === undefined) return null;
+  const name = (of: Doc) => of.replace(/^.*\//, '').replace(/\.plan\.json$/, '');
+  return (
+    <nav className="plan__back" aria-label={words.subPlans.back(name(caller))}>
+      <button
+        type="button"
+        className="plan__caller"
+        title={words.subPlans.back(name(caller))}
+        onClick={() => revealDoc(studio.window, caller, null)}
+      >
+        {name(caller)}
+      </button>
+      <IconChevronRight {...size} aria-hidden />
+      <b className="ellipsis">{name(doc)}</b>
+    </nav>
   );
 }
 

@@ -6,6 +6,7 @@ import type { Studio } from '../../../../core/studio';
 import { toast, update } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
+import { chosenSubPlan, extractChosen, openSubPlan } from './sub_plan_commands';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { exportPng, exportSvg } from './export_picture';
 import { copyByCommand, cut, hasClipboard, pasteByCommand } from './plan_clipboard';
@@ -64,6 +65,18 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
   const runFrom = () => update(studio.window, (draft) => void (draft.overlay = 'runFrom'));
   return [
     make('draw.runFrom', ['R'], runFrom, isActor),
+    make(
+      'draw.open',
+      ['O'],
+      (plan) => openSubPlan(studio, plan),
+      (plan) => chosenSubPlan(plan) !== null,
+    ),
+    make(
+      'draw.extract',
+      ['Ctrl+Shift+E'],
+      (plan) => extractChosen(studio, plan),
+      ({ board }) => edits() && board.chosenActors.size > 0,
+    ),
     make('draw.fit', ['1'], () => acts.fit()),
     make('draw.find', ['Ctrl+F', '/'], () => acts.find()),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),

@@ -4,7 +4,14 @@ import { text } from '../../../text';
 import type { MenuAt } from './use_element_menu';
 
 const debugging = ['draw.break', 'draw.breakEdit', 'draw.into', 'draw.script'];
-const editing = ['draw.properties', 'draw.rename', 'draw.duplicate', 'draw.remove'];
+const editing = [
+  'draw.open',
+  'draw.properties',
+  'draw.rename',
+  'draw.duplicate',
+  'draw.extract',
+  'draw.remove',
+];
 
 /** What can be done with the element under the pointer, or the one that has the keyboard. */
 export function ElementMenu({ at, onClose }: { at: MenuAt; onClose: () => void }) {

@@ -126,7 +126,9 @@ function Canvas({ board }: { board: PlanBoard }) {
                 />
               ) : null}
               {menu ? <ElementMenu at={menu} onClose={closeMenu} /> : null}
-              {asked ? <ConnectMenu board={board} asked={asked} onClose={close} /> : null}
+              {asked ? (
+                <ConnectMenu board={board} asked={asked} onClose={close} onMade={shown.focus} />
+              ) : null}
             </div>
             <ActiveLine board={board} onShow={(key) => (board.select(key), shown.focus(key))} />
           </DotsContext>

@@ -5,6 +5,7 @@ import { useReactFlow } from '@xyflow/react';
 import { createContext, useMemo, useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { kStart } from '../../../../core/plan/model';
+import type { Point } from '../../../../core/plan/shape';
 
 export interface Origin {
   id: string;
@@ -27,6 +28,8 @@ export interface Asked {
   y: number;
   /** What has the focus again when nothing is chosen. */
   beside: Element | null;
+  /** Where it was dropped, on the canvas. */
+  at?: Point;
 }
 
 /** A press that moves less than this is a click. */
@@ -37,8 +40,8 @@ export function useConnecting(board: PlanBoard, drives: boolean) {
   const [asked, ask] = useState<Asked | null>(null);
   const connect = useMemo<Connect | null>(() => {
     if (!drives) return null;
-    const open = (origin: Origin, x: number, y: number, beside: Element | null) =>
-      ask({ origin, x, y, beside });
+    const open = (origin: Origin, x: number, y: number, beside: Element | null, at?: Point) =>
+      ask({ origin, x, y, beside, ...(at && { at }) });
     return {
       ask(origin, beside) {
         const { right, bottom } = beside.getBoundingClientRect();
@@ -67,7 +70,10 @@ export function useConnecting(board: PlanBoard, drives: boolean) {
           stop();
           const target = drawn ? targetAt(board, origin, one.clientX, one.clientY) : null;
           if (target !== null) board.connect(origin.source, origin.outcome, target);
-          else open(origin, one.clientX, one.clientY, port);
+          else {
+            const at = { x: one.clientX, y: one.clientY };
+            open(origin, at.x, at.y, port, drawn ? flow.screenToFlowPosition(at) : undefined);
+          }
         };
         const key = (one: KeyboardEvent) => {
           if (one.key === 'Escape') stop();

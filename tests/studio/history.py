@@ -1,5 +1,6 @@
 """What the server keeps of a run: any instant of it, what a timeline draws, and traces as files."""
 import json
+import sys
 import unittest
 
 import bus_plans
@@ -233,4 +234,4 @@ class Hostile(HistoryCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=[sys.argv[0], *(f"-k{name}" for name in sys.argv[1:] or ["AnInstant", "ATimeline", "Traces", "OnABus", "Hostile"])], verbosity=2, warnings="ignore")

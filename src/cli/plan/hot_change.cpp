@@ -11,15 +11,15 @@ namespace {
 constexpr Duration kAnswerEvery = std::chrono::seconds(1);
 
 // What the run says to a request; nothing: it is over.
-std::optional<std::vector<std::string>> wait_answer(run::Debugger& debugger, uint64_t request) {
+std::optional<Result<run::Reply>> wait_answer(run::Debugger& debugger, run::Request request) {
+    const auto posted = debugger.post(std::move(request));
+    if (!posted.ok()) return std::nullopt;
     for (;;) {
         const std::optional<run::Report> report = debugger.wait_report(kAnswerEvery);
         if (!report) continue;
         if (std::holds_alternative<run::RunOver>(*report)) return std::nullopt;
         const auto* answer = std::get_if<run::Answer>(&*report);
-        if (!answer || answer->request != request) continue;
-        if (!answer->reply.ok()) return std::vector{answer->reply.error().what};
-        return std::get<run::Change>(answer->reply.value()).reasons;
+        if (answer && answer->request == posted.value()) return answer->reply;
     }
 }
 
@@ -40,20 +40,23 @@ bool HotChange::hand_in(const std::vector<std::string>& saved, FileWatch& watch)
     embed::PlanVersions::Made made = versions_.read(saved);
     if (watch.add(versions_.files())) made = versions_.read(saved);
     if (!made.plan.ok()) {
+        // The plan may be over by now: then there is nothing that runs on.
+        if (!wait_answer(debugger_, run::AskWhere{})) return false;
         refuse(embed::errors_of(made.plan));
         return true;
     }
     versions_.hand_in(made);
-    const auto posted = debugger_.post(run::TakeVersion{made.next});
-    if (!posted.ok()) return false;
-    const auto reasons = wait_answer(debugger_, posted.value());
-    if (!reasons) return false;
-    if (reasons->empty()) {
+    const auto reply = wait_answer(debugger_, run::TakeVersion{made.next});
+    if (!reply) return false;
+    const std::vector<std::string> reasons = reply->ok()
+                                                 ? std::get<run::Change>(reply->value()).reasons
+                                                 : std::vector{reply->error().what};
+    if (reasons.empty()) {
         versions_.took(made.plan.graph());
         say_(saved.front() + " was saved: the new version runs");
     } else {
         versions_.refused(made.plan.graph());
-        refuse(*reasons);
+        refuse(reasons);
     }
     return true;
 }

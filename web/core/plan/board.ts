@@ -206,6 +206,13 @@ export class PlanBoard {
     return this.stands(key, at) ? [] : edit.placeSteps(this.file.value, key, at);
   }
 
+  /** Several at new places, as one change. */
+  place(places: readonly (readonly [string, Point])[]): void {
+    const draft = new Draft(this.file.value);
+    for (const [name, { x, y }] of places) draft.set(['layout', name], [x, y]);
+    this.commit(draft.steps);
+  }
+
   private stands(name: string, { x, y }: Point): boolean {
     const place = this.model.places.get(name);
     return place !== undefined && place[0] === x && place[1] === y;

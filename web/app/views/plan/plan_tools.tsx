@@ -1,4 +1,9 @@
-import { IconArrowBackUp, IconArrowForwardUp, IconChevronRight } from '@tabler/icons-react';
+import {
+  IconArrowBackUp,
+  IconArrowForwardUp,
+  IconChevronRight,
+  IconLayoutDistributeVertical,
+} from '@tabler/icons-react';
 import { useEffect, useReducer } from 'react';
 import type { Doc } from '../../../protocol/messages';
 import { revealDoc } from '../../../core/window_state';
@@ -41,6 +46,16 @@ export function PlanTools({ doc }: { doc: Doc }) {
         onClick={() => file?.redo()}
       />
       <ExportMenu />
+      <Button
+        kind="plain"
+        small
+        disabled={!drives || !file}
+        tip={`${text.commands['draw.tidy']}  (T)`}
+        icon={<IconLayoutDistributeVertical {...size} />}
+        onClick={() => void studio.registry.run('draw.tidy')}
+      >
+        {words.tidy}
+      </Button>
       <span className="grow" />
       <Switch name="data" />
       <Switch name="map" />

@@ -6,6 +6,7 @@ import type { Studio } from '../../../../core/studio';
 import { toast, update } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
+import { tidy } from './tidy_plan';
 import { chosenSubPlan, extractChosen, openSubPlan } from './sub_plan_commands';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { exportPng, exportSvg } from './export_picture';
@@ -79,6 +80,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     ),
     make('draw.fit', ['1'], () => acts.fit()),
     make('draw.find', ['Ctrl+F', '/'], () => acts.find()),
+    make('draw.tidy', ['T'], (plan) => tidy(plan), edits),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),
     make('draw.zoomOut', ['-'], () => acts.zoom(0.8)),
     make(

@@ -1,0 +1,71 @@
+// Which elements are to be placed anew, and the graph of them for a layout: each actor with its
+// supervisors is one box, arrows lead from left to right.
+
+import { kStart, type PlanModel } from './model';
+import { snapped, type Scene } from './place';
+import type { Block, Point } from './shape';
+
+export interface LayoutGraph {
+  boxes: { id: string; width: number; height: number }[];
+  edges: { from: string; to: string }[];
+  /** Their upper left corner, where they stood or where there is room. */
+  corner: Point;
+}
+
+/** Several that are chosen; else those that nobody has placed; else all. */
+export function toTidy(model: PlanModel, chosen: ReadonlySet<string>): ReadonlySet<string> {
+  const all = model.actors.map((one) => one.name);
+  if (chosen.size > 1) return chosen;
+  const unplaced = all.filter((name) => !model.places.has(name));
+  return new Set(unplaced.length > 0 && unplaced.length < all.length ? unplaced : [kStart, ...all]);
+}
+
+export function layoutGraph(
+  model: PlanModel,
+  scene: Scene,
+  wanted: ReadonlySet<string>,
+): LayoutGraph {
+  const blocks = [scene.start, ...scene.actors];
+  const moved = blocks.filter((block) => wanted.has(block.name));
+  return {
+    boxes: moved.map(({ name, whole }) => ({ id: name, ...sizeOf(whole) })),
+    edges: edgesOf(model).filter(({ from, to }) => wanted.has(from) && wanted.has(to)),
+    corner: cornerOf(blocks, moved),
+  };
+}
+
+const sizeOf = ({ width, height }: { width: number; height: number }) => ({ width, height });
+
+function edgesOf(model: PlanModel): { from: string; to: string }[] {
+  const led = (from: string, outcomes: readonly { target: string | null }[]) =>
+    outcomes.flatMap(({ target }) =>
+      target === null || target.startsWith('@') ? [] : [{ from, to: target }],
+    );
+  return [
+    ...led(kStart, [{ target: model.first }]),
+    ...model.globals.flatMap((one) => led(kStart, one.outcomes)),
+    ...model.actors.flatMap((actor) =>
+      [actor, ...actor.supervisors].flatMap((one) => led(actor.name, one.outcomes)),
+    ),
+  ];
+}
+
+const kGap = 48;
+
+/** Where the first of them stand; below all others if those are in the way. */
+function cornerOf(blocks: readonly Block[], moved: readonly Block[]): Point {
+  const kept = blocks.filter((block) => !moved.includes(block));
+  const x = Math.min(...moved.map(({ whole }) => whole.x));
+  const y = Math.min(...moved.map(({ whole }) => whole.y));
+  if (kept.length === 0) return { x, y };
+  const below = Math.max(...kept.map(({ whole }) => whole.y + whole.height)) + kGap;
+  return { x, y: snapped(below) };
+}
+
+/** Places on the grid, as a layout gave them. */
+export function tidied(graph: LayoutGraph, places: ReadonlyMap<string, Point>): [string, Point][] {
+  return [...places].map(([name, { x, y }]) => [
+    name,
+    { x: snapped(graph.corner.x + x), y: snapped(graph.corner.y + y) },
+  ]);
+}

@@ -15,6 +15,7 @@ import {
   type History,
   type Row,
 } from './history';
+import { asSent } from './json_steps';
 import { textDiff } from './text_diff';
 
 export interface JsonLink {
@@ -141,7 +142,7 @@ export class JsonDocument {
   }
 
   private async send(order: Order): Promise<{ version: number; text: string }> {
-    if ('steps' in order) return this.link.patch(this.version, order.steps);
+    if ('steps' in order) return this.link.patch(this.version, asSent(order.steps));
     const changes = textDiff(this.text, order.text).map(({ from, to, insert }) => ({
       from,
       to,

@@ -9,6 +9,15 @@ export interface Stepped {
   undo: JsonStep[];
 }
 
+/** As they go to the server: objects as text, in which the order of their keys is kept. */
+export function asSent(steps: readonly JsonStep[]): JsonStep[] {
+  return steps.map(({ value, ...step }) => {
+    if (value === undefined) return step;
+    const isPlain = typeof value !== 'object' || value === null;
+    return isPlain ? { ...step, value } : { ...step, text: JSON.stringify(value) };
+  });
+}
+
 export function applySteps(value: Json, steps: readonly JsonStep[]): Stepped {
   const undo: JsonStep[] = [];
   let current = value;

@@ -97,7 +97,7 @@ test('a plan of two actors is drawn from nothing by the keyboard', empty, async 
   await seen(element(page, 'Start, leads to log'));
   await page.getByRole('button', { name: 'Done leads nowhere: connect to…' }).first().focus();
   await press('Enter');
-  await page.getByRole('menuitem', { name: 'wait' }).click();
+  await page.getByRole('menuitem', { name: 'wait', exact: true }).click();
   await arrow(page, 'log Done leads to wait').waitFor({ state: 'attached' });
   await page.getByRole('button', { name: 'Done leads nowhere: connect to…' }).focus();
   await press('Enter');

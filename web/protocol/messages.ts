@@ -566,6 +566,8 @@ export interface JsonStep {
   at: Json[];
   /** for set and insert */
   value?: Json;
+  /** instead of value: its JSON text, whose keys keep their order */
+  text?: string;
   /** for move: the new index */
   to?: number;
 }
@@ -1526,7 +1528,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
   CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
   FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
-  JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', to: 'int(0..1000000)?' },
+  JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', text: 'text(2097152)?', to: 'int(0..1000000)?' },
   Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
   FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world)' },
   SharedFile: { path: 'Path', events: '[Definition; 65536]', constants: '[Definition; 65536]' },

@@ -66,6 +66,15 @@ void put_in_order(Json& json, std::string_view language, std::vector<std::string
     }
 }
 
+Result<Json> value_of(const Wire& wire, size_t number) {
+    if (wire.contains("text")) {
+        return parse_json(wire["text"].get_ref<const std::string&>(),
+                          fmt::format("steps[{}].text", number));
+    }
+    if (wire.contains("value")) return json_of(wire["value"]);
+    return Error{Code::BadInput, fmt::format("steps[{}]: the value is missing", number)};
+}
+
 class Patcher {
 public:
     Patcher(JsonText& root, std::string_view language) : root_(root), language_(language) {}
@@ -289,11 +298,7 @@ Result<std::vector<JsonStep>> read_steps(const Wire& steps) {
             }
         }
         const bool valued = step.what == Do::Set || step.what == Do::Insert;
-        if (valued && !wire.contains("value")) {
-            return Error{Code::BadInput,
-                         fmt::format("steps[{}]: the value is missing", read.size())};
-        }
-        if (valued) step.value = json_of(wire["value"]);
+        if (valued) step.value = TRY(value_of(wire, read.size()));
         if (step.what == Do::Move && !wire.contains("to")) {
             return Error{Code::BadInput, fmt::format("steps[{}]: “to” is missing", read.size())};
         }

@@ -148,6 +148,14 @@ TEST(JsonPatch, AFileIsNotMadeDeeperThanItCanBeRead) {
     EXPECT_FALSE(patch("{}", "json", steps().c_str()).ok());
 }
 
+// Supervisors of an actor are asked in the order of the file (P21): a copy has them in that order.
+TEST(JsonPatch, AValueThatComesAsTextKeepsTheOrderOfItsKeys) {
+    EXPECT_EQ(patch_text("{}", R"([{"do":"set","at":["a"],"text":"{\"z\": 1, \"b\": 1e3}"}])"),
+              "{\n  \"a\": { \"z\": 1, \"b\": 1e3 }\n}\n");
+    EXPECT_THAT(patch_text("{}", R"([{"do":"set","at":["a"],"text":"{"}])"),
+                HasSubstr("steps[0].text:1:2"));
+}
+
 TEST(JsonPatch, KeysInQuotesNumbersAndTextsAreKept) {
     const std::string text = "{\"a\\u0041\": 1e3, \"\\\"\": \"\\u00e9\\\\\", \"z\": -0.0}";
     EXPECT_EQ(patch_text(text, R"([{"do":"set","at":["aA"],"value":"\"\n"}])"),

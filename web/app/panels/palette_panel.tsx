@@ -2,7 +2,6 @@ import { IconSearch } from '@tabler/icons-react';
 import { useState } from 'react';
 import type { PlanTemplate } from '../../protocol/messages';
 import { kStart } from '../../core/plan/model';
-import { pathTo } from '../../core/plan/sub_plans';
 import { matching, type Group } from '../../core/plan/templates';
 import { toast } from '../../core/window_state';
 import type { Studio } from '../../core/studio';
@@ -14,6 +13,7 @@ import { RoleShape, TemplateIcon } from '../views/plan/canvas/template_icon';
 import { planDeskOf, usePlanDesk } from '../views/plan/plan_desk';
 import { dragged, kTemplateData } from '../views/plan/template_drag';
 import { NewTemplateButton } from './palette/new_template_button';
+import { SubPlans } from './palette/sub_plans';
 import '../look/palette.css';
 
 const words = text.templates;
@@ -75,43 +75,6 @@ export default function PalettePanel() {
       </div>
       {shown ? null : <Quiet>{words.noPlan}</Quiet>}
     </div>
-  );
-}
-
-/** Other plans of the project: each can be an actor of this one, and it of itself. */
-function SubPlans({ may, typed }: { may: boolean; typed: string }) {
-  const { shown } = usePlanDesk(useStudio());
-  const files = useTopic('files', {})?.files ?? [];
-  const wanted = typed.trim().toLowerCase();
-  const plans = files.filter(
-    ({ path, kind }) => kind === 'plan' && path.toLowerCase().includes(wanted),
-  );
-  const { subPlans } = text.draw;
-  if (plans.length === 0 || !shown) return null;
-  const { board } = shown;
-  return (
-    <section aria-label={subPlans.title}>
-      <h3 className="palettepanel__head" title={subPlans.help}>
-        {subPlans.title}
-        <span className="muted">{plans.length}</span>
-      </h3>
-      <ul>
-        {plans.map(({ path }) => (
-          <li key={path}>
-            <button
-              type="button"
-              className="tool"
-              aria-label={words.add(path, text.draw.roles.subplan)}
-              disabled={!may}
-              onClick={() => shown.focus(board.addSubPlan(pathTo(board.doc, path), shown.middle()))}
-            >
-              <TemplateIcon icon="" role="subplan" />
-              <span className="ellipsis grow">{path.replace(/\.plan\.json$/, '')}</span>
-            </button>
-          </li>
-        ))}
-      </ul>
-    </section>
   );
 }
 

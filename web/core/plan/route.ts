@@ -100,13 +100,13 @@ export class Routing {
     this.take(way, points);
   }
 
-  /** Goes on until all are found or it is time to stop. */
+  /** Finds one, and goes on until all are found or it is time to stop. */
   work(isTime: () => boolean): void {
-    while (!isTime()) {
+    do {
       const way = this.left.pop();
       if (!way) return;
       this.take(way, simplified(new Search(this.field, this.lanes, way, this.haste).points()));
-    }
+    } while (!isTime());
   }
 
   /** What is not found yet: as it was, if its ends are where they were, else straight. */

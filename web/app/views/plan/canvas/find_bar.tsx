@@ -8,15 +8,21 @@ const words = text.draw;
 /** Looks for an element by what is typed: arrows and Enter choose, Escape goes back. */
 export function FindBar(props: {
   board: PlanBoard;
-  onFound: (key: string) => void;
+  /** Brings the keyboard, and what is seen, to an element. */
+  focus: (key: string) => void;
   onClose: () => void;
 }) {
-  const { board, onFound, onClose } = props;
+  const { board, focus, onClose } = props;
   const list = useId();
   const [typed, type] = useState('');
   const [at, move] = useState(0);
   const hits = findInPlan(board.model, typed);
   const chosen = hits[Math.min(at, hits.length - 1)];
+  const onFound = (key: string) => {
+    onClose();
+    board.select(key);
+    focus(key);
+  };
   const keys: Record<string, () => void> = {
     ArrowDown: () => move(Math.min(at + 1, hits.length - 1)),
     ArrowUp: () => move(Math.max(at - 1, 0)),

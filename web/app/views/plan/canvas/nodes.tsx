@@ -1,11 +1,4 @@
-import {
-  IconBolt,
-  IconEye,
-  IconEyeClosed,
-  IconFlag,
-  IconMinus,
-  IconSquareFilled,
-} from '@tabler/icons-react';
+import { IconBolt, IconEye, IconEyeClosed, IconFlag } from '@tabler/icons-react';
 import { memo } from 'react';
 import type { NodeProps } from '@xyflow/react';
 import { arrowId, supervisorKey } from '../../../../core/plan/arrows';
@@ -13,11 +6,12 @@ import { kStart } from '../../../../core/plan/model';
 import { kStroke } from '../../../parts/icons';
 import { text } from '../../../text';
 import { BreakDot } from './break_dots';
-import type { ActorNode, PillNode, StartNode, SupervisorNode, TagNode } from './flow_nodes';
+import type { ActorNode, StartNode, SupervisorNode } from './flow_nodes';
 import { useLive } from './live_store';
 import { Mark } from './mark';
 import { NoteCard } from './note';
 import { Port, Row } from './port';
+import { Pill, Tag } from './small_nodes';
 import { TemplateIcon } from './template_icon';
 
 const words = text.draw;
@@ -120,27 +114,6 @@ export const SupervisorHexagon = memo(function SupervisorHexagon(props: NodeProp
       {rows.map((row) => (
         <Row key={row.id} {...row} source={supervisorKey(supervisor)} />
       ))}
-    </div>
-  );
-});
-
-export const Pill = memo(function Pill({ data, selected }: NodeProps<PillNode>) {
-  const { variable, near } = data;
-  const value = useLive((live) => live.values.get(variable.name));
-  const shown = value ?? variable.initial;
-  return (
-    <div className={selected ? 'ppill is-selected' : near ? 'ppill is-near' : 'ppill'}>
-      <b className="ellipsis">{variable.name}</b>
-      <span className="num">{`${shown} ${variable.unit}`.trim()}</span>
-    </div>
-  );
-});
-
-export const Tag = memo(function Tag({ data }: NodeProps<TagNode>) {
-  const name = data.is === 'terminate' ? words.terminate : words.ignore;
-  return (
-    <div className="ptag" title={name}>
-      {data.is === 'terminate' ? <IconSquareFilled size={9} /> : <IconMinus size={12} stroke={2} />}
     </div>
   );
 });

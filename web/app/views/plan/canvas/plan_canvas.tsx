@@ -75,6 +75,7 @@ function Canvas({ board }: { board: PlanBoard }) {
               className="pcanvas"
               ref={frame}
               data-place="plan"
+              tabIndex={-1}
               role="region"
               aria-label={words.canvas(board.model.name)}
               onPointerDownCapture={use}
@@ -89,7 +90,11 @@ function Canvas({ board }: { board: PlanBoard }) {
                 onNodesChange={onNodesChange}
                 onMoveStart={onMoveStart}
                 onNodeContextMenu={onNodeContextMenu}
-                onPaneClick={() => board.select(null)}
+                onPaneClick={() => {
+                  board.select(null);
+                  // Keys are for the plan that was clicked.
+                  frame.current?.focus({ preventScroll: true });
+                }}
                 nodesConnectable={false}
                 snapToGrid
                 snapGrid={kGrid}
@@ -115,15 +120,7 @@ function Canvas({ board }: { board: PlanBoard }) {
                 <p className="pcanvas__empty">{words.empty}</p>
               ) : null}
               {finds ? (
-                <FindBar
-                  board={board}
-                  onFound={(key) => {
-                    setFinds(false);
-                    board.select(key);
-                    shown.focus(key);
-                  }}
-                  onClose={() => setFinds(false)}
-                />
+                <FindBar board={board} focus={shown.focus} onClose={() => setFinds(false)} />
               ) : null}
               {menu ? <ElementMenu at={menu} onClose={closeMenu} /> : null}
               {asked ? (

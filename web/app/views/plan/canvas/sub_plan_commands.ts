@@ -1,6 +1,7 @@
 // Sub-plans: one is opened in a tab with a way back, chosen actors become one.
 
 import { isExtracted, type WhyNot } from '../../../../core/plan/extract';
+import { asSent } from '../../../../core/json_steps';
 import { pathTo, subPlanDoc } from '../../../../core/plan/sub_plans';
 import type { Doc } from '../../../../protocol/messages';
 import type { Studio } from '../../../../core/studio';
@@ -41,7 +42,7 @@ export async function extractChosen(studio: Studio, plan: ShownPlan): Promise<vo
     at: [key],
     value,
   }));
-  await studio.send('doc.patch', { doc, version, steps });
+  await studio.send('doc.patch', { doc, version, steps: asSent(steps) });
   await studio.send('doc.save', { doc });
   board.commit(made.steps);
   board.select(made.name);

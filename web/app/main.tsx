@@ -7,6 +7,7 @@ import '@mantine/core/styles/Menu.css';
 import 'flexlayout-react/style/light.css';
 import './look/fonts.css';
 import './look/tokens.css';
+import './look/present.css';
 import './look/base.css';
 import './look/controls.css';
 import './look/frame.css';

@@ -68,19 +68,30 @@ export function WindowLife(): null {
   useAskForWheel();
   const values = useTopic('state', {})?.values;
   const folder = useTopic('studio', {})?.project?.folder;
+  const hasPlan = useTopic('studio', {})?.project?.plan !== undefined;
   const known = values !== undefined;
+  useLayoutName();
   useEffect(() => {
     if (!known || folder === undefined) return;
     const layout =
       typeof values === 'object' && values !== null && !Array.isArray(values)
         ? values['layout']
         : undefined;
-    if (isLayoutName(layout)) update(studio.window, (draft) => void (draft.layout = layout));
+    const first = isLayoutName(layout) ? layout : hasPlan ? 'Draw' : null;
+    if (first !== null) update(studio.window, (draft) => void (draft.layout = first));
     // Only when a project is opened: afterwards the window is ahead of what is kept.
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [studio, known, folder]);
   useProblemsOpen();
   return null;
+}
+
+/** Letters are larger in a layout that is looked at from afar. */
+function useLayoutName(): void {
+  const layout = useWindow((state) => state.layout);
+  useEffect(() => {
+    document.documentElement.dataset['layout'] = layout;
+  }, [layout]);
 }
 
 /**

@@ -125,11 +125,21 @@ export const layoutPlans: Record<LayoutName, Split> = {
       },
     ],
   },
+  // For a class or a talk: the plan and the world, large; letters are larger, too (look/present.css).
   Present: {
     is: 'row',
     parts: [
-      { is: 'panels', panels: ['world'] },
-      { is: 'panels', panels: ['plots'], size: 420, wide: 640, narrow: 340 },
+      { is: 'documents', takes: ['plan'], opens: ['plan'] },
+      {
+        is: 'column',
+        size: 600,
+        wide: 1100,
+        narrow: 520,
+        parts: [
+          { is: 'panels', panels: ['world'] },
+          { is: 'panels', panels: ['plots'], size: 240, wide: 420, narrow: 180 },
+        ],
+      },
     ],
   },
 };

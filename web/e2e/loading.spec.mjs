@@ -6,7 +6,8 @@ test(
   'a panel that could not be loaded says so, and comes with another try',
   { words: ['--example', 'follow-wall'] },
   async (studio) => {
-    const { page, press, button, complaints } = studio;
+    const { page, press, button, complaints, layout } = studio;
+    await layout('Script');
     await seen(button(/Target Simulator/));
     const part = /\/search_panel-[^/]*\.js$/;
     await page.route(part, (route) => route.abort());

@@ -78,7 +78,6 @@ void TapeState::write_words(uint16_t node, const Words& words, const TapeState& 
 
 bool Tape::record(std::string_view bytes) {
     if (!each_record(bytes, {})) return false;
-    std::string_view record;
     each_record(bytes, {[&](double t, std::string_view one) { keep(t, one); },
                         [&](const RecordItem& item) { now_.apply(item); }});
     bound();

@@ -20,7 +20,8 @@ for (const theme of ['dark', 'light']) {
     { theme, words: ['--example', 'follow-wall'] },
     async (studio) => {
       const { page, press, layout, command } = studio;
-      await seen(page.getByRole('radio', { name: 'Script', checked: true }));
+      // A project with a plan opens on its drawing.
+      await seen(page.getByRole('radio', { name: 'Draw', checked: true }));
       await press('F5');
       await seen(page.getByRole('button', { name: /Running/ }));
       for (const name of ['Script', 'Draw', 'Debug', 'Present']) {

@@ -151,7 +151,7 @@ TEST(JsonPatch, AFileIsNotMadeDeeperThanItCanBeRead) {
 // Supervisors of an actor are asked in the order of the file (P21): a copy has them in that order.
 TEST(JsonPatch, AValueThatComesAsTextKeepsTheOrderOfItsKeys) {
     EXPECT_EQ(patch_text("{}", R"([{"do":"set","at":["a"],"text":"{\"z\": 1, \"b\": 1e3}"}])"),
-              "{\n  \"a\": { \"z\": 1, \"b\": 1e3 }\n}\n");
+              "{\n  \"a\": {\n    \"z\": 1,\n    \"b\": 1e3\n  }\n}");
     EXPECT_THAT(patch_text("{}", R"([{"do":"set","at":["a"],"text":"{"}])"),
                 HasSubstr("steps[0].text:1:2"));
 }

@@ -72,6 +72,7 @@ private:
             starter_.give_up();
             deployments_.stopped();
         });
+        bench_->on_death([this] { starter_.died(network_.now()); });
         refuse_other_projects();
         declare_deploy_commands(*desk_, versions_, deployments_);
         TRY(check_folder());
@@ -111,7 +112,8 @@ private:
                 .settings = (config / "settings.json").string(),
                 .program = kThisProgram,
                 .home = "/",
-                .target = options_.target};
+                .target = options_.target,
+                .serves = true};
     }
 
     void refuse_other_projects() {

@@ -122,6 +122,7 @@ Json Workbench::studio_document() const {
     studio["settings"] = settings_.values();
     studio["recovered"] = files_.recovered();
     if (project_) studio["project"] = project_->to_json();
+    if (places_.serves) studio["serves"] = true;
     return studio;
 }
 

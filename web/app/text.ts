@@ -858,6 +858,8 @@ export const text = {
     none: (typed: string) => `No template has “${typed}” in its name or help.`,
     noPlan: 'Open a plan to add to it.',
     add: (name: string, role: string) => `${name}, ${role}`,
+    hidden: (name: string, by: string, toolbox: string) =>
+      `This plan would get the ${name} of ${by}, which it lists first. List ${toolbox} before it to use this one.`,
     variable: 'New variable',
     note: 'New note',
     newTemplate: 'New template…',

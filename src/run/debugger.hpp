@@ -165,7 +165,7 @@ public:
     void while_paused(std::function<void()> meanwhile);
 
     // ---- for executors, on their deciding thread ----
-    // A run begins. `wake` is called from any thread when a request has come. All are borrowed until
+    // A run begins. `wake` is called from any thread when a request has come. Borrowed: until
     // detach().
     void attach(plan::Machine& machine, EventGate& gate, std::function<void()> wake);
     // Answers one request, or pauses for what was met; blocks while paused. Between two decisions:

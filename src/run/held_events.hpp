@@ -4,7 +4,7 @@
 //     HeldEvents held;
 //     held.add({.number = 1, .event = {"touch", {3}, 2}});
 //     if (auto one = held.take(1)) hear(one->event);
-//     if (held.now().dropped > 0) …                               // more came than there was room for
+//     if (held.now().dropped > 0) …                // more came than there was room for
 #pragma once
 
 #include <cstdint>

@@ -121,8 +121,8 @@ public:
     void emit_to(sim::RobotId robot) { emits_to_ = robot; }
     // What the bus told since, user events and all else, in its order; with SimOptions::heard.
     std::vector<debug::Event> take_heard();
-    // Between begin_instant() and end_instant(), for a plan that a debugger holds there: user events
-    // that have arrived since are heard now, not at the next instant. All else waits for that.
+    // Between begin_instant() and end_instant(), for a plan that a debugger holds there: user
+    // events that have arrived since are heard now, all else at the next instant.
     void hear_ahead();
     // Names of events and constants, by the projects that the robots load.
     const aesl::CommonDefinitions& common() const { return network_.common(); }

@@ -299,6 +299,17 @@ TEST_F(HeldTest, InRealTimeAStepHandsOverOneAndHoldsTheOthers) {
     EXPECT_THAT(names(), ElementsAre("on", "end"));
 }
 
+// It was about to begin, and begins first.
+TEST_F(HeldTest, InRealTimeAnActorThatWasAboutToBeginHearsWhatCameMeanwhile) {
+    start_real(R"("a": { "template": "Receive", "in": { "event": "'go'" },
+        "states": { "Received": "@terminate" } })");
+    EXPECT_EQ(say(run::Step{}), "done");
+    EXPECT_EQ(actor_at(next_stop()), "a");
+    real_->hear({"go", {}});
+    EXPECT_EQ(held().events.size(), 1u);
+    EXPECT_EQ(finish().substr(0, 2), "a ");
+}
+
 // Notes the names of all that it hears, until end.
 class Collects final : public run::Actor {
 public:

@@ -150,6 +150,23 @@ class Held(Case):
         self.assertIn("only while it stands", self.refused("conflict", "plan.held.drop"))
         self.assertEqual(self.actor(), "b")
 
+    def test_a_node_that_stands_says_how_many_events_it_has_dropped(self):
+        page = self.open_world()
+        page.do("break.set", doc=projects.DOC, line=HANDLER_LINE)
+        page.do("run.start")
+        self.wait(lambda: self.plan.value["state"] == "running", "a plan that runs")
+        self.assertNotIn("dropped", self.node())
+        self.send(page, "go")
+        self.wait_node(state="paused", dropped=0)
+        # Its script has no handler of end: nothing is lost by that.
+        self.send(page, "go", "end", "go")
+        self.wait_node(dropped=2)
+        page.do("break.clear", doc=projects.DOC, line=HANDLER_LINE)
+        page.do("run.start")
+        self.wait_node(state="running")
+        self.assertNotIn("dropped", self.node())
+        self.wait_values(heard=1)
+
     def test_of_too_many_held_events_the_newest_are_dropped_and_counted(self):
         page = self.open_bus()
         self.stand_at_b(page)

@@ -20,9 +20,10 @@
 #include "serve/host/plan_held.hpp"
 #include "serve/host/plan_stops.hpp"
 #include "serve/host/plan_talk.hpp"
-#include "serve/host/plan_values.hpp"
+#include "serve/host/raised_event.hpp"
 #include "serve/host/recorder.hpp"
 #include "serve/host/scene.hpp"
+#include "serve/plan_value.hpp"
 #include "serve/process.hpp"
 #include "session/bus_names.hpp"
 #include "session/plan_world.hpp"
@@ -309,7 +310,7 @@ private:
 
     void set_variable(const Json& told) {
         ask_held(told["request"],
-                 run::SetVariable{told["level"], told["name"], value_of(told["value"])});
+                 run::SetVariable{told["level"], told["name"], plan_value(told["value"])});
     }
 
     // Events of the bus that wait for the plan.

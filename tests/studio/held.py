@@ -162,7 +162,7 @@ class Held(Case):
         self.send(page, "go", "end", "go")
         self.wait_node(dropped=2)
         page.do("break.clear", doc=projects.DOC, line=HANDLER_LINE)
-        page.do("run.start")
+        page.do("node.run", node=1)
         self.wait_node(state="running")
         self.assertNotIn("dropped", self.node())
         self.wait_values(heard=1)

@@ -78,7 +78,9 @@ struct Standing {
             if (talk->stands()) standing();
         });
         stops.tend(*talk);
-        return run::VirtualTime(graph, library, options).run();
+        const run::Ended ended = run::VirtualTime(graph, library, options).run();
+        (void)talk->hear();  // answers that came before the end
+        return ended;
     }
     size_t count() const { return document["events"].size(); }
 

@@ -464,7 +464,7 @@ void RealTime::Engine::run_check(Watching& watching, Check check, std::optional<
 
 // The actor's code starts only after the first check of each of its supervisors (P16).
 void RealTime::Engine::begin_if_checked() {
-    if (begin_due_ == 0 || ending_.waits()) return;
+    if (begin_due_ == 0 || ending_.waits() || machine_.over()) return;
     start_due_checks();
     for (const auto& [id, watching] : watching_) {
         begin_waits_ = !watching.first_done;

@@ -1,0 +1,141 @@
+// An ATmega1284P at 16 MHz: 128 KB of flash, 16 KB of RAM, 4 KB of EEPROM. Names of registers: its
+// data sheet.
+#include <avr/eeprom.h>
+#include <avr/interrupt.h>
+#include <avr/io.h>
+#include <avr/sleep.h>
+
+#include "firmware/board.hpp"
+#include "isa/flash.hpp"
+
+namespace vagus {
+namespace board {
+
+namespace {
+
+// 16 MHz / 8 / (16 + 1) are 117,647 baud, 2.1 percent too fast: within what a receiver takes.
+constexpr uint8_t kBaudDivider = 16;
+// 16 MHz / 64 / 250 are 1,000 a second.
+constexpr uint8_t kTicksOfMillisecond = 250;
+
+constexpr uint16_t kEepromBytes = 4096;
+constexpr uint16_t kIdOfMaker = kEepromBytes - 2;
+constexpr uint16_t kSlotBytes = 2044;
+
+volatile uint32_t milliseconds;
+
+constexpr uint16_t kBytecodeWords = 1000;
+constexpr uint16_t kVariablesWords = 1000;
+constexpr uint16_t kStackWords = 64;
+static_assert(12 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
+static_assert(2 * kSlotBytes <= kIdOfMaker, "both slots fit before the number of the maker");
+uint16_t bytecode[kBytecodeWords];
+int16_t variables[kVariablesWords];
+int16_t stack[kStackWords];
+
+uint8_t* place_of(uint8_t slot, uint16_t at) {
+    return reinterpret_cast<uint8_t*>(slot * kSlotBytes + at);
+}
+
+}  // namespace
+
+const Memory kMemory = {bytecode, variables, stack, kBytecodeWords, kVariablesWords, kStackWords};
+VAGUS_FLASH_TEXT(kName, "atmega1284p");
+
+void begin() {
+    DDRB = 0xff;   // lamps
+    PORTC = 0xff;  // buttons, pulled up
+    UCSR0A = 1 << U2X0;
+    UBRR0 = kBaudDivider;
+    UCSR0C = (1 << UCSZ01) | (1 << UCSZ00);
+    UCSR0B = (1 << RXCIE0) | (1 << RXEN0) | (1 << TXEN0);
+    TCCR0A = 1 << WGM01;
+    TCCR0B = (1 << CS01) | (1 << CS00);
+    OCR0A = kTicksOfMillisecond - 1;
+    TIMSK0 = 1 << OCIE0A;
+    SMCR = 0;  // idle: the clock and the serial line go on
+    sei();
+}
+
+uint32_t now_ms() {
+    const uint8_t before = hold();
+    const uint32_t now = milliseconds;
+    release(before);
+    return now;
+}
+
+uint8_t hold() {
+    const uint8_t before = SREG;
+    cli();
+    return before;
+}
+
+void release(uint8_t before) {
+    SREG = before;
+}
+
+// The instruction behind sei() is executed before any interrupt: none is missed.
+void sleep() {
+    sleep_enable();
+    sei();
+    sleep_cpu();
+    sleep_disable();
+}
+
+void start_sending() {
+    const uint8_t before = hold();
+    UCSR0B |= 1 << UDRIE0;
+    release(before);
+}
+
+void show_leds(uint16_t leds) {
+    PORTB = static_cast<uint8_t>(leds);
+}
+
+// A pressed button pulls its pin down.
+uint16_t buttons() {
+    return static_cast<uint8_t>(~PINC) & 3;
+}
+
+uint16_t first_id() {
+    return eeprom_read_word(reinterpret_cast<const uint16_t*>(kIdOfMaker));
+}
+
+// To where power-on leads: begin() sets up anew all that it needs.
+void restart() {
+    cli();
+    asm volatile("jmp 0");
+    __builtin_unreachable();
+}
+
+void erase_slot(uint8_t slot) {
+    for (uint16_t at = 0; at < 12; ++at) eeprom_update_byte(place_of(slot, at), 0xff);
+}
+
+void write_slot(uint8_t slot, uint16_t at, uint32_t value) {
+    eeprom_update_dword(reinterpret_cast<uint32_t*>(place_of(slot, at)), value);
+}
+
+uint32_t read_slot(uint8_t slot, uint16_t at) {
+    return eeprom_read_dword(reinterpret_cast<const uint32_t*>(place_of(slot, at)));
+}
+
+}  // namespace board
+}  // namespace vagus
+
+ISR(USART0_RX_vect) {
+    vagus::board::on_byte(UDR0);
+}
+
+ISR(USART0_UDRE_vect) {
+    uint8_t byte = 0;
+    if (vagus::board::next_byte(byte)) {
+        UDR0 = byte;
+    } else {
+        UCSR0B &= static_cast<uint8_t>(~(1 << UDRIE0));
+    }
+}
+
+ISR(TIMER0_COMPA_vect) {
+    vagus::board::milliseconds = vagus::board::milliseconds + 1;
+}

@@ -1,0 +1,42 @@
+// The tables of face.hpp; the file that includes this says which natives there are: VAGUS_NATIVES.
+#include "firmware/board.hpp"
+#include "firmware/node/face.hpp"
+#include "isa/flash.hpp"
+#include "wire/protocol.hpp"
+
+namespace vagus {
+namespace firmware {
+
+namespace {
+
+VAGUS_FLASH_TEXT(kId, "_id");
+VAGUS_FLASH_TEXT(kSource, "event.source");
+VAGUS_FLASH_TEXT(kArgs, "event.args");
+VAGUS_FLASH_TEXT(kDropped, "_dropped");
+VAGUS_FLASH_TEXT(kSkipped, "_skipped");
+VAGUS_FLASH_TEXT(kLeds, "leds");
+VAGUS_FLASH_TEXT(kButtons, "buttons");
+VAGUS_FLASH_TEXT(kPeriod, "timer.period");
+VAGUS_FLASH_TABLE(node::Variable, kVariableTable, kVariables) = {
+    {1, kId},      {1, kSource}, {kArguments, kArgs}, {1, kDropped},
+    {1, kSkipped}, {1, kLeds},   {1, kButtons},       {1, kPeriod}};
+
+VAGUS_FLASH_TEXT(kTimer, "timer");
+VAGUS_FLASH_TEXT(kTimerSays, "every timer.period milliseconds");
+VAGUS_FLASH_TEXT(kButtonsSay, "a button was pressed or let go");
+VAGUS_FLASH_TABLE(node::LocalEvent, kEventTable, kLocalEvents) = {{kTimer, kTimerSays},
+                                                                  {kButtons, kButtonsSay}};
+
+}  // namespace
+
+VAGUS_FLASH_TABLE(node::Description, kDescription, 1) = {{board::kName,
+                                                          wire::kProtocolVersion,
+                                                          node::LocalEventSource::OwnId,
+                                                          kVariables,
+                                                          kVariableTable,
+                                                          kLocalEvents,
+                                                          kEventTable,
+                                                          {VAGUS_NATIVES, {nullptr, 0}}}};
+
+}  // namespace firmware
+}  // namespace vagus

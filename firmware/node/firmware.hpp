@@ -1,0 +1,68 @@
+// The node of a board: the loop of section 3.6 of the specification around the machine of src/node,
+// between the serial line and the memory that outlasts a restart. Knows its board only by
+// board.hpp, and so runs in tests on a host, too.
+//
+//     Firmware firmware;                   // all zero
+//     start(firmware);                     // the saved program runs, if there is one
+//     for (;;) {
+//         const uint8_t before = board::hold();
+//         if (has_work(firmware)) board::release(before); else board::sleep();
+//         turn(firmware);
+//     }
+//
+// Nothing here waits. An answer that is longer than the line takes at once goes in pieces, one a
+// turn, and the next command is looked at behind it; events that find no room are dropped and
+// counted.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/node/receiver.hpp"
+#include "firmware/node/sender.hpp"
+#include "firmware/node/store.hpp"
+#include "node/node.hpp"
+
+namespace vagus {
+namespace firmware {
+
+// Of a script in one turn: short enough that no byte is lost meanwhile.
+constexpr uint16_t kInstructionsAtOnce = 100;
+// A script that is busy gets so many before the next frame is looked at, as in most nodes of the
+// reference (section 3.6).
+constexpr uint16_t kInstructionsPerFrame = 1000;
+// A piece of the variables, as robots with a small radio send them (section 1.3).
+constexpr uint16_t kVariablesAtOnce = 47;
+// No piece, and no answer to one command, is longer: a test looks at the whole description.
+constexpr uint8_t kAnswerMax = 116;
+constexpr uint16_t kNoDescription = 0x7fff;
+
+// All zero at the start.
+struct Firmware {
+    Receiver receiver;
+    Sender sender;
+    Store store;
+    node::Node node;
+    vm::Config config;
+    uint16_t breakpoints[vm::kBreakpointsMax];
+    uint16_t program_words;    // as far as hosts have written
+    uint16_t next_fragment;    // of the description; kNoDescription if none is asked for
+    uint16_t variables_start;  // of those that are to be sent …
+    uint16_t variables_count;  // … and how many there are
+    uint16_t executed;         // instructions since the last frame
+    uint16_t timer_period;     // as it was last looked at
+    uint16_t timer_began;      // low half of the time
+    uint16_t shown_dropped;    // in the variable _dropped
+    uint16_t shown_skipped;    // in the variable _skipped
+    uint16_t buttons;          // as they were last looked at
+    uint8_t pending;           // local events, a bit for each
+    bool took_frame;           // in the last turn: there may be more
+    bool restarts;             // once nothing is being saved
+};
+
+void start(Firmware& firmware);
+void turn(Firmware& firmware);
+// turn() has something to do right now. To be asked with interrupts held.
+bool has_work(const Firmware& firmware);
+
+}  // namespace firmware
+}  // namespace vagus

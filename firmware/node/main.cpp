@@ -1,0 +1,30 @@
+// What a board runs. The one object that changes: interrupts and the loop share it.
+#include "firmware/board.hpp"
+#include "firmware/node/firmware.hpp"
+
+namespace {
+
+vagus::firmware::Firmware the_firmware;
+
+}  // namespace
+
+void vagus::board::on_byte(uint8_t byte) {
+    vagus::firmware::receive_byte(the_firmware.receiver, byte);
+}
+
+bool vagus::board::next_byte(uint8_t& byte) {
+    return vagus::firmware::take_byte(the_firmware.sender, byte);
+}
+
+int main() {
+    vagus::firmware::start(the_firmware);
+    for (;;) {
+        const uint8_t before = vagus::board::hold();
+        if (vagus::firmware::has_work(the_firmware)) {
+            vagus::board::release(before);
+        } else {
+            vagus::board::sleep();
+        }
+        vagus::firmware::turn(the_firmware);
+    }
+}

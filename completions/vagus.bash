@@ -4,7 +4,7 @@
 
 # What may follow each verb, by its name.
 declare -A _vagus_names=(
-    [" "]="studio serve deploy compile exec switch node net sim plan toolbox --version --help"
+    [" "]="studio serve deploy compile exec switch node emulate net sim plan toolbox --version --help"
     ["studio "]="--example --listen --port --token-file --look-token-file --tls-cert --tls-key --host --pages --data --config --no-browser --help"
     ["serve "]="--start --target --listen --port --token-file --look-token-file --tls-cert --tls-key --host --pages --data --config --help"
     ["deploy "]="--token-file --tls-cert --rollback --list --help"
@@ -12,6 +12,7 @@ declare -A _vagus_names=(
     ["exec "]="--node --stimuli --max-steps --dialect --ontimer --help"
     ["switch "]="--listen --verbose --loop --help"
     ["node "]="--id --name --describe --flash --listen --connect --help"
+    ["emulate "]="--count --id --listen --help"
     ["net "]="list describe log get set emit watch run pause step reset stop save load break --json --project --wait --help"
     ["net list "]="--help"
     ["net describe "]="--help"
@@ -117,6 +118,12 @@ declare -A _vagus_takes=(
     ["node --connect"]="any"
     ["node --help"]="none"
     ["node -h"]="none"
+    ["emulate 1"]="any"
+    ["emulate --count"]="any"
+    ["emulate --id"]="any"
+    ["emulate --listen"]="any"
+    ["emulate --help"]="none"
+    ["emulate -h"]="none"
     ["net 1"]="any"
     ["net --json"]="none"
     ["net --project"]="file .aesl "

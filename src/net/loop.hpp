@@ -34,6 +34,7 @@ public:
 
     Result<Listening> listen(hub::Hub& hub, const Target& target, ListenOptions options);
     Result<PlaceId> connect(hub::Hub& hub, const Target& target, ConnectOptions options);
+    Result<PlaceId> join(hub::Hub& hub, int descriptor, const std::string& name);
     void close(hub::Hub& hub, hub::LinkId link);
     bool end_writing(hub::Hub& hub, hub::LinkId link);
     void close(PlaceId place);

@@ -13,6 +13,9 @@ Result<Listening> Network::listen(hub::Hub& hub, const Target& target, ListenOpt
 Result<PlaceId> Network::connect(hub::Hub& hub, const Target& target, ConnectOptions options) {
     return loop_->connect(hub, target, options);
 }
+Result<PlaceId> Network::join(hub::Hub& hub, int descriptor, const std::string& name) {
+    return loop_->join(hub, descriptor, name);
+}
 void Network::close(hub::Hub& hub, hub::LinkId link) {
     loop_->close(hub, link);
 }

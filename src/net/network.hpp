@@ -105,6 +105,10 @@ public:
     // never work.
     Result<PlaceId> connect(hub::Hub& hub, const Target& target, ConnectOptions options = {});
 
+    // Takes over one end of a pair of sockets: a peer that this process started itself. Opened
+    // comes from poll(), with the place that is given.
+    Result<PlaceId> join(hub::Hub& hub, int descriptor, const std::string& name);
+
     // Closes one link; there is no event for it.
     void close(hub::Hub& hub, hub::LinkId link);
     // Tells the peer that nothing more comes, when has_unwritten() is false. It then reads all that

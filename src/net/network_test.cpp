@@ -60,6 +60,7 @@ struct Switch {
 // A peer without our code on its side: a plain non-blocking socket.
 class Peer {
 public:
+    explicit Peer(int descriptor) : descriptor_(descriptor) {}
     explicit Peer(const Target& target) : descriptor_(::socket(AF_INET, SOCK_STREAM, 0)) {
         sockaddr_in address{};
         address.sin_family = AF_INET;
@@ -166,6 +167,27 @@ TEST(Network, AnotherThreadWakesAPoll) {
     // Also one that comes before the poll.
     host.network.wake();
     EXPECT_TRUE(host.network.poll(Time::max()).empty());
+}
+
+// The line of a process that this one has started.
+TEST(Network, JoinsOneEndOfAPairOfSockets) {
+    Switch net;
+    int ends[2];
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+    const auto place = net.network.join(net.hub, ends[0], "board 7");
+    ASSERT_TRUE(place.ok());
+    const Peer host(net.listening.target);
+    {
+        const Peer board(ends[1]);
+        ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 2; }));
+        board.send(event_from(7, 4, 0));
+        EXPECT_EQ(receive(net, host, 6), (Hex{0, 0, 7, 0, 4, 0}));
+        host.send(event_from(0, 5, 2));
+        EXPECT_EQ(receive(net, board, 8), bytes_of(event_from(0, 5, 2)));
+    }
+    ASSERT_TRUE(net.until([&] { return net.count(EventKind::Closed) == 1; }));
+    EXPECT_EQ(net.events.back().place, place.value());
+    EXPECT_NE(net.events.back().what.find("board 7"), std::string::npos);
 }
 
 TEST(Network, ServesAPlaceInThisProcess) {

@@ -178,6 +178,17 @@ Result<PlaceId> Network::Loop::connect(hub::Hub& hub, const Target& target,
     return begun.error();
 }
 
+Result<PlaceId> Network::Loop::join(hub::Hub& hub, int descriptor, const std::string& name) {
+    auto channel = make_socket_channel(descriptor);
+    const int flags = ::fcntl(descriptor, F_GETFL);
+    if (flags < 0 || ::fcntl(descriptor, F_SETFL, flags | O_NONBLOCK) < 0) {
+        return Error{Code::Unavailable, name + ": cannot be joined: " + std::strerror(errno)};
+    }
+    const PlaceId place{++last_number_};
+    TRY(open_link(place, hub, {.name = name}, std::move(channel)));
+    return place;
+}
+
 // Fails only if trying again would fail again.
 Status Network::Loop::attempt(PlaceId place) {
     Connector& connector = connectors_.at(place);

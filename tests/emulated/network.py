@@ -1,0 +1,103 @@
+"""`vagus emulate`: boards of two families on one bus, seen by the tools that see every other bus."""
+import os
+import pathlib
+import shutil
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from harness import (ASK_AGAIN_AFTER, GIVE_UP_AFTER, VAGUS, Bus, Missing, Program, list_nodes, listening, run_vagus,
+                     vagus)
+
+NODES = 5
+# Each node hears the token of the one before it, adds its own number, and passes it on.
+SCRIPT = """var sum
+var rounds = 0
+onevent token
+  if event.args[0] == _id then
+    sum = event.args[1] + _id
+    rounds += 1
+    emit token [_id + 1, sum]
+  end
+"""
+NAMES = {1: "microbit", 2: "microbit", 3: "mps2-an385", 4: "atmega1284p", 5: "atmega1284p"}
+PROJECT = '<!DOCTYPE aesl-source>\n<network>\n<event size="2" name="token"/>\n' + "".join(
+    f'<node nodeId="{number}" name="{name}">{SCRIPT}</node>\n' for number, name in NAMES.items()) + "</network>\n"
+
+
+def children_of(process):
+    return [int(word) for word in pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()]
+
+
+def wait_until(what, is_so):
+    deadline = time.monotonic() + GIVE_UP_AFTER
+    while not is_so():
+        if time.monotonic() > deadline:
+            raise Missing(what)
+        time.sleep(ASK_AGAIN_AFTER)
+
+
+class Network(unittest.TestCase):
+    def emulate(self, *words):
+        return self.enterContext(vagus("emulate", *words, "--listen", "tcp:127.0.0.1:0"))
+
+    def test_three_and_two_boards_pass_an_event_round(self):
+        port = listening(self.emulate("microbit:2", "mps2-an385", "atmega1284p:2"))
+        target = f"tcp:127.0.0.1:{port}"
+        wait_until("not all boards are there", lambda: len(list_nodes(port)) == NODES)
+        self.assertEqual({node["id"]: node["name"] for node in list_nodes(port)}, NAMES)
+        folder = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-emulate-"))
+        project = os.path.join(folder, "round.aesl")
+        pathlib.Path(project).write_text(PROJECT, encoding="utf-8")
+        for number in NAMES:
+            run_vagus("net", target, "load", project, str(number))
+        with Bus(port) as bus:
+            bus.send(0, 0, 1, 0)
+            sums = [bus.wait(0, source) for source in NAMES]
+        self.assertEqual([int.from_bytes(words[2:4], "little") for words in sums], [1, 3, 6, 10, 15])
+        self.assertEqual([int.from_bytes(words[0:2], "little") for words in sums], [2, 3, 4, 5, 6])
+
+    def test_boards_end_with_the_command_that_is_killed(self):
+        program = self.emulate("microbit", "atmega1284p", "--count", 1)
+        listening(program)
+        boards = children_of(program.process.pid)
+        self.assertEqual(len(boards), 2)
+        program.kill()
+        wait_until("a board outlives the command", lambda: not any(pathlib.Path(f"/proc/{board}").exists() for board in boards))
+
+    def test_command_ends_with_a_board_that_is_lost(self):
+        program = self.emulate("mps2-an385", "--id", 9)
+        listening(program)
+        os.kill(children_of(program.process.pid)[0], 9)
+        program.wait_line(r"mps2-an385 9.*its emulator has ended")
+        self.assertEqual(program.wait_end(), 1)
+
+    def test_what_is_no_board_is_said_with_those_there_are(self):
+        self.assertIn("microbits: no such board; there are microbit, mps2-an385, atmega1284p. Did you mean microbit?",
+                      run_vagus("emulate", "microbits", status=2))
+        self.assertIn("expected a number from 1 to 32 behind the colon", run_vagus("emulate", "microbit:33", status=2))
+        self.assertIn("more than 32 boards", run_vagus("emulate", "microbit:32", "microbit", status=2))
+
+    def test_what_is_not_installed_is_said_with_where_to_get_it(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-emulate-")))
+        (folder / "bin").mkdir()
+        program = folder / "bin/vagus"
+        shutil.copy(VAGUS, program)
+        self.says(program, "there is no .*/share/vagus/firmware/microbit.elf; ./dev firmware", "microbit")
+        (folder / "share/vagus/firmware").mkdir(parents=True)
+        for board in ("microbit", "atmega1284p"):
+            (folder / f"share/vagus/firmware/{board}.elf").touch()
+        self.says(program, "there is no .*/bin/vagus-avr; apt-get install libsimavr-dev", "atmega1284p")
+        self.says(program, "qemu-system-arm is not installed; apt-get install qemu-system-arm", "microbit", path="")
+
+    def says(self, program, sentence, board, path=None):
+        env = {} if path is None else {"PATH": path}
+        with Program(program, "emulate", board, "--listen", "tcp:127.0.0.1:0", env=env) as emulate:
+            emulate.wait_line(sentence)
+            self.assertEqual(emulate.wait_end(), 1)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

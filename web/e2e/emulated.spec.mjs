@@ -1,0 +1,62 @@
+// Emulated microcontrollers on the desk: a Cortex-M0 and an AVR are programmed, broken into and stepped like any node.
+import { aesl, makeProject } from './support/robots.mjs';
+import { startProgram, vagusProgram } from './support/server.mjs';
+import { reads, seen, test, until } from './support/studio.mjs';
+
+const script = `var n = 0
+timer.period = 100
+onevent timer
+n = n + 1
+leds = n
+`;
+
+/** `vagus emulate`; gives its port once it listens. */
+async function startBoards(t, ...boards) {
+  const program = startProgram(t, [
+    vagusProgram,
+    'emulate',
+    ...boards,
+    '--listen',
+    'tcp:127.0.0.1:0',
+  ]);
+  return Number((await program.line(/^listening tcp:127\.0\.0\.1:(\d+)$/m))[1]);
+}
+
+const boards = {
+  prepare: async (t) =>
+    makeProject(
+      t,
+      {
+        name: 'Boards',
+        scripts: ['boards.aesl'],
+        target: `tcp:127.0.0.1:${await startBoards(t, 'microbit', 'atmega1284p')}`,
+      },
+      { 'boards.aesl': aesl({ microbit: script, atmega1284p: script }) },
+    ),
+};
+
+async function breakAndStep(studio, name) {
+  const { page, press, editor, tab } = studio;
+  const mark = (words) => tab(new RegExp(`^${name}`)).getByRole('img', { name: words });
+  await tab(new RegExp(`^${name}`)).click();
+  await seen(mark(/on the robot, runs/));
+  await until('it counts', async () => Number(await page.getByTitle('Change n').innerText()) > 3);
+  await editor(name).click();
+  await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'F9');
+  await seen(page.getByText(`${name} stands at line 4`));
+  await press('F10');
+  await seen(page.getByText(`${name} stands at line 5`));
+  const n = await page.getByTitle('Change n').innerText();
+  await press('F10', 'F10');
+  await reads(page.getByTitle('Change leds'), n);
+  // Goes on: the breakpoint is taken away.
+  await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'F9', 'F5');
+  await seen(mark(/on the robot, runs/));
+}
+
+test('two emulated boards are programmed, stand and step', boards, async (studio) => {
+  await seen(studio.editor('microbit'));
+  await studio.press('F5');
+  await breakAndStep(studio, 'microbit');
+  await breakAndStep(studio, 'atmega1284p');
+});

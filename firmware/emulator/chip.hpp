@@ -1,0 +1,66 @@
+// An ATmega1284P that runs an image, by simavr's library: its serial line, its lamps, its EEPROM,
+// and time as its own cycles. Used by avr.cpp (a board in real time) and latency.cpp (two boards on
+// one clock).
+//
+//     Chip chip(load_image("atmega1284p.elf"));
+//     chip.on_sent = [&](uint8_t byte) { line.push_back(byte); };
+//     chip.receive(byte);
+//     chip.run_until(chip.cycle() + kCyclesOfMillisecond);
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+extern "C" {
+struct avr_t;
+struct avr_irq_t;
+}
+
+namespace vagus::emulator {
+
+constexpr uint32_t kClock = 16'000'000;
+constexpr uint32_t kCyclesOfMillisecond = kClock / 1000;
+constexpr uint32_t kBytesOfMillisecond = 11;  // of a line at 115,200 baud
+constexpr size_t kEepromBytes = 4096;
+
+using Eeprom = std::array<uint8_t, kEepromBytes>;
+
+// As the maker of a board delivers it: empty but for the board's number.
+Eeprom eeprom_with_number(uint16_t number);
+
+// Something is wrong with the image, or with the program in it: a sentence.
+struct ChipError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+class Chip {
+public:
+    Chip(const std::string& image, const Eeprom& eeprom);
+    Chip(const Chip&) = delete;
+    Chip& operator=(const Chip&) = delete;
+
+    std::function<void(uint8_t)> on_sent = [](uint8_t) {};
+    std::function<void(uint8_t)> on_lamps = [](uint8_t) {};
+
+    // A byte comes in, whether the chip is ready or not.
+    void receive(uint8_t byte);
+    void run_until(uint64_t cycle);
+    uint64_t cycle() const;
+    Eeprom eeprom() const;
+    // Bytes, since the beginning.
+    int deepest_stack() const;
+
+private:
+    void load(const std::string& image);
+    void join_serial_line();
+    int stack_pointer() const;
+
+    avr_t* avr_ = nullptr;  // of simavr, which frees it with the process
+    avr_irq_t* input_ = nullptr;
+    int deepest_;
+};
+
+}  // namespace vagus::emulator

@@ -8,8 +8,8 @@ import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
-from harness import (ASK_AGAIN_AFTER, GIVE_UP_AFTER, VAGUS, Bus, Missing, Program, list_nodes, listening, run_vagus,
-                     vagus)
+from harness import (ASK_AGAIN_AFTER, GET_EXECUTION_STATE, GIVE_UP_AFTER, STATE, VAGUS, Bus, Missing, Program, list_nodes,
+                     listening, run_vagus, vagus)
 
 NODES = 5
 # Each node hears the token of the one before it, adds its own number, and passes it on.
@@ -52,8 +52,11 @@ class Network(unittest.TestCase):
         project = os.path.join(folder, "round.aesl")
         pathlib.Path(project).write_text(PROJECT, encoding="utf-8")
         for number in NAMES:
-            run_vagus("net", target, "load", project, str(number))
+            run_vagus("net", target, "load", project, str(number), "--wait", GIVE_UP_AFTER)
         with Bus(port) as bus:
+            # The descriptions of all have gone to all: who answers has read them.
+            for number in NAMES:
+                bus.ask(lambda node=number: bus.send(0, GET_EXECUTION_STATE, node), STATE, number)
             bus.send(0, 0, 1, 0)
             sums = [bus.wait(0, source) for source in NAMES]
         self.assertEqual([int.from_bytes(words[2:4], "little") for words in sums], [1, 3, 6, 10, 15])

@@ -117,7 +117,7 @@ public:
 
 private:
     void receive() {
-        for (uint32_t i = 0; i < kBytesOfMillisecond; ++i) {
+        for (uint32_t i = 0; i < kBytesOfMillisecond && chip_.takes_bytes(); ++i) {
             uint8_t byte = 0;
             const ssize_t got = ::read(STDIN_FILENO, &byte, 1);
             if (got == 0) closed_ = true;

@@ -67,6 +67,14 @@ void Chip::join_serial_line() {
         },
         this);
     avr_irq_register_notify(
+        avr_io_getirq(avr_, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUT_XON),
+        [](avr_irq_t*, uint32_t, void* self) { static_cast<Chip*>(self)->takes_bytes_ = true; },
+        this);
+    avr_irq_register_notify(
+        avr_io_getirq(avr_, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUT_XOFF),
+        [](avr_irq_t*, uint32_t, void* self) { static_cast<Chip*>(self)->takes_bytes_ = false; },
+        this);
+    avr_irq_register_notify(
         avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ('B'), IOPORT_IRQ_PIN_ALL),
         [](avr_irq_t*, uint32_t value, void* self) {
             static_cast<Chip*>(self)->on_lamps(static_cast<uint8_t>(value));

@@ -45,8 +45,8 @@ public:
     std::function<void(uint8_t)> on_sent = [](uint8_t) {};
     std::function<void(uint8_t)> on_lamps = [](uint8_t) {};
 
-    // A byte comes in. simavr holds a few of them back and takes them at the speed of the line; what
-    // comes while it does not take any is lost.
+    // A byte comes in. simavr holds a few of them back and takes them at the speed of the line;
+    // what comes while it does not take any is lost.
     void receive(uint8_t byte);
     bool takes_bytes() const { return takes_bytes_; }
     void run_until(uint64_t cycle);

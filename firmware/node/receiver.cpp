@@ -83,20 +83,35 @@ bool is_likely(const Row& row, uint16_t at) {
             row.type(at) < kLikelyType);
 }
 
-bool needs_witness(const Row& row) {
-    return !is_likely(row, 0) ||
-           row.type(0) == static_cast<uint16_t>(wire::MessageType::SetBytecode);
+bool is_bytecode(const Row& row) {
+    return row.type(0) == static_cast<uint16_t>(wire::MessageType::SetBytecode);
 }
 
+bool needs_witness(const Row& row) {
+    return !is_likely(row, 0) || is_bytecode(row);
+}
+
+// So long may the line be silent within the frame at the front.
+uint16_t silence_max(const Row& row, bool doubt) {
+    if (doubt) return kWitness_ms;
+    return row.have >= kHeaderSize && is_bytecode(row) ? kBrokenBytecode_ms : kBroken_ms;
+}
+
+struct Waited {
+    uint32_t quiet_ms;  // since the last byte
+    uint16_t frame_ms;  // since the frame came to the front
+};
+
 // Is there a frame at the front?
-Verdict judge(const Row& row, bool doubt, uint32_t quiet_ms) {
-    const bool more_may_come = quiet_ms < (doubt ? kWitness_ms : kBroken_ms);
+Verdict judge(const Row& row, bool doubt, Waited waited) {
+    const bool more_may_come =
+        waited.quiet_ms < silence_max(row, doubt) && waited.frame_ms < kFrameWithin_ms;
     if (row.have < kHeaderSize) return more_may_come ? Verdict::Wait : Verdict::Wrong;
     if (doubt ? !is_likely(row, 0) : !is_possible(row, 0)) return Verdict::Wrong;
     const uint16_t end = static_cast<uint16_t>(kHeaderSize + row.size(0));
     if (row.have >= end && !doubt && !needs_witness(row)) return Verdict::Frame;
     if (row.have >= end + kHeaderSize) return is_likely(row, end) ? Verdict::Frame : Verdict::Wrong;
-    if (row.have == end && quiet_ms >= kWitness_ms) return Verdict::Frame;
+    if (row.have == end && waited.quiet_ms >= kWitness_ms) return Verdict::Frame;
     return more_may_come ? Verdict::Wait : Verdict::Wrong;
 }
 
@@ -143,12 +158,15 @@ bool next_frame(Receiver& receiver, uint32_t now_ms, uint16_t busy, Received& fr
         if (row.have == 0) {
             // Behind a silence a frame begins, whatever was before.
             if (quiet_ms >= kWitness_ms) receiver.doubt = false;
+            receiver.began_ms = static_cast<uint16_t>(now_ms);
             return false;
         }
-        const Verdict verdict = judge(row, receiver.doubt, quiet_ms);
+        const uint16_t frame_ms = static_cast<uint16_t>(now_ms - receiver.began_ms);
+        const Verdict verdict = judge(row, receiver.doubt, {quiet_ms, frame_ms});
         if (verdict == Verdict::Wait) return false;
         if (verdict == Verdict::Frame && is_command_to(row, busy)) return false;
         receiver.doubt = verdict == Verdict::Wrong;
+        receiver.began_ms = static_cast<uint16_t>(now_ms);
         if (verdict == Verdict::Frame) {
             copy(row, frame);
             drop(receiver, static_cast<uint16_t>(kHeaderSize + row.size(0)));

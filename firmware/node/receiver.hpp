@@ -24,11 +24,15 @@ namespace vagus {
 namespace firmware {
 
 // The longest frame, the header behind it, and what arrives at 115,200 baud within 4 ms.
-constexpr uint16_t kReceiveRoom = 584;
+constexpr uint16_t kReceiveRoom = 576;
 // After so long a silence a frame that is complete needs no other witness …
 constexpr uint16_t kWitness_ms = 20;
-// … and the rest of one that is not will not come any more: a sender writes a frame in one go.
-constexpr uint16_t kBroken_ms = 60;
+// … and the rest of one that is not will not come any more. Hosts that are busy pause within a
+// frame, but a program must not take the bytes of another host for its own.
+constexpr uint16_t kBroken_ms = 250;
+constexpr uint16_t kBrokenBytecode_ms = 60;
+// The longest frame takes 46 ms at 115,200 baud: one that takes longer than this is none.
+constexpr uint16_t kFrameWithin_ms = 500;
 constexpr uint16_t kWordsMax = wire::kPayloadMax / 2;
 
 // All zero at the start.
@@ -39,6 +43,7 @@ struct Receiver {
     volatile uint16_t lost;  // bytes that found no room
     uint16_t seen;           // head, when the time was last looked at
     uint32_t last_ms;        // when that was another
+    uint16_t began_ms;       // when the frame in front came to the front; low half of the time
     uint16_t skipped;        // bytes that belonged to no frame; wraps
     bool doubt;              // something was wrong, and no frame with a witness came since
 };

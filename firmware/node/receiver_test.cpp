@@ -160,6 +160,27 @@ TEST_F(Line, BytecodeThatWasCutOffIsNotGiven) {
     }
 }
 
+// A header that noise made, or a frame that was cut off, and a host that asks each 100 ms: it is
+// heard within a second, although the line is never silent for long.
+TEST_F(Line, AFrameThatTakesTooLongIsNone) {
+    put(Bytes{0xfe, 0x01, 3, 0, 5, 0});  // an event of 510 bytes
+    Types all;
+    for (int i = 0; i < 10; ++i) {
+        put(command(MessageType::ListNodes, {5}));
+        for (const uint16_t type : types_after(100)) all.push_back(type);
+    }
+    EXPECT_FALSE(all.empty());
+    EXPECT_EQ(std::count(all.begin(), all.end(), kListNodes), static_cast<long>(all.size()));
+}
+
+TEST_F(Line, APauseWithinAFrameIsNoEnd) {
+    const Bytes bytes = bytes_of(event(3, 5, {1000}));
+    put(Bytes(bytes.begin(), bytes.begin() + 3));
+    EXPECT_EQ(types_after(kBroken_ms - 1), Types{});
+    put(Bytes(bytes.begin() + 3, bytes.end()));
+    EXPECT_EQ(types(), Types{5});
+}
+
 // An event that few send is one, too, when it is alone or among others.
 TEST_F(Line, UnlikelyEventsComeLater) {
     put(event(40000, 5, Types(40, 1)));

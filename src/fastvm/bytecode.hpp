@@ -3,7 +3,7 @@
 // by this class, or by the machine, which says so by Notice::Reset.
 //
 //     Bytecode bytecode(1500);
-//     const vm::Config config = {.bytecode_size = bytecode.size(), .bytecode = bytecode.memory(), …};
+//     const vm::Config config = {.bytecode = bytecode.memory(), …};
 //
 //     void notify(vm::Vm&, vm::Notice notice) { bytecode.notice(notice); }  // of the vm::Host
 //

@@ -36,8 +36,8 @@ Handler unary(isa::UnaryOperator op);
 // Pushes a, or puts it into variable c. Not from the stack to the stack.
 Handler move(From from, To to);
 
-// Reads and writes an array at variable a, of b words; the index is variable c, or on the stack. The
-// array must be inside the variables.
+// Reads and writes an array at variable a, of b words; the index is variable c, or on the stack.
+// The array must be inside the variables.
 Handler load_indirect(From index);
 Handler store_indirect(From index);
 

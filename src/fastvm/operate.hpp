@@ -13,8 +13,8 @@ constexpr bool divides(isa::BinaryOperator op) {
     return op == isa::BinaryOperator::Divide || op == isa::BinaryOperator::Modulo;
 }
 
-// `a` op `b`. `b` must not be 0 where the operator divides. Everything is computed in 32 bits, where
-// it exists, and then cut.
+// `a` op `b`. `b` must not be 0 where the operator divides. Everything is computed in 32 bits,
+// where it exists, and then cut.
 template <isa::BinaryOperator op>
 constexpr int16_t operate(int32_t a, int32_t b) {
     using isa::BinaryOperator;

@@ -114,7 +114,9 @@ Work explore() {
     const std::string path = test::examples("thymio/explore.aesl");
     const Result<std::string> text = read_file(path);
     const Result<aesl::Project> project = aesl::parse_project(text.value(), path);
-    return {"explore.aesl", project.value().scripts[0].source, project.value().common,
+    return {"explore.aesl",
+            project.value().scripts[0].source,
+            project.value().common,
             {"prox", "prox", "prox", "timer0", "prox", "prox", "button.center"}};
 }
 
@@ -151,7 +153,10 @@ bool Bench::compile(const Work& work) {
         fmt::print(stderr, "{} does not compile: {}\n", work.name, compiled.errors[0].message);
         return false;
     }
-    program_ = {compiled.program.bytecode, {}, target.bytecode_size, target.variables_size,
+    program_ = {compiled.program.bytecode,
+                {},
+                target.bytecode_size,
+                target.variables_size,
                 target.stack_size};
     for (const aesl::NativeFunction& native : target.natives)
         program_.parameter_counts.push_back(static_cast<uint16_t>(native.parameters.size()));

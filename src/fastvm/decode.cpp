@@ -225,8 +225,7 @@ private:
                 cell.handler = move(From::Stack, To::Variable);
                 return;
             case Opcode::Unary:
-                cell.handler =
-                    unary(static_cast<isa::UnaryOperator>(isa::operator_of(word(at))));
+                cell.handler = unary(static_cast<isa::UnaryOperator>(isa::operator_of(word(at))));
                 return;
             case Opcode::Jump:
                 cell.a = jump_target(at);

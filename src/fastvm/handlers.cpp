@@ -208,8 +208,7 @@ Handler move(From from, To to) {
 }
 
 Handler load_indirect(From index) {
-    return index == From::Variable ? load_from_array<From::Variable>
-                                   : load_from_array<From::Stack>;
+    return index == From::Variable ? load_from_array<From::Variable> : load_from_array<From::Stack>;
 }
 Handler store_indirect(From index) {
     return index == From::Variable ? store_to_array<From::Variable> : store_to_array<From::Stack>;

@@ -36,7 +36,7 @@ void branch(const Cell* cell, int16_t* top, int16_t* variables, int left, Contex
     uint16_t& word = context.bytecode[cell - context.cells + words - 2];
     const unsigned before = word;
     const bool seen = (~before & (isa::kBranchIsWhen | isa::kBranchWasTrue)) == 0;
-    constexpr unsigned kOthers = 0xffffu & ~isa::kBranchWasTrue;
+    constexpr unsigned kOthers = 0xffffu ^ isa::kBranchWasTrue;
     word = static_cast<uint16_t>((before & kOthers) | (result ? isa::kBranchWasTrue : 0u));
     if (result && !seen) return enter(cell + words, top, variables, left, context);
     return enter(context.cells + cell->c, top, variables, left, context);

@@ -50,7 +50,7 @@ public:
     }
     void native(uint16_t id) {
         if (id < ASEBA_NATIVES_STD_COUNT) return kStandardNatives[id](&vm_);
-        vm_.sp = static_cast<int16_t>(vm_.sp - parameter_counts_[id]);
+        for (uint16_t i = parameter_counts_[id]; i > 0; --i) (void)AsebaNativePopArg(&vm_);
     }
     static PeerMachine* running_;
 

@@ -57,7 +57,7 @@ ROOMS = {
         ("world", "frame_notes frames_for_others node_bus inhabitants world"),
     ],
     "serve": [
-        ("system", "process access base64"),
+        ("ground", "process access base64 plan_value"),
         ("protocol", "protocol/"),
         ("door", "web/"),
         ("pages", "studio/"),

@@ -1278,6 +1278,8 @@ export interface Topics {
     clients: number;
     /** none: start screen */
     project?: Project;
+    /** a robot that serves this project on this target; others are refused */
+    serves?: boolean;
     settings: Json;
     /** unsaved texts of an earlier session */
     recovered: Doc[];
@@ -1631,7 +1633,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'settings.put': { may: 'driver', out: {} },
 };
 export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream' | 'binary'; number?: number; is?: Fields; item?: string }>> = {
-  'studio': { kind: 'document', is: { version: 'line(64)', driver: 'int(0..1000000000)', driver_name: 'line(100)', asked: 'Asked?', clients: 'int(0..1000)', project: 'Project?', settings: 'json', recovered: '[Doc; 2000]' } },
+  'studio': { kind: 'document', is: { version: 'line(64)', driver: 'int(0..1000000000)', driver_name: 'line(100)', asked: 'Asked?', clients: 'int(0..1000)', project: 'Project?', serves: 'bool?', settings: 'json', recovered: '[Doc; 2000]' } },
   'start': { kind: 'document', is: { examples: '[Example; 200]', recent: '[Recent; 20]' } },
   'targets': { kind: 'document', is: { found: '[Found; 200]' } },
   'files': { kind: 'document', is: { files: '[FileEntry; 2000]', more: 'bool' } },

@@ -20,6 +20,7 @@
 #include "serve/host/plan_talk.hpp"
 #include "serve/host/recorder.hpp"
 #include "serve/host/scene.hpp"
+#include "serve/plan_value.hpp"
 #include "serve/process.hpp"
 #include "session/bus_names.hpp"
 #include "session/plan_world.hpp"
@@ -306,14 +307,14 @@ private:
 
     void set_variable(const Json& told) {
         ask_held(told["request"],
-                 run::SetVariable{told["level"], told["name"], value_of(told["value"])});
+                 run::SetVariable{told["level"], told["name"], plan_value(told["value"])});
     }
 
     // As if the supervisor had raised it.
     void raise(const Json& told) {
         run::RaiseEvent event{told["supervisor"], told["event"], {}};
         for (const auto& [name, value] : told["outputs"].items()) {
-            event.outputs.emplace_back(name, value_of(value));
+            event.outputs.emplace_back(name, plan_value(value));
         }
         ask_held(told["request"], std::move(event));
     }
@@ -342,13 +343,6 @@ private:
         change_->take(told);
         // A run answers between two decisions: one instant must pass.
         if (!on_bus() && !talk_->stands() && pacer_.paused()) pacer_.step(1ms);
-    }
-
-    static plan::Value value_of(const Json& json) {
-        if (json.is_boolean()) return plan::Value(json.get<bool>());
-        if (json.is_number_integer()) return plan::Value(json.get<int64_t>());
-        if (json.is_number()) return plan::Value(json.get<double>());
-        return plan::Value(json.is_string() ? json.get<std::string>() : json.dump());
     }
 
     void hear_plan() {

@@ -405,6 +405,7 @@ void Run::hear_end(const ChildEnd& end) {
     failed_(why_);
     say_("error", why_);
     if (with_plan) plan_died_();
+    died_();
     desk_.board().touch("clock");
     desk_.board().touch("robot");
 }

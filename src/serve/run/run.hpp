@@ -75,6 +75,8 @@ public:
         std::function<void(const std::string& bytes)> records = [](auto&) {};
     };
     void on_told(Told told) { told_ = std::move(told); }
+    // Its process has died, whatever ran in it.
+    void on_death(std::function<void()> died) { died_ = std::move(died); }
     // Its process has died while a plan ran, or was about to: the plan can put nothing in order.
     void on_plan_died(std::function<void()> died) { plan_died_ = std::move(died); }
 
@@ -182,6 +184,7 @@ private:
     std::function<std::string(const std::string&)> short_ = [](const std::string& t) { return t; };
     std::function<void()> opened_ = [] {};
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
+    std::function<void()> died_ = [] {};
     std::function<void()> plan_died_ = [] {};
     std::function<void(const Json&)> breakpoints_told_ = [](const Json&) {};
     Told told_;

@@ -6,6 +6,7 @@ import { dataArrows, namesIn } from './data';
 import { planModel, supervisorsOf } from './model';
 import { crossings, eachStretch, roundedPath, stretchBox } from './path';
 import { freePlace, sceneOf, type Scene } from './place';
+import { seeded } from '../test_seeded';
 import { kApart } from './route';
 import { overlaps, type Box, type Point } from './shape';
 import { findTemplate, matching } from './templates';
@@ -229,18 +230,6 @@ describe('ways', () => {
     expect(kept.routes.get('go.There')?.points).toBe(whole.routes.get('go.There')?.points);
   });
 });
-
-/** Of mulberry32: the same numbers for the same seed. */
-function seeded(seed: number): (below: number) => number {
-  let state = seed >>> 0;
-  return (below) => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let t = state;
-    t = Math.imul(t ^ (t >>> 15), t | 1);
-    t ^= t + Math.imul(t ^ (t >>> 7), t | 61);
-    return ((t ^ (t >>> 14)) >>> 0) % below;
-  };
-}
 
 /** Up to 24 actors with supervisors, some of them placed, none on another one. */
 function randomPlan(random: (below: number) => number): Json {

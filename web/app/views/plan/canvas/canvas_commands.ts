@@ -6,11 +6,11 @@ import type { Studio } from '../../../../core/studio';
 import { toast, update } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
-import { tidy } from './tidy_plan';
-import { chosenSubPlan, extractChosen, openSubPlan } from './sub_plan_commands';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { exportPng, exportSvg } from './export_picture';
 import { copyByCommand, cut, hasClipboard, pasteByCommand } from './plan_clipboard';
+import { chosenSubPlan, extractChosen, openSubPlan } from './sub_plan_commands';
+import { tidy } from './tidy_plan';
 
 const titles = text.commands;
 type DrawId = Extract<keyof typeof titles, `draw.${string}`>;

@@ -8,6 +8,7 @@ import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { canvasCommands } from './canvas_commands';
+import { kLegible } from './distance';
 import { debugCommands } from './debug_commands';
 import { FlowNodes, type PlanNode } from './flow_nodes';
 
@@ -90,9 +91,6 @@ function reveal(
       zoom: Math.max(flow.getZoom(), kLegible),
     });
 }
-
-/** Below this zoom names cannot be read. */
-const kLegible = 0.75;
 
 /** Palette, forms and commands work on this canvas once it is used. */
 export function useOnDesk(

@@ -20,6 +20,7 @@ import { ArrowsLayer } from './arrows_layer';
 import { DotsContext, useDots } from './break_dots';
 import { kFit, useFitted, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { ConnectMenu } from './connect_menu';
+import { DistanceContext, kManyNodes, useDistance } from './distance';
 import { ElementMenu } from './element_menu';
 import { FindBar } from './find_bar';
 import type { PlanNode } from './flow_nodes';
@@ -51,6 +52,7 @@ function Canvas({ board }: { board: PlanBoard }) {
   const drives = useDrives();
   useBoard(board);
   const nodes = useNodes(board, drives);
+  const distance = useDistance(nodes.length);
   const frame = useRef<HTMLDivElement>(null);
   const [finds, setFinds] = useState(false);
   const find = useCallback(() => setFinds(true), []);
@@ -71,63 +73,68 @@ function Canvas({ board }: { board: PlanBoard }) {
       <ConnectContext value={connect}>
         <NoteContext value={notes}>
           <DotsContext value={dots}>
-            <div
-              className="pcanvas"
-              ref={frame}
-              data-place="plan"
-              tabIndex={-1}
-              role="region"
-              aria-label={words.canvas(board.model.name)}
-              onPointerDownCapture={use}
-              onFocusCapture={use}
-              {...dropping}
-              {...clipboard}
-            >
-              <ReactFlow<PlanNode>
-                nodes={nodes}
-                edges={kNoEdges}
-                nodeTypes={nodeTypes}
-                onNodesChange={onNodesChange}
-                onMoveStart={onMoveStart}
-                onNodeContextMenu={onNodeContextMenu}
-                onPaneClick={() => {
-                  board.select(null);
-                  // Keys are for the plan that was clicked.
-                  frame.current?.focus({ preventScroll: true });
-                }}
-                nodesConnectable={false}
-                snapToGrid
-                snapGrid={kGrid}
-                minZoom={0.1}
-                maxZoom={2}
-                fitView
-                fitViewOptions={kFit}
-                deleteKeyCode={null}
-                selectionKeyCode="Shift"
-                multiSelectionKeyCode={kAlso}
-                zoomActivationKeyCode={null}
-                panActivationKeyCode={null}
-                zoomOnDoubleClick={false}
-                onlyRenderVisibleElements={nodes.length > kManyNodes}
-                ariaLabelConfig={words.aria}
-                proOptions={kNoName}
+            <DistanceContext value={distance}>
+              <div
+                className="pcanvas"
+                ref={frame}
+                data-place="plan"
+                data-distance={distance}
+                tabIndex={-1}
+                role="region"
+                aria-label={words.canvas(board.model.name)}
+                onPointerDownCapture={use}
+                onFocusCapture={use}
+                {...dropping}
+                {...clipboard}
               >
-                <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
-                <ArrowsLayer board={board} allData={options.data} />
-                {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
-              </ReactFlow>
-              {board.model.actors.length === 0 ? (
-                <p className="pcanvas__empty">{words.empty}</p>
-              ) : null}
-              {finds ? (
-                <FindBar board={board} focus={shown.focus} onClose={() => setFinds(false)} />
-              ) : null}
-              {menu ? <ElementMenu at={menu} onClose={closeMenu} /> : null}
-              {asked ? (
-                <ConnectMenu board={board} asked={asked} onClose={close} onMade={shown.focus} />
-              ) : null}
-            </div>
-            <ActiveLine board={board} onShow={(key) => (board.select(key), shown.focus(key))} />
+                <ReactFlow<PlanNode>
+                  nodes={nodes}
+                  edges={kNoEdges}
+                  nodeTypes={nodeTypes}
+                  onNodesChange={onNodesChange}
+                  onMoveStart={onMoveStart}
+                  onNodeContextMenu={onNodeContextMenu}
+                  onPaneClick={() => {
+                    board.select(null);
+                    // Keys are for the plan that was clicked.
+                    frame.current?.focus({ preventScroll: true });
+                  }}
+                  nodesConnectable={false}
+                  snapToGrid
+                  snapGrid={kGrid}
+                  minZoom={0.1}
+                  maxZoom={2}
+                  fitView
+                  fitViewOptions={kFit}
+                  deleteKeyCode={null}
+                  selectionKeyCode="Shift"
+                  multiSelectionKeyCode={kAlso}
+                  zoomActivationKeyCode={null}
+                  panActivationKeyCode={null}
+                  zoomOnDoubleClick={false}
+                  onlyRenderVisibleElements={nodes.length > kManyNodes}
+                  ariaLabelConfig={words.aria}
+                  proOptions={kNoName}
+                >
+                  {distance === 'far' ? null : (
+                    <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
+                  )}
+                  <ArrowsLayer board={board} allData={options.data} />
+                  {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
+                </ReactFlow>
+                {board.model.actors.length === 0 ? (
+                  <p className="pcanvas__empty">{words.empty}</p>
+                ) : null}
+                {finds ? (
+                  <FindBar board={board} focus={shown.focus} onClose={() => setFinds(false)} />
+                ) : null}
+                {menu ? <ElementMenu at={menu} onClose={closeMenu} /> : null}
+                {asked ? (
+                  <ConnectMenu board={board} asked={asked} onClose={close} onMade={shown.focus} />
+                ) : null}
+              </div>
+              <ActiveLine board={board} onShow={(key) => (board.select(key), shown.focus(key))} />
+            </DistanceContext>
           </DotsContext>
         </NoteContext>
       </ConnectContext>
@@ -138,6 +145,5 @@ function Canvas({ board }: { board: PlanBoard }) {
 const kNoEdges: never[] = [];
 const kGrid: [number, number] = [kSnap, kSnap];
 const kAlso = ['Control', 'Meta', 'Shift'];
-const kManyNodes = 300;
 /** The name of the library stands in the licences. */
 const kNoName = { hideAttribution: true };

@@ -60,13 +60,15 @@ TEST(FastRun, DivisionByZeroLeavesWhatTheSingleInstructionWouldLeave) {
 }
 
 TEST(FastRun, AnIndexOutsideItsArrayLeavesTheStackAsItIs) {
-    TestMachine machine;
-    machine.load({0x1008, op(Opcode::Load, 10), op(Opcode::StoreInd, 20), 4, kStop});
-    machine.variables[10] = 4;
-    machine.run(100);
-    EXPECT_THAT(machine.sent(), ElementsAre(vm::frame(0x9006, {5, 4, 4})));
-    EXPECT_EQ(machine.vm.pc, 5);
-    EXPECT_THAT(machine.on_stack(), ElementsAre(8, 4));
+    for (const Opcode opcode : {Opcode::LoadInd, Opcode::StoreInd}) {
+        TestMachine machine;
+        machine.load({0x1008, op(Opcode::Load, 10), op(opcode, 20), 4, kStop});
+        machine.variables[10] = 4;
+        machine.run(100);
+        EXPECT_THAT(machine.sent(), ElementsAre(vm::frame(0x9006, {5, 4, 4})));
+        EXPECT_EQ(machine.vm.pc, 5);
+        EXPECT_THAT(machine.on_stack(), ElementsAre(8, 4));
+    }
 }
 
 // One more instruction than a stretch may have, and many times as many.
@@ -99,18 +101,28 @@ TEST(FastRun, AStretchThatGrowsTheStackByMoreThanACellCanSayIsExecuted) {
     }
 }
 
+// Pushes without end: the first that has no room is that behind the last word of the stack.
 TEST(FastRun, TheStackIsFullAtTheSameInstruction) {
-    TestMachine machine({.stack = 3});
-    const auto sent = machine.execute({0x1001, 0x1002, 0x1003, 0x1004, kStop});
-    EXPECT_THAT(sent, ElementsAre(vm::error(6, "stack full")));
-    EXPECT_THAT(machine.on_stack(), ElementsAre(1, 2, 3));
+    for (const int words : {3, kStackMax - 1, kStackMax, kStackMax + 1, 40}) {
+        const auto size = static_cast<uint16_t>(words);
+        TestMachine machine({.stack = size});
+        const auto sent = machine.execute(std::vector<uint16_t>(60, 0x1001));
+        const auto at = static_cast<uint16_t>(3 + size);
+        EXPECT_THAT(sent, ElementsAre(vm::error(at, "stack full")));
+        EXPECT_EQ(machine.vm.depth, size);
+    }
 }
 
+// Stores without end, with fewer words on the stack.
 TEST(FastRun, TheStackIsEmptyAtTheSameInstruction) {
-    TestMachine machine;
-    const auto sent = machine.execute({0x1001, binary(isa::BinaryOperator::Add), kStop});
-    EXPECT_THAT(sent, ElementsAre(vm::error(4, "stack empty")));
-    EXPECT_THAT(machine.on_stack(), ElementsAre(1));
+    for (const int stores : {2, kStackMax, kStackMax + 1, 60}) {
+        TestMachine machine;
+        std::vector<uint16_t> code = {0x1007, op(Opcode::Jump, 1)};  // a stretch of their own
+        code.insert(code.end(), static_cast<size_t>(stores), op(Opcode::Store, 10));
+        EXPECT_THAT(machine.execute(code), ElementsAre(vm::error(6, "stack empty")));
+        EXPECT_EQ(machine.variables[10], 7);
+        EXPECT_EQ(machine.vm.depth, 0);
+    }
 }
 
 // A loop of one instruction, for as long as a run can be.
@@ -132,10 +144,13 @@ TEST(FastRun, CallsWithoutEndFillTheStack) {
 }
 
 TEST(FastRun, AReturnToNowhereGoesThereAndIsStopped) {
-    TestMachine machine;
-    const auto sent = machine.execute({0x2000, 0xfff0, op(Opcode::SubRet, 0)});
-    EXPECT_THAT(sent, ElementsAre(vm::error(0xfff0, "pc outside bytecode")));
-    EXPECT_EQ(machine.vm.depth, 0);
+    for (const uint16_t nowhere :
+         {uint16_t{300}, uint16_t{0xfff0}}) {  // the bytecode has 300 words
+        TestMachine machine;
+        const auto sent = machine.execute({0x2000, nowhere, op(Opcode::SubRet, 0)});
+        EXPECT_THAT(sent, ElementsAre(vm::error(nowhere, "pc outside bytecode")));
+        EXPECT_EQ(machine.vm.depth, 0);
+    }
 }
 
 TEST(FastRun, ProgramsRunIntoTheZerosBehindThem) {

@@ -27,9 +27,9 @@ public:
     explicit Loops(uint64_t seed) : rng_(seed) {}
 
     void upload() {
-        // Now and then words of any kind, which no compiler would put together.
         std::vector<uint16_t> image = make_program(rng_);
         if (rng_.below(8) == 0) spoil(image);
+        if (rng_.below(8) == 0) tangle(image);
         image.insert(image.begin(), 0);
         receive(MessageType::SetBytecode, image);
         receive(MessageType::Run, {});
@@ -65,25 +65,35 @@ public:
     long instructions() const { return instructions_; }
 
 private:
+    // Words that no compiler would put together: any word, or another opcode.
     void spoil(std::vector<uint16_t>& words) {
         for (uint64_t count = 1 + rng_.below(20); count > 0; --count) {
             uint16_t& word = words[rng_.below(words.size())];
+            const auto any = static_cast<uint16_t>(rng_.next());
             const bool opcode_only = rng_.below(2) == 0;
-            word = static_cast<uint16_t>(opcode_only ? (word & 0x0fff) | (rng_.below(16) << 12)
-                                                     : rng_.next());
+            word = static_cast<uint16_t>(opcode_only ? (word & 0x0fff) | (any & 0xf000) : any);
         }
+    }
+
+    // A jump into a LargeImm whose value is a branch, which changes it.
+    void tangle(std::vector<uint16_t>& words) {
+        const size_t to = 10 + rng_.below(words.size() - 20);
+        const size_t from = 10 + rng_.below(words.size() - 20);
+        words[to] = isa::instruction(isa::Opcode::LargeImm, 0);
+        words[to + 1] = isa::instruction(
+            isa::Opcode::Branch, static_cast<uint16_t>(rng_.below(4) << 8 | rng_.below(18)));
+        words[to + 2] = static_cast<uint16_t>(rng_.below(8));
+        words[from] = isa::instruction(isa::Opcode::SmallImm, static_cast<uint16_t>(rng_.below(2)));
+        words[from + 1] = isa::instruction(isa::Opcode::Load, 1);
+        words[from + 2] =
+            isa::instruction(isa::Opcode::Jump, static_cast<uint16_t>(to + 1 - (from + 2)));
     }
 
     // Most limits are near what the stretches between two jumps need.
     uint16_t limit() {
-        switch (rng_.below(4)) {
-            case 0:
-                return static_cast<uint16_t>(rng_.below(4));
-            case 1:
-                return 5000;  // more than fastvm::run() does without coming up for air
-            default:
-                return static_cast<uint16_t>(rng_.below(60));
-        }
+        const uint64_t kind = rng_.below(16);
+        if (kind == 0) return 5000;  // more than fastvm::run() does without coming up for air
+        return static_cast<uint16_t>(kind < 5 ? rng_.below(4) : rng_.below(60));
     }
 
     void run() {

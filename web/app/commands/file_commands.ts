@@ -15,7 +15,7 @@ export function fileCommands(studio: Studio): Command[] {
   const inProject = () => may() && projectOf(studio) !== null;
   const toAnother = () => mayLeave(studio);
   const shown = () => studio.window.getState().doc;
-  const overlay = (name: 'folder' | 'project') => () =>
+  const overlay = (name: 'folder' | 'project' | 'newTemplate') => () =>
     update(studio.window, (draft) => void (draft.overlay = name));
   return [
     {
@@ -34,6 +34,13 @@ export function fileCommands(studio: Studio): Command[] {
       keys: ['Alt+N'],
       enabled: toAnother,
       run: overlay('project'),
+    },
+    {
+      id: 'template.new',
+      title: titles['template.new'],
+      group,
+      enabled: inProject,
+      run: overlay('newTemplate'),
     },
     {
       id: 'project.start',

@@ -9,7 +9,7 @@ import { freePlace, sceneOf, type Scene } from './place';
 import { seeded } from '../test_seeded';
 import { kApart } from './route';
 import { overlaps, type Box, type Point } from './shape';
-import { findTemplate, matching } from './templates';
+import { findTemplate, hiddenBy, matching } from './templates';
 
 function template(name: string, kind: PlanTemplate['kind'], outcomes: string[]): PlanTemplate {
   const named = outcomes.map((one) => ({ name: one, help: '' }));
@@ -123,6 +123,20 @@ describe('the model of a plan', () => {
     expect(findTemplate(toolboxes, [], 'Forward', false)).toBeUndefined();
     expect(findTemplate(toolboxes, ['drive'], 'Forward', false)?.toolbox).toBe('drive');
     expect(findTemplate(toolboxes, ['drive'], 'Timeout', false)).toBeUndefined();
+  });
+
+  it('are hidden by those of the same name in a toolbox that is listed before', () => {
+    const template = findTemplate(toolboxes, ['drive'], 'Forward', false)?.template;
+    expect(template).toBeDefined();
+    if (!template) return;
+    const ours = { name: 'ours', help: '', templates: [template] };
+    const both = [...toolboxes, ours];
+    const of = (toolbox: string) => ({ toolbox, template });
+    expect(hiddenBy(both, [], of('ours'))).toBeNull();
+    expect(hiddenBy(both, ['drive'], of('ours'))).toBe('drive');
+    expect(hiddenBy(both, ['drive', 'ours'], of('ours'))).toBe('drive');
+    expect(hiddenBy(both, ['ours', 'drive'], of('ours'))).toBeNull();
+    expect(hiddenBy(both, ['ours'], of('drive'))).toBe('ours');
     const found = matching(toolboxes, 'drive for');
     expect(found.map((one) => one.templates.map(({ name }) => name))).toEqual([['Forward']]);
   });

@@ -223,6 +223,9 @@ export const text = {
     'plan.continue': 'Continue the plan',
     'plan.step': 'Plan: on to the next actor',
     'plan.stop': 'Stop the plan',
+    'plan.held.step': 'Held events: step with the first',
+    'plan.held.go': 'Held events: let all go',
+    'plan.held.drop': 'Held events: drop all',
     'plan.show': 'Plan: show the active actor',
   },
   panel: (title: string) => `Show ${title}`,
@@ -1136,6 +1139,26 @@ export const text = {
     whenHint: 'a formula, as distance < 5',
     add: 'Add',
     pausedAt: (place: string) => `Paused by the breakpoint ${place}; the plan stands`,
+  },
+  held: {
+    title: 'Held events',
+    why: 'wait while the plan stands; what is let go it takes up when it goes on',
+    host: 'a host',
+    go: 'Let go',
+    step: 'Step',
+    drop: 'Drop',
+    goAll: 'Let all go',
+    dropAll: 'Drop all',
+    none: 'None has come since.',
+    after: (seconds: number) => `+${seconds.toFixed(3)}`,
+    more: (count: number) => `${s(count, 'more waits', 'more wait')} behind these.`,
+    dropped: (count: number) =>
+      `${s(count, 'event was', 'events were')} dropped: no more than 1000 can wait.`,
+    droppedByNodes: 'Dropped by nodes that stand',
+    nodeDropped: (node: string, count: number | undefined) =>
+      count === undefined
+        ? `${node} stands and drops its events; how many is not known.`
+        : `${node} stands and has dropped ${s(count, 'event', 'events')} of its own.`,
   },
   console: {
     label: 'Console',

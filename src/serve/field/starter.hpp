@@ -1,5 +1,6 @@
 // Starts the robot without anybody: as soon as the nodes are there, again until it runs, and again
-// when its run has died, but not for ever. Told the time; the rest is handed in, so that it runs in a test with a scripted clock.
+// when its run has died, but not for ever. Told the time; the rest is handed in, so that it runs in
+// a test with a scripted clock.
 //
 //     Starter starter({.missing = …, .start = …, .log = …});
 //     starter.begin(now);

@@ -119,6 +119,7 @@ private:
 
     // ---- plan_debugging.cpp: breakpoints of plans, events by hand ----
     void declare_debug_commands();
+    void declare_held_commands();
     void set_plan_breakpoint(const Call& call);
     void plan_breakpoints_changed();
     Json plan_breakpoint_orders() const;

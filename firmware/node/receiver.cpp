@@ -91,12 +91,6 @@ bool needs_witness(const Row& row) {
     return !is_likely(row, 0) || is_bytecode(row);
 }
 
-// So long may the line be silent within the frame at the front.
-uint16_t silence_max(const Row& row, bool doubt) {
-    if (doubt) return kWitness_ms;
-    return row.have >= kHeaderSize && is_bytecode(row) ? kBrokenBytecode_ms : kBroken_ms;
-}
-
 struct Waited {
     uint32_t quiet_ms;  // since the last byte
     uint16_t frame_ms;  // since the frame came to the front
@@ -105,7 +99,7 @@ struct Waited {
 // Is there a frame at the front?
 Verdict judge(const Row& row, bool doubt, Waited waited) {
     const bool more_may_come =
-        waited.quiet_ms < silence_max(row, doubt) && waited.frame_ms < kFrameWithin_ms;
+        waited.quiet_ms < (doubt ? kWitness_ms : kBroken_ms) && waited.frame_ms < kFrameWithin_ms;
     if (row.have < kHeaderSize) return more_may_come ? Verdict::Wait : Verdict::Wrong;
     if (doubt ? !is_likely(row, 0) : !is_possible(row, 0)) return Verdict::Wrong;
     const uint16_t end = static_cast<uint16_t>(kHeaderSize + row.size(0));

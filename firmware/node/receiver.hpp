@@ -28,9 +28,8 @@ constexpr uint16_t kReceiveRoom = 576;
 // After so long a silence a frame that is complete needs no other witness …
 constexpr uint16_t kWitness_ms = 20;
 // … and the rest of one that is not will not come any more. Hosts that are busy pause within a
-// frame, but a program must not take the bytes of another host for its own.
+// frame.
 constexpr uint16_t kBroken_ms = 250;
-constexpr uint16_t kBrokenBytecode_ms = 60;
 // The longest frame takes 46 ms at 115,200 baud: one that takes longer than this is none.
 constexpr uint16_t kFrameWithin_ms = 500;
 constexpr uint16_t kWordsMax = wire::kPayloadMax / 2;

@@ -9,7 +9,7 @@ from board import (ACTIVE, BYTES_OF_A_SECOND, ERROR, LIST, PRESENT, REBOOT, RUN,
 
 USER = 40  # a variable behind those that are described
 DROPPED = 34
-PULLED_SECONDS = 0.3  # a line that is pulled and put in is silent for longer
+PULLED_SECONDS = 0.5  # a line that is pulled and put in is silent for longer
 # onevent 5: variable 40 = 11
 ON_FIVE = [3, 5, 3, 0x100B, 0x4000 + USER, 0]
 # init: emit event 9 with 2 variables, for ever

@@ -49,7 +49,7 @@ ROOMS = {
     ],
     "sim": [
         ("values", "definitions drawing noise cell_grid texture png ground"),
-        ("bodies", "sight arena fan wheels camera"),
+        ("bodies", "moving_grid sight spacing arena fan wheels camera"),
         ("devices", "node_variables machine robot sd_card can_bus"),
         ("robots", "thymio2/ epuck/ carbot/"),
         ("files", "standing world_check world_file"),

@@ -48,12 +48,12 @@ ROOMS = {
         ("reference", "reference/"),
     ],
     "sim": [
-        ("values", "definitions drawing noise cell_grid texture png ground"),
+        ("values", "definitions schedule crew drawing noise cell_grid texture png ground"),
         ("bodies", "moving_grid sight spacing arena fan wheels camera"),
         ("devices", "node_variables machine robot sd_card can_bus"),
         ("robots", "thymio2/ epuck/ carbot/"),
         ("files", "standing world_check world_file"),
-        ("world", "frame_notes frames_for_others node_bus inhabitants world"),
+        ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world"),
     ],
     "serve": [
         ("system", "process access base64"),

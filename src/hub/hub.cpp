@@ -69,6 +69,8 @@ void Hub::send_to_others(const Link& from, const wire::Frame& frame) {
             if (frame.size < 2 || frame.first_word() != remap->local) continue;
             put_word(bytes.data() + wire::kHeaderSize, remap->target);
         }
+        if (link->options.only_node && !std::exchange(link->is_reached, true))
+            reached_.push_back(link->id);
         link->queue.push(encoded);
         ++link->frames_queued;
         if (command && remap) put_word(bytes.data() + wire::kHeaderSize, remap->local);
@@ -93,6 +95,7 @@ void Hub::remove(LinkId link) {
     assert(at != links_.end());
     const std::unique_ptr<Link> gone = std::move(*at);
     links_.erase(at);
+    std::erase(reached_, link);
     std::erase_if(told_shared_, [link](const auto& told) {
         return std::get<1>(told) == link || std::get<2>(told) == link;
     });
@@ -127,6 +130,11 @@ void Hub::note_shared_id(const Link& link, uint16_t node) {
         if (!told_shared_.emplace(node, first, second).second) continue;
         shared_ids_.push_back({node, other->options.name, link.options.name});
     }
+}
+
+std::vector<LinkId> Hub::take_reached() {
+    for (const LinkId link : reached_) get(link).is_reached = false;
+    return std::exchange(reached_, {});
 }
 
 std::vector<SharedId> Hub::take_shared_ids() {

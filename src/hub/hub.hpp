@@ -89,6 +89,10 @@ public:
     void remove(LinkId link);
     bool has(LinkId link) const { return find(link) != nullptr; }
 
+    // Links with `only_node` for which something was queued since the last call, each once, in no
+    // order. So whoever has many such nodes need not ask each.
+    std::vector<LinkId> take_reached();
+
     // Routes a frame that came in on `from`.
     void receive(LinkId from, const wire::Frame& frame);
 
@@ -117,6 +121,7 @@ private:
         OutputQueue queue;
         uint64_t frames_received = 0;
         uint64_t frames_queued = 0;
+        bool is_reached = false;  // it stands in reached_
         std::set<uint16_t> nodes;
         uint16_t last_node = wire::kHostId;  // spares the set a search while one node speaks on
     };
@@ -129,6 +134,7 @@ private:
     bool heard_elsewhere(uint16_t node) const;
 
     std::vector<std::unique_ptr<Link>> links_;                    // by ascending id
+    std::vector<LinkId> reached_;                                 // for take_reached()
     std::vector<SharedId> shared_ids_;                            // not taken yet
     std::set<std::tuple<uint16_t, LinkId, LinkId>> told_shared_;  // of links that are there
     uint32_t last_number_ = 0;

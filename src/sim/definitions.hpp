@@ -22,6 +22,9 @@
 
 namespace vagus::sim {
 
+constexpr Duration kNodeStep = std::chrono::milliseconds(1);
+constexpr Duration kPhysicsStep = std::chrono::milliseconds(10);
+
 constexpr size_t kRobotsMax = 1000;
 constexpr size_t kObjectsMax = 10000;
 constexpr size_t kTimelineMax = 10000;

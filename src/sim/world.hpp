@@ -36,8 +36,6 @@
 
 namespace vagus::sim {
 
-constexpr Duration kNodeStep = std::chrono::milliseconds(1);
-constexpr Duration kPhysicsStep = std::chrono::milliseconds(10);
 constexpr Duration kPoseEvery = std::chrono::milliseconds(100);  // `pose` lines of the trace
 constexpr size_t kHappeningsMax = 100000;  // in one step(); what is beyond is counted, not kept
 

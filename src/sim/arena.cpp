@@ -119,7 +119,9 @@ struct Arena::Insides {
     void prepare_loose(Body& body) const;
     void glide(uint32_t index);
     void fetch(uint32_t index);
-    void space();
+    void space_all();
+    void solve();
+    void hand_over_changed();
     void hand_over(uint32_t index);
 
     b2World world;
@@ -128,6 +130,7 @@ struct Arena::Insides {
     std::vector<Body> bodies;
     std::vector<uint32_t> free_slots;  // of bodies that were removed
     std::vector<uint32_t> active;      // robots and loose objects, ascending
+    std::vector<uint8_t> strayed;      // of the active ones, in this step
     Spacing spacing;                   // of the active ones
     bool spaced = false;               // nobody came, went or was put elsewhere since the last step
 };
@@ -368,37 +371,56 @@ void Arena::Insides::hand_over(uint32_t index) {
     body.SetAwake(true);
 }
 
-void Arena::Insides::space() {
+// At the start, and after somebody came, went or was put elsewhere.
+void Arena::Insides::space_all() {
     sight.refresh();
-    for (const uint32_t index : active)
-        if (!spaced || spacing.has_strayed(index)) spacing.settle(index);
+    for (const uint32_t index : active) spacing.settle(index);
     spaced = true;
+    hand_over_changed();
+}
+
+void Arena::Insides::hand_over_changed() {
     for (const uint32_t index : spacing.take_changed())
         if (bodies[index].solved == spacing.is_alone(index)) hand_over(index);
 }
 
-void Arena::step() {
-    Insides& in = *insides_;
-    if (!in.spaced) in.space();
-    bool solve = false;
-    for (const uint32_t index : in.active) {
-        Body& body = in.bodies[index];
-        if (!body.solved) {
-            in.glide(index);
-            continue;
-        }
+// Those that are not alone, by Box2D.
+void Arena::Insides::solve() {
+    bool awake = false;
+    for (const uint32_t index : active) {
+        Body& body = bodies[index];
+        if (!body.solved) continue;
         if (body.kind == Kind::Robot)
-            in.prepare_robot(body, in.sight.stand(index));
+            prepare_robot(body, sight.stand(index));
         else
-            in.prepare_loose(body);
-        solve = solve || body.body->IsAwake();
+            prepare_loose(body);
+        awake = awake || body.body->IsAwake();
     }
+    if (!awake) return;
+    world.Step(static_cast<float>(kArenaStep), kVelocityIterations, kPositionIterations);
+    for (const uint32_t index : active)
+        if (bodies[index].solved && bodies[index].body->IsAwake()) fetch(index);
+}
+
+void Arena::step() {
+    Crew alone(1);
+    step(alone);
+}
+
+void Arena::step(Crew& crew) {
+    Insides& in = *insides_;
+    if (!in.spaced) in.space_all();
     in.touches.touches.clear();
-    if (solve)
-        in.world.Step(static_cast<float>(kArenaStep), kVelocityIterations, kPositionIterations);
-    for (const uint32_t index : in.active)
-        if (in.bodies[index].solved && in.bodies[index].body->IsAwake()) in.fetch(index);
-    in.space();
+    in.solve();
+    in.strayed.resize(in.active.size());
+    crew.each(in.active.size(), [&in](size_t i) {
+        const uint32_t index = in.active[i];
+        if (!in.bodies[index].solved) in.glide(index);
+        in.strayed[i] = in.spacing.has_strayed(index) ? 1 : 0;
+    });
+    for (size_t i = 0; i < in.active.size(); ++i)
+        if (in.strayed[i] != 0) in.spacing.settle(in.active[i]);
+    in.hand_over_changed();
 }
 
 Pose Arena::pose(BodyId id) const {

@@ -17,13 +17,13 @@ Status NodeTurns::join(BusModel model) {
         return definition_.robots[a].node < definition_.robots[b].node;
     });
     private_buses_.resize(by_node.size());
-    crew_of_.resize(by_node.size());
+    unit_of_.resize(by_node.size());
     if (model == BusModel::Can) node_bus_.emplace(bus_, TRY(bus_.add({.name = "nodes"})));
     for (const size_t index : by_node) {
         const RobotDefinition& robot = definition_.robots[index];
         if (robot.port) private_buses_[index] = std::make_unique<hub::Hub>();
-        crew_of_[index] = crews_.size();
-        crews_.push_back({index, berths_.size(), berths_.size() + nodes_of(robot.type), {}});
+        unit_of_[index] = units_.size();
+        units_.push_back({index, berths_.size(), berths_.size() + nodes_of(robot.type), {}});
         for (size_t place = 0; place < nodes_of(robot.type); ++place) {
             Berth berth{index, place, {}, {}, {}, false};
             const auto id = static_cast<uint16_t>(robot.node + place);
@@ -41,8 +41,8 @@ Status NodeTurns::join(BusModel model) {
 // several have its name before them.
 void NodeTurns::move_in(Inhabitants& inhabitants) {
     inhabitants_ = &inhabitants;
-    schedule_.start(crews_.size());
-    wheels_turn_.assign(crews_.size(), 1);
+    schedule_.start(units_.size());
+    wheels_turn_.assign(units_.size(), 1);
     for (Berth& berth : berths_) {
         berth.for_others.clear();
         berth.sent_to = false;
@@ -76,7 +76,7 @@ void NodeTurns::accept(Time now) {
 }
 
 void NodeTurns::call(size_t robot) {
-    schedule_.call(crew_of_[robot]);
+    schedule_.call(unit_of_[robot]);
 }
 
 bool NodeTurns::is_waited_for(const Berth& berth, size_t index) const {
@@ -100,32 +100,32 @@ void NodeTurns::call_receivers() {
     }
 }
 
-void NodeTurns::run(const Surroundings& around) {
+void NodeTurns::run(const Surroundings& around, Crew& crew) {
     if (node_bus_) node_bus_->advance(around.now);
     call_receivers();
     const std::vector<uint32_t>& due = schedule_.due(around.now);
-    for (const uint32_t each : due) take_turn(crews_[each], around);
+    crew.each(due.size(), [&](size_t i) { take_turn(units_[due[i]], around); });
     for (const uint32_t each : due) {
-        const Crewed& crewed = crews_[each];
-        schedule_.set(each, crewed.next);
-        wheels_turn_[crewed.robot] = 1;
-        for (size_t i = crewed.first; i < crewed.end; ++i) collect(i, around.now, Crossing::Timed);
+        const Unit& unit = units_[each];
+        schedule_.set(each, unit.next);
+        wheels_turn_[unit.robot] = 1;
+        for (size_t i = unit.first; i < unit.end; ++i) collect(i, around.now, Crossing::Timed);
     }
     turns_taken_ += due.size();
 }
 
 // Touches nothing but the robot, its berths and its own queues.
-void NodeTurns::take_turn(Crewed& crewed, const Surroundings& around) {
-    Robot& its = robot(crewed.robot);
+void NodeTurns::take_turn(Unit& unit, const Surroundings& around) {
+    Robot& its = robot(unit.robot);
     its.catch_up(around.now - kNodeStep);
     bool more = false;
-    for (size_t i = crewed.first; i < crewed.end; ++i) {
+    for (size_t i = unit.first; i < unit.end; ++i) {
         deliver(i);
         more = more || berths_[i].sent_to;
     }
     its.sense(around);
     for (Machine* const machine : its.machines()) machine->run();
-    crewed.next = more ? around.now + kNodeStep : its.next_due(around.now);
+    unit.next = more ? around.now + kNodeStep : its.next_due(around.now);
 }
 
 void NodeTurns::hold() {
@@ -134,7 +134,7 @@ void NodeTurns::hold() {
     for (size_t i = 0; i < berths_.size(); ++i) deliver(i);
     for (const Berth& berth : berths_) machine(berth).run();
     for (size_t i = 0; i < berths_.size(); ++i) collect(i, Time{}, Crossing::AtOnce);
-    schedule_.start(crews_.size());
+    schedule_.start(units_.size());
 }
 
 void NodeTurns::drive(Arena& arena, Time now) {

@@ -5,7 +5,7 @@
 //     const Status joined = turns.join(BusModel::Ideal);
 //     turns.move_in(inhabitants);                       // new robots, at the start of a run
 //     turns.accept(now);                                // an instant: what hosts said before it …
-//     turns.run(surroundings);                          // … and all nodes that are due
+//     turns.run(surroundings, crew);                    // … and all nodes that are due
 //     turns.drive(arena, now);                          // before each step of the arena
 //
 // It does not know: happenings, timelines, bodies. `heard` is told what nodes send.
@@ -19,6 +19,7 @@
 
 #include "base/result.hpp"
 #include "hub/hub.hpp"
+#include "sim/crew.hpp"
 #include "sim/frames_for_others.hpp"
 #include "sim/inhabitants.hpp"
 #include "sim/node_bus.hpp"
@@ -43,8 +44,9 @@ public:
     // What hosts have sent by `now` is on a modelled bus.
     void accept(Time now);
     // The nodes that are due at around.now: deliveries, sensors, scripts; what they send is
-    // delivered at the next instant.
-    void run(const Surroundings& around);
+    // delivered at the next instant. Robots that share nothing may have their turns on several
+    // threads; what they send leaves in the order of their ids.
+    void run(const Surroundings& around, Crew& crew);
     // All nodes, while time stands still.
     void hold();
     // Variables to wheels.
@@ -72,7 +74,7 @@ private:
         bool sent_to = false;  // something may wait in its queues
     };
     // A robot, and which berths are those of its nodes.
-    struct Crewed {
+    struct Unit {
         size_t robot = 0;
         size_t first = 0;
         size_t end = 0;
@@ -85,7 +87,7 @@ private:
     Machine& machine(const Berth& berth) { return *robot(berth.robot).machines()[berth.place]; }
     bool is_waited_for(const Berth& berth, size_t index) const;
     void call_receivers();
-    void take_turn(Crewed& crewed, const Surroundings& around);
+    void take_turn(Unit& unit, const Surroundings& around);
     void deliver(size_t index);
     void collect(size_t index, Time now, Crossing crossing);
     void drain(const Berth& berth);
@@ -96,11 +98,11 @@ private:
     Inhabitants* inhabitants_ = nullptr;
     std::optional<NodeBus> node_bus_;  // between the nodes and `bus_`, if it is a Can
     std::vector<Berth> berths_;        // by ascending node id
-    std::vector<Crewed> crews_;        // by ascending node id
-    std::vector<size_t> crew_of_;      // by index of the robot
+    std::vector<Unit> units_;          // by ascending node id
+    std::vector<size_t> unit_of_;      // by index of the robot
     std::vector<std::unique_ptr<hub::Hub>> private_buses_;  // by index of the robot
     std::vector<size_t> looked_after_;  // berths whose queues tell nothing when they fill
-    Schedule schedule_;                 // of the crews
+    Schedule schedule_;                 // of the units
     std::vector<uint8_t> wheels_turn_;  // by index of the robot: its drive() has something new
     uint64_t turns_taken_ = 0;
 };

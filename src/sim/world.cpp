@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <thread>
 
 #include "base/file.hpp"
 #include "base/project_border.hpp"
@@ -15,11 +16,31 @@
 
 namespace vagus::sim {
 
+namespace {
+
+constexpr size_t kManyRobots = 200;  // from here on more threads gain time
+
+unsigned threads_for(const WorldDefinition& definition, const WorldOptions& options) {
+    const auto has_pool = [](const RobotDefinition& robot) {
+        return robot.type == RobotType::Epuck;
+    };
+    const auto& robots = definition.robots;
+    if (!options.sd_folder.empty() || std::any_of(robots.begin(), robots.end(), has_pool)) return 1;
+    const unsigned many = robots.size() < kManyRobots ? 1 : std::thread::hardware_concurrency();
+    return std::clamp(options.threads.value_or(many), 1u, kThreadsMax);
+}
+
+}  // namespace
+
 struct World::Insides {
     Insides(WorldDefinition its_definition, Picture its_picture, WorldOptions its_options)
         : definition(std::move(its_definition)),
           picture(std::move(its_picture)),
           options(std::move(its_options)),
+          somebody_sees_colours(
+              std::any_of(definition.robots.begin(), definition.robots.end(),
+                          [](const RobotDefinition& each) { return sees_colours(each.type); })),
+          crew(threads_for(definition, options)),
           turns(definition, bus,
                 [this](size_t index, const wire::Frame& frame) { note_frame(index, frame); }) {}
 
@@ -44,6 +65,8 @@ struct World::Insides {
     WorldOptions options;
     std::unique_ptr<Inhabitants> inhabitants;
     hub::Hub bus;
+    bool somebody_sees_colours;  // else nobody asks which they are
+    Crew crew;
     NodeTurns turns;
     size_t timeline_next = 0;
     Time now{};
@@ -98,6 +121,10 @@ Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     if (options.bus == BusModel::Can) {
         const Status fits = check_can(definition);
         if (!fits.ok()) return fits.error();
+    }
+    if (options.threads && (*options.threads < 1 || *options.threads > kThreadsMax)) {
+        return Error{Code::BadInput, "threads: expected 1 to " + std::to_string(kThreadsMax) +
+                                         ", found " + std::to_string(*options.threads)};
     }
     Picture picture;
     if (!definition.ground_image.empty()) {
@@ -165,8 +192,10 @@ void World::Insides::begin_instant() {
     now += kNodeStep;
     run_timeline();
     inhabitants->arena().prepare_looks();
-    turns.run({inhabitants->arena(), inhabitants->ground(), inhabitants->colours(),
-               inhabitants->beacons(), now});
+    const std::span<const Colour> colours =
+        somebody_sees_colours ? inhabitants->colours() : std::span<const Colour>();
+    turns.run({inhabitants->arena(), inhabitants->ground(), colours, inhabitants->beacons(), now},
+              crew);
 }
 
 void World::Insides::end_instant() {
@@ -246,7 +275,7 @@ void World::Insides::note(size_t index, decltype(Happening::what) what, uint16_t
 void World::Insides::move_bodies() {
     Arena& arena = inhabitants->arena();
     turns.drive(arena, now);
-    arena.step();
+    arena.step(crew);
     note_touches();
     if (now % kPoseEvery != Duration::zero()) return;
     for (size_t i = 0; i < definition.robots.size(); ++i)
@@ -319,6 +348,14 @@ hub::Hub* World::private_bus(RobotId robot) {
 void World::host_left(RobotId robot) {
     const auto index = index_of(insides_->definition, robot);
     if (index) insides_->turns.host_left(*index);
+}
+
+uint64_t World::turns_taken() const {
+    return insides_->turns.turns_taken();
+}
+
+unsigned World::threads() const {
+    return insides_->crew.size();
 }
 
 const WorldDefinition& World::definition() const {

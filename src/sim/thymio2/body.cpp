@@ -118,8 +118,7 @@ Horizontal Body::look(const Arena& arena, Noise& noise) const {
 }
 
 GroundReadings Body::look_down(const Pose& pose, const Ground& ground, Noise& noise) const {
-    const double cosine = trig::cos(pose.angle);
-    const double sine = trig::sin(pose.angle);
+    const auto [sine, cosine] = trig::sin_cos(pose.angle);
     GroundReadings seen;
     for (size_t i = 0; i < kGroundCount; ++i) {
         const Point& place = kGroundPlaces[i];

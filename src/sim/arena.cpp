@@ -78,6 +78,12 @@ bool is_rest(const Drive& drive) {
     return drive.forward == 0 && drive.sideways == 0 && drive.turn == 0;
 }
 
+// Also one that fell asleep at the end of this step.
+bool has_moved(const Body& body) {
+    return body.body->IsAwake() || !(body.body->GetPosition() == body.motion.at) ||
+           body.body->GetAngle() != body.motion.angle;
+}
+
 // An angle without whole turns, once it has some.
 float unwound(float angle) {
     if (std::fabs(angle) <= kUnwindAngle) return angle;
@@ -399,7 +405,7 @@ void Arena::Insides::solve() {
     if (!awake) return;
     world.Step(static_cast<float>(kArenaStep), kVelocityIterations, kPositionIterations);
     for (const uint32_t index : active)
-        if (bodies[index].solved && bodies[index].body->IsAwake()) fetch(index);
+        if (bodies[index].solved && has_moved(bodies[index])) fetch(index);
 }
 
 void Arena::step() {

@@ -27,9 +27,10 @@ MAY_INCLUDE = {
     "sim": ["hub", "node", "vm", "isa", "wire", "base"],
     "debug": ["aesl", "wire", "base"],
     "net": ["hub", "wire", "base"],
+    "conformance": ["debug", "aesl", "isa", "wire", "base"],
     "session": BELOW_SESSION,
     "serve": ["embed", "session"] + BELOW_SESSION,
-    "cli": ["serve", "embed", "session"] + BELOW_SESSION,
+    "cli": ["conformance", "serve", "embed", "session"] + BELOW_SESSION,
 }
 # Inside a module, too, an arrow points down: a file may include what stands in its own room or in one before it. Rooms
 # from the ground up; a name is that of a file without its ending, a name with / at its end that of a folder. Tests may

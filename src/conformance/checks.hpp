@@ -1,0 +1,16 @@
+// The list of all checks, in the order in which they are made: what a node of the reference might
+// not survive stands at the end.
+#pragma once
+
+#include "conformance/check.hpp"
+
+namespace vagus::conformance {
+
+// Each group adds its own.
+void add_description_checks(Checks& checks);
+void add_message_checks(Checks& checks);
+void add_opcode_checks(Checks& checks);
+
+Checks all_checks();
+
+}  // namespace vagus::conformance

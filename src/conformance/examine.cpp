@@ -1,0 +1,111 @@
+#include "conformance/examine.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "conformance/checks.hpp"
+#include "debug/description.hpp"
+#include "wire/messages.hpp"
+
+namespace vagus::conformance {
+namespace {
+
+template <typename Message>
+wire::Frame frame_of(const Message& message) {
+    wire::Frame frame{};
+    (void)!(wire::encode_message(message, wire::kHostId, frame) == wire::Error::None);
+    return frame;
+}
+
+// Adds the frame if it is a part of a description.
+debug::Progress add_part(debug::Description& description, const wire::Frame& frame) {
+    wire::Description header;
+    if (wire::decode_message(frame, header) == wire::Error::None && !description.begun())
+        return description.begin(header);
+    wire::NamedVariableDescription variable;
+    if (wire::decode_message(frame, variable) == wire::Error::None)
+        return description.add(variable);
+    wire::LocalEventDescription event;
+    if (wire::decode_message(frame, event) == wire::Error::None) return description.add(event);
+    wire::NativeFunctionDescription native;
+    if (wire::decode_message(frame, native) == wire::Error::None) return description.add(native);
+    return debug::Progress::Ignored;
+}
+
+Row row_of(const Check& check, const Status& looked) {
+    if (looked.ok()) return {check, Verdict::Passed, ""};
+    const bool skipped = looked.error().code == kLacking;
+    return {check, skipped ? Verdict::Skipped : Verdict::Failed, looked.error().what};
+}
+
+bool wanted(const Check& check, const std::string& only) {
+    return check.group.find(only) != std::string::npos ||
+           check.name.find(only) != std::string::npos;
+}
+
+}  // namespace
+
+Result<std::vector<uint16_t>> who_is_there(Line& line) {
+    wire::ListNodes ask;
+    ask.version = wire::kProtocolVersion;
+    TRY(line.send(frame_of(ask)));
+    std::set<uint16_t> ids;
+    const Time last = line.now() + kPresenceMost;
+    Time deadline = line.now() + kPresenceWithin;
+    while (line.now() < deadline && ids.size() < kNodesMax) {
+        const std::optional<wire::Frame> frame = TRY(line.receive(deadline));
+        wire::NodePresent present;
+        if (!frame || wire::decode_message(*frame, present) != wire::Error::None) continue;
+        if (ids.insert(frame->source).second)
+            deadline = std::min(last, line.now() + kPresenceWithin);
+    }
+    return std::vector<uint16_t>(ids.begin(), ids.end());
+}
+
+Result<aesl::Target> describe(Line& line, uint16_t node) {
+    wire::GetNodeDescription ask;
+    ask.dest = node;
+    ask.version = wire::kProtocolVersion;
+    TRY(line.send(frame_of(ask)));
+    debug::Description description;
+    const Time deadline = line.now() + kDescriptionWithin;
+    while (line.now() < deadline && !(description.begun() && description.complete())) {
+        const std::optional<wire::Frame> frame = TRY(line.receive(deadline));
+        if (!frame || frame->source != node) continue;
+        if (add_part(description, *frame) == debug::Progress::Impossible)
+            return Error{kFinding, "its description is impossible: " + description.why()};
+    }
+    if (description.begun() && description.complete()) return description.target();
+    return Error{Code::Timeout, "it does not describe itself whole: " +
+                                    std::to_string(description.items()) + " parts came"};
+}
+
+size_t Report::count(Verdict verdict) const {
+    return static_cast<size_t>(std::ranges::count(rows, verdict, &Row::verdict));
+}
+
+Report examine(Line& line, const Order& order, const aesl::Target& target) {
+    Report report{.node = order.node, .target = target, .rows = {}, .foreign = 0};
+    Bench bench(line, order.node, target);
+    bench.set_nobody(order.nobody);
+    std::string lost;
+    std::string last = "the beginning";
+    for (const Check& check : all_checks()) {
+        if (!wanted(check, order.only)) continue;
+        Row row{check, Verdict::NotRun, lost};
+        if (lost.empty()) {
+            const Status cleared = bench.clear();
+            if (!cleared.ok()) lost = cleared.error().what + ", since \"" + last + "\"";
+            row =
+                cleared.ok() ? row_of(check, check.look(bench)) : Row{check, Verdict::NotRun, lost};
+            last = check.name;
+        }
+        order.tell(row);
+        report.rows.push_back(std::move(row));
+    }
+    report.left_clear = lost.empty() && bench.clear().ok();
+    report.foreign = bench.foreign();
+    return report;
+}
+
+}  // namespace vagus::conformance

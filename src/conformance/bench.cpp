@@ -128,15 +128,26 @@ Result<std::optional<wire::Frame>> Bench::listen(Time deadline) {
     return std::optional<wire::Frame>(frame);
 }
 
-Status Bench::expect(MessageType type, const Words& words) {
-    hears_presence_ = type == MessageType::NodePresent;
+Status Bench::is_message(const wire::Frame& frame, MessageType type, const Words& words) const {
     const wire::Frame wanted = frame_of(number(type), words);
-    const wire::Frame frame = TRY(hear(text_of(wanted)));
-    hears_presence_ = false;
     const bool same = frame.type == wanted.type && frame.size == wanted.size &&
                       std::equal(frame.payload, frame.payload + frame.size, wanted.payload);
     if (same) return Status::done();
     return finding("expected " + text_of(wanted) + ", found " + text_of(frame));
+}
+
+Status Bench::is_state(State found, State expected) const {
+    if (found == expected) return Status::done();
+    return finding("expected pc " + std::to_string(expected.pc) + ", " +
+                   text_of_flags(expected.flags) + "; found pc " + std::to_string(found.pc) + ", " +
+                   text_of_flags(found.flags));
+}
+
+Status Bench::expect(MessageType type, const Words& words) {
+    hears_presence_ = type == MessageType::NodePresent;
+    const Result<wire::Frame> frame = hear(text_of(frame_of(number(type), words)));
+    hears_presence_ = false;
+    return is_message(TRY(frame), type, words);
 }
 
 Status Bench::expect_state(State state) {

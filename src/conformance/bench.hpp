@@ -81,7 +81,11 @@ public:
     Status expect_state(State state);
     // As above, after asking for it: nothing else came before.
     Status ask_state(State state);
+    // A NodeSpecificError, whatever its text.
     Status expect_error();
+    // What was heard is as it should be.
+    Status is_message(const wire::Frame& frame, wire::MessageType type, const Words& words) const;
+    Status is_state(State found, State expected) const;
     Status expect_event(uint16_t number, const Values& arguments);
     // Nothing came, messages or events: seen by the answers to two questions.
     Status expect_silence();

@@ -7,6 +7,11 @@ Checks all_checks() {
     add_description_checks(checks);
     add_message_checks(checks);
     add_opcode_checks(checks);
+    add_operator_checks(checks);
+    add_event_checks(checks);
+    add_fault_checks(checks);
+    add_control_checks(checks);
+    add_breakpoint_checks(checks);
     return checks;
 }
 

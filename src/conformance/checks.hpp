@@ -11,10 +11,13 @@ void add_description_checks(Checks& checks);
 void add_message_checks(Checks& checks);
 void add_opcode_checks(Checks& checks);
 void add_operator_checks(Checks& checks);
+void add_native_checks(Checks& checks);
+void add_native_fault_checks(Checks& checks);
 void add_event_checks(Checks& checks);
 void add_fault_checks(Checks& checks);
 void add_control_checks(Checks& checks);
 void add_breakpoint_checks(Checks& checks);
+void add_limit_checks(Checks& checks);
 
 Checks all_checks();
 

@@ -320,7 +320,7 @@ Status Bench::clear() {
     messages_.clear();
     events_.clear();
     if (answered) return Status::done();
-    return Error{Code::Timeout, "the node does not answer any more"};
+    return Error{Code::Timeout, "the node does not answer GetVariables any more"};
 }
 
 }  // namespace vagus::conformance

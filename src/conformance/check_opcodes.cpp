@@ -103,10 +103,11 @@ Status store_indirect(Bench& bench) {
 }
 
 Status jump(Bench& bench) {
-    const uint16_t at = TRY(bench.room(1));
-    // 3: jump to 8 | 4: push, store, stop | 8: jump back to 4
-    const Instructions code = Instructions().jump(5).push(8).store(at).stop().jump(-4);
-    return gives(bench, at, code, {8});
+    const uint16_t at = TRY(bench.room(2));
+    // 3: jump to 11 | 4: 1 to at + 1 | 7: 8 to at | 10: stop | 11: jump back to 7
+    const Instructions code =
+        Instructions().jump(8).push(1).store(at + 1).push(8).store(at).stop().jump(-4);
+    return gives(bench, at, code, {8, 0x5a5a});
 }
 
 // 10 rounds of `n = n + 1`, with the jumps that section 3.5 shows for while.

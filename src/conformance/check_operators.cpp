@@ -56,15 +56,19 @@ const std::vector<BinaryRow>& binary_rows() {
          {{7, 2, 1}, {-7, 2, -1}, {7, -2, 1}, {-7, -2, -1}, {-32768, -1, 0}, {6, 3, 0}}},
         {"|", BinaryOperator::BitOr, {{0x0f0f, 0x00ff, 0x0fff}, {-32768, 1, -32767}, {0, 0, 0}}},
         {"^", BinaryOperator::BitXor, {{0x0f0f, 0x00ff, 0x0ff0}, {-1, 1, -2}, {77, 77, 0}}},
-        {"&", BinaryOperator::BitAnd, {{0x0f0f, 0x00ff, 0x000f}, {-32768, -1, -32768}, {1, 2, 0}}},
-        {"==", BinaryOperator::Equal, {{5, 5, 1}, {5, 6, 0}, {-32768, -32768, 1}, {-1, 1, 0}}},
+        {"&",
+         BinaryOperator::BitAnd,
+         {{0x0f0f, 0x00ff, 0x000f}, {-32768, -1, -32768}, {1, 2, 0}, {7, 2, 2}}},
+        {"==",
+         BinaryOperator::Equal,
+         {{5, 5, 1}, {5, 6, 0}, {6, 5, 0}, {-32768, -32768, 1}, {-1, 1, 0}}},
         {"!=", BinaryOperator::NotEqual, {{5, 5, 0}, {5, 6, 1}, {6, 5, 1}, {-32768, 32767, 1}}},
         {">", BinaryOperator::Bigger, {{5, 5, 0}, {6, 5, 1}, {5, 6, 0}, {32767, -32768, 1}}},
         {">=", BinaryOperator::BiggerEqual, {{5, 5, 1}, {6, 5, 1}, {5, 6, 0}, {-32768, 32767, 0}}},
         {"<", BinaryOperator::Smaller, {{5, 5, 0}, {6, 5, 0}, {5, 6, 1}, {-32768, 32767, 1}}},
         {"<=", BinaryOperator::SmallerEqual, {{5, 5, 1}, {6, 5, 0}, {5, 6, 1}, {32767, -32768, 0}}},
-        {"or", BinaryOperator::Or, {{0, 0, 0}, {2, 0, 1}, {0, -3, 1}, {2, 4, 1}}},
-        {"and", BinaryOperator::And, {{0, 0, 0}, {2, 0, 0}, {0, -3, 0}, {2, 4, 1}}},
+        {"or", BinaryOperator::Or, {{0, 0, 0}, {2, 0, 1}, {0, -3, 1}, {2, 4, 1}, {3, 3, 1}}},
+        {"and", BinaryOperator::And, {{0, 0, 0}, {2, 0, 0}, {0, -3, 0}, {2, 4, 1}, {4, 2, 1}}},
     };
     return kRows;
 }

@@ -7,6 +7,10 @@ namespace {
 
 constexpr Duration kFrameTakes = std::chrono::microseconds(100);
 
+Error pulled() {
+    return Error{Code::Unavailable, "the cable was pulled"};
+}
+
 }  // namespace
 
 VirtualLine::VirtualLine(aesl::Target target, Fault fault, uint16_t id) : fault_(std::move(fault)) {
@@ -19,6 +23,7 @@ VirtualLine::VirtualLine(aesl::Target target, Fault fault, uint16_t id) : fault_
 }
 
 Status VirtualLine::send(const wire::Frame& frame) {
+    if (frames_left_ && (*frames_left_)-- <= 0) return pulled();
     now_ += kFrameTakes;
     if (!fault_.to_node) {
         node_->receive(frame);
@@ -29,6 +34,7 @@ Status VirtualLine::send(const wire::Frame& frame) {
 }
 
 Result<std::optional<wire::Frame>> VirtualLine::receive(Time deadline) {
+    if (frames_left_ && *frames_left_ < 0) return pulled();
     Time next = node_->step(now_);
     while (arrived_.empty() && now_ < deadline) {
         now_ = std::min(deadline, next);

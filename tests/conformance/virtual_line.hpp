@@ -30,11 +30,13 @@ public:
     Result<std::optional<wire::Frame>> receive(Time deadline) override;
     Time now() const override { return now_; }
 
-    session::LiveNode& node() { return *node_; }
+    // After so many more frames to the node nothing goes in or out.
+    void break_after(int frames) { frames_left_ = frames; }
 
 private:
     Fault fault_;
     Time now_{};
+    std::optional<int> frames_left_;
     std::deque<wire::Frame> arrived_;
     std::unique_ptr<session::LiveNode> node_;
 };

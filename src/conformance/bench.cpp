@@ -98,8 +98,10 @@ Status Bench::set(uint16_t start, const Values& values) {
 Status Bench::pump(Time deadline) {
     const std::optional<wire::Frame> frame = TRY(line_.receive(deadline));
     if (!frame) return Status::done();
-    if (frame->source == wire::kHostId && !wire::is_user_event(frame->type)) foreign_++;
+    if (wire::is_command(frame->type) && frame->first_word() == id_) foreign_++;
     if (frame->source != id_) return Status::done();
+    if (is(*frame, MessageType::Disconnected))
+        return Error{Code::Unavailable, "the node left the bus"};
     if (is(*frame, MessageType::NodePresent) && !hears_presence_) return Status::done();
     std::deque<wire::Frame>& heard = wire::is_user_event(frame->type) ? events_ : messages_;
     if (heard.size() >= kHeardMax) {

@@ -111,7 +111,7 @@ public:
     // node does not answer.
     Status clear();
 
-    // Frames of another host on the bus: its questions may spoil ours.
+    // Commands of another host to this node: the answers to its questions may spoil ours.
     size_t foreign() const { return foreign_; }
 
 private:

@@ -95,7 +95,7 @@ Report examine(Line& line, const Order& order, const aesl::Target& target) {
         Row row{check, Verdict::NotRun, lost};
         if (lost.empty()) {
             const Status cleared = bench.clear();
-            if (!cleared.ok()) lost = cleared.error().what + ", since \"" + last + "\"";
+            if (!cleared.ok()) lost = "lost at \"" + last + "\": " + cleared.error().what;
             row =
                 cleared.ok() ? row_of(check, check.look(bench)) : Row{check, Verdict::NotRun, lost};
             last = check.name;

@@ -41,7 +41,7 @@ struct Report {
     uint16_t node = 0;
     aesl::Target target;
     std::vector<Row> rows;
-    size_t foreign = 0;  // frames of another host that were heard meanwhile
+    size_t foreign = 0;  // commands of another host to this node, heard meanwhile
     // Whether the node was left as Bench::clear() leaves it.
     bool left_clear = false;
 

@@ -124,7 +124,7 @@ void say_afterwards(const conformance::Report& report) {
     say(report.left_clear ? "vagus: the node is left without a program; load yours again\n"
                           : "vagus: the node could not be cleared; restart it\n");
     if (report.foreign > 0)
-        say("vagus: another program talks to the nodes of this bus; findings may come from that: "
+        say("vagus: another program sends commands to this node; findings may come from that: "
             "end it and repeat\n");
 }
 

@@ -58,6 +58,15 @@ Result<uint16_t> Bench::room(uint16_t words) const {
     return lacking(std::to_string(words) + " free variables", "has " + std::to_string(room_size()));
 }
 
+Result<uint16_t> Bench::address_of(const std::string& name) const {
+    uint16_t at = 0;
+    for (const aesl::NamedVariable& variable : target_.variables) {
+        if (variable.name == name) return at;
+        at = static_cast<uint16_t>(at + variable.size);
+    }
+    return lacking("a variable " + name, "does not describe it");
+}
+
 Result<uint16_t> Bench::native(const std::string& name) const {
     const auto found = std::ranges::find(target_.natives, name, &aesl::NativeFunction::name);
     if (found == target_.natives.end()) return lacking(name, "does not have it");
@@ -201,6 +210,30 @@ Status Bench::expect_silence() {
     return finding("expected no event, found " + text_of(events_.front()));
 }
 
+Status Bench::expect_silence_again() {
+    for (int i = 0; i < kQuestionsAgain; i++) {
+        TRY(ask_fence());
+        const std::optional<wire::Frame> frame = TRY(listen(now() + kAnswerAgainWithin));
+        if (!frame) continue;
+        if (!is(*frame, MessageType::Variables))
+            return finding("expected no answer, found " + text_of(*frame));
+        TRY(forget());
+        return expect_silence();
+    }
+    return finding("the node does not answer any more");
+}
+
+// Answers to earlier questions may still come, up to that to one more.
+Status Bench::forget() {
+    TRY(ask_fence());
+    const Time deadline = now() + kAnswerWithin;
+    while (now() < deadline) {
+        const std::optional<wire::Frame> frame = TRY(listen(deadline));
+        if (frame && is_fence(*frame)) return Status::done();
+    }
+    return Error{Code::Timeout, "the node does not answer GetVariables any more"};
+}
+
 Result<Values> Bench::get(uint16_t start, uint16_t count) {
     TRY(command(MessageType::GetVariables, {start, count}));
     Values values;
@@ -310,19 +343,11 @@ Status Bench::clear() {
     TRY(command(MessageType::SetBytecode, {0, 0}));
     TRY(command(MessageType::BreakpointClearAll));
     TRY(command(MessageType::Run));
-    TRY(ask_fence());
-    const Time deadline = now() + kAnswerWithin;
-    bool answered = false;
-    while (!answered && now() < deadline) {
-        messages_.clear();
-        events_.clear();
-        TRY(pump(deadline));
-        answered = !messages_.empty() && is_fence(messages_.front());
-    }
+    messages_.clear();
+    TRY(forget());
     messages_.clear();
     events_.clear();
-    if (answered) return Status::done();
-    return Error{Code::Timeout, "the node does not answer GetVariables any more"};
+    return Status::done();
 }
 
 }  // namespace vagus::conformance

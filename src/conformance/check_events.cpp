@@ -102,9 +102,10 @@ Status cuts_arguments_that_do_not_fit(Bench& bench) {
     return has_more && stored == kept ? bench.expect_values(behind, before) : Status::done();
 }
 
+// On a line that may lose bytes such an event may be taken for noise; else its word is stored, and
+// nothing of the byte behind it.
 Status leaves_out_an_odd_byte(Bench& bench) {
     (void)TRY(capacity(bench, 2));
-    TRY(start_paused(bench, ping_handler(Instructions().stop())));
     TRY(bench.set(kArgumentsAt, {1, 2}));
     wire::Frame frame{};
     frame.type = kPing;
@@ -112,8 +113,10 @@ Status leaves_out_an_odd_byte(Bench& bench) {
     frame.payload[0] = 10;
     frame.payload[2] = 0x77;
     TRY(bench.send(frame));
-    TRY(bench.expect_state({kInitStart, 3}));
-    return bench.expect_values(kArgumentsAt, {10, 2});
+    TRY(bench.expect_silence_again());
+    const Values found = TRY(bench.get(kArgumentsAt, 2));
+    if (found == Values{10, 2} || found == Values{1, 2}) return Status::done();
+    return finding("expected 10, 2 (or 1, 2), found " + text_of(found));
 }
 
 Status is_dropped_while_paused_in_an_event(Bench& bench) {
@@ -243,14 +246,9 @@ Result<Timer> timer_of(const Bench& bench) {
         return event.name == "timer" || event.name == "timer0";
     };
     const auto event = std::ranges::find_if(events, named);
-    uint16_t at = 0;
-    for (const aesl::NamedVariable& variable : bench.target().variables) {
-        const bool found = variable.name == "timer.period" && event != events.end();
-        const auto index = static_cast<uint16_t>(event - events.begin());
-        if (found) return Timer{static_cast<uint16_t>(0xfffe - index), at};
-        at = static_cast<uint16_t>(at + variable.size);
-    }
-    return lacking("a timer", "describes none");
+    if (event == events.end()) return lacking("a timer", "describes none");
+    const uint16_t period_at = TRY(bench.address_of("timer.period"));
+    return Timer{static_cast<uint16_t>(0xfffe - (event - events.begin())), period_at};
 }
 
 Status wait_until_counted(Bench& bench, uint16_t at, int16_t count) {

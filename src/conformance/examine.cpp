@@ -80,6 +80,11 @@ Result<aesl::Target> describe(Line& line, uint16_t node) {
                                     std::to_string(description.items()) + " parts came"};
 }
 
+bool is_any_check(const std::string& only) {
+    return std::ranges::any_of(all_checks(),
+                               [&only](const Check& check) { return wanted(check, only); });
+}
+
 size_t Report::count(Verdict verdict) const {
     return static_cast<size_t>(std::ranges::count(rows, verdict, &Row::verdict));
 }

@@ -48,6 +48,9 @@ struct Report {
     size_t count(Verdict verdict) const;
 };
 
+// Some check has this in its group or name.
+bool is_any_check(const std::string& only);
+
 Report examine(Line& line, const Order& order, const aesl::Target& target);
 
 }  // namespace vagus::conformance

@@ -8,6 +8,8 @@ namespace {
 
 using wire::MessageType;
 
+constexpr size_t kValuesShown = 24;
+
 std::string words_of(const wire::Frame& frame) {
     std::string text;
     for (uint16_t i = 0; i < wire::argument_count(frame); i++)
@@ -26,7 +28,9 @@ std::string text_of_error(const wire::Frame& frame) {
 
 std::string text_of(const Values& values) {
     std::string text;
-    for (const int16_t value : values) text += (text.empty() ? "" : ", ") + std::to_string(value);
+    for (size_t i = 0; i < values.size() && i < kValuesShown; i++)
+        text += (i > 0 ? ", " : "") + std::to_string(values[i]);
+    if (values.size() > kValuesShown) text += ", … (" + std::to_string(values.size()) + " in all)";
     return text;
 }
 

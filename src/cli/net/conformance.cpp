@@ -130,6 +130,8 @@ void say_afterwards(const conformance::Report& report) {
 
 Result<int> examine(const ConformanceOptions& options) {
     const net::Target target = TRY(net::parse_target(options.target));
+    if (!conformance::is_any_check(options.only))
+        return Error{Code::BadInput, "no check has \"" + options.only + "\" in its group or name"};
     LiveLine line(TRY(net::Client::connect(target, kConnectWithin)));
     const std::vector<uint16_t> ids = TRY(conformance::who_is_there(line));
     const Candidate node = options.node.empty() ? TRY(only_node(line, ids, options.target))
@@ -142,8 +144,6 @@ Result<int> examine(const ConformanceOptions& options) {
     const conformance::Report report = conformance::examine(line, order, node.target);
     print(options.json ? conformance::report_json(report) : conformance::summary_text(report));
     say_afterwards(report);
-    if (report.rows.empty())
-        return Error{Code::BadInput, "no check has \"" + options.only + "\" in its group or name"};
     const bool clean = report.count(conformance::Verdict::Failed) == 0 &&
                        report.count(conformance::Verdict::NotRun) == 0;
     return clean ? kExitDone : kExitFailed;

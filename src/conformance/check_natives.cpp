@@ -143,10 +143,10 @@ Rows statistic_rows() {
 Rows angle_rows() {
     const Values sines{0, 1, 64, 8192, 16384, -16384, 32767, -32768};
     const Values cosines{0, 8192, 16384, -32768};
-    const Values y{0, 0, 1, -1, 1, 1, -1, -1, 1, 100, 3, -32768, -32768, 5};
-    const Values x{0, -5, 0, 0, 1, -1, -1, 1, 32767, 3, 100, 1, -32768, -32768};
-    const Values angles{0,     -32768, 16384, -16384, 8203,   24565,  -24565,
-                        -8203, 0,      16071, 312,    -16384, -24565, 16384};
+    const Values y{0, 0, 1, -1, 1, 1, -1}, more_y{-1, 1, 100, 3, -32768, -32768, 5};
+    const Values x{0, -5, 0, 0, 1, -1, -1}, more_x{1, 32767, 3, 100, 1, -32768, -32768};
+    const Values angles{0, -32768, 16384, -16384, 8203, 24565, -24565};
+    const Values more_angles{-8203, 0, 16071, 312, -16384, -24565, 16384};
     return {
         {"math.sin",
          "math.sin",
@@ -158,7 +158,12 @@ Rows angle_rows() {
          "4.3, C",
          "",
          {{{Values(4, 9), cosines}, {{32767, 23171, 0, -32767}, cosines}}}},
-        {"math.atan2", "math.atan2", "4.3, C", "", {{{Values(14, 9), y, x}, {angles, y, x}}}},
+        {"math.atan2",
+         "math.atan2",
+         "4.3, C",
+         "",
+         {{{Values(7, 9), y, x}, {angles, y, x}},
+          {{Values(7, 9), more_y, more_x}, {more_angles, more_y, more_x}}}},
         {"math.rot2",
          "math.rot2",
          "4.3",

@@ -37,6 +37,23 @@ TEST(Conformance, ATinyNodeIsAskedForNoMoreThanItHas) {
     EXPECT_GT(report.count(Verdict::Passed), 5u);
 }
 
+// What docs/porting.md promises of a small node.
+TEST(Conformance, ASmallNodeIsExaminedInNearlyEverything) {
+    const Report report =
+        examine_virtual(node_with({.bytecode = 64, .stack = 16, .variables = 76}));
+    EXPECT_EQ(rows_with(report, Verdict::Failed), "");
+    EXPECT_EQ(rows_with(report, Verdict::NotRun), "");
+    EXPECT_EQ(rows_with(report, Verdict::Skipped),
+              "description: fragments of the description can be asked for: needs protocol version "
+              "8; the node has 5\n"
+              "programs: a program of more than 256 words arrives whole: needs 264 words of "
+              "bytecode; the node has 64\n"
+              "opcodes: Emit sends 258 words: needs 258 free variables; the node has 40\n"
+              "limits: all variables asked for at once come in pieces: needs more than 257 "
+              "variables; the node has 76\n"
+              "limits: an Emit of 259 words: needs 259 variables; the node has 76\n");
+}
+
 TEST(Conformance, OnlySomeChecksAreMadeIfAskedSo) {
     const Report report = examine_virtual(node_with(), {}, "SubCall");
     EXPECT_EQ(report.rows.size(), 2u);

@@ -6,6 +6,9 @@
 
 namespace vagus::conformance {
 
+// Its checks overwrite what the node keeps over a restart: made only if that is wanted.
+constexpr const char* kFlashGroup = "flash";
+
 // Each group adds its own.
 void add_description_checks(Checks& checks);
 void add_message_checks(Checks& checks);
@@ -17,6 +20,7 @@ void add_event_checks(Checks& checks);
 void add_fault_checks(Checks& checks);
 void add_control_checks(Checks& checks);
 void add_breakpoint_checks(Checks& checks);
+void add_flash_checks(Checks& checks);
 void add_limit_checks(Checks& checks);
 
 Checks all_checks();

@@ -89,27 +89,53 @@ size_t Report::count(Verdict verdict) const {
     return static_cast<size_t>(std::ranges::count(rows, verdict, &Row::verdict));
 }
 
+namespace {
+
+constexpr const char* kFlashStays =
+    "it would overwrite the program that the node keeps: say --flash";
+
+// Goes through the list; knows which check the node was lost at.
+class Examination {
+public:
+    Examination(Line& line, const Order& order, const aesl::Target& target)
+        : order_(order), bench_(line, order.node, target) {
+        bench_.set_nobody(order.nobody);
+    }
+
+    Row make(const Check& check) {
+        if (!lost_.empty()) return {check, Verdict::NotRun, lost_};
+        if (check.group == kFlashGroup && !order_.flash)
+            return {check, Verdict::Skipped, kFlashStays};
+        const Status cleared = bench_.clear();
+        if (!cleared.ok()) {
+            lost_ = "lost at \"" + last_ + "\": " + cleared.error().what;
+            return {check, Verdict::NotRun, lost_};
+        }
+        last_ = check.name;
+        return row_of(check, check.look(bench_));
+    }
+    bool leave() { return lost_.empty() && bench_.clear().ok(); }
+    size_t foreign() const { return bench_.foreign(); }
+
+private:
+    const Order& order_;
+    Bench bench_;
+    std::string lost_;
+    std::string last_ = "the beginning";
+};
+
+}  // namespace
+
 Report examine(Line& line, const Order& order, const aesl::Target& target) {
     Report report{.node = order.node, .target = target, .rows = {}, .foreign = 0};
-    Bench bench(line, order.node, target);
-    bench.set_nobody(order.nobody);
-    std::string lost;
-    std::string last = "the beginning";
+    Examination examination(line, order, target);
     for (const Check& check : all_checks()) {
         if (!wanted(check, order.only)) continue;
-        Row row{check, Verdict::NotRun, lost};
-        if (lost.empty()) {
-            const Status cleared = bench.clear();
-            if (!cleared.ok()) lost = "lost at \"" + last + "\": " + cleared.error().what;
-            row =
-                cleared.ok() ? row_of(check, check.look(bench)) : Row{check, Verdict::NotRun, lost};
-            last = check.name;
-        }
-        order.tell(row);
-        report.rows.push_back(std::move(row));
+        report.rows.push_back(examination.make(check));
+        order.tell(report.rows.back());
     }
-    report.left_clear = lost.empty() && bench.clear().ok();
-    report.foreign = bench.foreign();
+    report.left_clear = examination.leave();
+    report.foreign = examination.foreign();
     return report;
 }
 

@@ -28,6 +28,7 @@ struct ConformanceOptions {
     std::string only;
     bool json = false;
     bool may_drive = false;
+    bool flash = false;
 };
 
 // The connection, which Ctrl-C cuts.
@@ -115,9 +116,11 @@ uint16_t unused_id(const std::vector<uint16_t>& ids) {
     return id;
 }
 
-void say_beforehand(const Candidate& node) {
+void say_beforehand(const Candidate& node, const ConformanceOptions& options) {
+    const std::string flash =
+        options.flash ? "what it keeps in flash, too" : "what it keeps in flash stays";
     say("vagus: examining " + visible(name_of(node)) +
-        ": its program is replaced, and cannot be put back; what it keeps in flash stays\n");
+        ": its program is replaced, and cannot be put back; " + flash + "\n");
 }
 
 void say_afterwards(const conformance::Report& report) {
@@ -137,8 +140,9 @@ Result<int> examine(const ConformanceOptions& options) {
     const Candidate node = options.node.empty() ? TRY(only_node(line, ids, options.target))
                                                 : TRY(named_node(line, ids, options));
     if (!options.may_drive) TRY(refuse_to_drive(node));
-    say_beforehand(node);
-    conformance::Order order{.node = node.id, .nobody = unused_id(ids), .only = options.only};
+    say_beforehand(node, options);
+    conformance::Order order{
+        .node = node.id, .nobody = unused_id(ids), .flash = options.flash, .only = options.only};
     if (!options.json)
         order.tell = [](const conformance::Row& row) { print(conformance::row_text(row)); };
     const conformance::Report report = conformance::examine(line, order, node.target);
@@ -171,6 +175,8 @@ void add_conformance(CLI::App& app, int& exit_code) {
     verb->add_option("--only", options->only, "only checks that have this in their group or name")
         ->type_name("TEXT");
     verb->add_flag("--json", options->json, "the result as JSON, at the end");
+    verb->add_flag("--flash", options->flash,
+                   "also WriteBytecode and Reboot: the program that the node keeps is overwritten");
     verb->add_flag("--may-drive", options->may_drive,
                    "go on although the node has motors, which keep what they were told last");
     verb->footer(

@@ -11,12 +11,13 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # An arrow means "may include" (docs/ARCHITECTURE.md). Nothing else may.
-BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "vm", "base", "isa", "wire"]
+BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "fastvm", "vm", "base", "isa", "wire"]
 MAY_INCLUDE = {
     "base": [],
     "isa": [],
     "wire": [],
     "vm": ["isa", "wire"],
+    "fastvm": ["vm", "isa", "wire"],
     "node": ["vm", "isa", "wire"],
     "hub": ["wire", "base"],
     "plan": ["base"],
@@ -24,7 +25,7 @@ MAY_INCLUDE = {
     "run": ["plan", "base"],
     "toolbox": ["run", "plan", "wire", "base"],
     "embed": ["session"] + BELOW_SESSION,
-    "sim": ["hub", "node", "vm", "isa", "wire", "base"],
+    "sim": ["hub", "node", "fastvm", "vm", "isa", "wire", "base"],
     "debug": ["aesl", "wire", "base"],
     "net": ["hub", "wire", "base"],
     "conformance": ["debug", "aesl", "isa", "wire", "base"],
@@ -57,7 +58,7 @@ ROOMS = {
         ("world", "frame_notes frames_for_others node_bus inhabitants world"),
     ],
     "serve": [
-        ("system", "process access base64"),
+        ("ground", "process access base64 plan_value"),
         ("protocol", "protocol/"),
         ("door", "web/"),
         ("pages", "studio/"),

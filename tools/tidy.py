@@ -49,6 +49,13 @@ ROOMS = {
         ("whole", "compile"),
         ("reference", "reference/"),
     ],
+    "conformance": [
+        ("values", "line instructions finding standard_natives"),
+        ("the bench", "bench native_call"),
+        ("checks", "check checks check_breakpoints check_control check_description check_events check_faults check_flash "
+                   "check_limits check_messages check_native_faults check_natives check_opcodes check_operators"),
+        ("the whole", "examine report_text"),
+    ],
     "sim": [
         ("values", "definitions drawing noise cell_grid texture png ground"),
         ("bodies", "sight arena fan wheels camera"),

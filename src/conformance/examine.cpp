@@ -51,7 +51,7 @@ Result<std::vector<uint16_t>> who_is_there(Line& line) {
     TRY(line.send(frame_of(ask)));
     std::set<uint16_t> ids;
     const Time last = line.now() + kPresenceMost;
-    Time deadline = line.now() + kPresenceWithin;
+    Time deadline = last;
     while (line.now() < deadline && ids.size() < kNodesMax) {
         const std::optional<wire::Frame> frame = TRY(line.receive(deadline));
         wire::NodePresent present;

@@ -18,9 +18,10 @@
 
 namespace vagus::conformance {
 
-// After the last node that answered ListNodes, or if none does: all that are there have.
-constexpr Duration kPresenceWithin = std::chrono::milliseconds(500);
+// The first node answers ListNodes within the one, each further one within the other behind it:
+// then all that are there have.
 constexpr Duration kPresenceMost = std::chrono::seconds(5);
+constexpr Duration kPresenceWithin = std::chrono::milliseconds(800);
 // A description has 300 to 700 CAN frames, and serial lines are slow.
 constexpr Duration kDescriptionWithin = std::chrono::seconds(20);
 constexpr size_t kNodesMax = 1024;

@@ -288,6 +288,7 @@ class Peers(unittest.TestCase):
         with vagus("conformance", f"tcp:127.0.0.1:{port}", "--may-drive", "--json", *options) as program:
             program.wait_end()
             text = "\n".join(line for line in program.lines if not line.startswith("vagus: "))
+            self.assertTrue(text, program.lines)
         return {row["check"]: row for row in json.loads(text)["checks"]}
 
     def failed(self, rows):

@@ -20,6 +20,16 @@ Report examine_within(VirtualLine& line, Duration longest) {
     return report;
 }
 
+TEST(ConformanceEnds, WhoIsThereIsWaitedForAndNoLonger) {
+    VirtualLine line(node_with());
+    EXPECT_EQ(who_is_there(line).value(), std::vector<uint16_t>{1});
+    VirtualLine empty(node_with(), {.to_node = [](const wire::Frame&) { return Frames{}; }});
+    const Time before = empty.now();
+    EXPECT_EQ(who_is_there(empty).value(), std::vector<uint16_t>{});
+    EXPECT_EQ(empty.now() - before, kPresenceMost + std::chrono::microseconds(100));
+    EXPECT_FALSE(describe(empty, 1).ok());
+}
+
 // At any frame the node falls silent for ever.
 TEST(ConformanceEnds, ANodeThatDiesIsAFindingAndNoHang) {
     for (const int frames : {0, 1, 100, 500, 1000}) {

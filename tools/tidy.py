@@ -11,12 +11,13 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # An arrow means "may include" (docs/ARCHITECTURE.md). Nothing else may.
-BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "vm", "base", "isa", "wire"]
+BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "fastvm", "vm", "base", "isa", "wire"]
 MAY_INCLUDE = {
     "base": [],
     "isa": [],
     "wire": [],
     "vm": ["isa", "wire"],
+    "fastvm": ["vm", "isa", "wire"],
     "node": ["vm", "isa", "wire"],
     "hub": ["wire", "base"],
     "plan": ["base"],
@@ -24,12 +25,13 @@ MAY_INCLUDE = {
     "run": ["plan", "base"],
     "toolbox": ["run", "plan", "wire", "base"],
     "embed": ["session"] + BELOW_SESSION,
-    "sim": ["hub", "node", "vm", "isa", "wire", "base"],
+    "sim": ["hub", "node", "fastvm", "vm", "isa", "wire", "base"],
     "debug": ["aesl", "wire", "base"],
     "net": ["hub", "wire", "base"],
+    "conformance": ["debug", "aesl", "isa", "wire", "base"],
     "session": BELOW_SESSION,
     "serve": ["embed", "session"] + BELOW_SESSION,
-    "cli": ["serve", "embed", "session"] + BELOW_SESSION,
+    "cli": ["conformance", "serve", "embed", "session"] + BELOW_SESSION,
 }
 # Inside a module, too, an arrow points down: a file may include what stands in its own room or in one before it. Rooms
 # from the ground up; a name is that of a file without its ending, a name with / at its end that of a folder. Tests may
@@ -47,6 +49,13 @@ ROOMS = {
         ("whole", "compile"),
         ("reference", "reference/"),
     ],
+    "conformance": [
+        ("values", "line instructions finding standard_natives"),
+        ("the bench", "bench native_call"),
+        ("checks", "check checks check_breakpoints check_control check_description check_events check_faults check_flash "
+                   "check_limits check_messages check_native_faults check_natives check_opcodes check_operators"),
+        ("the whole", "examine report_text"),
+    ],
     "sim": [
         ("values", "definitions schedule crew drawing noise cell_grid texture png ground"),
         ("bodies", "moving_grid sight spacing arena fan wheels camera"),
@@ -56,7 +65,7 @@ ROOMS = {
         ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world"),
     ],
     "serve": [
-        ("system", "process access base64"),
+        ("ground", "process access base64 plan_value"),
         ("protocol", "protocol/"),
         ("door", "web/"),
         ("pages", "studio/"),

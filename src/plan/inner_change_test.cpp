@@ -46,11 +46,17 @@ Texts nested() {
     return {{"o.plan.json", kOuter}, {"inner.plan.json", kInner}};
 }
 
+// The inner plan is at "go"; nothing of how it came there is in the trace.
+struct InsideTheInnerPlan : Running {
+    InsideTheInnerPlan() : Running(nested()) {
+        begin();  // the call
+        begin();  // go
+        trace();
+    }
+};
+
 TEST(HotChange, AnInnerPlanChangesAndTheOuterDoesNot) {
-    Running run(nested());
-    run.begin();  // the call
-    run.begin();  // go
-    run.trace();
+    InsideTheInnerPlan run;
     const std::string next =
         with(kInner, R"("own": {)", R"("new": { "type": "int", "initial": 2 }, "own": {)");
     EXPECT_THAT(run.change(Texts{{"inner.plan.json", next}}), IsEmpty());
@@ -60,10 +66,7 @@ TEST(HotChange, AnInnerPlanChangesAndTheOuterDoesNot) {
 }
 
 TEST(HotChange, WhileTheOuterChangesASharedVariableStaysOne) {
-    Running run(nested());
-    run.begin();
-    run.begin();
-    run.trace();
+    InsideTheInnerPlan run;
     const std::string next =
         with(kOuter, R"("both": {)", R"("first": { "type": "int" }, "both": {)");
     EXPECT_THAT(run.change(Texts{{"o.plan.json", next}}), IsEmpty());
@@ -74,10 +77,7 @@ TEST(HotChange, WhileTheOuterChangesASharedVariableStaysOne) {
 }
 
 TEST(HotChange, BothFilesTogetherAreOneChangeAndANewSharedVariableIsTheCallers) {
-    Running run(nested());
-    run.begin();
-    run.begin();
-    run.trace();
+    InsideTheInnerPlan run;
     const std::string outer =
         with(kOuter, R"("given": {)", R"("more": { "type": "int", "initial": 6 }, "given": {)");
     const std::string inner =

@@ -40,6 +40,7 @@ constexpr Duration kNever = Duration::max();  // a wait that only an event or St
 struct BusEvent {
     std::string name;
     std::vector<int16_t> arguments;
+    uint16_t from = 0;  // the node that emitted it; 0: a host, or the plan itself
 };
 
 // Thrown by waits when the code is told to stop. No error; catch it only to put things in order.

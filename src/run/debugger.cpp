@@ -91,7 +91,15 @@ private:
     std::atomic<bool> waiting_ = false;  // so that a decision costs no lock
 };
 
+const Error kNothingHeld{Code::NotFound, "no event of the bus waits for the plan"};
+const Error kNotHeld{Code::NotFound, "that event does not wait any more: it was let go or dropped"};
 const Error kNotPaused{Code::Refused, "the plan runs; pause it first"};
+// A line of the trace that tells of something that the plan itself has done.
+bool is_doing(const plan::TraceEvent& event) {
+    return !std::holds_alternative<plan::CheckLate>(event.what) &&
+           !std::holds_alternative<plan::PlanChanged>(event.what);
+}
+
 const Error kNotStarted{Code::Refused,
                         "the run has not started; step to its first actor, or give values at the "
                         "start with --set NAME=VALUE"};
@@ -128,6 +136,7 @@ public:
     Result<Reply> answer(Abort&) {
         abort_asked_ = true;
         paused_ = false;
+        gate_->open_gate();  // code that is told to stop may wait for an answer of its node
         machine_->abort(now_);
         return Reply(Done{});
     }
@@ -158,6 +167,26 @@ public:
                                            : machine_->change(asked.next, now_)});
     }
 
+    Result<Reply> answer(ListHeld&) { return Reply(gate_->held()); }
+    Result<Reply> answer(LetGo& asked) {
+        return for_held(asked.number, [this](uint64_t number) { return gate_->let_go(number); });
+    }
+    Result<Reply> answer(DropHeld& asked) {
+        return for_held(asked.number, [this](uint64_t number) { return gate_->drop(number); });
+    }
+    Result<Reply> answer(StepEvent& asked) {
+        if (!paused_) return kNotPaused;
+        if (!asked.number) {
+            const HeldNow now = gate_->held();
+            if (now.events.empty()) return kNothingHeld;
+            asked.number = now.events.front().number;
+        }
+        if (!gate_->let_go(*asked.number)) return kNotHeld;
+        paused_ = false;
+        event_step_ends_ = now_ + kEventStep;
+        return Reply(Done{});
+    }
+
     Where where() const {
         Where seen = look(*machine_);
         seen.at = now_;
@@ -168,6 +197,9 @@ public:
     void stop(Stopped::Why why, std::vector<int> breakpoints = {}) {
         paused_ = true;
         step_ = false;
+        event_step_ends_.reset();
+        event_step_heard_ = false;
+        if (why != Stopped::Why::Start) gate_->close_gate();
         why_ = why;
         mailbox_.report(Stopped{why, std::move(breakpoints), where()});
     }
@@ -197,6 +229,15 @@ public:
         return paused_ ? std::optional(wait()) : mailbox_.take();
     }
 
+    // Done for that one, or for all that wait.
+    template <typename Act>
+    Result<Reply> for_held(std::optional<uint64_t> number, const Act& act) {
+        if (!paused_) return kNotPaused;
+        if (number) return act(*number) ? Result<Reply>(Done{}) : kNotHeld;
+        for (const HeldEvent& one : gate_->held().events) (void)act(one.number);
+        return Reply(Done{});
+    }
+
     void add(std::vector<int> hits) { met_.insert(met_.end(), hits.begin(), hits.end()); }
 
     static Result<Reply> reply(const Status& status) {
@@ -223,15 +264,19 @@ public:
     std::function<void()> meanwhile_;
     Breakpoints breakpoints_;
     plan::Machine* machine_ = nullptr;
+    EventGate* gate_ = nullptr;
     Time now_{0};
     bool paused_ = false;
     Stopped::Why why_ = Stopped::Why::Start;
     bool step_ = false;     // stop before the next begin
     bool stepped_ = false;  // that is now
     bool abort_asked_ = false;
-    std::deque<Posted> waiting_;        // for the run to begin
-    std::vector<int> met_;              // breakpoints, in this decision
-    std::optional<Time> instant_;       // at which to pause
+    std::deque<Posted> waiting_;   // for the run to begin
+    std::vector<int> met_;         // breakpoints, in this decision
+    std::optional<Time> instant_;  // at which to pause
+    // While it runs with one event alone: it stops at the next thing it does, or then.
+    std::optional<Time> event_step_ends_;
+    bool event_step_heard_ = false;  // the plan has it: what it does from here on is the next thing
     plan::ActivationId announced_ = 0;  // whose begin has been stopped at, or let pass
 
 private:
@@ -239,6 +284,7 @@ private:
         if (!paused_) return Error{Code::Refused, "the plan runs already"};
         paused_ = false;
         step_ = step;
+        gate_->open_gate();
         return Reply(Done{});
     }
 };
@@ -259,15 +305,18 @@ void Debugger::while_paused(std::function<void()> meanwhile) {
     core_->meanwhile_ = std::move(meanwhile);
 }
 
-void Debugger::attach(plan::Machine& machine, std::function<void()> wake) {
+void Debugger::attach(plan::Machine& machine, EventGate& gate, std::function<void()> wake) {
     Core& core = *core_;
     core.machine_ = &machine;
+    core.gate_ = &gate;
     core.now_ = Time{0};
     core.breakpoints_.start_anew();
     core.met_.clear();
     core.waiting_.clear();
     core.step_ = core.stepped_ = core.abort_asked_ = false;
     core.instant_.reset();
+    core.event_step_ends_.reset();
+    core.event_step_heard_ = false;
     core.announced_ = 0;
     core.paused_ = false;
     core.mailbox_.set_wake(std::move(wake));
@@ -303,6 +352,11 @@ bool Debugger::aborted() const {
 
 void Debugger::see(const plan::TraceEvent& event) {
     core_->add(core_->breakpoints_.see(event));
+    if (core_->event_step_heard_ && is_doing(event)) core_->stepped_ = true;
+}
+
+void Debugger::heard() {
+    core_->event_step_heard_ = core_->event_step_ends_.has_value();
 }
 
 std::vector<std::string> Debugger::reasons_against(const plan::NewVersion& next) const {
@@ -318,24 +372,28 @@ bool Debugger::stops_before_begin() {
     core.announced_ = activation;
     core.add(core.breakpoints_.settle());
     core.add(core.breakpoints_.before_begin(level, *core.machine_->actor_at(level)));
-    core.stepped_ = core.step_;
+    core.stepped_ = core.step_ || core.event_step_heard_;
     return core.stepped_ || !core.met_.empty();
 }
 
 std::optional<Time> Debugger::instant() const {
-    return core_->instant_;
+    const auto& [asked, step] = std::pair(core_->instant_, core_->event_step_ends_);
+    return asked && step ? std::min(asked, step) : asked ? asked : step;
 }
 
 void Debugger::reach_instant(Time now) {
-    core_->instant_.reset();
-    core_->now_ = now;
-    if (!core_->paused_) core_->stop(Stopped::Why::Instant);
+    Core& core = *core_;
+    core.now_ = now;
+    const bool asked = core.instant_ && *core.instant_ <= now;
+    if (asked) core.instant_.reset();
+    if (!core.paused_) core.stop(asked ? Stopped::Why::Instant : Stopped::Why::Step);
 }
 
 void Debugger::detach(const RunOver& over) {
     core_->mailbox_.set_wake({});
     core_->paused_ = false;
     core_->machine_ = nullptr;
+    core_->gate_ = nullptr;
     core_->mailbox_.report(over);
 }
 

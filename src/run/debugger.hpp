@@ -25,10 +25,13 @@
 #include "base/time.hpp"
 #include "plan/machine.hpp"
 #include "run/breakpoints.hpp"
+#include "run/held_events.hpp"
 
 namespace vagus::run {
 
 constexpr size_t kDebugQueueMax = 10'000;  // requests that wait, reports that nobody took
+// So long at most a plan runs with one event alone, by its own clock: meanwhile it is deaf.
+constexpr Duration kEventStep = std::chrono::milliseconds(100);
 
 // ---- requests ----
 struct AddBreakpoint {  // answer: its number
@@ -77,9 +80,23 @@ struct TakeVersion {
     plan::NewVersion next;
     bool only_ask = false;  // what stands in its way now; nothing changes
 };
-using Request =
-    std::variant<AddBreakpoint, RemoveBreakpoint, EnableBreakpoint, ListBreakpoints, Pause,
-                 Continue, Step, Abort, AskWhere, Evaluate, SetVariable, RaiseEvent, TakeVersion>;
+// ---- events of the bus that came while it is paused; they go to the plan when it continues ----
+struct ListHeld {};  // answer: HeldNow
+// While paused: to the plan before all others, which takes it up when it goes on.
+struct LetGo {
+    std::optional<uint64_t> number = {};  // without: all, in their order
+};
+struct DropHeld {
+    std::optional<uint64_t> number = {};  // without: all
+};
+// While paused: lets that one go and runs to the next thing that the plan does, for kEventStep at
+// most. All others, and what comes meanwhile, stay held.
+struct StepEvent {
+    std::optional<uint64_t> number = {};  // without: the first
+};
+using Request = std::variant<AddBreakpoint, RemoveBreakpoint, EnableBreakpoint, ListBreakpoints,
+                             Pause, Continue, Step, Abort, AskWhere, Evaluate, SetVariable,
+                             RaiseEvent, TakeVersion, ListHeld, LetGo, DropHeld, StepEvent>;
 
 // ---- reports ----
 struct VariableNow {
@@ -110,7 +127,7 @@ struct Where {
 struct Change {
     std::vector<std::string> reasons = {};  // against it, a sentence each; none: accepted
 };
-using Reply = std::variant<Done, int, std::vector<Breakpoint>, plan::Value, Where, Change>;
+using Reply = std::variant<Done, int, std::vector<Breakpoint>, plan::Value, Where, Change, HeldNow>;
 
 struct Answer {
     uint64_t request;  // as post() numbered it
@@ -148,8 +165,9 @@ public:
     void while_paused(std::function<void()> meanwhile);
 
     // ---- for executors, on their deciding thread ----
-    // A run begins. `wake` is called from any thread when a request has come.
-    void attach(plan::Machine& machine, std::function<void()> wake);
+    // A run begins. `wake` is called from any thread when a request has come. Borrowed: until
+    // detach().
+    void attach(plan::Machine& machine, EventGate& gate, std::function<void()> wake);
     // Answers one request, or pauses for what was met; blocks while paused. Between two decisions:
     // call it until it gives false, each time obeying the machine, and make code and clock stand
     // still once paused().
@@ -158,6 +176,8 @@ public:
     // An abort was asked for, perhaps before the start: then the run does not start.
     bool aborted() const;
     void see(const plan::TraceEvent& event);
+    // The plan is handed an event of the bus.
+    void heard();
     // As TakeVersion that only asks, at once.
     std::vector<std::string> reasons_against(const plan::NewVersion& next) const;
     // Begin is due for the innermost activation: must the run pause first? Then look again at

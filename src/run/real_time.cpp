@@ -13,7 +13,7 @@
 
 namespace vagus::run {
 
-class RealTime::Engine {
+class RealTime::Engine final : private EventGate {
 public:
     Engine(const plan::Graph& graph, const CodeLibrary& library, const RunOptions& options)
         : library_(library),
@@ -67,6 +67,16 @@ private:
     bool may_start(const Watching& watching) const;
     bool may_check(const Watching& watching) const;
     std::optional<Time> next_deadline() const;
+    // ---- EventGate ----
+    void close_gate() override {
+        inbox_.give_back(std::exchange(taken_, {}));
+        inbox_.close_gate();
+    }
+    void open_gate() override { inbox_.open_gate(); }
+    HeldNow held() override { return inbox_.held(); }
+    bool let_go(uint64_t number) override { return inbox_.let_go(number); }
+    bool drop(uint64_t number) override { return inbox_.drop(number); }
+
     void let_debug();
     void stand_still();
     void go_on();
@@ -86,6 +96,7 @@ private:
     RunClock& clock_ = doors_->clock;
     bool timed_out_ = false;
     std::deque<plan::Command> commands_;  // not yet obeyed
+    std::deque<Posted> taken_;            // of the inbox, not yet looked at
     std::map<plan::WatchId, Watching> watching_;
     EndingChecks ending_;
     plan::ActivationId begin_due_ = 0;
@@ -99,7 +110,7 @@ private:
 
 Ended RealTime::Engine::run() {
     Debugger* const debugger = options_.debugger;
-    if (debugger) debugger->attach(machine_, [&inbox = inbox_] { inbox.nudge(); });
+    if (debugger) debugger->attach(machine_, *this, [&inbox = inbox_] { inbox.nudge(); });
     clock_.start();
     let_debug();
     Ended ended{.result = plan::PlanResult::Interrupted, .message = {}};
@@ -115,17 +126,20 @@ Ended RealTime::Engine::decide() {
         let_debug();
         begin_if_checked();
         let_debug();
+        begin_if_checked();  // it stood before that, and events that came meanwhile come after it
         start_due_checks();
         obey();
-        std::deque<Message> messages = inbox_.take();
-        if (messages.empty() && (begin_due_ == 0 || begin_waits_) && !machine_.over()) {
+        taken_ = inbox_.take();
+        if (taken_.empty() && (begin_due_ == 0 || begin_waits_) && !machine_.over()) {
             if (begin_due_ == 0) machine_.time_passed();
             const std::optional<Time> next = next_deadline();
             inbox_.wait_until(next ? std::optional(clock_.point_of(*next)) : std::nullopt);
-            messages = inbox_.take();
+            taken_ = inbox_.take();
         }
-        for (Message& message : messages) {
-            std::visit([this](auto& one) { take(one); }, message);
+        while (!taken_.empty()) {
+            Posted first = std::move(taken_.front());
+            taken_.pop_front();
+            std::visit([this](auto& one) { take(one); }, first.message);
             obey();
             let_debug();
         }
@@ -145,10 +159,11 @@ void RealTime::Engine::finish() {
         obey(stop);
     }
     const auto take_all = [this] {
-        for (Message& message : inbox_.take()) {
-            std::visit([this](auto& one) { take(one); }, message);
+        for (Posted& posted : inbox_.take()) {
+            std::visit([this](auto& one) { take(one); }, posted.message);
         }
     };
+    inbox_.open_gate();  // code may wait for an answer of its node
     for (take_all(); ending_.waits(); leave_checks()) {
         inbox_.wait_until(clock_.point_of(*ending_.until()));
         take_all();
@@ -348,6 +363,7 @@ void RealTime::Engine::take(Heard& message) {
             watching.events.push_back(message.event);
         }
     }
+    if (!message.own && options_.debugger) options_.debugger->heard();
     if (message.own) return;  // code does not hear what it has said itself
     for (const auto& [activation, code] : code_) code->context->hear(message.event);
 }
@@ -448,7 +464,7 @@ void RealTime::Engine::run_check(Watching& watching, Check check, std::optional<
 
 // The actor's code starts only after the first check of each of its supervisors (P16).
 void RealTime::Engine::begin_if_checked() {
-    if (begin_due_ == 0 || ending_.waits()) return;
+    if (begin_due_ == 0 || ending_.waits() || machine_.over()) return;
     start_due_checks();
     for (const auto& [id, watching] : watching_) {
         begin_waits_ = !watching.first_done;

@@ -38,6 +38,131 @@ SteadyClock::time_point RunClock::point_of(Time time) const {
     return start_ + std::min<Time>(time, 100 * kFar);
 }
 
+// ---- the inbox ----
+
+namespace {
+
+// From outside; what the plan itself emits is part of what it does.
+bool can_be_held(const Message& message) {
+    const auto* heard = std::get_if<Heard>(&message);
+    return heard && !heard->own;
+}
+
+}  // namespace
+
+void Inbox::post_locked(Message message) {
+    messages_.push_back({++last_, std::move(message)});
+}
+
+void Inbox::put_locked(HeldEvent one) {
+    const auto place =
+        std::find_if(messages_.begin(), messages_.end(),
+                     [&one](const Posted& posted) { return posted.number > one.number; });
+    messages_.insert(place, {one.number, Heard{std::move(one.event), false}});
+}
+
+void Inbox::post(Message message) {
+    {
+        const std::lock_guard lock(mutex_);
+        post_locked(std::move(message));
+    }
+    filled_.notify_one();
+}
+
+bool Inbox::post_bounded(Heard message) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (closed_at_) {
+            const auto after =
+                std::chrono::duration_cast<Duration>(SteadyClock::now() - *closed_at_);
+            held_.add({++last_, after, std::move(message.event)});
+            return true;
+        }
+        if (messages_.size() >= kInboxMax) return false;
+        post_locked(std::move(message));
+    }
+    filled_.notify_one();
+    return true;
+}
+
+std::deque<Posted> Inbox::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
+}
+
+void Inbox::give_back(std::deque<Posted> messages) {
+    const std::lock_guard lock(mutex_);
+    messages_.insert(messages_.begin(), std::move_iterator(messages.begin()),
+                     std::move_iterator(messages.end()));
+}
+
+void Inbox::wait_until(std::optional<SteadyClock::time_point> until) {
+    std::unique_lock lock(mutex_);
+    const auto ready = [this] { return nudged_ || !messages_.empty(); };
+    if (until) {
+        filled_.wait_until(lock, *until, ready);
+    } else {
+        filled_.wait(lock, ready);
+    }
+    nudged_ = false;
+}
+
+void Inbox::nudge() {
+    {
+        const std::lock_guard lock(mutex_);
+        nudged_ = true;
+    }
+    filled_.notify_one();
+}
+
+void Inbox::close_gate() {
+    const std::lock_guard lock(mutex_);
+    if (closed_at_) return;
+    closed_at_ = SteadyClock::now();
+    std::deque<Posted> others;
+    for (Posted& posted : messages_) {
+        if (can_be_held(posted.message)) {
+            held_.add({posted.number, {}, std::move(std::get<Heard>(posted.message).event)});
+        } else {
+            others.push_back(std::move(posted));
+        }
+    }
+    messages_ = std::move(others);
+}
+
+void Inbox::open_gate() {
+    const std::lock_guard lock(mutex_);
+    closed_at_.reset();
+    std::deque<Posted> all;
+    for (HeldEvent& one : held_.take_all()) {
+        all.push_back({one.number, Heard{std::move(one.event), false}});
+    }
+    const auto before = [](const Posted& a, const Posted& b) { return a.number < b.number; };
+    std::deque<Posted> messages = std::exchange(messages_, {});
+    std::merge(std::move_iterator(messages.begin()), std::move_iterator(messages.end()),
+               std::move_iterator(all.begin()), std::move_iterator(all.end()),
+               std::back_inserter(messages_), before);
+}
+
+HeldNow Inbox::held() {
+    const std::lock_guard lock(mutex_);
+    return held_.now();
+}
+
+bool Inbox::let_go(uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    auto one = held_.take(number);
+    if (one) put_locked(std::move(*one));
+    return one.has_value();
+}
+
+bool Inbox::drop(uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    return held_.take(number).has_value();
+}
+
+// ---- what code waits on ----
+
 void LiveContext::linger(Duration time) {
     const auto end = SteadyClock::now() + std::clamp(time, Duration{0}, kFar);
     std::unique_lock lock(mutex_);

@@ -14,6 +14,7 @@
 
 #include "run/code.hpp"
 #include "run/heard_events.hpp"
+#include "run/held_events.hpp"
 #include "run/kept_events.hpp"
 #include "run/options.hpp"
 #include "run/real_time.hpp"
@@ -72,58 +73,45 @@ struct TokensMoved {  // see Numbers::move_to()
 };
 using Message = std::variant<CodeOver, Checked, Logged, Heard, Written, Aborted, TokensMoved>;
 
-// The one door to the deciding thread.
+// Numbers tell in which order messages came, also those that were held meanwhile.
+struct Posted {
+    uint64_t number;
+    Message message;
+};
+
+// The one door to the deciding thread. While its gate is closed, events from outside wait in it.
 class Inbox {
 public:
-    void post(Message message) {
-        {
-            const std::lock_guard lock(mutex_);
-            messages_.push_back(std::move(message));
-        }
-        filled_.notify_one();
-    }
-
+    void post(Message message);
     // Events from outside are bounded: a flood of them must not fill the memory.
-    bool post_bounded(Message message) {
-        {
-            const std::lock_guard lock(mutex_);
-            if (messages_.size() >= kInboxMax) return false;
-            messages_.push_back(std::move(message));
-        }
-        filled_.notify_one();
-        return true;
-    }
+    bool post_bounded(Heard message);
 
-    std::deque<Message> take() {
-        const std::lock_guard lock(mutex_);
-        return std::exchange(messages_, {});
-    }
-
-    void wait_until(std::optional<SteadyClock::time_point> until) {
-        std::unique_lock lock(mutex_);
-        const auto ready = [this] { return nudged_ || !messages_.empty(); };
-        if (until) {
-            filled_.wait_until(lock, *until, ready);
-        } else {
-            filled_.wait(lock, ready);
-        }
-        nudged_ = false;
-    }
-
+    std::deque<Posted> take();
+    // What was taken and not looked at.
+    void give_back(std::deque<Posted> messages);
+    void wait_until(std::optional<SteadyClock::time_point> until);
     // Ends the wait although there is no message: a debugger asks.
-    void nudge() {
-        {
-            const std::lock_guard lock(mutex_);
-            nudged_ = true;
-        }
-        filled_.notify_one();
-    }
+    void nudge();
+
+    // ---- while a debugger holds the run, on the deciding thread; as EventGate ----
+    void close_gate();
+    void open_gate();
+    HeldNow held();
+    bool let_go(uint64_t number);
+    bool drop(uint64_t number);
 
 private:
-    std::mutex mutex_;
+    void post_locked(Message message);
+    // Behind those that came before it, however late it is put.
+    void put_locked(HeldEvent one);
+
+    std::mutex mutex_;  // guards what follows
     std::condition_variable filled_;
-    std::deque<Message> messages_;
+    std::deque<Posted> messages_;
+    uint64_t last_ = 0;
     bool nudged_ = false;
+    std::optional<SteadyClock::time_point> closed_at_;
+    HeldEvents held_;
 };
 
 // What also a check reaches that nobody waits for any more. Owners: the run, and each check.

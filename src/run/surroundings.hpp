@@ -30,6 +30,9 @@ public:
     virtual Time next() const = 0;
     // Does what comes before the plan at the instant next(); gives what the plan hears at it.
     virtual std::vector<BusEvent> begin() = 0;
+    // While a debugger holds the run, between begin() and end(): what has arrived meanwhile, which
+    // begin() then does not give any more.
+    virtual std::vector<BusEvent> arrived() { return {}; }
     // The plan emits; `at` may lie between two instants.
     virtual void emit(Time at, const BusEvent& event) = 0;
     // Does what comes after the plan at the instant that was begun last.

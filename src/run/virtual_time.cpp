@@ -160,7 +160,7 @@ VirtualTime::~VirtualTime() = default;
 
 Ended VirtualTime::run() {
     Debugger* const debugger = options_.debugger;
-    if (debugger) debugger->attach(machine_, {});
+    if (debugger) debugger->attach(machine_, *this, {});
     let_debug();
     Ended ended{.result = plan::PlanResult::Interrupted, .message = {}};
     if (!debugger || !debugger->aborted()) ended = decide();
@@ -446,12 +446,52 @@ void VirtualTime::meet_surroundings() {
     while (around && around->next() <= now_) {
         leave_surroundings();
         met_ = true;
-        for (const BusEvent& event : around->begin()) {
+        for (const BusEvent& event : pass(around->begin())) {
+            if (options_.debugger) options_.debugger->heard();
             const bool to_come = code_ && !code_->ended && code_->wake <= now_;  // its turn
             deliver(event);
             if (to_come) code_->context->overhear(event);
         }
     }
+}
+
+// What of it is heard now: all, unless a debugger holds it; what it has let go comes first.
+std::vector<BusEvent> VirtualTime::pass(std::vector<BusEvent> arrived) {
+    std::vector<BusEvent> heard = std::exchange(passing_, {});
+    if (gate_closed_) {
+        hold(std::move(arrived));
+    } else {
+        std::move(arrived.begin(), arrived.end(), std::back_inserter(heard));
+    }
+    return heard;
+}
+
+void VirtualTime::hold(std::vector<BusEvent> arrived) {
+    for (BusEvent& event : arrived) {
+        held_.add({.number = ++last_held_, .after = {}, .event = std::move(event)});
+    }
+}
+
+void VirtualTime::close_gate() {
+    gate_closed_ = true;
+}
+
+void VirtualTime::open_gate() {
+    gate_closed_ = false;
+    for (HeldEvent& one : held_.take_all()) passing_.push_back(std::move(one.event));
+}
+
+// The clock stands, and yet something may have arrived: from nodes at this instant, from others on
+// the bus since.
+HeldNow VirtualTime::held() {
+    if (gate_closed_ && options_.surroundings) hold(options_.surroundings->arrived());
+    return held_.now();
+}
+
+bool VirtualTime::let_go(uint64_t number) {
+    auto one = held_.take(number);
+    if (one) passing_.push_back(std::move(one->event));
+    return one.has_value();
 }
 
 void VirtualTime::leave_surroundings() {

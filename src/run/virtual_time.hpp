@@ -17,15 +17,16 @@
 #include "plan/machine.hpp"
 #include "run/code.hpp"
 #include "run/code_thread.hpp"
+#include "run/held_events.hpp"
 #include "run/options.hpp"
 
 namespace vagus::run {
 
-class VirtualTime {
+class VirtualTime final : private EventGate {
 public:
     // All three are borrowed for the life of the run.
     VirtualTime(const plan::Graph& graph, const CodeLibrary& library, const RunOptions& options);
-    ~VirtualTime();
+    ~VirtualTime() override;
 
     Ended run();
     // Ends the run as soon as what is being taken is done (P28). From any thread.
@@ -62,11 +63,20 @@ private:
     void deliver(const BusEvent& event);
     void deliver_to_code(const BusEvent& event);
     void meet_surroundings();
+    std::vector<BusEvent> pass(std::vector<BusEvent> arrived);
+    void hold(std::vector<BusEvent> arrived);
     void leave_surroundings();
     std::optional<Time> next_due() const;
     bool advance();
     bool pause_comes_first(Time next) const;
     void let_debug();
+    // ---- EventGate ----
+    void close_gate() override;
+    void open_gate() override;
+    HeldNow held() override;
+    bool let_go(uint64_t number) override;
+    bool drop(uint64_t number) override { return held_.take(number).has_value(); }
+
     void write_from_outside();
     void hand_out_trace();
 
@@ -84,6 +94,10 @@ private:
     std::optional<plan::Activate> begin_due_;
     std::optional<plan::SubPlanOver> over_due_;
     std::unique_ptr<Code> code_;
+    bool gate_closed_ = false;
+    HeldEvents held_;
+    uint64_t last_held_ = 0;         // its number
+    std::vector<BusEvent> passing_;  // let go, to be heard at the next instant
     CodeThreads threads_;
 };
 

@@ -15,7 +15,7 @@ std::optional<run::BusEvent> BusEars::hear(const debug::Event& event) {
     if (!only_.empty() && !of_a_host && !only_.contains(event.node)) return std::nullopt;
     if (const auto* sent = std::get_if<debug::UserEvent>(&event.what)) {
         if (sent->name.empty()) return std::nullopt;
-        return run::BusEvent{sent->name, sent->arguments};
+        return run::BusEvent{sent->name, sent->arguments, event.node};
     }
     if (const auto* described = std::get_if<debug::NodeDescribed>(&event.what)) {
         const auto before = gone(event.node);  // it came back, perhaps under another name
@@ -41,7 +41,7 @@ std::optional<run::BusEvent> BusEars::gone(debug::NodeId node) {
     if (found == known_.end() || !found->second.there) return std::nullopt;
     found->second.there = false;
     if (!nodes_.left(found->second.name)) return std::nullopt;
-    return run::BusEvent{toolbox::node_left(found->second.name), {}};
+    return run::BusEvent{toolbox::node_left(found->second.name), {}, node};
 }
 
 }  // namespace vagus::session

@@ -147,6 +147,11 @@ std::vector<run::BusEvent> PlanWorld::begin() {
     return hear();
 }
 
+std::vector<run::BusEvent> PlanWorld::arrived() {
+    session_.hear_ahead();
+    return hear();
+}
+
 std::vector<run::BusEvent> PlanWorld::hear() {
     std::vector<run::BusEvent> heard;
     for (const debug::Event& event : session_.take_heard()) {

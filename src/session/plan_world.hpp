@@ -62,6 +62,7 @@ public:
     // ---- run::Surroundings ----
     Time next() const override { return session_.now() + sim::kNodeStep; }
     std::vector<run::BusEvent> begin() override;
+    std::vector<run::BusEvent> arrived() override;
     void emit(Time at, const run::BusEvent& event) override;
     void end() override { session_.end_instant(); }
 

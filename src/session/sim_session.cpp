@@ -83,7 +83,7 @@ bool SimSession::settle() {
 
 // What was sent before this instant reaches the host at it, as it does the nodes.
 std::vector<wire::Frame> SimSession::take_frames() {
-    std::vector<wire::Frame> frames;
+    std::vector<wire::Frame> frames = std::exchange(put_off_, {});
     wire::Frame frame;
     while (world_.bus().take(link_, frame)) frames.push_back(frame);
     return frames;
@@ -128,6 +128,17 @@ Status SimSession::emit(const std::string& event, std::span<const int16_t> argum
 
 std::vector<debug::Event> SimSession::take_heard() {
     return std::exchange(heard_, {});
+}
+
+void SimSession::hear_ahead() {
+    for (const wire::Frame& frame : take_frames()) {
+        if (wire::is_user_event(frame.type)) {
+            network_.receive(clock_, frame);
+        } else {
+            put_off_.push_back(frame);
+        }
+    }
+    for (const debug::Event& event : network_.take_events()) hear(event);
 }
 
 void SimSession::reset() {

@@ -121,6 +121,9 @@ public:
     void emit_to(sim::RobotId robot) { emits_to_ = robot; }
     // What the bus told since, user events and all else, in its order; with SimOptions::heard.
     std::vector<debug::Event> take_heard();
+    // Between begin_instant() and end_instant(), for a plan that a debugger holds there: user
+    // events that have arrived since are heard now, all else at the next instant.
+    void hear_ahead();
     // Names of events and constants, by the projects that the robots load.
     const aesl::CommonDefinitions& common() const { return network_.common(); }
 
@@ -222,7 +225,8 @@ private:
     sim::World world_;
     SimOptions options_;
     debug::Network network_;
-    hub::LinkId link_;  // ours on the bus
+    hub::LinkId link_;                  // ours on the bus
+    std::vector<wire::Frame> put_off_;  // taken by hear_ahead(), for the next instant
     std::optional<sim::RobotId> emits_to_;
     bool over_can_;    // frames cross a modelled bus
     Time clock_{};     // of the network: goes on over reset()

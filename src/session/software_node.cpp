@@ -58,19 +58,24 @@ SoftwareNode::SoftwareNode(aesl::Target target, SoftwareNodeOptions options)
       stack_(target_.stack_size) {
     static constexpr node::Board kBoard = {
         [](node::Node& node, const wire::Frame& frame) { self(node).options_.transmit(frame); },
-        [](node::Node& node, vm::Notice notice) { self(node).options_.notify(notice); }};
+        [](node::Node& node, vm::Notice notice) { self(node).notice(notice); }};
     config_ = {.id = options_.id,
                .bytecode_size = target_.bytecode_size,
                .variables_size = target_.variables_size,
                .stack_size = target_.stack_size,
                .arguments_capacity = arguments_capacity(target_),
-               .bytecode = bytecode_.data(),
+               .bytecode = bytecode_.memory(),
                .variables = variables_.data(),
                .stack = stack_.data(),
                .breakpoints = breakpoints_,
                .host = &node::kMachineHost,
                .owner = &node_};
     node::init(node_, config_, description_, kBoard, this);
+}
+
+void SoftwareNode::notice(vm::Notice notice) {
+    bytecode_.notice(notice);
+    options_.notify(notice);
 }
 
 Status SoftwareNode::describe() {
@@ -125,8 +130,7 @@ Status SoftwareNode::load(std::span<const uint16_t> program) {
                                       " words, but node " + target_.name + " has memory for " +
                                       std::to_string(bytecode_.size())};
     }
-    const auto end = std::ranges::copy(program, bytecode_.begin()).out;
-    std::fill(end, bytecode_.end(), uint16_t{0});
+    bytecode_.load(program);
     return Status::done();
 }
 

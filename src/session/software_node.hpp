@@ -23,6 +23,7 @@
 
 #include "aesl/target.hpp"
 #include "base/result.hpp"
+#include "fastvm/run.hpp"
 #include "node/node.hpp"
 #include "wire/frame.hpp"
 
@@ -54,7 +55,7 @@ public:
     void receive(const wire::Frame& frame) { node::receive(node_, frame); }
     void local_event(uint16_t index) { node::local_event(node_, index); }
     void start_program() { node::start_program(node_); }
-    uint16_t run(uint16_t limit) { return node::run(node_, limit); }
+    uint16_t run(uint16_t limit) { return fastvm::run(node_.vm, bytecode_, limit); }
     void host_left() { node::host_left(node_); }
     // At most 255 bytes are sent.
     void report(const std::string& text) { node::report(node_, text.c_str()); }
@@ -69,7 +70,7 @@ public:
     const aesl::Target& target() const { return target_; }
     uint16_t id() const { return config_.id; }
     std::span<int16_t> variables() { return variables_; }
-    std::span<const uint16_t> bytecode() const { return bytecode_; }
+    std::span<const uint16_t> bytecode() const { return bytecode_.words(); }
     // Where the variable of that name in the description lies.
     std::optional<VariableRange> find_variable(std::string_view name) const;
     // Its place among the local events of the description.
@@ -81,10 +82,11 @@ public:
 private:
     SoftwareNode(aesl::Target target, SoftwareNodeOptions options);
     Status describe();
+    void notice(vm::Notice notice);
 
     const aesl::Target target_;
     const SoftwareNodeOptions options_;
-    std::vector<uint16_t> bytecode_;
+    fastvm::Bytecode bytecode_;
     std::vector<int16_t> variables_;
     std::vector<int16_t> stack_;
     uint16_t breakpoints_[vm::kBreakpointsMax] = {};

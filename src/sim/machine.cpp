@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fastvm/run.hpp"
 #include "isa/isa.hpp"
 
 namespace vagus::sim {
@@ -19,7 +20,7 @@ Machine::Machine(const MachineDefinition& definition)
               definition.variables_size,
               definition.stack_size,
               definition.arguments_size,
-              bytecode_.data(),
+              bytecode_.memory(),
               variables_.data(),
               stack_.data(),
               breakpoints_.data(),
@@ -29,7 +30,7 @@ Machine::Machine(const MachineDefinition& definition)
 }
 
 void Machine::restart() {
-    std::fill(bytecode_.begin(), bytecode_.end(), uint16_t{0});
+    bytecode_.load({});
     node::init(node_, config_, *definition_.description, kBoard, this);
     pending_.clear();
     sent_.clear();
@@ -39,6 +40,10 @@ void Machine::restart() {
 
 void Machine::transmit(node::Node& node, const wire::Frame& frame) {
     static_cast<Machine*>(node.owner)->sent_.push_back(frame);
+}
+
+void Machine::notify(node::Node& node, vm::Notice notice) {
+    static_cast<Machine*>(node.owner)->bytecode_.notice(notice);
 }
 
 void Machine::receive(const wire::Frame& frame) {
@@ -96,7 +101,7 @@ void Machine::run() {
         if (!vm::is_active(node_.vm) || budget_ == 0) return;
         uint32_t limit = budget_;
         if (!pending_.empty()) limit = std::min(limit, kInstructionsPerMillisecond - used_);
-        const uint16_t done = node::run(node_, static_cast<uint16_t>(limit));
+        const uint16_t done = fastvm::run(node_.vm, bytecode_, static_cast<uint16_t>(limit));
         budget_ = static_cast<uint16_t>(budget_ - done);
         used_ += done;
         if (done == 0) return;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fastvm/bytecode.hpp"
 #include "node/node.hpp"
 #include "wire/frame.hpp"
 
@@ -81,12 +82,12 @@ public:
 
 private:
     static void transmit(node::Node& node, const wire::Frame& frame);
-    static void notify(node::Node&, vm::Notice) {}
+    static void notify(node::Node& node, vm::Notice notice);
     bool start_pending();
     static const node::Board kBoard;
 
     MachineDefinition definition_;
-    std::vector<uint16_t> bytecode_;
+    fastvm::Bytecode bytecode_;
     std::vector<int16_t> stack_;
     std::vector<int16_t> variables_;
     std::vector<uint16_t> breakpoints_;

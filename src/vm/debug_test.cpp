@@ -33,10 +33,10 @@ TEST(Dump, UploadRunAndReceiveAnEvent) {
     EXPECT_THAT(machine.sent(), ElementsAre("04 00 01 00 0a 90 05 00 03 00"));
     machine.receive("02 00 00 00 03 a0 01 00");
     EXPECT_THAT(machine.sent(), ElementsAre("04 00 01 00 0a 90 05 00 01 00"));
-    run(machine.vm, 1000);
+    machine.run(1000);
     EXPECT_THAT(machine.sent(), ElementsAre("04 00 01 00 04 00 05 00 00 00"));
     machine.event(0);
-    EXPECT_EQ(run(machine.vm, 1000), 5);
+    EXPECT_EQ(machine.run(1000), 5);
     EXPECT_EQ(machine.variables[101], 1);
 }
 
@@ -59,7 +59,7 @@ TEST(Dump, DivisionByZero) {
     machine.receive(
         "14 00 00 00 01 a0 01 00 00 00 03 00 ff ff 03 00 05 10 64 30 05 80 65 40 00 00");
     machine.receive("02 00 00 00 03 a0 01 00");
-    run(machine.vm, 1000);
+    machine.run(1000);
     EXPECT_THAT(machine.sent(),
                 ElementsAre("04 00 01 00 0a 90 03 00 03 00", "04 00 01 00 0a 90 03 00 01 00",
                             "02 00 01 00 07 90 05 00"));
@@ -73,7 +73,7 @@ TEST(Dump, ArrayAccessOutOfBounds) {
         "14 00 00 00 01 a0 01 00 00 00 03 00 ff ff 03 00 05 10 64 50 03 00 65 40 00 00");
     machine.receive("02 00 00 00 03 a0 01 00");
     machine.sent();
-    run(machine.vm, 1000);
+    machine.run(1000);
     EXPECT_THAT(machine.sent(), ElementsAre("06 00 01 00 06 90 04 00 03 00 05 00"));
     machine.receive("02 00 00 00 07 a0 01 00");
     EXPECT_THAT(machine.sent(), ElementsAre("04 00 01 00 0a 90 04 00 02 00"));
@@ -83,7 +83,7 @@ TEST(Dump, Breakpoint) {
     TestMachine machine;
     const auto answer = [&machine](const char* frame) {
         machine.receive(frame);
-        run(machine.vm, 1000);
+        machine.run(1000);
         return machine.sent();
     };
     machine.receive(
@@ -111,11 +111,11 @@ TEST(Dump, KilledEventAndNodeSpecificError) {
     machine.command(MessageType::SetBytecode, {0, 5, 0, 6, 0xffff, 5, kLoop, 0xc013, 0});
     machine.native = [](Vm& vm, uint16_t) { raise_node_error(vm, "Negative input to sqrt"); };
     machine.command(MessageType::Run);
-    EXPECT_EQ(run(machine.vm, 100), 100);
+    EXPECT_EQ(machine.run(100), 100);
     machine.sent();
     machine.receive("00 00 03 00 00 00");
     EXPECT_THAT(machine.sent(), ElementsAre("02 00 01 00 08 90 05 00"));
-    run(machine.vm, 100);
+    machine.run(100);
     EXPECT_THAT(machine.sent(),
                 ElementsAre("19 00 01 00 09 90 06 00 16 4e 65 67 61 74 69 76 65 20 69 6e 70 75 74 "
                             "20 74 6f 20 73 71 72 74"));
@@ -151,7 +151,7 @@ TEST(Commands, ForOthersOrUnknownOrShortAreIgnored) {
 TEST(Reset, StartsTheInitEventInStepModeAndKeepsTheRest) {
     TestMachine machine;
     machine.load({0x1001, kLoop});
-    run(machine.vm, 10);
+    machine.run(10);
     machine.variables[100] = 8;
     machine.command(MessageType::BreakpointSet, {4});
     machine.sent();
@@ -170,7 +170,7 @@ TEST(Reset, WithoutInitEventKeepsThePcAndIsIdle) {
     EXPECT_THAT(machine.sent(), ElementsAre(state(0, 2)));
     machine.command(MessageType::Run);
     machine.event(7);
-    run(machine.vm, 10);
+    machine.run(10);
     machine.sent();
     machine.command(MessageType::Reset);
     EXPECT_THAT(machine.sent(), ElementsAre(state(4, 2)));
@@ -221,18 +221,18 @@ TEST(Run, OnlyClearsStepAndSaysSo) {
     machine.command(MessageType::Run);
     EXPECT_THAT(machine.sent(), ElementsAre(state(0, 0)));
     EXPECT_THAT(machine.notices, ElementsAre(Notice::Run));
-    EXPECT_EQ(run(machine.vm, 10), 0);
+    EXPECT_EQ(machine.run(10), 0);
 }
 
 TEST(Pause, StopsInsideTheEventAndRunGoesOn) {
     TestMachine machine;
     machine.load({0x1001, 0x1002, 0});
-    run(machine.vm, 1);
+    machine.run(1);
     machine.command(MessageType::Pause);
     EXPECT_THAT(machine.sent(), ElementsAre(state(4, 3)));
-    EXPECT_EQ(run(machine.vm, 10), 0);
+    EXPECT_EQ(machine.run(10), 0);
     machine.command(MessageType::Run);
-    EXPECT_EQ(run(machine.vm, 10), 2);
+    EXPECT_EQ(machine.run(10), 2);
     EXPECT_EQ(machine.vm.flags, 0);
 }
 
@@ -248,7 +248,7 @@ TEST(Step, ExecutesOneInstructionEvenInRunningModeAndAtABreakpoint) {
 TEST(Step, WhenIdleDoesAndSaysNothing) {
     TestMachine machine;
     machine.load({0});
-    run(machine.vm, 10);
+    machine.run(10);
     machine.command(MessageType::Step);
     EXPECT_THAT(machine.sent(), IsEmpty());
 }
@@ -263,7 +263,7 @@ TEST(Step, AfterAFaultDoesNothing) {
 TEST(Stop, AbandonsTheEventSilentlyAndKeepsThePc) {
     TestMachine machine;
     machine.load({0x1001, kLoop});
-    run(machine.vm, 10);
+    machine.run(10);
     machine.command(MessageType::Stop);
     EXPECT_THAT(machine.sent(), ElementsAre(state(4, 2)));
 }
@@ -302,7 +302,7 @@ TEST(Breakpoints, AreASet) {
     machine.command(MessageType::BreakpointSet, {4});
     EXPECT_EQ(machine.vm.breakpoint_count, 1);
     machine.command(MessageType::BreakpointClear, {4});
-    EXPECT_EQ(run(machine.vm, 10), 3);
+    EXPECT_EQ(machine.run(10), 3);
 }
 
 TEST(Breakpoints, OutsideTheBytecodeAreRefused) {
@@ -320,11 +320,11 @@ TEST(Breakpoints, ClearTakesTheOneNamedAndClearAllTheRest) {
     machine.command(MessageType::BreakpointClear, {4});
     machine.command(MessageType::BreakpointClear, {77});
     machine.sent();
-    EXPECT_EQ(run(machine.vm, 10), 2);
+    EXPECT_EQ(machine.run(10), 2);
     EXPECT_THAT(machine.sent(), ElementsAre(state(5, 7)));
     machine.command(MessageType::BreakpointClearAll);
     machine.command(MessageType::Run);
-    EXPECT_EQ(run(machine.vm, 10), 3);
+    EXPECT_EQ(machine.run(10), 3);
     EXPECT_THAT(machine.sent(), ElementsAre(state(5, 5)));
 }
 

@@ -125,7 +125,7 @@ bool taken(TestMachine& machine, uint16_t branch_word, int16_t left) {
     machine.variables[100] = left;
     machine.bytecode[5] = branch_word;
     start_event(machine.vm, isa::kInitEvent);
-    run(machine.vm, 3);
+    machine.run(3);
     return machine.vm.pc == 7;
 }
 
@@ -293,13 +293,13 @@ TEST(Violation, IsSeenInTheLargestMemories) {
     TestMachine machine(Sizes{.bytecode = 65535, .variables = 65535, .stack = 65535});
     machine.load({0x1001, 0xb000, 65535, 1, kStop});
     machine.vm.depth = 65535;
-    run(machine.vm, 1);
+    machine.run(1);
     EXPECT_THAT(machine.sent(), ElementsAre(error(3, "stack full")));
 
     start_event(machine.vm, isa::kInitEvent);
     machine.sent();
     machine.command(wire::MessageType::Run);
-    run(machine.vm, 2);
+    machine.run(2);
     EXPECT_THAT(machine.sent(), ElementsAre(state(3, 1), error(4, "bad address")));
 
     machine.bytecode[65534] = 0x2000;  // needs one word more than there is
@@ -307,7 +307,7 @@ TEST(Violation, IsSeenInTheLargestMemories) {
     machine.vm.pc = 65534;
     machine.vm.flags = wire::kFlagActive;
     machine.sent();
-    run(machine.vm, 1);
+    machine.run(1);
     EXPECT_THAT(machine.sent(), ElementsAre(error(65534, "pc outside bytecode")));
 }
 

@@ -142,7 +142,7 @@ void TestMachine::load(const std::vector<uint16_t>& code) {
 
 std::vector<std::string> TestMachine::execute(const std::vector<uint16_t>& code) {
     load(code);
-    run(vm, 1000);
+    run(1000);
     return sent();
 }
 

@@ -36,6 +36,10 @@ public:
     // The same, then runs it; gives what was sent.
     std::vector<std::string> execute(const std::vector<uint16_t>& code);
 
+    // One loop for each program of tests: vm::run() in test_machine_run.cpp of this folder, and
+    // fastvm::run() in that of fastvm, where the tests of this folder are run again.
+    uint16_t run(uint16_t limit);
+
     // What was sent since the last call.
     std::vector<std::string> sent();
 

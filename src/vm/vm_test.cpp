@@ -51,8 +51,8 @@ TEST(Vm, SeveralAreIndependent) {
     TestMachine two(Sizes{.variables = 200});
     one.load({0x1001, 0x4064, 0x9000});
     two.load({0x1002, 0x4065, 0x0000});
-    run(one.vm, 10);
-    run(two.vm, 10);
+    one.run(10);
+    two.run(10);
     EXPECT_EQ(one.variables[100], 1);
     EXPECT_EQ(one.variables[101], 0);
     EXPECT_EQ(two.variables[100], 0);
@@ -118,10 +118,10 @@ TEST(Event, NewestKillsTheRunningOne) {
     TestMachine machine;
     load_three_handlers(machine);
     machine.event(0);
-    EXPECT_EQ(run(machine.vm, 100), 100);
+    EXPECT_EQ(machine.run(100), 100);
     machine.event(9);
     EXPECT_THAT(machine.sent(), ElementsAre(frame(0x9008, {7})));
-    EXPECT_EQ(run(machine.vm, 100), 2);
+    EXPECT_EQ(machine.run(100), 2);
     EXPECT_THAT(machine.on_stack(), ElementsAre(9));
 }
 
@@ -139,9 +139,9 @@ TEST(Event, StartsWithAnEmptyStack) {
     TestMachine machine;
     load_three_handlers(machine);
     machine.event(9);
-    run(machine.vm, 100);
+    machine.run(100);
     machine.event(9);
-    run(machine.vm, 100);
+    machine.run(100);
     EXPECT_THAT(machine.on_stack(), ElementsAre(9));
 }
 
@@ -166,7 +166,7 @@ TEST(Event, IsSetUpAndReportedWhilePausedIdle) {
     machine.sent();
     machine.event(9);
     EXPECT_THAT(machine.sent(), ElementsAre(state(8, 3)));
-    EXPECT_EQ(run(machine.vm, 10), 0);
+    EXPECT_EQ(machine.run(10), 0);
 }
 
 TEST(LocalEvent, StartsItsHandlerAndLeavesSourceAndArguments) {
@@ -175,7 +175,7 @@ TEST(LocalEvent, StartsItsHandlerAndLeavesSourceAndArguments) {
     machine.variables[1] = 5;
     local_event(machine.vm, 0);
     local_event(machine.vm, 1);  // no handler
-    EXPECT_EQ(run(machine.vm, 100), 2);
+    EXPECT_EQ(machine.run(100), 2);
     EXPECT_THAT(machine.on_stack(), ElementsAre(10));
     EXPECT_EQ(machine.variables[1], 5);
     machine.command(MessageType::Pause);
@@ -189,20 +189,20 @@ TEST(LocalEvent, StartsItsHandlerAndLeavesSourceAndArguments) {
 TEST(RunLoop, StopsAtItsLimitAndGoesOnNextTime) {
     TestMachine machine;
     machine.load({0x1001, 0x1002, 0x1003, 0x0000});
-    EXPECT_EQ(run(machine.vm, 0), 0);
-    EXPECT_EQ(run(machine.vm, 2), 2);
+    EXPECT_EQ(machine.run(0), 0);
+    EXPECT_EQ(machine.run(2), 2);
     EXPECT_EQ(machine.vm.flags, wire::kFlagActive);
-    EXPECT_EQ(run(machine.vm, 2), 2);
+    EXPECT_EQ(machine.run(2), 2);
     EXPECT_EQ(machine.vm.flags, 0);
-    EXPECT_EQ(run(machine.vm, 2), 0);
+    EXPECT_EQ(machine.run(2), 0);
     EXPECT_THAT(machine.sent(), IsEmpty());
 }
 
 TEST(RunLoop, EndsWithAFault) {
     TestMachine machine;
     machine.load({0x1001, 0xf000, 0x1002});
-    EXPECT_EQ(run(machine.vm, 100), 2);
-    EXPECT_EQ(run(machine.vm, 100), 0);
+    EXPECT_EQ(machine.run(100), 2);
+    EXPECT_EQ(machine.run(100), 0);
 }
 
 TEST(RunLoop, AfterAFaultRunOnlyLetsEventsInAgain) {
@@ -210,18 +210,18 @@ TEST(RunLoop, AfterAFaultRunOnlyLetsEventsInAgain) {
     load_three_handlers(machine);
     machine.bytecode[9] = 0xf000;
     machine.event(9);
-    run(machine.vm, 100);
+    machine.run(100);
     machine.command(MessageType::Run);
     EXPECT_THAT(machine.sent(), ElementsAre(error(9, "bad instruction"), state(9, 0)));
-    EXPECT_EQ(run(machine.vm, 100), 0);
+    EXPECT_EQ(machine.run(100), 0);
     local_event(machine.vm, 0);
-    EXPECT_EQ(run(machine.vm, 100), 2);
+    EXPECT_EQ(machine.run(100), 2);
 }
 
 TEST(NodeError, FromTheGlueStopsTheScript) {
     TestMachine machine;
     machine.load({0x9000});
-    run(machine.vm, 5);
+    machine.run(5);
     raise_node_error(machine.vm, "battery low");
     EXPECT_THAT(machine.sent(), ElementsAre(error(3, "battery low")));
     EXPECT_EQ(machine.vm.flags, wire::kFlagStep);

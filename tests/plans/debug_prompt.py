@@ -28,6 +28,30 @@ COUNT = """{
 """
 
 
+TWO_PULSES = """{
+  "format": "vagus-plan/1", "name": "Two", "start": { "actor": "first" },
+  "actors": {
+    "first": { "template": "Receive", "in": { "event": "'pulse'" }, "states": { "Received": "second" } },
+    "second": { "template": "Receive", "in": { "event": "'pulse'" }, "states": { "Received": "@terminate" } }
+  }
+}
+"""
+PULSE = """<network>
+<event size="1" name="pulse"/>
+<node nodeId="1" name="thymio-II">var n = 0
+timer.period[0] = 1
+onevent timer0
+n++
+emit pulse n
+</node></network>
+"""
+PULSE_ROOM = """{
+  "format": "vagus-world/1", "name": "Room", "size": [1, 1],
+  "robots": [{ "name": "alice", "type": "thymio2", "at": [0.5, 0.5], "node": 1, "script": "pulse.aesl" }]
+}
+"""
+
+
 class Prompt(unittest.TestCase):
     def debug(self, *lines, exit_code=0, arguments=()):
         with tempfile.TemporaryDirectory() as folder:
@@ -62,6 +86,38 @@ breakpoint 2, paused at 1.000000, Count: wait (activation 5) is about to begin
         self.assertIn("there is no breakpoint 7", err)
         self.assertIn('"x" is not the number of a breakpoint', err)
         self.assertIn("which breakpoint? its number, or all", err)
+
+    def test_held_without_a_bus_says_so_and_refuses_what_it_does_not_know(self):
+        out, err = self.debug("step", "held", "held step", "held go x", "held fly", "held drop", "held drop 4", "held drop all",
+                              exit_code=3)
+        self.assertIn("no event of the bus waits for the plan\n", out)
+        self.assertIn("no event of the bus waits for the plan", err)
+        self.assertIn('"x" is not the number of an event that waits; `held` shows them', err)
+        self.assertEqual(err.count("expected go, go N, step, step N, drop N or drop all"), 2)
+        self.assertIn("that event does not wait any more: it was let go or dropped", err)
+
+    def test_what_a_robot_sends_at_the_instant_at_which_the_plan_stands_is_held_and_heard_next(self):
+        """It counts milliseconds: the plan stands at the first that it hears, and the next one is under way."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "two.plan.json").write_text(TWO_PULSES)
+            (folder / "pulse.aesl").write_text(PULSE)
+            (folder / "room.world.json").write_text(PULSE_ROOM)
+            words = ["two.plan.json", "--world", "room.world.json", "--clock", "virtual"]
+
+            def run(verb, *more, lines=""):
+                return subprocess.run([VAGUS, "plan", verb, *words, *more], cwd=folder, timeout=60, input=lines, check=True,
+                                      capture_output=True, text=True).stdout
+
+            plain = run("run", "--trace", "-")
+            for looks in ("", "held\n"):
+                out = run("debug", "--trace", "trace", lines=f"break actor second\nrun\n{looks}continue\n")
+                self.assertIn("the run is over", out)
+                self.assertEqual((folder / "trace").read_text(), plain)
+            self.assertRegex(out, r"\n1 pulse \[\d+\] from node 1\n")
+            out = run("debug", "--trace", "trace", lines="break actor second\nrun\nheld drop all\nheld\nheld drop 1\nheld\ncontinue\n")
+            self.assertIn("no event of the bus waits for the plan\n", out)
+            self.assertNotEqual((folder / "trace").read_text(), plain)
 
     def test_step_where_and_continue(self):
         out, _ = self.debug("where", "step", "step", "where", "continue")

@@ -70,6 +70,17 @@ class PlanRun(unittest.TestCase):
             self.assertIn(part, notes[0])
         self.assertEqual(self.trace(FIRE.replace("SECONDS", "0.2")).stderr, "")
 
+    def test_from_an_actor_is_the_plan_that_starts_there(self):
+        wall_follow = (ROOT / "examples/follow-wall/WallFollow.plan.json").read_text()
+        self.assertEqual(wall_follow.count('"actor": "searchFirstWall"'), 1)
+        world = ("--world", ROOT / "examples/follow-wall/hall.world.json", "--max-time", "60")
+        for actor in ("followWall", "backupCollision"):
+            there = wall_follow.replace('"actor": "searchFirstWall"', f'"actor": "{actor}"')
+            expected = self.trace(there, *world)
+            begun = [line for line in expected.stdout.splitlines() if f'"{actor}"' in line]
+            self.assertTrue(begun, expected.stderr)
+            self.assertEqual(self.trace(wall_follow, *world, "--from", actor).stdout, expected.stdout)
+
     def test_words_of_formulas_are_listed(self):
         text = subprocess.run([VAGUS, "plan", "formulas"], capture_output=True, text=True, check=True).stdout
         self.assertIn("clamp(x, low, high)", text)

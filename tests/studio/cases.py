@@ -1,5 +1,6 @@
 """What a person does with a simulated robot in the studio, and what every page sees of it."""
 import copy
+import json
 import struct
 import sys
 import unittest
@@ -479,6 +480,32 @@ class Plans(Case):
         page.do("plan.break.clear")
         page.do("run.start")
         self.wait(lambda: self.rounds() and self.rounds() > 2, "rounds: it stood once")
+
+    def test_templates_of_ones_own_run_on_a_thymio_as_they_are(self):
+        def make(folder):
+            projects.write(folder, "rounds.plan.json", PLAN)
+            projects.thymio(folder, plan="rounds.plan.json")
+        page = self.open(make)
+        page.do("template.new", name="Purr", kind="actor", script=DOC, help="")
+        page.do("template.new", name="Notice", kind="supervisor", script=DOC, help="")
+        plan = {"format": "vagus-plan/1", "name": "Own", "toolboxes": ["own"],
+                "configuration": {"rounds": {"type": "int", "initial": 0}},
+                "start": {"actor": "purr"},
+                "actors": {
+                    "purr": {"template": "Purr", "states": {"Done": "count"},
+                             "supervisors": {"notice": {"template": "Notice", "events": {"Raised": "@terminate"}}}},
+                    "count": {"template": "Assign", "in": {"value": "rounds + 1"}, "out": {"result": "rounds"}, "states": {"Done": "enough"}},
+                    "enough": {"template": "Compare", "in": {"left": "rounds", "op": "'>='", "right": 3},
+                               "states": {"True": "@terminate", "False": "purr"}}}}
+        text = page.do("doc.open", doc="rounds.plan.json")
+        page.do("doc.edit", doc="rounds.plan.json", version=text["version"],
+                changes=[{"from": 0, "to": len(text["text"]), "text": json.dumps(plan)}])
+        page.do("run.start")
+        self.wait_plan("ended")
+        # The node counts half a second for each turn, and its supervisor stops none.
+        story = [line["text"] for line in self.plan.value["story"]]
+        self.assertEqual((self.plan.value["result"], story.count("purr: Done → count")), ("OK", 3))
+        self.assertGreater(self.plan.value["t"], 1.5)
 
     def test_turns_are_counted_and_the_arrow_taken_is_told(self):
         page = self.open_plan()

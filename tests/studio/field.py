@@ -1,4 +1,5 @@
 """`vagus serve`: a project that runs on a robot from its boot on, without anybody watching."""
+import os
 import pathlib
 import re
 import signal
@@ -135,6 +136,15 @@ class Field(Robots):
         page.do("run.start")
         self.wait_clock("running")
         page.do("stop")
+
+    def test_a_run_that_dies_begins_anew(self):
+        self.serve("--start")
+        self.wait_clock("running")
+        self.wait_metrics(runs_total=1)
+        for process in self.studio.children():
+            os.kill(process, signal.SIGKILL)
+        self.wait_metrics(run_deaths_total=1, runs_total=2)
+        self.wait_clock("running")
 
     def test_it_serves_one_project_and_one_target(self):
         page = self.serve()

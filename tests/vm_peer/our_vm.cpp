@@ -7,13 +7,14 @@ namespace vagus::vm_peer {
 
 const vm::Host OurVm::kHost = {send, send_variables, send_error, native, notify};
 
-OurVm::OurVm()
-    : config_{Geometry::kId,
+OurVm::OurVm(Loop loop)
+    : loop_(loop),
+      config_{Geometry::kId,
               Geometry::kBytecode,
               Geometry::kVariables,
               Geometry::kStack,
               Geometry::kArguments,
-              bytecode_,
+              bytecode_.memory(),
               variables_,
               stack_,
               breakpoints_,
@@ -34,8 +35,8 @@ void OurVm::local_event(uint16_t index) {
     vm::local_event(vm_, index);
 }
 
-void OurVm::run(uint16_t limit) {
-    vm::run(vm_, limit);
+uint16_t OurVm::run(uint16_t limit) {
+    return loop_ == Loop::Fast ? fastvm::run(vm_, bytecode_, limit) : vm::run(vm_, limit);
 }
 
 State OurVm::state() const {
@@ -44,19 +45,21 @@ State OurVm::state() const {
     state.flags = vm_.flags;
     state.stack.assign(stack_, stack_ + vm_.depth);
     state.variables.assign(std::begin(variables_), std::end(variables_));
-    state.bytecode.assign(std::begin(bytecode_), std::end(bytecode_));
+    state.bytecode.assign(bytecode_.words().begin(), bytecode_.words().end());
     state.breakpoints.assign(breakpoints_, breakpoints_ + vm_.breakpoint_count);
     std::sort(state.breakpoints.begin(), state.breakpoints.end());
     return state;
 }
 
 void OurVm::send(vm::Vm& vm, uint16_t type, const uint16_t* words, uint16_t count) {
+    of(vm).see();
     Sent sent{type, {}};
     for (uint16_t i = 0; i < count; ++i) append_word(sent.payload, words[i]);
     of(vm).sent_.push_back(sent);
 }
 
 void OurVm::send_variables(vm::Vm& vm, uint16_t start, uint16_t count) {
+    of(vm).see();
     Sent sent{0x9005, {}};
     append_word(sent.payload, start);
     for (uint16_t i = 0; i < count; ++i) {
@@ -66,6 +69,7 @@ void OurVm::send_variables(vm::Vm& vm, uint16_t start, uint16_t count) {
 }
 
 void OurVm::send_error(vm::Vm& vm, const char* text) {
+    of(vm).see();
     Sent sent{0x9009, {}};
     append_word(sent.payload, vm.pc);
     sent.payload.push_back(static_cast<uint8_t>(std::strlen(text)));
@@ -75,6 +79,7 @@ void OurVm::send_error(vm::Vm& vm, const char* text) {
 
 // The two natives of the comparison, written as vm.hpp says; their rules: section 4.2.
 void OurVm::native(vm::Vm& vm, uint16_t id) {
+    of(vm).see();
     if (id != kNativeCopy && id != kNativeDivide) return vm::raise_node_error(vm, kNoSuchNative);
     const uint16_t dest = vm::pop(vm);
     const uint16_t first = vm::pop(vm);
@@ -90,6 +95,9 @@ void OurVm::native(vm::Vm& vm, uint16_t id) {
     }
 }
 
-void OurVm::notify(vm::Vm&, vm::Notice) {}
+void OurVm::notify(vm::Vm& vm, vm::Notice notice) {
+    of(vm).see();
+    of(vm).bytecode_.notice(notice);
+}
 
 }  // namespace vagus::vm_peer

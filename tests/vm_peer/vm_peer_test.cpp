@@ -30,7 +30,7 @@ constexpr int kActionsPerProgram = 60;
 
 class Pair {
 public:
-    explicit Pair(uint64_t seed) : rng_(seed) {}
+    Pair(uint64_t seed, Loop loop) : rng_(seed), ours_(loop) {}
 
     // Gives false when the program can go on no further: the peer has hit an assertion.
     bool act() {
@@ -238,17 +238,15 @@ uint64_t seed() {
     return std::random_device{}();
 }
 
-}  // namespace
-
-TEST(VmPeer, DoesWhatThePeerDoes) {
+void compare_programs(Loop loop) {
     const uint64_t first = seed();
     const int programs = std::getenv("VAGUS_LONG") != nullptr ? kProgramsLong : kProgramsShort;
     long instructions = 0;
     int stopped = 0;
-    for (int i = 0; i < programs && !HasFailure(); ++i) {
+    for (int i = 0; i < programs && !testing::Test::HasFailure(); ++i) {
         SCOPED_TRACE(testing::Message()
                      << "repeat with VAGUS_SEED=" << first + static_cast<uint64_t>(i));
-        Pair pair(first + static_cast<uint64_t>(i));
+        Pair pair(first + static_cast<uint64_t>(i), loop);
         bool alive = pair.upload();
         for (int k = 0; k < kActionsPerProgram && alive; ++k) alive = pair.act();
         instructions += pair.instructions();
@@ -256,6 +254,16 @@ TEST(VmPeer, DoesWhatThePeerDoes) {
     }
     std::printf("seed %llu, %d programs, %ld runs compared, %d ended where the peer would abort\n",
                 static_cast<unsigned long long>(first), programs, instructions, stopped);
+}
+
+}  // namespace
+
+TEST(VmPeer, DoesWhatThePeerDoes) {
+    compare_programs(Loop::Small);
+}
+
+TEST(VmPeer, DoesWhatThePeerDoesInTheLoopForHosts) {
+    compare_programs(Loop::Fast);
 }
 
 }  // namespace vagus::vm_peer

@@ -29,7 +29,7 @@ export interface WindowState {
   doc: Doc | null;
   node: NodeId | null;
   cursor: { doc: Doc; line: number; column: number } | null;
-  overlay: 'palette' | 'keys' | 'folder' | 'project' | 'runFrom' | null;
+  overlay: 'palette' | 'keys' | 'folder' | 'project' | 'runFrom' | 'newTemplate' | null;
   /** A new file is being named in the tree, or a file renamed. */
   naming:
     | { kind: 'folder' | 'script' | 'plan' | 'world' | 'toolbox' | 'text' }

@@ -71,21 +71,10 @@ class Client {
   }
 }
 
-/** mulberry32: the same numbers for the same seed. */
-function seeded(seed) {
-  let state = seed >>> 0;
-  return (below) => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let t = state;
-    t = Math.imul(t ^ (t >>> 15), t | 1);
-    t ^= t + Math.imul(t ^ (t >>> 7), t | 61);
-    return ((t ^ (t >>> 14)) >>> 0) % below;
-  };
-}
-
 test('what is undone is the file as it was', { timeout: kTestMs }, async (t) => {
   const seed = Number(process.env.VAGUS_SEED ?? randomInt(2 ** 31));
   console.log(`seed ${seed}`);
+  const { seeded } = await core('test_seeded');
   const random = seeded(seed);
   const { PlanBoard } = await core('plan/board');
   const { JsonDocument } = await core('json_document');

@@ -83,6 +83,26 @@ test('a state stops at its Nth hit; it is set by the menu and its form', rounds,
   await press('Shift+F5');
 });
 
+test('breakpoints follow a renaming, and come back with undo', rounds, async (studio) => {
+  const { page, press, type, layout, command } = studio;
+  await layout('Draw');
+  await element(page, 'count, computation For').focus();
+  await press('Space', 'F9');
+  await command('Breakpoints');
+  await reads(shows(page), /count/);
+  await element(page, 'count, computation For').focus();
+  await press('F2');
+  await type('again');
+  await press('Enter');
+  await reads(shows(page), /again/);
+  await element(page, 'again, computation For').focus();
+  await press('Control+z');
+  await reads(shows(page), /count/);
+  await press('Control+y');
+  await reads(shows(page), /again/);
+  await seen(element(page, 'again, computation For').getByRole('img', { name: 'Breakpoint' }));
+});
+
 test('a condition stops the plan, and an event is raised by hand', rounds, async (studio) => {
   const { page, press, layout, command, button } = studio;
   await layout('Draw');

@@ -64,3 +64,28 @@ test(
     await press('Shift+F5');
   },
 );
+
+test(
+  'a template is asked for from wherever one is, and its script stands where it is filled in',
+  { words: ['--example', 'follow-wall'] },
+  async (studio) => {
+    const { page, press, type, layout, command } = studio;
+    await layout('Script');
+    await command('New template…');
+    const form = page.getByRole('form', { name: 'New template…' });
+    await seen(form);
+    await type('Purr');
+    await press('Enter');
+    await gone(form);
+    const editor = page.getByRole('textbox', { name: /^Script of/ }).first();
+    const place = editor.getByText('# The work begins here');
+    await seen(place);
+    await until('the line to fill in is in sight', () =>
+      place.evaluate((line) => {
+        const { top, bottom } = line.getBoundingClientRect();
+        const frame = line.closest('.cm-scroller').getBoundingClientRect();
+        return top >= frame.top && bottom <= frame.bottom;
+      }),
+    );
+  },
+);

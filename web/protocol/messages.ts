@@ -214,6 +214,20 @@ export interface PlanBreakpoint {
   why?: string;
 }
 
+/** An event of the bus that waits while the plan stands. */
+export interface HeldEvent {
+  /** handle for plan.held.go, plan.held.step and plan.held.drop */
+  number: number;
+  /** where the clock of the run stands */
+  t: number;
+  /** so many seconds after the plan came to stand; 0 where time stands with it */
+  after: number;
+  /** who emitted it; 0: a host */
+  node: number;
+  name: Name;
+  args: Words;
+}
+
 /** A node of the target. */
 export interface Node {
   id: NodeId;
@@ -237,6 +251,8 @@ export interface Node {
   fault?: string;
   /** what is under way */
   busy?: string;
+  /** events for its script that came since it stands at a line: a node that stands drops them; missing while it runs, or if its script is not known */
+  dropped?: number;
 }
 
 /** A connection of the bus. */
@@ -1131,6 +1147,18 @@ export interface Commands {
     event: Name;
     outputs?: Record<string, Json>;
   }; out: Record<never, never> };
+  /** Hands an event that waits to the plan, before all others; it takes it up when it goes on. Without a number all, in their order. */
+  'plan.held.go': { in: {
+    number?: number;
+  }; out: Record<never, never> };
+  /** The plan goes on with one event that waits, without a number the first, to the next thing that it does, for 100 ms at most; all others stay. */
+  'plan.held.step': { in: {
+    number?: number;
+  }; out: Record<never, never> };
+  /** Takes an event away that waits for the plan; without a number all. */
+  'plan.held.drop': { in: {
+    number?: number;
+  }; out: Record<never, never> };
   /** Sets a breakpoint of a plan, or changes the one at that place or of that number; also when nothing runs. */
   'plan.break.set': { in: {
     number?: number;
@@ -1278,6 +1306,8 @@ export interface Topics {
     clients: number;
     /** none: start screen */
     project?: Project;
+    /** a robot that serves this project on this target; others are refused */
+    serves?: boolean;
     settings: Json;
     /** unsaved texts of an earlier session */
     recovered: Doc[];
@@ -1433,6 +1463,15 @@ export interface Topics {
     robots: Robot[];
     objects: SceneObject[];
   } };
+  /** Events of the bus that wait while the plan stands in its debugger. */
+  'held': { kind: 'document'; of: Record<never, never>; is: {
+    stands: boolean;
+    events: HeldEvent[];
+    /** that wait behind these */
+    more: number;
+    /** that came when 1000 waited already */
+    dropped: number;
+  } };
   /** What happened on the bus, from the last ones kept. */
   'happenings': { kind: 'stream'; of: {
     last?: number;
@@ -1494,7 +1533,8 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Meter: { used: 'int(0..65535)', of: 'int(0..65535)' },
   Breakpoint: { doc: 'Doc', line: 'int(1..10000000)', condition: 'line(500)', ignore: 'int(0..1000000)', enabled: 'bool', hits: 'int(0..4294967295)', set: 'bool', why: 'line(300)?' },
   PlanBreakpoint: { number: 'number', doc: 'Doc', kind: 'word(actor|state|event|condition)', element: 'line(128)', outcome: 'line(128)', condition: 'line(500)', stop_at: 'number', enabled: 'bool', hits: 'number', set: 'bool', why: 'text(2000)?' },
-  Node: { id: 'NodeId', name: 'Name', robot: 'line(128)', state: 'word(unknown|running|paused|stopped|gone)', protocol: 'int(0..255)', described: 'bool', doc: 'Doc?', program: 'word(none|unknown|older|current)', loaded_wall: 'number?', at: 'Place?', why: 'word(asked|breakpoint|step|fault|start)?', fault: 'text(500)?', busy: 'line(100)?' },
+  HeldEvent: { number: 'number', t: 'number', after: 'number', node: 'int(0..65534)', name: 'Name', args: 'Words' },
+  Node: { id: 'NodeId', name: 'Name', robot: 'line(128)', state: 'word(unknown|running|paused|stopped|gone)', protocol: 'int(0..255)', described: 'bool', doc: 'Doc?', program: 'word(none|unknown|older|current)', loaded_wall: 'number?', at: 'Place?', why: 'word(asked|breakpoint|step|fault|start)?', fault: 'text(500)?', busy: 'line(100)?', dropped: 'number?' },
   Link: { name: 'line(300)', nodes: '[NodeId; 1024]', frames_in: 'number', frames_out: 'number', lost: 'number' },
   Traffic: { from: 'int(0..65534)', event: 'Name', count: 'number', to: '[int(0..65534); 1024]' },
   Variable: { name: 'Name', address: 'int(0..65535)', size: 'int(1..65535)', of: 'word(node|script)', unit: 'line(32)?', help: 'line(400)?', writable: 'bool' },
@@ -1614,6 +1654,9 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'plan.stop': { may: 'driver', out: {} },
   'plan.into': { may: 'driver', out: { spots: '[Spot; 1000]' } },
   'plan.raise': { may: 'driver', out: {} },
+  'plan.held.go': { may: 'driver', out: {} },
+  'plan.held.step': { may: 'driver', out: {} },
+  'plan.held.drop': { may: 'driver', out: {} },
   'plan.break.set': { may: 'driver', out: { number: 'number' } },
   'plan.break.clear': { may: 'driver', out: {} },
   'plan.set': { may: 'driver', out: {} },
@@ -1631,7 +1674,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'settings.put': { may: 'driver', out: {} },
 };
 export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream' | 'binary'; number?: number; is?: Fields; item?: string }>> = {
-  'studio': { kind: 'document', is: { version: 'line(64)', driver: 'int(0..1000000000)', driver_name: 'line(100)', asked: 'Asked?', clients: 'int(0..1000)', project: 'Project?', settings: 'json', recovered: '[Doc; 2000]' } },
+  'studio': { kind: 'document', is: { version: 'line(64)', driver: 'int(0..1000000000)', driver_name: 'line(100)', asked: 'Asked?', clients: 'int(0..1000)', project: 'Project?', serves: 'bool?', settings: 'json', recovered: '[Doc; 2000]' } },
   'start': { kind: 'document', is: { examples: '[Example; 200]', recent: '[Recent; 20]' } },
   'targets': { kind: 'document', is: { found: '[Found; 200]' } },
   'files': { kind: 'document', is: { files: '[FileEntry; 2000]', more: 'bool' } },
@@ -1649,6 +1692,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
   'state': { kind: 'document', is: { values: 'json' } },
   'scene': { kind: 'document', is: { name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },
+  'held': { kind: 'document', is: { stands: 'bool', events: '[HeldEvent; 200]', more: 'number', dropped: 'number' } },
   'happenings': { kind: 'stream', item: 'Happening' },
   'console': { kind: 'stream', item: 'Line' },
   'variables': { kind: 'binary', number: 1 },

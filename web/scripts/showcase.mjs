@@ -108,9 +108,24 @@ const views = {
   },
   plan: {
     words: ['--example', 'follow-wall'],
+    async prepare({ page }) {
+      await page.getByRole('radio', { name: 'Draw' }).click();
+      await page.getByRole('switch', { name: 'Map' }).click();
+      await page.getByRole('group', { name: 'followWall, actor WallForward' }).click();
+      await page.getByRole('heading', { name: 'followWall' }).waitFor();
+    },
+  },
+  timeline: {
+    words: ['--example', 'follow-wall'],
     async prepare(hands) {
-      await hands.page.getByRole('radio', { name: 'Draw' }).click();
-      await hands.runTo(20);
+      const { page } = hands;
+      await page.getByRole('radio', { name: 'Debug' }).click();
+      await page.getByRole('tab', { name: 'Timeline' }).click();
+      await hands.runTo(40);
+      const lanes = page.getByRole('slider', { name: 'Instant that is shown' });
+      const { x, y, width } = await lanes.boundingBox();
+      await page.mouse.click(x + width * 0.6, y + 8);
+      await page.getByRole('region', { name: 'Looking back' }).waitFor();
     },
   },
 };

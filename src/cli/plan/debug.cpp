@@ -28,7 +28,8 @@ using run::Reply;
 constexpr Duration kLookEvery = 100ms;
 
 PromptWords words_of(const plan::Graph& graph, std::vector<std::string> commands) {
-    std::set<std::string> words = {"actor", "state", "event", "when", "in", "if", "count"};
+    std::set<std::string> words = {"actor", "state", "event", "when", "in",
+                                   "if",    "count", "go",    "step", "drop"};
     const auto add = [&words](const plan::GraphSupervisor& supervisor) {
         words.insert(supervisor.name);
         for (const plan::Outcome& event : supervisor.of->outcomes) words.insert(event.name);
@@ -75,6 +76,7 @@ private:
     Status print_value(std::string_view rest);
     Status set(std::string_view rest);
     Status raise(std::string_view rest);
+    Status held(std::string_view rest);
     Status where(std::string_view rest);
     Status trace(std::string_view rest);
     Status help(std::string_view rest);
@@ -133,6 +135,10 @@ const std::vector<Prompt::Command>& Prompt::commands() {
         {"set", "set [in LEVEL] NAME = EXPRESSION", "sets a variable while paused", &Prompt::set},
         {"raise", "raise SUPERVISOR EVENT [OUTPUT=EXPRESSION]…",
          "raises an event by hand while paused", &Prompt::raise},
+        {"held", "held [go | step | drop] [N | all]",
+         "events of the bus that wait while paused; lets them go, goes on with one alone, drops "
+         "them",
+         &Prompt::held},
         {"where", "where", "the plans that run, their actors, who watches", &Prompt::where},
         {"trace", "trace on | off", "prints the lines of the trace as they come", &Prompt::trace},
         {"help", "help [COMMAND]", "this", &Prompt::help},
@@ -324,6 +330,20 @@ Status Prompt::go_on(std::string_view rest) {
 Status Prompt::step(std::string_view) {
     TRY(ask(run::Step{}));
     started_ = running_ = true;
+    return wait_for_stop();
+}
+
+Status Prompt::held(std::string_view rest) {
+    if (rest.empty()) {
+        const Reply reply = TRY(ask(run::ListHeld{}));
+        print(text_of(std::get<run::HeldNow>(reply)));
+        return Status::done();
+    }
+    run::Request request = TRY(parse_held(rest));
+    const bool steps = std::holds_alternative<run::StepEvent>(request);
+    TRY(ask(std::move(request)));
+    if (!steps) return Status::done();
+    running_ = true;
     return wait_for_stop();
 }
 

@@ -1,10 +1,12 @@
 #include "cli/plan/debug_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <numbers>
 
 #include "base/nearest.hpp"
+#include "base/text.hpp"
 
 namespace vagus::cli {
 
@@ -211,6 +213,47 @@ std::string text_of(const run::Where& where) {
                 "    {}{} {}: {}\n", supervisor.name, supervisor.global ? " (global)" : "",
                 supervisor.watching ? "watches" : "rests", fmt::join(supervisor.events, ", "));
         }
+    }
+    return text;
+}
+
+// ---- events that wait ----
+
+namespace {
+
+Result<std::optional<uint64_t>> held_number(const std::string& word) {
+    if (word.empty() || word == "all") return std::optional<uint64_t>();
+    if (const auto number = decimal_number(word)) return number;
+    return Error{
+        Code::BadInput,
+        fmt::format("\"{}\" is not the number of an event that waits; `held` shows them", word)};
+}
+
+}  // namespace
+
+Result<run::Request> parse_held(std::string_view text) {
+    const std::string act = take_word(text);
+    const std::string which = take_word(text);
+    const std::optional<uint64_t> number = TRY(held_number(which));
+    if (act == "go") return run::Request(run::LetGo{number});
+    if (act == "step" && which != "all") return run::Request(run::StepEvent{number});
+    if (act == "drop" && !which.empty()) return run::Request(run::DropHeld{number});
+    return Error{Code::BadInput,
+                 fmt::format("held {}: expected go, go N, step, step N, drop N or drop all", act)};
+}
+
+std::string text_of(const run::HeldNow& held) {
+    if (held.events.empty()) return "no event of the bus waits for the plan\n";
+    std::string text;
+    for (const run::HeldEvent& one : held.events) {
+        const std::string from =
+            one.event.from == 0 ? "a host" : fmt::format("node {}", one.event.from);
+        text += fmt::format("{} {} [{}] from {}\n", one.number, one.event.name,
+                            fmt::join(one.event.arguments, ", "), from);
+    }
+    if (held.dropped > 0) {
+        text += fmt::format("{} more were dropped: no more than {} can wait\n", held.dropped,
+                            run::kHeldEventsMax);
     }
     return text;
 }

@@ -61,9 +61,7 @@ FileDesk::FileDesk(Desk& desk, Files& files, const EditedProject& project,
 void FileDesk::make(const Call& call) {
     const std::string path = call.in["path"];
     const std::string kind = call.in["kind"];
-    const Status made = kind == "folder" ? files_.make_folder(path) : make_file(path, kind);
-    if (!made.ok()) return call.fail(made.error());
-    call.done();
+    call.answer(kind == "folder" ? files_.make_folder(path) : make_file(path, kind));
 }
 
 Status FileDesk::make_file(const std::string& path, const std::string& kind) {
@@ -186,9 +184,7 @@ Status FileDesk::follow(const Follower& follower, uint32_t by) {
 // ---- the rest ----
 
 void FileDesk::remove(const Call& call) {
-    const Status removed = files_.remove(call.in["path"]);
-    if (!removed.ok()) return call.fail(removed.error());
-    call.done();
+    call.answer(files_.remove(call.in["path"]));
 }
 
 void FileDesk::bytes(const Call& call) {

@@ -113,23 +113,20 @@ void ScriptDesk::declare_questions() {
 }
 
 void ScriptDesk::declare_changes() {
-    const auto answer = [](const Call& call, const Status& status) {
-        status.ok() ? call.done() : call.fail(status.error());
-    };
     desk_.command("script.rename", [this](const Call& call) { rename(call); });
-    desk_.command("define.add", [this, answer](const Call& call) {
+    desk_.command("define.add", [this](const Call& call) {
         if (is_too_long(call)) return;
-        answer(call, scripts_.add(call.in["file"], call.in["kind"], call.in["name"],
-                                  call.in["value"], call.member));
+        call.answer(scripts_.add(call.in["file"], call.in["kind"], call.in["name"],
+                                 call.in["value"], call.member));
     });
     desk_.command("define.change", [this](const Call& call) { change(call); });
-    desk_.command("define.remove", [this, answer](const Call& call) {
-        answer(call,
-               scripts_.remove(call.in["file"], call.in["kind"], call.in["name"], call.member));
+    desk_.command("define.remove", [this](const Call& call) {
+        call.answer(
+            scripts_.remove(call.in["file"], call.in["kind"], call.in["name"], call.member));
     });
-    desk_.command("define.move", [this, answer](const Call& call) {
-        answer(call, scripts_.move(call.in["file"], call.in["kind"], call.in["name"], call.in["to"],
-                                   call.member));
+    desk_.command("define.move", [this](const Call& call) {
+        call.answer(scripts_.move(call.in["file"], call.in["kind"], call.in["name"], call.in["to"],
+                                  call.member));
     });
 }
 

@@ -11,13 +11,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-constexpr std::string_view kTwoNodes =
-    "<!DOCTYPE aesl-source>\n<network>\n<event size=\"1\" name=\"ping\"/>\n"
-    "<constant value=\"5\" name=\"LIMIT\"/>\n"
-    "<node nodeId=\"1\" name=\"left\">var x = LIMIT\nonevent ping\n  x = x + 1\n  emit ping x\n"
-    "</node>\n<node nodeId=\"2\" name=\"right\">var y\nonevent ping\n  y = LIMIT\n</node>\n"
-    "</network>\n";
-
 // ---- scripts ----
 
 TEST_F(EditTest, WhatIsKnownOfAScriptIsShown) {

@@ -5,6 +5,7 @@
 #include "plan/formula_words.hpp"
 #include "plan/value.hpp"
 #include "serve/edit/text_places.hpp"
+#include "serve/plan_value.hpp"
 
 namespace vagus::serve {
 
@@ -34,28 +35,12 @@ std::string_view type_of(const std::optional<plan::Type>& type) {
     return type ? plan::name_of(*type) : "any";
 }
 
-Json value_of(const plan::Value& value) {
-    switch (value.type()) {
-        case plan::Type::Bool:
-            return value.boolean();
-        case plan::Type::Int:
-            return value.integer();
-        case plan::Type::Float:
-            return value.number();
-        case plan::Type::String:
-            return value.string();
-        case plan::Type::Object:
-            break;
-    }
-    return nullptr;
-}
-
 Json input_of(const plan::Input& input) {
     Json json = {{"name", line_of(input.name, kNameMax)},
                  {"type", type_of(input.type)},
                  {"unit", line_of(input.unit, kUnitMax)},
                  {"help", line_of(input.help, kHelpMax)}};
-    if (input.fallback) json["default"] = value_of(*input.fallback);
+    if (input.fallback) json["default"] = json_of(*input.fallback);
     if (input.low) json["low"] = *input.low;
     if (input.high) json["high"] = *input.high;
     return json;

@@ -17,6 +17,14 @@
 
 namespace vagus::serve {
 
+// A script of two nodes that send each other an event.
+constexpr std::string_view kTwoNodes =
+    "<!DOCTYPE aesl-source>\n<network>\n<event size=\"1\" name=\"ping\"/>\n"
+    "<constant value=\"5\" name=\"LIMIT\"/>\n"
+    "<node nodeId=\"1\" name=\"left\">var x = LIMIT\nonevent ping\n  x = x + 1\n  emit ping x\n"
+    "</node>\n<node nodeId=\"2\" name=\"right\">var y\nonevent ping\n  y = LIMIT\n</node>\n"
+    "</network>\n";
+
 class EditTest : public testing::Test {
 protected:
     using Json = nlohmann::json;

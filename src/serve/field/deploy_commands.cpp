@@ -40,20 +40,16 @@ Json json_of(const DeployOutcome& outcome) {
     return json;
 }
 
-void answer(const Call& call, const Status& done) {
-    done.ok() ? call.done() : call.fail(done.error());
-}
-
 void begin(const Call& call, Deployments& deployments) {
     auto bundle = bundle_from(call.in);
-    answer(call,
-           bundle.ok() ? deployments.begin(std::move(bundle.value())) : Status(bundle.error()));
+    call.answer(bundle.ok() ? deployments.begin(std::move(bundle.value()))
+                            : Status(bundle.error()));
 }
 
 void part(const Call& call, Deployments& deployments) {
     const auto bytes = from_base64(call.in["base64"].get_ref<const std::string&>());
     if (!bytes) return call.fail("bad_input", "in.base64: expected base64 (RFC 4648)");
-    answer(call, deployments.part(call.in["path"], call.in["from"], *bytes));
+    call.answer(deployments.part(call.in["path"], call.in["from"], *bytes));
 }
 
 Json list(const Versions& versions) {

@@ -61,7 +61,7 @@ public:
 
 private:
     Status begin() {
-        const fs::path data = options_.data.empty() ? user_data_folder() : fs::path(options_.data);
+        const fs::path data = user_data_folder(options_.data);
         door_.emplace(TRY(Door::open(options_.door, data, [this] { network_.wake(); })));
         desk_ = std::make_unique<Desk>(door_->access(), door_->outside([this](const auto& note) {
             talk_.log("warning", note);
@@ -72,6 +72,7 @@ private:
             starter_.give_up();
             deployments_.stopped();
         });
+        bench_->on_death([this] { starter_.died(network_.now()); });
         refuse_other_projects();
         declare_deploy_commands(*desk_, versions_, deployments_);
         TRY(check_folder());
@@ -106,13 +107,13 @@ private:
     }
 
     WorkbenchPlaces places(const fs::path& data) const {
-        const fs::path config =
-            options_.config.empty() ? user_config_folder() : fs::path(options_.config);
+        const fs::path config = user_config_folder(options_.config);
         return {.library = {data, share_folder() / "examples"},
                 .settings = (config / "settings.json").string(),
                 .program = kThisProgram,
                 .home = "/",
-                .target = options_.target};
+                .target = options_.target,
+                .serves = true};
     }
 
     void refuse_other_projects() {

@@ -1,5 +1,7 @@
 #include "serve/field/starter.hpp"
 
+#include <fmt/format.h>
+
 namespace vagus::serve {
 
 namespace {
@@ -24,6 +26,22 @@ void Starter::give_up() {
     ++attempt_;
     state_ = State::Idle;
     why_ = "it was stopped";
+}
+
+void Starter::died(Time now) {
+    if (state_ != State::Started) return;
+    now_ = now;
+    deaths_.push_back(now);
+    while (now - deaths_.front() > kDeathsWithin) deaths_.pop_front();
+    if (deaths_.size() < kDeathsMax) {
+        told_.clear();
+        return wait("warning", "its run died; it starts again", now + kStartAgainAfter);
+    }
+    deaths_.clear();
+    state_ = State::Idle;
+    why_ = fmt::format("its run died {} times within {} s; it stands until somebody starts it",
+                       kDeathsMax, kDeathsWithin / 1s);
+    robot_.log("error", why_);
 }
 
 void Starter::wait(const std::string& kind, const std::string& why, Time until) {

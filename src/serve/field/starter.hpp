@@ -1,5 +1,6 @@
-// Starts the robot without anybody: as soon as the nodes are there, and again until it runs. Told
-// the time; the rest is handed in, so that it runs in a test with a scripted clock.
+// Starts the robot without anybody: as soon as the nodes are there, again until it runs, and again
+// when its run has died, but not for ever. Told the time; the rest is handed in, so that it runs in
+// a test with a scripted clock.
 //
 //     Starter starter({.missing = …, .start = …, .log = …});
 //     starter.begin(now);
@@ -7,6 +8,7 @@
 //     if (starter.state() == Starter::State::Started) …
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,7 +20,9 @@ namespace vagus::serve {
 using namespace std::chrono_literals;
 
 constexpr Duration kLookForNodesEvery = 200ms;
-constexpr Duration kStartAgainAfter = 1s;  // of a start that failed
+constexpr Duration kStartAgainAfter = 1s;  // of a start that failed, or of a death
+constexpr size_t kDeathsMax = 5;           // so many within kDeathsWithin, and it stands
+constexpr Duration kDeathsWithin = 60s;
 
 class Starter {
 public:
@@ -37,6 +41,8 @@ public:
     void begin(Time now);
     // Somebody wants it to stand.
     void give_up();
+    // Its run has died.
+    void died(Time now);
 
     State state() const { return state_; }
     // Why it does not run yet: a sentence.
@@ -52,6 +58,7 @@ private:
     State state_ = State::Idle;
     std::string why_;
     std::string told_;
+    std::deque<Time> deaths_;  // the last ones
     Time next_{};
     Time now_{};
     uint64_t attempt_ = 0;  // an answer to an earlier one says nothing any more

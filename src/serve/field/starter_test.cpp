@@ -71,5 +71,50 @@ TEST_F(StarterTest, WhatIsGivenUpStartsNothing) {
     EXPECT_EQ(starts.size(), 1u);
 }
 
+TEST_F(StarterTest, StartsAgainWhenItsRunHasDied) {
+    starter.begin(0s);
+    starter.tick(0s);
+    starts[0]("");
+    starter.died(10s);
+    EXPECT_EQ(starter.state(), Starter::State::Waiting);
+    EXPECT_EQ(log, std::vector<std::string>{"warning: its run died; it starts again"});
+    starter.tick(11s - 1us);
+    EXPECT_EQ(starts.size(), 1u);
+    starter.tick(11s);
+    ASSERT_EQ(starts.size(), 2u);
+    starts[1]("");
+    EXPECT_EQ(starter.state(), Starter::State::Started);
+}
+
+TEST_F(StarterTest, StandsWhenItsRunDiesForTheFifthTimeWithinAMinute) {
+    starter.begin(0s);
+    for (int death = 0; death < 5; ++death) {
+        starter.tick(15s * death);
+        starts.back()("");
+        starter.died(15s * death + 14s);  // 14, 29, 44, 59, 74 s: 60 s from the first to the last
+    }
+    EXPECT_EQ(starter.state(), Starter::State::Idle);
+    EXPECT_EQ(log.back(),
+              "error: its run died 5 times within 60 s; it stands until somebody starts it");
+    starter.tick(1000s);
+    EXPECT_EQ(starts.size(), 5u);
+}
+
+TEST_F(StarterTest, GoesOnStartingWhenTheFifthDeathIsLater) {
+    starter.begin(0s);
+    for (int death = 0; death < 20; ++death) {
+        starter.tick(16s * death);
+        starts.back()("");
+        starter.died(16s * death + 15s);  // four intervals of 16 s are more than a minute
+    }
+    EXPECT_EQ(starter.state(), Starter::State::Waiting);
+}
+
+TEST_F(StarterTest, ARunThatSomebodyElseStartedIsNotStartedAgain) {
+    starter.died(5s);
+    starter.tick(100s);
+    EXPECT_TRUE(starts.empty());
+}
+
 }  // namespace
 }  // namespace vagus::serve

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "serve/plan_value.hpp"
+
 namespace vagus::serve {
 
 using Json = nlohmann::json;
@@ -37,14 +39,6 @@ Duration duration_in(const Json& line, const char* key) {
     return Duration(std::min(std::max(ticks, -kDurationMax), kDurationMax));
 }
 
-plan::Value value_of(const Json& json) {
-    if (json.is_boolean()) return plan::Value(json.get<bool>());
-    if (json.is_number_integer()) return plan::Value(json.get<int64_t>());
-    if (json.is_number()) return plan::Value(json.get<double>());
-    if (json.is_string()) return plan::Value(json.get<std::string>());
-    return plan::Value(plan::Object{});
-}
-
 plan::PlanResult result_of(std::string_view name) {
     for (const auto result : {plan::PlanResult::Ok, plan::PlanResult::Interrupted}) {
         if (plan::name_of(result) == name) return result;
@@ -57,7 +51,7 @@ plan::ActorStarted start_of(const Json& line) {
     const auto in = line.find("in");
     if (in == line.end() || !in->is_object()) return start;
     for (auto one = in->begin(); one != in->end(); ++one) {
-        start.in.emplace_back(std::string_view(one.key()), value_of(one.value()));
+        start.in.emplace_back(std::string_view(one.key()), plan_value(one.value()));
     }
     return start;
 }
@@ -108,7 +102,7 @@ std::optional<plan::TraceEvent> TraceLine::event() const {
     } else if (kind == "write") {
         const auto value = json_.find("value");
         event.what = plan::VariableWritten{text_in(json_, "variable"),
-                                           value_of(value == json_.end() ? Json() : *value),
+                                           plan_value(value == json_.end() ? Json() : *value),
                                            text_in(json_, "by")};
     } else if (kind == "late") {
         event.what = plan::CheckLate{text_in(json_, "supervisor"), duration_in(json_, "by_us")};

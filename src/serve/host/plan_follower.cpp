@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "plan/check.hpp"
+#include "serve/plan_value.hpp"
 
 namespace vagus::serve {
 
@@ -23,20 +24,11 @@ std::string shortened(std::string_view text) {
     return std::string(text.substr(0, end)) + "…";
 }
 
-Json json_of(const plan::Value& value) {
-    switch (value.type()) {
-        case plan::Type::Bool:
-            return value.boolean();
-        case plan::Type::Int:
-            return value.integer();
-        case plan::Type::Float:
-            return value.number();
-        case plan::Type::String:
-            return shortened(value.string());
-        case plan::Type::Object:
-            return value.object() ? "(an object)" : "(none)";
-    }
-    return false;
+// What a person can read.
+Json shown(const plan::Value& value) {
+    if (value.type() == plan::Type::String) return shortened(value.string());
+    if (value.type() == plan::Type::Object) return value.object() ? "(an object)" : "(none)";
+    return json_of(value);
 }
 
 }  // namespace
@@ -114,8 +106,7 @@ void PlanFollower::see(const plan::TraceEvent& event) {
     counts_.see(event);
     if (const auto* start = std::get_if<plan::ActorStarted>(&event.what)) {
         enter(level, start->actor, start->activation, t);
-        for (const auto& [name, value] : start->in)
-            level.inputs[std::string(name)] = json_of(value);
+        for (const auto& [name, value] : start->in) level.inputs[std::string(name)] = shown(value);
         for (auto& [name, left] : level.resting) --left;
         std::erase_if(level.resting, [](const auto& entry) { return entry.second <= 0; });
     } else if (const auto* end = std::get_if<plan::ActorEnded>(&event.what)) {
@@ -127,7 +118,7 @@ void PlanFollower::see(const plan::TraceEvent& event) {
             level.resting[std::string(raised->supervisor)] = 2;
         }
     } else if (const auto* written = std::get_if<plan::VariableWritten>(&event.what)) {
-        level.values[std::string(written->variable)] = json_of(written->value);
+        level.values[std::string(written->variable)] = shown(written->value);
     } else if (const auto* late = std::get_if<plan::CheckLate>(&event.what)) {
         happen(
             t, "warning",

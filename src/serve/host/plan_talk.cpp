@@ -23,6 +23,17 @@ void PlanTalk::step() {
     stands_ = false;
 }
 
+void PlanTalk::step_event(std::optional<uint64_t> number, Answered answered) {
+    ask(run::StepEvent{number},
+        [this, answered = std::move(answered)](const Result<run::Reply>& reply) {
+            if (reply.ok()) {
+                stepping_ = true;
+                stands_ = false;
+            }
+            answered(reply);
+        });
+}
+
 void PlanTalk::give_up_step() {
     if (stepping_) go_on();
 }

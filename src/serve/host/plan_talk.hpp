@@ -28,11 +28,14 @@ public:
     // On to the next actor that begins, and held there.
     void step();
     void give_up_step();
+    // On with one event of those that wait, without a number the first, and held again at the next
+    // thing that the plan does. Refused, it stays where it stands.
+    using Answered = std::function<void(const Result<run::Reply>& reply)>;
+    void step_event(std::optional<uint64_t> number, Answered answered);
     void abort();
-    // Held by what it came to: a breakpoint, or the actor after a step.
+    // Held by what it came to: a breakpoint, or the end of a step.
     bool stands() const { return stands_; }
 
-    using Answered = std::function<void(const Result<run::Reply>& reply)>;
     // At once, also while it runs.
     void ask(run::Request request, Answered answered);
     // What a debugger does for a plan that is held only. A plan that stands by itself stays so.
@@ -46,7 +49,7 @@ public:
     }
 
     struct Heard {
-        std::optional<run::Where> stepped;   // held before an actor, after step()
+        std::optional<run::Where> stepped;   // held after step() or step_event()
         std::optional<run::Stopped> broken;  // held at a breakpoint
     };
     Heard hear();

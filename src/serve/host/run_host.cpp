@@ -10,16 +10,20 @@
 
 #include "embed/loaded_plan.hpp"
 #include "embed/prepared_run.hpp"
+#include "serve/host/bus_clock.hpp"
 #include "serve/host/bus_run.hpp"
 #include "serve/host/frames.hpp"
 #include "serve/host/hand.hpp"
 #include "serve/host/pacer.hpp"
 #include "serve/host/plan_change.hpp"
 #include "serve/host/plan_follower.hpp"
+#include "serve/host/plan_held.hpp"
 #include "serve/host/plan_stops.hpp"
 #include "serve/host/plan_talk.hpp"
+#include "serve/host/raised_event.hpp"
 #include "serve/host/recorder.hpp"
 #include "serve/host/scene.hpp"
+#include "serve/plan_value.hpp"
 #include "serve/process.hpp"
 #include "session/bus_names.hpp"
 #include "session/plan_world.hpp"
@@ -39,10 +43,6 @@ constexpr int kHoldsAfterFrames = 20;   // instants in which nodes answer althou
 
 Time wall_now() {
     return std::chrono::duration_cast<Time>(std::chrono::steady_clock::now().time_since_epoch());
-}
-
-double seconds(Time at) {
-    return std::chrono::duration<double>(at).count();
 }
 
 class Host {
@@ -130,7 +130,9 @@ private:
         } else if (what == "plan.change" || what == "plan.check") {
             change_plan(told);
         } else if (what == "plan.raise") {
-            raise(told);
+            ask_held(told["request"], raised_event(told));
+        } else if (what == "plan.held") {
+            handle_held(told);
         } else if (what == "plan.breakpoints") {
             stops_.want(told["list"]);
             tend_stops();
@@ -226,6 +228,7 @@ private:
         talk_->forget();
         talk_.reset();
         stops_.forget();
+        held_.forget();
         tell_stops();
         broken_at_.clear();
     }
@@ -248,8 +251,7 @@ private:
               {"programs", Json::array()},
               {"hears", heard_}});
         if (pacer_.held()) talk_->hold();
-        bus_time_ = Duration{};
-        bus_time_at_ = wall_now();
+        bus_clock_.start(wall_now());
         {
             BusRun running(*prepared_, *talk_);
             for (bool over = false; !over;) {
@@ -265,20 +267,18 @@ private:
                 tell_bus_clock();
             }
         }
-        tell_plan_at(seconds(Time(bus_time_)));
+        tell_plan_at(bus_clock_.now());
         end_talk();
         forget_plan();
         tell({{"say", "over"}});
     }
 
-    // The clock of the plan stands while the plan is held.
     void tell_bus_clock() {
         const Time wall = wall_now();
-        if (!pacer_.held()) bus_time_ += wall - bus_time_at_;
-        bus_time_at_ = wall;
+        bus_clock_.count(wall, pacer_.held());
         if (wall < next_tell_) return;
         next_tell_ = wall + kTellEvery;
-        const double t = seconds(Time(bus_time_));
+        const double t = bus_clock_.now();
         tell({{"say", "clock"}, {"t", t}, {"paused", pacer_.held()}, {"speed", 1}, {"real", 1}});
         tell_plan_at(t);
     }
@@ -294,6 +294,10 @@ private:
 
     void step_to_actor() {
         if (talk_) talk_->step();
+        let_time_pass();
+    }
+
+    void let_time_pass() {
         broken_at_.clear();
         pacer_.set(false, pacer_.speed(), wall_now());
     }
@@ -306,17 +310,24 @@ private:
 
     void set_variable(const Json& told) {
         ask_held(told["request"],
-                 run::SetVariable{told["level"], told["name"], value_of(told["value"])});
+                 run::SetVariable{told["level"], told["name"], plan_value(told["value"])});
     }
 
-    // As if the supervisor had raised it.
-    void raise(const Json& told) {
-        run::RaiseEvent event{told["supervisor"], told["event"], {}};
-        for (const auto& [name, value] : told["outputs"].items()) {
-            event.outputs.emplace_back(name, value_of(value));
-        }
-        ask_held(told["request"], std::move(event));
+    // Events of the bus that wait for the plan.
+    void handle_held(const Json& told) {
+        const uint64_t request = told["request"];
+        if (!talk_) return tell_answer(request, "no plan runs");
+        if (!plan_is_held()) return tell_answer(request, kPlanDoesNotStand);
+        const bool steps = told["act"] == "step";
+        PlanHeld::act(*talk_, told, [this, request, steps](const Result<run::Reply>& reply) {
+            tell_answer(request, reply.ok() ? "" : reply.error().what);
+            if (steps && reply.ok()) let_time_pass();
+        });
+        next_tell_ = Time{};  // the answer is heard at once
     }
+
+    // By its debugger, not by the clock of its world.
+    bool plan_is_held() const { return talk_->stands() || (on_bus() && pacer_.held()); }
 
     void ask_held(uint64_t request, run::Request asked) {
         if (!talk_) return tell_answer(request, "no plan runs");
@@ -344,13 +355,6 @@ private:
         if (!on_bus() && !talk_->stands() && pacer_.paused()) pacer_.step(1ms);
     }
 
-    static plan::Value value_of(const Json& json) {
-        if (json.is_boolean()) return plan::Value(json.get<bool>());
-        if (json.is_number_integer()) return plan::Value(json.get<int64_t>());
-        if (json.is_number()) return plan::Value(json.get<double>());
-        return plan::Value(json.is_string() ? json.get<std::string>() : json.dump());
-    }
-
     void hear_plan() {
         if (!talk_) return;
         const PlanTalk::Heard heard = talk_->hear();
@@ -370,12 +374,16 @@ private:
     void tend_stops() {
         if (!talk_) return;
         stops_.tend(*talk_);
+        held_.tend(*talk_);
         tell_stops();
     }
 
     void tell_stops() {
         Json list;
         if (stops_.tell(list)) tell({{"say", "breakpoints"}, {"list", std::move(list)}});
+        std::optional<double> since;
+        if (talk_ && plan_is_held()) since = on_bus() ? bus_clock_.now() : seconds(session_->now());
+        if (held_.tell(since, list)) tell({{"say", "held"}, {"held", std::move(list)}});
     }
 
     // In a world the plan has no thread of its own: while it stands the host hears and tells from
@@ -567,9 +575,9 @@ private:
     std::optional<PlanTalk> talk_;
     std::optional<PlanChange> change_;
     PlanStops stops_;
+    PlanHeld held_;
     std::vector<uint64_t> broken_at_;  // breakpoints that hold the plan, by their numbers
-    Duration bus_time_{};              // of a plan on a bus
-    Time bus_time_at_{};               // when it was counted
+    BusClock bus_clock_;
 
     Recorder recorder_;
     Pacer pacer_;

@@ -168,6 +168,11 @@ void Robot::declare_commands() {
         const Status sent = network_->emit(call.in["name"].get<std::string>(), args);
         if (!sent.ok()) return call.fail(sent.error());
         happen("event", 0, call.in["name"], "", args);
+        const auto& events = network_->common().events;
+        const auto named = std::find_if(events.begin(), events.end(), [&](const auto& one) {
+            return one.name == call.in["name"];
+        });
+        count_dropped(wire::kHostId, static_cast<uint16_t>(named - events.begin()));
         call.done();
     });
 }

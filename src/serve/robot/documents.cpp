@@ -77,6 +77,7 @@ Json Robot::node_line(uint16_t id) const {
         node["at"] = {{"line", view->at.line}, {"column", 1}};
     if (stands && !known.why.empty()) node["why"] = known.why;
     if (!known.fault.empty()) node["fault"] = known.fault;
+    if (const auto dropped = dropped_.of(id)) node["dropped"] = *dropped;
     if (!known.busy.empty()) node["busy"] = known.busy;
     return node;
 }

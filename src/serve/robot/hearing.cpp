@@ -56,6 +56,7 @@ void Robot::hear(const debug::Event& event, const debug::StateChanged& state) {
         known.why = "asked";
     }
     const bool stands = state.state != debug::ProgramState::Running && state.at.line > 0;
+    dropped_.state(event.node, state.state);
     told_.stands(time(), event.node, debug::name_of(state.state), stands ? state.at.line : 0);
     happen("state", event.node, debug::name_of(state.state),
            stands ? fmt::format("line {}", state.at.line) : "");
@@ -99,6 +100,17 @@ void Robot::hear(const debug::Event& event, const debug::UserEvent& sent) {
         ++traffic_[{event.node, name}];
     }
     happen("event", event.node, name, "", sent.arguments);
+    count_dropped(event.node, sent.number);
+}
+
+// All nodes that stand take the event for nothing; the one that emitted it does not hear it.
+void Robot::count_dropped(uint16_t from, uint16_t event) {
+    for (const uint16_t id : live_nodes()) {
+        if (id == from || !dropped_.stands(id)) continue;
+        const auto& program = network_->node(id)->program;
+        dropped_.came(id, program ? std::optional(handles(*program, event)) : std::nullopt);
+        desk_.board().touch("robot");
+    }
 }
 
 void Robot::hear(const debug::Event& event) {
@@ -129,6 +141,7 @@ void Robot::hear(const debug::Event& event) {
         known.lost_program = known.has_program;
         known.has_program = false;
     } else if (const auto* gone = std::get_if<debug::NodeDisconnected>(what)) {
+        dropped_.state(event.node, debug::ProgramState::Unknown);
         happen("gone", event.node, name_of(event.node), gone->forgotten ? "it said so" : "");
     } else if (std::get_if<debug::NodeReconnected>(what)) {
         happen("appeared", event.node, name_of(event.node), "");

@@ -64,6 +64,7 @@ void Robot::disconnect() {
     values_.clear();
     watched_.clear();
     traffic_.clear();
+    dropped_.forget();
     for (auto& batch : std::exchange(batches_, {})) {
         for (const auto& [request, node] : batch->waiting) {
             batch->failed.emplace_back(node, "the target was left");

@@ -22,6 +22,7 @@
 #include "debug/network.hpp"
 #include "serve/robot/breakpoints.hpp"
 #include "serve/robot/carrier.hpp"
+#include "serve/robot/dropped_events.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
 
@@ -189,6 +190,7 @@ private:
     void hear(const debug::Event& event, const debug::Fault& fault);
     void hear(const debug::Event& event, const debug::BreakpointHit& hit);
     void hear(const debug::Event& event, const debug::UserEvent& sent);
+    void count_dropped(uint16_t from, uint16_t event);
     void hear(const debug::RequestDone& done);
     void hear(const debug::Event& event, const debug::VariableChanged& changed);
     void hear_place(const debug::Event& event, const debug::BreakpointResult& result);
@@ -241,6 +243,7 @@ private:
     };
     std::map<std::pair<uint16_t, uint16_t>, Samples> samples_;  // of plotted words
     std::map<std::pair<uint16_t, std::string>, uint64_t> traffic_;
+    DroppedEvents dropped_;
     uint64_t events_ = 0, events_before_ = 0;
     double events_a_second_ = 0;
     Time rates_at_{};

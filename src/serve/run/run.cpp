@@ -11,6 +11,10 @@ namespace vagus::serve {
 
 using Json = nlohmann::json;
 
+// The document held without a plan that stands.
+static Json nothing_held() {
+    return {{"stands", false}, {"events", Json::array()}, {"more", 0}, {"dropped", 0}};
+}
 static constexpr const char* kLateInTrace = "\"kind\":\"late\"";  // docs/formats.md, traces
 
 // The latest bytes of a kind, sent when they are new.
@@ -40,7 +44,8 @@ struct PictureWatch final : BinaryWatch {
     uint64_t sent = 0;
 };
 
-Run::Run(Desk& desk, std::string program) : desk_(desk), program_(std::move(program)) {
+Run::Run(Desk& desk, std::string program)
+    : desk_(desk), program_(std::move(program)), held_(nothing_held()) {
     declare_topics();
 }
 
@@ -48,6 +53,7 @@ void Run::declare_topics() {
     Board& board = desk_.board();
     board.document("clock", [this](const Json&) { return clock_document(); });
     board.document("plan", [this](const Json&) { return plan_document(); });
+    board.document("held", [this](const Json&) { return held_; });
     board.document("scene", [this](const Json&) {
         if (scene_.contains("robots")) return scene_;
         return Json{{"name", ""},          {"size", {1, 1}},          {"open", true},
@@ -69,6 +75,7 @@ Status Run::open(const RunOrder& order, Time now) {
         ++generation_;
     }
     forget_asked("the run began anew");
+    forget_held();
     opening_ = true;
     has_world_ = false;
     rests_ = order.paused;
@@ -105,6 +112,7 @@ Status Run::open(const RunOrder& order, Time now) {
 void Run::close() {
     child_.reset();
     forget_asked("the run has ended");
+    forget_held();
     breakpoints_told_(Json::array());
     has_world_ = false;
     programs_.clear();
@@ -208,6 +216,18 @@ void Run::raise(const std::string& supervisor, const std::string& event, const J
                 SetDone done) {
     ask({{"do", "plan.raise"}, {"supervisor", supervisor}, {"event", event}, {"outputs", outputs}},
         [done = std::move(done)](const Json& told) { done(told["why"]); });
+}
+
+void Run::handle_held(const std::string& act, std::optional<uint64_t> number, SetDone done) {
+    Json order = {{"do", "plan.held"}, {"act", act}};
+    if (number) order["number"] = *number;
+    ask(order, [done = std::move(done)](const Json& told) { done(told["why"]); });
+}
+
+// What waited for a plan that has ended waits no more.
+void Run::forget_held() {
+    held_ = nothing_held();
+    desk_.board().touch("held");
 }
 
 // Nobody will answer any more.
@@ -341,6 +361,9 @@ void Run::hear_json(const Json& told) {
     } else if (what == "plan") {
         plan_ = told["plan"];
         desk_.board().touch("plan");
+    } else if (what == "held") {
+        held_ = told["held"];
+        desk_.board().touch("held");
     } else if (what == "breakpoints") {
         breakpoints_told_(told["list"]);
     } else if (what == "trace") {
@@ -400,11 +423,13 @@ void Run::hear_end(const ChildEnd& end) {
         desk_.board().touch("plan");
     }
     forget_asked(why_);
+    forget_held();
     breakpoints_told_(Json::array());
     opens_plan_ = false;
     failed_(why_);
     say_("error", why_);
     if (with_plan) plan_died_();
+    died_();
     desk_.board().touch("clock");
     desk_.board().touch("robot");
 }

@@ -45,7 +45,7 @@ public:
     using Json = nlohmann::json;
     enum class State { None, Running, Paused, Hanging, Dead };
 
-    // Declares the topics clock, plan, scene, poses, rays, picture. `program` is what is started.
+    // Declares the topics clock, plan, held, scene, poses, rays, picture. It starts `program`.
     Run(Desk& desk, std::string program);
 
     void on_say(std::function<void(const std::string& kind, const std::string& text)> say) {
@@ -75,6 +75,8 @@ public:
         std::function<void(const std::string& bytes)> records = [](auto&) {};
     };
     void on_told(Told told) { told_ = std::move(told); }
+    // Its process has died, whatever ran in it.
+    void on_death(std::function<void()> died) { died_ = std::move(died); }
     // Its process has died while a plan ran, or was about to: the plan can put nothing in order.
     void on_plan_died(std::function<void()> died) { plan_died_ = std::move(died); }
 
@@ -123,6 +125,8 @@ public:
     // Raises an event of a supervisor that watches, as if it had done so itself.
     void raise(const std::string& supervisor, const std::string& event, const Json& outputs,
                SetDone done);
+    // Of the events that wait while the plan stands: "go", "step" or "drop" (PlanHeld).
+    void handle_held(const std::string& act, std::optional<uint64_t> number, SetDone done);
 
     // Plan files have been saved: what the plan that runs is made of is to take over (P31). What
     // came of it is in the document of the plan, and is said.
@@ -167,6 +171,7 @@ private:
     void hear_end(const ChildEnd& end);
     std::string last_actor() const;
     void forget_asked(const std::string& why);
+    void forget_held();
     Reasons reasons_in(const Json& told) const;
     void keep_change(const std::vector<std::string>& files, const Json& told);
     void declare_topics();
@@ -182,6 +187,7 @@ private:
     std::function<std::string(const std::string&)> short_ = [](const std::string& t) { return t; };
     std::function<void()> opened_ = [] {};
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
+    std::function<void()> died_ = [] {};
     std::function<void()> plan_died_ = [] {};
     std::function<void(const Json&)> breakpoints_told_ = [](const Json&) {};
     Told told_;
@@ -204,6 +210,7 @@ private:
     uint64_t frames_in_ = 0, frames_out_ = 0;
     Json scene_ = Json::object();
     Json plan_ = Json::object();
+    Json held_;    // events that wait while the plan stands
     Json change_;  // what came of the last save while the plan ran; null: none
     uint64_t changes_ = 0;
     std::deque<std::string> trace_;

@@ -40,6 +40,8 @@ public:
         answer_(Problem{std::move(code), std::move(what), ""});
     }
     void fail(const Error& error) const;
+    // Done without more to say, or why not.
+    void answer(const Status& status) const { status.ok() ? done() : fail(status.error()); }
 
     const Json in;
     const uint32_t member;  // who asks

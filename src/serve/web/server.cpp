@@ -6,19 +6,8 @@
 
 #include <array>
 #include <boost/asio/as_tuple.hpp>
-#include <boost/asio/awaitable.hpp>
-#include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/asio/use_awaitable.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/ssl.hpp>
-#include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
 #include <deque>
 #include <map>
 #include <mutex>
@@ -26,6 +15,7 @@
 #include <thread>
 
 #include "serve/web/answers.hpp"
+#include "serve/web/beast.hpp"
 #include "serve/web/origin.hpp"
 #include "serve/web/pages.hpp"
 #include "serve/web/tls.hpp"
@@ -34,15 +24,8 @@ namespace vagus::serve {
 
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-using Tcp = asio::ip::tcp;
 using SystemError = boost::system::error_code;
 using asio::as_tuple;
-using asio::awaitable;
-using asio::use_awaitable;
 using std::chrono::seconds;
 
 constexpr size_t kBodyBytesMax = 4096;   // of a request; none of ours has one

@@ -83,11 +83,11 @@ bool same_bytes(const fs::path& one, const fs::path& other) {
 
 }  // namespace
 
-fs::path user_data_folder() {
-    return user_folder("XDG_DATA_HOME", ".local/share");
+fs::path user_data_folder(const std::string& given) {
+    return given.empty() ? user_folder("XDG_DATA_HOME", ".local/share") : fs::path(given);
 }
-fs::path user_config_folder() {
-    return user_folder("XDG_CONFIG_HOME", ".config");
+fs::path user_config_folder(const std::string& given) {
+    return given.empty() ? user_folder("XDG_CONFIG_HOME", ".config") : fs::path(given);
 }
 
 Library::Library(LibraryPlaces places)

@@ -22,10 +22,10 @@ struct LibraryPlaces {
     std::filesystem::path examples;  // that came with the program
 };
 
-// $XDG_DATA_HOME/vagus, or ~/.local/share/vagus.
-std::filesystem::path user_data_folder();
-// $XDG_CONFIG_HOME/vagus, or ~/.config/vagus.
-std::filesystem::path user_config_folder();
+// The folder that was given; without one $XDG_DATA_HOME/vagus, or ~/.local/share/vagus.
+std::filesystem::path user_data_folder(const std::string& given);
+// The folder that was given; without one $XDG_CONFIG_HOME/vagus, or ~/.config/vagus.
+std::filesystem::path user_config_folder(const std::string& given);
 
 class Library {
 public:

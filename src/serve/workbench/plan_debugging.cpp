@@ -1,5 +1,5 @@
 // What pages ask of the debugger of a plan: breakpoints, which the project keeps whether a plan
-// runs or not, and events that a person raises.
+// runs or not, events that a person raises, and events of the bus that wait while the plan stands.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -118,7 +118,25 @@ void Workbench::go_into_script() {
     into.call.done({{"spots", into.spots}});
 }
 
+// The three acts on events that wait while the plan stands, by the names that the run host knows.
+void Workbench::declare_held_commands() {
+    for (const auto& [name, act] : {std::pair("plan.held.go", "go"),
+                                    {"plan.held.step", "step"},
+                                    {"plan.held.drop", "drop"}}) {
+        desk_.command(name, [this, act = std::string(act)](const Call& call) {
+            if (!run_.plan_runs()) return call.fail("unavailable", "no plan runs");
+            std::optional<uint64_t> number;
+            if (call.in.contains("number")) number = static_cast<uint64_t>(call.in["number"]);
+            run_.handle_held(act, number, [call](const std::string& why) {
+                if (why.empty()) return call.done();
+                call.fail("conflict", why);
+            });
+        });
+    }
+}
+
 void Workbench::declare_debug_commands() {
+    declare_held_commands();
     desk_.command("script.handlers", [this](const Call& call) {
         call.done({{"spots", handlers_of(call.in["events"])}});
     });

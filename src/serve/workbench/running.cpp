@@ -408,10 +408,9 @@ void Workbench::declare_run_commands() {
             const auto made = target == "sim" ? library_.copy_of_example("thymio", true)
                                               : library_.make_robot_project(target);
             const Status opened = made.ok() ? open(made.value(), now_) : Status(made.error());
-            return opened.ok() ? call.done() : call.fail(opened.error());
+            return call.answer(opened);
         }
-        const Status chosen = choose_target(target);
-        chosen.ok() ? call.done() : call.fail(chosen.error());
+        call.answer(choose_target(target));
     });
     desk_.command("target.leave", [this](const Call& call) {
         leave_target();

@@ -45,7 +45,7 @@ public:
 
 private:
     Status begin() {
-        const fs::path data = options_.data.empty() ? user_data_folder() : fs::path(options_.data);
+        const fs::path data = user_data_folder(options_.data);
         door_.emplace(TRY(Door::open(options_.door, data, [this] { network_.wake(); })));
         desk_ = std::make_unique<Desk>(door_->access(), door_->outside(talk_.log));
         bench_ = std::make_unique<Workbench>(network_, *desk_, places(data));
@@ -56,8 +56,7 @@ private:
     }
 
     WorkbenchPlaces places(const fs::path& data) const {
-        const fs::path config =
-            options_.config.empty() ? user_config_folder() : fs::path(options_.config);
+        const fs::path config = user_config_folder(options_.config);
         const char* home = std::getenv("HOME");
         return {.library = {data, share_folder() / "examples"},
                 .settings = (config / "settings.json").string(),

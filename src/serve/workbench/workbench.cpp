@@ -122,6 +122,7 @@ Json Workbench::studio_document() const {
     studio["settings"] = settings_.values();
     studio["recovered"] = files_.recovered();
     if (project_) studio["project"] = project_->to_json();
+    if (places_.serves) studio["serves"] = true;
     return studio;
 }
 
@@ -319,7 +320,7 @@ void Workbench::declare_kept_commands() {
     desk_.command("settings.put", [this](const Call& call) {
         const Status kept = settings_.put(call.in["key"], call.in["value"]);
         desk_.board().touch("studio");
-        kept.ok() ? call.done() : call.fail(kept.error());
+        call.answer(kept);
     });
     desk_.command("state.put", [this](const Call& call) {
         if (!project_) {
@@ -329,7 +330,7 @@ void Workbench::declare_kept_commands() {
         window[call.in["key"].get<std::string>()] = call.in["value"];
         const Status kept = state_.put("window", std::move(window));
         desk_.board().touch("state");
-        kept.ok() ? call.done() : call.fail(kept.error());
+        call.answer(kept);
     });
 }
 

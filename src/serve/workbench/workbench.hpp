@@ -45,6 +45,7 @@ struct WorkbenchPlaces {
     std::string program;      // vagus, for run hosts
     std::string home;         // where choosing a folder begins
     std::string target = {};  // of every project that is opened; empty: its own
+    bool serves = false;      // one project on one target; pages offer no other
 };
 
 // What can be counted of a robot that works, since the server began.
@@ -92,6 +93,8 @@ public:
     }
     // Somebody has pressed Stop.
     void on_stop(std::function<void()> stopped) { stopped_ = std::move(stopped); }
+    // The process of the run has died.
+    void on_death(std::function<void()> died) { run_.on_death(std::move(died)); }
 
     // The nodes stand and the plan has ended, as far as a dying server can: its last act.
     void stop_everything();
@@ -116,6 +119,7 @@ private:
 
     // ---- plan_debugging.cpp: breakpoints of plans, events by hand ----
     void declare_debug_commands();
+    void declare_held_commands();
     void set_plan_breakpoint(const Call& call);
     void plan_breakpoints_changed();
     Json plan_breakpoint_orders() const;

@@ -3,7 +3,7 @@ import type { Studio } from '../../core/studio';
 import { revealPanel, update } from '../../core/window_state';
 import { text } from '../text';
 import { exportZip } from './export_zip';
-import { drives, projectOf } from './looks';
+import { drives, mayLeave, projectOf } from './looks';
 
 const titles = text.commands;
 const group = text.groups.file;
@@ -13,8 +13,9 @@ const fileKinds = ['script', 'plan', 'world', 'toolbox', 'text', 'folder'] as co
 export function fileCommands(studio: Studio): Command[] {
   const may = () => drives(studio);
   const inProject = () => may() && projectOf(studio) !== null;
+  const toAnother = () => mayLeave(studio);
   const shown = () => studio.window.getState().doc;
-  const overlay = (name: 'folder' | 'project') => () =>
+  const overlay = (name: 'folder' | 'project' | 'newTemplate') => () =>
     update(studio.window, (draft) => void (draft.overlay = name));
   return [
     {
@@ -22,7 +23,7 @@ export function fileCommands(studio: Studio): Command[] {
       title: titles['folder.open'],
       group,
       keys: ['Ctrl+O'],
-      enabled: may,
+      enabled: toAnother,
       run: overlay('folder'),
     },
     // Ctrl+N belongs to the browser.
@@ -31,14 +32,21 @@ export function fileCommands(studio: Studio): Command[] {
       title: titles['project.new'],
       group,
       keys: ['Alt+N'],
-      enabled: may,
+      enabled: toAnother,
       run: overlay('project'),
+    },
+    {
+      id: 'template.new',
+      title: titles['template.new'],
+      group,
+      enabled: inProject,
+      run: overlay('newTemplate'),
     },
     {
       id: 'project.start',
       title: titles['project.start'],
       group,
-      enabled: inProject,
+      enabled: () => toAnother() && inProject(),
       async run() {
         await studio.documents.flushAll();
         await studio.send('project.close', {});

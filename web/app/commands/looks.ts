@@ -12,6 +12,11 @@ export function drives(studio: Studio): boolean {
   return link.state === 'open' && studio.topics.get('studio', {})?.driver === link.number;
 }
 
+/** May open another project: a robot that serves itself has one. */
+export function mayLeave(studio: Studio): boolean {
+  return drives(studio) && !studio.topics.get('studio', {})?.serves;
+}
+
 /** The node whose script is looked at. */
 export function shownNode(studio: Studio): Node | undefined {
   const { doc } = studio.window.getState();

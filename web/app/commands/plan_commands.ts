@@ -25,6 +25,13 @@ export function planCommands(studio: Studio): Command[] {
     enabled: () => may() && when(),
     run: async () => void (await studio.send(id, {})),
   });
+  const held = (id: 'plan.held.step' | 'plan.held.go' | 'plan.held.drop'): Command => ({
+    id,
+    title: titles[id],
+    group,
+    enabled: () => may() && state() === 'paused',
+    run: async () => void (await studio.send(id, {})),
+  });
   return [
     {
       id: 'plan.start',
@@ -41,6 +48,9 @@ export function planCommands(studio: Studio): Command[] {
     make('plan.continue', () => state() === 'paused'),
     make('plan.step', goes),
     make('plan.stop', goes),
+    held('plan.held.step'),
+    held('plan.held.go'),
+    held('plan.held.drop'),
     {
       id: 'plan.show',
       title: titles['plan.show'],

@@ -11,6 +11,7 @@ const views = {
   folder: late(() => import('../start/folder_chooser')),
   project: late(() => import('../start/new_project')),
   runFrom: late(() => import('../views/plan/run_from')),
+  newTemplate: late(() => import('../panels/palette/new_template_sheet')),
 };
 
 /** What lies over the window for a moment. Esc and a click beside it end it; run keys still work. */

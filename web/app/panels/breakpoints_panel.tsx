@@ -2,6 +2,7 @@ import { useTopic } from '../hooks';
 import { Quiet } from '../parts/blank';
 import { text } from '../text';
 import { ConditionForm } from './breakpoints/condition_form';
+import { HeldEvents } from './breakpoints/held_events';
 import { PlanRow } from './breakpoints/plan_row';
 import { ScriptRow } from './breakpoints/script_row';
 import '../look/lists.css';
@@ -25,6 +26,7 @@ export default function BreakpointsPanel() {
           ))}
       </ul>
       <ConditionForm />
+      <HeldEvents />
     </div>
   );
 }

@@ -1,5 +1,4 @@
 import { IconAlertOctagon, IconAlertTriangle } from '@tabler/icons-react';
-import { useRef } from 'react';
 import type { Finding } from '../../protocol/messages';
 import { ordered } from '../../core/findings';
 import { pressFix, showProblem } from '../commands/problem_commands';
@@ -8,6 +7,7 @@ import { useDrives, useStudio, useTopic, useWindow } from '../hooks';
 import { Quiet } from '../parts/blank';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
+import { VirtualRows } from '../parts/virtual_rows';
 import { text } from '../text';
 import '../look/lists.css';
 
@@ -21,38 +21,38 @@ export default function ProblemsPanel() {
     finding.doc === cursor?.doc &&
     cursor.line >= finding.at.line &&
     cursor.line <= finding.end.line;
-  const list = useRef<HTMLUListElement>(null);
   const findings = ordered(topic?.findings ?? []);
-  const focus = (index: number) =>
-    list.current?.querySelectorAll<HTMLElement>('.problem__open')[index]?.focus();
   if (findings.length === 0) return <Quiet>{text.empty.problems}</Quiet>;
+  const rows = findings.map((finding, index) => ({ finding, index }));
   return (
-    <ul
-      className="scroll problems"
-      aria-label={text.problems.label}
-      ref={list}
-      onKeyDown={(event) => {
-        const now = [...(list.current?.querySelectorAll('.problem__open') ?? [])].indexOf(
-          event.target as Element,
-        );
-        const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-        if (now < 0 || !by) return;
-        event.preventDefault();
-        focus(now + by);
-      }}
-    >
-      {findings.map((finding, index) => (
-        <Problem
-          key={`${finding.doc} ${finding.at.line} ${finding.at.column} ${finding.code} ${index}`}
-          finding={finding}
-          chosen={index === current || isHere(finding)}
-          onOpen={() => showProblem(studio, index)}
-        />
-      ))}
+    <div className="problems">
+      <VirtualRows
+        rows={rows}
+        label={text.problems.label}
+        height={kRowHeight}
+        keyOf={({ finding: { doc, at, code }, index }) =>
+          `${doc} ${at.line} ${at.column} ${code} ${index}`
+        }
+        onRowKey={({ index }, event) => {
+          if (event.key !== 'Enter' && event.key !== ' ') return;
+          event.preventDefault();
+          showProblem(studio, index);
+        }}
+      >
+        {({ finding, index }) => (
+          <Problem
+            finding={finding}
+            chosen={index === current || isHere(finding)}
+            onOpen={() => showProblem(studio, index)}
+          />
+        )}
+      </VirtualRows>
       {topic && topic.more > 0 ? <Quiet>{text.problems.more(topic.more)}</Quiet> : null}
-    </ul>
+    </div>
   );
 }
+
+const kRowHeight = 28;
 
 function Problem({
   finding,
@@ -69,11 +69,13 @@ function Problem({
   const Icon = severity === 'error' ? IconAlertOctagon : IconAlertTriangle;
   const place = `${nameOf(studio, doc)}:${at.line}:${at.column}`;
   return (
-    <li className={chosen ? 'problem is-on' : 'problem'}>
+    <div className={chosen ? 'problem is-on' : 'problem'}>
       <button
         type="button"
         className="problem__open"
         data-inset
+        // Keys are those of its row.
+        tabIndex={-1}
         aria-current={chosen}
         onClick={onOpen}
       >
@@ -99,6 +101,6 @@ function Problem({
           {fix.label}
         </Button>
       ))}
-    </li>
+    </div>
   );
 }

@@ -76,6 +76,7 @@ export function VirtualRows<Row>({
             data-row={from + index}
             data-inset
             className="virtual__row"
+            style={{ height }}
             tabIndex={from + index === current ? 0 : -1}
             onFocus={() => setActive(from + index)}
           >

@@ -24,6 +24,7 @@ const icons = {
 /** The target, and those that can be chosen; they are looked for while the menu is open. */
 export function TargetMenu() {
   const robot = useTopic('robot', {});
+  const serves = useTopic('studio', {})?.serves ?? false;
   const [open, setOpen] = useState(false);
   const none = !robot || robot.kind === 'none';
   const Icon = none
@@ -58,7 +59,8 @@ export function TargetMenu() {
       onChange={setOpen}
       width={340}
     >
-      {open ? (
+      {open && serves ? <p className="quiet">{text.target.serves}</p> : null}
+      {open && !serves ? (
         <TargetList why={robot?.why} connected={!none} onDone={() => setOpen(false)} />
       ) : null}
     </StudioPopover>

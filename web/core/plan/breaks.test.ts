@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { PlanBreakpoint } from '../../protocol/messages';
-import { discOf, keyOfBreak, placeOf } from './breaks';
+import { discOf, keyOfBreak, placeOf, renamed } from './breaks';
 import { planModel } from './model';
 
 const model = planModel(
@@ -61,4 +61,31 @@ test('the disc tells whether it always stops', () => {
   expect(discOf({ ...one, enabled: false, condition: 'n > 1' })).toBe('off');
   expect(discOf({ ...one, set: false, why: 'no such actor' })).toBe('unset');
   expect(discOf({ ...one, kind: 'condition', condition: 'n > 1' })).toBe('on');
+});
+
+test('a change that gives one element another name is a renaming, others are none', () => {
+  const plan = (actors: string[], supervisors: string[]) =>
+    planModel(
+      {
+        name: 'P',
+        start: {
+          actor: 'a',
+          supervisors: Object.fromEntries(supervisors.map((name) => [name, { template: 'T' }])),
+        },
+        actors: Object.fromEntries(actors.map((name) => [name, { template: 'A' }])),
+      },
+      [],
+    );
+  const before = plan(['a', 'b'], ['s']);
+  expect(renamed(before, plan(['a', 'c'], ['s']))).toEqual({ is: 'actor', from: 'b', to: 'c' });
+  expect(renamed(before, plan(['a', 'b'], ['t']))).toEqual({
+    is: 'supervisor',
+    from: 's',
+    to: 't',
+  });
+  expect(renamed(before, before)).toBeNull();
+  expect(renamed(before, plan(['a'], ['s']))).toBeNull();
+  expect(renamed(before, plan(['a', 'b', 'c'], ['s']))).toBeNull();
+  expect(renamed(before, plan(['c', 'd'], ['s']))).toBeNull();
+  expect(renamed(before, plan(['a', 'c'], ['t']))).toBeNull();
 });

@@ -60,3 +60,31 @@ export function discOf(
   if (!one.set && one.why !== undefined) return 'unset';
   return (one.kind !== 'condition' && one.condition !== '') || one.stop_at > 1 ? 'if' : 'on';
 }
+
+export interface Renamed {
+  is: 'actor' | 'supervisor';
+  from: string;
+  to: string;
+}
+
+/** What one change of a plan renamed; null: nothing, or more than a name came or went. */
+export function renamed(before: PlanModel, after: PlanModel): Renamed | null {
+  const actor = oneOther(namesOf(before.actors), namesOf(after.actors));
+  const supervisor = oneOther(namesOf(supervisorsOf(before)), namesOf(supervisorsOf(after)));
+  if (actor && supervisor) return null;
+  if (actor) return { is: 'actor', ...actor };
+  return supervisor ? { is: 'supervisor', ...supervisor } : null;
+}
+
+const namesOf = (elements: readonly { name: string }[]) =>
+  new Set(elements.map(({ name }) => name));
+
+function oneOther(
+  before: ReadonlySet<string>,
+  after: ReadonlySet<string>,
+): { from: string; to: string } | null {
+  const [from, ...moreGone] = [...before].filter((name) => !after.has(name));
+  const [to, ...moreCame] = [...after].filter((name) => !before.has(name));
+  const one = moreGone.length === 0 && moreCame.length === 0;
+  return one && from !== undefined && to !== undefined ? { from, to } : null;
+}

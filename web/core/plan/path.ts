@@ -19,6 +19,11 @@ export function roundedPath(points: readonly Point[], radius = kCorner): string 
   return path;
 }
 
+/** The same without its corners rounded. */
+export function straightPath(points: readonly Point[]): string {
+  return points.map((point, index) => `${index === 0 ? 'M' : 'L'}${at(point)}`).join('');
+}
+
 /** A corner never takes more than half of what it joins. */
 function corner(before: Point, point: Point, after: Point, radius: number): string {
   const room = Math.min(distance(before, point), distance(point, after)) / 2;

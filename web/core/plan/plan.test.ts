@@ -6,9 +6,10 @@ import { dataArrows, namesIn } from './data';
 import { planModel, supervisorsOf } from './model';
 import { crossings, eachStretch, roundedPath, stretchBox } from './path';
 import { freePlace, sceneOf, type Scene } from './place';
+import { seeded } from '../test_seeded';
 import { kApart } from './route';
 import { overlaps, type Box, type Point } from './shape';
-import { findTemplate, matching } from './templates';
+import { findTemplate, hiddenBy, matching } from './templates';
 
 function template(name: string, kind: PlanTemplate['kind'], outcomes: string[]): PlanTemplate {
   const named = outcomes.map((one) => ({ name: one, help: '' }));
@@ -122,6 +123,20 @@ describe('the model of a plan', () => {
     expect(findTemplate(toolboxes, [], 'Forward', false)).toBeUndefined();
     expect(findTemplate(toolboxes, ['drive'], 'Forward', false)?.toolbox).toBe('drive');
     expect(findTemplate(toolboxes, ['drive'], 'Timeout', false)).toBeUndefined();
+  });
+
+  it('are hidden by those of the same name in a toolbox that is listed before', () => {
+    const template = findTemplate(toolboxes, ['drive'], 'Forward', false)?.template;
+    expect(template).toBeDefined();
+    if (!template) return;
+    const ours = { name: 'ours', help: '', templates: [template] };
+    const both = [...toolboxes, ours];
+    const of = (toolbox: string) => ({ toolbox, template });
+    expect(hiddenBy(both, [], of('ours'))).toBeNull();
+    expect(hiddenBy(both, ['drive'], of('ours'))).toBe('drive');
+    expect(hiddenBy(both, ['drive', 'ours'], of('ours'))).toBe('drive');
+    expect(hiddenBy(both, ['ours', 'drive'], of('ours'))).toBeNull();
+    expect(hiddenBy(both, ['ours'], of('drive'))).toBe('ours');
     const found = matching(toolboxes, 'drive for');
     expect(found.map((one) => one.templates.map(({ name }) => name))).toEqual([['Forward']]);
   });
@@ -229,18 +244,6 @@ describe('ways', () => {
     expect(kept.routes.get('go.There')?.points).toBe(whole.routes.get('go.There')?.points);
   });
 });
-
-/** Of mulberry32: the same numbers for the same seed. */
-function seeded(seed: number): (below: number) => number {
-  let state = seed >>> 0;
-  return (below) => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let t = state;
-    t = Math.imul(t ^ (t >>> 15), t | 1);
-    t ^= t + Math.imul(t ^ (t >>> 7), t | 61);
-    return ((t ^ (t >>> 14)) >>> 0) % below;
-  };
-}
 
 /** Up to 24 actors with supervisors, some of them placed, none on another one. */
 function randomPlan(random: (below: number) => number): Json {

@@ -27,6 +27,18 @@ export function findTemplate(
   return undefined;
 }
 
+/** The toolbox whose template of that name a plan would get instead; null: it gets this one. */
+export function hiddenBy(
+  toolboxes: Toolboxes,
+  listed: readonly string[],
+  { toolbox, template }: Found,
+): string | null {
+  // One that is not listed yet comes last.
+  const then = listed.includes(toolbox) ? listed : [...listed, toolbox];
+  const first = findTemplate(toolboxes, then, template.name, template.kind === 'supervisor');
+  return first && first.toolbox !== toolbox ? first.toolbox : null;
+}
+
 export interface Group {
   name: string;
   help: string;
@@ -47,4 +59,11 @@ export function matching(toolboxes: Toolboxes, typed: string): Group[] {
       templates: templates.filter((one) => fits(name, one)),
     }))
     .filter((group) => group.templates.length > 0);
+}
+
+/** What a plan can use of what fits to what was typed. */
+export function usable(toolboxes: Toolboxes, listed: readonly string[], typed: string): Found[] {
+  return matching(toolboxes, typed)
+    .flatMap(({ name, templates }) => templates.map((template) => ({ toolbox: name, template })))
+    .filter((found) => hiddenBy(toolboxes, listed, found) === null);
 }

@@ -3,7 +3,6 @@ import {
   IconAdjustmentsHorizontal,
   IconEraser,
   IconFileTypeCsv,
-  IconFilter,
   IconListNumbers,
   IconPlayerPause,
   IconPlayerPlay,
@@ -12,6 +11,7 @@ import { allEvents, happeningKinds, type EventFilter } from '../../../core/happe
 import { update } from '../../../core/window_state';
 import { useStudio, useTopic, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
+import { FilterField } from '../../parts/filter_field';
 import { kStroke } from '../../parts/icons';
 import { StudioMenu } from '../../parts/menu';
 import { text } from '../../text';
@@ -27,19 +27,12 @@ export function EventBar() {
     update(store, (draft) => void Object.assign(draft.events.filter, part));
   return (
     <div className="strip-bar">
-      <label className="search search--small">
-        <IconFilter size={13} stroke={kStroke} aria-hidden />
-        <input
-          type="search"
-          data-find="events"
-          aria-label={words.find}
-          placeholder={words.find}
-          value={filter.find}
-          spellCheck={false}
-          onChange={(event) => change({ find: event.target.value })}
-          onKeyDown={(event) => event.key === 'Escape' && change({ find: '' })}
-        />
-      </label>
+      <FilterField
+        name="events"
+        label={words.find}
+        value={filter.find}
+        onChange={(find) => change({ find })}
+      />
       <FilterMenu filter={filter} onChange={change} />
       <Button
         kind="plain"

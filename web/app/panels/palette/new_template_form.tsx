@@ -99,6 +99,7 @@ function NameField(props: { name: string; why: string | null; onType: (name: str
         <input
           className="field field--small"
           data-autofocus
+          autoFocus
           autoComplete="off"
           spellCheck={false}
           maxLength={100}

@@ -1,4 +1,3 @@
-import { IconFilter } from '@tabler/icons-react';
 import { useMemo, useRef, useState, type KeyboardEvent } from 'react';
 import {
   isOpen,
@@ -10,7 +9,7 @@ import {
 import type { NumberForm } from '../../../core/numbers';
 import { useTopic, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
-import { kStroke } from '../../parts/icons';
+import { FilterField } from '../../parts/filter_field';
 import { VirtualRows } from '../../parts/virtual_rows';
 import { useShown, useVariablesOf } from '../../robot_hooks';
 import { text } from '../../text';
@@ -38,19 +37,13 @@ export default function VariablesPanel() {
       ) : (
         <>
           <div className="strip-bar">
-            <label className="search search--small">
-              <IconFilter size={13} stroke={kStroke} aria-hidden />
-              <input
-                type="search"
-                data-find="variables"
-                aria-label={words.find}
-                placeholder={words.find}
-                value={find}
-                spellCheck={false}
-                onChange={(event) => setFind(event.target.value)}
-                onKeyDown={(event) => findKey(event, frame.current, setFind)}
-              />
-            </label>
+            <FilterField
+              name="variables"
+              label={words.find}
+              value={find}
+              onChange={setFind}
+              onKey={(event) => goOn(event, frame.current)}
+            />
             <FormButton form={form} onChange={setForm} />
           </div>
           {rows.length === 0 ? <Quiet>{words.nothing(find)}</Quiet> : null}
@@ -72,12 +65,7 @@ export default function VariablesPanel() {
 }
 
 /** Down goes on to what was found. */
-function findKey(
-  event: KeyboardEvent<HTMLElement>,
-  frame: HTMLElement | null,
-  setFind: (find: string) => void,
-): void {
-  if (event.key === 'Escape') setFind('');
+function goOn(event: KeyboardEvent<HTMLElement>, frame: HTMLElement | null): void {
   if (event.key !== 'ArrowDown') return;
   frame?.querySelector<HTMLElement>('[data-row][tabindex="0"]')?.focus();
   event.preventDefault();

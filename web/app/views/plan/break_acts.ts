@@ -1,7 +1,7 @@
 // What a person does with breakpoints of a plan, wherever they are shown.
 
 import type { PlanBreakpoint } from '../../../protocol/messages';
-import { isAt, placeOf, type BreakPlace } from '../../../core/plan/breaks';
+import { isAt, placeOf, renamed, type BreakPlace, type Renamed } from '../../../core/plan/breaks';
 import type { PlanBoard } from '../../../core/plan/board';
 import type { Studio } from '../../../core/studio';
 
@@ -23,14 +23,15 @@ export function toggleBreak(studio: Studio, board: PlanBoard, key: string): void
   else studio.order('plan.break.set', { doc: board.doc, ...place });
 }
 
-/** An actor or supervisor has another name. */
-export function renameBreaks(
-  studio: Studio,
-  doc: string,
-  is: 'actor' | 'supervisor',
-  from: string,
-  to: string,
-): void {
+/** Does what may give an element another name; its breakpoints follow it. */
+export function withBreaks(studio: Studio, board: PlanBoard, act: () => void): void {
+  const before = board.model;
+  act();
+  const change = renamed(before, board.model);
+  if (change) renameBreaks(studio, board.doc, change);
+}
+
+function renameBreaks(studio: Studio, doc: string, { is, from, to }: Renamed): void {
   for (const one of studio.topics.get('breakpoints', {})?.plans ?? []) {
     const isOfIts = (one.kind === 'event') === (is === 'supervisor') && one.kind !== 'condition';
     if (one.doc === doc && one.element === from && isOfIts)

@@ -16,8 +16,24 @@ export interface ShownPlan {
 }
 
 export class PlanDesk extends Desk<ShownPlan> {
-  /** The name of what is chosen is to be changed. */
-  readonly renames = new Emitter<void>();
+  private asked = false;
+  private readonly renames = new Emitter<void>();
+
+  /** The name of what is chosen is to be changed, by whoever shows it or comes to show it. */
+  rename(): void {
+    this.asked = true;
+    this.renames.emit();
+  }
+
+  /** Calls `begin` when the name is to be changed. */
+  onRename(begin: () => void): () => void {
+    const take = () => {
+      if (this.asked) begin();
+      this.asked = false;
+    };
+    take();
+    return this.renames.on(take);
+  }
 }
 
 export const planDeskOf: (studio: Studio) => PlanDesk = deskFor(() => new PlanDesk());

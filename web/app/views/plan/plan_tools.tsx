@@ -35,7 +35,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
         disabled={!drives || !file?.canUndo}
         tip={`${words.undo}  (Ctrl+Z)`}
         icon={<IconArrowBackUp {...size} />}
-        onClick={() => file?.undo()}
+        onClick={() => void studio.registry.run('draw.undo')}
       />
       <Button
         kind="plain"
@@ -43,7 +43,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
         disabled={!drives || !file?.canRedo}
         tip={`${words.redo}  (Ctrl+Y)`}
         icon={<IconArrowForwardUp {...size} />}
-        onClick={() => file?.redo()}
+        onClick={() => void studio.registry.run('draw.redo')}
       />
       <ExportMenu />
       <Button

@@ -1,8 +1,8 @@
-import { useState } from 'react';
 import type { PlanVariable } from '../../../protocol/messages';
 import { typedValue, valueOf } from '../../../core/plan_view';
 import { useStudio } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
+import { useDraft } from '../../parts/use_draft';
 import { text } from '../../text';
 
 const words = text.plan;
@@ -27,13 +27,11 @@ function Variable({ level, variable }: { level: number; variable: PlanVariable }
   const studio = useStudio();
   const drives = useMayAct();
   const { name, type, value, unit } = variable;
-  const [draft, setDraft] = useState<string | null>(null);
-  const typed = draft === null ? undefined : typedValue(type, draft);
   const set = (to: typeof value) => studio.order('plan.set', { level, name, value: to });
-  const done = () => {
-    if (draft !== null && typed !== undefined && draft !== valueOf(value)) set(typed);
-    setDraft(null);
-  };
+  const draft = useDraft(valueOf(value), (given) => {
+    const typed = typedValue(type, given);
+    if (typed !== undefined) set(typed);
+  });
   return (
     <li className="planvar">
       <code className="ellipsis">{name}</code>
@@ -52,15 +50,12 @@ function Variable({ level, variable }: { level: number; variable: PlanVariable }
           className="field field--small num"
           aria-label={words.set(name)}
           autoComplete="off"
-          value={draft ?? valueOf(value)}
+          value={draft.shown}
           readOnly={!drives || type === 'object'}
-          aria-invalid={draft !== null && typed === undefined}
-          onChange={(event) => setDraft(event.target.value)}
-          onBlur={done}
-          onKeyDown={(event) => {
-            if (event.key === 'Enter') done();
-            else if (event.key === 'Escape') setDraft(null);
-          }}
+          aria-invalid={draft.typed !== null && typedValue(type, draft.typed) === undefined}
+          onChange={(event) => draft.set(event.target.value)}
+          onBlur={draft.done}
+          onKeyDown={draft.key}
         />
       )}
       <span className="prop__unit">{unit}</span>

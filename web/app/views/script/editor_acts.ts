@@ -4,6 +4,7 @@ import type { Doc, Place } from '../../../protocol/messages';
 import type { Studio } from '../../../core/studio';
 import { revealDoc, revealPanel, toast, update } from '../../../core/window_state';
 import { EditorView } from '@codemirror/view';
+import { takeFocus } from '../../parts/take_focus';
 import { text } from '../../text';
 import { placeOf } from './places';
 import { shownView } from './views';
@@ -51,15 +52,5 @@ export function goTo(view: EditorView, offset: number, focus: boolean): void {
       effects: EditorView.scrollIntoView(offset, { y: 'center' }),
     });
   show();
-  if (focus) takeFocus(view, show);
-}
-
-const kTriesOfFocus = 120;
-
-/** A tab that comes to the front just now can take the focus, and be scrolled, only once it is shown. */
-function takeFocus(view: EditorView, show: () => void, tries = kTriesOfFocus): void {
-  view.focus();
-  if (view.hasFocus && tries < kTriesOfFocus) show();
-  else if (!view.hasFocus && tries > 0)
-    requestAnimationFrame(() => takeFocus(view, show, tries - 1));
+  if (focus) takeFocus(() => (view.focus(), view.hasFocus), show);
 }

@@ -60,9 +60,11 @@ const standing = decorations(setStanding, (here, doc) => {
   const indent = /^\s*/.exec(line.text)?.[0] ?? '';
   if (here.values)
     marks.push(
-      Decoration.widget({ widget: new Values(indent + here.values), block: true, side: 1 }).range(
-        line.to,
-      ),
+      Decoration.widget({
+        widget: new Words(indent + here.values, 'div', 'cm-values'),
+        block: true,
+        side: 1,
+      }).range(line.to),
     );
   return marks;
 });
@@ -146,36 +148,26 @@ function decorations<T>(
 }
 
 function chip(text: string, at: number): Range<Decoration> {
-  return Decoration.widget({ widget: new ChipWidget(text), side: 1 }).range(at);
+  return Decoration.widget({ widget: new Words(text, 'span', 'chip'), side: 1 }).range(at);
 }
 
-class ChipWidget extends WidgetType {
-  constructor(private readonly text: string) {
+/** Words that stand in the text and are none of it. */
+class Words extends WidgetType {
+  constructor(
+    private readonly text: string,
+    private readonly tag: 'span' | 'div',
+    private readonly look: string,
+  ) {
     super();
   }
-  override eq(other: ChipWidget): boolean {
-    return other.text === this.text;
+  override eq(other: Words): boolean {
+    return other.text === this.text && other.look === this.look;
   }
   override toDOM(): HTMLElement {
-    const span = document.createElement('span');
-    span.className = 'chip';
-    span.textContent = this.text;
-    return span;
-  }
-}
-
-class Values extends WidgetType {
-  constructor(private readonly text: string) {
-    super();
-  }
-  override eq(other: Values): boolean {
-    return other.text === this.text;
-  }
-  override toDOM(): HTMLElement {
-    const line = document.createElement('div');
-    line.className = 'cm-values';
-    line.textContent = this.text;
-    return line;
+    const element = document.createElement(this.tag);
+    element.className = this.look;
+    element.textContent = this.text;
+    return element;
   }
 }
 

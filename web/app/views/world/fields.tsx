@@ -1,4 +1,5 @@
-import { useId, useState, type ReactNode } from 'react';
+import { useId, type ReactNode } from 'react';
+import { useDraft } from '../../parts/use_draft';
 
 export function Field({
   label,
@@ -29,11 +30,7 @@ export function TextField(props: {
   onSet: (value: string) => void;
 }) {
   const { label, value, otherwise, disabled, onSet } = props;
-  const [draft, setDraft] = useState<string | null>(null);
-  const done = () => {
-    if (draft !== null && draft !== value) onSet(draft);
-    setDraft(null);
-  };
+  const draft = useDraft(value, onSet);
   return (
     <Field label={label}>
       {(id) => (
@@ -42,15 +39,12 @@ export function TextField(props: {
           className="field field--small"
           autoComplete="off"
           spellCheck={false}
-          value={draft ?? value}
+          value={draft.shown}
           placeholder={otherwise ?? ''}
           disabled={disabled}
-          onChange={(event) => setDraft(event.target.value)}
-          onBlur={done}
-          onKeyDown={(event) => {
-            if (event.key === 'Enter') done();
-            else if (event.key === 'Escape') setDraft(null);
-          }}
+          onChange={(event) => draft.set(event.target.value)}
+          onBlur={draft.done}
+          onKeyDown={draft.key}
         />
       )}
     </Field>

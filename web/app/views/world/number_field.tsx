@@ -1,5 +1,5 @@
-import { useState } from 'react';
 import { tidy } from '../../../core/world/snap';
+import { useDraft } from '../../parts/use_draft';
 import { text } from '../../text';
 import { Field } from './fields';
 
@@ -19,21 +19,22 @@ export function NumberField(props: {
   const { label, unit, value, otherwise, step = 0.01, whole, disabled, onSet } = props;
   const { low = -1e6, high = 1e6 } = props;
   const shown = value === undefined ? '' : String(tidy(value));
-  const [draft, setDraft] = useState<string | null>(null);
-  const number = Number((draft ?? '').replace(',', '.'));
-  const empty = draft !== null && draft.trim() === '';
-  const good =
-    draft === null ||
-    (empty
+  const read = (typed: string) => {
+    const number = Number(typed.replace(',', '.'));
+    const isEmpty = typed.trim() === '';
+    const isGood = isEmpty
       ? otherwise !== undefined
-      : Number.isFinite(number) && number >= low && number <= high && !(whole && number % 1));
-  const done = () => {
-    if (draft !== null && good && draft !== shown) onSet(empty ? undefined : number);
-    setDraft(null);
+      : Number.isFinite(number) && number >= low && number <= high && !(whole && number % 1);
+    return { isGood, number: isEmpty ? undefined : number };
   };
+  const draft = useDraft(shown, (typed) => {
+    const { isGood, number } = read(typed);
+    if (isGood) onSet(number);
+  });
+  const good = draft.typed === null || read(draft.typed).isGood;
   const by = (sign: number) => {
     const next = tidy(Math.min(high, Math.max(low, (value ?? 0) + sign * step)));
-    setDraft(null);
+    draft.set(null);
     onSet(next);
   };
   return (
@@ -44,19 +45,17 @@ export function NumberField(props: {
           className="field field--small num"
           inputMode="decimal"
           autoComplete="off"
-          value={draft ?? shown}
+          value={draft.shown}
           placeholder={otherwise ?? ''}
           disabled={disabled}
           aria-invalid={!good}
           title={good ? undefined : text.world.badNumber(low, high)}
-          onChange={(event) => setDraft(event.target.value)}
-          onBlur={done}
+          onChange={(event) => draft.set(event.target.value)}
+          onBlur={draft.done}
           onKeyDown={(event) => {
-            if (event.key === 'Enter') done();
-            else if (event.key === 'Escape') setDraft(null);
-            else if (event.key === 'ArrowUp') by(event.shiftKey ? 10 : 1);
+            if (event.key === 'ArrowUp') by(event.shiftKey ? 10 : 1);
             else if (event.key === 'ArrowDown') by(event.shiftKey ? -10 : -1);
-            else return;
+            else if (!draft.key(event)) return;
             event.preventDefault();
             event.stopPropagation();
           }}

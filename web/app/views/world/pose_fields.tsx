@@ -1,10 +1,11 @@
 import type { Json } from '../../../protocol/messages';
 import type { JsonDocument } from '../../../core/json_document';
 import { moveSteps, numberOf, pairOf, shapeSteps, type Table } from '../../../core/world/file';
-import { degrees, radians, type Pose } from '../../../core/world/geometry';
+import type { Pose } from '../../../core/world/geometry';
 import { text } from '../../text';
 import { SwitchField } from './fields';
 import { NumberField } from './number_field';
+import { PlaceFields } from './place_fields';
 
 const words = text.world;
 
@@ -22,30 +23,14 @@ export function PoseFields({ file, id, table, off }: EditedThing) {
   const move = (change: Partial<Pose>) =>
     file.commit(moveSteps(file.value, id, { x, y, angle, ...change }));
   return (
-    <>
-      <NumberField
-        label={words.x}
-        unit="m"
-        value={x}
-        disabled={off}
-        onSet={(to) => to !== undefined && move({ x: to })}
-      />
-      <NumberField
-        label={words.y}
-        unit="m"
-        value={y}
-        disabled={off}
-        onSet={(to) => to !== undefined && move({ y: to })}
-      />
-      <NumberField
-        label={words.angle}
-        unit="°"
-        step={1}
-        value={Math.round(degrees(angle) * 100) / 100}
-        disabled={off}
-        onSet={(to) => to !== undefined && move({ angle: radians(to) })}
-      />
-    </>
+    <PlaceFields
+      x={x}
+      y={y}
+      angle={angle}
+      off={off}
+      onMove={(toX, toY) => move({ x: toX, y: toY })}
+      onTurn={(to) => to !== undefined && move({ angle: to })}
+    />
   );
 }
 

@@ -8,12 +8,16 @@ import { usePart, useStudio } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
+import { Segments } from '../../parts/segments';
 import { text } from '../../text';
 
 const words = text.world;
 /** In which it can be run, paused, set back; "none": it stands at its start, or after Stop. */
 const kStates: readonly string[] = ['none', 'running', 'paused'];
-const speeds = [0.1, 0.5, 1, 2, 5, 10, 0];
+const speeds = [0.1, 0.5, 1, 2, 5, 10, 0].map((value) => ({
+  value: value,
+  words: words.slower(value),
+}));
 const size = { size: 14, stroke: kStroke };
 
 /** How fast the simulation goes: from one instant at a time to as fast as it can. */
@@ -46,21 +50,15 @@ export function SpeedBar() {
         icon={<IconPlayerSkipForward {...size} />}
         onClick={() => studio.order('run.step', {})}
       />
-      <div className="seg seg--small" role="radiogroup" aria-label={words.speeds}>
-        {speeds.map((one) => (
-          <button
-            key={one}
-            type="button"
-            role="radio"
-            className="seg__part num"
-            aria-checked={one === speed}
-            disabled={!drives}
-            onClick={() => studio.order('clock.speed', { speed: one })}
-          >
-            {words.slower(one)}
-          </button>
-        ))}
-      </div>
+      <Segments
+        small
+        numbers
+        label={words.speeds}
+        segments={speeds}
+        chosen={speed}
+        disabled={!drives}
+        onChoose={(one) => one !== undefined && studio.order('clock.speed', { speed: one })}
+      />
       <span className="speedbar__real num">{runs ? words.measured(real) : text.run[state]}</span>
       <Button
         kind="plain"

@@ -2,42 +2,64 @@ import { ViewportPortal } from '@xyflow/react';
 import { memo, useMemo } from 'react';
 import type { Arrow } from '../../../../core/plan/arrows';
 import type { PlanBoard } from '../../../../core/plan/board';
-import { roundedPath, type Crossing } from '../../../../core/plan/path';
+import { roundedPath, straightPath, type Crossing } from '../../../../core/plan/path';
 import type { Routed } from '../../../../core/plan/route';
 import { gapPath, gapsOf, shortened } from '../../../../core/plan/strokes';
 import { useBoard } from '../plan_desk';
 import { text } from '../../../text';
 import { DataArrows } from './data_layer';
+import { useFar } from './distance';
 import { useLive } from './live_store';
+import { useSeenArrows } from './seen_arrows';
 
-/** All arrows of the plan, below its elements. */
+/** The arrows of the plan, below its elements. */
 export function ArrowsLayer({ board, allData }: { board: PlanBoard; allData: boolean }) {
-  const { drawing, selected } = useBoard(board);
-  const gaps = useMemo(() => gapsOf(drawing), [drawing]);
+  const far = useFar();
   return (
     <ViewportPortal>
       <svg className="parrows" width={1} height={1}>
         <Heads />
         <DataArrows board={board} all={allData} />
-        {drawing.arrows.map((arrow) => (
-          <ActionArrow
-            key={arrow.id}
-            board={board}
-            arrow={arrow}
-            route={drawing.routes.get(arrow.id)}
-            gaps={gaps.get(arrow.id)}
-            near={selected === arrow.id || selected === arrow.source}
-          />
-        ))}
-        {drawing.loose.map(({ id, port }) => {
-          const by = port.side === 'left' ? -18 : 18;
-          return <path key={id} className="parrow-loose" d={`M${port.x} ${port.y}h${by}`} />;
-        })}
+        {far ? <Lines board={board} /> : <ActionArrows board={board} />}
         <TakenArrow board={board} />
         <Drawn board={board} />
       </svg>
     </ViewportPortal>
   );
+}
+
+function ActionArrows({ board }: { board: PlanBoard }) {
+  const { drawing, selected } = useBoard(board);
+  const gaps = useMemo(() => gapsOf(drawing), [drawing]);
+  const seen = useSeenArrows(drawing);
+  return (
+    <>
+      {seen.map((arrow) => (
+        <ActionArrow
+          key={arrow.id}
+          board={board}
+          arrow={arrow}
+          route={drawing.routes.get(arrow.id)}
+          gaps={gaps.get(arrow.id)}
+          near={selected === arrow.id || selected === arrow.source}
+        />
+      ))}
+      {drawing.loose.map(({ id, port }) => {
+        const by = port.side === 'left' ? -18 : 18;
+        return <path key={id} className="parrow-loose" d={`M${port.x} ${port.y}h${by}`} />;
+      })}
+    </>
+  );
+}
+
+/** From far away: the ways alone, in one stroke. */
+function Lines({ board }: { board: PlanBoard }) {
+  const { drawing } = useBoard(board);
+  const path = useMemo(
+    () => [...drawing.routes.values()].map(({ points }) => straightPath(points)).join(''),
+    [drawing],
+  );
+  return <path className="parrow-far" d={path} aria-hidden />;
 }
 
 const ActionArrow = memo(function ActionArrow(props: {

@@ -6,11 +6,12 @@ import type { Studio } from '../../../../core/studio';
 import { toast, update } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
-import { tidy } from './tidy_plan';
-import { chosenSubPlan, extractChosen, openSubPlan } from './sub_plan_commands';
+import { withBreaks } from '../break_acts';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { exportPng, exportSvg } from './export_picture';
 import { copyByCommand, cut, hasClipboard, pasteByCommand } from './plan_clipboard';
+import { chosenSubPlan, extractChosen, openSubPlan } from './sub_plan_commands';
+import { tidy } from './tidy_plan';
 
 const titles = text.commands;
 type DrawId = Extract<keyof typeof titles, `draw.${string}`>;
@@ -86,13 +87,13 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     make(
       'draw.undo',
       ['Ctrl+Z'],
-      ({ board }) => board.file.undo(),
+      ({ board }) => withBreaks(studio, board, () => board.file.undo()),
       ({ board }) => edits() && board.file.canUndo,
     ),
     make(
       'draw.redo',
       ['Ctrl+Y', 'Ctrl+Shift+Z'],
-      ({ board }) => board.file.redo(),
+      ({ board }) => withBreaks(studio, board, () => board.file.redo()),
       ({ board }) => edits() && board.file.canRedo,
     ),
     make(

@@ -8,6 +8,7 @@ import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { canvasCommands } from './canvas_commands';
+import { kLegible } from './distance';
 import { debugCommands } from './debug_commands';
 import { FlowNodes, type PlanNode } from './flow_nodes';
 
@@ -91,8 +92,19 @@ function reveal(
     });
 }
 
-/** Below this zoom names cannot be read. */
-const kLegible = 0.75;
+/** What had the keyboard may go, by undo for instance: then the canvas has it, and its keys still work. */
+export function useKeptFocus(frame: React.RefObject<HTMLDivElement | null>, nodes: unknown) {
+  const last = useRef<Element | null>(null);
+  useEffect(() => {
+    // The canvas draws them after this.
+    const asked = requestAnimationFrame(() => {
+      const lost = document.activeElement === document.body && last.current?.isConnected === false;
+      if (lost) frame.current?.focus({ preventScroll: true });
+    });
+    return () => cancelAnimationFrame(asked);
+  }, [frame, nodes]);
+  return useCallback((event: React.FocusEvent) => void (last.current = event.target), []);
+}
 
 /** Palette, forms and commands work on this canvas once it is used. */
 export function useOnDesk(
@@ -130,11 +142,16 @@ export function useOnDesk(
         fit: () => void flow.fitView(kFit),
         zoom: (by) => void flow.zoomTo(flow.getZoom() * by),
         properties,
-        rename: () => planDeskOf(studio).renames.emit(),
+        rename() {
+          const { board } = shown;
+          // A note is written where it stands.
+          if (!board.note(board.selected)) revealPanel(studio.window, 'properties', false);
+          planDeskOf(studio).rename();
+        },
         find,
       }),
     ]);
-  }, [studio, flow, find]);
+  }, [studio, shown, flow, find]);
   const use = useCallback(() => {
     planDeskOf(studio).use(shown);
     const { doc } = shown.board;

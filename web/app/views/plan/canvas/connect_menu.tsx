@@ -3,7 +3,7 @@ import { useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { kIgnore, kStart, kTerminate, targetsFor } from '../../../../core/plan/model';
 import type { Point } from '../../../../core/plan/shape';
-import { matching, type Found } from '../../../../core/plan/templates';
+import { usable, type Found } from '../../../../core/plan/templates';
 import { useTopic } from '../../../hooks';
 import { StudioMenu } from '../../../parts/menu';
 import { text } from '../../../text';
@@ -23,7 +23,7 @@ export function ConnectMenu(props: {
   const { origin } = asked;
   const [typed, type] = useState('');
   const targets = targetsOf(board, origin.source).filter((one) => has(targetName(one), typed));
-  const news = useTemplates(typed);
+  const news = useTemplates(board, typed);
   const now = board.drawing.arrows.find((one) => one.id === origin.id)?.target ?? null;
   const choose = (target: string | null) => {
     board.connect(origin.source, origin.outcome, target);
@@ -102,12 +102,10 @@ function targetsOf(board: PlanBoard, key: string): string[] {
 }
 
 /** Actors and computations that can be made for what was typed. */
-function useTemplates(typed: string): Found[] {
+function useTemplates(board: PlanBoard, typed: string): Found[] {
   const toolboxes = useTopic('templates', {})?.toolboxes ?? [];
-  return matching(toolboxes, typed).flatMap(({ name, templates }) =>
-    templates.flatMap((template) =>
-      template.kind === 'supervisor' ? [] : [{ toolbox: name, template }],
-    ),
+  return usable(toolboxes, board.model.toolboxes, typed).filter(
+    ({ template }) => template.kind !== 'supervisor',
   );
 }
 

@@ -6,6 +6,7 @@ import { kStart } from '../../../../core/plan/model';
 import { kStroke } from '../../../parts/icons';
 import { text } from '../../../text';
 import { BreakDot } from './break_dots';
+import { useFar } from './distance';
 import type { ActorNode, StartNode, SupervisorNode } from './flow_nodes';
 import { useLive } from './live_store';
 import { Mark } from './mark';
@@ -41,6 +42,7 @@ export const ActorBox = memo(function ActorBox({ data, selected }: NodeProps<Act
   if (active) classes.push('is-active');
   if (findings.errors > 0) classes.push('has-error');
   else if (findings.warnings > 0) classes.push('has-warning');
+  if (useFar()) return <div className={classes.join(' ')} data-plan-actor={actor.name} />;
   return (
     <div className={classes.join(' ')} data-plan-actor={actor.name}>
       <Mark {...findings} />
@@ -96,6 +98,7 @@ export const SupervisorHexagon = memo(function SupervisorHexagon(props: NodeProp
   if (raised > 0) classes.push('is-raised', `is-raised--${raised % 2}`);
   if (raised > 0 && held) classes.push('is-held');
   if (findings.errors > 0) classes.push('has-error');
+  if (useFar()) return <div className={classes.join(' ')} data-plan-actor={supervisor.owner} />;
   const Icon = raised > 0 ? IconBolt : watching ? IconEye : IconEyeClosed;
   return (
     <div

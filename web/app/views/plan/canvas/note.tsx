@@ -20,7 +20,7 @@ export const NoteCard = memo(function NoteCard({ data, selected }: NodeProps<Not
   // A new one is written at once.
   const [isWritten, write] = useState(note.text === '' && selected && notes !== null);
   useEffect(
-    () => (selected && notes ? desk.renames.on(() => write(true)) : undefined),
+    () => (selected && notes ? desk.onRename(() => write(true)) : undefined),
     [desk, selected, notes],
   );
   return (

@@ -17,19 +17,18 @@ import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
 import { ActiveLine } from './active_line';
 import { ArrowsLayer } from './arrows_layer';
-import { DotsContext, useDots } from './break_dots';
-import { kFit, useFitted, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
+import { kFit, useFitted, useKeptFocus, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
+import { CanvasContexts } from './canvas_contexts';
 import { ConnectMenu } from './connect_menu';
+import { kManyNodes, useDistance } from './distance';
 import { ElementMenu } from './element_menu';
 import { FindBar } from './find_bar';
 import type { PlanNode } from './flow_nodes';
-import { LiveContext, useLiveStore } from './live_store';
-import { NoteContext, useNoteActs } from './note_context';
 import { nodeTypes } from './nodes';
 import { useClipboard } from './plan_clipboard';
 import { useDropping } from './use_dropping';
 import { useElementMenu } from './use_element_menu';
-import { ConnectContext, useConnecting } from './use_connecting';
+import { useConnecting } from './use_connecting';
 import { usePlanBoard } from './use_board';
 import '../../../look/draw.css';
 
@@ -51,93 +50,87 @@ function Canvas({ board }: { board: PlanBoard }) {
   const drives = useDrives();
   useBoard(board);
   const nodes = useNodes(board, drives);
+  const distance = useDistance(nodes.length);
   const frame = useRef<HTMLDivElement>(null);
+  const keep = useKeptFocus(frame, nodes);
   const [finds, setFinds] = useState(false);
   const find = useCallback(() => setFinds(true), []);
   const { shown, use } = useOnDesk(board, frame, find);
   const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
-  const notes = useNoteActs(board, drives);
   const dropping = useDropping(board, drives);
-  const live = useLiveStore(board);
-  const dots = useDots(board);
   const { menu, closeMenu, onNodeContextMenu } = useElementMenu(board);
   const options = usePlanOptions();
   const onNodesChange = useNodeChanges(board);
   const onMoveStart = useFitted();
   if (board.file.broken !== null) return <Blank title={words.broken}>{board.file.broken}</Blank>;
   return (
-    <LiveContext value={live}>
-      <ConnectContext value={connect}>
-        <NoteContext value={notes}>
-          <DotsContext value={dots}>
-            <div
-              className="pcanvas"
-              ref={frame}
-              data-place="plan"
-              tabIndex={-1}
-              role="region"
-              aria-label={words.canvas(board.model.name)}
-              onPointerDownCapture={use}
-              onFocusCapture={use}
-              {...dropping}
-              {...clipboard}
-            >
-              <ReactFlow<PlanNode>
-                nodes={nodes}
-                edges={kNoEdges}
-                nodeTypes={nodeTypes}
-                onNodesChange={onNodesChange}
-                onMoveStart={onMoveStart}
-                onNodeContextMenu={onNodeContextMenu}
-                onPaneClick={() => {
-                  board.select(null);
-                  // Keys are for the plan that was clicked.
-                  frame.current?.focus({ preventScroll: true });
-                }}
-                nodesConnectable={false}
-                snapToGrid
-                snapGrid={kGrid}
-                minZoom={0.1}
-                maxZoom={2}
-                fitView
-                fitViewOptions={kFit}
-                deleteKeyCode={null}
-                selectionKeyCode="Shift"
-                multiSelectionKeyCode={kAlso}
-                zoomActivationKeyCode={null}
-                panActivationKeyCode={null}
-                zoomOnDoubleClick={false}
-                onlyRenderVisibleElements={nodes.length > kManyNodes}
-                ariaLabelConfig={words.aria}
-                proOptions={kNoName}
-              >
-                <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
-                <ArrowsLayer board={board} allData={options.data} />
-                {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
-              </ReactFlow>
-              {board.model.actors.length === 0 ? (
-                <p className="pcanvas__empty">{words.empty}</p>
-              ) : null}
-              {finds ? (
-                <FindBar board={board} focus={shown.focus} onClose={() => setFinds(false)} />
-              ) : null}
-              {menu ? <ElementMenu at={menu} onClose={closeMenu} /> : null}
-              {asked ? (
-                <ConnectMenu board={board} asked={asked} onClose={close} onMade={shown.focus} />
-              ) : null}
-            </div>
-            <ActiveLine board={board} onShow={(key) => (board.select(key), shown.focus(key))} />
-          </DotsContext>
-        </NoteContext>
-      </ConnectContext>
-    </LiveContext>
+    <CanvasContexts board={board} drives={drives} distance={distance} connect={connect}>
+      <div
+        className="pcanvas"
+        ref={frame}
+        data-place="plan"
+        data-distance={distance}
+        tabIndex={-1}
+        role="region"
+        aria-label={words.canvas(board.model.name)}
+        onPointerDownCapture={use}
+        onFocusCapture={use}
+        onFocus={keep}
+        {...dropping}
+        {...clipboard}
+      >
+        <ReactFlow<PlanNode>
+          nodes={nodes}
+          edges={kNoEdges}
+          nodeTypes={nodeTypes}
+          onNodesChange={onNodesChange}
+          onMoveStart={onMoveStart}
+          onNodeContextMenu={onNodeContextMenu}
+          onPaneClick={() => {
+            board.select(null);
+            // Keys are for the plan that was clicked.
+            frame.current?.focus({ preventScroll: true });
+          }}
+          nodesConnectable={false}
+          snapToGrid
+          snapGrid={kGrid}
+          minZoom={0.1}
+          maxZoom={2}
+          fitView
+          fitViewOptions={kFit}
+          deleteKeyCode={null}
+          selectionKeyCode="Shift"
+          multiSelectionKeyCode={kAlso}
+          zoomActivationKeyCode={null}
+          panActivationKeyCode={null}
+          zoomOnDoubleClick={false}
+          onlyRenderVisibleElements={nodes.length > kManyNodes}
+          ariaLabelConfig={words.aria}
+          proOptions={kNoName}
+        >
+          {distance === 'far' ? null : (
+            <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
+          )}
+          <ArrowsLayer board={board} allData={options.data} />
+          {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
+        </ReactFlow>
+        {board.model.actors.length === 0 ? <p className="pcanvas__empty">{words.empty}</p> : null}
+        {finds ? (
+          <FindBar board={board} focus={shown.focus} onClose={() => setFinds(false)} />
+        ) : null}
+        {menu ? <ElementMenu at={menu} onClose={closeMenu} /> : null}
+        {asked ? (
+          <ConnectMenu board={board} asked={asked} onClose={close} onMade={shown.focus} />
+        ) : null}
+      </div>
+      <ActiveLine board={board} onShow={(key) => (board.select(key), shown.focus(key))} />
+    </CanvasContexts>
   );
 }
 
 const kNoEdges: never[] = [];
 const kGrid: [number, number] = [kSnap, kSnap];
 const kAlso = ['Control', 'Meta', 'Shift'];
-const kManyNodes = 300;
 /** The name of the library stands in the licences. */
 const kNoName = { hideAttribution: true };

@@ -1,12 +1,13 @@
 import { IconPencil, IconTrash } from '@tabler/icons-react';
-import { useEffect, useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { whyNoName } from '../../../../core/plan/edit';
 import { useDrives, useStudio } from '../../../hooks';
 import { Button } from '../../../parts/button';
 import { kStroke } from '../../../parts/icons';
+import { takeFocus } from '../../../parts/take_focus';
 import { text } from '../../../text';
-import { renameBreaks } from '../break_acts';
+import { withBreaks } from '../break_acts';
 import { TemplateIcon } from '../canvas/template_icon';
 import { planDeskOf } from '../plan_desk';
 
@@ -26,7 +27,7 @@ export function FormHead(props: {
   const drives = useDrives();
   const [renames, rename] = useState(false);
   const desk = planDeskOf(useStudio());
-  useEffect(() => desk.renames.on(() => rename(true)), [desk]);
+  useEffect(() => desk.onRename(() => rename(true)), [desk]);
   return (
     <header className="props__head">
       {icon ? <TemplateIcon icon={icon} /> : null}
@@ -67,6 +68,11 @@ function NameField(props: { board: PlanBoard; chosen: string; name: string; onDo
   const { board, chosen, name, onDone } = props;
   const studio = useStudio();
   const [typed, type] = useState(name);
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(
+    () => takeFocus(() => (field.current?.focus(), document.activeElement === field.current)),
+    [],
+  );
   const is = board.variable(chosen)
     ? 'variable'
     : board.supervisor(chosen)
@@ -75,8 +81,7 @@ function NameField(props: { board: PlanBoard; chosen: string; name: string; onDo
   const why = typed === name ? null : whyNoName(board.model, typed, is);
   const done = () => {
     if (typed !== name && why === null) {
-      board.rename(chosen, typed);
-      if (is !== 'variable') renameBreaks(studio, board.doc, is, name, typed);
+      withBreaks(studio, board, () => board.rename(chosen, typed));
     }
     onDone();
   };
@@ -86,7 +91,7 @@ function NameField(props: { board: PlanBoard; chosen: string; name: string; onDo
         className="field field--small"
         aria-label={words.name}
         aria-invalid={why !== null}
-        autoFocus
+        ref={field}
         value={typed}
         onFocus={(event) => event.target.select()}
         onChange={(event) => type(event.target.value)}

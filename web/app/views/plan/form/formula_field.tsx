@@ -1,9 +1,10 @@
-import { useId, useRef, useState } from 'react';
+import { useId, useRef } from 'react';
 import type { PlanInput } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { feedSteps, shownFormula } from '../../../../core/plan/edit';
 import type { Actor, Supervisor } from '../../../../core/plan/model';
 import { useTopic } from '../../../hooks';
+import { useDraft } from '../../../parts/use_draft';
 import { Field } from '../../world/fields';
 import { text } from '../../../text';
 import { offerId, Offers } from './offers';
@@ -22,23 +23,22 @@ export function FormulaField(props: {
   const list = useId();
   const sentence = useId();
   const field = useRef<HTMLInputElement>(null);
-  const [draft, setDraft] = useState<string | null>(null);
-  const words = useTopic('templates', {})?.formulas ?? [];
-  const completion = useCompletion(field, board.model.variables, words, setDraft);
   const value = shownFormula(element.inputs[input.name]);
   const steps = (typed: string) => feedSteps(board.file.value, element.keys, input.name, typed);
+  const draft = useDraft(value, (typed) => board.commit(steps(typed)));
+  const words = useTopic('templates', {})?.formulas ?? [];
+  const completion = useCompletion(field, board.model.variables, words, draft.set);
   const keys = [...element.keys, 'in', input.name];
-  const isTyped = draft !== null && draft !== value;
+  const typed = draft.typed === value ? null : draft.typed;
   const known = useFindingsAt(board.doc, keys);
-  const found = useDraftFindings(board.doc, keys, isTyped ? steps(draft) : null) ?? known;
+  const found = useDraftFindings(board.doc, keys, typed === null ? null : steps(typed)) ?? known;
   const otherwise = input.default === undefined ? '' : shownFormula(input.default);
   const done = () => {
     completion.close();
-    if (isTyped) board.commit(steps(draft));
-    setDraft(null);
+    draft.done();
   };
   const { offers, chosen } = completion;
-  const isUnfed = value === '' && input.default === undefined && draft === null;
+  const isUnfed = value === '' && input.default === undefined && draft.typed === null;
   return (
     <>
       <Field label={input.name} unit={input.unit}>
@@ -63,18 +63,18 @@ export function FormulaField(props: {
                 aria-invalid={isUnfed || isWrong(found)}
                 autoComplete="off"
                 spellCheck={false}
-                value={draft ?? value}
+                value={draft.shown}
                 placeholder={otherwise === '' ? text.draw.unfed : text.draw.default(otherwise)}
                 disabled={disabled}
                 onChange={({ target }) => {
-                  setDraft(target.value);
+                  draft.set(target.value);
                   completion.typed(target.value, target.selectionStart ?? target.value.length);
                 }}
                 onBlur={done}
                 onKeyDown={(event) => {
                   if (completion.key(event)) return;
                   if (event.key === 'Enter') done();
-                  else if (event.key === 'Escape') setDraft(null);
+                  else draft.key(event);
                 }}
               />
             }

@@ -1,0 +1,50 @@
+#include "fastvm/run.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace vagus::fastvm {
+
+namespace {
+
+// Cells call each other by jumps; where a compiler does not make jumps of them (without
+// optimisation, with a sanitizer), so many calls lie on the stack of the processor.
+constexpr int kStretchMax = 2048;
+
+// Executes instructions as long as cells can; gives how many. 0: the next one is for vm::run().
+int run_stretch(vm::Vm& vm, const Cells& cells, int limit) {
+    const vm::Config& config = *vm.config;
+    const size_t count = cells.size() - 1;
+    if (vm.pc >= count) return 0;
+    Context context = {.vm = vm,
+                       .cells = cells.data(),
+                       .cell_count = static_cast<uint16_t>(count),
+                       .bytecode = config.bytecode,
+                       .stack = config.stack,
+                       .stack_end = config.stack + config.stack_size};
+    const int most = std::min(limit, kStretchMax);
+    enter(cells.data() + vm.pc, config.stack + vm.depth, config.variables, most, context);
+    vm.pc = static_cast<uint16_t>(context.cell - cells.data());
+    vm.depth = static_cast<uint16_t>(context.top - config.stack);
+    return most - context.left;
+}
+
+}  // namespace
+
+uint16_t run(vm::Vm& vm, Bytecode& bytecode, uint16_t limit) {
+    assert(vm.config->bytecode == bytecode.memory());
+    const bool runs = vm::is_active(vm) && !vm::is_paused_in_event(vm);
+    if (!runs || vm.breakpoint_count > 0) return vm::run(vm, limit);
+    const Cells& cells = bytecode.cells(vm.config->variables_size);
+    int done = 0;
+    while (done < limit && vm::is_active(vm)) {
+        vm.flags |= wire::kFlagRunning;
+        const int quick = run_stretch(vm, cells, limit - done);
+        done += quick;
+        if (quick == 0) done += vm::run(vm, 1);
+    }
+    vm.flags &= static_cast<uint16_t>(~wire::kFlagRunning);
+    return static_cast<uint16_t>(done);
+}
+
+}  // namespace vagus::fastvm

@@ -1,0 +1,19 @@
+import type { Node } from '../../../protocol/messages';
+import { text } from '../../text';
+
+const words = text.held;
+
+/** Nodes that stand at a line of their script, and how many events they have dropped there. */
+export function DroppedByNodes({ nodes }: { nodes: readonly Node[] }) {
+  const standing = nodes.filter((node) => node.state === 'paused' && node.at !== undefined);
+  if (standing.length === 0) return null;
+  return (
+    <ul aria-label={words.droppedByNodes}>
+      {standing.map(({ id, name, dropped }) => (
+        <li key={id} className="held__note">
+          {words.nodeDropped(name, dropped)}
+        </li>
+      ))}
+    </ul>
+  );
+}

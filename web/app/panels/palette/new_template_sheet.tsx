@@ -1,0 +1,19 @@
+import { OverlayFrame, useCloseOverlay } from '../../overlay/overlay_frame';
+import { text } from '../../text';
+import { NewTemplateForm } from './new_template_form';
+import '../../look/palette.css';
+
+/** The form of a new template over the window, from wherever one is. */
+export default function NewTemplateSheet() {
+  const close = useCloseOverlay();
+  return (
+    <OverlayFrame label={text.templates.newTemplate}>
+      <div className="sheet sheet--small">
+        <div className="sheet__head">
+          <h2>{text.templates.title}</h2>
+        </div>
+        <NewTemplateForm onDone={close} />
+      </div>
+    </OverlayFrame>
+  );
+}

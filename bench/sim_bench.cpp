@@ -1,166 +1,156 @@
-// The physics and sensing of Vagus beside those of Debian's libenki, in one run: the same arenas,
-// as many Thymios at the same density, the same controller, seven distance sensors of three rays
-// and two ground sensors read in every step by both. Bodies only: no nodes, no scripts.
+// The simulator: beside its peer, with 500 scripted robots, and how many of them keep up with time.
+// The robots stand half a metre apart in a walled square; each drives, turns away from what its
+// sensors see, and bends its way by a timer.
 //
-//     build/release/bin/bench_sim          microseconds a robot and step, and the ratio
-#include <enki/PhysicalEngine.h>
-#include <enki/robots/thymio2/Thymio2.h>
-
+//     build/release/bin/bench_sim
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
+#include <ctime>
+#include <string>
+#include <thread>
 #include <vector>
 
-#include "sim/arena.hpp"
-#include "sim/ground.hpp"
-#include "sim/noise.hpp"
-#include "sim/thymio2/body.hpp"
+#include "aesl/compile.hpp"
+#include "base/rng.hpp"
+#include "session/sim_session.hpp"
+#include "sim/world.hpp"
+#include "sim_peer.hpp"
+#include "wire/messages.hpp"
 
 namespace {
 
 using namespace vagus;
+using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSpacing = 0.4;     // m: one robot on so much by so much
-constexpr double kStep = 0.01;       // s
-constexpr double kCruise = 0.1;      // m/s
-constexpr double kThreshold = 1000;  // of a distance sensor
-constexpr int kRoundSteps = 100;
-constexpr int kRounds = 7;
+constexpr double kSpacing = 0.5;  // m
+constexpr int kRounds = 5;
 
-struct Start {
-    double x, y, angle;
-};
+constexpr std::string_view kScript = R"(const NEAR = 1800
+const CRUISE = 300
+var side = 1
+var echo
+var ignored[2]
+var curve = 0
+timer.period[0] = 3000
+onevent prox
+    call math.stat(prox.horizontal[0:4], ignored[0], echo, ignored[1])
+    if echo > NEAR then
+        if prox.horizontal[0] + prox.horizontal[1] > prox.horizontal[3] + prox.horizontal[4] then
+            side = -1
+        else
+            side = 1
+        end
+        motor.left.target = -CRUISE * side / 2
+        motor.right.target = CRUISE * side / 2
+    else
+        motor.left.target = CRUISE - curve
+        motor.right.target = CRUISE + curve
+    end
+    call leds.circle(echo / 141, echo / 141, 0, 0, 0, 0, 0, echo / 141)
+onevent timer0
+    call math.rand(ignored)
+    curve = ignored[0] % 60
+)";
 
-// A square field, robots on a grid, looking everywhere.
-std::vector<Start> starts(size_t count) {
+sim::WorldDefinition field(size_t count) {
     const auto side = static_cast<size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
-    std::vector<Start> all;
+    sim::WorldDefinition world;
+    world.width = world.height = kSpacing * static_cast<double>(side);
     SplitMix64 random(7);
     for (size_t i = 0; i < count; ++i) {
-        all.push_back({kSpacing * (static_cast<double>(i % side) + 0.5),
-                       kSpacing * (static_cast<double>(i / side) + 0.5), random.unit() * 6.28});
+        world.robots.push_back({.name = "r" + std::to_string(i),
+                                .at = {kSpacing * (static_cast<double>(i % side) + 0.5),
+                                       kSpacing * (static_cast<double>(i / side) + 0.5)},
+                                .angle = random.unit() * 6.28,
+                                .node = static_cast<uint16_t>(i + 1)});
     }
-    return all;
+    return world;
 }
 
-double field_side(size_t count) {
-    return kSpacing * std::ceil(std::sqrt(static_cast<double>(count)));
+// For a Thymio, as it describes itself to any host.
+std::vector<uint16_t> program() {
+    session::SimSession session(std::move(sim::World::create(field(1)).value()), {});
+    while (session.target(1) == nullptr) session.step(1ms);
+    return aesl::compile(kScript, *session.target(1), {}, {}).program.bytecode;
 }
 
-// Straight ahead, and away from what is nearer on the left or on the right.
-struct Speeds {
-    double left, right;
-};
-Speeds control(double left_seen, double right_seen) {
-    if (left_seen > kThreshold) return {kCruise, -kCruise};
-    if (right_seen > kThreshold) return {-kCruise, kCruise};
-    return {kCruise, kCruise};
-}
-
-class VagusField {
+class Host {
 public:
-    explicit VagusField(size_t count)
-        : arena_({.width = field_side(count), .height = field_side(count)}),
-          ground_(field_side(count), field_side(count), {0.9, 0.9, 0.9}),
-          noise_(1) {
-        for (const Start& start : starts(count))
-            robots_.emplace_back(arena_, sim::Pose{{start.x, start.y}, start.angle});
-        seen_.resize(count);
+    explicit Host(hub::Hub& bus) : bus_(bus), link_(bus.add({.name = "host"}).value()) {}
+    void load(uint16_t node, const std::vector<uint16_t>& words) {
+        wire::SetBytecode load{};
+        load.dest = node;
+        load.words.count = static_cast<uint16_t>(words.size());
+        for (size_t i = 0; i < words.size(); ++i)
+            load.words.values[i] = static_cast<int16_t>(words[i]);
+        send(load);
+        wire::Run run{};
+        run.dest = node;
+        send(run);
     }
-
-    void step() {
-        for (size_t i = 0; i < robots_.size(); ++i) {
-            const auto& prox = seen_[i].values;
-            const Speeds speeds = control(std::max(prox[0], prox[1]), std::max(prox[3], prox[4]));
-            robots_[i].drive(arena_, to_target(speeds.left), to_target(speeds.right));
-        }
-        arena_.step();
-        arena_.prepare_looks();
-        for (size_t i = 0; i < robots_.size(); ++i) {
-            seen_[i] = robots_[i].look(arena_, noise_);
-            sum_ +=
-                robots_[i].look_down(arena_.pose(robots_[i].id()), ground_, noise_).reflected[0];
-        }
-    }
-    double checksum() const { return sum_; }
 
 private:
-    static int16_t to_target(double speed) {
-        return static_cast<int16_t>(speed / sim::thymio2::kSpeedUnit);
+    template <typename Message>
+    void send(const Message& message) {
+        wire::Frame frame;
+        if (wire::encode_message(message, wire::kHostId, frame) == wire::Error::None)
+            bus_.receive(link_, frame);
     }
-    sim::Arena arena_;
-    sim::Ground ground_;
-    sim::Noise noise_;
-    std::vector<sim::thymio2::Body> robots_;
-    std::vector<sim::thymio2::Horizontal> seen_;
-    double sum_ = 0;
+    hub::Hub& bus_;
+    hub::LinkId link_;
 };
 
-class EnkiField {
-public:
-    explicit EnkiField(size_t count)
-        : world_(field_side(count) * 100, field_side(count) * 100, Enki::Color(0.9, 0.9, 0.9)) {
-        world_.takeObjectOwnership = false;
-        for (const Start& start : starts(count)) {
-            auto& robot = robots_.emplace_back(std::make_unique<Enki::Thymio2>());
-            robot->pos = Enki::Point(start.x * 100, start.y * 100);
-            robot->angle = start.angle;
-            world_.addObject(robot.get());
-        }
-    }
-    ~EnkiField() {
-        for (auto& robot : robots_) world_.removeObject(robot.get());
-    }
-    EnkiField(const EnkiField&) = delete;
-    EnkiField& operator=(const EnkiField&) = delete;
-
-    void step() {
-        for (auto& robot : robots_) {
-            const Speeds speeds = control(
-                std::max(robot->infraredSensor0.getValue(), robot->infraredSensor1.getValue()),
-                std::max(robot->infraredSensor3.getValue(), robot->infraredSensor4.getValue()));
-            robot->leftSpeed = speeds.left * 100;
-            robot->rightSpeed = speeds.right * 100;
-        }
-        world_.step(kStep);
-        for (auto& robot : robots_) sum_ += robot->groundSensor0.getValue();
-    }
-    double checksum() const { return sum_; }
-
-private:
-    Enki::World world_;
-    std::vector<std::unique_ptr<Enki::Thymio2>> robots_;
-    double sum_ = 0;
+struct Cost {
+    double processor = 0;  // s of all threads together, and …
+    double real = 0;       // … s on the clock, for one simulated second
 };
 
-// Microseconds a robot and step. Other programs on the machine only add, so the best round counts.
-template <typename Field>
-double measure(size_t count) {
-    Field field(count);
-    for (int i = 0; i < kRoundSteps; ++i) field.step();
-    double best = 1e9;
+double processor_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
+// The best of some rounds of a simulated second: other programs on the machine only add.
+Cost cost_of(size_t count, unsigned threads) {
+    sim::World world = std::move(sim::World::create(field(count), {.threads = threads}).value());
+    Host host(world.bus());
+    const std::vector<uint16_t> words = program();
+    for (size_t i = 0; i < count; ++i) host.load(static_cast<uint16_t>(i + 1), words);
+    world.step(2s);
+    Cost best{1e9, 1e9};
     for (int round = 0; round < kRounds; ++round) {
+        const double busy = processor_seconds();
         const Clock::time_point start = Clock::now();
-        for (int i = 0; i < kRoundSteps; ++i) field.step();
-        const std::chrono::duration<double, std::micro> took = Clock::now() - start;
-        best = std::min(best, took.count() / kRoundSteps / static_cast<double>(count));
+        world.step(1s);
+        const std::chrono::duration<double> took = Clock::now() - start;
+        best.processor = std::min(best.processor, processor_seconds() - busy);
+        best.real = std::min(best.real, took.count());
     }
-    if (field.checksum() < 0) std::puts("");  // keeps the readings from being left out
     return best;
+}
+
+void print_crowds() {
+    const unsigned most = std::max(1u, std::thread::hardware_concurrency());
+    std::puts("\nscripted robots   threads   ms of processor a robot-minute   x real time");
+    for (const unsigned threads : {1u, most}) {
+        for (size_t count : {500u, 1250u, 2500u, 5000u, 10000u}) {
+            const Cost cost = cost_of(count, threads);
+            std::printf("%15zu %9u %32.2f %13.1f\n", count, threads,
+                        cost.processor * 60e3 / static_cast<double>(count), 1 / cost.real);
+            std::fflush(stdout);
+        }
+        if (most == 1) return;
+    }
 }
 
 }  // namespace
 
 int main() {
-    std::puts("robots   Vagus us/robot-step   Enki us/robot-step   Enki / Vagus");
-    for (const size_t count : {size_t{1}, size_t{10}, size_t{100}, size_t{400}}) {
-        const double ours = measure<VagusField>(count);
-        const double enki = measure<EnkiField>(count);
-        std::printf("%6zu %21.3f %20.3f %14.1f\n", count, ours, enki, enki / ours);
-        std::fflush(stdout);
-    }
+    compare_with_peer();
+    print_crowds();
     return 0;
 }

@@ -4,7 +4,7 @@
 
 # What may follow each verb, by its name.
 declare -A _vagus_names=(
-    [" "]="studio serve deploy compile exec switch node emulate net sim plan toolbox --version --help"
+    [" "]="studio serve deploy compile exec switch node emulate net conformance sim plan toolbox --version --help"
     ["studio "]="--example --listen --port --token-file --look-token-file --tls-cert --tls-key --host --pages --data --config --no-browser --help"
     ["serve "]="--start --target --listen --port --token-file --look-token-file --tls-cert --tls-key --host --pages --data --config --help"
     ["deploy "]="--token-file --tls-cert --rollback --list --help"
@@ -29,6 +29,7 @@ declare -A _vagus_names=(
     ["net save "]="--help"
     ["net load "]="--help"
     ["net break "]="--clear --keep --help"
+    ["conformance "]="--node --only --json --flash --may-drive --help"
     ["sim "]="--load --watch --headless --theme --speed --duration --seed --listen --trace --dialect --ontimer --help"
     ["plan "]="check run debug generate format formulas --help"
     ["plan check "]="--toolbox --world --robot --project --json --help"
@@ -183,6 +184,14 @@ declare -A _vagus_takes=(
     ["net break --keep"]="none"
     ["net break --help"]="none"
     ["net break -h"]="none"
+    ["conformance 1"]="any"
+    ["conformance --node"]="any"
+    ["conformance --only"]="any"
+    ["conformance --json"]="none"
+    ["conformance --flash"]="none"
+    ["conformance --may-drive"]="none"
+    ["conformance --help"]="none"
+    ["conformance -h"]="none"
     ["sim 1"]="file .world.json "
     ["sim --load"]="file .aesl "
     ["sim --watch"]="none"

@@ -28,9 +28,10 @@ MAY_INCLUDE = {
     "sim": ["hub", "node", "fastvm", "vm", "isa", "wire", "base"],
     "debug": ["aesl", "wire", "base"],
     "net": ["hub", "wire", "base"],
+    "conformance": ["debug", "aesl", "isa", "wire", "base"],
     "session": BELOW_SESSION,
     "serve": ["embed", "session"] + BELOW_SESSION,
-    "cli": ["serve", "embed", "session"] + BELOW_SESSION,
+    "cli": ["conformance", "serve", "embed", "session"] + BELOW_SESSION,
 }
 # Inside a module, too, an arrow points down: a file may include what stands in its own room or in one before it. Rooms
 # from the ground up; a name is that of a file without its ending, a name with / at its end that of a folder. Tests may
@@ -48,13 +49,20 @@ ROOMS = {
         ("whole", "compile"),
         ("reference", "reference/"),
     ],
+    "conformance": [
+        ("values", "line instructions finding standard_natives"),
+        ("the bench", "bench native_call"),
+        ("checks", "check checks check_breakpoints check_control check_description check_events check_faults check_flash "
+                   "check_limits check_messages check_native_faults check_natives check_opcodes check_operators"),
+        ("the whole", "examine report_text"),
+    ],
     "sim": [
-        ("values", "definitions drawing noise cell_grid texture png ground"),
-        ("bodies", "sight arena fan wheels camera"),
+        ("values", "definitions schedule crew drawing noise cell_grid texture png ground"),
+        ("bodies", "moving_grid sight spacing arena fan wheels camera"),
         ("devices", "node_variables machine robot sd_card can_bus"),
         ("robots", "thymio2/ epuck/ carbot/"),
         ("files", "standing world_check world_file"),
-        ("world", "frame_notes frames_for_others node_bus inhabitants world"),
+        ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world"),
     ],
     "serve": [
         ("ground", "process access base64 plan_value"),

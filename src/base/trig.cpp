@@ -223,6 +223,18 @@ double cos(double radians) {
     return cosine_in(reduce(radians));
 }
 
+SineCosine sin_cos(double radians) {
+    if (is_nan(radians) || std::fabs(radians) == kInfinity) return {kNaN, kNaN};
+    const Reduced x = reduce(radians);
+    const double sine = sine_of(x.angle);
+    const double cosine = cosine_of(x.angle);
+    const bool even = x.quadrant % 2 == 0;
+    const double up = even ? sine : cosine;
+    const double right = even ? cosine : sine;
+    return {std::fabs(radians) < 0x1p-27 ? radians : (x.quadrant < 2 ? up : -up),
+            x.quadrant == 0 || x.quadrant == 3 ? right : -right};
+}
+
 double tan(double radians) {
     if (is_nan(radians) || std::fabs(radians) == kInfinity) return kNaN;
     if (std::fabs(radians) < 0x1p-27) return radians;

@@ -16,6 +16,12 @@ constexpr double kPi = 0x1.921fb54442d18p+1;
 double sin(double radians);
 double cos(double radians);
 double tan(double radians);
+// Both at once, the same bits as sin() and cos() for half of the work.
+struct SineCosine {
+    double sine;
+    double cosine;
+};
+SineCosine sin_cos(double radians);
 
 // The angle of the vector (x, y), -pi to pi; signs of zeros and infinities as in the C library.
 double atan2(double y, double x);

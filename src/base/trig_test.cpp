@@ -43,6 +43,19 @@ TEST(Trig, SineCosineTangentAreWithinTwoUnits) {
     }
 }
 
+TEST(Trig, SineAndCosineAtOnceHaveTheBitsOfEachAlone) {
+    SplitMix64 random(5);
+    for (int i = 0; i < kSamples; ++i) {
+        const double x = i == 0 ? -0.0 : sample(random, -40, 30);
+        const auto [sine, cosine] = trig::sin_cos(x);
+        ASSERT_EQ(sine, trig::sin(x)) << x;
+        ASSERT_EQ(std::signbit(sine), std::signbit(trig::sin(x))) << x;
+        ASSERT_EQ(cosine, trig::cos(x)) << x;
+    }
+    EXPECT_TRUE(std::isnan(trig::sin_cos(kInfinity).sine));
+    EXPECT_TRUE(std::isnan(trig::sin_cos(kNaN).cosine));
+}
+
 TEST(Trig, MultiplesOfAQuarterTurnKeepTheirAccuracy) {
     for (int n = -2000; n <= 2000; ++n) {
         const double x = n * (trig::kPi / 2);

@@ -56,6 +56,8 @@ public:
     std::map<NodeId, std::unique_ptr<Peer>> peers;
     uint64_t malformed = 0;
     Presences presences;
+    // What next_tick() found, until something happens: it is asked far more often than it changes.
+    mutable std::optional<Time> known_tick;
 
 private:
     void note_name(NodeId id, const wire::Description& header);
@@ -229,8 +231,10 @@ bool Network::Impl::anybody_connected() const {
 }
 
 Time Network::Impl::next_tick() const {
+    if (known_tick) return *known_tick;
     Time next = std::min({next_list_, out.descriptions.next_tick(), out.requests.next_tick()});
     for (const auto& [id, known] : peers) next = std::min(next, known->next_tick());
+    known_tick = next;
     return next;
 }
 
@@ -259,9 +263,11 @@ Network::Network(Network&&) noexcept = default;
 Network& Network::operator=(Network&&) noexcept = default;
 
 void Network::receive(Time now, const wire::Frame& frame) {
+    impl_->known_tick.reset();
     impl_->receive(now, frame);
 }
 void Network::tick(Time now) {
+    impl_->known_tick.reset();
     impl_->tick(now);
 }
 Time Network::next_tick() const {
@@ -293,10 +299,12 @@ Result<NodeId> Network::find(std::string_view name_or_id) const {
 }
 
 void Network::list_nodes() {
+    impl_->known_tick.reset();
     impl_->list_nodes();
 }
 
 void Network::link_lost() {
+    impl_->known_tick.reset();
     for (const auto& [id, known] : impl_->peers) known->lost();
 }
 
@@ -312,8 +320,9 @@ const aesl::CommonDefinitions& Network::common() const {
     return impl_->common;
 }
 
-// The Peer of a node that can be worked with, or an Error from the function around.
+// The Peer of a node that is to be worked with, or an Error from the function around.
 Result<Peer*> Network::usable(NodeId id) const {
+    impl_->known_tick.reset();
     (void)TRY(find_node(impl_->views(), std::to_string(id)));
     return impl_->peer(id);
 }
@@ -382,6 +391,7 @@ Status Network::watch(NodeId id, const VariableRange& range, Duration every) {
 }
 
 void Network::unwatch(NodeId id, std::string_view name) {
+    impl_->known_tick.reset();
     if (Peer* known = impl_->peer(id)) known->unwatch(name);
 }
 

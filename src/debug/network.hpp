@@ -50,7 +50,7 @@ constexpr Duration kAskAgain = std::chrono::milliseconds(1000);      // what may
 constexpr Duration kWatchEveryMin = std::chrono::milliseconds(10);
 constexpr Duration kWatchEvery = std::chrono::milliseconds(100);  // polling while someone watches
 
-constexpr size_t kNodesMax = 1024;
+constexpr size_t kNodesMax = 16384;
 constexpr size_t kDescriptionItemsMax = 4096;  // of each list: more than 12-bit addresses can reach
 constexpr size_t kDescriptionBytesMax = 256 * 1024;      // names and texts of one node
 constexpr size_t kDescriptionBytesTotalMax = 64u << 20;  // of all nodes

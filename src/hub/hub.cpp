@@ -41,6 +41,11 @@ std::string sentence(const SharedId& shared) {
            "take one link away";
 }
 
+struct Hub::NodeOrder {
+    bool operator()(const Link* a, uint16_t b) const { return *a->options.only_node < b; }
+    bool operator()(uint16_t a, const Link* b) const { return a < *b->options.only_node; }
+};
+
 void Hub::receive(LinkId from, const wire::Frame& frame) {
     Link& link = get(from);
     ++link.frames_received;
@@ -58,21 +63,38 @@ void Hub::receive(LinkId from, const wire::Frame& frame) {
 
 void Hub::send_to_others(const Link& from, const wire::Frame& frame) {
     std::array<uint8_t, wire::kFrameMax> bytes;
-    const std::span<const uint8_t> encoded(bytes.data(), wire::encode(frame, bytes.data()));
-    const bool command = wire::is_command(frame.type);
-    for (const auto& link : links_) {
-        if (link.get() == &from && !link->options.echo) continue;
-        if (link->options.only_node && !is_for_node(frame, *link->options.only_node)) continue;
-        const std::optional<Remap>& remap = link->options.remap;
-        if (command && remap) {
-            // A command without a destination matches none: first_word() is then kInvalidId.
-            if (frame.size < 2 || frame.first_word() != remap->local) continue;
-            put_word(bytes.data() + wire::kHeaderSize, remap->target);
-        }
-        link->queue.push(encoded);
-        ++link->frames_queued;
-        if (command && remap) put_word(bytes.data() + wire::kHeaderSize, remap->local);
+    const std::span<uint8_t> encoded(bytes.data(), wire::encode(frame, bytes.data()));
+    const auto offer = [&](Link* link) {
+        if (link != &from || link->options.echo) send(*link, frame, encoded);
+    };
+    std::for_each(others_.begin(), others_.end(), offer);
+    const std::span<Link* const> nodes = nodes_for(frame);
+    std::for_each(nodes.begin(), nodes.end(), offer);
+}
+
+// Hundreds of simulated nodes must not each be asked about what concerns one, or none.
+std::span<Hub::Link* const> Hub::nodes_for(const wire::Frame& frame) const {
+    if (is_for_hosts(frame.type)) return {};
+    if (!wire::is_command(frame.type)) return nodes_;
+    const auto [first, end] =
+        std::equal_range(nodes_.begin(), nodes_.end(), frame.first_word(), NodeOrder{});
+    return {first, end};
+}
+
+void Hub::send(Link& link, const wire::Frame& frame, std::span<uint8_t> encoded) {
+    if (link.options.only_node && !is_for_node(frame, *link.options.only_node)) return;
+    const std::optional<Remap>& remap = link.options.remap;
+    const bool renamed = remap && wire::is_command(frame.type);
+    if (renamed) {
+        // A command without a destination matches none: first_word() is then kInvalidId.
+        if (frame.size < 2 || frame.first_word() != remap->local) return;
+        put_word(encoded.data() + wire::kHeaderSize, remap->target);
     }
+    if (link.options.only_node && !std::exchange(link.is_reached, true))
+        reached_.push_back(link.id);
+    link.queue.push(encoded);
+    ++link.frames_queued;
+    if (renamed) put_word(encoded.data() + wire::kHeaderSize, remap->local);
 }
 
 Result<LinkId> Hub::add(LinkOptions options) {
@@ -83,8 +105,15 @@ Result<LinkId> Hub::add(LinkOptions options) {
     auto link = std::make_unique<Link>();
     link->id = LinkId{++last_number_};
     link->options = std::move(options);
+    Link* const added = link.get();
     links_.push_back(std::move(link));
-    return links_.back()->id;
+    if (!added->options.only_node)
+        others_.push_back(added);
+    else
+        nodes_.insert(
+            std::upper_bound(nodes_.begin(), nodes_.end(), *added->options.only_node, NodeOrder{}),
+            added);
+    return added->id;
 }
 
 void Hub::remove(LinkId link) {
@@ -93,6 +122,9 @@ void Hub::remove(LinkId link) {
     assert(at != links_.end());
     const std::unique_ptr<Link> gone = std::move(*at);
     links_.erase(at);
+    std::erase(reached_, link);
+    std::erase(others_, gone.get());
+    std::erase(nodes_, gone.get());
     std::erase_if(told_shared_, [link](const auto& told) {
         return std::get<1>(told) == link || std::get<2>(told) == link;
     });
@@ -127,6 +159,11 @@ void Hub::note_shared_id(const Link& link, uint16_t node) {
         if (!told_shared_.emplace(node, first, second).second) continue;
         shared_ids_.push_back({node, other->options.name, link.options.name});
     }
+}
+
+std::vector<LinkId> Hub::take_reached() {
+    for (const LinkId link : reached_) get(link).is_reached = false;
+    return std::exchange(reached_, {});
 }
 
 std::vector<SharedId> Hub::take_shared_ids() {

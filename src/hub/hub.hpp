@@ -32,7 +32,7 @@
 
 namespace vagus::hub {
 
-constexpr size_t kLinksMax = 1024;
+constexpr size_t kLinksMax = 16384;
 // Node ids that one link may be remembered for. A foreign network has fewer; a peer that makes up
 // more is ignored.
 constexpr size_t kNodesPerLinkMax = 256;
@@ -89,6 +89,10 @@ public:
     void remove(LinkId link);
     bool has(LinkId link) const { return find(link) != nullptr; }
 
+    // Links with `only_node` for which something was queued since the last call, each once, in no
+    // order. So whoever has many such nodes need not ask each.
+    std::vector<LinkId> take_reached();
+
     // Routes a frame that came in on `from`.
     void receive(LinkId from, const wire::Frame& frame);
 
@@ -117,19 +121,28 @@ private:
         OutputQueue queue;
         uint64_t frames_received = 0;
         uint64_t frames_queued = 0;
+        bool is_reached = false;  // it stands in reached_
         std::set<uint16_t> nodes;
         uint16_t last_node = wire::kHostId;  // spares the set a search while one node speaks on
     };
+
+    struct NodeOrder;  // of nodes_
 
     Link* find(LinkId link) const;
     Link& get(LinkId link) const;
     void note_node(Link& link, const wire::Frame& frame);
     void note_shared_id(const Link& link, uint16_t node);
     void send_to_others(const Link& from, const wire::Frame& frame);
+    void send(Link& link, const wire::Frame& frame, std::span<uint8_t> encoded);
+    // Those of nodes_ that would look at the frame, and perhaps some that would not.
+    std::span<Link* const> nodes_for(const wire::Frame& frame) const;
     bool heard_elsewhere(uint16_t node) const;
 
-    std::vector<std::unique_ptr<Link>> links_;                    // by ascending id
-    std::vector<SharedId> shared_ids_;                            // not taken yet
+    std::vector<std::unique_ptr<Link>> links_;  // by ascending id
+    std::vector<Link*> others_;                 // those of links_ without `only_node`
+    std::vector<Link*> nodes_;                  // those with it, by ascending `only_node`
+    std::vector<LinkId> reached_;               // for take_reached()
+    std::vector<SharedId> shared_ids_;          // not taken yet
     std::set<std::tuple<uint16_t, LinkId, LinkId>> told_shared_;  // of links that are there
     uint32_t last_number_ = 0;
 };

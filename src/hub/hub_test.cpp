@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "base/rng.hpp"
@@ -291,6 +292,39 @@ TEST(Hub, GivesALinkThatEndsAtANodeOnlyWhatTheNodeLooksAt) {
         expected.insert(expected.end(), each.begin(), each.end());
     }
     EXPECT_EQ(received(hub, node), expected);
+}
+
+TEST(Hub, TellsOnceWhichNodesItHasQueuedSomethingFor) {
+    Hub hub;
+    const LinkId host = add(hub);
+    // Not in the order of their ids, and two of the same.
+    const LinkId node5 = add(hub, {.name = "node", .only_node = 5});
+    const LinkId node1 = add(hub, {.name = "node", .only_node = 1});
+    const LinkId again1 = add(hub, {.name = "node", .only_node = 1});
+    const auto reached = [&hub] {
+        std::vector<LinkId> links = hub.take_reached();
+        std::sort(links.begin(), links.end());
+        return links;
+    };
+    hub.receive(host, frame_of(kRunNode1));
+    hub.receive(host, frame_of(kRunNode1));
+    EXPECT_EQ(reached(), (std::vector<LinkId>{node1, again1}));
+    EXPECT_EQ(received(hub, node1).size(), 2 * kRunNode1.size());
+    EXPECT_TRUE(reached().empty());
+    hub.receive(node1, frame_of(kEvent));  // from a node: to all others
+    EXPECT_EQ(reached(), (std::vector<LinkId>{node5, again1}));
+    hub.receive(host, frame_of(kListNodes));
+    hub.remove(node5);
+    EXPECT_EQ(reached(), (std::vector<LinkId>{node1, again1}));
+    const Hex present{2, 0, 1, 0, 0x0c, 0x90, 5, 0};  // for hosts: no node looks at it
+    hub.receive(node1, frame_of(present));
+    EXPECT_TRUE(reached().empty());
+    EXPECT_EQ(received(hub, again1), [] {
+        Hex all;
+        for (const Hex& each : {kRunNode1, kRunNode1, kEvent, kListNodes})
+            all.insert(all.end(), each.begin(), each.end());
+        return all;
+    }());
 }
 
 TEST(Hub, SaysOnceOnWhichLinksAnIdIsShared) {

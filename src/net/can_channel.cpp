@@ -23,7 +23,7 @@ constexpr int kReceiveBuffer = 20 * 1024 * 1024;  // asked for; the system gives
 
 class CanChannel final : public Channel {
 public:
-    explicit CanChannel(int descriptor) : descriptor_(descriptor) {}
+    CanChannel(int descriptor, SendFrame send) : descriptor_(descriptor), send_(send) {}
     ~CanChannel() override { ::close(descriptor_); }
     CanChannel(const CanChannel&) = delete;
     CanChannel& operator=(const CanChannel&) = delete;
@@ -38,6 +38,7 @@ private:
     ssize_t write_part(const wire::CanFrame& part) const;
 
     int descriptor_;
+    SendFrame send_;
     wire::CanReassembler<kReceivedMax> incoming_;
     std::array<wire::CanFrame, wire::kCanFramesMax> outgoing_;  // the packet that is being written
     uint8_t count_ = 0;
@@ -102,7 +103,7 @@ ssize_t CanChannel::write_part(const wire::CanFrame& part) const {
     frame.can_id = part.identifier;
     frame.can_dlc = part.size;
     std::memcpy(frame.data, part.bytes, part.size);
-    return ::send(descriptor_, &frame, sizeof frame, MSG_NOSIGNAL);
+    return send_(descriptor_, &frame, sizeof frame, MSG_NOSIGNAL);
 }
 
 Error cannot(const CanPlace& place, const std::string& why) {
@@ -131,8 +132,8 @@ Status bind_to(int descriptor, const CanPlace& place) {
 
 }  // namespace
 
-std::unique_ptr<Channel> make_can_channel(int descriptor) {
-    return std::make_unique<CanChannel>(descriptor);
+std::unique_ptr<Channel> make_can_channel(int descriptor, SendFrame send) {
+    return std::make_unique<CanChannel>(descriptor, send);
 }
 
 Result<std::unique_ptr<Channel>> open_can(const CanPlace& place) {

@@ -3,6 +3,8 @@
 // Used by network.cpp only.
 #pragma once
 
+#include <sys/socket.h>
+
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -57,7 +59,9 @@ std::unique_ptr<Channel> make_socket_channel(int descriptor);
 // A terminal line may lose bytes, and finds the next frame again.
 std::unique_ptr<Channel> make_line_channel(int descriptor, uint32_t baud);
 // A raw CAN socket, or in tests a SOCK_SEQPACKET of `struct can_frame`.
-std::unique_ptr<Channel> make_can_channel(int descriptor);
+// `send` hands a CAN frame to the system, as ::send does: a test gives one whose device is full.
+using SendFrame = ssize_t (*)(int descriptor, const void* bytes, size_t size, int flags);
+std::unique_ptr<Channel> make_can_channel(int descriptor, SendFrame send = ::send);
 
 // Opens the line raw, 8N1, locked, DTR set (section 1.3).
 Result<std::unique_ptr<Channel>> open_serial(const SerialPlace& place);

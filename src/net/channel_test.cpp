@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstring>
 
 #include "net/network.hpp"
@@ -138,6 +139,40 @@ TEST_F(Can, APacketThatDoesNotFitNowIsFinishedLater) {
     }
     EXPECT_EQ(get(), (std::pair<canid_t, Hex>{}));
     EXPECT_FALSE(channel_->has_unwritten());
+}
+
+// A device whose queue takes a frame and then none, twice, in turn; the socket calls itself
+// writable.
+int can_sends = 0;
+ssize_t send_or_no_buffers(int descriptor, const void* bytes, size_t size, int flags) {
+    if (can_sends++ % 3 == 0) return ::send(descriptor, bytes, size, flags);
+    errno = ENOBUFS;
+    return -1;
+}
+
+// The original gives up there (section 1.7): here every part goes out once, in its order.
+TEST_F(Can, AFullDeviceIsTriedAgainWhereItStopped) {
+    can_sends = 0;
+    channel_ = make_can_channel(::dup(channel_->descriptor()), send_or_no_buffers);
+    wire::Frame event{};
+    event.source = 7;
+    event.type = 4;
+    event.size = 18;  // 20 bytes with the type: three CAN frames
+    for (uint8_t i = 0; i < event.size; i++) event.payload[i] = i;
+    hub_.receive(host_, event);
+    int retries = 0;
+    for (Transfer done = channel_->write(hub_, can_); done.flow == Flow::Retry;
+         done = channel_->write(hub_, can_)) {
+        retries++;
+        EXPECT_TRUE(channel_->has_unwritten());
+        ASSERT_LT(retries, 10);
+    }
+    EXPECT_EQ(retries, 4);  // two between the first and the second part, two before the third
+    EXPECT_FALSE(channel_->has_unwritten());
+    EXPECT_EQ(get(), (std::pair<canid_t, Hex>{0x107, {4, 0, 0, 1, 2, 3, 4, 5}}));
+    EXPECT_EQ(get(), (std::pair<canid_t, Hex>{0x007, {6, 7, 8, 9, 10, 11, 12, 13}}));
+    EXPECT_EQ(get(), (std::pair<canid_t, Hex>{0x207, {14, 15, 16, 17}}));
+    EXPECT_EQ(get(), (std::pair<canid_t, Hex>{}));
 }
 
 TEST_F(Can, EndsWhenTheBusIsGone) {

@@ -298,7 +298,7 @@ TEST(SimSession, MoreFilesThanTheLimitAreRefused) {
     EXPECT_TRUE(session.mistakes().empty());
     EXPECT_EQ(session.script_paths().size(), kScriptFilesMax);
     session.load("one more", "var x");
-    EXPECT_THAT(texts(session.mistakes()), ElementsAre(HasSubstr("more than 1001 script files")));
+    EXPECT_THAT(texts(session.mistakes()), ElementsAre(HasSubstr("more than 10001 script files")));
     EXPECT_EQ(session.script_paths().size(), kScriptFilesMax);
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/trig.hpp"
 #include "sim/sight.hpp"
+#include "sim/spacing.hpp"
 
 namespace vagus::sim {
 namespace {
@@ -49,12 +50,46 @@ float pull(float from, float to, float most) {
 
 enum class Kind : uint8_t { None, Fixed, Loose, Robot };
 
+// As Box2D counts: units, radians, seconds.
+struct Motion {
+    b2Vec2 at{0, 0};
+    b2Vec2 speed{0, 0};
+    float angle = 0;
+    float turn = 0;
+
+    bool is_rest() const { return speed.x == 0 && speed.y == 0 && turn == 0; }
+};
+
 struct Body {
     b2Body* body = nullptr;  // owned by the world of Box2D
     Kind kind = Kind::None;
+    bool solved = true;  // by Box2D; else it is alone, and Box2D does not look at it
+    Motion motion;       // now; the speeds only while it is not solved
     Drive drive;
     float turn_step_max = 0;  // rad/s that its tyres can change in one step
 };
+
+Motion motion_of(const b2Body& body) {
+    return {body.GetPosition(), body.GetLinearVelocity(), body.GetAngle(),
+            body.GetAngularVelocity()};
+}
+
+bool is_rest(const Drive& drive) {
+    return drive.forward == 0 && drive.sideways == 0 && drive.turn == 0;
+}
+
+// Also one that fell asleep at the end of this step.
+bool has_moved(const Body& body) {
+    return body.body->IsAwake() || !(body.body->GetPosition() == body.motion.at) ||
+           body.body->GetAngle() != body.motion.angle;
+}
+
+// An angle without whole turns, once it has some.
+float unwound(float angle) {
+    if (std::fabs(angle) <= kUnwindAngle) return angle;
+    const double turns = std::round(angle / (2 * trig::kPi));
+    return static_cast<float>(angle - turns * 2 * trig::kPi);
+}
 
 BodyId id_of(b2Fixture& fixture) {
     return {static_cast<uint32_t>(fixture.GetBody()->GetUserData().pointer)};
@@ -74,7 +109,7 @@ public:
 }  // namespace
 
 struct Arena::Insides {
-    explicit Insides(const ArenaSize& size) : world(b2Vec2(0, 0)), sight(size) {
+    explicit Insides(const ArenaSize& size) : world(b2Vec2(0, 0)), sight(size), spacing(sight) {
         // Bodies move at most 2 mm in a step: nothing can pass through anything, and looking for
         // the time of impact would only cost.
         world.SetContinuousPhysics(false);
@@ -85,8 +120,15 @@ struct Arena::Insides {
     void build_border(const ArenaSize& size);
     BodyId add(b2Body* body, Kind kind);
     void tell_sight(uint32_t index);
+    void turn_wheels(const Body& body, const Stand& stand, Motion& motion) const;
     void prepare_robot(Body& body, const Stand& stand) const;
     void prepare_loose(Body& body) const;
+    void glide(uint32_t index);
+    void fetch(uint32_t index);
+    void space_all();
+    void solve();
+    void hand_over_changed();
+    void hand_over(uint32_t index);
 
     b2World world;
     TouchList touches;
@@ -94,7 +136,9 @@ struct Arena::Insides {
     std::vector<Body> bodies;
     std::vector<uint32_t> free_slots;  // of bodies that were removed
     std::vector<uint32_t> active;      // robots and loose objects, ascending
-    bool sight_current = false;
+    std::vector<uint8_t> strayed;      // of the active ones, in this step
+    Spacing spacing;                   // of the active ones
+    bool spaced = false;               // nobody came, went or was put elsewhere since the last step
 };
 
 Arena::Arena(const ArenaSize& size) : insides_(std::make_unique<Insides>(size)) {}
@@ -130,7 +174,8 @@ BodyId Arena::Insides::add(b2Body* body, Kind kind) {
         free_slots.pop_back();
     }
     body->GetUserData().pointer = index;
-    bodies[index] = {.body = body, .kind = kind, .drive = {}, .turn_step_max = 0};
+    bodies[index] = {.body = body, .kind = kind, .motion = motion_of(*body), .drive = {}};
+    spaced = false;
     if (kind != Kind::Fixed)
         active.insert(std::lower_bound(active.begin(), active.end(), index), index);
     return {index};
@@ -184,6 +229,7 @@ BodyId Arena::add_robot(const Outline& outline, const Pose& pose, const RobotBod
         static_cast<float>(torque / robot.inertia * kArenaStep);
     insides_->sight.add(id.index, outline, robot.height, Mobility::Moving);
     insides_->tell_sight(id.index);
+    insides_->spacing.add(id.index, Company::MayBeAlone);
     return id;
 }
 
@@ -206,35 +252,41 @@ BodyId Arena::add_object(const ObjectDefinition& object) {
     insides_->sight.add(id.index, outline, object.height,
                         loose ? Mobility::Moving : Mobility::Fixed);
     insides_->tell_sight(id.index);
+    if (loose) insides_->spacing.add(id.index, Company::Never);
     return id;
 }
 
 void Arena::remove(BodyId id) {
     Body& body = insides_->bodies[id.index];
     insides_->world.DestroyBody(body.body);
+    if (body.kind != Kind::Fixed) insides_->spacing.remove(id.index);
     insides_->sight.remove(id.index);
     std::erase(insides_->active, id.index);
     body = {};
     insides_->free_slots.push_back(id.index);
-    insides_->sight_current = false;
+    insides_->spaced = false;
 }
 
 void Arena::place(BodyId id, const Pose& pose) {
-    b2Body& body = *insides_->bodies[id.index].body;
+    Body& placed = insides_->bodies[id.index];
+    b2Body& body = *placed.body;
     body.SetTransform(to_units(pose.at), static_cast<float>(pose.angle));
     body.SetLinearVelocity(b2Vec2(0, 0));
     body.SetAngularVelocity(0);
     body.SetAwake(true);
+    placed.motion = motion_of(body);
     insides_->tell_sight(id.index);
-    insides_->sight.fixed_moved();
+    insides_->spaced = false;
+    if (placed.kind == Kind::Fixed)
+        insides_->sight.fixed_moved();
+    else
+        insides_->sight.anchor(id.index);
 }
 
 void Arena::Insides::tell_sight(uint32_t index) {
-    const b2Body& body = *bodies[index].body;
-    const double angle = body.GetAngle();
-    sight.put(index, {body.GetPosition().x / kUnitsPerMetre, body.GetPosition().y / kUnitsPerMetre,
-                      trig::cos(angle), trig::sin(angle)});
-    sight_current = false;
+    const Motion& motion = bodies[index].motion;
+    const auto [sine, cosine] = trig::sin_cos(motion.angle);
+    sight.put(index, {motion.at.x / kUnitsPerMetre, motion.at.y / kUnitsPerMetre, cosine, sine});
 }
 
 void Arena::drive(BodyId robot, const Drive& drive) {
@@ -243,8 +295,7 @@ void Arena::drive(BodyId robot, const Drive& drive) {
 
 // The wheels pull the body toward the speed they want, as strongly as their tyres hold. The
 // direction is that of the middle of the step, which makes a curve of short chords a true one.
-void Arena::Insides::prepare_robot(Body& robot, const Stand& stand) const {
-    b2Body& body = *robot.body;
+void Arena::Insides::turn_wheels(const Body& robot, const Stand& stand, Motion& motion) const {
     const double half_turn = robot.drive.turn * kArenaStep / 2;
     const double forward = robot.drive.forward * kUnitsPerMetre;
     const double sideways = robot.drive.sideways * kUnitsPerMetre;
@@ -254,11 +305,17 @@ void Arena::Insides::prepare_robot(Body& robot, const Stand& stand) const {
                         static_cast<float>(forward * sine + sideways * cosine));
     constexpr auto kStepMax =
         static_cast<float>(kTyreFriction * kGravity * kArenaStep * kUnitsPerMetre);
-    const auto turn = static_cast<float>(robot.drive.turn);
-    const bool still = forward == 0 && sideways == 0 && turn == 0 && !body.IsAwake();
-    if (still) return;
-    body.SetLinearVelocity(pull(body.GetLinearVelocity(), wanted, kStepMax));
-    body.SetAngularVelocity(pull(body.GetAngularVelocity(), turn, robot.turn_step_max));
+    motion.speed = pull(motion.speed, wanted, kStepMax);
+    motion.turn = pull(motion.turn, static_cast<float>(robot.drive.turn), robot.turn_step_max);
+}
+
+void Arena::Insides::prepare_robot(Body& robot, const Stand& stand) const {
+    b2Body& body = *robot.body;
+    if (is_rest(robot.drive) && !body.IsAwake()) return;
+    Motion motion = motion_of(body);
+    turn_wheels(robot, stand, motion);
+    body.SetLinearVelocity(motion.speed);
+    body.SetAngularVelocity(motion.turn);
 }
 
 // What lies on the ground is slowed by it. The turning friction is that of a body whose weight
@@ -274,33 +331,107 @@ void Arena::Insides::prepare_loose(Body& loose) const {
     body.SetAngularVelocity(pull(body.GetAngularVelocity(), 0, kTurnMax));
 }
 
-void Arena::step() {
-    Insides& in = *insides_;
-    for (const uint32_t index : in.active) {
-        Body& body = in.bodies[index];
+// A robot that is alone goes as its wheels turn: the same sums as those of Box2D for a body that
+// touches nothing, to the last bit.
+void Arena::Insides::glide(uint32_t index) {
+    Body& robot = bodies[index];
+    Motion& motion = robot.motion;
+    if (is_rest(robot.drive) && motion.is_rest()) return;
+    const Stand& stand = sight.stand(index);
+    turn_wheels(robot, stand, motion);
+    constexpr auto kStep = static_cast<float>(kArenaStep);
+    motion.at += kStep * motion.speed;
+    if (motion.turn == 0) {  // sine and cosine are what they were
+        sight.put(index, {motion.at.x / kUnitsPerMetre, motion.at.y / kUnitsPerMetre, stand.cosine,
+                          stand.sine});
+        return;
+    }
+    motion.angle = unwound(motion.angle + kStep * motion.turn);
+    tell_sight(index);
+}
+
+// Where Box2D has brought a body.
+void Arena::Insides::fetch(uint32_t index) {
+    Body& moved = bodies[index];
+    b2Body& body = *moved.body;
+    const float angle = unwound(body.GetAngle());
+    if (angle != body.GetAngle()) body.SetTransform(body.GetPosition(), angle);
+    moved.motion = motion_of(body);
+    tell_sight(index);
+}
+
+// Gives bodies that are not alone any more to Box2D, and takes back those that are now.
+void Arena::Insides::hand_over(uint32_t index) {
+    Body& robot = bodies[index];
+    b2Body& body = *robot.body;
+    robot.solved = !spacing.is_alone(index);
+    if (!robot.solved) {
+        robot.motion = motion_of(body);
+        body.SetEnabled(false);
+        return;
+    }
+    body.SetTransform(robot.motion.at, robot.motion.angle);
+    body.SetLinearVelocity(robot.motion.speed);
+    body.SetAngularVelocity(robot.motion.turn);
+    body.SetEnabled(true);
+    body.SetAwake(true);
+}
+
+// At the start, and after somebody came, went or was put elsewhere.
+void Arena::Insides::space_all() {
+    sight.refresh();
+    for (const uint32_t index : active) spacing.settle(index);
+    spaced = true;
+    hand_over_changed();
+}
+
+void Arena::Insides::hand_over_changed() {
+    for (const uint32_t index : spacing.take_changed())
+        if (bodies[index].solved == spacing.is_alone(index)) hand_over(index);
+}
+
+// Those that are not alone, by Box2D.
+void Arena::Insides::solve() {
+    bool awake = false;
+    for (const uint32_t index : active) {
+        Body& body = bodies[index];
+        if (!body.solved) continue;
         if (body.kind == Kind::Robot)
-            in.prepare_robot(body, in.sight.stand(index));
+            prepare_robot(body, sight.stand(index));
         else
-            in.prepare_loose(body);
+            prepare_loose(body);
+        awake = awake || body.body->IsAwake();
     }
+    if (!awake) return;
+    world.Step(static_cast<float>(kArenaStep), kVelocityIterations, kPositionIterations);
+    for (const uint32_t index : active)
+        if (bodies[index].solved && has_moved(bodies[index])) fetch(index);
+}
+
+void Arena::step() {
+    Crew alone(1);
+    step(alone);
+}
+
+void Arena::step(Crew& crew) {
+    Insides& in = *insides_;
+    if (!in.spaced) in.space_all();
     in.touches.touches.clear();
-    in.world.Step(static_cast<float>(kArenaStep), kVelocityIterations, kPositionIterations);
-    for (const uint32_t index : in.active) {
-        b2Body& body = *in.bodies[index].body;
-        if (!body.IsAwake()) continue;
-        if (std::fabs(body.GetAngle()) > kUnwindAngle) {
-            const double turns = std::round(body.GetAngle() / (2 * trig::kPi));
-            body.SetTransform(body.GetPosition(),
-                              static_cast<float>(body.GetAngle() - turns * 2 * trig::kPi));
-        }
-        in.tell_sight(index);
-    }
+    in.solve();
+    in.strayed.resize(in.active.size());
+    crew.each(in.active.size(), [&in](size_t i) {
+        const uint32_t index = in.active[i];
+        if (!in.bodies[index].solved) in.glide(index);
+        in.strayed[i] = in.spacing.has_strayed(index) ? 1 : 0;
+    });
+    for (size_t i = 0; i < in.active.size(); ++i)
+        if (in.strayed[i] != 0) in.spacing.settle(in.active[i]);
+    in.hand_over_changed();
 }
 
 Pose Arena::pose(BodyId id) const {
-    const b2Body& body = *insides_->bodies[id.index].body;
-    return {{body.GetPosition().x / kUnitsPerMetre, body.GetPosition().y / kUnitsPerMetre},
-            body.GetAngle()};
+    const Motion& motion = insides_->bodies[id.index].motion;
+    return {{motion.at.x / kUnitsPerMetre, motion.at.y / kUnitsPerMetre}, motion.angle};
 }
 
 std::span<const Touch> Arena::touches() const {
@@ -323,13 +454,10 @@ void Arena::touched_parts(BodyId id, std::vector<TouchedPart>& parts) const {
 }
 
 void Arena::prepare_looks() {
-    if (insides_->sight_current) return;
     insides_->sight.refresh();
-    insides_->sight_current = true;
 }
 
 void Arena::look(BodyId robot, const RayFan& rays, double eye, std::span<double> distances) const {
-    assert(insides_->sight_current);
     insides_->sight.look(robot.index, rays, eye, distances);
 }
 

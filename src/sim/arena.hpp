@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/crew.hpp"
 #include "sim/definitions.hpp"
 
 namespace vagus::sim {
@@ -129,6 +130,8 @@ public:
 
     void drive(BodyId robot, const Drive& drive);
     void step();
+    // The same, to the last bit, with the help of others.
+    void step(Crew& crew);
     Pose pose(BodyId body) const;
     // Those begun in the last step, in the order of the contacts of the solver.
     std::span<const Touch> touches() const;

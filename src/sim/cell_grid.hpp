@@ -25,16 +25,46 @@ struct Box {
     double high = 0;
 };
 
-class CellGrid {
+// How the world is cut into cells; what lies outside counts to those of its rim.
+class CellPlan {
 public:
-    CellGrid(double width, double height) {
+    struct Cells {
+        uint32_t left, low, right, high;
+    };
+
+    CellPlan(double width, double height) {
         const double side = std::max({width, height, kCellSizeMin}) / kCellsPerSideMax;
         const double cell = std::max(side, kCellSizeMin);
         cells_per_metre_ = 1 / cell;
         columns_ = static_cast<uint32_t>(width * cells_per_metre_) + 1;
         rows_ = static_cast<uint32_t>(height * cells_per_metre_) + 1;
-        starts_.assign(size_t{columns_} * rows_ + 1, 0);
     }
+
+    size_t count() const { return size_t{columns_} * rows_; }
+    size_t number(uint32_t column, uint32_t row) const { return size_t{row} * columns_ + column; }
+    size_t number_at(double x, double y) const {
+        return number(cell_of(x, columns_), cell_of(y, rows_));
+    }
+    Cells cells_of(const Box& box) const {
+        return {cell_of(box.left, columns_), cell_of(box.low, rows_), cell_of(box.right, columns_),
+                cell_of(box.high, rows_)};
+    }
+
+private:
+    uint32_t cell_of(double at, uint32_t count) const {
+        const double cell = at * cells_per_metre_;
+        if (!(cell > 0)) return 0;
+        return cell >= count ? count - 1 : static_cast<uint32_t>(cell);
+    }
+
+    double cells_per_metre_ = 1;
+    uint32_t columns_ = 1;
+    uint32_t rows_ = 1;
+};
+
+class CellGrid {
+public:
+    CellGrid(double width, double height) : plan_(width, height), starts_(plan_.count() + 1, 0) {}
 
     // Forgets what was there. A counting sort: first how many in each cell, then each in its place,
     // from the last to the first so that cells list them in ascending order.
@@ -54,40 +84,25 @@ public:
     template <typename Visitor>
     void visit(const Box& box, const Visitor& visitor) const {
         if (items_.empty()) return;
-        const Cells cells = cells_of(box);
+        const CellPlan::Cells cells = plan_.cells_of(box);
         for (uint32_t row = cells.low; row <= cells.high; ++row) {
             // Cells of a row lie side by side, and so do their lists.
-            const size_t first = size_t{row} * columns_;
-            const uint32_t end = starts_[first + cells.right + 1];
-            for (uint32_t k = starts_[first + cells.left]; k < end; ++k) visitor(items_[k]);
+            const uint32_t end = starts_[plan_.number(cells.right, row) + 1];
+            for (uint32_t k = starts_[plan_.number(cells.left, row)]; k < end; ++k)
+                visitor(items_[k]);
         }
     }
 
 private:
-    struct Cells {
-        uint32_t left, low, right, high;
-    };
-
-    uint32_t cell_of(double at, uint32_t count) const {
-        const double cell = at * cells_per_metre_;
-        if (!(cell > 0)) return 0;
-        return cell >= count ? count - 1 : static_cast<uint32_t>(cell);
-    }
-    Cells cells_of(const Box& box) const {
-        return {cell_of(box.left, columns_), cell_of(box.low, rows_), cell_of(box.right, columns_),
-                cell_of(box.high, rows_)};
-    }
     template <typename Act>
     void for_cells(const Box& box, const Act& act) const {
-        const Cells cells = cells_of(box);
+        const CellPlan::Cells cells = plan_.cells_of(box);
         for (uint32_t row = cells.low; row <= cells.high; ++row)
             for (uint32_t column = cells.left; column <= cells.right; ++column)
-                act(size_t{row} * columns_ + column);
+                act(plan_.number(column, row));
     }
 
-    double cells_per_metre_ = 1;
-    uint32_t columns_ = 1;
-    uint32_t rows_ = 1;
+    CellPlan plan_;
     std::vector<uint32_t> starts_;  // of each cell in items_, and the end
     std::vector<uint32_t> items_;
 };

@@ -42,6 +42,10 @@ bool feels_knocks(RobotType type) {
     return type == RobotType::Thymio2;
 }
 
+bool sees_colours(RobotType type) {
+    return type != RobotType::Thymio2;
+}
+
 std::span<const std::string_view> buttons_of(RobotType type) {
     // Variables and local events of a Thymio stand in this order (docs/spec, section 5.2).
     static constexpr std::array<std::string_view, 5> kThymio2 = {"backward", "left", "center",

@@ -22,7 +22,10 @@
 
 namespace vagus::sim {
 
-constexpr size_t kRobotsMax = 1000;
+constexpr Duration kNodeStep = std::chrono::milliseconds(1);
+constexpr Duration kPhysicsStep = std::chrono::milliseconds(10);
+
+constexpr size_t kRobotsMax = 10000;
 constexpr size_t kObjectsMax = 10000;
 constexpr size_t kTimelineMax = 10000;
 constexpr double kWorldSizeMax = 100;  // metres, each side
@@ -151,5 +154,7 @@ uint16_t nodes_of(RobotType type);
 std::span<const std::string_view> buttons_of(RobotType type);
 // Whether a knock on its body means something to it.
 bool feels_knocks(RobotType type);
+// Whether it has a sensor for the colours of bodies.
+bool sees_colours(RobotType type);
 
 }  // namespace vagus::sim

@@ -61,7 +61,10 @@ void Inhabitants::add_robot(const RobotDefinition& robot, const WorldOptions& op
             robots_.push_back(std::make_unique<carbot::Carbot>(arena_, robot, seed));
             break;
     }
-    note_body(robots_.back()->body(), robot.paint);
+    const BodyId body = robots_.back()->body();
+    note_body(body, robot.paint);
+    if (body.index >= robot_of_body_.size()) robot_of_body_.resize(body.index + 1);
+    robot_of_body_[body.index] = robots_.size() - 1;
 }
 
 void Inhabitants::note_body(BodyId body, const Colour& colour) {
@@ -168,9 +171,7 @@ std::optional<ObjectId> Inhabitants::find(std::string_view id) const {
 }
 
 std::optional<size_t> Inhabitants::robot_of(BodyId body) const {
-    for (size_t i = 0; i < robots_.size(); ++i)
-        if (robots_[i]->body() == body) return i;
-    return std::nullopt;
+    return body.index < robot_of_body_.size() ? robot_of_body_[body.index] : std::nullopt;
 }
 
 std::string Inhabitants::name_of(BodyId body) const {

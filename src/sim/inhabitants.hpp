@@ -70,6 +70,7 @@ private:
     std::vector<Object> objects_;
     std::vector<std::unique_ptr<Robot>> robots_;
     std::vector<Colour> colours_;
+    std::vector<std::optional<size_t>> robot_of_body_;  // robots stay for ever
     std::vector<Point> beacons_;
     uint32_t next_object_;
 };

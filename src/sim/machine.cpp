@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fastvm/run.hpp"
+#include "isa/isa.hpp"
 
 namespace vagus::sim {
 
@@ -34,6 +35,7 @@ void Machine::restart() {
     pending_.clear();
     sent_.clear();
     used_ = 0;
+    heard_is_old_ = true;
 }
 
 void Machine::transmit(node::Node& node, const wire::Frame& frame) {
@@ -47,9 +49,29 @@ void Machine::notify(node::Node& node, vm::Notice notice) {
 void Machine::receive(const wire::Frame& frame) {
     --frames_left_;
     node::receive(node_, frame);
-    if (!wire::is_user_event(frame.type)) return;
+    if (!wire::is_user_event(frame.type)) {
+        heard_is_old_ = true;  // it may have been part of a program
+        return;
+    }
     used_ = 0;
     run();
+}
+
+bool Machine::hears(uint8_t event) {
+    if (heard_is_old_) {
+        heard_ = 0;
+        for (uint8_t i = 0; i < kLocalEventsMax; ++i) {
+            const auto number = static_cast<uint16_t>(isa::kLocalEventFirst - i);
+            if (vm::event_address(node_.vm, number) != 0) heard_ |= uint64_t{1} << i;
+        }
+        heard_is_old_ = false;
+    }
+    return (heard_ >> event & 1) != 0;
+}
+
+// No handler starts, but the node says that the latest event is its own.
+void Machine::pass_unheard(uint8_t event) {
+    node::local_event(node_, event);
 }
 
 void Machine::raise(uint8_t event) {

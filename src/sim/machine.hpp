@@ -20,6 +20,7 @@ namespace vagus::sim {
 constexpr uint16_t kInstructionsPerMillisecond = 1000;
 constexpr uint16_t kFramesPerMillisecond = 16;  // that a node looks at
 constexpr size_t kPendingEventsMax = 32;        // local events of one node, none of them twice
+constexpr uint8_t kLocalEventsMax = 64;         // of one node
 
 struct MachineDefinition {
     const node::Description* description = nullptr;  // must outlive the machine
@@ -50,9 +51,17 @@ public:
     bool wants_frame() const { return frames_left_ > 0 && budget_ > 0; }
     // Obeys the frame; a user event runs at once.
     void receive(const wire::Frame& frame);
-    // The local event has happened: it runs in this run() or a later one.
+    // The local event has happened: it runs in this run() or a later one. Below kLocalEventsMax.
     void raise(uint8_t event);
+    // The same of one that has no handler, some time ago while nothing ran.
+    void pass_unheard(uint8_t event);
     void run();
+    // The program has a handler for it.
+    bool hears(uint8_t event);
+    // The next run() has something to do without any new event.
+    bool is_busy() const {
+        return !pending_.empty() || (vm::is_active(node_.vm) && !vm::is_paused_in_event(node_.vm));
+    }
     // The only host of a port has left: it takes its breakpoints along (section 1.4).
     void host_left();
 
@@ -84,6 +93,8 @@ private:
     std::vector<uint16_t> breakpoints_;
     vm::Config config_;
     node::Node node_;
+    uint64_t heard_ = 0;            // a bit for each local event that has a handler
+    bool heard_is_old_ = true;      // the program may have changed since
     std::vector<uint8_t> pending_;  // local events, oldest first
     std::vector<wire::Frame> sent_;
     uint16_t budget_ = 0;

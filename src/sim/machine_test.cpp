@@ -198,4 +198,32 @@ TEST(Machine, OneMoreThanTheMostPendingEventsIsDropped) {
     EXPECT_EQ(tested.machine.variable(11), 1);
 }
 
+TEST(Machine, KnowsWhichEventsItsProgramHearsAndWhetherItHasAnythingToDo) {
+    Tested tested;
+    EXPECT_FALSE(tested.machine.hears(0));
+    tested.load(kProgram);
+    EXPECT_TRUE(tested.machine.hears(0));
+    EXPECT_TRUE(tested.machine.hears(1));
+    EXPECT_FALSE(tested.machine.hears(2));
+    EXPECT_FALSE(tested.machine.is_busy());
+    tested.machine.raise(1);
+    EXPECT_TRUE(tested.machine.is_busy());
+    tested.millisecond();
+    EXPECT_FALSE(tested.machine.is_busy());  // the handler has ended
+    tested.machine.raise(0);
+    tested.millisecond();
+    EXPECT_TRUE(tested.machine.is_busy());  // this one never ends
+    tested.load({1, 0});                    // another program, without handlers
+    EXPECT_FALSE(tested.machine.hears(0));
+}
+
+TEST(Machine, AnEventThatPassesUnheardIsItsOwnAllTheSame) {
+    Tested tested;
+    tested.load(kProgram);
+    tested.machine.variable(1) = 9;  // event.source
+    tested.machine.pass_unheard(2);
+    EXPECT_EQ(tested.machine.variable(1), kId);
+    EXPECT_FALSE(tested.machine.is_busy());
+}
+
 }  // namespace

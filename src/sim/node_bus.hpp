@@ -24,6 +24,7 @@ public:
     void accept(Time now);
     // What has crossed by `now` reaches the nodes and the hosts.
     void advance(Time now);
+    bool has_frames(size_t place) const { return places_[place].inbox.bytes() > 0; }
     // What has reached a node, the oldest first.
     bool take(size_t place, wire::Frame& frame) { return places_[place].inbox.pop(frame); }
     // A frame of a node.

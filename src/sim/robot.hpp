@@ -41,8 +41,15 @@ public:
     virtual std::span<const Point> outline() const = 0;
     // What is due at this millisecond, of all nodes: sensors to variables, local events raised.
     virtual void sense(const Surroundings& around) = 0;
-    // Before each step of the arena: variables to wheels.
-    virtual void drive(Arena& arena) = 0;
+    // After sense() and the run of its machines at `now`: the next instant at which it has to be
+    // called again, if nobody sends it anything nor touches it until then.
+    virtual Time next_due(Time now) { return now + kNodeStep; }
+    // Brings to its variables what sense() was not called for, up to `now`: called before anybody
+    // reads or writes them.
+    virtual void catch_up(Time now) { (void)now; }
+    // Before each step of the arena, at `now`: variables to wheels. False if it would only say the
+    // same again in the next steps, as long as its machines do not run.
+    virtual bool drive(Arena& arena, Time now) = 0;
     // A knock, or the first touch of another body.
     virtual void knock() {}
     // One of buttons_of() its type.
@@ -59,11 +66,21 @@ public:
     virtual std::optional<Point> camera() const { return std::nullopt; }
 };
 
-// True at the instants at which something that happens `rate` times a second is due: the n-th time
-// at the first millisecond at or after n / rate.
+// How many instants there are by `now` of something that happens `rate` times a second: the n-th is
+// the first millisecond at or after n / rate.
+inline int64_t times_due(Time now, int64_t rate) {
+    return now / std::chrono::milliseconds(1) * rate / 1000;
+}
+
+// The first of them after `now`.
+inline Time next_time(Time now, int64_t rate) {
+    const int64_t n = times_due(now, rate) + 1;
+    return std::chrono::milliseconds((n * 1000 + rate - 1) / rate);
+}
+
+// True at these instants.
 inline bool is_due(Time now, int64_t rate) {
-    const int64_t ms = now / std::chrono::milliseconds(1);
-    return ms * rate / 1000 > (ms - 1) * rate / 1000;
+    return times_due(now, rate) > times_due(now - std::chrono::milliseconds(1), rate);
 }
 
 }  // namespace vagus::sim

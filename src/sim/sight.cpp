@@ -63,7 +63,10 @@ void Sight::add(uint32_t index, const Outline& outline, double height, Mobility 
 void Sight::remove(uint32_t index) {
     std::vector<uint32_t>& list = seen_[index].mobility == Mobility::Fixed ? fixed_ : moving_;
     std::erase(list, index);
-    if (seen_[index].mobility == Mobility::Fixed) fixed_current_ = false;
+    if (seen_[index].mobility == Mobility::Fixed)
+        fixed_current_ = false;
+    else
+        moving_grid_.remove(index);
     const uint32_t form = seen_[index].form;
     if (--forms_[form].users == 0) free_forms_.push_back(form);
 }
@@ -75,21 +78,38 @@ Box Sight::box_of(uint32_t index) const {
     return {at.x - bound, at.y - bound, at.x + bound, at.y + bound};
 }
 
-void Sight::refresh() {
-    if (!fixed_current_) refresh_fixed();
-    boxes_.clear();
-    for (const uint32_t index : moving_) {
-        const Stand& at = stands_[index];
-        boxes_.push_back({at.x, at.y, at.x, at.y});
-    }
-    moving_grid_.build(boxes_);
-}
-
 void Sight::refresh_fixed() {
     boxes_.clear();
     for (const uint32_t index : fixed_) boxes_.push_back(box_of(index));
     fixed_grid_.build(boxes_);
     fixed_current_ = true;
+}
+
+// Exact beside an edge; beyond a corner less than the true distance.
+double Sight::distance(const Point& from, uint32_t fixed) const {
+    const Point at = stands_[fixed].to_body(from);
+    const Form& form = forms_[seen_[fixed].form];
+    if (form.edges.empty()) return trig::hypot(at.x, at.y) - form.bound;
+    double farthest = -form.bound;
+    for (const Edge& edge : form.edges)
+        farthest = std::max(farthest, edge.nx * at.x + edge.ny * at.y - edge.reach);
+    return farthest;
+}
+
+double Sight::room_to_fixed(uint32_t index, double most) const {
+    const Stand& at = stands_[index];
+    const double radius = bound(index);
+    double room = most;
+    if (!size_.open) {
+        const double border =
+            std::min(std::min(at.x, size_.width - at.x), std::min(at.y, size_.height - at.y));
+        room = std::min(room, border - radius);
+    }
+    const double wide = radius + most;
+    fixed_grid_.visit({at.x - wide, at.y - wide, at.x + wide, at.y + wide}, [&](uint32_t number) {
+        room = std::min(room, distance({at.x, at.y}, fixed_[number]) - radius);
+    });
+    return room;
 }
 
 RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()) {
@@ -125,9 +145,8 @@ void Sight::look(uint32_t self, const RayFan& rays, double eye, std::span<double
     const Box box = {stand.x - rays.reach, stand.y - rays.reach, stand.x + rays.reach,
                      stand.y + rays.reach};
     fixed_grid_.visit(box, [&](uint32_t number) { try_body(fixed_[number]); });
-    const Box wide = {box.left - moving_bound_, box.low - moving_bound_, box.right + moving_bound_,
-                      box.high + moving_bound_};
-    moving_grid_.visit(wide, [&](uint32_t number) { try_body(moving_[number]); });
+    const double wide = rays.reach + moving_bound_ + kStrayMax;
+    moving_grid_.visit({stand.x - wide, stand.y - wide, stand.x + wide, stand.y + wide}, try_body);
 
     const bool inside =
         box.left > 0 && box.low > 0 && box.right < size_.width && box.high < size_.height;

@@ -22,10 +22,15 @@ public:
 
     // One step of kArenaStep: targets in m/s.
     Drive step(double left, double right) {
+        const double left_before = left_;
+        const double right_before = right_;
         left_ += share_ * (limit(left) - left_);
         right_ += share_ * (limit(right) - right_);
+        steady_ = left_ == left_before && right_ == right_before;
         return {.forward = (left_ + right_) / 2, .turn = (right_ - left_) / definition_.base};
     }
+    // The last step changed nothing: with the same targets no other will.
+    bool steady() const { return steady_; }
     double left() const { return left_; }
     double right() const { return right_; }
 
@@ -40,6 +45,7 @@ private:
     double share_;
     double left_ = 0;
     double right_ = 0;
+    bool steady_ = false;
 };
 
 }  // namespace vagus::sim

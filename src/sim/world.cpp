@@ -2,66 +2,72 @@
 
 #include <algorithm>
 #include <array>
+#include <thread>
 
 #include "base/file.hpp"
 #include "base/project_border.hpp"
 #include "base/trig.hpp"
 #include "sim/camera.hpp"
 #include "sim/frame_notes.hpp"
-#include "sim/frames_for_others.hpp"
 #include "sim/inhabitants.hpp"
-#include "sim/node_bus.hpp"
+#include "sim/node_turns.hpp"
 #include "sim/world_check.hpp"
 #include "sim/world_file.hpp"
 
 namespace vagus::sim {
 
-// One node's places on the bus.
-struct Berth {
-    size_t robot = 0;          // index of the robot it belongs to
-    size_t place = 0;          // among its machines
-    hub::LinkId link;          // on the bus of all, if that is ideal
-    hub::LinkId private_link;  // on that behind the robot's own port, if it has one
-    FramesForOthers for_others = {};
-};
+namespace {
 
-// How a frame leaves its node when the bus is modelled.
-enum class Crossing : uint8_t { Timed, AtOnce };
+constexpr size_t kManyRobots = 200;  // from here on more threads gain time
+
+unsigned threads_for(const WorldDefinition& definition, const WorldOptions& options) {
+    const auto has_pool = [](const RobotDefinition& robot) {
+        return robot.type == RobotType::Epuck;
+    };
+    const auto& robots = definition.robots;
+    if (!options.sd_folder.empty() || std::any_of(robots.begin(), robots.end(), has_pool)) return 1;
+    const unsigned many = robots.size() < kManyRobots ? 1 : std::thread::hardware_concurrency();
+    return std::clamp(options.threads.value_or(many), 1u, kThreadsMax);
+}
+
+}  // namespace
 
 struct World::Insides {
     Insides(WorldDefinition its_definition, Picture its_picture, WorldOptions its_options)
         : definition(std::move(its_definition)),
           picture(std::move(its_picture)),
-          options(std::move(its_options)) {}
+          options(std::move(its_options)),
+          somebody_sees_colours(
+              std::any_of(definition.robots.begin(), definition.robots.end(),
+                          [](const RobotDefinition& each) { return sees_colours(each.type); })),
+          crew(threads_for(definition, options)),
+          turns(definition, bus,
+                [this](size_t index, const wire::Frame& frame) { note_frame(index, frame); }) {}
 
-    Status join_bus();
     void populate();
-    void join_nodes();
     void forget_happenings();
     void begin_instant();
     void end_instant();
     void hold_instant();
     void run_timeline();
     void act(const Action& action);
-    void deliver(size_t index);
-    void collect(size_t index, Crossing crossing);
     void note_frame(size_t robot, const wire::Frame& frame);
     void move_bodies();
     void note_touches();
     void note(size_t robot, decltype(Happening::what) what, uint16_t node = 0);
+    void knock(size_t index);
+    void push_button(size_t index, std::string_view button, bool pressed);
     Status set_button(RobotId id, std::string_view button, bool pressed);
     Robot& robot(size_t index) { return *inhabitants->robots()[index]; }
-    Machine& machine(const Berth& berth) { return *robot(berth.robot).machines()[berth.place]; }
 
     WorldDefinition definition;
     Picture picture;
     WorldOptions options;
     std::unique_ptr<Inhabitants> inhabitants;
     hub::Hub bus;
-    std::optional<NodeBus> node_bus;  // between the nodes and `bus`, if it is a Can
-    std::vector<Berth> berths;        // by ascending node id
-    std::vector<size_t> by_node;      // indices of robots by ascending node id
-    std::vector<std::unique_ptr<hub::Hub>> private_buses;  // by index of the robot
+    bool somebody_sees_colours;  // else nobody asks which they are
+    Crew crew;
+    NodeTurns turns;
     size_t timeline_next = 0;
     Time now{};
     Duration rest{};  // asked for, but less than a step
@@ -116,6 +122,10 @@ Result<World> World::create(WorldDefinition definition, WorldOptions options) {
         const Status fits = check_can(definition);
         if (!fits.ok()) return fits.error();
     }
+    if (options.threads && (*options.threads < 1 || *options.threads > kThreadsMax)) {
+        return Error{Code::BadInput, "threads: expected 1 to " + std::to_string(kThreadsMax) +
+                                         ", found " + std::to_string(*options.threads)};
+    }
     Picture picture;
     if (!definition.ground_image.empty()) {
         Result<Picture> read = read_ground(options.folder, definition.ground_image);
@@ -124,7 +134,7 @@ Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     }
     auto insides =
         std::make_unique<Insides>(std::move(definition), std::move(picture), std::move(options));
-    const Status joined = insides->join_bus();
+    const Status joined = insides->turns.join(*insides->options.bus);
     if (!joined.ok()) return joined.error();
     insides->populate();
     return World(std::move(insides));
@@ -135,51 +145,14 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
-Status World::Insides::join_bus() {
-    for (size_t i = 0; i < definition.robots.size(); ++i) by_node.push_back(i);
-    std::sort(by_node.begin(), by_node.end(), [this](size_t a, size_t b) {
-        return definition.robots[a].node < definition.robots[b].node;
-    });
-    private_buses.resize(definition.robots.size());
-    if (options.bus == BusModel::Can) node_bus.emplace(bus, TRY(bus.add({.name = "nodes"})));
-    for (const size_t index : by_node) {
-        const RobotDefinition& robot = definition.robots[index];
-        if (robot.port) private_buses[index] = std::make_unique<hub::Hub>();
-        for (size_t place = 0; place < nodes_of(robot.type); ++place) {
-            Berth berth{index, place, {}, {}, {}};
-            const auto id = static_cast<uint16_t>(robot.node + place);
-            const hub::LinkOptions link{.name = robot.name, .only_node = id};
-            if (!node_bus) berth.link = TRY(bus.add(link));
-            if (robot.port) berth.private_link = TRY(private_buses[index]->add(link));
-            berths.push_back(berth);
-        }
-    }
-    return Status::done();
-}
-
 void World::Insides::populate() {
     const uint32_t next_object = inhabitants ? inhabitants->next_object() : 1;
     inhabitants = std::make_unique<Inhabitants>(definition, picture, options, next_object);
     now = Time{};
     rest = Duration{};
     timeline_next = 0;
-    join_nodes();
+    turns.move_in(*inhabitants);
     run_timeline();
-}
-
-// With the names that their descriptions give them; those of one robot among several have its name
-// before them.
-void World::Insides::join_nodes() {
-    if (!node_bus) return;
-    if (node_bus->size() > 0) {
-        node_bus->reset();
-        return;
-    }
-    for (const Berth& berth : berths) {
-        const std::string& name = definition.robots[berth.robot].name;
-        const std::string prefix = definition.robots.size() > 1 ? name + "/" : "";
-        node_bus->join(machine(berth).id(), prefix + machine(berth).name());
-    }
 }
 
 // ---- Time ----
@@ -213,21 +186,16 @@ void World::Insides::forget_happenings() {
     happenings_lost = 0;
 }
 
-// One instant: timeline, deliveries, nodes by id, bodies. What nodes send is delivered at the next.
+// One instant: timeline, nodes by id, bodies. What nodes send is delivered at the next.
 void World::Insides::begin_instant() {
-    if (node_bus) node_bus->accept(now);
+    turns.accept(now);
     now += kNodeStep;
     run_timeline();
-    if (node_bus) node_bus->advance(now);
-    for (size_t i = 0; i < berths.size(); ++i) deliver(i);
     inhabitants->arena().prepare_looks();
-    const Surroundings around = {inhabitants->arena(), inhabitants->ground(),
-                                 inhabitants->colours(), inhabitants->beacons(), now};
-    for (const size_t index : by_node) {
-        robot(index).sense(around);
-        for (Machine* const machine : robot(index).machines()) machine->run();
-    }
-    for (size_t i = 0; i < berths.size(); ++i) collect(i, Crossing::Timed);
+    const std::span<const Colour> colours =
+        somebody_sees_colours ? inhabitants->colours() : std::span<const Colour>();
+    turns.run({inhabitants->arena(), inhabitants->ground(), colours, inhabitants->beacons(), now},
+              crew);
 }
 
 void World::Insides::end_instant() {
@@ -236,10 +204,7 @@ void World::Insides::end_instant() {
 
 // No time passes, so a modelled bus cannot carry anything: what there is to say is said beside it.
 void World::Insides::hold_instant() {
-    if (node_bus) node_bus->accept_at_once();
-    for (size_t i = 0; i < berths.size(); ++i) deliver(i);
-    for (const Berth& berth : berths) machine(berth).run();
-    for (size_t i = 0; i < berths.size(); ++i) collect(i, Crossing::AtOnce);
+    turns.hold();
 }
 
 void World::Insides::run_timeline() {
@@ -271,7 +236,7 @@ void World::Insides::act(const Action& action) {
     if (const auto* light = std::get_if<SwitchLight>(&action))
         with_object(light->id, [&](ObjectId id) { return all.switch_light(id, light->on); });
     if (const auto* press = std::get_if<PressButton>(&action))
-        robot(index_of(definition, press->robot)).set_button(press->button, press->pressed);
+        push_button(index_of(definition, press->robot), press->button, press->pressed);
     const auto* move = std::get_if<MoveObject>(&action);
     if (move == nullptr) return;
     const size_t moved = index_of(definition, move->id);
@@ -288,39 +253,6 @@ void World::Insides::act(const Action& action) {
 }
 
 // ---- The bus ----
-
-void World::Insides::deliver(size_t index) {
-    Berth& berth = berths[index];
-    Machine& node = machine(berth);
-    node.begin_millisecond();
-    wire::Frame frame;
-    const auto take = [&] {
-        return node_bus ? node_bus->take(index, frame) : bus.take(berth.link, frame);
-    };
-    while (node.wants_frame() && take()) {
-        if (!berth.for_others.take(frame)) node.receive(frame);
-    }
-    hub::Hub* const own_bus = private_buses[berth.robot].get();
-    if (own_bus == nullptr) return;
-    while (node.wants_frame() && own_bus->take(berth.private_link, frame)) node.receive(frame);
-}
-
-void World::Insides::collect(size_t index, Crossing crossing) {
-    const Berth& berth = berths[index];
-    std::vector<wire::Frame>& sent = machine(berth).sent();
-    hub::Hub* const own_bus = private_buses[berth.robot].get();
-    for (const wire::Frame& frame : sent) {
-        if (!node_bus)
-            bus.receive(berth.link, frame);
-        else if (crossing == Crossing::Timed)
-            node_bus->send(index, frame, now);
-        else
-            node_bus->send_at_once(index, frame);
-        if (own_bus != nullptr) own_bus->receive(berth.private_link, frame);
-        note_frame(berth.robot, frame);
-    }
-    sent.clear();
-}
 
 void World::Insides::note_frame(size_t index, const wire::Frame& frame) {
     if (auto emitted = emitted_in(frame))
@@ -342,8 +274,8 @@ void World::Insides::note(size_t index, decltype(Happening::what) what, uint16_t
 
 void World::Insides::move_bodies() {
     Arena& arena = inhabitants->arena();
-    for (const auto& each : inhabitants->robots()) each->drive(arena);
-    arena.step();
+    turns.drive(arena, now);
+    arena.step(crew);
     note_touches();
     if (now % kPoseEvery != Duration::zero()) return;
     for (size_t i = 0; i < definition.robots.size(); ++i)
@@ -357,7 +289,7 @@ void World::Insides::note_touches() {
         for (const auto& [self, other] : ways) {
             const auto index = inhabitants->robot_of(self);
             if (!index) continue;
-            robot(*index).knock();
+            knock(*index);
             note(*index, Contact{inhabitants->name_of(other)});
         }
     }
@@ -370,15 +302,6 @@ Time World::now() const {
 }
 
 void World::reset() {
-    wire::Frame frame;
-    for (Berth& berth : insides_->berths) {
-        berth.for_others.clear();
-        while (!insides_->node_bus && insides_->bus.take(berth.link, frame)) {
-        }
-        hub::Hub* const own_bus = insides_->private_buses[berth.robot].get();
-        while (own_bus != nullptr && own_bus->take(berth.private_link, frame)) {
-        }
-    }
     insides_->happenings.clear();
     insides_->populate();
 }
@@ -396,15 +319,11 @@ hub::Hub& World::bus() {
 }
 
 void World::send_to(RobotId robot, hub::LinkId host, const wire::Frame& frame) {
-    for (Berth& berth : insides_->berths) {
-        if (berth.robot + 1 != robot.number) berth.for_others.add(frame);
-    }
-    insides_->bus.receive(host, frame);
+    insides_->turns.send_to(robot.number - 1, host, frame);
 }
 
 std::optional<BusLoad> World::bus_load() const {
-    if (!insides_->node_bus) return std::nullopt;
-    return insides_->node_bus->load();
+    return insides_->turns.load();
 }
 
 namespace {
@@ -423,13 +342,20 @@ Error no_robot() {
 
 hub::Hub* World::private_bus(RobotId robot) {
     const auto index = index_of(insides_->definition, robot);
-    return index ? insides_->private_buses[*index].get() : nullptr;
+    return index ? insides_->turns.private_bus(*index) : nullptr;
 }
 
 void World::host_left(RobotId robot) {
     const auto index = index_of(insides_->definition, robot);
-    if (!index) return;
-    for (Machine* const machine : insides_->robot(*index).machines()) machine->host_left();
+    if (index) insides_->turns.host_left(*index);
+}
+
+uint64_t World::turns_taken() const {
+    return insides_->turns.turns_taken();
+}
+
+unsigned World::threads() const {
+    return insides_->crew.size();
 }
 
 const WorldDefinition& World::definition() const {
@@ -518,12 +444,7 @@ std::span<const int16_t> World::variables(RobotId robot) const {
 }
 
 std::span<const int16_t> World::variables_of(uint16_t node) const {
-    const auto& berths = insides_->berths;
-    const auto found = std::lower_bound(
-        berths.begin(), berths.end(), node,
-        [this](const Berth& berth, uint16_t id) { return insides_->machine(berth).id() < id; });
-    if (found == berths.end() || insides_->machine(*found).id() != node) return {};
-    return insides_->machine(*found).variables();
+    return insides_->turns.variables_of(node, insides_->now);
 }
 
 Result<ObjectId> World::add(const ObjectDefinition& object) {
@@ -560,6 +481,17 @@ Status World::switch_light(ObjectId light, bool on) {
     return insides_->inhabitants->switch_light(light, on);
 }
 
+void World::Insides::knock(size_t index) {
+    robot(index).knock();
+    turns.call(index);
+}
+
+void World::Insides::push_button(size_t index, std::string_view button, bool pressed) {
+    robot(index).catch_up(now);
+    robot(index).set_button(button, pressed);
+    turns.call(index);
+}
+
 Status World::Insides::set_button(RobotId id, std::string_view button, bool pressed) {
     const auto index = index_of(definition, id);
     if (!index) return no_robot();
@@ -572,7 +504,7 @@ Status World::Insides::set_button(RobotId id, std::string_view button, bool pres
                                          std::string(button) +
                                          "\"; it has: " + (all.empty() ? "none" : all)};
     }
-    robot(*index).set_button(button, pressed);
+    push_button(*index, button, pressed);
     return Status::done();
 }
 
@@ -587,7 +519,7 @@ Status World::release(RobotId robot, std::string_view button) {
 Status World::tap(RobotId robot) {
     const auto index = index_of(insides_->definition, robot);
     if (!index) return no_robot();
-    insides_->robot(*index).knock();
+    insides_->knock(*index);
     return Status::done();
 }
 

@@ -1,6 +1,6 @@
 // A 2D world seen from above, with robots in it, each robot a set of Aseba nodes on one bus. It is
-// told the time and never asks for it, opens no socket and starts no thread: the same file, seed
-// and calls give the same bytes.
+// told the time and never asks for it, and opens no socket: the same file, seed and calls give the
+// same bytes, also on several threads.
 //
 //     Result<World> loaded = World::load(text, "arena.world.json");
 //     World& world = loaded.value();
@@ -36,8 +36,6 @@
 
 namespace vagus::sim {
 
-constexpr Duration kNodeStep = std::chrono::milliseconds(1);
-constexpr Duration kPhysicsStep = std::chrono::milliseconds(10);
 constexpr Duration kPoseEvery = std::chrono::milliseconds(100);  // `pose` lines of the trace
 constexpr size_t kHappeningsMax = 100000;  // in one step(); what is beyond is counted, not kept
 
@@ -59,10 +57,14 @@ enum class BusModel : uint8_t {
 };
 
 struct WorldOptions {
-    std::optional<uint64_t> seed;      // instead of that of the file
-    std::string folder = ".";          // where paths of the file start
-    std::string sd_folder;             // the card of every robot that has a slot; empty: no card
-    std::optional<BusModel> bus = {};  // empty: Can with a Carbot, otherwise Ideal
+    std::optional<uint64_t> seed = {};  // instead of that of the file
+    std::string folder = ".";           // where paths of the file start
+    std::string sd_folder = {};         // the card of every robot that has a slot; empty: no card
+    std::optional<BusModel> bus = {};   // empty: Can with a Carbot, otherwise Ideal
+    // How many threads sense and run scripts, 1 to kThreadsMax; empty: one for a few robots, all
+    // processors for many. The bytes are the same. Robots that share something, a folder of cards
+    // or the energy of e-pucks, always have one.
+    std::optional<unsigned> threads = {};
 };
 
 // ---- What there is to draw. Everything in metres and radians. ----
@@ -175,6 +177,10 @@ public:
     // The host at the robot's `port` has left or was replaced: its breakpoints go with it (section
     // 1.4).
     void host_left(RobotId robot);
+
+    // How often a node was looked at, all together: one that has nothing to do is not.
+    uint64_t turns_taken() const;
+    unsigned threads() const;
 
     // ---- Looking ----
     const WorldDefinition& definition() const;  // as it was loaded

@@ -287,7 +287,7 @@ TEST(WorldFile, OneMoreThanEachLimitIsRefused) {
         return R"({"type":"epuck","at":[0.5,0.5],"name":"r)" + i + "\"}";
     };
     EXPECT_EQ(error_of(with(many("robots", kRobotsMax, robot))), "");
-    EXPECT_NE(error_of(with(many("robots", kRobotsMax + 1, robot))).find("at most 1000"),
+    EXPECT_NE(error_of(with(many("robots", kRobotsMax + 1, robot))).find("at most 10000"),
               std::string::npos);
     const std::string light = R"("objects":[{"id":"l","kind":"light","at":[1,1]}],)";
     const auto entry = [](const std::string&) {

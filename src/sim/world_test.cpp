@@ -10,7 +10,7 @@
 
 #include "base/file.hpp"
 #include "base/json.hpp"
-#include "wire/messages.hpp"
+#include "sim/test_host.hpp"
 
 using namespace vagus;
 using namespace vagus::sim;
@@ -18,76 +18,10 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// A host on the bus of a world.
-class Host {
-public:
-    explicit Host(hub::Hub& bus) : bus_(bus), link_(bus.add({.name = "host"}).value()) {}
-
-    template <typename Message>
-    void send(const Message& message) {
-        wire::Frame frame;
-        ASSERT_EQ(wire::encode_message(message, wire::kHostId, frame), wire::Error::None);
-        bus_.receive(link_, frame);
-    }
-    template <typename Command>
-    void command(uint16_t node) {
-        Command message{};
-        message.dest = node;
-        send(message);
-    }
-    void load(uint16_t node, const std::vector<uint16_t>& program) {
-        wire::SetBytecode load{};
-        load.dest = node;
-        load.words.count = static_cast<uint16_t>(program.size());
-        for (size_t i = 0; i < program.size(); ++i)
-            load.words.values[i] = static_cast<int16_t>(program[i]);
-        send(load);
-        command<wire::Run>(node);
-    }
-    void set(uint16_t node, uint16_t start, const std::vector<int16_t>& values) {
-        wire::SetVariables message{};
-        message.dest = node;
-        message.start = start;
-        message.values.count = static_cast<uint16_t>(values.size());
-        std::copy(values.begin(), values.end(), message.values.values);
-        send(message);
-    }
-    std::vector<wire::Frame> frames() {
-        std::vector<wire::Frame> all;
-        wire::Frame frame;
-        while (bus_.take(link_, frame)) all.push_back(frame);
-        return all;
-    }
-
-private:
-    hub::Hub& bus_;
-    hub::LinkId link_;
-};
-
 wire::ListNodes list_nodes() {
     wire::ListNodes message{};
     message.version = wire::kProtocolVersion;
     return message;
-}
-
-constexpr uint16_t id_of(uint16_t local_event) {
-    return static_cast<uint16_t>(0xfffe - local_event);
-}
-
-// A program that adds 1 to variable 100 + i when the i-th of these local events happens.
-std::vector<uint16_t> counting(const std::vector<uint16_t>& events) {
-    const auto size = static_cast<uint16_t>(2 * events.size() + 1);
-    std::vector<uint16_t> words = {size};
-    for (size_t i = 0; i < events.size(); ++i) {
-        words.push_back(id_of(events[i]));
-        words.push_back(static_cast<uint16_t>(size + 5 * i));
-    }
-    for (size_t i = 0; i < events.size(); ++i) {
-        const auto address = static_cast<uint16_t>(100 + i);
-        words.insert(words.end(), {static_cast<uint16_t>(0x3000 | address), 0x1001, 0x8002,
-                                   static_cast<uint16_t>(0x4000 | address), 0x0000});
-    }
-    return words;
 }
 
 // Avoids obstacles: each front sensor takes speed from the wheel of the other side.
@@ -397,22 +331,22 @@ TEST(World, OneMoreObjectThanTheMostIsRefused) {
     EXPECT_EQ(added.error().code, Code::Limit);
 }
 
-TEST(World, AThousandRobotsLiveInOneWorldAndOneMoreDoesNot) {
+TEST(World, TenThousandRobotsLiveInOneWorldAndOneMoreDoesNot) {
     WorldDefinition definition;
-    definition.width = definition.height = 20;
+    definition.width = definition.height = 51;
     for (size_t i = 0; i < kRobotsMax; ++i) {
         definition.robots.push_back({.name = "r" + std::to_string(i),
-                                     .at = {0.3 + 0.5 * static_cast<double>(i % 38),
-                                            0.3 + 0.5 * static_cast<double>(i / 38)},
+                                     .at = {0.3 + 0.5 * static_cast<double>(i % 100),
+                                            0.3 + 0.5 * static_cast<double>(i / 100)},
                                      .node = static_cast<uint16_t>(i + 1)});
     }
     World world = make(definition);
     Host host(world.bus());
-    host.set(1000, kTargets, {100, 100});
-    const double before = world.robots()[999].pose.at.x;
+    host.set(kRobotsMax, kTargets, {100, 100});
+    const double before = world.robots().back().pose.at.x;
     world.step(200ms);
-    EXPECT_GT(world.robots()[999].pose.at.x, before + 0.005);
-    definition.robots.push_back({.name = "last", .at = {19, 19}, .node = 1001});
+    EXPECT_GT(world.robots().back().pose.at.x, before + 0.005);
+    definition.robots.push_back({.name = "last", .at = {50.8, 50.8}, .node = 10001});
     EXPECT_FALSE(World::create(definition).ok());
 }
 

@@ -283,6 +283,49 @@ class Peers(unittest.TestCase):
         self.net(port, "emit", "ping", "--project", project)
         self.wait_value(port, "thymio-II", "n", lambda n: n == 7, "--project", project)
 
+    def conformance(self, port, *options):
+        """The rows of `vagus conformance`, by name."""
+        with vagus("conformance", f"tcp:127.0.0.1:{port}", "--may-drive", "--json", *options) as program:
+            program.wait_end()
+            text = "\n".join(line for line in program.lines if not line.startswith("vagus: "))
+            self.assertTrue(text, program.lines)
+        return {row["check"]: row for row in json.loads(text)["checks"]}
+
+    def failed(self, rows):
+        return {name: row.get("defects", "") for name, row in rows.items() if row["result"] == "failed"}
+
+    def test_what_conformance_finds_in_asebaplayground_is_in_the_list_of_defects(self):
+        # Section 8 of the specification. The first row that the robot does not survive (D9) ends the run.
+        (port,) = self.playground(1)
+        rows = self.conformance(port)
+        self.assertEqual(self.failed(rows), {
+            "Reset clears what every `when` saw": "D2",
+            "Reset leaves operands as they are": "D2",
+            "deque.get outside tells pc, cells and index": "D3",
+            "deque.pop_front of too many is told once": "D4",
+            "deque.pop_back of too many is told once": "D4",
+            "deque.insert in the front half": "D5",
+            "a breakpoint set twice is one": "D17",
+            "all variables asked for at once come in pieces": "D22",
+            "commands that are too short harm nothing": "D9 D11",
+        })
+        self.assertEqual([name for name, row in rows.items() if row["result"] == "skipped"],
+                         ["fragments of the description can be asked for", "WriteBytecode leaves program and variables",
+                          "a saved program starts by itself after Reboot"])
+        not_run = {row["group"] for row in rows.values() if row["result"] == "not run"}
+        self.assertEqual(not_run, {"limits"})
+        self.assertIn("lost at", rows["a jump out of the bytecode"]["found"])
+
+    def test_what_asebaplayground_does_not_survive_is_in_the_list_of_defects(self):
+        # One robot for each: what it dies of, or does to memory that is not its own.
+        for check, defects in (("reading far outside the variables", "D9"), ("writing over the end of the variables", "D9"),
+                               ("loading over the end of the bytecode", "D9"), ("a breakpoint outside the bytecode", "D9"),
+                               ("an opcode that is none", "D9"), ("a stack that is full", "D9"), ("an Emit of 259 words", "D7"),
+                               ("a native that works outside the variables", "D9")):
+            with self.subTest(check):
+                (port,) = self.playground(1)
+                self.assertEqual(self.failed(self.conformance(port, "--only", check)), {check: defects})
+
     def test_vagus_net_debugs_a_robot_of_asebaplayground(self):
         (robot,) = self.playground(1)
         port = self.foreign_switch(f"tcp:127.0.0.1;{robot}")

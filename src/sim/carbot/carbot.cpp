@@ -60,8 +60,9 @@ void Carbot::sense(const Surroundings& around) {
     head_.sense(around, body_);
 }
 
-void Carbot::drive(Arena& arena) {
+bool Carbot::drive(Arena& arena, Time) {
     arena.drive(body_, drive_.drive());
+    return true;
 }
 
 void Carbot::set_button(std::string_view button, bool pressed) {

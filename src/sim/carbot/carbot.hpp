@@ -24,7 +24,7 @@ public:
     BodyId body() const override { return body_; }
     std::span<const Point> outline() const override { return carbot::outline(); }
     void sense(const Surroundings& around) override;
-    void drive(Arena& arena) override;
+    bool drive(Arena& arena, Time now) override;
     void set_button(std::string_view button, bool pressed) override;
     std::vector<Lamp> lamps() const override;
     std::vector<Beam> beams(const Arena& arena) const override;

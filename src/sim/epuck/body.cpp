@@ -85,8 +85,9 @@ double prox_reading(double distance) {
 Body::Body(Arena& arena, const Pose& pose)
     : id_(arena.add_robot({.corners = {}, .radius = kRadius}, pose, kBody)), wheels_(kWheels) {}
 
-void Body::drive(Arena& arena, int16_t left, int16_t right) {
+bool Body::drive(Arena& arena, int16_t left, int16_t right) {
     arena.drive(id_, wheels_.step(left * kSpeedUnit, right * kSpeedUnit));
+    return !wheels_.steady();
 }
 
 // Unlike on a Thymio there is noise also where nothing is seen, cut off at 0.

@@ -28,7 +28,7 @@ public:
     Body(Arena& arena, const Pose& pose);
 
     BodyId id() const { return id_; }
-    void drive(Arena& arena, int16_t left, int16_t right);
+    bool drive(Arena& arena, int16_t left, int16_t right);
     std::array<int16_t, kProxCount> look(const Arena& arena, Noise& noise) const;
     std::vector<Beam> beams(const Arena& arena) const;
     // The body that each pixel sees.

@@ -131,8 +131,14 @@ void Epuck::see(const Surroundings& around) {
     }
 }
 
-void Epuck::drive(Arena& arena) {
-    body_.drive(arena, VARIABLE_OF(speed_left), VARIABLE_OF(speed_right));
+Time Epuck::next_due(Time now) {
+    if (machine_.is_busy()) return now + kNodeStep;
+    return std::min((now / kControlStep + 1) * kControlStep,
+                    (now / kEnergyEvery + 1) * kEnergyEvery);
+}
+
+bool Epuck::drive(Arena& arena, Time) {
+    return body_.drive(arena, VARIABLE_OF(speed_left), VARIABLE_OF(speed_right));
 }
 
 // The ring of light that the script sets; the paint while it is off.

@@ -29,7 +29,8 @@ public:
     BodyId body() const override { return body_.id(); }
     std::span<const Point> outline() const override { return epuck::outline(); }
     void sense(const Surroundings& around) override;
-    void drive(Arena& arena) override;
+    Time next_due(Time now) override;
+    bool drive(Arena& arena, Time now) override;
     std::vector<Lamp> lamps() const override;
     std::vector<Beam> beams(const Arena& arena) const override;
     Colour colour() const override;

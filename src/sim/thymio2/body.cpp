@@ -75,8 +75,9 @@ double ground_reading(double brightness) {
 Body::Body(Arena& arena, const Pose& pose)
     : id_(arena.add_robot({.corners = kOutline, .radius = 0}, pose, kBody)), wheels_(kWheels) {}
 
-void Body::drive(Arena& arena, int16_t left, int16_t right) {
+bool Body::drive(Arena& arena, int16_t left, int16_t right) {
     arena.drive(id_, wheels_.step(left * kSpeedUnit, right * kSpeedUnit));
+    return !wheels_.steady();
 }
 
 int16_t Body::left_speed() const {
@@ -117,8 +118,7 @@ Horizontal Body::look(const Arena& arena, Noise& noise) const {
 }
 
 GroundReadings Body::look_down(const Pose& pose, const Ground& ground, Noise& noise) const {
-    const double cosine = trig::cos(pose.angle);
-    const double sine = trig::sin(pose.angle);
+    const auto [sine, cosine] = trig::sin_cos(pose.angle);
     GroundReadings seen;
     for (size_t i = 0; i < kGroundCount; ++i) {
         const Point& place = kGroundPlaces[i];

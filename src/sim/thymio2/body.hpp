@@ -40,8 +40,9 @@ public:
     Body(Arena& arena, const Pose& pose);
 
     BodyId id() const { return id_; }
-    // Targets as in motor.*.target; call once before each step of the arena.
-    void drive(Arena& arena, int16_t left, int16_t right);
+    // Targets as in motor.*.target; call once before each step of the arena. False if the wheels
+    // have reached the speed at which these targets keep them.
+    bool drive(Arena& arena, int16_t left, int16_t right);
     // Speeds of the wheels, in the unit of motor.*.target.
     int16_t left_speed() const;
     int16_t right_speed() const;

@@ -51,28 +51,60 @@ void Thymio2::write(size_t offset, std::span<const int16_t> values) {
         machine_.variable(static_cast<uint16_t>(offset / kWord + i)) = values[i];
 }
 
-// Events of one instant in the order of the original: timers, motor, buttons, prox, acc,
-// temperature.
+// Events that come by themselves, and the rate of each, in the order of the original: after the
+// timers, at one instant.
+struct Steady {
+    uint8_t event;
+    int64_t rate;
+};
+constexpr Steady kSteady[] = {{event::Motor, kMotorRate},
+                              {event::Buttons, kButtonsRate},
+                              {event::Prox, kProxRate},
+                              {event::Acc, kAccRate},
+                              {event::Temperature, kTemperatureRate}};
+
 void Thymio2::sense(const Surroundings& around) {
     run_timers(around.now);
-    if (is_due(around.now, kMotorRate)) {
-        VARIABLE_OF(motor_left_speed) = body_.left_speed();
-        VARIABLE_OF(motor_right_speed) = body_.right_speed();
-        machine_.raise(event::Motor);
+    catch_up(around.now);
+    if (is_due(around.now, kProxRate)) sense_distances(around);
+    for (const auto& [event, rate] : kSteady)
+        if (is_due(around.now, rate)) machine_.raise(event);
+}
+
+// Its distances it senses at every instant of theirs: their noise goes on.
+Time Thymio2::next_due(Time now) {
+    if (machine_.is_busy()) return now + kNodeStep;
+    Time next = next_time(now, kProxRate);
+    for (const auto& [event, rate] : kSteady)
+        if (machine_.hears(event)) next = std::min(next, next_time(now, rate));
+    for (size_t i = 0; i < timers_.size(); ++i) {
+        const Timer& timer = timers_[i];
+        if (period_of(i) != timer.period) return now + kNodeStep;
+        if (timer.period > 0) next = std::min(next, timer.next);
     }
-    if (is_due(around.now, kButtonsRate)) machine_.raise(event::Buttons);
-    if (is_due(around.now, kProxRate)) {
-        sense_distances(around);
-        machine_.raise(event::Prox);
+    return next;
+}
+
+// What the steady events write, and their trace, where nobody hears them.
+void Thymio2::catch_up(Time now) {
+    const auto has_passed = [&](int64_t rate) {
+        return times_due(now, rate) > times_due(caught_up_, rate);
+    };
+    if (now <= caught_up_) return;
+    if (has_passed(kMotorRate)) {
+        const bool before = now / kPhysicsStep * kPhysicsStep <= driven_;
+        VARIABLE_OF(motor_left_speed) = before ? speeds_before_[0] : body_.left_speed();
+        VARIABLE_OF(motor_right_speed) = before ? speeds_before_[1] : body_.right_speed();
+        if (!machine_.hears(event::Motor) && !machine_.is_busy())
+            machine_.pass_unheard(event::Motor);
     }
-    if (is_due(around.now, kAccRate)) {
-        write(offsetof(Layout, acc), std::array<int16_t, 3>{0, 0, kOneG});
-        machine_.raise(event::Acc);
-    }
-    if (is_due(around.now, kTemperatureRate)) {
-        VARIABLE_OF(temperature) = kTemperature;
-        machine_.raise(event::Temperature);
-    }
+    if (has_passed(kAccRate)) write(offsetof(Layout, acc), std::array<int16_t, 3>{0, 0, kOneG});
+    if (has_passed(kTemperatureRate)) VARIABLE_OF(temperature) = kTemperature;
+    caught_up_ = now;
+}
+
+int16_t Thymio2::period_of(size_t timer) const {
+    return machine_.variable(static_cast<uint16_t>(ADDRESS(timer_period) + timer));
 }
 
 void Thymio2::sense_distances(const Surroundings& around) {
@@ -88,7 +120,7 @@ void Thymio2::sense_distances(const Surroundings& around) {
 void Thymio2::run_timers(Time now) {
     for (size_t i = 0; i < timers_.size(); ++i) {
         Timer& timer = timers_[i];
-        const int16_t period = machine_.variable(static_cast<uint16_t>(ADDRESS(timer_period) + i));
+        const int16_t period = period_of(i);
         if (period != timer.period) {
             timer.period = period;
             timer.next = now + std::chrono::milliseconds(period);
@@ -99,8 +131,10 @@ void Thymio2::run_timers(Time now) {
     }
 }
 
-void Thymio2::drive(Arena& arena) {
-    body_.drive(arena, VARIABLE_OF(motor_left_target), VARIABLE_OF(motor_right_target));
+bool Thymio2::drive(Arena& arena, Time now) {
+    speeds_before_ = {body_.left_speed(), body_.right_speed()};
+    driven_ = now;
+    return body_.drive(arena, VARIABLE_OF(motor_left_target), VARIABLE_OF(motor_right_target));
 }
 
 void Thymio2::knock() {

@@ -57,7 +57,9 @@ public:
     BodyId body() const override { return body_.id(); }
     std::span<const Point> outline() const override { return thymio2::outline(); }
     void sense(const Surroundings& around) override;
-    void drive(Arena& arena) override;
+    Time next_due(Time now) override;
+    void catch_up(Time now) override;
+    bool drive(Arena& arena, Time now) override;
     void knock() override;
     void set_button(std::string_view button, bool pressed) override;
     std::vector<Lamp> lamps() const override;
@@ -65,6 +67,7 @@ public:
     Colour colour() const override { return paint_; }
 
 private:
+    int16_t period_of(size_t timer) const;
     void sense_distances(const Surroundings& around);
     void run_timers(Time now);
     void write(size_t offset, std::span<const int16_t> values);
@@ -81,6 +84,10 @@ private:
     Noise noise_;
     Colour paint_;
     std::array<Timer, 2> timers_;
+    Time caught_up_{};  // the variables are as at this instant
+    Time driven_{};     // of the last drive()
+    // Speeds of the wheels before it: what an instant not after it still tells.
+    std::array<int16_t, 2> speeds_before_{};
 };
 
 }  // namespace vagus::sim::thymio2

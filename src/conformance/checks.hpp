@@ -1,0 +1,28 @@
+// The list of all checks, in the order in which they are made: what a node of the reference might
+// not survive stands at the end.
+#pragma once
+
+#include "conformance/check.hpp"
+
+namespace vagus::conformance {
+
+// Its checks overwrite what the node keeps over a restart: made only if that is wanted.
+constexpr const char* kFlashGroup = "flash";
+
+// Each group adds its own.
+void add_description_checks(Checks& checks);
+void add_message_checks(Checks& checks);
+void add_opcode_checks(Checks& checks);
+void add_operator_checks(Checks& checks);
+void add_native_checks(Checks& checks);
+void add_native_fault_checks(Checks& checks);
+void add_event_checks(Checks& checks);
+void add_fault_checks(Checks& checks);
+void add_control_checks(Checks& checks);
+void add_breakpoint_checks(Checks& checks);
+void add_flash_checks(Checks& checks);
+void add_limit_checks(Checks& checks);
+
+Checks all_checks();
+
+}  // namespace vagus::conformance

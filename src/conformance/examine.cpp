@@ -1,0 +1,142 @@
+#include "conformance/examine.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "conformance/checks.hpp"
+#include "debug/description.hpp"
+#include "wire/messages.hpp"
+
+namespace vagus::conformance {
+namespace {
+
+template <typename Message>
+wire::Frame frame_of(const Message& message) {
+    wire::Frame frame{};
+    (void)!(wire::encode_message(message, wire::kHostId, frame) == wire::Error::None);
+    return frame;
+}
+
+// Adds the frame if it is a part of a description.
+debug::Progress add_part(debug::Description& description, const wire::Frame& frame) {
+    wire::Description header;
+    if (wire::decode_message(frame, header) == wire::Error::None && !description.begun())
+        return description.begin(header);
+    wire::NamedVariableDescription variable;
+    if (wire::decode_message(frame, variable) == wire::Error::None)
+        return description.add(variable);
+    wire::LocalEventDescription event;
+    if (wire::decode_message(frame, event) == wire::Error::None) return description.add(event);
+    wire::NativeFunctionDescription native;
+    if (wire::decode_message(frame, native) == wire::Error::None) return description.add(native);
+    return debug::Progress::Ignored;
+}
+
+Row row_of(const Check& check, const Status& looked) {
+    if (looked.ok()) return {check, Verdict::Passed, ""};
+    const bool skipped = looked.error().code == kLacking;
+    return {check, skipped ? Verdict::Skipped : Verdict::Failed, looked.error().what};
+}
+
+bool wanted(const Check& check, const std::string& only) {
+    return check.group.find(only) != std::string::npos ||
+           check.name.find(only) != std::string::npos;
+}
+
+}  // namespace
+
+Result<std::vector<uint16_t>> who_is_there(Line& line) {
+    wire::ListNodes ask;
+    ask.version = wire::kProtocolVersion;
+    TRY(line.send(frame_of(ask)));
+    std::set<uint16_t> ids;
+    const Time last = line.now() + kPresenceMost;
+    Time deadline = last;
+    while (line.now() < deadline && ids.size() < kNodesMax) {
+        const std::optional<wire::Frame> frame = TRY(line.receive(deadline));
+        wire::NodePresent present;
+        if (!frame || wire::decode_message(*frame, present) != wire::Error::None) continue;
+        if (ids.insert(frame->source).second)
+            deadline = std::min(last, line.now() + kPresenceWithin);
+    }
+    return std::vector<uint16_t>(ids.begin(), ids.end());
+}
+
+Result<aesl::Target> describe(Line& line, uint16_t node) {
+    wire::GetNodeDescription ask;
+    ask.dest = node;
+    ask.version = wire::kProtocolVersion;
+    TRY(line.send(frame_of(ask)));
+    debug::Description description;
+    const Time deadline = line.now() + kDescriptionWithin;
+    while (line.now() < deadline && !(description.begun() && description.complete())) {
+        const std::optional<wire::Frame> frame = TRY(line.receive(deadline));
+        if (!frame || frame->source != node) continue;
+        if (add_part(description, *frame) == debug::Progress::Impossible)
+            return Error{kFinding, "its description is impossible: " + description.why()};
+    }
+    if (description.begun() && description.complete()) return description.target();
+    return Error{Code::Timeout, "it does not describe itself whole: " +
+                                    std::to_string(description.items()) + " parts came"};
+}
+
+bool is_any_check(const std::string& only) {
+    return std::ranges::any_of(all_checks(),
+                               [&only](const Check& check) { return wanted(check, only); });
+}
+
+size_t Report::count(Verdict verdict) const {
+    return static_cast<size_t>(std::ranges::count(rows, verdict, &Row::verdict));
+}
+
+namespace {
+
+constexpr const char* kFlashStays =
+    "it would overwrite the program that the node keeps: say --flash";
+
+// Goes through the list; knows which check the node was lost at.
+class Examination {
+public:
+    Examination(Line& line, const Order& order, const aesl::Target& target)
+        : order_(order), bench_(line, order.node, target) {
+        bench_.set_nobody(order.nobody);
+    }
+
+    Row make(const Check& check) {
+        if (!lost_.empty()) return {check, Verdict::NotRun, lost_};
+        if (check.group == kFlashGroup && !order_.flash)
+            return {check, Verdict::Skipped, kFlashStays};
+        const Status cleared = bench_.clear();
+        if (!cleared.ok()) {
+            lost_ = "lost at \"" + last_ + "\": " + cleared.error().what;
+            return {check, Verdict::NotRun, lost_};
+        }
+        last_ = check.name;
+        return row_of(check, check.look(bench_));
+    }
+    bool leave() { return lost_.empty() && bench_.clear().ok(); }
+    size_t foreign() const { return bench_.foreign(); }
+
+private:
+    const Order& order_;
+    Bench bench_;
+    std::string lost_;
+    std::string last_ = "the beginning";
+};
+
+}  // namespace
+
+Report examine(Line& line, const Order& order, const aesl::Target& target) {
+    Report report{.node = order.node, .target = target, .rows = {}, .foreign = 0};
+    Examination examination(line, order, target);
+    for (const Check& check : all_checks()) {
+        if (!wanted(check, order.only)) continue;
+        report.rows.push_back(examination.make(check));
+        order.tell(report.rows.back());
+    }
+    report.left_clear = examination.leave();
+    report.foreign = examination.foreign();
+    return report;
+}
+
+}  // namespace vagus::conformance

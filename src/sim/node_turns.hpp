@@ -1,0 +1,110 @@
+// The nodes of a world on their bus: at each instant those that are due get what was sent to them,
+// sense, run, and what they send goes on its way. A node that has nothing to do is not looked at.
+//
+//     NodeTurns turns(definition, bus, heard);
+//     const Status joined = turns.join(BusModel::Ideal);
+//     turns.move_in(inhabitants);                       // new robots, at the start of a run
+//     turns.accept(now);                                // an instant: what hosts said before it …
+//     turns.run(surroundings, crew);                    // … and all nodes that are due
+//     turns.drive(arena, now);                          // before each step of the arena
+//
+// It does not know: happenings, timelines, bodies. `heard` is told what nodes send.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/result.hpp"
+#include "hub/hub.hpp"
+#include "sim/crew.hpp"
+#include "sim/frames_for_others.hpp"
+#include "sim/inhabitants.hpp"
+#include "sim/node_bus.hpp"
+#include "sim/robot.hpp"
+#include "sim/schedule.hpp"
+
+namespace vagus::sim {
+
+class NodeTurns {
+public:
+    using Heard = std::function<void(size_t robot, const wire::Frame& frame)>;
+
+    // `definition` and `bus` must outlive this.
+    NodeTurns(const WorldDefinition& definition, hub::Hub& bus, Heard heard);
+
+    // The places of all nodes on the bus, for good.
+    Status join(BusModel model);
+    // These are the robots now; what was on its way is gone. `inhabitants` must outlive this, or
+    // until the next ones move in.
+    void move_in(Inhabitants& inhabitants);
+
+    // What hosts have sent by `now` is on a modelled bus.
+    void accept(Time now);
+    // The nodes that are due at around.now: deliveries, sensors, scripts; what they send is
+    // delivered at the next instant. Robots that share nothing may have their turns on several
+    // threads; what they send leaves in the order of their ids.
+    void run(const Surroundings& around, Crew& crew);
+    // All nodes, while time stands still.
+    void hold();
+    // Variables to wheels.
+    void drive(Arena& arena, Time now);
+    // Something was done to the robot from outside: it is due.
+    void call(size_t robot);
+
+    void send_to(size_t robot, hub::LinkId host, const wire::Frame& frame);
+    std::optional<BusLoad> load() const;
+    hub::Hub* private_bus(size_t robot) { return private_buses_[robot].get(); }
+    void host_left(size_t robot);
+    // As they stand at `now`; empty if there is no such node.
+    std::span<const int16_t> variables_of(uint16_t node, Time now);
+    // How often a robot had its turn since the first one moved in.
+    uint64_t turns_taken() const { return turns_taken_; }
+
+private:
+    // One node's places on the bus.
+    struct Berth {
+        size_t robot = 0;          // index of the robot it belongs to
+        size_t place = 0;          // among its machines
+        hub::LinkId link;          // on the bus of all, if that is ideal
+        hub::LinkId private_link;  // on that behind the robot's own port, if it has one
+        FramesForOthers for_others = {};
+        bool sent_to = false;  // something may wait in its queues
+    };
+    // A robot, and which berths are those of its nodes.
+    struct Unit {
+        size_t robot = 0;
+        size_t first = 0;
+        size_t end = 0;
+        Time next{};  // when it is due again, as it said at the end of its turn
+    };
+    // How a frame leaves its node when the bus is modelled.
+    enum class Crossing : uint8_t { Timed, AtOnce };
+
+    Robot& robot(size_t index) { return *inhabitants_->robots()[index]; }
+    Machine& machine(const Berth& berth) { return *robot(berth.robot).machines()[berth.place]; }
+    bool is_waited_for(const Berth& berth, size_t index) const;
+    void call_receivers();
+    void take_turn(Unit& unit, const Surroundings& around);
+    void deliver(size_t index);
+    void collect(size_t index, Time now, Crossing crossing);
+    void drain(const Berth& berth);
+
+    const WorldDefinition& definition_;
+    hub::Hub& bus_;
+    Heard heard_;
+    Inhabitants* inhabitants_ = nullptr;
+    std::optional<NodeBus> node_bus_;  // between the nodes and `bus_`, if it is a Can
+    std::vector<Berth> berths_;        // by ascending node id
+    std::vector<Unit> units_;          // by ascending node id
+    std::vector<size_t> unit_of_;      // by index of the robot
+    std::vector<std::unique_ptr<hub::Hub>> private_buses_;  // by index of the robot
+    std::vector<size_t> looked_after_;  // berths whose queues tell nothing when they fill
+    Schedule schedule_;                 // of the units
+    std::vector<uint8_t> wheels_turn_;  // by index of the robot: its drive() has something new
+    uint64_t turns_taken_ = 0;
+};
+
+}  // namespace vagus::sim

@@ -72,7 +72,8 @@ void SimSession::end_instant() {
 
 bool SimSession::settle() {
     assert(now() == Time{});
-    for (Duration held{}; !settled() && held < kSettleWithin; held += kExchangeEvery) {
+    const Duration within = kSettleWithin + kSettleWithinMore * static_cast<int>(nodes_.size());
+    for (Duration held{}; !settled() && held < within; held += kExchangeEvery) {
         const std::vector<wire::Frame> delivered = take_frames();
         world_.hold_instant();
         listen(delivered);

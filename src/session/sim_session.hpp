@@ -38,7 +38,9 @@ constexpr size_t kLoadsAtOnce = 4;
 constexpr size_t kEventNamesMax = 256;  // different events that are counted; further ones only pass
 constexpr size_t kNotesMax = 10000;     // not taken yet; then the newest are dropped
 constexpr size_t kHeardMax = 10000;     // the same of take_heard()
-constexpr Duration kSettleWithin = std::chrono::seconds(5);  // of settle(), in which no time passes
+// Of settle(), in which no time passes: in all, and for each node more.
+constexpr Duration kSettleWithin = std::chrono::seconds(5);
+constexpr Duration kSettleWithinMore = std::chrono::milliseconds(20);
 
 struct SimOptions {
     sim::WorldOptions world;
@@ -104,7 +106,7 @@ public:
     void begin_instant();
     void end_instant();
     // At time 0: loads the scripts while the world stands still (docs/decisions/0083). False if not
-    // all of them are settled() within kSettleWithin.
+    // all of them are settled() within kSettleWithin and kSettleWithinMore.
     bool settle();
     Time now() const { return world_.now(); }
     // Time 0 again, and the same scripts are sent again.

@@ -165,13 +165,13 @@ void Robot::declare_commands() {
     desk_.command("event.send", [this](const Call& call) {
         if (!network_) return call.fail("unavailable", kNoRobot);
         const std::vector<int16_t> args = call.in["args"];
-        const Status sent = network_->emit(call.in["name"].get<std::string>(), args);
+        const std::string name = call.in["name"];
+        const Status sent = network_->emit(name, args);
         if (!sent.ok()) return call.fail(sent.error());
-        happen("event", 0, call.in["name"], "", args);
+        happen("event", 0, name, "", args);
         const auto& events = network_->common().events;
-        const auto named = std::find_if(events.begin(), events.end(), [&](const auto& one) {
-            return one.name == call.in["name"];
-        });
+        const auto named = std::find_if(events.begin(), events.end(),
+                                        [&name](const auto& one) { return one.name == name; });
         count_dropped(wire::kHostId, static_cast<uint16_t>(named - events.begin()));
         call.done();
     });

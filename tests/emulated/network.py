@@ -62,6 +62,22 @@ class Network(unittest.TestCase):
         self.assertEqual([int.from_bytes(words[2:4], "little") for words in sums], [1, 3, 6, 10, 15])
         self.assertEqual([int.from_bytes(words[0:2], "little") for words in sums], [2, 3, 4, 5, 6])
 
+    def examine(self, board):
+        port = listening(self.emulate(board))
+        wait_until("the board is not there", lambda: len(list_nodes(port)) == 1)
+        told = run_vagus("conformance", f"tcp:127.0.0.1:{port}", "--flash")
+        # Description in fragments, and events that are longer than its room to send.
+        self.assertRegex(told, rf'\n178 passed, 0 failed, 2 skipped: node 1 "{board}"')
+
+    def test_conformance_finds_no_fault_in_a_microbit(self):
+        self.examine("microbit")
+
+    def test_conformance_finds_no_fault_in_an_mps2(self):
+        self.examine("mps2-an385")
+
+    def test_conformance_finds_no_fault_in_an_atmega(self):
+        self.examine("atmega1284p")
+
     def test_boards_end_with_the_command_that_is_killed(self):
         program = self.emulate("microbit", "atmega1284p", "--count", 1)
         listening(program)

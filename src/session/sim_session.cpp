@@ -72,7 +72,7 @@ void SimSession::end_instant() {
 
 bool SimSession::settle() {
     assert(now() == Time{});
-    const Duration within = kSettleWithin + kSettleWithinMore * static_cast<int>(nodes_.size());
+    const Duration within = settles_within();
     for (Duration held{}; !settled() && held < within; held += kExchangeEvery) {
         const std::vector<wire::Frame> delivered = take_frames();
         world_.hold_instant();
@@ -80,6 +80,10 @@ bool SimSession::settle() {
         speak();
     }
     return settled();
+}
+
+Duration SimSession::settles_within() const {
+    return kSettleWithin + kSettleWithinMore * static_cast<int>(nodes_.size());
 }
 
 // What was sent before this instant reaches the host at it, as it does the nodes.

@@ -38,7 +38,7 @@ constexpr size_t kLoadsAtOnce = 4;
 constexpr size_t kEventNamesMax = 256;  // different events that are counted; further ones only pass
 constexpr size_t kNotesMax = 10000;     // not taken yet; then the newest are dropped
 constexpr size_t kHeardMax = 10000;     // the same of take_heard()
-// Of settle(), in which no time passes: in all, and for each node more.
+// Until all that was loaded runs: in all, and for each node more.
 constexpr Duration kSettleWithin = std::chrono::seconds(5);
 constexpr Duration kSettleWithinMore = std::chrono::milliseconds(20);
 
@@ -106,8 +106,10 @@ public:
     void begin_instant();
     void end_instant();
     // At time 0: loads the scripts while the world stands still (docs/decisions/0083). False if not
-    // all of them are settled() within kSettleWithin and kSettleWithinMore.
+    // all of them are settled() after settles_within().
     bool settle();
+    // By then everything is settled() that ever will be: kSettleWithin and kSettleWithinMore.
+    Duration settles_within() const;
     Time now() const { return world_.now(); }
     // Time 0 again, and the same scripts are sent again.
     void reset();

@@ -25,7 +25,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kTurn = 10ms;        // of the loop, in real time
-constexpr Duration kSettleWithin = 5s;  // simulated: robots describe themselves in far less
 constexpr Duration kHeadlessFor = 20s;  // simulated, unless --duration says otherwise
 Duration seconds(double value) {
     return Duration(std::llround(value * 1e6));
@@ -123,7 +122,9 @@ Status SimRun::open_trace() {
 
 bool SimRun::settle() {
     // Scripts that take longer to load than the run is to last are loaded all the same.
-    while (!session_.settled() && session_.now() < kSettleWithin) session_.step(sim::kNodeStep);
+    while (!session_.settled() && session_.now() < session_.settles_within()) {
+        session_.step(sim::kNodeStep);
+    }
     const std::vector<std::string> missing = session_.without_script();
     if (options_.watch || (missing.empty() && session_.mistakes().empty())) return true;
     lines_.tell(session_.take_notes());

@@ -123,11 +123,11 @@ void Workbench::declare_held_commands() {
     for (const auto& [name, act] : {std::pair("plan.held.go", "go"),
                                     {"plan.held.step", "step"},
                                     {"plan.held.drop", "drop"}}) {
-        desk_.command(name, [this, act = std::string(act)](const Call& call) {
+        desk_.command(name, [this, what = std::string(act)](const Call& call) {
             if (!run_.plan_runs()) return call.fail("unavailable", "no plan runs");
             std::optional<uint64_t> number;
             if (call.in.contains("number")) number = static_cast<uint64_t>(call.in["number"]);
-            run_.handle_held(act, number, [call](const std::string& why) {
+            run_.handle_held(what, number, [call](const std::string& why) {
                 if (why.empty()) return call.done();
                 call.fail("conflict", why);
             });

@@ -6,7 +6,8 @@
 namespace vagus::debug {
 namespace {
 
-constexpr int kDueMax = 3;  // answers that were lost do not hide later ones for long
+// So many hosts may ask at once. Answers that were lost hide later ones for as long: not more.
+constexpr int kDueMax = 8;
 constexpr int kSurplusRounds = 2;
 
 }  // namespace

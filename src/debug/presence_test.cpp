@@ -51,13 +51,25 @@ TEST(SharedId, QuestionsOfOtherHostsAllowFurtherAnswers) {
     EXPECT_TRUE(bus.told<NodeIdShared>().empty());
 }
 
-// Answers that were late or lost: at most three are made up for, then the second node shows.
-TEST(SharedId, LostAnswersHideTheOtherNodeForThreeAnswersOnly) {
+// Their questions come before the first answer does, round after round.
+TEST(SharedId, EightHostsMayAskAtOnce) {
+    ScriptedBus bus;
+    for (int round = 0; round < 5; round++) {
+        bus.network.list_nodes();
+        for (int host = 1; host < 8; host++) bus.node_says("02 00 00 00 11 a0 05 00");
+        for (int answer = 0; answer < 8; answer++) bus.node_says(kPresent1);
+        EXPECT_FALSE(bus.network.doubts_an_id()) << round;
+    }
+    EXPECT_TRUE(bus.told<NodeIdShared>().empty());
+}
+
+// Answers that were late or lost: at most eight are made up for, then the second node shows.
+TEST(SharedId, LostAnswersHideTheOtherNodeForEightAnswersOnly) {
     ScriptedBus bus;
     bus.network.list_nodes();
     bus.node_says(kPresent1);
     for (int lost = 0; lost < 10; lost++) bus.network.list_nodes();
-    for (int answer = 0; answer < 3; answer++) bus.node_says(kPresent1);
+    for (int answer = 0; answer < 8; answer++) bus.node_says(kPresent1);
     EXPECT_FALSE(bus.network.doubts_an_id());
     bus.node_says(kPresent1);
     EXPECT_TRUE(bus.network.doubts_an_id());

@@ -88,7 +88,7 @@ void Network::Impl::receive(Time now, const wire::Frame& frame) {
     out.now = std::max(out.now, now);
     if (wire::is_user_event(frame.type)) return receive_event(frame);
     if (wire::is_command(frame.type)) return receive_command(frame);
-    if (frame.type == static_cast<uint16_t>(wire::MessageType::ListNodes)) presences.asked();
+    if (frame.type == static_cast<uint16_t>(wire::MessageType::ListNodes)) presences.asked(out.now);
     if (frame.source == wire::kHostId || frame.source == wire::kInvalidId) return;
     receive_node(frame);
     give_turns();
@@ -115,7 +115,7 @@ void Network::Impl::receive_node(const wire::Frame& frame) {
             malformed++;
         } else if (Peer* met = meet(frame.source, present.version)) {
             met->seen();
-            if (presences.answered(frame.source)) tell_shared(frame.source, "");
+            if (presences.answered(frame.source, out.now)) tell_shared(frame.source, "");
         }
         return;
     }
@@ -213,7 +213,7 @@ void Network::Impl::tick(Time now) {
 
 void Network::Impl::list_nodes() {
     next_list_ = out.now + kListEvery;
-    presences.asked();
+    presences.asked(out.now);
     wire::ListNodes list{};
     list.version = wire::kProtocolVersion;
     out.send(list);

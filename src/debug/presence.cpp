@@ -12,14 +12,24 @@ constexpr int kSurplusRounds = 2;
 
 }  // namespace
 
-void Presences::asked() {
+void Presences::asked(Time now) {
     ++round_;
     doubtful_ = false;
+    questions_.push_back(now);
+    if (questions_.size() > kDueMax) questions_.pop_front();
     for (auto& [id, presence] : nodes_) presence.due = std::min(presence.due + 1, kDueMax);
 }
 
-bool Presences::answered(NodeId id) {
-    Presence& presence = nodes_[id];
+bool Presences::answered(NodeId id, Time now) {
+    const auto [known, is_new] = nodes_.try_emplace(id);
+    Presence& presence = known->second;
+    if (is_new) {
+        const auto recent = std::count_if(questions_.begin(), questions_.end(), [now](Time asked) {
+            return now - asked < kAnswersWithin;
+        });
+        // Of a question that came before we listened, perhaps.
+        presence.due = std::max(1, static_cast<int>(recent));
+    }
     if (presence.due > 0) {
         --presence.due;
         return false;

@@ -4,6 +4,7 @@
 // another host asked before we listened.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <string>
 
@@ -13,13 +14,14 @@
 namespace vagus::debug {
 
 constexpr Duration kNamesWithin = std::chrono::milliseconds(1000);
+constexpr Duration kAnswersWithin = std::chrono::milliseconds(1000);  // of a node that is new
 
 class Presences {
 public:
     // Somebody asked who is there: one more answer of each node is in order.
-    void asked();
+    void asked(Time now);
     // True if it is certain now, and was not before.
-    bool answered(NodeId id);
+    bool answered(NodeId id, Time now);
     // A header of a description came. The other name if it is certain now, and was not before.
     std::string named(NodeId id, const std::string& name, Time now);
     void forget(NodeId id) { nodes_.erase(id); }
@@ -37,6 +39,7 @@ private:
     };
 
     std::map<NodeId, Presence> nodes_;  // of those that are known: at most kNodesMax
+    std::deque<Time> questions_;        // the last ones: a node that is new answers them, too
     uint32_t round_ = 1;
     bool doubtful_ = false;
 };

@@ -2,7 +2,7 @@
 // actors at once, and drawing them takes its time.
 
 import { useStore } from '@xyflow/react';
-import { createContext, useContext } from 'react';
+import { createContext, useContext, useEffect, useState } from 'react';
 
 /** names: letters of names grow, those of states and events go; far: boxes and lines only. */
 export type Distance = 'near' | 'names' | 'far';
@@ -23,6 +23,18 @@ export function useDistance(nodes: number): Distance {
     return many && zoom < kBlurred ? 'far' : 'names';
   });
 }
+
+/** False at first: what of a large plan is drawn only once the plan itself is. */
+export function useAfterwards(): boolean {
+  const [is, become] = useState(false);
+  useEffect(() => {
+    const timer = setTimeout(() => become(true), kAfterwardsMs);
+    return () => clearTimeout(timer);
+  }, []);
+  return is;
+}
+
+const kAfterwardsMs = 500;
 
 export const DistanceContext = createContext<Distance>('near');
 

@@ -20,7 +20,7 @@ import { ArrowsLayer } from './arrows_layer';
 import { kFit, useFitted, useKeptFocus, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { CanvasContexts } from './canvas_contexts';
 import { ConnectMenu } from './connect_menu';
-import { kManyNodes, useDistance } from './distance';
+import { kManyNodes, useAfterwards, useDistance } from './distance';
 import { ElementMenu } from './element_menu';
 import { FindBar } from './find_bar';
 import type { PlanNode } from './flow_nodes';
@@ -51,6 +51,7 @@ function Canvas({ board }: { board: PlanBoard }) {
   useBoard(board);
   const nodes = useNodes(board, drives);
   const distance = useDistance(nodes.length);
+  const map = useAfterwards() || nodes.length <= kManyNodes;
   const frame = useRef<HTMLDivElement>(null);
   const keep = useKeptFocus(frame, nodes);
   const [finds, setFinds] = useState(false);
@@ -113,7 +114,7 @@ function Canvas({ board }: { board: PlanBoard }) {
             <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
           )}
           <ArrowsLayer board={board} allData={options.data} />
-          {options.map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
+          {options.map && map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
         </ReactFlow>
         {board.model.actors.length === 0 ? <p className="pcanvas__empty">{words.empty}</p> : null}
         {finds ? (

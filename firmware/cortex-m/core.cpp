@@ -1,6 +1,7 @@
 // What every Cortex-M has: the way from power to main(), interrupts on and off, sleep, restart.
 #include "firmware/board.hpp"
 #include "firmware/cortex-m/registers.hpp"
+#include "firmware/cortex-m/vectors.hpp"
 
 int main();
 

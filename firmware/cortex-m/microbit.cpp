@@ -3,6 +3,7 @@
 // the board.
 #include "firmware/board.hpp"
 #include "firmware/cortex-m/registers.hpp"
+#include "firmware/cortex-m/vectors.hpp"
 
 namespace vagus {
 namespace board {
@@ -174,10 +175,6 @@ uint32_t read_slot(uint8_t slot, uint16_t at) {
 
 extern "C" {
 
-void start();
-void fault();
-extern uint32_t stack_top;
-
 static void on_uart() {
     using namespace vagus;
     using namespace vagus::board;
@@ -199,7 +196,6 @@ static void on_timer() {
     on_uart();
 }
 
-typedef void (*Handler)();
 // Stack pointer, start, NMI, HardFault, … ; interrupt n is entry 16 + n.
 __attribute__((section(".vectors"), used))
 const Handler kVectors[16 + 9] = {reinterpret_cast<Handler>(&stack_top),

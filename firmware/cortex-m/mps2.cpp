@@ -4,6 +4,7 @@
 // loss of power.
 #include "firmware/board.hpp"
 #include "firmware/cortex-m/registers.hpp"
+#include "firmware/cortex-m/vectors.hpp"
 
 namespace vagus {
 namespace board {
@@ -107,10 +108,6 @@ uint32_t read_slot(uint8_t slot, uint16_t at) {
 
 extern "C" {
 
-void start();
-void fault();
-extern uint32_t stack_top;
-
 static void on_received() {
     using namespace vagus;
     using namespace vagus::board;
@@ -129,7 +126,6 @@ static void on_tick() {
     vagus::board::milliseconds = vagus::board::milliseconds + 1;
 }
 
-typedef void (*Handler)();
 // Stack pointer, start, NMI, HardFault, … ; interrupt n is entry 16 + n.
 __attribute__((section(".vectors"), used))
 const Handler kVectors[16 + 2] = {reinterpret_cast<Handler>(&stack_top),

@@ -1,6 +1,9 @@
 #include "maker.hpp"
 
+#include <cstdlib>
 #include <iterator>
+#include <random>
+#include <utility>
 
 #include "isa/isa.hpp"
 #include "machine.hpp"
@@ -220,6 +223,18 @@ uint16_t make_value(SplitMix64& rng) {
         default:
             return static_cast<uint16_t>(rng.next());
     }
+}
+
+MadeEvent make_event(SplitMix64& rng) {
+    std::vector<uint16_t> arguments(rng.below(Geometry::kArguments + 3));
+    for (uint16_t& argument : arguments) argument = make_value(rng);
+    const uint16_t source = make_value(rng);
+    return {source, static_cast<uint16_t>(rng.below(3)), std::move(arguments)};
+}
+
+uint64_t seed() {
+    if (const char* given = std::getenv("VAGUS_SEED")) return std::strtoull(given, nullptr, 0);
+    return std::random_device{}();
 }
 
 }  // namespace vagus::vm_peer

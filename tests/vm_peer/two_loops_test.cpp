@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <random>
 
 #include "isa/isa.hpp"
 #include "maker.hpp"
@@ -110,12 +109,9 @@ private:
     }
 
     void event() {
-        std::vector<uint16_t> arguments(rng_.below(Geometry::kArguments + 3));
-        for (uint16_t& argument : arguments) argument = make_value(rng_);
-        const uint16_t source = make_value(rng_);
-        const auto type = static_cast<uint16_t>(rng_.below(3));
-        small_.receive_event(source, type, arguments);
-        fast_.receive_event(source, type, arguments);
+        const MadeEvent made = make_event(rng_);
+        small_.receive_event(made.source, made.type, made.arguments);
+        fast_.receive_event(made.source, made.type, made.arguments);
     }
 
     void local_event() {
@@ -169,11 +165,6 @@ private:
     uint16_t fast_done_ = 0;
     long instructions_ = 0;
 };
-
-uint64_t seed() {
-    if (const char* given = std::getenv("VAGUS_SEED")) return std::strtoull(given, nullptr, 0);
-    return std::random_device{}();
-}
 
 }  // namespace
 

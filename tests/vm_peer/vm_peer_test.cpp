@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <random>
 
 #include "isa/isa.hpp"
 #include "maker.hpp"
@@ -74,12 +73,9 @@ private:
     }
 
     bool event() {
-        std::vector<uint16_t> arguments(rng_.below(Geometry::kArguments + 3));
-        for (uint16_t& argument : arguments) argument = make_value(rng_);
-        const uint16_t source = make_value(rng_);
-        const uint16_t type = static_cast<uint16_t>(rng_.below(3));
-        ours_.receive_event(source, type, arguments);
-        return compare(peer_.receive_event(source, type, arguments));
+        const MadeEvent made = make_event(rng_);
+        ours_.receive_event(made.source, made.type, made.arguments);
+        return compare(peer_.receive_event(made.source, made.type, made.arguments));
     }
 
     bool local_event() {
@@ -232,11 +228,6 @@ private:
     State before_;
     int instructions_ = 0;
 };
-
-uint64_t seed() {
-    if (const char* given = std::getenv("VAGUS_SEED")) return std::strtoull(given, nullptr, 0);
-    return std::random_device{}();
-}
 
 void compare_programs(Loop loop) {
     const uint64_t first = seed();

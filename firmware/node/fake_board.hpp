@@ -17,7 +17,7 @@ namespace vagus::firmware {
 constexpr uint16_t kTestBytecode = 600;
 constexpr uint16_t kTestVariables = 200;
 constexpr uint16_t kTestStack = 32;
-constexpr size_t kTestSlotBytes = 12 + 2 * kTestBytecode;
+constexpr size_t kTestSlotBytes = kSlotOverhead + 2 * kTestBytecode;
 
 // What outlives a restart, and how it dies.
 struct TestSlots {

@@ -33,8 +33,7 @@ constexpr uint16_t kInstructionsPerFrame = 1000;
 // A piece of the variables, as robots with a small radio send them (section 1.3).
 constexpr uint16_t kVariablesAtOnce = 47;
 // No piece, and no answer to one command, is longer: a test looks at the whole description.
-constexpr uint8_t kAnswerMax = 116;
-constexpr uint16_t kNoDescription = 0x7fff;
+constexpr uint16_t kAnswerMax = 116;
 
 // All zero at the start.
 struct Firmware {
@@ -44,19 +43,12 @@ struct Firmware {
     node::Node node;
     vm::Config config;
     uint16_t breakpoints[vm::kBreakpointsMax];
-    uint16_t program_words;    // as far as hosts have written
-    uint16_t next_fragment;    // of the description; kNoDescription if none is asked for
-    uint16_t variables_start;  // of those that are to be sent …
-    uint16_t variables_count;  // … and how many there are
-    uint16_t executed;         // instructions since the last frame
-    uint16_t timer_period;     // as it was last looked at
-    uint16_t timer_began;      // low half of the time
-    uint16_t shown_dropped;    // in the variable _dropped
-    uint16_t shown_skipped;    // in the variable _skipped
-    uint16_t buttons;          // as they were last looked at
-    uint8_t pending;           // local events, a bit for each
-    bool took_frame;           // in the last turn: there may be more
-    bool restarts;             // once nothing is being saved
+    uint16_t executed;     // instructions since the last frame
+    uint16_t timer_began;  // low half of the time
+    uint16_t buttons;      // as they were last looked at
+    uint8_t pending;       // local events, a bit for each
+    bool took_frame;       // in the last turn: there may be more
+    bool restarts;         // once nothing is being saved
 };
 
 void start(Firmware& firmware);

@@ -16,7 +16,7 @@ namespace board {
 // Clock, pins, serial line (8N1) and a clock of milliseconds; interrupts are on when it returns.
 void begin();
 // Milliseconds since begin(). Wraps.
-uint32_t now_ms();
+uint16_t now_ms();
 
 // Interrupts off; gives what release() needs to make it as it was.
 uint8_t hold();
@@ -40,7 +40,7 @@ void restart();
 
 // ---- The memory that outlasts a restart: two slots of kSlotBytes each ----
 
-// From now on no read gives what was there; the first 12 bytes are gone when it returns.
+// From now on no read gives what was there; the first four bytes are gone when it returns.
 void erase_slot(uint8_t slot);
 // Bytes at .. at + 3 of a slot that has been erased; `at` is a multiple of 4. Each place is written
 // once.
@@ -51,10 +51,10 @@ uint32_t read_slot(uint8_t slot, uint16_t at);
 // ----
 
 struct Memory {
-    uint16_t* bytecode;  // a slot holds 12 bytes and the whole bytecode
+    uint16_t* bytecode;  // a slot holds 8 bytes and the whole bytecode
     int16_t* variables;
     int16_t* stack;
-    uint16_t bytecode_size;
+    uint16_t bytecode_size;  // even
     uint16_t variables_size;
     uint16_t stack_size;
 };

@@ -66,13 +66,13 @@ constexpr uint32_t kIdOfMaker = kSlotsAt - 4;  // written there with the program
 constexpr uint32_t kUartInterrupt = 2;
 constexpr uint32_t kTimerInterrupt = 8;
 
-volatile uint32_t milliseconds;
+volatile uint16_t milliseconds;
 volatile bool sending;
 
 constexpr uint16_t kBytecodeWords = 2000;
 constexpr uint16_t kVariablesWords = 1000;
 constexpr uint16_t kStackWords = 64;
-static_assert(12 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
+static_assert(8 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
 uint16_t bytecode[kBytecodeWords];
 int16_t variables[kVariablesWords];
 int16_t stack[kStackWords];
@@ -125,7 +125,7 @@ void begin() {
     register_at(kInterruptSetEnable) = (1 << kUartInterrupt) | (1 << kTimerInterrupt);
 }
 
-uint32_t now_ms() {
+uint16_t now_ms() {
     return milliseconds;
 }
 

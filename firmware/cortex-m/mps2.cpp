@@ -33,12 +33,12 @@ constexpr uint32_t kSlotsAt = 0x00300000;
 constexpr uint32_t kSlotBytes = 0x4000;
 constexpr uint32_t kIdOfMaker = 0x003ffffc;
 
-volatile uint32_t milliseconds;
+volatile uint16_t milliseconds;
 
 constexpr uint16_t kBytecodeWords = 4000;
 constexpr uint16_t kVariablesWords = 2000;
 constexpr uint16_t kStackWords = 64;
-static_assert(12 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
+static_assert(8 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
 uint16_t bytecode[kBytecodeWords];
 int16_t variables[kVariablesWords];
 int16_t stack[kStackWords];
@@ -66,7 +66,7 @@ void begin() {
     register_at(kInterruptSetEnable) = 3;  // 0: received, 1: sent
 }
 
-uint32_t now_ms() {
+uint16_t now_ms() {
     return milliseconds;
 }
 
@@ -90,9 +90,7 @@ uint16_t first_id() {
 
 // What a flash would read after it was erased.
 void erase_slot(uint8_t slot) {
-    for (uint16_t at = 0; at < 12; at = static_cast<uint16_t>(at + 4)) {
-        register_at(address_of(slot, at)) = 0xffffffff;
-    }
+    write_slot(slot, 0, 0xffffffff);
 }
 
 void write_slot(uint8_t slot, uint16_t at, uint32_t value) {

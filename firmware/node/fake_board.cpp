@@ -126,8 +126,8 @@ void begin() {
     std::fill(std::begin(bytecode), std::end(bytecode), uint16_t{0});
     std::fill(std::begin(variables), std::end(variables), int16_t{0});
 }
-uint32_t now_ms() {
-    return here().now_ms;
+uint16_t now_ms() {
+    return static_cast<uint16_t>(here().now_ms);
 }
 uint8_t hold() {
     return 0;
@@ -151,7 +151,7 @@ void restart() {
 }
 
 void erase_slot(uint8_t slot) {
-    for (uint16_t at = 0; at < 12; ++at) here().slots.write(slot, at, 0xff);
+    write_slot(slot, 0, 0xffffffff);
 }
 void write_slot(uint8_t slot, uint16_t at, uint32_t value) {
     for (uint16_t i = 0; i < 4; ++i) {

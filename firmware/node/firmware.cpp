@@ -155,7 +155,7 @@ void start(Firmware& firmware) {
 }
 
 void turn(Firmware& firmware) {
-    const uint16_t now_ms = static_cast<uint16_t>(board::now_ms());
+    const uint16_t now_ms = board::now_ms();
     take_frame(firmware, now_ms);
     look_at_timer(firmware, now_ms);
     look_at_buttons(firmware);

@@ -37,18 +37,18 @@ constexpr uint16_t kAnswerMax = 116;
 
 // All zero at the start.
 struct Firmware {
-    Receiver receiver;
-    Sender sender;
-    Store store;
     node::Node node;
-    vm::Config config;
-    uint16_t breakpoints[vm::kBreakpointsMax];
     uint16_t executed;     // instructions since the last frame
     uint16_t timer_began;  // low half of the time
     uint16_t buttons;      // as they were last looked at
     uint8_t pending;       // local events, a bit for each
     bool took_frame;       // in the last turn: there may be more
     bool restarts;         // once nothing is being saved
+    Store store;
+    vm::Config config;
+    uint16_t breakpoints[vm::kBreakpointsMax];
+    Sender sender;
+    Receiver receiver;
 };
 
 void start(Firmware& firmware);

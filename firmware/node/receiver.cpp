@@ -13,6 +13,7 @@ using wire::kHeaderSize;
 
 // Types of section 2 are the first few of each range: 0x8000, 0x9000, 0xa000.
 constexpr uint16_t kTypeNumberBits = 0x001f;
+constexpr uint16_t kBootloader = 0x8000;
 constexpr uint16_t kNodeMessages = 0x9000;
 constexpr uint16_t kCommands = 0xa000;
 
@@ -24,42 +25,39 @@ constexpr uint16_t kLikelyType = 4096;
 
 enum class Verdict : uint8_t { Frame, Wait, Wrong };
 
-struct Header {
-    uint16_t size;
-    uint16_t source;
-    uint16_t type;
-};
-
-const uint8_t* bytes_of(const Receiver& receiver) {
-    return reinterpret_cast<const uint8_t*>(receiver.row);
-}
-
+// Of a header, which may begin at an odd place.
 uint16_t word_at(const uint8_t* bytes) {
     return static_cast<uint16_t>(bytes[0] | (bytes[1] << 8));
 }
-
-Header header_at(const Receiver& receiver, uint16_t at) {
-    const uint8_t* bytes = bytes_of(receiver) + at;
-    return {word_at(bytes), word_at(bytes + 2), word_at(bytes + 4)};
+uint16_t size_of(const uint8_t* header) {
+    return word_at(header);
+}
+uint16_t source_of(const uint8_t* header) {
+    return word_at(header + 2);
+}
+uint16_t type_of(const uint8_t* header) {
+    return word_at(header + 4);
 }
 
 // Bytes of a command, read one place too early or too late, look like an event of a strange node;
 // six zeros stand inside of many a frame.
-bool is_likely(const Header& header) {
-    if (wire::is_user_event(header.type)) {
-        return header.size <= kLikelySize && header.size % 2 == 0 &&
-               header.source < kLikelySource && header.type < kLikelyType &&
-               (header.size | header.source | header.type) != 0;
+bool is_likely(const uint8_t* header) {
+    const uint16_t size = size_of(header);
+    const uint16_t source = source_of(header);
+    const uint16_t type = type_of(header);
+    if (wire::is_user_event(type)) {
+        return size <= kLikelySize && size % 2 == 0 && source < kLikelySource &&
+               type < kLikelyType && (size | source | type) != 0;
     }
-    if (header.size > wire::kPayloadMax || header.source == wire::kInvalidId) return false;
-    const uint16_t range = static_cast<uint16_t>(header.type & ~kTypeNumberBits);
-    if (range == kCommands) return header.size >= 2 && header.source == wire::kHostId;
-    return range == 0x8000 || (range == kNodeMessages && header.source != wire::kHostId);
+    if (size > wire::kPayloadMax || source == wire::kInvalidId) return false;
+    const uint16_t range = static_cast<uint16_t>(type & ~kTypeNumberBits);
+    if (range == kCommands) return size >= 2 && source == wire::kHostId;
+    return range == kBootloader || (range == kNodeMessages && source != wire::kHostId);
 }
 
-bool needs_witness(const Header& header, bool doubt) {
+bool needs_witness(const uint8_t* header, bool doubt) {
     return doubt || !is_likely(header) ||
-           header.type == static_cast<uint16_t>(wire::MessageType::SetBytecode);
+           type_of(header) == static_cast<uint16_t>(wire::MessageType::SetBytecode);
 }
 
 // Is there a frame at the front? `quiet_ms` since the last byte.
@@ -69,14 +67,14 @@ Verdict judge(const Receiver& receiver, uint16_t have, uint16_t quiet_ms, uint16
         quiet_ms < (doubt ? kWitness_ms : kBroken_ms) && frame_ms < kFrameWithin_ms;
     const Verdict unfinished = more_may_come ? Verdict::Wait : Verdict::Wrong;
     if (have < kHeaderSize) return unfinished;
-    const Header header = header_at(receiver, receiver.begin);
-    if (header.size > wire::kPayloadMax || (doubt && !is_likely(header))) return Verdict::Wrong;
-    const uint16_t size = static_cast<uint16_t>(kHeaderSize + header.size);
+    const uint8_t* const header =
+        reinterpret_cast<const uint8_t*>(receiver.row) + receiver.begin;
+    if (size_of(header) > wire::kPayloadMax || (doubt && !is_likely(header))) return Verdict::Wrong;
+    const uint16_t size = static_cast<uint16_t>(kHeaderSize + size_of(header));
     if (have < size) return unfinished;
     if (!needs_witness(header, doubt)) return Verdict::Frame;
     if (have >= size + kHeaderSize) {
-        const Header witness = header_at(receiver, static_cast<uint16_t>(receiver.begin + size));
-        return is_likely(witness) ? Verdict::Frame : Verdict::Wrong;
+        return is_likely(header + size) ? Verdict::Frame : Verdict::Wrong;
     }
     return have == size && quiet_ms >= kWitness_ms ? Verdict::Frame : unfinished;
 }

@@ -37,7 +37,6 @@ constexpr uint16_t kWordsMax = wire::kPayloadMax / 2;
 
 // All zero at the start. Times are the low half of those of the board.
 struct Receiver {
-    uint16_t row[kReceiveRoom / 2];  // words, so that those of a frame can be read where they lie
     volatile uint16_t end;           // bytes in the row; the interrupt counts up
     volatile uint16_t lost;          // bytes that found no room
     uint16_t begin;                  // the first byte that was not used yet
@@ -46,6 +45,7 @@ struct Receiver {
     uint16_t began_ms;               // when the frame in front came to the front
     uint16_t skipped;                // bytes that belonged to no frame; wraps
     bool doubt;                      // something was wrong, and no frame with a witness came since
+    uint16_t row[kReceiveRoom / 2];  // words, so that those of a frame can be read where they lie
 };
 
 struct Received {

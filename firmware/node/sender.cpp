@@ -1,21 +1,13 @@
 #include "firmware/node/sender.hpp"
 
+#include <stddef.h>
+
 namespace vagus {
 namespace firmware {
 
-namespace {
-
-void put(Sender& sender, uint8_t& head, uint8_t byte) {
-    sender.ring[head] = byte;
-    head = static_cast<uint8_t>(head + 1);
-}
-
-void put_word(Sender& sender, uint8_t& head, uint16_t word) {
-    put(sender, head, static_cast<uint8_t>(word & 0xff));
-    put(sender, head, static_cast<uint8_t>(word >> 8));
-}
-
-}  // namespace
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ &&
+                  offsetof(wire::Frame, payload) == wire::kHeaderSize,
+              "a frame lies in memory as it is sent");
 
 bool has_room(const Sender& sender, uint16_t size) {
     return size <= static_cast<uint8_t>(sender.tail - sender.head - 1);
@@ -24,13 +16,11 @@ bool has_room(const Sender& sender, uint16_t size) {
 // The interrupt sees nothing of the frame before it is whole.
 bool queue(Sender& sender, const wire::Frame& frame) {
     const uint16_t left_free = wire::is_user_event(frame.type) ? kRoomOfMessages : 0;
-    if (!has_room(sender, static_cast<uint16_t>(wire::kHeaderSize + frame.size + left_free)))
-        return false;
+    const uint16_t size = static_cast<uint16_t>(wire::kHeaderSize + frame.size);
+    if (!has_room(sender, static_cast<uint16_t>(size + left_free))) return false;
+    const uint8_t* const bytes = reinterpret_cast<const uint8_t*>(&frame);
     uint8_t head = sender.head;
-    put_word(sender, head, frame.size);
-    put_word(sender, head, frame.source);
-    put_word(sender, head, frame.type);
-    for (uint16_t i = 0; i < frame.size; ++i) put(sender, head, frame.payload[i]);
+    for (uint16_t i = 0; i < size; ++i) sender.ring[head++] = bytes[i];
     sender.head = head;
     return true;
 }

@@ -22,9 +22,9 @@ constexpr uint16_t kRoomOfMessages = 128;
 
 // All zero at the start. The interrupt moves `tail`, the loop moves `head`.
 struct Sender {
-    uint8_t ring[kSendRoom];
     volatile uint8_t head;
     volatile uint8_t tail;
+    uint8_t ring[kSendRoom];
 };
 
 // False if there is no room.

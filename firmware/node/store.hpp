@@ -1,17 +1,15 @@
-// The program and the node's id over a restart, in the two slots that a board keeps (board.hpp). A
-// slot is
+// The bytecode and the node's id over a restart, in the two slots that a board keeps (board.hpp). A
+// slot is, in units of four bytes,
 //
-//     byte 0   u16 number: of two whole slots the later one counts
-//     byte 2   u16 id of the node
-//     byte 4   u16 pairs of words of the program
-//     byte 6   u16 kSlotMark
-//     byte 8   the program, up to its last word that is not zero
-//     then     u32 CRC-32 of all before
+//     number of the save (u16), id of the node (u16)
+//     all words of the bytecode, in pairs
+//     CRC-32 of all before
 //
-// A save goes to the slot that does not count, and writes its CRC last. So when the power goes, at
-// whatever byte, one slot is as it was: the node starts the program it had, or the new one, never a
-// piece. Saving takes one step for each turn of the loop; a new program that comes in between ends
-// it, and nothing has changed.
+// and is kept inverted: what is zero, as most of a bytecode is, stays as it was erased. A save goes
+// to the slot that does not count, and writes its CRC last. So when the power goes, at whatever byte,
+// one slot is as it was: the node starts the program it had, or the new one, never a piece. Saving
+// takes one step for each turn of the loop; a new program that comes in between ends it, and nothing
+// has changed.
 #pragma once
 
 #include <stdint.h>
@@ -19,24 +17,21 @@
 namespace vagus {
 namespace firmware {
 
-constexpr uint16_t kSlotMark = 0x7642;  // "Bv"
-constexpr uint16_t kSlotOverhead = 12;  // bytes beside the program
+constexpr uint16_t kSlotOverhead = 8;  // bytes beside the bytecode
 constexpr uint8_t kSlots = 2;
 
 // All zero at the start.
 struct Store {
-    uint16_t number;    // of the slot that counts
+    uint16_t number;    // of the last save
     uint16_t id;        // that is being saved
-    uint16_t pairs;     // of words, that are being saved
-    uint16_t at;        // pairs written, header included
+    uint16_t at;        // units written
     uint32_t checksum;  // so far
     uint8_t slot;       // that the next save goes to
     bool is_saving;
 };
 
-// Reads the program that counts into the board's bytecode, which is zero before; gives the id that
-// was saved with it. 0 if there is none: then the bytecode is zero. To be called once, before any
-// save.
+// Reads what was saved last into the board's bytecode; gives the id that was saved with it. 0 if
+// there is nothing: then the bytecode is that of no program. To be called once, before any save.
 uint16_t load(Store& store);
 
 // The board's bytecode is going to be saved.

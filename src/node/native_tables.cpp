@@ -10,8 +10,8 @@ namespace node {
 namespace {
 
 bool find(const Node& node, uint16_t id, Native& native) {
-    const Description description = flash_read(node.description);
-    for (const NativeTable& table : description.natives) {
+    for (const NativeTable& in_flash : node.description->natives) {
+        const NativeTable table = flash_read(&in_flash);
         if (id < table.count) {
             native = flash_read(table.natives + id);
             return true;
@@ -37,7 +37,8 @@ void write_native(Message& message, const Native& native, uint16_t text_limit) {
 }  // namespace
 
 uint16_t native_count(const Description& description) {
-    return static_cast<uint16_t>(description.natives[0].count + description.natives[1].count);
+    return static_cast<uint16_t>(flash_read(&description.natives[0].count) +
+                                 flash_read(&description.natives[1].count));
 }
 
 // Long names of many parameters do not fit one frame. Then all texts are cut, until they do: at 7

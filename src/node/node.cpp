@@ -74,7 +74,7 @@ void notify(vm::Vm& vm, vm::Notice notice) {
 // ---- Commands about the description ----
 
 void answer_presence(Node& node) {
-    const uint16_t version = flash_read(node.description).protocol_version;
+    const uint16_t version = flash_read(&node.description->protocol_version);
     send(node.vm, static_cast<uint16_t>(MessageType::NodePresent), &version, 1);
 }
 
@@ -141,8 +141,7 @@ void answer(Node& node) {
 void local_event(Node& node, uint16_t index) {
     if (vm::is_paused_in_event(node.vm)) return;
     const vm::Config& machine = *node.vm.config;
-    const Description description = flash_read(node.description);
-    if (description.local_event_source == LocalEventSource::OwnId &&
+    if (flash_read(&node.description->local_event_source) == LocalEventSource::OwnId &&
         vm::kSourceAddress < machine.variables_size) {
         machine.variables[vm::kSourceAddress] = static_cast<int16_t>(machine.id);
     }

@@ -8,6 +8,8 @@
 
 #include <stdint.h>
 
+#include "vm/vm.hpp"
+
 namespace vagus {
 namespace board {
 
@@ -47,18 +49,9 @@ void erase_slot(uint8_t slot);
 void write_slot(uint8_t slot, uint16_t at, uint32_t value);
 uint32_t read_slot(uint8_t slot, uint16_t at);
 
-// ---- The machine's memories, in words, and the node's name: as the board's RAM and slots allow
-// ----
+// ---- The machine and its memories (firmware/node/machine.hpp), and the node's name ----
 
-struct Memory {
-    uint16_t* bytecode;  // a slot holds 8 bytes and the whole bytecode
-    int16_t* variables;
-    int16_t* stack;
-    uint16_t bytecode_size;  // even
-    uint16_t variables_size;
-    uint16_t stack_size;
-};
-extern const Memory kMemory;
+extern const vm::Config kMachine;
 extern const char kName[];  // in flash on an AVR
 
 // ---- Called by the board from its interrupts ----

@@ -6,6 +6,7 @@
 #include <avr/sleep.h>
 
 #include "firmware/board.hpp"
+#include "firmware/node/machine.hpp"
 #include "isa/flash.hpp"
 
 namespace vagus {
@@ -27,11 +28,10 @@ volatile uint16_t milliseconds;
 constexpr uint16_t kBytecodeWords = 1000;
 constexpr uint16_t kVariablesWords = 1000;
 constexpr uint16_t kStackWords = 64;
-static_assert(8 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
+static_assert(firmware::kSlotOverhead + 2 * kBytecodeWords <= kSlotBytes,
+              "a slot holds the whole bytecode");
 static_assert(2 * kSlotBytes <= kIdOfMaker, "both slots fit before the number of the maker");
-uint16_t bytecode[kBytecodeWords];
-int16_t variables[kVariablesWords];
-int16_t stack[kStackWords];
+firmware::Memories<kBytecodeWords, kVariablesWords, kStackWords> memories;
 
 uint8_t* place_of(uint8_t slot, uint16_t at) {
     return reinterpret_cast<uint8_t*>(slot * kSlotBytes + at);
@@ -39,7 +39,7 @@ uint8_t* place_of(uint8_t slot, uint16_t at) {
 
 }  // namespace
 
-const Memory kMemory = {bytecode, variables, stack, kBytecodeWords, kVariablesWords, kStackWords};
+const vm::Config kMachine = firmware::machine_of(memories);
 VAGUS_FLASH_TEXT(kName, "atmega1284p");
 
 void begin() {

@@ -9,7 +9,8 @@ extern "C" __attribute__((used)) uint64_t __aeabi_idivmod(int32_t dividend, int3
         return a < 0 ? 0u - static_cast<uint32_t>(a) : static_cast<uint32_t>(a);
     };
     const uint32_t below = magnitude(divisor);
-    uint32_t quotient = magnitude(dividend);  // its bits leave above, those of the result come below
+    uint32_t quotient =
+        magnitude(dividend);  // its bits leave above, those of the result come below
     uint32_t rest = 0;
     for (uint8_t bit = 0; bit < 32; ++bit) {
         rest = (rest << 1) | (quotient >> 31);
@@ -24,5 +25,5 @@ extern "C" __attribute__((used)) uint64_t __aeabi_idivmod(int32_t dividend, int3
 }
 
 // The remainder is in a register that the caller does not look at.
-extern "C" __attribute__((used, nothrow, alias("__aeabi_idivmod")))
-uint64_t __aeabi_idiv(int32_t dividend, int32_t divisor);
+extern "C" __attribute__((used, nothrow, alias("__aeabi_idivmod"))) uint64_t __aeabi_idiv(
+    int32_t dividend, int32_t divisor);

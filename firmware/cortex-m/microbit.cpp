@@ -4,6 +4,7 @@
 #include "firmware/board.hpp"
 #include "firmware/cortex-m/registers.hpp"
 #include "firmware/cortex-m/vectors.hpp"
+#include "firmware/node/machine.hpp"
 
 namespace vagus {
 namespace board {
@@ -72,10 +73,9 @@ volatile bool sending;
 constexpr uint16_t kBytecodeWords = 2000;
 constexpr uint16_t kVariablesWords = 1000;
 constexpr uint16_t kStackWords = 64;
-static_assert(8 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
-uint16_t bytecode[kBytecodeWords];
-int16_t variables[kVariablesWords];
-int16_t stack[kStackWords];
+static_assert(firmware::kSlotOverhead + 2 * kBytecodeWords <= kSlotBytes,
+              "a slot holds the whole bytecode");
+firmware::Memories<kBytecodeWords, kVariablesWords, kStackWords> memories;
 
 void begin_uart() {
     register_at(kSendPin) = kPinToComputer;
@@ -113,7 +113,7 @@ void send_next() {
 
 }  // namespace
 
-const Memory kMemory = {bytecode, variables, stack, kBytecodeWords, kVariablesWords, kStackWords};
+const vm::Config kMachine = firmware::machine_of(memories);
 const char kName[] = "microbit";
 
 void begin() {

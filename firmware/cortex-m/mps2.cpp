@@ -5,6 +5,7 @@
 #include "firmware/board.hpp"
 #include "firmware/cortex-m/registers.hpp"
 #include "firmware/cortex-m/vectors.hpp"
+#include "firmware/node/machine.hpp"
 
 namespace vagus {
 namespace board {
@@ -38,10 +39,9 @@ volatile uint16_t milliseconds;
 constexpr uint16_t kBytecodeWords = 4000;
 constexpr uint16_t kVariablesWords = 2000;
 constexpr uint16_t kStackWords = 64;
-static_assert(8 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
-uint16_t bytecode[kBytecodeWords];
-int16_t variables[kVariablesWords];
-int16_t stack[kStackWords];
+static_assert(firmware::kSlotOverhead + 2 * kBytecodeWords <= kSlotBytes,
+              "a slot holds the whole bytecode");
+firmware::Memories<kBytecodeWords, kVariablesWords, kStackWords> memories;
 
 uint32_t address_of(uint8_t slot, uint16_t at) {
     return kSlotsAt + slot * kSlotBytes + at;
@@ -55,7 +55,7 @@ void send_next() {
 
 }  // namespace
 
-const Memory kMemory = {bytecode, variables, stack, kBytecodeWords, kVariablesWords, kStackWords};
+const vm::Config kMachine = firmware::machine_of(memories);
 const char kName[] = "mps2-an385";
 
 void begin() {

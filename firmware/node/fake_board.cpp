@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "firmware/board.hpp"
+#include "firmware/node/machine.hpp"
 
 namespace vagus::firmware {
 
@@ -24,6 +25,7 @@ void TestSlots::write(uint8_t slot, uint16_t at, uint8_t value) {
 }
 
 TestBoard::TestBoard(TestSlots& its_slots) : slots(its_slots) {
+    the_firmware = {};
     assert(the_board == nullptr);
     the_board = this;
 }
@@ -107,24 +109,17 @@ firmware::TestBoard& here() {
     return *firmware::the_board;
 }
 
-uint16_t bytecode[firmware::kTestBytecode];
-int16_t variables[firmware::kTestVariables];
-int16_t stack[firmware::kTestStack];
+firmware::Memories<firmware::kTestBytecode, firmware::kTestVariables, firmware::kTestStack>
+    memories;
 
 }  // namespace
 
-const Memory kMemory = {bytecode,
-                        variables,
-                        stack,
-                        firmware::kTestBytecode,
-                        firmware::kTestVariables,
-                        firmware::kTestStack};
+const vm::Config kMachine = firmware::machine_of(memories);
 const char kName[] = "test";
 
 // Power comes on: RAM is empty.
 void begin() {
-    std::fill(std::begin(bytecode), std::end(bytecode), uint16_t{0});
-    std::fill(std::begin(variables), std::end(variables), int16_t{0});
+    memories = {};
 }
 uint16_t now_ms() {
     return static_cast<uint16_t>(here().now_ms);

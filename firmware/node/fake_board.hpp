@@ -57,7 +57,7 @@ public:
     bool stuck = false;
     int restarts = 0;
     std::vector<uint8_t> sent;
-    Firmware firmware{};
+    Firmware& firmware = the_firmware;
 };
 
 // A command to a node: its words, the first is the node.

@@ -21,7 +21,7 @@ Firmware& firmware_of(node::Node& node) {
 }
 
 int16_t& variable(uint16_t at) {
-    return board::kMemory.variables[at];
+    return board::kMachine.variables[at];
 }
 
 void count(uint16_t at, uint16_t more) {
@@ -47,7 +47,7 @@ void transmit(node::Node& node, const wire::Frame& frame) {
 // Who writes another number into `_id` and saves, names the node anew from its next start on.
 void save(Firmware& firmware) {
     const uint16_t wanted = static_cast<uint16_t>(variable(kIdAt));
-    begin_save(firmware.store, is_id(wanted) ? wanted : firmware.config.id);
+    begin_save(firmware.store, is_id(wanted) ? wanted : firmware.node.vm.id);
 }
 
 void notify(node::Node& node, vm::Notice notice) {
@@ -62,8 +62,8 @@ const node::Board kBoard = {transmit, notify, kVariablesAtOnce};
 
 // A program that is being written is not the one that is being saved.
 bool writes_program(const Firmware& firmware, const Received& frame) {
-    return frame.type == static_cast<uint16_t>(MessageType::SetBytecode) &&
-           frame.count > 0 && frame.words[0] == firmware.config.id;
+    return frame.type == static_cast<uint16_t>(MessageType::SetBytecode) && frame.count > 0 &&
+           frame.words[0] == firmware.node.vm.id;
 }
 
 // A command waits in the receiver until what was asked before it is answered, and there is room for
@@ -75,7 +75,8 @@ void take_frame(Firmware& firmware, uint16_t now_ms) {
     if (can_run(firmware) && firmware.executed < kInstructionsPerFrame) return;
     if (!next_frame(firmware.receiver, now_ms)) return;
     const Received frame = front(firmware.receiver);
-    if (frame.type >= kCommands && (!has_room_to_answer || node::is_answering(firmware.node))) return;
+    if (frame.type >= kCommands && (!has_room_to_answer || node::is_answering(firmware.node)))
+        return;
     firmware.took_frame = true;
     firmware.executed = 0;
     if (writes_program(firmware, frame)) end_save(firmware.store);
@@ -125,33 +126,19 @@ void keep(Firmware& firmware) {
     if (save_step(firmware.store)) node::report(firmware.node, kSaved);
 }
 
-void configure(Firmware& firmware) {
-    const board::Memory& memory = board::kMemory;
-    firmware.config = {wire::kInvalidId,
-                       memory.bytecode_size,
-                       memory.variables_size,
-                       memory.stack_size,
-                       kArguments,
-                       memory.bytecode,
-                       memory.variables,
-                       memory.stack,
-                       firmware.breakpoints,
-                       &node::kMachineHost,
-                       &firmware.node};
-    node::init(firmware.node, firmware.config, *kDescription, kBoard, &firmware);
-}
-
 }  // namespace
+
+Firmware the_firmware;
 
 void start(Firmware& firmware) {
     board::begin();
-    configure(firmware);
+    node::init(firmware.node, board::kMachine, *kDescription, kBoard, &firmware);
     uint16_t id = load(firmware.store);
     if (!is_id(id)) id = board::first_id();
     if (!is_id(id)) id = 1;
-    firmware.config.id = id;
+    firmware.node.vm.id = id;
     variable(kIdAt) = static_cast<int16_t>(id);
-    if (board::kMemory.bytecode[0] != 0) node::start_program(firmware.node);
+    if (board::kMachine.bytecode[0] != 0) node::start_program(firmware.node);
 }
 
 void turn(Firmware& firmware) {

@@ -2,12 +2,11 @@
 // between the serial line and the memory that outlasts a restart. Knows its board only by
 // board.hpp, and so runs in tests on a host, too.
 //
-//     Firmware firmware;                   // all zero
-//     start(firmware);                     // the saved program runs, if there is one
+//     start(the_firmware);                 // the saved program runs, if there is one
 //     for (;;) {
 //         const uint8_t before = board::hold();
-//         if (has_work(firmware)) board::release(before); else board::sleep();
-//         turn(firmware);
+//         if (has_work(the_firmware)) board::release(before); else board::sleep();
+//         turn(the_firmware);
 //     }
 //
 // Nothing here waits. An answer that is longer than the line takes at once goes in pieces, one a
@@ -45,11 +44,13 @@ struct Firmware {
     bool took_frame;       // in the last turn: there may be more
     bool restarts;         // once nothing is being saved
     Store store;
-    vm::Config config;
     uint16_t breakpoints[vm::kBreakpointsMax];
     Sender sender;
     Receiver receiver;
 };
+
+// The one that there is: board.hpp has no objects either.
+extern Firmware the_firmware;
 
 void start(Firmware& firmware);
 void turn(Firmware& firmware);

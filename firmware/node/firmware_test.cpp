@@ -57,7 +57,7 @@ protected:
         load(program);
         (void)ask(MessageType::Run, {7});
     }
-    int16_t variable(uint16_t at) { return board::kMemory.variables[at]; }
+    int16_t variable(uint16_t at) { return board::kMachine.variables[at]; }
 
     TestSlots slots;
     std::unique_ptr<TestBoard> board;
@@ -108,7 +108,7 @@ TEST_F(NodeOfABoard, DescribesItselfInPiecesThatFit) {
 
 TEST_F(NodeOfABoard, SendsAllVariablesInPieces) {
     for (uint16_t i = kUser; i < kTestVariables; ++i)
-        board::kMemory.variables[i] = static_cast<int16_t>(i);
+        board::kMachine.variables[i] = static_cast<int16_t>(i);
     const auto frames = ask(MessageType::GetVariables, {7, 30, 1000});
     Words values;
     for (const wire::Frame& frame : frames) {

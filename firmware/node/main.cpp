@@ -1,12 +1,8 @@
-// What a board runs. The one object that changes: interrupts and the loop share it.
+// What a board runs.
 #include "firmware/board.hpp"
 #include "firmware/node/firmware.hpp"
 
-namespace {
-
-vagus::firmware::Firmware the_firmware;
-
-}  // namespace
+using vagus::firmware::the_firmware;
 
 void vagus::board::on_byte(uint8_t byte) {
     vagus::firmware::receive_byte(the_firmware.receiver, byte);

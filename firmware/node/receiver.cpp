@@ -7,7 +7,8 @@ namespace firmware {
 
 namespace {
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "words of a frame are read where they lie");
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+              "words of a frame are read where they lie");
 
 using wire::kHeaderSize;
 
@@ -67,8 +68,7 @@ Verdict judge(const Receiver& receiver, uint16_t have, uint16_t quiet_ms, uint16
         quiet_ms < (doubt ? kWitness_ms : kBroken_ms) && frame_ms < kFrameWithin_ms;
     const Verdict unfinished = more_may_come ? Verdict::Wait : Verdict::Wrong;
     if (have < kHeaderSize) return unfinished;
-    const uint8_t* const header =
-        reinterpret_cast<const uint8_t*>(receiver.row) + receiver.begin;
+    const uint8_t* const header = reinterpret_cast<const uint8_t*>(receiver.row) + receiver.begin;
     if (size_of(header) > wire::kPayloadMax || (doubt && !is_likely(header))) return Verdict::Wrong;
     const uint16_t size = static_cast<uint16_t>(kHeaderSize + size_of(header));
     if (have < size) return unfinished;

@@ -34,11 +34,11 @@ uint32_t read(uint8_t slot, uint16_t at) {
 
 // Where the checksum is.
 uint16_t last_unit() {
-    return static_cast<uint16_t>(1 + board::kMemory.bytecode_size / 2);
+    return static_cast<uint16_t>(1 + board::kMachine.bytecode_size / 2);
 }
 
 uint16_t* words_of(uint16_t unit) {
-    return board::kMemory.bytecode + 2 * (unit - 1);
+    return board::kMachine.bytecode + 2 * (unit - 1);
 }
 
 // A slot to the bytecode; false if it is not whole.
@@ -69,7 +69,7 @@ uint16_t load(Store& store) {
         store.number = low_of(unit);
         return high_of(unit);
     }
-    board::kMemory.bytecode[0] = 0;
+    board::kMachine.bytecode[0] = 0;
     return 0;
 }
 

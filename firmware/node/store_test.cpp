@@ -26,7 +26,7 @@ struct Program {
 };
 
 void put_bytecode(const Words& words) {
-    std::copy(words.begin(), words.end(), board::kMemory.bytecode);
+    std::copy(words.begin(), words.end(), board::kMachine.bytecode);
 }
 
 void save(TestSlots& slots, const Program& program) {
@@ -47,8 +47,8 @@ Program loaded(TestSlots& slots) {
     board::begin();
     Store store{};
     Program program{.id = load(store), .words = {}};
-    if (board::kMemory.bytecode[0] == 0) return program;
-    program.words.assign(board::kMemory.bytecode, board::kMemory.bytecode + kTestBytecode);
+    if (board::kMachine.bytecode[0] == 0) return program;
+    program.words.assign(board::kMachine.bytecode, board::kMachine.bytecode + kTestBytecode);
     while (!program.words.empty() && program.words.back() == 0) program.words.pop_back();
     return program;
 }
@@ -70,8 +70,9 @@ TEST(Store, ASlotLooksAsDocumented) {
     TestSlots slots;
     save(slots, {.id = 7, .words = {3, 0xffff, 3}});
     const auto& slot = slots.bytes[0];
-    EXPECT_THAT(std::vector<uint8_t>(slot.begin(), slot.begin() + 12),
-                ElementsAre(0xfe, 0xff, 0xf8, 0xff, 0xfc, 0xff, 0x00, 0x00, 0xfc, 0xff, 0xff, 0xff));
+    EXPECT_THAT(
+        std::vector<uint8_t>(slot.begin(), slot.begin() + 12),
+        ElementsAre(0xfe, 0xff, 0xf8, 0xff, 0xfc, 0xff, 0x00, 0x00, 0xfc, 0xff, 0xff, 0xff));
     EXPECT_THAT(std::vector<uint8_t>(slot.end() - 8, slot.end()),
                 ElementsAre(0xff, 0xff, 0xff, 0xff, 0xa3, 0x28, 0xf2, 0xf0));
 }
@@ -110,8 +111,8 @@ TEST(Store, WhatIsZeroStaysAsItWasErased) {
     TestSlots slots;
     save(slots, {.id = 1, .words = {3, 0xffff, 3}});
     const auto& slot = slots.bytes[0];
-    EXPECT_TRUE(std::all_of(slot.begin() + 10, slot.end() - 4,
-                            [](uint8_t byte) { return byte == 0xff; }));
+    EXPECT_TRUE(
+        std::all_of(slot.begin() + 10, slot.end() - 4, [](uint8_t byte) { return byte == 0xff; }));
 }
 
 // At every byte that a save writes the power may go: what then starts is the program from before or

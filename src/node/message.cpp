@@ -18,7 +18,7 @@ uint16_t text_size(const char* text, uint16_t limit) {
 }  // namespace
 
 Message::Message(Node& node, uint16_t type) : node_(node) {
-    frame_.source = node.vm.config->id;
+    frame_.source = node.vm.id;
     frame_.type = type;
     frame_.size = 0;
 }

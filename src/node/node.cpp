@@ -122,8 +122,9 @@ void begin_receive(Node& node, uint16_t source, uint16_t type, const uint16_t* w
     if (message == MessageType::ListNodes) return answer_presence(node);
     if (count == 0) return;
     // The version must be there (D11): newer hosts ask each node by itself.
-    const bool asks_all = message == MessageType::GetDescription && words[0] <= kLastVersionAskedByBroadcast;
-    if (!asks_all && words[0] != node.vm.config->id) return;
+    const bool asks_all =
+        message == MessageType::GetDescription && words[0] <= kLastVersionAskedByBroadcast;
+    if (!asks_all && words[0] != node.vm.id) return;
     if (asks_all || message == MessageType::GetNodeDescription) return begin_description(node);
     if (message == MessageType::GetNodeDescriptionFragment) {
         if (count >= 3) send_fragment(node, static_cast<int16_t>(words[2]));
@@ -143,7 +144,7 @@ void local_event(Node& node, uint16_t index) {
     const vm::Config& machine = *node.vm.config;
     if (flash_read(&node.description->local_event_source) == LocalEventSource::OwnId &&
         vm::kSourceAddress < machine.variables_size) {
-        machine.variables[vm::kSourceAddress] = static_cast<int16_t>(machine.id);
+        machine.variables[vm::kSourceAddress] = static_cast<int16_t>(node.vm.id);
     }
     vm::local_event(node.vm, index);
 }
@@ -151,7 +152,7 @@ void local_event(Node& node, uint16_t index) {
 // The commands Reset and Run: so the program starts as after its upload, whatever its `when`s
 // remembered when it was saved.
 void start_program(Node& node) {
-    const uint16_t id = node.vm.config->id;
+    const uint16_t id = node.vm.id;
     vm::receive(node.vm, static_cast<uint16_t>(wire::MessageType::Reset), &id, 1);
     vm::receive(node.vm, static_cast<uint16_t>(wire::MessageType::Run), &id, 1);
 }

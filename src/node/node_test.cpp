@@ -119,8 +119,7 @@ TEST(Node, FragmentsAreTheHeaderAllOrOneItem) {
 // D22.
 TEST(Node, VariablesAreSplitBehind257Words) {
     TestNode test;
-    for (size_t i = 0; i < test.variables.size(); ++i)
-        test.variables[i] = static_cast<int16_t>(i);
+    for (size_t i = 0; i < test.variables.size(); ++i) test.variables[i] = static_cast<int16_t>(i);
     const auto asked = [&](const std::string& words) {
         receive(test.node, frame_of("06 00 00 00 0b a0 01 00 " + words));
         std::vector<std::vector<int>> pieces;  // start, size, first, last
@@ -135,9 +134,11 @@ TEST(Node, VariablesAreSplitBehind257Words) {
     };
     using Piece = std::vector<int>;
     EXPECT_THAT(asked("0a 00 01 01"), ElementsAre(Piece{10, 257, 10, 266}));
-    EXPECT_THAT(asked("0a 00 02 01"), ElementsAre(Piece{10, 257, 10, 266}, Piece{267, 1, 267, 267}));
-    EXPECT_THAT(asked("f4 01 ff ff"), ElementsAre(Piece{500, 257, 500, 756}, Piece{757, 257, 757, 1013},
-                                                  Piece{1014, 46, 1014, 1059}));
+    EXPECT_THAT(asked("0a 00 02 01"),
+                ElementsAre(Piece{10, 257, 10, 266}, Piece{267, 1, 267, 267}));
+    EXPECT_THAT(asked("f4 01 ff ff"),
+                ElementsAre(Piece{500, 257, 500, 756}, Piece{757, 257, 757, 1013},
+                            Piece{1014, 46, 1014, 1059}));
 }
 
 // For a line that takes only so much at once.

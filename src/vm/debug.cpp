@@ -60,7 +60,7 @@ void receive(Vm& vm, uint16_t type, const uint16_t* words, uint16_t count) {
     const uint16_t command = static_cast<uint16_t>(type - kFirstCommand);
     if (command >= kCommandCount || count < flash_read(&kWordsMin[command])) return;
     const Config& config = *vm.config;
-    if (words[0] != config.id) return;
+    if (words[0] != vm.id) return;
     count = static_cast<uint16_t>(count - 2);
     Notice notice;
     switch (static_cast<MessageType>(type)) {

@@ -23,8 +23,7 @@ uint16_t now_ms();
 // Interrupts off; gives what release() needs to make it as it was.
 uint8_t hold();
 void release(uint8_t before);
-// Called with interrupts held: sleeps until one comes. An interrupt that came since hold() ends it
-// at once. Interrupts are on when it returns.
+// Until an interrupt comes: at the latest that of the clock.
 void sleep();
 
 // Bytes wait to be sent: from here on the board asks for them, one by one, until there are none.

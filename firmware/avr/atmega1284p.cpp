@@ -74,12 +74,8 @@ void release(uint8_t before) {
     SREG = before;
 }
 
-// The instruction behind sei() is executed before any interrupt: none is missed.
 void sleep() {
-    sleep_enable();
-    sei();
-    sleep_cpu();
-    sleep_disable();
+    sleep_mode();
 }
 
 void start_sending() {

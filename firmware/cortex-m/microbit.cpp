@@ -68,7 +68,7 @@ constexpr uint32_t kUartInterrupt = 2;
 constexpr uint32_t kTimerInterrupt = 8;
 
 volatile uint16_t milliseconds;
-volatile bool sending;
+volatile bool sending;  // a byte is on its way
 
 constexpr uint16_t kBytecodeWords = 2000;
 constexpr uint16_t kVariablesWords = 1000;
@@ -105,12 +105,6 @@ void wait_for_flash() {
     }
 }
 
-void send_next() {
-    uint8_t byte = 0;
-    sending = next_byte(byte);
-    if (sending) register_at(kToSend) = byte;
-}
-
 }  // namespace
 
 const vm::Config kMachine = firmware::machine_of(memories);
@@ -130,9 +124,7 @@ uint16_t now_ms() {
 }
 
 void start_sending() {
-    const uint8_t before = hold();
-    if (!sending) send_next();
-    release(before);
+    register_at(kInterruptSetPending) = 1 << kUartInterrupt;
 }
 
 void show_leds(uint16_t leds) {
@@ -182,10 +174,11 @@ static void on_uart() {
         register_at(kReceivedEvent) = 0;
         on_byte(static_cast<uint8_t>(register_at(kReceived)));
     }
-    if (register_at(kSentEvent) != 0) {
-        register_at(kSentEvent) = 0;
-        send_next();
-    }
+    if (sending && register_at(kSentEvent) == 0) return;
+    register_at(kSentEvent) = 0;
+    uint8_t byte = 0;
+    sending = next_byte(byte);
+    if (sending) register_at(kToSend) = byte;
 }
 
 // Looks at the serial line, too: the emulator raises no interrupt for a byte that had to wait for

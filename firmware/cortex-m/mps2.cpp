@@ -24,6 +24,9 @@ constexpr uint32_t kSendBit = 1 << 0;
 constexpr uint32_t kReceiveBit = 1 << 1;
 constexpr uint32_t kBothDirectionsAndInterrupts = 0xf;
 
+constexpr uint32_t kReceivedInterrupt = 1 << 0;
+constexpr uint32_t kSentInterrupt = 1 << 1;
+
 constexpr uint32_t kClock = 25000000;
 constexpr uint32_t kBaud = 115200;
 
@@ -47,12 +50,6 @@ uint32_t address_of(uint8_t slot, uint16_t at) {
     return kSlotsAt + slot * kSlotBytes + at;
 }
 
-void send_next() {
-    uint8_t byte = 0;
-    if ((register_at(kUartState) & kSendFull) == 0 && next_byte(byte))
-        register_at(kUartData) = byte;
-}
-
 }  // namespace
 
 const vm::Config kMachine = firmware::machine_of(memories);
@@ -63,7 +60,7 @@ void begin() {
     register_at(kUartControl) = kBothDirectionsAndInterrupts;
     register_at(kSysTickReload) = kClock / 1000 - 1;
     register_at(kSysTickControl) = 7;      // on, with interrupt, from the processor's clock
-    register_at(kInterruptSetEnable) = 3;  // 0: received, 1: sent
+    register_at(kInterruptSetEnable) = kReceivedInterrupt | kSentInterrupt;
 }
 
 uint16_t now_ms() {
@@ -71,9 +68,7 @@ uint16_t now_ms() {
 }
 
 void start_sending() {
-    const uint8_t before = hold();
-    send_next();
-    release(before);
+    register_at(kInterruptSetPending) = kSentInterrupt;
 }
 
 void show_leds(uint16_t leds) {
@@ -116,8 +111,12 @@ static void on_received() {
 }
 
 static void on_sent() {
-    vagus::register_at(vagus::board::kUartInterrupts) = vagus::board::kSendBit;
-    vagus::board::send_next();
+    using namespace vagus;
+    using namespace vagus::board;
+    register_at(kUartInterrupts) = kSendBit;
+    uint8_t byte = 0;
+    if ((register_at(kUartState) & kSendFull) == 0 && next_byte(byte))
+        register_at(kUartData) = byte;
 }
 
 static void on_tick() {

@@ -45,14 +45,14 @@ void TestBoard::hear(const wire::Frame& frame) {
 
 void TestBoard::settle() {
     for (int turns = 0; turns < kTurnsMax; ++turns) {
-        turn(firmware);
+        const bool has_more = turn(firmware);
         uint8_t byte = 0;
         bool sends = false;
         while (!stuck && board::next_byte(byte)) {
             sent.push_back(byte);
             sends = true;
         }
-        if (!sends && !has_work(firmware)) return;
+        if (!sends && !has_more) return;
     }
 }
 

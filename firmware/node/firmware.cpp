@@ -16,6 +16,10 @@ VAGUS_FLASH_TEXT(kSaved, "Flashing OK");
 
 constexpr uint16_t kCommands = 0xa000;  // and above: section 2
 
+// Of Firmware::pending.
+constexpr uint8_t kTimerBit = 1 << kTimerEvent;
+constexpr uint8_t kButtonsBit = 1 << kButtonsEvent;
+
 Firmware& firmware_of(node::Node& node) {
     return *static_cast<Firmware*>(node.owner);
 }
@@ -67,35 +71,30 @@ bool writes_program(const Firmware& firmware, const Received& frame) {
 }
 
 // A command waits in the receiver until what was asked before it is answered, and there is room for
-// its own answer.
-void take_frame(Firmware& firmware, uint16_t now_ms) {
+// its own answer. True if a frame was taken: then there may be more.
+bool take_frame(Firmware& firmware, uint16_t now_ms) {
     const bool has_room_to_answer = has_room(firmware.sender, kAnswerMax);
     if (has_room_to_answer && node::is_answering(firmware.node)) node::answer(firmware.node);
-    firmware.took_frame = false;
-    if (can_run(firmware) && firmware.executed < kInstructionsPerFrame) return;
-    if (!next_frame(firmware.receiver, now_ms)) return;
+    if (can_run(firmware) && firmware.executed < kInstructionsPerFrame) return false;
+    if (!next_frame(firmware.receiver, now_ms)) return false;
     const Received frame = front(firmware.receiver);
-    if (frame.type >= kCommands && (!has_room_to_answer || node::is_answering(firmware.node)))
-        return;
-    firmware.took_frame = true;
+    const bool can_answer = has_room_to_answer && !node::is_answering(firmware.node);
+    if (frame.type >= kCommands && !can_answer) return false;
     firmware.executed = 0;
     if (writes_program(firmware, frame)) end_save(firmware.store);
     node::begin_receive(firmware.node, frame.source, frame.type, frame.words, frame.count);
     drop_front(firmware.receiver, now_ms);
+    return true;
 }
 
 // ---- What the board feels ----
-
-void note(Firmware& firmware, uint8_t event) {
-    firmware.pending = static_cast<uint8_t>(firmware.pending | (1 << event));
-}
 
 void look_at_timer(Firmware& firmware, uint16_t now_ms) {
     const int16_t period = variable(kPeriodAt);
     const uint16_t elapsed = static_cast<uint16_t>(now_ms - firmware.timer_began);
     if (period > 0 && elapsed < static_cast<uint16_t>(period)) return;
     firmware.timer_began = now_ms;
-    if (period > 0) note(firmware, kTimerEvent);
+    if (period > 0) firmware.pending |= kTimerBit;
 }
 
 void look_at_buttons(Firmware& firmware) {
@@ -103,7 +102,12 @@ void look_at_buttons(Firmware& firmware) {
     if (buttons == firmware.buttons) return;
     firmware.buttons = buttons;
     variable(kButtonsAt) = static_cast<int16_t>(buttons);
-    note(firmware, kButtonsEvent);
+    firmware.pending |= kButtonsBit;
+}
+
+void raise(Firmware& firmware, uint8_t bit, uint8_t event) {
+    firmware.pending = static_cast<uint8_t>(firmware.pending ^ bit);
+    node::local_event(firmware.node, event);
 }
 
 void run_script(Firmware& firmware) {
@@ -113,9 +117,8 @@ void run_script(Firmware& firmware) {
     }
     // Also while it is paused, local events wait.
     if (firmware.pending == 0 || vm::is_active(firmware.node.vm)) return;
-    const uint8_t event = (firmware.pending & 1 << kTimerEvent) != 0 ? kTimerEvent : kButtonsEvent;
-    firmware.pending = static_cast<uint8_t>(firmware.pending & ~(1 << event));
-    node::local_event(firmware.node, event);
+    if ((firmware.pending & kTimerBit) != 0) return raise(firmware, kTimerBit, kTimerEvent);
+    raise(firmware, kButtonsBit, kButtonsEvent);
 }
 
 void keep(Firmware& firmware) {
@@ -141,9 +144,9 @@ void start(Firmware& firmware) {
     if (board::kMachine.bytecode[0] != 0) node::start_program(firmware.node);
 }
 
-void turn(Firmware& firmware) {
+bool turn(Firmware& firmware) {
     const uint16_t now_ms = board::now_ms();
-    take_frame(firmware, now_ms);
+    const bool took_frame = take_frame(firmware, now_ms);
     look_at_timer(firmware, now_ms);
     look_at_buttons(firmware);
     run_script(firmware);
@@ -151,11 +154,8 @@ void turn(Firmware& firmware) {
     firmware.receiver.skipped = 0;
     board::show_leds(static_cast<uint16_t>(variable(kLedsAt)));
     keep(firmware);
-}
-
-bool has_work(const Firmware& firmware) {
-    return can_run(firmware) || firmware.took_frame || firmware.store.is_saving ||
-           firmware.restarts || (firmware.pending != 0 && !vm::is_active(firmware.node.vm));
+    return took_frame || can_run(firmware) || firmware.store.is_saving || firmware.restarts ||
+           (firmware.pending != 0 && !vm::is_active(firmware.node.vm));
 }
 
 }  // namespace firmware

@@ -2,11 +2,9 @@
 // between the serial line and the memory that outlasts a restart. Knows its board only by
 // board.hpp, and so runs in tests on a host, too.
 //
-//     start(the_firmware);                 // the saved program runs, if there is one
+//     start(the_firmware);  // the saved program runs, if there is one
 //     for (;;) {
-//         const uint8_t before = board::hold();
-//         if (has_work(the_firmware)) board::release(before); else board::sleep();
-//         turn(the_firmware);
+//         if (!turn(the_firmware)) board::sleep();
 //     }
 //
 // Nothing here waits. An answer that is longer than the line takes at once goes in pieces, one a
@@ -34,28 +32,26 @@ constexpr uint16_t kVariablesAtOnce = 47;
 // No piece, and no answer to one command, is longer: a test looks at the whole description.
 constexpr uint16_t kAnswerMax = 116;
 
-// All zero at the start.
+// All zero at the start. Small things first: a Cortex-M reaches those with shorter instructions.
 struct Firmware {
     node::Node node;
-    uint16_t executed;     // instructions since the last frame
-    uint16_t timer_began;  // low half of the time
-    uint16_t buttons;      // as they were last looked at
     uint8_t pending;       // local events, a bit for each
-    bool took_frame;       // in the last turn: there may be more
     bool restarts;         // once nothing is being saved
+    uint16_t executed;     // instructions since the last frame
+    uint16_t timer_began;  // when the timer fired last
+    uint16_t buttons;      // as they were last looked at
+    Receiver receiver;
     Store store;
     uint16_t breakpoints[vm::kBreakpointsMax];
     Sender sender;
-    Receiver receiver;
 };
 
 // The one that there is: board.hpp has no objects either.
 extern Firmware the_firmware;
 
 void start(Firmware& firmware);
-void turn(Firmware& firmware);
-// turn() has something to do right now. To be asked with interrupts held.
-bool has_work(const Firmware& firmware);
+// True if there is more to do right now.
+bool turn(Firmware& firmware);
 
 }  // namespace firmware
 }  // namespace vagus

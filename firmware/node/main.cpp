@@ -15,12 +15,6 @@ bool vagus::board::next_byte(uint8_t& byte) {
 int main() {
     vagus::firmware::start(the_firmware);
     for (;;) {
-        const uint8_t before = vagus::board::hold();
-        if (vagus::firmware::has_work(the_firmware)) {
-            vagus::board::release(before);
-        } else {
-            vagus::board::sleep();
-        }
-        vagus::firmware::turn(the_firmware);
+        if (!vagus::firmware::turn(the_firmware)) vagus::board::sleep();
     }
 }

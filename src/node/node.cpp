@@ -146,7 +146,7 @@ void local_event(Node& node, uint16_t index) {
         vm::kSourceAddress < machine.variables_size) {
         machine.variables[vm::kSourceAddress] = static_cast<int16_t>(node.vm.id);
     }
-    vm::local_event(node.vm, index);
+    vm::start_event(node.vm, static_cast<uint16_t>(isa::kLocalEventFirst - index));
 }
 
 // The commands Reset and Run: so the program starts as after its upload, whatever its `when`s

@@ -1,7 +1,7 @@
-// Division for a Cortex-M0, which has no instruction for it: bit by bit, in a tenth of the flash that
-// the compiler's library takes. By the names and registers of ARM's run-time ABI (IHI 0043, section
-// 4.3.1): quotient in r0, remainder in r1, which a result of 64 bits is. As in that library, nothing
-// asks for a division by zero.
+// Division for a Cortex-M0, which has no instruction for it: bit by bit, in a tenth of the flash
+// that the compiler's library takes. By the names and registers of ARM's run-time ABI (IHI 0043,
+// section 4.3.1): quotient in r0, remainder in r1, which a result of 64 bits is. As in that
+// library, nothing asks for a division by zero.
 #include <stdint.h>
 
 extern "C" __attribute__((used)) uint64_t __aeabi_idivmod(int32_t dividend, int32_t divisor) {

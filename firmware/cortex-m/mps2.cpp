@@ -59,7 +59,7 @@ void begin() {
     register_at(kUartDivider) = kClock / kBaud;
     register_at(kUartControl) = kBothDirectionsAndInterrupts;
     register_at(kSysTickReload) = kClock / 1000 - 1;
-    register_at(kSysTickControl) = 7;      // on, with interrupt, from the processor's clock
+    register_at(kSysTickControl) = 7;  // on, with interrupt, from the processor's clock
     register_at(kInterruptSetEnable) = kReceivedInterrupt | kSentInterrupt;
 }
 

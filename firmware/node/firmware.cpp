@@ -72,7 +72,7 @@ bool writes_program(const Firmware& firmware, const Received& frame) {
 
 // A command waits in the receiver until what was asked before it is answered, and there is room for
 // its own answer. True if a frame was taken: then there may be more.
-bool take_frame(Firmware& firmware, uint16_t now_ms) {
+[[gnu::noinline]] bool take_frame(Firmware& firmware, uint16_t now_ms) {
     const bool has_room_to_answer = has_room(firmware.sender, kAnswerMax);
     if (has_room_to_answer && node::is_answering(firmware.node)) node::answer(firmware.node);
     if (can_run(firmware) && firmware.executed < kInstructionsPerFrame) return false;

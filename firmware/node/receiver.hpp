@@ -10,11 +10,11 @@
 //         drop_front(receiver, now_ms);
 //     }
 //
-// A header is likely if it is that of an event as most are, or of a message of section 2. It makes a
-// frame when the last byte is there. Any other needs a witness: a likely header behind the frame, or
-// silence. SetBytecode needs one always, so that a piece of a program that lost bytes, and took those
-// of the next frame instead, is not stored. Once something was wrong, frames are likely ones with a
-// witness, until there was one, or a silence.
+// A header is likely if it is that of an event as most are, or of a message of section 2. It makes
+// a frame when the last byte is there. Any other needs a witness: a likely header behind the frame,
+// or silence. SetBytecode needs one always, so that a piece of a program that lost bytes, and took
+// those of the next frame instead, is not stored. Once something was wrong, frames are likely ones
+// with a witness, until there was one, or a silence.
 #pragma once
 
 #include <stdint.h>

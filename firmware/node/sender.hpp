@@ -14,8 +14,8 @@
 namespace vagus {
 namespace firmware {
 
-// Bytes; one of them stays free. Indices of 8 bits go round by themselves, and every processor reads
-// them at once.
+// Bytes; one of them stays free. Indices of 8 bits go round by themselves, and every processor
+// reads them at once.
 constexpr uint16_t kSendRoom = 256;
 // Of these, for all that is no user event.
 constexpr uint16_t kRoomOfMessages = 128;

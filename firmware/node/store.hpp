@@ -6,10 +6,10 @@
 //     CRC-32 of all before
 //
 // and is kept inverted: what is zero, as most of a bytecode is, stays as it was erased. A save goes
-// to the slot that does not count, and writes its CRC last. So when the power goes, at whatever byte,
-// one slot is as it was: the node starts the program it had, or the new one, never a piece. Saving
-// takes one step for each turn of the loop; a new program that comes in between ends it, and nothing
-// has changed.
+// to the slot that does not count, and writes its CRC last. So when the power goes, at whatever
+// byte, one slot is as it was: the node starts the program it had, or the new one, never a piece.
+// Saving takes one step for each turn of the loop; a new program that comes in between ends it, and
+// nothing has changed.
 #pragma once
 
 #include <stdint.h>

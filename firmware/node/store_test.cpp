@@ -64,8 +64,8 @@ TEST(Store, AnEmptySlotHoldsNoProgram) {
     EXPECT_EQ(loaded(slots), Program{});
 }
 
-// All bytes are inverted. The checksum was computed by another program: zlib's crc32 over number, id
-// and 600 words.
+// All bytes are inverted. The checksum was computed by another program: zlib's crc32 over number,
+// id and 600 words.
 TEST(Store, ASlotLooksAsDocumented) {
     TestSlots slots;
     save(slots, {.id = 7, .words = {3, 0xffff, 3}});

@@ -22,8 +22,8 @@ public:
     Message(Node& node, wire::MessageType type) : Message(node, static_cast<uint16_t>(type)) {}
 
     void word(uint16_t word);
-    // `text` ends with '\0' and is in flash on an AVR. Of a longer one than `limit`, at most kTextMax
-    // bytes, as many whole characters (UTF-8) as fit.
+    // `text` ends with '\0' and is in flash on an AVR. Of a longer one than `limit`, at most
+    // kTextMax bytes, as many whole characters (UTF-8) as fit.
     void text(const char* text, uint16_t limit = kTextMax);
     // False once there was more than a payload takes: then it must not be sent.
     bool fits() const { return frame_.size <= wire::kPayloadMax; }

@@ -23,8 +23,8 @@
 namespace vagus {
 namespace wire {
 
-// One message on the bus, by value: fields in the order of the stream. `size` is the number of payload
-// bytes, at most kPayloadMax.
+// One message on the bus, by value: fields in the order of the stream. `size` is the number of
+// payload bytes, at most kPayloadMax.
 struct Frame {
     uint16_t size;
     uint16_t source;

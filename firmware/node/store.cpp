@@ -7,10 +7,11 @@ namespace firmware {
 
 namespace {
 
-constexpr uint16_t kChecksumAt = 8;
+constexpr uint32_t kNoBytes = 0xffffffff;  // the checksum of none
+constexpr uint32_t kWhole = 0xdebb20e3;    // of bytes and their own checksum behind them
 
 // CRC-32 of IEEE 802.3, bit by bit: a table would fill 1 KB.
-uint32_t add(uint32_t checksum, uint32_t value) {
+[[gnu::noinline]] uint32_t add(uint32_t checksum, uint32_t value) {
     checksum ^= value;
     for (uint8_t bit = 0; bit < 32; ++bit) {
         checksum = (checksum >> 1) ^ ((checksum & 1) != 0 ? 0xedb88320u : 0);
@@ -18,113 +19,76 @@ uint32_t add(uint32_t checksum, uint32_t value) {
     return checksum;
 }
 
-constexpr uint32_t kNothing = 0xffffffff;
-
-uint32_t both(uint16_t low, uint16_t high) {
-    return low | (static_cast<uint32_t>(high) << 16);
-}
-uint16_t low_of(uint32_t value) {
-    return static_cast<uint16_t>(value);
-}
-uint16_t high_of(uint32_t value) {
-    return static_cast<uint16_t>(value >> 16);
+void begin(Store& store) {
+    store.at = 0;
+    store.checksum = kNoBytes;
 }
 
-// Number, id; words, mark.
-struct Header {
-    uint32_t first;
-    uint32_t second;
-    uint16_t number() const { return low_of(first); }
-    uint16_t id() const { return high_of(first); }
-    uint16_t words() const { return low_of(second); }
-    bool is_marked() const { return high_of(second) == kSlotMark; }
-    uint32_t checksum() const { return add(add(kNothing, first), second); }
-};
-
-Header header_of(uint8_t slot) {
-    return {board::read_slot(slot, 0), board::read_slot(slot, 4)};
+bool is_at_checksum(const Store& store) {
+    return store.at == 1 + board::kMachine.bytecode_size / 2;
 }
 
-uint16_t place_of(uint16_t word) {
-    return static_cast<uint16_t>(kSlotHeader + 2 * word);
-}
-
-bool is_whole(uint8_t slot, uint16_t room) {
-    const Header header = header_of(slot);
-    if (!header.is_marked() || header.words() > room) return false;
-    uint32_t checksum = header.checksum();
-    for (uint16_t word = 0; word < header.words(); word = static_cast<uint16_t>(word + 2)) {
-        checksum = add(checksum, board::read_slot(slot, place_of(word)));
+// One unit from memory to the slot, or from the slot to memory. True if it was the checksum.
+[[gnu::noinline]] bool move_unit(Store& store, bool saves) {
+    const bool is_last = is_at_checksum(store);
+    const uint16_t place = static_cast<uint16_t>(4 * store.at);
+    uint16_t* const words =
+        store.at == 0 ? store.head : board::kMachine.bytecode + 2 * (store.at - 1);
+    uint32_t unit = ~store.checksum;
+    if (!is_last) unit = words[0] | (static_cast<uint32_t>(words[1]) << 16);
+    if (saves) {
+        board::write_slot(store.slot, place, ~unit);
+    } else {
+        unit = ~board::read_slot(store.slot, place);
     }
-    return ~checksum == board::read_slot(slot, kChecksumAt);
-}
-
-bool is_later(uint16_t number, uint16_t than) {
-    return static_cast<int16_t>(number - than) > 0;
-}
-
-void choose(Store& store, uint16_t room) {
-    store.slot = kSlots;
-    for (uint8_t slot = 0; slot < kSlots; ++slot) {
-        if (!is_whole(slot, room)) continue;
-        const uint16_t number = header_of(slot).number();
-        if (store.slot != kSlots && !is_later(number, store.number)) continue;
-        store.slot = slot;
-        store.number = number;
+    if (!saves && !is_last) {
+        words[0] = static_cast<uint16_t>(unit);
+        words[1] = static_cast<uint16_t>(unit >> 16);
     }
+    store.checksum = add(store.checksum, unit);
+    ++store.at;
+    return is_last;
 }
 
-uint8_t other(const Store& store) {
-    return store.slot == 0 ? 1 : 0;
+// A slot to head and bytecode; false if it is not whole.
+[[gnu::noinline]] bool load_slot(Store& store, uint8_t slot) {
+    store.slot = slot;
+    begin(store);
+    while (!move_unit(store, false)) {
+    }
+    return store.checksum == kWhole;
+}
+
+uint16_t number_of(uint8_t slot) {
+    return static_cast<uint16_t>(~board::read_slot(slot, 0));
 }
 
 }  // namespace
 
-Kept load(Store& store, uint16_t* program, uint16_t room) {
-    choose(store, room);
-    if (store.slot == kSlots) return {0, 0};
-    const Header header = header_of(store.slot);
-    for (uint16_t word = 0; word < header.words(); ++word) {
-        const uint32_t pair =
-            board::read_slot(store.slot, place_of(static_cast<uint16_t>(word & ~1)));
-        program[word] = word % 2 == 0 ? low_of(pair) : high_of(pair);
-    }
-    return {header.id(), header.words()};
+// The later one first. Of one that is not whole the number means nothing; then the other is found
+// second. The next save goes to the one that does not count.
+uint16_t load(Store& store) {
+    const uint8_t later = static_cast<int16_t>(number_of(1) - number_of(0)) > 0;
+    const bool found = load_slot(store, later) || load_slot(store, later ^ 1);
+    store.slot ^= 1;
+    if (found) return store.head[kId];
+    board::kMachine.bytecode[0] = 0;
+    return 0;
 }
 
-void begin_save(Store& store, const uint16_t* program, uint16_t words, uint16_t id) {
-    store.program = program;
-    store.words = words;
-    store.id = id;
-    store.at = 0;
-    const Header header = {both(static_cast<uint16_t>(store.number + 1), id),
-                           both(words, kSlotMark)};
-    store.checksum = header.checksum();
-    board::erase_slot(other(store));
+void begin_save(Store& store, uint16_t id) {
+    ++store.head[kNumber];
+    store.head[kId] = id;
+    store.is_saving = true;
+    begin(store);
+    board::erase_slot(store.slot);
 }
 
 bool save_step(Store& store) {
-    const uint8_t slot = other(store);
-    if (store.at < store.words) {
-        const bool is_last = store.at + 1 == store.words;
-        const uint32_t pair =
-            both(store.program[store.at], is_last ? 0 : store.program[store.at + 1]);
-        board::write_slot(slot, place_of(store.at), pair);
-        store.checksum = add(store.checksum, pair);
-        store.at = static_cast<uint16_t>(store.at + 2);
-        return false;
-    }
-    ++store.number;
-    board::write_slot(slot, 0, both(store.number, store.id));
-    board::write_slot(slot, 4, both(store.words, kSlotMark));
-    board::write_slot(slot, kChecksumAt, ~store.checksum);
-    store.slot = slot;
-    store.program = nullptr;
+    if (!move_unit(store, true)) return false;
+    store.slot ^= 1;
+    store.is_saving = false;
     return true;
-}
-
-void end_save(Store& store) {
-    store.program = nullptr;
 }
 
 }  // namespace firmware

@@ -11,7 +11,20 @@ namespace {
 constexpr size_t kPiecesOfAShare = 16;
 // How often a thread looks for what comes before it sleeps: for some 50 microseconds, as long as it
 // would take to wake it. The next round is often nearer than that.
-constexpr int kLooks = 100000;
+constexpr int kLooks = 2000;
+
+// A moment between two looks, which leaves a core to the other thread that it may have.
+#if defined(__x86_64__)
+void wait_a_moment() {
+    __builtin_ia32_pause();
+}
+#elif defined(__aarch64__)
+void wait_a_moment() {
+    __asm__ volatile("yield");
+}
+#else
+void wait_a_moment() {}
+#endif
 
 }  // namespace
 
@@ -91,8 +104,7 @@ void Crew::end() {
 
 template <typename Come>
 void Crew::look_for(const Come& come) const {
-    for (int look = 0; look < looks_ && !come(); ++look) {
-    }
+    for (int look = 0; look < looks_ && !come(); ++look) wait_a_moment();
 }
 
 void Crew::wait_for_work(unsigned who) {

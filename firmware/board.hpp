@@ -8,6 +8,8 @@
 
 #include <stdint.h>
 
+#include "vm/vm.hpp"
+
 namespace vagus {
 namespace board {
 
@@ -16,13 +18,12 @@ namespace board {
 // Clock, pins, serial line (8N1) and a clock of milliseconds; interrupts are on when it returns.
 void begin();
 // Milliseconds since begin(). Wraps.
-uint32_t now_ms();
+uint16_t now_ms();
 
 // Interrupts off; gives what release() needs to make it as it was.
 uint8_t hold();
 void release(uint8_t before);
-// Called with interrupts held: sleeps until one comes. An interrupt that came since hold() ends it
-// at once. Interrupts are on when it returns.
+// Until an interrupt comes: at the latest that of the clock.
 void sleep();
 
 // Bytes wait to be sent: from here on the board asks for them, one by one, until there are none.
@@ -40,25 +41,16 @@ void restart();
 
 // ---- The memory that outlasts a restart: two slots of kSlotBytes each ----
 
-// From now on no read gives what was there; the first 12 bytes are gone when it returns.
+// From now on no read gives what was there; the first four bytes are gone when it returns.
 void erase_slot(uint8_t slot);
 // Bytes at .. at + 3 of a slot that has been erased; `at` is a multiple of 4. Each place is written
 // once.
 void write_slot(uint8_t slot, uint16_t at, uint32_t value);
 uint32_t read_slot(uint8_t slot, uint16_t at);
 
-// ---- The machine's memories, in words, and the node's name: as the board's RAM and slots allow
-// ----
+// ---- The machine and its memories (firmware/node/machine.hpp), and the node's name ----
 
-struct Memory {
-    uint16_t* bytecode;  // a slot holds 12 bytes and the whole bytecode
-    int16_t* variables;
-    int16_t* stack;
-    uint16_t bytecode_size;
-    uint16_t variables_size;
-    uint16_t stack_size;
-};
-extern const Memory kMemory;
+extern const vm::Config kMachine;
 extern const char kName[];  // in flash on an AVR
 
 // ---- Called by the board from its interrupts ----

@@ -51,7 +51,8 @@ void check_sent(node::Node&, const wire::Frame& frame) {
     if (!reply) fail();
 }
 
-constexpr node::Board kBoard = {check_sent, [](node::Node&, vm::Notice) {}};
+constexpr node::Board kBoard = {check_sent, [](node::Node&, vm::Notice) {},
+                                wire::kVariablesReplyWordsMax};
 
 const node::Variable kVariableList[] = {{1, "id"}, {1, "event.source"}, {32, "event.args"}};
 const node::LocalEvent kEventList[] = {{"timer", "doc"}, {"prox", ""}};

@@ -114,7 +114,6 @@ private:
         for (uint16_t i = 0; i < count; ++i) of(vm).read_ += words[i];
     }
     static void send_variables(Vm& vm, uint16_t start, uint16_t count) {
-        must(count <= wire::kVariablesReplyWordsMax);
         must(count == 0 || start + count <= of(vm).variables.size());
     }
     static void send_error(Vm& vm, const char* text) {

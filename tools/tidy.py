@@ -52,7 +52,7 @@ ROOMS = {
     "conformance": [
         ("values", "line instructions finding standard_natives"),
         ("the bench", "bench native_call"),
-        ("checks", "check checks check_breakpoints check_control check_description check_events check_faults check_flash "
+        ("checks", "check checks check_breakpoints check_control check_description check_events check_faults check_flash check_sleep "
                    "check_limits check_messages check_native_faults check_natives check_opcodes check_operators"),
         ("the whole", "examine report_text"),
     ],

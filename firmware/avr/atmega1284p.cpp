@@ -6,6 +6,7 @@
 #include <avr/sleep.h>
 
 #include "firmware/board.hpp"
+#include "firmware/node/machine.hpp"
 #include "isa/flash.hpp"
 
 namespace vagus {
@@ -22,16 +23,15 @@ constexpr uint16_t kEepromBytes = 4096;
 constexpr uint16_t kIdOfMaker = kEepromBytes - 2;
 constexpr uint16_t kSlotBytes = 2044;
 
-volatile uint32_t milliseconds;
+volatile uint16_t milliseconds;
 
 constexpr uint16_t kBytecodeWords = 1000;
 constexpr uint16_t kVariablesWords = 1000;
 constexpr uint16_t kStackWords = 64;
-static_assert(12 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
+static_assert(firmware::kSlotOverhead + 2 * kBytecodeWords <= kSlotBytes,
+              "a slot holds the whole bytecode");
 static_assert(2 * kSlotBytes <= kIdOfMaker, "both slots fit before the number of the maker");
-uint16_t bytecode[kBytecodeWords];
-int16_t variables[kVariablesWords];
-int16_t stack[kStackWords];
+firmware::Memories<kBytecodeWords, kVariablesWords, kStackWords> memories;
 
 uint8_t* place_of(uint8_t slot, uint16_t at) {
     return reinterpret_cast<uint8_t*>(slot * kSlotBytes + at);
@@ -39,7 +39,7 @@ uint8_t* place_of(uint8_t slot, uint16_t at) {
 
 }  // namespace
 
-const Memory kMemory = {bytecode, variables, stack, kBytecodeWords, kVariablesWords, kStackWords};
+const vm::Config kMachine = firmware::machine_of(memories);
 VAGUS_FLASH_TEXT(kName, "atmega1284p");
 
 void begin() {
@@ -57,9 +57,9 @@ void begin() {
     sei();
 }
 
-uint32_t now_ms() {
+uint16_t now_ms() {
     const uint8_t before = hold();
-    const uint32_t now = milliseconds;
+    const uint16_t now = milliseconds;
     release(before);
     return now;
 }
@@ -74,12 +74,8 @@ void release(uint8_t before) {
     SREG = before;
 }
 
-// The instruction behind sei() is executed before any interrupt: none is missed.
 void sleep() {
-    sleep_enable();
-    sei();
-    sleep_cpu();
-    sleep_disable();
+    sleep_mode();
 }
 
 void start_sending() {
@@ -109,7 +105,7 @@ void restart() {
 }
 
 void erase_slot(uint8_t slot) {
-    for (uint16_t at = 0; at < 12; ++at) eeprom_update_byte(place_of(slot, at), 0xff);
+    write_slot(slot, 0, 0xffffffff);
 }
 
 void write_slot(uint8_t slot, uint16_t at, uint32_t value) {

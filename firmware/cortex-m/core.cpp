@@ -36,9 +36,8 @@ void release(uint8_t before) {
     asm volatile("msr primask, %0" : : "r"(static_cast<uint32_t>(before)) : "memory");
 }
 
-// Waiting ends at a pending interrupt, also at one that is held.
 void sleep() {
-    asm volatile("wfi\n\tcpsie i" : : : "memory");
+    asm volatile("wfi" : : : "memory");
 }
 
 void restart() {

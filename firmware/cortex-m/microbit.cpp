@@ -4,6 +4,7 @@
 #include "firmware/board.hpp"
 #include "firmware/cortex-m/registers.hpp"
 #include "firmware/cortex-m/vectors.hpp"
+#include "firmware/node/machine.hpp"
 
 namespace vagus {
 namespace board {
@@ -66,16 +67,15 @@ constexpr uint32_t kIdOfMaker = kSlotsAt - 4;  // written there with the program
 constexpr uint32_t kUartInterrupt = 2;
 constexpr uint32_t kTimerInterrupt = 8;
 
-volatile uint32_t milliseconds;
-volatile bool sending;
+volatile uint16_t milliseconds;
+volatile bool sending;  // a byte is on its way
 
 constexpr uint16_t kBytecodeWords = 2000;
 constexpr uint16_t kVariablesWords = 1000;
 constexpr uint16_t kStackWords = 64;
-static_assert(12 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
-uint16_t bytecode[kBytecodeWords];
-int16_t variables[kVariablesWords];
-int16_t stack[kStackWords];
+static_assert(firmware::kSlotOverhead + 2 * kBytecodeWords <= kSlotBytes,
+              "a slot holds the whole bytecode");
+firmware::Memories<kBytecodeWords, kVariablesWords, kStackWords> memories;
 
 void begin_uart() {
     register_at(kSendPin) = kPinToComputer;
@@ -105,15 +105,9 @@ void wait_for_flash() {
     }
 }
 
-void send_next() {
-    uint8_t byte = 0;
-    sending = next_byte(byte);
-    if (sending) register_at(kToSend) = byte;
-}
-
 }  // namespace
 
-const Memory kMemory = {bytecode, variables, stack, kBytecodeWords, kVariablesWords, kStackWords};
+const vm::Config kMachine = firmware::machine_of(memories);
 const char kName[] = "microbit";
 
 void begin() {
@@ -125,14 +119,12 @@ void begin() {
     register_at(kInterruptSetEnable) = (1 << kUartInterrupt) | (1 << kTimerInterrupt);
 }
 
-uint32_t now_ms() {
+uint16_t now_ms() {
     return milliseconds;
 }
 
 void start_sending() {
-    const uint8_t before = hold();
-    if (!sending) send_next();
-    release(before);
+    register_at(kInterruptSetPending) = 1 << kUartInterrupt;
 }
 
 void show_leds(uint16_t leds) {
@@ -182,10 +174,11 @@ static void on_uart() {
         register_at(kReceivedEvent) = 0;
         on_byte(static_cast<uint8_t>(register_at(kReceived)));
     }
-    if (register_at(kSentEvent) != 0) {
-        register_at(kSentEvent) = 0;
-        send_next();
-    }
+    if (sending && register_at(kSentEvent) == 0) return;
+    register_at(kSentEvent) = 0;
+    uint8_t byte = 0;
+    sending = next_byte(byte);
+    if (sending) register_at(kToSend) = byte;
 }
 
 // Looks at the serial line, too: the emulator raises no interrupt for a byte that had to wait for

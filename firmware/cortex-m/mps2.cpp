@@ -5,6 +5,7 @@
 #include "firmware/board.hpp"
 #include "firmware/cortex-m/registers.hpp"
 #include "firmware/cortex-m/vectors.hpp"
+#include "firmware/node/machine.hpp"
 
 namespace vagus {
 namespace board {
@@ -23,6 +24,9 @@ constexpr uint32_t kSendBit = 1 << 0;
 constexpr uint32_t kReceiveBit = 1 << 1;
 constexpr uint32_t kBothDirectionsAndInterrupts = 0xf;
 
+constexpr uint32_t kReceivedInterrupt = 1 << 0;
+constexpr uint32_t kSentInterrupt = 1 << 1;
+
 constexpr uint32_t kClock = 25000000;
 constexpr uint32_t kBaud = 115200;
 
@@ -33,47 +37,38 @@ constexpr uint32_t kSlotsAt = 0x00300000;
 constexpr uint32_t kSlotBytes = 0x4000;
 constexpr uint32_t kIdOfMaker = 0x003ffffc;
 
-volatile uint32_t milliseconds;
+volatile uint16_t milliseconds;
 
 constexpr uint16_t kBytecodeWords = 4000;
 constexpr uint16_t kVariablesWords = 2000;
 constexpr uint16_t kStackWords = 64;
-static_assert(12 + 2 * kBytecodeWords <= kSlotBytes, "a slot holds the whole bytecode");
-uint16_t bytecode[kBytecodeWords];
-int16_t variables[kVariablesWords];
-int16_t stack[kStackWords];
+static_assert(firmware::kSlotOverhead + 2 * kBytecodeWords <= kSlotBytes,
+              "a slot holds the whole bytecode");
+firmware::Memories<kBytecodeWords, kVariablesWords, kStackWords> memories;
 
 uint32_t address_of(uint8_t slot, uint16_t at) {
     return kSlotsAt + slot * kSlotBytes + at;
 }
 
-void send_next() {
-    uint8_t byte = 0;
-    if ((register_at(kUartState) & kSendFull) == 0 && next_byte(byte))
-        register_at(kUartData) = byte;
-}
-
 }  // namespace
 
-const Memory kMemory = {bytecode, variables, stack, kBytecodeWords, kVariablesWords, kStackWords};
+const vm::Config kMachine = firmware::machine_of(memories);
 const char kName[] = "mps2-an385";
 
 void begin() {
     register_at(kUartDivider) = kClock / kBaud;
     register_at(kUartControl) = kBothDirectionsAndInterrupts;
     register_at(kSysTickReload) = kClock / 1000 - 1;
-    register_at(kSysTickControl) = 7;      // on, with interrupt, from the processor's clock
-    register_at(kInterruptSetEnable) = 3;  // 0: received, 1: sent
+    register_at(kSysTickControl) = 7;  // on, with interrupt, from the processor's clock
+    register_at(kInterruptSetEnable) = kReceivedInterrupt | kSentInterrupt;
 }
 
-uint32_t now_ms() {
+uint16_t now_ms() {
     return milliseconds;
 }
 
 void start_sending() {
-    const uint8_t before = hold();
-    send_next();
-    release(before);
+    register_at(kInterruptSetPending) = kSentInterrupt;
 }
 
 void show_leds(uint16_t leds) {
@@ -90,9 +85,7 @@ uint16_t first_id() {
 
 // What a flash would read after it was erased.
 void erase_slot(uint8_t slot) {
-    for (uint16_t at = 0; at < 12; at = static_cast<uint16_t>(at + 4)) {
-        register_at(address_of(slot, at)) = 0xffffffff;
-    }
+    write_slot(slot, 0, 0xffffffff);
 }
 
 void write_slot(uint8_t slot, uint16_t at, uint32_t value) {
@@ -118,8 +111,12 @@ static void on_received() {
 }
 
 static void on_sent() {
-    vagus::register_at(vagus::board::kUartInterrupts) = vagus::board::kSendBit;
-    vagus::board::send_next();
+    using namespace vagus;
+    using namespace vagus::board;
+    register_at(kUartInterrupts) = kSendBit;
+    uint8_t byte = 0;
+    if ((register_at(kUartState) & kSendFull) == 0 && next_byte(byte))
+        register_at(kUartData) = byte;
 }
 
 static void on_tick() {

@@ -22,8 +22,8 @@ VAGUS_FLASH_TABLE(node::Variable, kVariableTable, kVariables) = {
     {1, kSkipped}, {1, kLeds},   {1, kButtons},       {1, kPeriod}};
 
 VAGUS_FLASH_TEXT(kTimer, "timer");
-VAGUS_FLASH_TEXT(kTimerSays, "every timer.period milliseconds");
-VAGUS_FLASH_TEXT(kButtonsSay, "a button was pressed or let go");
+VAGUS_FLASH_TEXT(kTimerSays, "every timer.period ms");
+VAGUS_FLASH_TEXT(kButtonsSay, "pressed or let go");
 VAGUS_FLASH_TABLE(node::LocalEvent, kEventTable, kLocalEvents) = {{kTimer, kTimerSays},
                                                                   {kButtons, kButtonsSay}};
 

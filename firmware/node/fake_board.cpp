@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "firmware/board.hpp"
+#include "firmware/node/machine.hpp"
 
 namespace vagus::firmware {
 
@@ -24,6 +25,7 @@ void TestSlots::write(uint8_t slot, uint16_t at, uint8_t value) {
 }
 
 TestBoard::TestBoard(TestSlots& its_slots) : slots(its_slots) {
+    the_firmware = {};
     assert(the_board == nullptr);
     the_board = this;
 }
@@ -43,14 +45,14 @@ void TestBoard::hear(const wire::Frame& frame) {
 
 void TestBoard::settle() {
     for (int turns = 0; turns < kTurnsMax; ++turns) {
-        turn(firmware);
+        const bool has_more = turn(firmware);
         uint8_t byte = 0;
         bool sends = false;
         while (!stuck && board::next_byte(byte)) {
             sent.push_back(byte);
             sends = true;
         }
-        if (!sends && !has_work(firmware)) return;
+        if (!sends && !has_more) return;
     }
 }
 
@@ -107,27 +109,20 @@ firmware::TestBoard& here() {
     return *firmware::the_board;
 }
 
-uint16_t bytecode[firmware::kTestBytecode];
-int16_t variables[firmware::kTestVariables];
-int16_t stack[firmware::kTestStack];
+firmware::Memories<firmware::kTestBytecode, firmware::kTestVariables, firmware::kTestStack>
+    memories;
 
 }  // namespace
 
-const Memory kMemory = {bytecode,
-                        variables,
-                        stack,
-                        firmware::kTestBytecode,
-                        firmware::kTestVariables,
-                        firmware::kTestStack};
+const vm::Config kMachine = firmware::machine_of(memories);
 const char kName[] = "test";
 
 // Power comes on: RAM is empty.
 void begin() {
-    std::fill(std::begin(bytecode), std::end(bytecode), uint16_t{0});
-    std::fill(std::begin(variables), std::end(variables), int16_t{0});
+    memories = {};
 }
-uint32_t now_ms() {
-    return here().now_ms;
+uint16_t now_ms() {
+    return static_cast<uint16_t>(here().now_ms);
 }
 uint8_t hold() {
     return 0;
@@ -151,7 +146,7 @@ void restart() {
 }
 
 void erase_slot(uint8_t slot) {
-    for (uint16_t at = 0; at < 12; ++at) here().slots.write(slot, at, 0xff);
+    write_slot(slot, 0, 0xffffffff);
 }
 void write_slot(uint8_t slot, uint16_t at, uint32_t value) {
     for (uint16_t i = 0; i < 4; ++i) {

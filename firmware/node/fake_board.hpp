@@ -17,7 +17,7 @@ namespace vagus::firmware {
 constexpr uint16_t kTestBytecode = 600;
 constexpr uint16_t kTestVariables = 200;
 constexpr uint16_t kTestStack = 32;
-constexpr size_t kTestSlotBytes = 12 + 2 * kTestBytecode;
+constexpr size_t kTestSlotBytes = kSlotOverhead + 2 * kTestBytecode;
 
 // What outlives a restart, and how it dies.
 struct TestSlots {
@@ -57,7 +57,7 @@ public:
     bool stuck = false;
     int restarts = 0;
     std::vector<uint8_t> sent;
-    Firmware firmware{};
+    Firmware& firmware = the_firmware;
 };
 
 // A command to a node: its words, the first is the node.

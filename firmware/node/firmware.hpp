@@ -2,12 +2,9 @@
 // between the serial line and the memory that outlasts a restart. Knows its board only by
 // board.hpp, and so runs in tests on a host, too.
 //
-//     Firmware firmware;                   // all zero
-//     start(firmware);                     // the saved program runs, if there is one
+//     start(the_firmware);  // the saved program runs, if there is one
 //     for (;;) {
-//         const uint8_t before = board::hold();
-//         if (has_work(firmware)) board::release(before); else board::sleep();
-//         turn(firmware);
+//         if (!turn(the_firmware)) board::sleep();
 //     }
 //
 // Nothing here waits. An answer that is longer than the line takes at once goes in pieces, one a
@@ -33,36 +30,28 @@ constexpr uint16_t kInstructionsPerFrame = 1000;
 // A piece of the variables, as robots with a small radio send them (section 1.3).
 constexpr uint16_t kVariablesAtOnce = 47;
 // No piece, and no answer to one command, is longer: a test looks at the whole description.
-constexpr uint8_t kAnswerMax = 116;
-constexpr uint16_t kNoDescription = 0x7fff;
+constexpr uint16_t kAnswerMax = 116;
 
-// All zero at the start.
+// All zero at the start. Small things first: a Cortex-M reaches those with shorter instructions.
 struct Firmware {
-    Receiver receiver;
-    Sender sender;
-    Store store;
     node::Node node;
-    vm::Config config;
+    uint8_t pending;       // local events, a bit for each
+    bool restarts;         // once nothing is being saved
+    uint16_t executed;     // instructions since the last frame
+    uint16_t timer_began;  // when the timer fired last
+    uint16_t buttons;      // as they were last looked at
+    Receiver receiver;
+    Store store;
     uint16_t breakpoints[vm::kBreakpointsMax];
-    uint16_t program_words;    // as far as hosts have written
-    uint16_t next_fragment;    // of the description; kNoDescription if none is asked for
-    uint16_t variables_start;  // of those that are to be sent …
-    uint16_t variables_count;  // … and how many there are
-    uint16_t executed;         // instructions since the last frame
-    uint16_t timer_period;     // as it was last looked at
-    uint16_t timer_began;      // low half of the time
-    uint16_t shown_dropped;    // in the variable _dropped
-    uint16_t shown_skipped;    // in the variable _skipped
-    uint16_t buttons;          // as they were last looked at
-    uint8_t pending;           // local events, a bit for each
-    bool took_frame;           // in the last turn: there may be more
-    bool restarts;             // once nothing is being saved
+    Sender sender;
 };
 
+// The one that there is: board.hpp has no objects either.
+extern Firmware the_firmware;
+
 void start(Firmware& firmware);
-void turn(Firmware& firmware);
-// turn() has something to do right now. To be asked with interrupts held.
-bool has_work(const Firmware& firmware);
+// True if there is more to do right now.
+bool turn(Firmware& firmware);
 
 }  // namespace firmware
 }  // namespace vagus

@@ -57,7 +57,7 @@ protected:
         load(program);
         (void)ask(MessageType::Run, {7});
     }
-    int16_t variable(uint16_t at) { return board::kMemory.variables[at]; }
+    int16_t variable(uint16_t at) { return board::kMachine.variables[at]; }
 
     TestSlots slots;
     std::unique_ptr<TestBoard> board;
@@ -103,12 +103,12 @@ TEST_F(NodeOfABoard, DescribesItselfInPiecesThatFit) {
         for (const wire::Frame& frame : frames)
             EXPECT_LE(wire::kHeaderSize + frame.size, kAnswerMax);
     }
-    EXPECT_EQ(board->firmware.sender.dropped_messages, 0);
+    EXPECT_EQ(variable(kDroppedAt), 0);
 }
 
 TEST_F(NodeOfABoard, SendsAllVariablesInPieces) {
     for (uint16_t i = kUser; i < kTestVariables; ++i)
-        board::kMemory.variables[i] = static_cast<int16_t>(i);
+        board::kMachine.variables[i] = static_cast<int16_t>(i);
     const auto frames = ask(MessageType::GetVariables, {7, 30, 1000});
     Words values;
     for (const wire::Frame& frame : frames) {
@@ -159,9 +159,9 @@ TEST_F(NodeOfABoard, AProgramThatComesWhileAnotherIsSavedIsNotMixedWithIt) {
         board::on_byte(byte);
     for (const uint8_t byte : bytes_of(command(MessageType::Run, {7}))) board::on_byte(byte);
     turn(board->firmware);
-    ASSERT_TRUE(is_saving(board->firmware.store));
+    ASSERT_TRUE(board->firmware.store.is_saving);
     turn(board->firmware);
-    ASSERT_FALSE(is_saving(board->firmware.store));
+    ASSERT_FALSE(board->firmware.store.is_saving);
     restart();
     board->hear(event(3, 5, {}));
     EXPECT_EQ(variable(kUser), 11);
@@ -191,7 +191,8 @@ TEST_F(NodeOfABoard, RestartsBehindTheSave) {
     board->hear(command(MessageType::Reboot, {7}));
     EXPECT_EQ(board->restarts, 1);
     restart();
-    EXPECT_EQ(board->firmware.program_words, kOnFive.size());
+    board->hear(event(3, 5, {}));
+    EXPECT_EQ(variable(kUser), 11);
 }
 
 // The line is slower than the script: events are dropped and counted, the count can be read, and a
@@ -210,12 +211,13 @@ TEST_F(NodeOfABoard, AScriptThatEmitsWithoutEndCanBeStopped) {
     hear_slowly(MessageType::Run);
     ASSERT_TRUE(vm::is_active(board->firmware.node.vm));
     EXPECT_GT(static_cast<uint16_t>(variable(kDroppedAt)), 1000);
+    board->sent.clear();
     hear_slowly(MessageType::Stop);
     EXPECT_FALSE(vm::is_active(board->firmware.node.vm));
-    EXPECT_EQ(board->firmware.sender.dropped_messages, 0);
+    EXPECT_EQ(count(board->said(), type_of(MessageType::ExecutionStateChanged)), 1);
 }
 
-TEST_F(NodeOfABoard, CommandsWaitForRoomAndNothingElseDoes) {
+TEST_F(NodeOfABoard, CommandsWaitForRoom) {
     board->stuck = true;
     for (int i = 0; i < 20; ++i) {
         for (const uint8_t byte : bytes_of(command(MessageType::GetExecutionState, {7})))
@@ -225,7 +227,7 @@ TEST_F(NodeOfABoard, CommandsWaitForRoomAndNothingElseDoes) {
     board->stuck = false;
     board->settle();
     EXPECT_EQ(count(board->said(), type_of(MessageType::ExecutionStateChanged)), 20);
-    EXPECT_EQ(board->firmware.sender.dropped_messages, 0);
+    EXPECT_EQ(variable(kDroppedAt), 0);
 }
 
 // Other nodes are described at the same time: their frames are many, and none of ours.
@@ -265,16 +267,6 @@ TEST_F(NodeOfABoard, ButtonsAndLampsAreVariables) {
     board->settle();
     board->settle();
     EXPECT_EQ(board->leds, 2);
-}
-
-TEST_F(NodeOfABoard, TheSavedProgramIsAsLongAsWhatWasWritten) {
-    Words long_program(250, 0);
-    run(long_program);
-    EXPECT_EQ(board->firmware.program_words, 250);
-    run(kOnFive);
-    EXPECT_EQ(board->firmware.program_words, kOnFive.size());
-    (void)ask(MessageType::SetBytecode, {7, 590, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
-    EXPECT_EQ(board->firmware.program_words, kTestBytecode);
 }
 
 }  // namespace

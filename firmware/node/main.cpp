@@ -1,12 +1,8 @@
-// What a board runs. The one object that changes: interrupts and the loop share it.
+// What a board runs.
 #include "firmware/board.hpp"
 #include "firmware/node/firmware.hpp"
 
-namespace {
-
-vagus::firmware::Firmware the_firmware;
-
-}  // namespace
+using vagus::firmware::the_firmware;
 
 void vagus::board::on_byte(uint8_t byte) {
     vagus::firmware::receive_byte(the_firmware.receiver, byte);
@@ -19,12 +15,6 @@ bool vagus::board::next_byte(uint8_t& byte) {
 int main() {
     vagus::firmware::start(the_firmware);
     for (;;) {
-        const uint8_t before = vagus::board::hold();
-        if (vagus::firmware::has_work(the_firmware)) {
-            vagus::board::release(before);
-        } else {
-            vagus::board::sleep();
-        }
-        vagus::firmware::turn(the_firmware);
+        if (!vagus::firmware::turn(the_firmware)) vagus::board::sleep();
     }
 }

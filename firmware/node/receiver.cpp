@@ -7,10 +7,14 @@ namespace firmware {
 
 namespace {
 
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+              "words of a frame are read where they lie");
+
 using wire::kHeaderSize;
 
-// Types of section 2 are the first few of each range: 0x8000, 0x9000, 0xa000.
+// Types of section 2 that are of use to a node: the first few of each range.
 constexpr uint16_t kTypeNumberBits = 0x001f;
+constexpr uint16_t kNodeMessages = 0x9000;
 constexpr uint16_t kCommands = 0xa000;
 
 // What most events are: of 32 arguments at most, of a node that a CAN bus can name (section 1.6),
@@ -21,154 +25,125 @@ constexpr uint16_t kLikelyType = 4096;
 
 enum class Verdict : uint8_t { Frame, Wait, Wrong };
 
-// The bytes that wait, seen as a row.
-struct Row {
-    const uint8_t* ring;
-    uint16_t first;
-    uint16_t have;
+// Of a header, which may begin at an odd place.
+uint16_t word_at(const uint8_t* bytes) {
+    return static_cast<uint16_t>(bytes[0] | (bytes[1] << 8));
+}
+uint16_t size_of(const uint8_t* header) {
+    return word_at(header);
+}
+uint16_t source_of(const uint8_t* header) {
+    return word_at(header + 2);
+}
+uint16_t type_of(const uint8_t* header) {
+    return word_at(header + 4);
+}
 
-    uint8_t byte(uint16_t at) const {
-        const uint16_t place = static_cast<uint16_t>(first + at);
-        return ring[place < kReceiveRoom ? place : place - kReceiveRoom];
+// Bytes of a command, read one place too early or too late, look like an event of a strange node;
+// six zeros stand inside of many a frame.
+bool is_likely(const uint8_t* header) {
+    const uint16_t size = size_of(header);
+    const uint16_t source = source_of(header);
+    const uint16_t type = type_of(header);
+    if (wire::is_user_event(type)) {
+        return size <= kLikelySize && size % 2 == 0 && source < kLikelySource &&
+               type < kLikelyType && (size | source | type) != 0;
     }
-    uint16_t word(uint16_t at) const {
-        return static_cast<uint16_t>(byte(at) | (byte(static_cast<uint16_t>(at + 1)) << 8));
-    }
-    uint16_t size(uint16_t at) const { return word(at); }
-    uint16_t source(uint16_t at) const { return word(static_cast<uint16_t>(at + 2)); }
-    uint16_t type(uint16_t at) const { return word(static_cast<uint16_t>(at + 4)); }
-};
-
-// Two bytes are read together: the interrupt must not come in between on an 8-bit processor.
-Row row_of(const Receiver& receiver) {
-    const uint8_t before = board::hold();
-    const uint16_t head = receiver.head;
-    board::release(before);
-    const uint16_t tail = receiver.tail;
-    const uint16_t have =
-        static_cast<uint16_t>(head >= tail ? head - tail : head + kReceiveRoom - tail);
-    return {receiver.ring, tail, have};
-}
-
-void drop(Receiver& receiver, uint16_t count) {
-    uint16_t tail = static_cast<uint16_t>(receiver.tail + count);
-    if (tail >= kReceiveRoom) tail = static_cast<uint16_t>(tail - kReceiveRoom);
-    const uint8_t before = board::hold();
-    receiver.tail = tail;
-    board::release(before);
-}
-
-// Six zeros: event 0 of a host without arguments, and what stands inside of many a frame.
-bool is_zero(const Row& row, uint16_t at) {
-    return (row.size(at) | row.source(at) | row.type(at)) == 0;
-}
-
-bool is_possible(const Row& row, uint16_t at) {
-    const uint16_t size = row.size(at);
-    const uint16_t source = row.source(at);
-    const uint16_t type = row.type(at);
     if (size > wire::kPayloadMax || source == wire::kInvalidId) return false;
-    if (wire::is_user_event(type)) return size % 2 == 0;
     const uint16_t range = static_cast<uint16_t>(type & ~kTypeNumberBits);
-    if (range == kCommands) return size >= 2 && source == wire::kHostId;
-    return range == 0x8000 || (range == 0x9000 && source != wire::kHostId);
+    const bool from_host = source == wire::kHostId;
+    return from_host ? range == kCommands && size >= 2 : range == kNodeMessages;
 }
 
-// Not only possible: bytes of a command, read one place too early or too late, look like an event
-// of a strange node.
-bool is_likely(const Row& row, uint16_t at) {
-    if (!is_possible(row, at) || is_zero(row, at)) return false;
-    return !wire::is_user_event(row.type(at)) ||
-           (row.size(at) <= kLikelySize && row.source(at) < kLikelySource &&
-            row.type(at) < kLikelyType);
+bool needs_witness(const uint8_t* header, bool doubt) {
+    return doubt || !is_likely(header) ||
+           type_of(header) == static_cast<uint16_t>(wire::MessageType::SetBytecode);
 }
 
-bool is_bytecode(const Row& row) {
-    return row.type(0) == static_cast<uint16_t>(wire::MessageType::SetBytecode);
-}
-
-bool needs_witness(const Row& row) {
-    return !is_likely(row, 0) || is_bytecode(row);
-}
-
-struct Waited {
-    uint32_t quiet_ms;  // since the last byte
-    uint16_t frame_ms;  // since the frame came to the front
-};
-
-// Is there a frame at the front?
-Verdict judge(const Row& row, bool doubt, Waited waited) {
+// Is there a frame at the front? `quiet_ms` since the last byte.
+Verdict judge(const Receiver& receiver, uint16_t have, uint16_t quiet_ms, uint16_t frame_ms) {
+    const bool doubt = receiver.doubt;
     const bool more_may_come =
-        waited.quiet_ms < (doubt ? kWitness_ms : kBroken_ms) && waited.frame_ms < kFrameWithin_ms;
-    if (row.have < kHeaderSize) return more_may_come ? Verdict::Wait : Verdict::Wrong;
-    if (doubt ? !is_likely(row, 0) : !is_possible(row, 0)) return Verdict::Wrong;
-    const uint16_t end = static_cast<uint16_t>(kHeaderSize + row.size(0));
-    if (row.have >= end && !doubt && !needs_witness(row)) return Verdict::Frame;
-    if (row.have >= end + kHeaderSize) return is_likely(row, end) ? Verdict::Frame : Verdict::Wrong;
-    if (row.have == end && waited.quiet_ms >= kWitness_ms) return Verdict::Frame;
-    return more_may_come ? Verdict::Wait : Verdict::Wrong;
+        quiet_ms < (doubt ? kWitness_ms : kBroken_ms) && frame_ms < kFrameWithin_ms;
+    const Verdict unfinished = more_may_come ? Verdict::Wait : Verdict::Wrong;
+    if (have < kHeaderSize) return unfinished;
+    const uint8_t* const header = reinterpret_cast<const uint8_t*>(receiver.row) + receiver.begin;
+    if (size_of(header) > wire::kPayloadMax || (doubt && !is_likely(header))) return Verdict::Wrong;
+    const uint16_t size = static_cast<uint16_t>(kHeaderSize + size_of(header));
+    if (have < size) return unfinished;
+    if (!needs_witness(header, doubt)) return Verdict::Frame;
+    if (have >= size + kHeaderSize) {
+        return is_likely(header + size) ? Verdict::Frame : Verdict::Wrong;
+    }
+    return have == size && quiet_ms >= kWitness_ms ? Verdict::Frame : unfinished;
 }
 
-// Also one to all nodes.
-bool is_command_to(const Row& row, uint16_t node) {
-    const uint16_t type = row.type(0);
-    if (node == kNobody || type < kCommands) return false;
-    return type == static_cast<uint16_t>(wire::MessageType::GetDescription) ||
-           type == static_cast<uint16_t>(wire::MessageType::ListNodes) ||
-           row.word(kHeaderSize) == node;
-}
-
-void copy(const Row& row, Received& frame) {
-    frame.source = row.source(0);
-    frame.type = row.type(0);
-    frame.count = static_cast<uint16_t>(row.size(0) / 2);
-    for (uint16_t i = 0; i < frame.count; ++i) {
-        frame.words[i] = row.word(static_cast<uint16_t>(kHeaderSize + 2 * i));
+// Moves what waits to the begin of the row. Bytes may come meanwhile.
+void move_up(Receiver& receiver) {
+    uint8_t* bytes = reinterpret_cast<uint8_t*>(receiver.row);
+    for (uint16_t moved = 0;; ++moved) {
+        const uint8_t before = board::hold();
+        const uint16_t from = static_cast<uint16_t>(receiver.begin + moved);
+        if (from == receiver.end) {
+            receiver.begin = 0;
+            receiver.end = moved;
+            receiver.seen = moved;
+            return board::release(before);
+        }
+        board::release(before);
+        bytes[moved] = bytes[from];
     }
 }
 
 }  // namespace
 
 void receive_byte(Receiver& receiver, uint8_t byte) {
-    const uint16_t head = receiver.head;
-    const uint16_t next = static_cast<uint16_t>(head + 1 == kReceiveRoom ? 0 : head + 1);
-    if (next == receiver.tail) {
+    const uint16_t end = receiver.end;
+    if (end == kReceiveRoom) {
         receiver.lost = static_cast<uint16_t>(receiver.lost + 1);
         return;
     }
-    receiver.ring[head] = byte;
-    receiver.head = next;
+    reinterpret_cast<uint8_t*>(receiver.row)[end] = byte;
+    receiver.end = static_cast<uint16_t>(end + 1);
 }
 
-bool next_frame(Receiver& receiver, uint32_t now_ms, uint16_t busy, Received& frame) {
+[[gnu::noinline]] bool next_frame(Receiver& receiver, uint16_t now_ms) {
     for (;;) {
-        const Row row = row_of(receiver);
-        const uint16_t head = static_cast<uint16_t>(row.first + row.have);
-        if (head % kReceiveRoom != receiver.seen) {
-            receiver.seen = head % kReceiveRoom;
-            receiver.last_ms = now_ms;
+        const uint16_t end = receiver.end;
+        if (end != receiver.seen) {
+            receiver.seen = end;
+            receiver.seen_ms = now_ms;
         }
-        const uint32_t quiet_ms = now_ms - receiver.last_ms;
-        if (row.have == 0) {
+        const uint16_t quiet_ms = static_cast<uint16_t>(now_ms - receiver.seen_ms);
+        const uint16_t have = static_cast<uint16_t>(end - receiver.begin);
+        if (have == 0) {
+            receiver.began_ms = now_ms;
             // Behind a silence a frame begins, whatever was before.
             if (quiet_ms >= kWitness_ms) receiver.doubt = false;
-            receiver.began_ms = static_cast<uint16_t>(now_ms);
-            return false;
         }
         const uint16_t frame_ms = static_cast<uint16_t>(now_ms - receiver.began_ms);
-        const Verdict verdict = judge(row, receiver.doubt, {quiet_ms, frame_ms});
-        if (verdict == Verdict::Wait) return false;
-        if (verdict == Verdict::Frame && is_command_to(row, busy)) return false;
-        receiver.doubt = verdict == Verdict::Wrong;
-        receiver.began_ms = static_cast<uint16_t>(now_ms);
-        if (verdict == Verdict::Frame) {
-            copy(row, frame);
-            drop(receiver, static_cast<uint16_t>(kHeaderSize + row.size(0)));
-            return true;
+        const Verdict verdict =
+            have == 0 ? Verdict::Wait : judge(receiver, have, quiet_ms, frame_ms);
+        if (verdict != Verdict::Wrong) {
+            if (receiver.begin > 0) move_up(receiver);
+            return verdict == Verdict::Frame;
         }
-        drop(receiver, 1);
+        receiver.doubt = true;
+        receiver.began_ms = now_ms;
+        ++receiver.begin;
         ++receiver.skipped;
     }
+}
+
+Received front(const Receiver& receiver) {
+    const uint16_t* row = receiver.row;
+    return {row[1], row[2], row + 3, static_cast<uint16_t>(row[0] / 2)};
+}
+
+void drop_front(Receiver& receiver, uint16_t now_ms) {
+    receiver.begin = static_cast<uint16_t>(kHeaderSize + receiver.row[0]);
+    receiver.began_ms = now_ms;
+    receiver.doubt = false;
 }
 
 }  // namespace firmware

@@ -1,19 +1,20 @@
 // Frames out of a serial line on which bytes get lost, on a microcontroller: the interrupt puts
-// bytes into a ring, and the frames are read where they lie. What counts as a frame, and how the
+// bytes into a row, and the frames are read where they lie. What counts as a frame, and how the
 // next one is found again, follows docs/decisions/0055; the reader of hosts (wire/line_reader.hpp)
 // has a buffer of its own and three times the code.
 //
 //     void interrupt() { receive_byte(receiver, uart.data); }
 //
-//     Received frame;
-//     while (next_frame(receiver, now_ms, kNobody, frame)) obey(frame);
+//     while (next_frame(receiver, now_ms)) {
+//         obey(front(receiver));
+//         drop_front(receiver, now_ms);
+//     }
 //
-// A header must be possible: its size legal, its type known, its source not 0xffff. One that is
-// likely, too (an event as most are, or a message of section 2), makes a frame when the last byte
-// is there. One that is only possible needs a witness: a likely header behind it, or silence.
-// SetBytecode needs one always, so that a piece of a program that lost bytes, and took those of the
-// next frame instead, is not stored. Once something was wrong, frames are likely ones with a
-// witness, until there was one, or a silence.
+// A header is likely if it is that of an event as most are, or of a message of section 2. It makes
+// a frame when the last byte is there. Any other needs a witness: a likely header behind the frame,
+// or silence. SetBytecode needs one always, so that a piece of a program that lost bytes, and took
+// those of the next frame instead, is not stored. Once something was wrong, frames are likely ones
+// with a witness, until there was one, or a silence.
 #pragma once
 
 #include <stdint.h>
@@ -34,38 +35,33 @@ constexpr uint16_t kBroken_ms = 250;
 constexpr uint16_t kFrameWithin_ms = 500;
 constexpr uint16_t kWordsMax = wire::kPayloadMax / 2;
 
-// All zero at the start.
+// All zero at the start. Times are the low half of those of the board.
 struct Receiver {
-    uint8_t ring[kReceiveRoom];
-    volatile uint16_t head;  // where the next byte goes; the interrupt's
-    volatile uint16_t tail;  // the first byte that was not used yet
-    volatile uint16_t lost;  // bytes that found no room
-    uint16_t seen;           // head, when the time was last looked at
-    uint32_t last_ms;        // when that was another
-    uint16_t began_ms;       // when the frame in front came to the front; low half of the time
-    uint16_t skipped;        // bytes that belonged to no frame; wraps
-    bool doubt;              // something was wrong, and no frame with a witness came since
+    volatile uint16_t end;           // bytes in the row; the interrupt counts up
+    volatile uint16_t lost;          // bytes that found no room
+    uint16_t begin;                  // the first byte that was not used yet
+    uint16_t seen;                   // `end`, when the time was last looked at
+    uint16_t seen_ms;                // when that was another
+    uint16_t began_ms;               // when the frame in front came to the front
+    uint16_t skipped;                // bytes that belonged to no frame; wraps
+    bool doubt;                      // something was wrong, and no frame with a witness came since
+    uint16_t row[kReceiveRoom / 2];  // words, so that those of a frame can be read where they lie
 };
 
 struct Received {
     uint16_t source;
     uint16_t type;
-    uint16_t count;  // words; an odd last byte does not count
-    uint16_t words[kWordsMax];
+    const uint16_t* words;
+    uint16_t count;  // of words; an odd last byte does not count
 };
 
 // From the interrupt.
 void receive_byte(Receiver& receiver, uint8_t byte);
 
-// The next frame; false if there is none yet. A command to `busy`, a node that cannot answer now,
-// stays where it is until that is over, and so does all behind it.
-constexpr uint16_t kNobody = wire::kInvalidId;
-bool next_frame(Receiver& receiver, uint32_t now_ms, uint16_t busy, Received& frame);
-
-// Bytes wait: for more of them, or for a silence.
-inline bool has_bytes(const Receiver& receiver) {
-    return receiver.head != receiver.tail;
-}
+// A frame is in front. It stays there, and all behind it, until it is dropped.
+bool next_frame(Receiver& receiver, uint16_t now_ms);
+Received front(const Receiver& receiver);
+void drop_front(Receiver& receiver, uint16_t now_ms);
 
 }  // namespace firmware
 }  // namespace vagus

@@ -1,71 +1,35 @@
 #include "firmware/node/sender.hpp"
 
+#include <stddef.h>
+
 namespace vagus {
 namespace firmware {
 
-namespace {
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ &&
+                  offsetof(wire::Frame, payload) == wire::kHeaderSize,
+              "a frame lies in memory as it is sent");
 
-constexpr uint8_t kLast = kSendRoom - 1;
-
-uint8_t waiting(const SendRing& ring) {
-    return static_cast<uint8_t>(ring.head - ring.tail) & kLast;
-}
-
-void put(SendRing& ring, uint8_t byte, uint8_t& at) {
-    ring.bytes[at] = byte;
-    at = static_cast<uint8_t>(at + 1) & kLast;
-}
-
-void put_word(SendRing& ring, uint16_t word, uint8_t& at) {
-    put(ring, static_cast<uint8_t>(word & 0xff), at);
-    put(ring, static_cast<uint8_t>(word >> 8), at);
+bool has_room(const Sender& sender, uint16_t size) {
+    return size <= static_cast<uint8_t>(sender.tail - sender.head - 1);
 }
 
 // The interrupt sees nothing of the frame before it is whole.
-bool put_frame(SendRing& ring, const wire::Frame& frame) {
-    const uint8_t room = static_cast<uint8_t>(kLast - waiting(ring));
-    if (static_cast<uint16_t>(frame.size + wire::kHeaderSize) > room) return false;
-    uint8_t at = ring.head;
-    put_word(ring, frame.size, at);
-    put_word(ring, frame.source, at);
-    put_word(ring, frame.type, at);
-    for (uint16_t i = 0; i < frame.size; ++i) put(ring, frame.payload[i], at);
-    ring.head = at;
+bool queue(Sender& sender, const wire::Frame& frame) {
+    const uint16_t left_free = wire::is_user_event(frame.type) ? kRoomOfMessages : 0;
+    const uint16_t size = static_cast<uint16_t>(wire::kHeaderSize + frame.size);
+    if (!has_room(sender, static_cast<uint16_t>(size + left_free))) return false;
+    const uint8_t* const bytes = reinterpret_cast<const uint8_t*>(&frame);
+    uint8_t head = sender.head;
+    for (uint16_t i = 0; i < size; ++i) sender.ring[head++] = bytes[i];
+    sender.head = head;
     return true;
 }
 
-void begin_frame(Sender& sender, SendRing& ring) {
-    // A frame that is queued is shorter than the ring: the low byte of its size says it all.
-    sender.current = &ring;
-    sender.left = static_cast<uint16_t>(wire::kHeaderSize + ring.bytes[ring.tail]);
-}
-
-}  // namespace
-
-void queue(Sender& sender, const wire::Frame& frame) {
-    const bool event = wire::is_user_event(frame.type);
-    if (put_frame(event ? sender.events : sender.messages, frame)) return;
-    ++(event ? sender.dropped_events : sender.dropped_messages);
-}
-
-bool has_room(const Sender& sender, uint8_t size) {
-    return size <= kLast - waiting(sender.messages);
-}
-
 bool take_byte(Sender& sender, uint8_t& byte) {
-    if (sender.left == 0) {
-        if (waiting(sender.messages) > 0) {
-            begin_frame(sender, sender.messages);
-        } else if (waiting(sender.events) > 0) {
-            begin_frame(sender, sender.events);
-        } else {
-            return false;
-        }
-    }
-    SendRing& ring = *sender.current;
-    byte = ring.bytes[ring.tail];
-    ring.tail = static_cast<uint8_t>(ring.tail + 1) & kLast;
-    --sender.left;
+    const uint8_t tail = sender.tail;
+    if (tail == sender.head) return false;
+    byte = sender.ring[tail];
+    sender.tail = static_cast<uint8_t>(tail + 1);
     return true;
 }
 

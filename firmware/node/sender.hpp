@@ -1,8 +1,9 @@
-// What the node says, waiting for the serial line: one ring for user events, one for all other
-// messages, which go first. Nothing waits for room: what finds none is dropped whole, and counted.
-// So a script that emits without end can neither stop the node nor keep its answers from the host.
+// What the node says, waiting for the serial line, in the order in which it was said. Nothing waits
+// for room: what finds none is dropped whole. User events leave half of the room to all other
+// messages; so a script that emits without end can neither stop the node nor keep its answers from
+// the host.
 //
-//     queue(sender, frame);                            // from the loop
+//     if (!queue(sender, frame)) ++dropped;            // from the loop
 //     void interrupt() { if (take_byte(sender, byte)) uart.data = byte; }
 #pragma once
 
@@ -13,31 +14,24 @@
 namespace vagus {
 namespace firmware {
 
-// Of each ring, in bytes; one byte stays free. A power of two that fits 8 bits, which every
-// processor reads at once.
-constexpr uint8_t kSendRoom = 128;
+// Bytes; one of them stays free. Indices of 8 bits go round by themselves, and every processor
+// reads them at once.
+constexpr uint16_t kSendRoom = 256;
+// Of these, for all that is no user event.
+constexpr uint16_t kRoomOfMessages = 128;
 
-// The interrupt moves `tail`, the loop moves `head`.
-struct SendRing {
-    uint8_t bytes[kSendRoom];
+// All zero at the start. The interrupt moves `tail`, the loop moves `head`.
+struct Sender {
     volatile uint8_t head;
     volatile uint8_t tail;
+    uint8_t ring[kSendRoom];
 };
 
-// All zero at the start.
-struct Sender {
-    SendRing messages;
-    SendRing events;
-    SendRing* current;          // whose frame is being sent
-    uint16_t left;              // bytes of it
-    uint16_t dropped_events;    // wraps
-    uint16_t dropped_messages;  // wraps
-};
+// False if there is no room.
+bool queue(Sender& sender, const wire::Frame& frame);
 
-void queue(Sender& sender, const wire::Frame& frame);
-
-// A message of so many bytes, header included, would not be dropped.
-bool has_room(const Sender& sender, uint8_t size);
+// A message of so many bytes, header included, would find room.
+bool has_room(const Sender& sender, uint16_t size);
 
 // From the interrupt. False if nothing waits.
 bool take_byte(Sender& sender, uint8_t& byte);

@@ -7,10 +7,10 @@ namespace firmware {
 
 namespace {
 
-constexpr uint16_t kChecksumAt = 8;
+constexpr uint32_t kNoBytes = 0xffffffff;  // the checksum of none
 
 // CRC-32 of IEEE 802.3, bit by bit: a table would fill 1 KB.
-uint32_t add(uint32_t checksum, uint32_t value) {
+__attribute__((noinline)) uint32_t add(uint32_t checksum, uint32_t value) {
     checksum ^= value;
     for (uint8_t bit = 0; bit < 32; ++bit) {
         checksum = (checksum >> 1) ^ ((checksum & 1) != 0 ? 0xedb88320u : 0);
@@ -18,113 +18,82 @@ uint32_t add(uint32_t checksum, uint32_t value) {
     return checksum;
 }
 
-constexpr uint32_t kNothing = 0xffffffff;
-
-uint32_t both(uint16_t low, uint16_t high) {
+uint32_t pair(uint16_t low, uint16_t high) {
     return low | (static_cast<uint32_t>(high) << 16);
 }
-uint16_t low_of(uint32_t value) {
-    return static_cast<uint16_t>(value);
+uint16_t low_of(uint32_t pair) {
+    return static_cast<uint16_t>(pair);
 }
-uint16_t high_of(uint32_t value) {
-    return static_cast<uint16_t>(value >> 16);
-}
-
-// Number, id; words, mark.
-struct Header {
-    uint32_t first;
-    uint32_t second;
-    uint16_t number() const { return low_of(first); }
-    uint16_t id() const { return high_of(first); }
-    uint16_t words() const { return low_of(second); }
-    bool is_marked() const { return high_of(second) == kSlotMark; }
-    uint32_t checksum() const { return add(add(kNothing, first), second); }
-};
-
-Header header_of(uint8_t slot) {
-    return {board::read_slot(slot, 0), board::read_slot(slot, 4)};
+uint16_t high_of(uint32_t pair) {
+    return static_cast<uint16_t>(pair >> 16);
 }
 
-uint16_t place_of(uint16_t word) {
-    return static_cast<uint16_t>(kSlotHeader + 2 * word);
+uint32_t read(uint8_t slot, uint16_t at) {
+    return ~board::read_slot(slot, static_cast<uint16_t>(4 * at));
 }
 
-bool is_whole(uint8_t slot, uint16_t room) {
-    const Header header = header_of(slot);
-    if (!header.is_marked() || header.words() > room) return false;
-    uint32_t checksum = header.checksum();
-    for (uint16_t word = 0; word < header.words(); word = static_cast<uint16_t>(word + 2)) {
-        checksum = add(checksum, board::read_slot(slot, place_of(word)));
+// Where the checksum is.
+uint16_t last_unit() {
+    return static_cast<uint16_t>(1 + board::kMachine.bytecode_size / 2);
+}
+
+uint16_t* words_of(uint16_t unit) {
+    return board::kMachine.bytecode + 2 * (unit - 1);
+}
+
+// A slot to the bytecode; false if it is not whole.
+bool load_slot(uint8_t slot) {
+    const uint16_t last = last_unit();
+    uint32_t checksum = add(kNoBytes, read(slot, 0));
+    for (uint16_t at = 1; at < last; ++at) {
+        const uint32_t unit = read(slot, at);
+        checksum = add(checksum, unit);
+        words_of(at)[0] = low_of(unit);
+        words_of(at)[1] = high_of(unit);
     }
-    return ~checksum == board::read_slot(slot, kChecksumAt);
-}
-
-bool is_later(uint16_t number, uint16_t than) {
-    return static_cast<int16_t>(number - than) > 0;
-}
-
-void choose(Store& store, uint16_t room) {
-    store.slot = kSlots;
-    for (uint8_t slot = 0; slot < kSlots; ++slot) {
-        if (!is_whole(slot, room)) continue;
-        const uint16_t number = header_of(slot).number();
-        if (store.slot != kSlots && !is_later(number, store.number)) continue;
-        store.slot = slot;
-        store.number = number;
-    }
-}
-
-uint8_t other(const Store& store) {
-    return store.slot == 0 ? 1 : 0;
+    return ~checksum == read(slot, last);
 }
 
 }  // namespace
 
-Kept load(Store& store, uint16_t* program, uint16_t room) {
-    choose(store, room);
-    if (store.slot == kSlots) return {0, 0};
-    const Header header = header_of(store.slot);
-    for (uint16_t word = 0; word < header.words(); ++word) {
-        const uint32_t pair =
-            board::read_slot(store.slot, place_of(static_cast<uint16_t>(word & ~1)));
-        program[word] = word % 2 == 0 ? low_of(pair) : high_of(pair);
+// The later one first. Of one that is not whole the number means nothing; then the other is found
+// second.
+uint16_t load(Store& store) {
+    const uint32_t first = read(0, 0);
+    const uint32_t second = read(1, 0);
+    uint8_t slot = static_cast<int16_t>(low_of(second) - low_of(first)) > 0;
+    for (uint8_t tried = 0; tried < kSlots; ++tried, slot ^= 1) {
+        if (!load_slot(slot)) continue;
+        const uint32_t unit = slot != 0 ? second : first;
+        store.slot = slot ^ 1;
+        store.number = low_of(unit);
+        return high_of(unit);
     }
-    return {header.id(), header.words()};
+    board::kMachine.bytecode[0] = 0;
+    return 0;
 }
 
-void begin_save(Store& store, const uint16_t* program, uint16_t words, uint16_t id) {
-    store.program = program;
-    store.words = words;
+void begin_save(Store& store, uint16_t id) {
     store.id = id;
     store.at = 0;
-    const Header header = {both(static_cast<uint16_t>(store.number + 1), id),
-                           both(words, kSlotMark)};
-    store.checksum = header.checksum();
-    board::erase_slot(other(store));
+    store.checksum = kNoBytes;
+    store.is_saving = true;
+    ++store.number;
+    board::erase_slot(store.slot);
 }
 
 bool save_step(Store& store) {
-    const uint8_t slot = other(store);
-    if (store.at < store.words) {
-        const bool is_last = store.at + 1 == store.words;
-        const uint32_t pair =
-            both(store.program[store.at], is_last ? 0 : store.program[store.at + 1]);
-        board::write_slot(slot, place_of(store.at), pair);
-        store.checksum = add(store.checksum, pair);
-        store.at = static_cast<uint16_t>(store.at + 2);
-        return false;
-    }
-    ++store.number;
-    board::write_slot(slot, 0, both(store.number, store.id));
-    board::write_slot(slot, 4, both(store.words, kSlotMark));
-    board::write_slot(slot, kChecksumAt, ~store.checksum);
-    store.slot = slot;
-    store.program = nullptr;
+    const uint16_t at = store.at++;
+    const bool is_last = at == last_unit();
+    uint32_t unit = ~store.checksum;
+    if (at == 0) unit = pair(store.number, store.id);
+    if (at != 0 && !is_last) unit = pair(words_of(at)[0], words_of(at)[1]);
+    board::write_slot(store.slot, static_cast<uint16_t>(4 * at), ~unit);
+    store.checksum = add(store.checksum, unit);
+    if (!is_last) return false;
+    store.slot ^= 1;
+    store.is_saving = false;
     return true;
-}
-
-void end_save(Store& store) {
-    store.program = nullptr;
 }
 
 }  // namespace firmware

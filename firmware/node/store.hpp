@@ -1,17 +1,15 @@
-// The program and the node's id over a restart, in the two slots that a board keeps (board.hpp). A
-// slot is
+// The bytecode and the node's id over a restart, in the two slots that a board keeps (board.hpp). A
+// slot is, in units of four bytes,
 //
-//     byte 0   u16 number: of two whole slots the later one counts
-//     byte 2   u16 id of the node
-//     byte 4   u16 words of the program
-//     byte 6   u16 kSlotMark
-//     byte 8   u32 CRC-32 of all other bytes: 0 to 7, then the program
-//     byte 12  the program
+//     number of the save (u16), id of the node (u16)
+//     all words of the bytecode, in pairs
+//     CRC-32 of all before
 //
-// A save goes to the slot that does not count, and writes its CRC last. So when the power goes, at
-// whatever byte, one slot is as it was: the node starts the program it had, or the new one, never a
-// piece. Saving takes one step for each turn of the loop; a new program that comes in between ends
-// it, and nothing has changed.
+// and is kept inverted: what is zero, as most of a bytecode is, stays as it was erased. A save goes
+// to the slot that does not count, and writes its CRC last. So when the power goes, at whatever
+// byte, one slot is as it was: the node starts the program it had, or the new one, never a piece.
+// Saving takes one step for each turn of the loop; a new program that comes in between ends it, and
+// nothing has changed.
 #pragma once
 
 #include <stdint.h>
@@ -19,38 +17,31 @@
 namespace vagus {
 namespace firmware {
 
-constexpr uint16_t kSlotMark = 0x7641;  // "Av"
-constexpr uint16_t kSlotHeader = 12;
+constexpr uint16_t kSlotOverhead = 8;  // bytes beside the bytecode
 constexpr uint8_t kSlots = 2;
 
 // All zero at the start.
 struct Store {
-    const uint16_t* program;  // what is being saved; nullptr if nothing is
-    uint16_t words;
-    uint16_t id;
-    uint16_t at;        // words written
-    uint16_t number;    // of the slot that counts
-    uint8_t slot;       // that counts, or kSlots
+    uint16_t number;    // of the last save
+    uint16_t id;        // that is being saved
+    uint16_t at;        // units written
     uint32_t checksum;  // so far
+    uint8_t slot;       // that the next save goes to
+    bool is_saving;
 };
 
-struct Kept {
-    uint16_t id;
-    uint16_t words;
-};
+// Reads what was saved last into the board's bytecode; gives the id that was saved with it. 0 if
+// there is nothing: then the bytecode is that of no program. To be called once, before any save.
+uint16_t load(Store& store);
 
-// Reads the program that counts to `program`, which has room for `room` words. Gives words 0 if
-// there is none; `program` is as it was then. To be called once, before any save.
-Kept load(Store& store, uint16_t* program, uint16_t room);
-
-void begin_save(Store& store, const uint16_t* program, uint16_t words, uint16_t id);
-inline bool is_saving(const Store& store) {
-    return store.program != nullptr;
-}
+// The board's bytecode is going to be saved.
+void begin_save(Store& store, uint16_t id);
 // One step; true when this was the last one, and the program is kept.
 bool save_step(Store& store);
 // The program is about to change: what was saved before goes on to count.
-void end_save(Store& store);
+inline void end_save(Store& store) {
+    store.is_saving = false;
+}
 
 }  // namespace firmware
 }  // namespace vagus

@@ -47,6 +47,15 @@ Status leaves_messages_of_nodes(Bench& bench) {
     return bench.expect_silence();
 }
 
+// A node whose program runs is in no boot loader (section 2.4).
+Status leaves_commands_to_boot_loaders(Bench& bench) {
+    for (const MessageType type :
+         {MessageType::BootloaderReset, MessageType::BootloaderReadPage,
+          MessageType::BootloaderWritePage, MessageType::BootloaderPageDataWrite})
+        TRY(bench.send(number(type), {bench.id(), 0, 0}));
+    return bench.expect_silence();
+}
+
 // ---- variables ----
 
 Status keeps_variables(Bench& bench) {
@@ -161,6 +170,8 @@ void add_message_checks(Checks& checks) {
          {messages, "commands without a destination are ignored", "3.9", "", leaves_empty_commands},
          {messages, "messages of unknown types are ignored", "3.9", "", leaves_unknown_types},
          {messages, "messages that nodes send are ignored", "2.4", "", leaves_messages_of_nodes},
+         {messages, "commands to a boot loader are ignored", "2.4, 3.9", "",
+          leaves_commands_to_boot_loaders},
          {variables, "SetVariables and GetVariables agree", "2.3", "", keeps_variables},
          {variables, "SetVariables has no answer", "2.3", "", writes_without_an_answer},
          {variables, "SetVariables leaves its neighbours", "2.3", "", writes_no_more_than_was_sent},

@@ -16,6 +16,7 @@ Checks all_checks() {
     add_breakpoint_checks(checks);
     add_flash_checks(checks);
     add_limit_checks(checks);
+    add_sleep_checks(checks);
     return checks;
 }
 

@@ -8,6 +8,8 @@ namespace vagus::conformance {
 
 // Its checks overwrite what the node keeps over a restart: made only if that is wanted.
 constexpr const char* kFlashGroup = "flash";
+// Its check sends a node that can sleep to sleep: made only if that is wanted, and last.
+constexpr const char* kSleepGroup = "sleep";
 
 // Each group adds its own.
 void add_description_checks(Checks& checks);
@@ -22,6 +24,7 @@ void add_control_checks(Checks& checks);
 void add_breakpoint_checks(Checks& checks);
 void add_flash_checks(Checks& checks);
 void add_limit_checks(Checks& checks);
+void add_sleep_checks(Checks& checks);
 
 Checks all_checks();
 

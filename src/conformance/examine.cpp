@@ -93,6 +93,15 @@ namespace {
 
 constexpr const char* kFlashStays =
     "it would overwrite the program that the node keeps: say --flash";
+constexpr const char* kStaysAwake =
+    "a node that can sleep would have to be switched on: say --sleep";
+
+// Why the check is not to be made; nullptr if it is.
+const char* unwanted(const Check& check, const Order& order) {
+    if (check.group == kFlashGroup && !order.flash) return kFlashStays;
+    if (check.group == kSleepGroup && !order.sleep) return kStaysAwake;
+    return nullptr;
+}
 
 // Goes through the list; knows which check the node was lost at.
 class Examination {
@@ -103,9 +112,8 @@ public:
     }
 
     Row make(const Check& check) {
+        if (const char* reason = unwanted(check, order_)) return {check, Verdict::Skipped, reason};
         if (!lost_.empty()) return {check, Verdict::NotRun, lost_};
-        if (check.group == kFlashGroup && !order_.flash)
-            return {check, Verdict::Skipped, kFlashStays};
         const Status cleared = bench_.clear();
         if (!cleared.ok()) {
             lost_ = "lost at \"" + last_ + "\": " + cleared.error().what;

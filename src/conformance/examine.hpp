@@ -35,6 +35,7 @@ struct Order {
     uint16_t node = 0;
     uint16_t nobody = 0;  // an id that no node has
     bool flash = false;   // also what overwrites the program that the node keeps over a restart
+    bool sleep = false;   // also what sends a node to sleep that can
     std::string only;     // checks whose group or name has this in it
     std::function<void(const Row&)> tell = [](const Row&) {};  // each row as it is done
 };

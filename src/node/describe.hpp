@@ -1,5 +1,5 @@
 // The description of a node as messages: 0x9000, then all variables, local events and natives
-// (section 2.2).
+// (section 2.2). Nobody outside of this folder includes it.
 #pragma once
 
 #include "node/node.hpp"
@@ -7,15 +7,13 @@
 namespace vagus {
 namespace node {
 
-// Values of `fragment` in GetNodeDescriptionFragment (section 2.9).
-constexpr int16_t kFragmentHeader = -1;
-constexpr int16_t kFragmentAll = -2;
+void send_header(Node& node);
 
-void send_description(Node& node);
-
-// kFragmentHeader, kFragmentAll, or one item: variables are counted first, then local events, then
-// natives. Sends nothing for an item that does not exist.
-void send_description_fragment(Node& node, int16_t fragment);
+// What stands behind the header, one message each: variables first, then local events, then
+// natives.
+uint16_t item_count(const Node& node);
+// Sends nothing for an item that does not exist.
+void send_item(Node& node, uint16_t item);
 
 }  // namespace node
 }  // namespace vagus

@@ -3,16 +3,22 @@
 #include "isa/flash.hpp"
 #include "isa/isa.hpp"
 #include "node/describe.hpp"
-#include "node/flash_text.hpp"
+#include "node/message.hpp"
+#include "node/native_tables.hpp"
 #include "wire/bytes.hpp"
-#include "wire/messages.hpp"
 
 namespace vagus {
 namespace node {
 
+using wire::MessageType;
+
 namespace {
 
 constexpr uint16_t kLastVersionAskedByBroadcast = 4;  // section 2.1: GetDescription, up to there
+
+// Values of GetNodeDescriptionFragment beside the number of an item (section 2.9).
+constexpr int16_t kFragmentHeader = -1;
+constexpr int16_t kFragmentAll = -2;
 
 VAGUS_FLASH_TEXT(kNoSuchNative, "Native function does not exist");
 
@@ -20,46 +26,44 @@ Node& node_of(vm::Vm& vm) {
     return *static_cast<Node*>(vm.config->owner);
 }
 
-// Fills in the header and sends: the payload is what `out` has written into `frame`.
-void transmit(Node& node, uint16_t type, wire::Frame& frame, const wire::Writer& out) {
-    frame.source = node.vm.config->id;
-    frame.type = type;
-    frame.size = out.size();
-    node.board->transmit(node, frame);
-}
+// ---- What the machine asks of its host ----
 
 void send(vm::Vm& vm, uint16_t type, const uint16_t* words, uint16_t count) {
-    wire::Frame frame;
-    wire::Writer out(frame.payload, wire::kPayloadMax);
-    for (uint16_t i = 0; i < count; ++i) out.u16(words[i]);
-    transmit(node_of(vm), type, frame, out);
+    Message message(node_of(vm), type);
+    for (uint16_t i = 0; i < count; ++i) message.word(words[i]);
+    message.send();
+}
+
+// The next piece of the variables that were asked for; an empty one if there are none.
+void send_piece(Node& node) {
+    uint16_t count = node.variables_left;
+    if (count > node.board->variables_at_once) count = node.board->variables_at_once;
+    Message message(node, MessageType::Variables);
+    message.word(node.next_variable);
+    for (uint16_t i = 0; i < count; ++i) {
+        message.word(static_cast<uint16_t>(node.vm.config->variables[node.next_variable]));
+        ++node.next_variable;
+    }
+    node.variables_left = static_cast<uint16_t>(node.variables_left - count);
+    message.send();
 }
 
 void send_variables(vm::Vm& vm, uint16_t start, uint16_t count) {
-    wire::Frame frame;
-    wire::Writer out(frame.payload, wire::kPayloadMax);
-    out.u16(start);
-    const int16_t* values = vm.config->variables + start;
-    for (uint16_t i = 0; i < count; ++i) out.i16(values[i]);
-    transmit(node_of(vm), static_cast<uint16_t>(wire::MessageType::Variables), frame, out);
+    Node& node = node_of(vm);
+    node.next_variable = start;
+    node.variables_left = count;
+    send_piece(node);
 }
 
 void send_error(vm::Vm& vm, const char* text) {
-    wire::Frame frame;
-    wire::Writer out(frame.payload, wire::kPayloadMax);
-    out.u16(vm.pc);
-    write_text(out, text, kTextMax);
-    transmit(node_of(vm), static_cast<uint16_t>(wire::MessageType::NodeSpecificError), frame, out);
+    Message message(node_of(vm), MessageType::NodeSpecificError);
+    message.word(vm.pc);
+    message.text(text);
+    message.send();
 }
 
-void call_native(vm::Vm& vm, uint16_t id) {
-    Node& node = node_of(vm);
-    const Description description = flash_read(node.description);
-    for (const NativeTable& table : description.natives) {
-        if (id < table.count) return flash_read(table.natives + id).function(node);
-        id = static_cast<uint16_t>(id - table.count);
-    }
-    vm::raise_node_error(vm, kNoSuchNative);
+void native(vm::Vm& vm, uint16_t id) {
+    if (!call_native(node_of(vm), id)) vm::raise_node_error(vm, kNoSuchNative);
 }
 
 void notify(vm::Vm& vm, vm::Notice notice) {
@@ -67,27 +71,28 @@ void notify(vm::Vm& vm, vm::Notice notice) {
     node.board->notify(node, notice);
 }
 
+// ---- Commands about the description ----
+
 void answer_presence(Node& node) {
-    const uint16_t version = flash_read(node.description).protocol_version;
-    send(node.vm, static_cast<uint16_t>(wire::MessageType::NodePresent), &version, 1);
+    const uint16_t version = flash_read(&node.description->protocol_version);
+    send(node.vm, static_cast<uint16_t>(MessageType::NodePresent), &version, 1);
 }
 
-// Commands about the description; true if it was one of them.
-bool answer_description(Node& node, wire::MessageType type, const uint16_t* words, uint16_t count) {
-    if (type == wire::MessageType::GetNodeDescription) {
-        send_description(node);
-        return true;
-    }
-    if (type == wire::MessageType::GetNodeDescriptionFragment) {
-        if (count >= 3) send_description_fragment(node, static_cast<int16_t>(words[2]));
-        return true;
-    }
-    return false;
+void begin_description(Node& node) {
+    send_header(node);
+    node.next_item = 0;
+    node.items_left = item_count(node);
+}
+
+void send_fragment(Node& node, int16_t fragment) {
+    if (fragment == kFragmentAll) return begin_description(node);
+    if (fragment == kFragmentHeader) return send_header(node);
+    if (fragment >= 0) send_item(node, static_cast<uint16_t>(fragment));
 }
 
 }  // namespace
 
-const vm::Host kMachineHost = {send, send_variables, send_error, call_native, notify};
+const vm::Host kMachineHost = {send, send_variables, send_error, native, notify};
 
 void init(Node& node, const vm::Config& config, const Description& description, const Board& board,
           void* owner) {
@@ -95,6 +100,8 @@ void init(Node& node, const vm::Config& config, const Description& description, 
     node.board = &board;
     node.owner = owner;
     node.random_state = 0;
+    node.items_left = 0;
+    node.variables_left = 0;
     vm::init(node.vm, config);
 }
 
@@ -103,40 +110,49 @@ void receive(Node& node, const wire::Frame& frame) {
     const uint16_t count = static_cast<uint16_t>(frame.size / 2);
     wire::Reader in(frame.payload, frame.size);
     for (uint16_t i = 0; i < count; ++i) words[i] = in.u16();
-    receive_words(node, frame.source, frame.type, words, count);
+    begin_receive(node, frame.source, frame.type, words, count);
+    while (is_answering(node)) answer(node);
 }
 
 // The order of section 3.9.
-void receive_words(Node& node, uint16_t source, uint16_t type, const uint16_t* words,
+void begin_receive(Node& node, uint16_t source, uint16_t type, const uint16_t* words,
                    uint16_t count) {
     if (wire::is_user_event(type)) return vm::receive_event(node.vm, source, type, words, count);
-    const wire::MessageType message = static_cast<wire::MessageType>(type);
-    if (message == wire::MessageType::GetDescription) {
-        // The version must be there (D11): newer hosts ask each node by itself.
-        if (count >= 1 && words[0] <= kLastVersionAskedByBroadcast) send_description(node);
+    const MessageType message = static_cast<MessageType>(type);
+    if (message == MessageType::ListNodes) return answer_presence(node);
+    if (count == 0) return;
+    // The version must be there (D11): newer hosts ask each node by itself.
+    const bool asks_all =
+        message == MessageType::GetDescription && words[0] <= kLastVersionAskedByBroadcast;
+    if (!asks_all && words[0] != node.vm.id) return;
+    if (asks_all || message == MessageType::GetNodeDescription) return begin_description(node);
+    if (message == MessageType::GetNodeDescriptionFragment) {
+        if (count >= 3) send_fragment(node, static_cast<int16_t>(words[2]));
         return;
     }
-    if (message == wire::MessageType::ListNodes) return answer_presence(node);
-    if (count == 0 || words[0] != node.vm.config->id) return;
-    if (answer_description(node, message, words, count)) return;
     vm::receive(node.vm, type, words, count);
+}
+
+void answer(Node& node) {
+    if (node.items_left == 0) return send_piece(node);
+    --node.items_left;
+    send_item(node, node.next_item++);
 }
 
 void local_event(Node& node, uint16_t index) {
     if (vm::is_paused_in_event(node.vm)) return;
     const vm::Config& machine = *node.vm.config;
-    const Description description = flash_read(node.description);
-    if (description.local_event_source == LocalEventSource::OwnId &&
+    if (flash_read(&node.description->local_event_source) == LocalEventSource::OwnId &&
         vm::kSourceAddress < machine.variables_size) {
-        machine.variables[vm::kSourceAddress] = static_cast<int16_t>(machine.id);
+        machine.variables[vm::kSourceAddress] = static_cast<int16_t>(node.vm.id);
     }
-    vm::local_event(node.vm, index);
+    vm::start_event(node.vm, static_cast<uint16_t>(isa::kLocalEventFirst - index));
 }
 
 // The commands Reset and Run: so the program starts as after its upload, whatever its `when`s
 // remembered when it was saved.
 void start_program(Node& node) {
-    const uint16_t id = node.vm.config->id;
+    const uint16_t id = node.vm.id;
     vm::receive(node.vm, static_cast<uint16_t>(wire::MessageType::Reset), &id, 1);
     vm::receive(node.vm, static_cast<uint16_t>(wire::MessageType::Run), &id, 1);
 }

@@ -35,6 +35,8 @@ struct Board {
     void (*transmit)(Node& node, const wire::Frame& frame);
     // See vm::Notice. A board that cannot keep bytecode, restart or sleep does nothing.
     void (*notify)(Node& node, vm::Notice notice);
+    // Words of one Variables message: 1 to wire::kVariablesReplyWordsMax.
+    uint16_t variables_at_once;
 };
 
 struct Node {
@@ -43,6 +45,11 @@ struct Node {
     const Board* board;
     void* owner;            // for the board and its natives; the node does not touch it
     uint16_t random_state;  // of math.rand (section 4.4)
+    // What is still to be sent of a description and of variables that a host has asked for.
+    uint16_t next_item;
+    uint16_t items_left;
+    uint16_t next_variable;
+    uint16_t variables_left;
 };
 
 // The `host` of the Config of a node's machine; its `owner` must be the Node.
@@ -57,10 +64,16 @@ void init(Node& node, const vm::Config& config, const Description& description, 
 // A frame has come from the bus: answers it, obeys it, or ignores it. Never runs the script.
 void receive(Node& node, const wire::Frame& frame);
 
-// The same for a board that has the payload as words already; `count` words, an odd last byte does
-// not count.
-void receive_words(Node& node, uint16_t source, uint16_t type, const uint16_t* words,
+// The same in pieces, for a board whose line takes only so much at once: only the first message of
+// the answer is sent, and answer() sends one more for each call while is_answering(). `words` is
+// the payload, `count` words: an odd last byte does not count. A command must wait until what was
+// asked before it is answered.
+void begin_receive(Node& node, uint16_t source, uint16_t type, const uint16_t* words,
                    uint16_t count);
+inline bool is_answering(const Node& node) {
+    return (node.items_left | node.variables_left) != 0;
+}
+void answer(Node& node);
 
 // The node's local event `index` has happened. Ignored while the script is paused inside an event.
 void local_event(Node& node, uint16_t index);

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "node/describe.hpp"
 #include "node/test_node.hpp"
 #include "wire/messages.hpp"
 
@@ -115,6 +114,51 @@ TEST(Node, FragmentsAreTheHeaderAllOrOneItem) {
     test.sent.clear();
     receive(test.node, frame_of("06 00 00 00 15 a0 01 00 09 00 fe ff"));
     EXPECT_EQ(test.sent.size(), 1u + 3 + 2 + 30);
+}
+
+// D22.
+TEST(Node, VariablesAreSplitBehind257Words) {
+    TestNode test;
+    for (size_t i = 0; i < test.variables.size(); ++i) test.variables[i] = static_cast<int16_t>(i);
+    const auto asked = [&](const std::string& words) {
+        receive(test.node, frame_of("06 00 00 00 0b a0 01 00 " + words));
+        std::vector<std::vector<int>> pieces;  // start, size, first, last
+        for (const wire::Frame& frame : test.sent) {
+            const auto message = decoded<wire::Variables>(frame);
+            const uint16_t last = static_cast<uint16_t>(message.values.count - 1);
+            pieces.push_back({message.start, message.values.count, message.values.values[0],
+                              message.values.values[last]});
+        }
+        test.sent.clear();
+        return pieces;
+    };
+    using Piece = std::vector<int>;
+    EXPECT_THAT(asked("0a 00 01 01"), ElementsAre(Piece{10, 257, 10, 266}));
+    EXPECT_THAT(asked("0a 00 02 01"),
+                ElementsAre(Piece{10, 257, 10, 266}, Piece{267, 1, 267, 267}));
+    EXPECT_THAT(asked("f4 01 ff ff"),
+                ElementsAre(Piece{500, 257, 500, 756}, Piece{757, 257, 757, 1013},
+                            Piece{1014, 46, 1014, 1059}));
+}
+
+// For a line that takes only so much at once.
+TEST(Node, AnswersInPiecesWhereItIsAskedTo) {
+    TestNode test;
+    const uint16_t words[] = {1, 5};
+    begin_receive(test.node, 0, 0xa010, words, 2);
+    EXPECT_EQ(test.sent.size(), 1u);
+    for (size_t pieces = 2; pieces <= 1 + 3 + 2 + 30; ++pieces) {
+        ASSERT_TRUE(is_answering(test.node));
+        answer(test.node);
+        ASSERT_EQ(test.sent.size(), pieces);
+    }
+    EXPECT_FALSE(is_answering(test.node));
+    const uint16_t variables[] = {1, 0, 258};
+    begin_receive(test.node, 0, 0xa00b, variables, 3);
+    ASSERT_TRUE(is_answering(test.node));
+    answer(test.node);
+    EXPECT_FALSE(is_answering(test.node));
+    EXPECT_EQ(decoded<wire::Variables>(test.sent.back()).start, 257);
 }
 
 TEST(Node, IgnoresCommandsForOthersRepliesAndTheUnknown) {
@@ -239,7 +283,7 @@ Description named(const char* name) {
 std::string name_sent(const std::string& name) {
     const Description description = named(name.c_str());
     TestNode test(description);
-    send_description_fragment(test.node, kFragmentHeader);
+    receive(test.node, frame_of("06 00 00 00 15 a0 01 00 09 00 ff ff"));
     return text_of(decoded<wire::Description>(test.sent.at(0)).name);
 }
 
@@ -264,7 +308,8 @@ wire::NativeFunctionDescription described(TestNode& test, const Native& native) 
     Description description = kTestDescription;
     description.natives[0] = {&native, 1};
     test.node.description = &description;
-    send_description_fragment(test.node, 5);  // behind three variables and two events
+    // Item 5: behind three variables and two events.
+    receive(test.node, frame_of("06 00 00 00 15 a0 01 00 09 00 05 00"));
     test.node.description = &kTestDescription;
     return decoded<wire::NativeFunctionDescription>(test.sent.at(0));
 }

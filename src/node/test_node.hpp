@@ -93,7 +93,8 @@ private:
     static TestNode& self(Node& node) { return *static_cast<TestNode*>(node.owner); }
     static constexpr Board kBoard = {
         [](Node& node, const wire::Frame& frame) { self(node).sent.push_back(frame); },
-        [](Node& node, vm::Notice notice) { self(node).notices.push_back(notice); }};
+        [](Node& node, vm::Notice notice) { self(node).notices.push_back(notice); },
+        wire::kVariablesReplyWordsMax};
 
     uint16_t breakpoints_[vm::kBreakpointsMax];
     vm::Config config_;

@@ -57,7 +57,7 @@ TEST(NodeTimer, NewPeriodCountsFromNowTheSameOneDoesNot) {
 }
 
 wire::Frame command(uint16_t type, std::vector<uint16_t> words) {
-    wire::Frame frame{.source = 0, .type = type, .size = 0, .payload = {}};
+    wire::Frame frame{.size = 0, .source = 0, .type = type, .payload = {}};
     for (const uint16_t word : words) {
         frame.payload[frame.size++] = static_cast<uint8_t>(word & 0xff);
         frame.payload[frame.size++] = static_cast<uint8_t>(word >> 8);

@@ -58,7 +58,8 @@ SoftwareNode::SoftwareNode(aesl::Target target, SoftwareNodeOptions options)
       stack_(target_.stack_size) {
     static constexpr node::Board kBoard = {
         [](node::Node& node, const wire::Frame& frame) { self(node).options_.transmit(frame); },
-        [](node::Node& node, vm::Notice notice) { self(node).notice(notice); }};
+        [](node::Node& node, vm::Notice notice) { self(node).notice(notice); },
+        wire::kVariablesReplyWordsMax};
     config_ = {.id = options_.id,
                .bytecode_size = target_.bytecode_size,
                .variables_size = target_.variables_size,

@@ -48,7 +48,7 @@ TEST(SoftwareNode, HasTheMemoriesOfItsTarget) {
 TEST(SoftwareNode, KeepsAsManyArgumentsAsItsThirdVariableHasWords) {
     const auto made = SoftwareNode::make(small_target(), {});
     SoftwareNode& node = *made.value();
-    wire::Frame frame{.source = 9, .type = 0, .size = 6, .payload = {1, 0, 2, 0, 3, 0}};
+    wire::Frame frame{.size = 6, .source = 9, .type = 0, .payload = {1, 0, 2, 0, 3, 0}};
     node.receive(frame);
     EXPECT_THAT(node.variables().first(5), testing::ElementsAre(0, 9, 1, 2, 0));
 }

@@ -7,7 +7,8 @@
 
 namespace vagus::sim {
 
-const node::Board Machine::kBoard = {Machine::transmit, Machine::notify};
+const node::Board Machine::kBoard = {Machine::transmit, Machine::notify,
+                                     wire::kVariablesReplyWordsMax};
 
 Machine::Machine(const MachineDefinition& definition)
     : definition_(definition),

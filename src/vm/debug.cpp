@@ -53,18 +53,6 @@ void clear_breakpoint(Vm& vm, uint16_t pc) {
     vm.config->breakpoints[slot] = vm.config->breakpoints[--vm.breakpoint_count];
 }
 
-// In as many messages as needed (D22); at least one, so that whoever asks gets an answer.
-void send_variables(Vm& vm, uint16_t start, uint16_t count) {
-    count = count_inside(vm.config->variables_size, start, count);
-    do {
-        uint16_t part = count;
-        if (part > wire::kVariablesReplyWordsMax) part = wire::kVariablesReplyWordsMax;
-        vm.config->host->send_variables(vm, start, part);
-        start = static_cast<uint16_t>(start + part);
-        count = static_cast<uint16_t>(count - part);
-    } while (count > 0);
-}
-
 }  // namespace
 
 // The commands that are more than an answer end in a notice; all others return.
@@ -72,7 +60,7 @@ void receive(Vm& vm, uint16_t type, const uint16_t* words, uint16_t count) {
     const uint16_t command = static_cast<uint16_t>(type - kFirstCommand);
     if (command >= kCommandCount || count < flash_read(&kWordsMin[command])) return;
     const Config& config = *vm.config;
-    if (words[0] != config.id) return;
+    if (words[0] != vm.id) return;
     count = static_cast<uint16_t>(count - 2);
     Notice notice;
     switch (static_cast<MessageType>(type)) {
@@ -106,7 +94,8 @@ void receive(Vm& vm, uint16_t type, const uint16_t* words, uint16_t count) {
             vm.breakpoint_count = 0;
             return;
         case MessageType::GetVariables:
-            return send_variables(vm, words[1], words[2]);
+            return config.host->send_variables(
+                vm, words[1], count_inside(config.variables_size, words[1], words[2]));
         case MessageType::SetVariables:
             return store_variables(vm, words[1], words + 2, count);
         case MessageType::WriteBytecode:

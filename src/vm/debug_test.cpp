@@ -330,24 +330,6 @@ TEST(Breakpoints, ClearTakesTheOneNamedAndClearAllTheRest) {
 
 // ---- memories ----
 
-TEST(GetVariables, AreSplitBehind257Words) {
-    TestMachine machine;
-    for (size_t i = 0; i < machine.variables.size(); ++i) {
-        machine.variables[i] = static_cast<int16_t>(i);
-    }
-    const auto part = [](uint16_t start, uint16_t count) {
-        std::vector<uint16_t> words = {start};
-        for (uint16_t i = 0; i < count; ++i) words.push_back(static_cast<uint16_t>(start + i));
-        return frame(0x9005, words);
-    };
-    machine.command(MessageType::GetVariables, {10, 257});
-    EXPECT_THAT(machine.sent(), ElementsAre(part(10, 257)));
-    machine.command(MessageType::GetVariables, {10, 258});
-    EXPECT_THAT(machine.sent(), ElementsAre(part(10, 257), part(267, 1)));
-    machine.command(MessageType::GetVariables, {0, 65535});
-    EXPECT_THAT(machine.sent(), ElementsAre(part(0, 257), part(257, 257), part(514, 86)));
-}
-
 TEST(GetVariables, OutsideAreLeftOut) {
     TestMachine machine;
     machine.variables[599] = 4;

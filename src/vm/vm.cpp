@@ -17,6 +17,7 @@ VAGUS_FLASH_TEXT(kBadAddress, "bad address");
 
 void init(Vm& vm, const Config& config) {
     vm.config = &config;
+    vm.id = config.id;
     vm.flags = 0;
     vm.pc = 0;
     vm.depth = 0;

@@ -54,8 +54,8 @@ struct Host {
     // Sends a message of `count` words. `type` is a wire::MessageType, or the number of a user
     // event.
     void (*send)(Vm& vm, uint16_t type, const uint16_t* words, uint16_t count);
-    // Sends Variables: `start`, then the `count` variables from there (at most
-    // wire::kVariablesReplyWordsMax).
+    // Sends Variables: `start`, then the `count` variables from there, in as many messages as
+    // needed (D22); at least one, so that whoever asks gets an answer.
     void (*send_variables)(Vm& vm, uint16_t start, uint16_t count);
     // Sends NodeSpecificError: vm.pc, then `text`, which ends with '\0' and is in flash on an AVR:
     // see flash_read().
@@ -68,7 +68,7 @@ struct Host {
 
 // What never changes while the machine runs. Sizes are in words; the memories must not overlap.
 struct Config {
-    uint16_t id;             // of the node: commands to other nodes are ignored
+    uint16_t id;             // of the node, at first
     uint16_t bytecode_size;  // at least 1
     uint16_t variables_size;
     uint16_t stack_size;
@@ -81,12 +81,14 @@ struct Config {
     void* owner;  // for the host; the machine does not touch it
 };
 
-// What changes, beside the four memories: 8 bytes.
+// What changes, beside the four memories.
 struct Vm {
     const Config* config;
-    uint16_t flags;             // wire::kFlagActive, kFlagStep, kFlagRunning
-    uint16_t pc;                // index into the bytecode
-    uint16_t depth;             // words on the stack; the top is stack[depth - 1]
+    uint16_t id;     // of the node: commands to others are ignored. As in the Config, unless
+                     // the surroundings give it another before it starts
+    uint16_t flags;  // wire::kFlagActive, kFlagStep, kFlagRunning
+    uint16_t pc;     // index into the bytecode
+    uint16_t depth;  // words on the stack; the top is stack[depth - 1]
     uint16_t breakpoint_count;  // breakpoints[0 … breakpoint_count - 1] are set
 };
 

@@ -23,11 +23,12 @@
 namespace vagus {
 namespace wire {
 
-// One message on the bus, by value. `size` is the number of payload bytes, at most kPayloadMax.
+// One message on the bus, by value: fields in the order of the stream. `size` is the number of
+// payload bytes, at most kPayloadMax.
 struct Frame {
+    uint16_t size;
     uint16_t source;
     uint16_t type;
-    uint16_t size;
     uint8_t payload[kPayloadMax];
 
     // The first payload word: the destination, if the type is a command. 0xffff if there is none.

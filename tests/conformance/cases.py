@@ -32,7 +32,7 @@ class Conformance(unittest.TestCase):
         told = self.conformance(target).split("\n")
         self.assertEqual(told[0], 'vagus: examining node 3 "rover": its program is replaced, and cannot be put back; '
                                   "what it keeps in flash stays")
-        self.assertRegex(told[-2], r'^1\d\d passed, 0 failed, 3 skipped: node 3 "rover"$')
+        self.assertRegex(told[-2], r'^1\d\d passed, 0 failed, 4 skipped: node 3 "rover"$')
         self.assertEqual(told[-1], "vagus: the node is left without a program; load yours again")
         self.assertIn("passed   operators    operator <<  (3.4)", told)
 
@@ -54,7 +54,7 @@ class Conformance(unittest.TestCase):
         self.assertIn("seems to have motors (motor.left.target)", refused)
         self.assertIn("--may-drive", refused)
         told = self.conformance(target, "--may-drive")
-        self.assertRegex(told, r'1\d\d passed, 0 failed, 3 skipped: node 6 "thymio-II"')
+        self.assertRegex(told, r'1\d\d passed, 0 failed, 4 skipped: node 6 "thymio-II"')
         speed = json.loads(run_vagus("net", target, "get", 6, "motor.left.target", "--json"))
         self.assertEqual(speed, {"motor.left.target": [0]})
 
@@ -71,6 +71,13 @@ class Conformance(unittest.TestCase):
         _, without = self.node()
         told = self.conformance(without, "--only", "flash", "--flash")
         self.assertIn('needs flash; the node says "Flashing failed: this node was started without --flash"', told)
+
+    def test_a_node_is_sent_to_sleep_only_if_asked_so(self):
+        _, target = self.node()
+        told = self.conformance(target, "--only", "sleep")
+        self.assertIn("a node that can sleep would have to be switched on: say --sleep", told)
+        told = self.conformance(target, "--only", "sleep", "--sleep")
+        self.assertIn("passed   sleep        SuspendToRam leaves a node awake that cannot sleep", told)
 
     def test_the_result_as_json(self):
         _, target = self.node()

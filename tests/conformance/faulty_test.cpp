@@ -290,6 +290,7 @@ TEST(ConformanceFaults, ACommandTakenForAnotherIsFound) {
         {MessageType::Step, MessageType::Run, "Step executes one instruction"},
         {MessageType::BreakpointClear, MessageType::BreakpointClearAll,
          "BreakpointClear takes one away"},
+        {MessageType::BootloaderReset, MessageType::Reset, "commands to a boot loader are ignored"},
     };
     for (const Mixed& each : all) {
         const Fault mixed{.to_node = [&each](wire::Frame frame) {
@@ -298,6 +299,31 @@ TEST(ConformanceFaults, ACommandTakenForAnotherIsFound) {
         }};
         EXPECT_TRUE(finds(each.check, mixed)) << each.check;
     }
+}
+
+Report sent_to_sleep(Fault fault) {
+    const aesl::Target target = node_with();
+    VirtualLine line(target, std::move(fault));
+    return examine(line, {.node = 1, .nobody = 2, .sleep = true, .only = "sleep"}, target);
+}
+
+// One that can sleep is no fault, but says nothing any more.
+TEST(ConformanceFaults, ANodeThatSleepsIsToldFromOneThatCannot) {
+    EXPECT_EQ(sent_to_sleep({}).count(Verdict::Passed), 1u);
+    const auto asleep = std::make_shared<bool>(false);
+    const Fault sleeper{.to_node = [asleep](const wire::Frame& frame) {
+        *asleep = *asleep || is(frame, MessageType::SuspendToRam);
+        return *asleep ? Frames{} : Frames{frame};
+    }};
+    EXPECT_EQ(rows_with(sent_to_sleep(sleeper), Verdict::Skipped),
+              "sleep: SuspendToRam leaves a node awake that cannot sleep: needs a node that cannot "
+              "sleep; the node sleeps now: switch it on again\n");
+    const Fault tells{.to_node = [](wire::Frame frame) {
+        if (is(frame, MessageType::SuspendToRam))
+            frame.type = static_cast<uint16_t>(MessageType::Reset);
+        return Frames{frame};
+    }};
+    EXPECT_EQ(sent_to_sleep(tells).count(Verdict::Failed), 1u);
 }
 
 // Whoever is meant, the node feels meant.

@@ -29,6 +29,7 @@ struct ConformanceOptions {
     bool json = false;
     bool may_drive = false;
     bool flash = false;
+    bool sleep = false;
 };
 
 // The connection, which Ctrl-C cuts.
@@ -141,8 +142,11 @@ Result<int> examine(const ConformanceOptions& options) {
                                                 : TRY(named_node(line, ids, options));
     if (!options.may_drive) TRY(refuse_to_drive(node));
     say_beforehand(node, options);
-    conformance::Order order{
-        .node = node.id, .nobody = unused_id(ids), .flash = options.flash, .only = options.only};
+    conformance::Order order{.node = node.id,
+                             .nobody = unused_id(ids),
+                             .flash = options.flash,
+                             .sleep = options.sleep,
+                             .only = options.only};
     if (!options.json)
         order.tell = [](const conformance::Row& row) { print(conformance::row_text(row)); };
     const conformance::Report report = conformance::examine(line, order, node.target);
@@ -177,6 +181,9 @@ void add_conformance(CLI::App& app, int& exit_code) {
     verb->add_flag("--json", options->json, "the result as JSON, at the end");
     verb->add_flag("--flash", options->flash,
                    "also WriteBytecode and Reboot: the program that the node keeps is overwritten");
+    verb->add_flag(
+        "--sleep", options->sleep,
+        "also SuspendToRam, as the last: a node that can sleep must be switched on again");
     verb->add_flag("--may-drive", options->may_drive,
                    "go on although the node has motors, which keep what they were told last");
     verb->footer(

@@ -26,7 +26,9 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kSpacing = 0.5;  // m
-constexpr int kRounds = 5;
+constexpr int kRounds = 50;
+// Simulated: all sensors have their turn in it. So short that some rounds are disturbed by nobody.
+constexpr Duration kRound = 100ms;
 
 constexpr std::string_view kScript = R"(const NEAR = 1800
 const CRUISE = 300
@@ -127,13 +129,13 @@ public:
     }
 
     // Other programs on the machine only add: the best round counts.
-    void run_a_second() {
+    void run_a_round() {
         const double busy = processor_seconds();
         const Clock::time_point start = Clock::now();
-        world_.step(1s);
+        world_.step(kRound);
         const std::chrono::duration<double> took = Clock::now() - start;
-        best_.processor = std::min(best_.processor, processor_seconds() - busy);
-        best_.real = std::min(best_.real, took.count());
+        best_.processor = std::min(best_.processor, (processor_seconds() - busy) / kShare);
+        best_.real = std::min(best_.real, took.count() / kShare);
     }
 
     double real() const { return best_.real; }
@@ -145,12 +147,14 @@ public:
     }
 
 private:
+    static constexpr double kShare = std::chrono::duration<double>(kRound).count();
+
     sim::World world_;
     size_t count_;
     Cost best_{1e9, 1e9};
 };
 
-// Both worlds do the same, second by second, and take turns.
+// Both worlds do the same, round by round, and take turns.
 void print_crowds() {
     const unsigned most = std::max(2u, std::thread::hardware_concurrency());
     std::puts(
@@ -160,8 +164,8 @@ void print_crowds() {
         Crowd alone(count, 1);
         Crowd together(count, most);
         for (int round = 0; round < kRounds; ++round) {
-            alone.run_a_second();
-            together.run_a_second();
+            alone.run_a_round();
+            together.run_a_round();
         }
         alone.print(alone.real());
         together.print(alone.real());

@@ -12,8 +12,9 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
 
 using wire::kHeaderSize;
 
-// Types of section 2 that are of use to a node: the first few of each range.
+// Types of section 2 are the first few of each range.
 constexpr uint16_t kTypeNumberBits = 0x001f;
+constexpr uint16_t kBootloader = 0x8000;
 constexpr uint16_t kNodeMessages = 0x9000;
 constexpr uint16_t kCommands = 0xa000;
 
@@ -52,7 +53,8 @@ bool is_likely(const uint8_t* header) {
     if (size > wire::kPayloadMax || source == wire::kInvalidId) return false;
     const uint16_t range = static_cast<uint16_t>(type & ~kTypeNumberBits);
     const bool from_host = source == wire::kHostId;
-    return from_host ? range == kCommands && size >= 2 : range == kNodeMessages;
+    return range == kBootloader ||
+           (from_host ? range == kCommands && size >= 2 : range == kNodeMessages);
 }
 
 bool needs_witness(const uint8_t* header, bool doubt) {

@@ -110,6 +110,14 @@ TEST_F(Line, AFrameStaysInFrontWithAllBehindIt) {
     EXPECT_EQ(types(), (Types{5, 6}));
 }
 
+// A host writes the flash of another node: its commands (section 2.4) are frames here, too.
+TEST_F(Line, CommandsToABootLoaderAreFrames) {
+    put(event(0, 0x8002, {9, 0, 0}));
+    put(event(9, 0x8006, {0}));
+    put(run_command());
+    EXPECT_EQ(types(), (Types{0x8002, 0x8006, kRun}));
+}
+
 // The next frame then begins at an odd place.
 TEST_F(Line, AFrameOfOddSizeIsAFrame) {
     const Bytes name{4, 0, 9, 0, 1, 0x90, 1, 0, 1, 'a', 3, 0, 9, 0, 1, 0x90, 1, 0, 0};

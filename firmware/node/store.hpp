@@ -20,12 +20,15 @@ namespace firmware {
 constexpr uint16_t kSlotOverhead = 8;  // bytes beside the bytecode
 constexpr uint8_t kSlots = 2;
 
+// Places in Store::head.
+constexpr uint8_t kNumber = 0;
+constexpr uint8_t kId = 1;
+
 // All zero at the start.
 struct Store {
-    uint16_t number;    // of the last save
-    uint16_t id;        // that is being saved
-    uint16_t at;        // units written
-    uint32_t checksum;  // so far
+    uint16_t head[2];   // the first unit of the last save
+    uint16_t at;        // units that are done
+    uint32_t checksum;  // of these
     uint8_t slot;       // that the next save goes to
     bool is_saving;
 };

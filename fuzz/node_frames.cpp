@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "node/frame_maker.hpp"
 #include "node/natives.hpp"
 #include "node/node.hpp"
 #include "wire/messages.hpp"
@@ -29,7 +30,7 @@ void expect_readable(const wire::Frame& frame) {
     if (wire::decode_message(frame, message) != wire::Error::None) fail();
 }
 
-void check_sent(node::Node&, const wire::Frame& frame) {
+void check_sent(const wire::Frame& frame) {
     if (frame.source != kId || frame.size > wire::kPayloadMax) fail();
     if (wire::is_user_event(frame.type)) {
         if (frame.size % 2 != 0 || frame.type >= 0x1000) fail();
@@ -51,8 +52,12 @@ void check_sent(node::Node&, const wire::Frame& frame) {
     if (!reply) fail();
 }
 
-constexpr node::Board kBoard = {check_sent, [](node::Node&, vm::Notice) {},
-                                wire::kVariablesReplyWordsMax};
+node::FrameMaker maker;
+
+constexpr node::Board kBoard = {[](node::Node& node, uint16_t type) { maker.begin(node, type); },
+                                [](node::Node&, uint8_t byte) { maker.put(byte); },
+                                [](node::Node&) { check_sent(maker.frame()); },
+                                [](node::Node&, vm::Notice) {}, wire::kVariablesReplyWordsMax};
 
 const node::Variable kVariableList[] = {{1, "id"}, {1, "event.source"}, {32, "event.args"}};
 const node::LocalEvent kEventList[] = {{"timer", "doc"}, {"prox", ""}};

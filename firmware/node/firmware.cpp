@@ -43,8 +43,16 @@ bool is_id(uint16_t id) {
 
 // ---- What the machine asks of its board ----
 
-void transmit(node::Node& node, const wire::Frame& frame) {
-    if (!queue(firmware_of(node).sender, frame)) count(kDroppedAt, 1);
+void begin(node::Node& node, uint16_t type) {
+    begin_message(firmware_of(node).sender, node.vm.id, type);
+}
+
+void put(node::Node& node, uint8_t byte) {
+    put_byte(firmware_of(node).sender, byte);
+}
+
+void end(node::Node& node) {
+    if (!end_message(firmware_of(node).sender)) count(kDroppedAt, 1);
     board::start_sending();
 }
 
@@ -60,7 +68,7 @@ void notify(node::Node& node, vm::Notice notice) {
     if (notice == vm::Notice::Reboot) firmware.restarts = true;
 }
 
-const node::Board kBoard = {transmit, notify, kVariablesAtOnce};
+const node::Board kBoard = {begin, put, end, notify, kVariablesAtOnce};
 
 // ---- Frames ----
 

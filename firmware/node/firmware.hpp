@@ -30,7 +30,7 @@ constexpr uint16_t kInstructionsPerFrame = 1000;
 // A piece of the variables, as robots with a small radio send them (section 1.3).
 constexpr uint16_t kVariablesAtOnce = 47;
 // No piece, and no answer to one command, is longer: a test looks at the whole description.
-constexpr uint16_t kAnswerMax = 116;
+constexpr uint8_t kAnswerMax = 116;
 
 // All zero at the start. Small things first: a Cortex-M reaches those with shorter instructions.
 struct Firmware {

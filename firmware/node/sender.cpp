@@ -1,27 +1,50 @@
 #include "firmware/node/sender.hpp"
 
-#include <stddef.h>
+#include "wire/protocol.hpp"
 
 namespace vagus {
 namespace firmware {
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ &&
-                  offsetof(wire::Frame, payload) == wire::kHeaderSize,
-              "a frame lies in memory as it is sent");
+namespace {
 
-bool has_room(const Sender& sender, uint16_t size) {
+constexpr uint8_t kRoom = kSendRoom - 1;
+
+void put_word(Sender& sender, uint16_t word) {
+    put_byte(sender, static_cast<uint8_t>(word & 0xff));
+    put_byte(sender, static_cast<uint8_t>(word >> 8));
+}
+
+}  // namespace
+
+bool has_room(const Sender& sender, uint8_t size) {
     return size <= static_cast<uint8_t>(sender.tail - sender.head - 1);
 }
 
-// The interrupt sees nothing of the frame before it is whole.
-bool queue(Sender& sender, const wire::Frame& frame) {
-    const uint16_t left_free = wire::is_user_event(frame.type) ? kRoomOfMessages : 0;
-    const uint16_t size = static_cast<uint16_t>(wire::kHeaderSize + frame.size);
-    if (!has_room(sender, static_cast<uint16_t>(size + left_free))) return false;
-    const uint8_t* const bytes = reinterpret_cast<const uint8_t*>(&frame);
-    uint8_t head = sender.head;
-    for (uint16_t i = 0; i < size; ++i) sender.ring[head++] = bytes[i];
-    sender.head = head;
+void begin_message(Sender& sender, uint16_t source, uint16_t type) {
+    sender.end = sender.head;
+    sender.room = wire::is_user_event(type) ? kRoom - kRoomOfMessages : kRoom;
+    put_word(sender, 0);
+    put_word(sender, source);
+    put_word(sender, type);
+}
+
+void put_byte(Sender& sender, uint8_t byte) {
+    const uint8_t waiting = static_cast<uint8_t>(sender.end - sender.tail);
+    if (waiting >= sender.room) {
+        sender.room = 0;
+        return;
+    }
+    sender.ring[sender.end] = byte;
+    sender.end = static_cast<uint8_t>(sender.end + 1);
+}
+
+// The interrupt sees nothing of the message before. A message that fits the ring is shorter than
+// 256 bytes: the low byte of its size says it all.
+bool end_message(Sender& sender) {
+    if (sender.room == 0) return false;
+    const uint8_t head = sender.head;
+    sender.ring[head] = static_cast<uint8_t>(sender.end - head - wire::kHeaderSize);
+    sender.head = sender.end;
     return true;
 }
 

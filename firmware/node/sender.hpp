@@ -1,15 +1,15 @@
-// What the node says, waiting for the serial line, in the order in which it was said. Nothing waits
-// for room: what finds none is dropped whole. User events leave half of the room to all other
-// messages; so a script that emits without end can neither stop the node nor keep its answers from
-// the host.
+// What the node says, waiting for the serial line, in the order in which it was said. Messages are
+// made where they wait. Nothing waits for room: what finds none is dropped whole. User events leave
+// half of the room to all other messages; so a script that emits without end can neither stop the
+// node nor keep its answers from the host.
 //
-//     if (!queue(sender, frame)) ++dropped;            // from the loop
+//     begin_message(sender, id, type);                 // from the loop
+//     put_byte(sender, byte);                          // each byte of the payload
+//     if (!end_message(sender)) ++dropped;
 //     void interrupt() { if (take_byte(sender, byte)) uart.data = byte; }
 #pragma once
 
 #include <stdint.h>
-
-#include "wire/frame.hpp"
 
 namespace vagus {
 namespace firmware {
@@ -18,20 +18,24 @@ namespace firmware {
 // reads them at once.
 constexpr uint16_t kSendRoom = 256;
 // Of these, for all that is no user event.
-constexpr uint16_t kRoomOfMessages = 128;
+constexpr uint8_t kRoomOfMessages = 128;
 
-// All zero at the start. The interrupt moves `tail`, the loop moves `head`.
+// All zero at the start. The interrupt moves `tail`, the loop all else.
 struct Sender {
-    volatile uint8_t head;
+    volatile uint8_t head;  // behind the last whole message
     volatile uint8_t tail;
+    uint8_t end;   // of the message that is being made
+    uint8_t room;  // bytes that may wait, this message included; 0 when it did not fit
     uint8_t ring[kSendRoom];
 };
 
-// False if there is no room.
-bool queue(Sender& sender, const wire::Frame& frame);
+void begin_message(Sender& sender, uint16_t source, uint16_t type);
+void put_byte(Sender& sender, uint8_t byte);
+// False if there was no room.
+bool end_message(Sender& sender);
 
 // A message of so many bytes, header included, would find room.
-bool has_room(const Sender& sender, uint16_t size);
+bool has_room(const Sender& sender, uint8_t size);
 
 // From the interrupt. False if nothing waits.
 bool take_byte(Sender& sender, uint8_t& byte);

@@ -11,6 +11,12 @@ namespace {
 
 using Words = std::vector<uint16_t>;
 
+bool queue(Sender& sender, const wire::Frame& frame) {
+    begin_message(sender, frame.source, frame.type);
+    for (uint16_t i = 0; i < frame.size; ++i) put_byte(sender, frame.payload[i]);
+    return end_message(sender);
+}
+
 std::vector<uint16_t> types_of(Sender& sender) {
     std::vector<uint16_t> types;
     wire::FrameReader reader;
@@ -56,7 +62,6 @@ TEST(Sender, MessagesMayFillTheRing) {
     Sender sender{};
     EXPECT_FALSE(queue(sender, message(125)));
     ASSERT_TRUE(has_room(sender, 255));
-    EXPECT_FALSE(has_room(sender, 256));
     ASSERT_TRUE(queue(sender, message(124)));
     EXPECT_FALSE(queue(sender, message(0)));
     EXPECT_FALSE(has_room(sender, 6));
@@ -71,6 +76,24 @@ TEST(Sender, AnEventLongerThanItsRoomIsDropped) {
     EXPECT_FALSE(queue(sender, event(1, 2, Words(61, 0))));
     EXPECT_FALSE(queue(sender, event(1, 3, Words(258, 0))));
     EXPECT_EQ(types_of(sender), Words{});
+}
+
+TEST(Sender, AMessageThatIsBegunAnewIsNotSent) {
+    Sender sender{};
+    begin_message(sender, 1, 0x9003);
+    put_byte(sender, 7);
+    ASSERT_TRUE(queue(sender, message(1)));
+    EXPECT_EQ(types_of(sender), Words{0x9005});
+}
+
+TEST(Sender, NothingOfAMessageIsSentBeforeItsEnd) {
+    Sender sender{};
+    begin_message(sender, 1, 0x9003);
+    put_byte(sender, 7);
+    uint8_t byte = 0;
+    EXPECT_FALSE(take_byte(sender, byte));
+    ASSERT_TRUE(end_message(sender));
+    EXPECT_TRUE(take_byte(sender, byte));
 }
 
 TEST(Sender, TheRingGoesRound) {

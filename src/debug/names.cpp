@@ -50,6 +50,8 @@ Error no_such_node(const std::vector<const NodeView*>& nodes, std::string_view t
                                 " are: " + listed(lines)};
 }
 
+}  // namespace
+
 Result<NodeId> usable(const NodeView& node) {
     const std::string who = "node " + std::to_string(node.id);
     if (!node.connected) {
@@ -60,8 +62,6 @@ Result<NodeId> usable(const NodeView& node) {
     }
     return node.id;
 }
-
-}  // namespace
 
 Result<NodeId> find_node(const std::vector<const NodeView*>& nodes, std::string_view typed) {
     const std::optional<uint16_t> id = number_in(typed, wire::kInvalidId - 1);

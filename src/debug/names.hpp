@@ -15,6 +15,9 @@ constexpr size_t kNamesShownMax = 20;  // in an error sentence
 // own.
 Result<NodeId> find_node(const std::vector<const NodeView*>& nodes, std::string_view typed);
 
+// Its id, if it is connected and has described itself; else the Error says what it lacks.
+Result<NodeId> usable(const NodeView& node);
+
 // "NAME", "NAME[3]", "NAME[2:5]" among the variables of the node and of its program.
 Result<VariableRange> find_range(const NodeView& node, std::string_view typed);
 

@@ -47,7 +47,11 @@ public:
     void tick(Time now);
     Time next_tick() const;
     void list_nodes();
-    Peer* peer(NodeId id);
+    Peer* peer(NodeId id) const;
+    // Something happens to the node, which may change when it has something to do next …
+    void touch(NodeId id);
+    // … or to all of them.
+    void touch_all();
     std::vector<const NodeView*> views() const;
     Error unknown(NodeId id) const;
 
@@ -56,10 +60,9 @@ public:
     std::map<NodeId, std::unique_ptr<Peer>> peers;
     uint64_t malformed = 0;
     Presences presences;
-    // What next_tick() found, until something happens: it is asked far more often than it changes.
-    mutable std::optional<Time> known_tick;
 
 private:
+    Time next_tick_of_peers() const;
     void note_name(NodeId id, const wire::Description& header);
     void tell_shared(NodeId id, std::string other_name);
     // Those that waited for their turn and have it now.
@@ -82,10 +85,15 @@ private:
     Time next_list_{};
     size_t description_bytes_ = 0;
     bool told_too_many_ = false;
+    // When a node has something to do next, or before. Ten thousand of them cannot each be asked
+    // after every frame: only those to which something has happened are, the others after a tick.
+    mutable std::optional<Time> peers_tick_;
+    mutable std::vector<NodeId> touched_;  // since it was found
 };
 
 void Network::Impl::receive(Time now, const wire::Frame& frame) {
     out.now = std::max(out.now, now);
+    touch(wire::is_command(frame.type) ? frame.first_word() : frame.source);
     if (wire::is_user_event(frame.type)) return receive_event(frame);
     if (wire::is_command(frame.type)) return receive_command(frame);
     if (frame.type == static_cast<uint16_t>(wire::MessageType::ListNodes)) presences.asked(out.now);
@@ -163,9 +171,11 @@ void Network::Impl::tell_shared(NodeId id, std::string other_name) {
 
 void Network::Impl::give_turns() {
     while (const auto next = out.descriptions.next(out.now)) {
+        touch(*next);
         if (Peer* const whose = peer(*next)) whose->ask_description();
     }
     while (const auto next = out.requests.next(out.now)) {
+        touch(*next);
         if (Peer* const whose = peer(*next)) whose->control().begin_turn();
     }
 }
@@ -202,6 +212,7 @@ void Network::Impl::forget(NodeId id) {
 
 void Network::Impl::tick(Time now) {
     out.now = std::max(out.now, now);
+    touch_all();
     if (out.now >= next_list_) list_nodes();
     for (const auto& [id, known] : peers) {
         const size_t before = known->description_bytes();
@@ -231,14 +242,35 @@ bool Network::Impl::anybody_connected() const {
 }
 
 Time Network::Impl::next_tick() const {
-    if (known_tick) return *known_tick;
-    Time next = std::min({next_list_, out.descriptions.next_tick(), out.requests.next_tick()});
-    for (const auto& [id, known] : peers) next = std::min(next, known->next_tick());
-    known_tick = next;
+    return std::min(
+        {next_list_, out.descriptions.next_tick(), out.requests.next_tick(), next_tick_of_peers()});
+}
+
+Time Network::Impl::next_tick_of_peers() const {
+    Time next = peers_tick_.value_or(Time::max());
+    if (peers_tick_) {
+        for (const NodeId id : touched_)
+            if (const Peer* known = peer(id)) next = std::min(next, known->next_tick());
+    } else {
+        for (const auto& [id, known] : peers) next = std::min(next, known->next_tick());
+    }
+    touched_.clear();
+    peers_tick_ = next;
     return next;
 }
 
-Peer* Network::Impl::peer(NodeId id) {
+void Network::Impl::touch(NodeId id) {
+    if (!peers_tick_ || (!touched_.empty() && touched_.back() == id)) return;
+    touched_.push_back(id);
+    if (touched_.size() > peers.size()) touch_all();
+}
+
+void Network::Impl::touch_all() {
+    peers_tick_.reset();
+    touched_.clear();
+}
+
+Peer* Network::Impl::peer(NodeId id) const {
     const auto found = peers.find(id);
     return found == peers.end() ? nullptr : found->second.get();
 }
@@ -263,11 +295,9 @@ Network::Network(Network&&) noexcept = default;
 Network& Network::operator=(Network&&) noexcept = default;
 
 void Network::receive(Time now, const wire::Frame& frame) {
-    impl_->known_tick.reset();
     impl_->receive(now, frame);
 }
 void Network::tick(Time now) {
-    impl_->known_tick.reset();
     impl_->tick(now);
 }
 Time Network::next_tick() const {
@@ -299,12 +329,11 @@ Result<NodeId> Network::find(std::string_view name_or_id) const {
 }
 
 void Network::list_nodes() {
-    impl_->known_tick.reset();
     impl_->list_nodes();
 }
 
 void Network::link_lost() {
-    impl_->known_tick.reset();
+    impl_->touch_all();
     for (const auto& [id, known] : impl_->peers) known->lost();
 }
 
@@ -322,9 +351,11 @@ const aesl::CommonDefinitions& Network::common() const {
 
 // The Peer of a node that is to be worked with, or an Error from the function around.
 Result<Peer*> Network::usable(NodeId id) const {
-    impl_->known_tick.reset();
-    (void)TRY(find_node(impl_->views(), std::to_string(id)));
-    return impl_->peer(id);
+    Peer* const known = impl_->peer(id);
+    if (known == nullptr) return impl_->unknown(id);
+    (void)TRY(debug::usable(known->view()));
+    impl_->touch(id);
+    return known;
 }
 
 Result<RequestId> Network::load(NodeId id, const aesl::Program& program) {
@@ -391,7 +422,7 @@ Status Network::watch(NodeId id, const VariableRange& range, Duration every) {
 }
 
 void Network::unwatch(NodeId id, std::string_view name) {
-    impl_->known_tick.reset();
+    impl_->touch(id);
     if (Peer* known = impl_->peer(id)) known->unwatch(name);
 }
 

@@ -24,6 +24,30 @@ TEST(Discovery, AsksEachSecondWhoIsThereAndForOldNodesWhileNobodyIs) {
     EXPECT_EQ(bus.sent_all(), Dumps{"02 00 00 00 11 a0 05 00"});
 }
 
+// Of many nodes only those to which something has happened are asked when they are due.
+TEST(Discovery, TheNextTickKeepsUpWithWhatHappensToOneNodeOfSeveral) {
+    ScriptedBus bus;
+    bus.pass(milliseconds(0));
+    for (const NodeId id : {NodeId{1}, NodeId{2}, NodeId{3}}) bus.meet_robot(id);
+    EXPECT_EQ(bus.network.next_tick(), milliseconds(1000));  // ListNodes
+    const VariableRange source = bus.network.variable(2, "source").value();
+    ASSERT_TRUE(bus.network.watch(2, source, milliseconds(100)).ok());
+    EXPECT_EQ(bus.sent(), Dumps{"06 00 00 00 0b a0 02 00 01 00 01 00"});
+    EXPECT_EQ(bus.network.next_tick(), milliseconds(1000));  // then it asks again
+    wire::Variables reply{};
+    reply.start = 1;
+    reply.values.count = 1;
+    bus.node_sends(2, reply);
+    EXPECT_EQ(bus.network.next_tick(), milliseconds(100));
+    bus.network.unwatch(2, "source");
+    bus.pass(milliseconds(100));
+    EXPECT_EQ(bus.network.next_tick(), milliseconds(1000));
+    ASSERT_TRUE(bus.network.pause(3).ok());
+    EXPECT_EQ(bus.network.next_tick(), milliseconds(1000));
+    bus.pass(milliseconds(900));
+    EXPECT_EQ(bus.network.next_tick(), milliseconds(1100));  // `pause` once more
+}
+
 TEST(Discovery, AnUnknownNodeIsAskedForItsDescription) {
     ScriptedBus bus;
     bus.node_says(kPresent1);

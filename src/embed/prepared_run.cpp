@@ -15,6 +15,7 @@
 #include "run/execution.hpp"
 #include "run/firing.hpp"
 #include "session/plan_world.hpp"
+#include "sim/crew.hpp"
 #include "toolbox/bus.hpp"
 #include "toolbox/core_values.hpp"
 #include "toolbox/needs_bus.hpp"
@@ -64,6 +65,9 @@ Status check_words(const RunWords& words) {
     }
     if (!words.robot.empty() && words.world.empty()) {
         return usage("--robot goes with --world: it names one of its robots");
+    }
+    if (!words.threads.empty() && words.world.empty()) {
+        return usage("--threads goes with --world: they sense and run scripts for its robots");
     }
     if (!words.trace_all.empty() && words.world.empty()) {
         return usage("--trace-all goes with --world; for the plan alone there is --trace");
@@ -190,8 +194,11 @@ Status PreparedRun::Insides::take_options() {
 
 Status PreparedRun::Insides::open_world() {
     hosts.reset();
+    std::optional<unsigned> threads;
+    if (!words.threads.empty()) threads = TRY(parse_threads(words.threads));
     world = TRY(session::PlanWorld::open({.path = words.world,
                                           .seed = seed,
+                                          .threads = threads,
                                           .traced = !words.trace_all.empty(),
                                           .robot = words.robot,
                                           .needs = toolbox::nodes_needed(what.graph())},
@@ -431,6 +438,14 @@ Result<uint64_t> parse_seed(const std::string& text) {
     if (const auto seed = decimal_number(text)) return *seed;
     return usage(
         fmt::format("--seed {}: expected a whole number from 0 to {} in digits", text, UINT64_MAX));
+}
+
+Result<unsigned> parse_threads(const std::string& text) {
+    const auto threads = decimal_number(text);
+    if (threads && *threads >= 1 && *threads <= sim::kThreadsMax)
+        return static_cast<unsigned>(*threads);
+    return usage(
+        fmt::format("--threads {}: expected a whole number from 1 to {}", text, sim::kThreadsMax));
 }
 
 Result<std::pair<int, plan::Value>> parse_set(const plan::GraphPlan& plan,

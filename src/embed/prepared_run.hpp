@@ -98,6 +98,9 @@ Result<std::pair<int, plan::Value>> parse_set(const plan::GraphPlan& plan, const
 // The number of `--seed`.
 Result<uint64_t> parse_seed(const std::string& text);
 
+// The number of `--threads`.
+Result<unsigned> parse_threads(const std::string& text);
+
 // The seconds of `--max-time`; empty: it never comes.
 Result<std::optional<Duration>> parse_max_time(const std::string& text);
 

@@ -22,6 +22,7 @@ struct RunWords {
     std::string trace = {};  // a file, or - for stdout
     std::string world = {};
     std::string robot = {};      // of the world
+    std::string threads = {};    // that sense and run the scripts of the world
     std::string trace_all = {};  // the trace with what happens in the world
     std::string listen = {};     // where the bus of the world is open for others
     std::string bus = {};        // a target (docs/formats.md)

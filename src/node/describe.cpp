@@ -12,17 +12,17 @@ using wire::MessageType;
 namespace {
 
 void send_variable(Node& node, const Variable& variable) {
-    Message message(node, MessageType::NamedVariableDescription);
-    message.word(variable.size);
-    message.text(variable.name);
-    message.send();
+    begin_message(node, MessageType::NamedVariableDescription);
+    put_word(node, variable.size);
+    put_text(node, variable.name);
+    end_message(node);
 }
 
 void send_local_event(Node& node, const LocalEvent& event) {
-    Message message(node, MessageType::LocalEventDescription);
-    message.text(event.name);
-    message.text(event.doc);
-    message.send();
+    begin_message(node, MessageType::LocalEventDescription);
+    put_text(node, event.name);
+    put_text(node, event.doc);
+    end_message(node);
 }
 
 }  // namespace
@@ -30,16 +30,16 @@ void send_local_event(Node& node, const LocalEvent& event) {
 void send_header(Node& node) {
     const Description& description = *node.description;
     const vm::Config& machine = *node.vm.config;
-    Message message(node, MessageType::Description);
-    message.text(flash_read(&description.name));
-    message.word(flash_read(&description.protocol_version));
-    message.word(machine.bytecode_size);
-    message.word(machine.stack_size);
-    message.word(machine.variables_size);
-    message.word(flash_read(&description.variable_count));
-    message.word(flash_read(&description.local_event_count));
-    message.word(native_count(description));
-    message.send();
+    begin_message(node, MessageType::Description);
+    put_text(node, flash_read(&description.name));
+    put_word(node, flash_read(&description.protocol_version));
+    put_word(node, machine.bytecode_size);
+    put_word(node, machine.stack_size);
+    put_word(node, machine.variables_size);
+    put_word(node, flash_read(&description.variable_count));
+    put_word(node, flash_read(&description.local_event_count));
+    put_word(node, native_count(description));
+    end_message(node);
 }
 
 uint16_t item_count(const Node& node) {

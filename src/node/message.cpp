@@ -15,32 +15,33 @@ uint16_t text_size(const char* text, uint16_t limit) {
     return size;
 }
 
+void put_byte(Node& node, uint8_t byte) {
+    if (node.message_size < wire::kPayloadMax) node.board->put(node, byte);
+    ++node.message_size;
+}
+
 }  // namespace
 
-Message::Message(Node& node, uint16_t type) : node_(node) {
-    frame_.source = node.vm.id;
-    frame_.type = type;
-    frame_.size = 0;
+void begin_message(Node& node, uint16_t type) {
+    node.message_size = 0;
+    node.board->begin(node, type);
 }
 
-void Message::byte(uint8_t byte) {
-    if (frame_.size < wire::kPayloadMax) frame_.payload[frame_.size] = byte;
-    ++frame_.size;
+void put_word(Node& node, uint16_t word) {
+    put_byte(node, static_cast<uint8_t>(word & 0xff));
+    put_byte(node, static_cast<uint8_t>(word >> 8));
 }
 
-void Message::word(uint16_t word) {
-    byte(static_cast<uint8_t>(word & 0xff));
-    byte(static_cast<uint8_t>(word >> 8));
-}
-
-void Message::text(const char* text, uint16_t limit) {
+void put_text(Node& node, const char* text, uint16_t limit) {
     const uint16_t size = text_size(text, limit);
-    byte(static_cast<uint8_t>(size));
-    for (const char* at = text; at != text + size; ++at) byte(static_cast<uint8_t>(flash_read(at)));
+    put_byte(node, static_cast<uint8_t>(size));
+    for (const char* at = text; at != text + size; ++at) {
+        put_byte(node, static_cast<uint8_t>(flash_read(at)));
+    }
 }
 
-void Message::send() {
-    node_.board->transmit(node_, frame_);
+void end_message(Node& node) {
+    node.board->end(node);
 }
 
 }  // namespace node

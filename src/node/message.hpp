@@ -1,10 +1,10 @@
-// A message that a node is about to send: words and texts, one behind the other. Nobody outside of
-// this folder includes it.
+// A message that a node sends: words and texts, one behind the other. Nobody outside of this folder
+// includes it.
 //
-//     Message message(node, wire::MessageType::NamedVariableDescription);
-//     message.word(variable.size);
-//     message.text(variable.name);
-//     message.send();
+//     begin_message(node, wire::MessageType::NamedVariableDescription);
+//     put_word(node, variable.size);
+//     put_text(node, variable.name);
+//     end_message(node);
 #pragma once
 
 #include <stdint.h>
@@ -16,25 +16,20 @@ namespace node {
 
 constexpr uint16_t kTextMax = 255;  // bytes: what the length byte of a string can say (D16)
 
-class Message {
-public:
-    Message(Node& node, uint16_t type);
-    Message(Node& node, wire::MessageType type) : Message(node, static_cast<uint16_t>(type)) {}
-
-    void word(uint16_t word);
-    // `text` ends with '\0' and is in flash on an AVR. Of a longer one than `limit`, at most
-    // kTextMax bytes, as many whole characters (UTF-8) as fit.
-    void text(const char* text, uint16_t limit = kTextMax);
-    // False once there was more than a payload takes: then it must not be sent.
-    bool fits() const { return frame_.size <= wire::kPayloadMax; }
-    void send();
-
-private:
-    void byte(uint8_t byte);
-
-    Node& node_;
-    wire::Frame frame_;
-};
+// What was begun and not ended is forgotten.
+void begin_message(Node& node, uint16_t type);
+inline void begin_message(Node& node, wire::MessageType type) {
+    begin_message(node, static_cast<uint16_t>(type));
+}
+void put_word(Node& node, uint16_t word);
+// `text` ends with '\0' and is in flash on an AVR. Of a longer one than `limit`, at most kTextMax
+// bytes, as many whole characters (UTF-8) as fit.
+void put_text(Node& node, const char* text, uint16_t limit = kTextMax);
+// False once there was more than a payload takes: then the message must not be ended.
+inline bool fits(const Node& node) {
+    return node.message_size <= wire::kPayloadMax;
+}
+void end_message(Node& node);
 
 }  // namespace node
 }  // namespace vagus

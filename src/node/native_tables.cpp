@@ -21,16 +21,16 @@ bool find(const Node& node, uint16_t id, Native& native) {
     return false;
 }
 
-void write_native(Message& message, const Native& native, uint16_t text_limit) {
+void put_native(Node& node, const Native& native, uint16_t text_limit) {
     const uint16_t count = native.parameter_count < wire::kParametersMax ? native.parameter_count
                                                                          : wire::kParametersMax;
-    message.text(native.name, text_limit);
-    message.text(native.doc, text_limit);
-    message.word(count);
+    put_text(node, native.name, text_limit);
+    put_text(node, native.doc, text_limit);
+    put_word(node, count);
     for (uint16_t i = 0; i < count; ++i) {
         const Parameter parameter = flash_read(native.parameters + i);
-        message.word(static_cast<uint16_t>(parameter.size));
-        message.text(parameter.name, text_limit);
+        put_word(node, static_cast<uint16_t>(parameter.size));
+        put_text(node, parameter.name, text_limit);
     }
 }
 
@@ -47,9 +47,9 @@ void send_native(Node& node, uint16_t id) {
     Native native;
     if (!find(node, id, native)) return;
     for (uint16_t limit = kTextMax;; limit = static_cast<uint16_t>(limit / 2)) {
-        Message message(node, wire::MessageType::NativeFunctionDescription);
-        write_native(message, native, limit);
-        if (message.fits()) return message.send();
+        begin_message(node, wire::MessageType::NativeFunctionDescription);
+        put_native(node, native, limit);
+        if (fits(node)) return end_message(node);
     }
 }
 

@@ -29,23 +29,24 @@ Node& node_of(vm::Vm& vm) {
 // ---- What the machine asks of its host ----
 
 void send(vm::Vm& vm, uint16_t type, const uint16_t* words, uint16_t count) {
-    Message message(node_of(vm), type);
-    for (uint16_t i = 0; i < count; ++i) message.word(words[i]);
-    message.send();
+    Node& node = node_of(vm);
+    begin_message(node, type);
+    for (uint16_t i = 0; i < count; ++i) put_word(node, words[i]);
+    end_message(node);
 }
 
 // The next piece of the variables that were asked for; an empty one if there are none.
 void send_piece(Node& node) {
     uint16_t count = node.variables_left;
     if (count > node.board->variables_at_once) count = node.board->variables_at_once;
-    Message message(node, MessageType::Variables);
-    message.word(node.next_variable);
+    begin_message(node, MessageType::Variables);
+    put_word(node, node.next_variable);
     for (uint16_t i = 0; i < count; ++i) {
-        message.word(static_cast<uint16_t>(node.vm.config->variables[node.next_variable]));
+        put_word(node, static_cast<uint16_t>(node.vm.config->variables[node.next_variable]));
         ++node.next_variable;
     }
     node.variables_left = static_cast<uint16_t>(node.variables_left - count);
-    message.send();
+    end_message(node);
 }
 
 void send_variables(vm::Vm& vm, uint16_t start, uint16_t count) {
@@ -56,10 +57,11 @@ void send_variables(vm::Vm& vm, uint16_t start, uint16_t count) {
 }
 
 void send_error(vm::Vm& vm, const char* text) {
-    Message message(node_of(vm), MessageType::NodeSpecificError);
-    message.word(vm.pc);
-    message.text(text);
-    message.send();
+    Node& node = node_of(vm);
+    begin_message(node, MessageType::NodeSpecificError);
+    put_word(node, vm.pc);
+    put_text(node, text);
+    end_message(node);
 }
 
 void native(vm::Vm& vm, uint16_t id) {

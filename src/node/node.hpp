@@ -28,11 +28,16 @@
 namespace vagus {
 namespace node {
 
-// What the surroundings do for a node. Both must be there; neither may call receive, local_event,
-// start or run of the same node.
+// What the surroundings do for a node. All must be there; none may call receive, local_event, start
+// or run of the same node.
 struct Board {
-    // A frame for the bus. Borrowed for the call; with nobody connected it is thrown away.
-    void (*transmit)(Node& node, const wire::Frame& frame);
+    // A message for the bus as it is made, so that no node needs room for a whole one: begin, put
+    // for each byte of the payload, at most wire::kPayloadMax, end. What was begun and then begun
+    // anew was not meant. With nobody connected it is thrown away. Boards that send whole frames
+    // have frame_maker.hpp.
+    void (*begin)(Node& node, uint16_t type);
+    void (*put)(Node& node, uint8_t byte);
+    void (*end)(Node& node);
     // See vm::Notice. A board that cannot keep bytecode, restart or sleep does nothing.
     void (*notify)(Node& node, vm::Notice notice);
     // Words of one Variables message: 1 to wire::kVariablesReplyWordsMax.
@@ -45,6 +50,7 @@ struct Node {
     const Board* board;
     void* owner;            // for the board and its natives; the node does not touch it
     uint16_t random_state;  // of math.rand (section 4.4)
+    uint16_t message_size;  // bytes of the payload that is being made
     // What is still to be sent of a description and of variables that a host has asked for.
     uint16_t next_item;
     uint16_t items_left;

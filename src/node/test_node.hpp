@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isa/isa.hpp"
+#include "node/frame_maker.hpp"
 #include "node/natives.hpp"
 #include "node/node.hpp"
 #include "wire/frame.hpp"
@@ -90,9 +91,12 @@ private:
                 &kMachineHost,
                 &node};
     }
+    FrameMaker maker_;
     static TestNode& self(Node& node) { return *static_cast<TestNode*>(node.owner); }
     static constexpr Board kBoard = {
-        [](Node& node, const wire::Frame& frame) { self(node).sent.push_back(frame); },
+        [](Node& node, uint16_t type) { self(node).maker_.begin(node, type); },
+        [](Node& node, uint8_t byte) { self(node).maker_.put(byte); },
+        [](Node& node) { self(node).sent.push_back(self(node).maker_.frame()); },
         [](Node& node, vm::Notice notice) { self(node).notices.push_back(notice); },
         wire::kVariablesReplyWordsMax};
 

@@ -31,9 +31,10 @@ namespace vagus::session {
 
 struct PlanWorldOptions {
     std::string path = {};
-    std::optional<uint64_t> seed = {};  // instead of that of the file
-    bool traced = false;                // keep lines for session().take_trace()
-    std::string robot = {};             // of several that the plan could drive; empty: the only one
+    std::optional<uint64_t> seed = {};     // instead of that of the file
+    std::optional<unsigned> threads = {};  // as sim::WorldOptions
+    bool traced = false;                   // keep lines for session().take_trace()
+    std::string robot = {};  // of several that the plan could drive; empty: the only one
     std::vector<toolbox::NodeNames> needs = {};  // nodes that the plan works on, one of each list
 };
 

@@ -35,6 +35,7 @@ SimSession::SimSession(sim::World world, SimOptions options)
             nodes_.push_back({robot.id, std::string(robot.name),
                               static_cast<uint16_t>(robot.node + place), place, robot.nodes,
                               std::nullopt, ""});
+            index_of_.emplace(nodes_.back().id, nodes_.size() - 1);
         }
     }
 }
@@ -154,17 +155,14 @@ void SimSession::reset() {
     for (Node& node : nodes_) {
         node.fault.clear();
         if (node.script && !node.script->program.bytecode.empty()) {
-            node.script->stage = Stage::Ready;
+            enter(*node.script, Stage::Ready);
         }
     }
 }
 
 bool SimSession::settled() const {
-    const auto waits = [](const Node& node) {
-        return node.script && node.script->stage != Stage::Runs &&
-               node.script->stage != Stage::Failed;
-    };
-    return waiting_.empty() && std::none_of(nodes_.begin(), nodes_.end(), waits);
+    const size_t on_their_way = count(Stage::Waiting) + count(Stage::Ready) + count(Stage::Sent);
+    return waiting_.empty() && on_their_way == 0;
 }
 
 // ---- what the bus says ----
@@ -225,11 +223,11 @@ void SimSession::hear_done(Node& node, const debug::RequestDone& done) {
     Assignment& script = *node.script;
     if (script.stage != Stage::Sent) return;
     if (done.error) {
-        script.stage = Stage::Failed;
+        enter(script, Stage::Failed);
         note(NoteKind::Trouble, script.path + ": " + done.error->what);
         return;
     }
-    script.stage = Stage::Runs;
+    enter(script, Stage::Runs);
     node.fault.clear();
     note(NoteKind::Loaded, script.path + " runs on " + label(node) + ", " +
                                std::to_string(script.program.bytecode.size()) + " words");
@@ -316,9 +314,9 @@ std::vector<std::pair<std::string, std::span<const int16_t>>> SimSession::script
 }
 
 std::span<const int16_t> SimSession::node_variable(sim::RobotId id, std::string_view name) const {
-    for (const Node& node : nodes_) {
+    for (const Node& node : std::ranges::equal_range(nodes_, id, {}, &Node::robot)) {
         const debug::NodeView* view = network_.node(node.id);
-        if (node.robot != id || view == nullptr) continue;
+        if (view == nullptr) continue;
         const std::span<const int16_t> memory = world_.variables_of(node.id);
         size_t address = 0;
         for (const aesl::NamedVariable& variable : view->target.variables) {
@@ -383,9 +381,8 @@ std::string SimSession::take_trace() {
 }
 
 const SimSession::Node* SimSession::find(debug::NodeId id) const {
-    const auto found = std::find_if(nodes_.begin(), nodes_.end(),
-                                    [id](const Node& node) { return node.id == id; });
-    return found == nodes_.end() ? nullptr : &*found;
+    const auto found = index_of_.find(id);
+    return found == index_of_.end() ? nullptr : &nodes_[found->second];
 }
 
 SimSession::Node* SimSession::find(debug::NodeId id) {

@@ -14,27 +14,32 @@
 // of simulated time after the start: settled() tells when.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "aesl/compile.hpp"
 #include "base/diagnostic.hpp"
 #include "base/result.hpp"
 #include "debug/network.hpp"
+#include "debug/turns.hpp"
 #include "session/script_file.hpp"
 #include "sim/world.hpp"
 
 namespace vagus::session {
 
 constexpr size_t kScriptFilesMax = sim::kRobotsMax + 1;  // one for each robot, and one for all
-// Programs on their way at a time: everything on the bus reaches every node, and a node takes in
-// only so much in a millisecond.
-constexpr size_t kLoadsAtOnce = 4;
+// Programs on their way at a time. On an ideal bus only its own node sees one, so as many as the
+// network has turns for: eight arrive in a millisecond, and 10,000 robots have their scripts before
+// two seconds are over. Over a CAN they share one wire with all else.
+constexpr size_t kLoadsAtOnce = debug::kTurnsAtOnce;
+constexpr size_t kLoadsAtOnceOverCan = 4;
 constexpr size_t kEventNamesMax = 256;  // different events that are counted; further ones only pass
 constexpr size_t kNotesMax = 10000;     // not taken yet; then the newest are dropped
 constexpr size_t kHeardMax = 10000;     // the same of take_heard()
@@ -163,6 +168,7 @@ public:
 private:
     // A script on its way to a node, or there.
     enum class Stage { Waiting, Ready, Sent, Runs, Failed };
+    static constexpr size_t kStages = 5;
     struct Assignment {
         std::string path;
         aesl::Script script;
@@ -207,7 +213,7 @@ private:
     void hear_done(Node& node, const debug::RequestDone& done);
     void trace_happenings(size_t first);
     void take(const std::string& path, std::optional<sim::RobotId> only, std::string_view text);
-    bool all_described() const;
+    bool all_described();
     void place_files();
     void place(const WaitingFile& waiting);
     size_t place_project(const ScriptFile& file);
@@ -222,6 +228,9 @@ private:
     void compile(Node& node);
     void send_ready();
     void send(Node& node);
+    size_t& count(Stage stage) { return in_stage_[static_cast<size_t>(stage)]; }
+    size_t count(Stage stage) const { return in_stage_[static_cast<size_t>(stage)]; }
+    void enter(Assignment& script, Stage stage);
     Node* find(debug::NodeId id);
     const Node* find(debug::NodeId id) const;
     std::string label(const Node& node) const;
@@ -232,10 +241,14 @@ private:
     hub::LinkId link_;                  // ours on the bus
     std::vector<wire::Frame> put_off_;  // taken by hear_ahead(), for the next instant
     std::optional<sim::RobotId> emits_to_;
-    bool over_can_;    // frames cross a modelled bus
-    Time clock_{};     // of the network: goes on over reset()
-    Duration rest_{};  // of step()
-    std::vector<Node> nodes_;
+    bool over_can_;                                  // frames cross a modelled bus
+    Time clock_{};                                   // of the network: goes on over reset()
+    Duration rest_{};                                // of step()
+    std::vector<Node> nodes_;                        // by robot, then by place
+    std::unordered_map<uint16_t, size_t> index_of_;  // in nodes_, by id
+    std::array<size_t, kStages> in_stage_{};         // how many scripts
+    size_t undescribed_ = 0;                         // who was missing last, by place in nodes_
+    size_t next_ready_ = 0;                          // where send_ready() looks on
     std::vector<WaitingFile> waiting_;
     std::vector<Compiled> compiled_;  // while files are placed
     std::vector<std::pair<std::string, std::optional<sim::RobotId>>> sources_;  // as loaded

@@ -53,11 +53,14 @@ void SimSession::reload(const std::string& path, std::string_view text) {
     }
 }
 
-bool SimSession::all_described() const {
-    return std::all_of(nodes_.begin(), nodes_.end(), [this](const Node& node) {
-        const debug::NodeView* view = network_.node(node.id);
-        return view != nullptr && view->described;
-    });
+// Asked at each instant: who was missing last is looked at first.
+bool SimSession::all_described() {
+    for (size_t looked_at = 0; looked_at < nodes_.size(); looked_at++) {
+        const debug::NodeView* view = network_.node(nodes_[undescribed_].id);
+        if (view == nullptr || !view->described) return false;
+        undescribed_ = (undescribed_ + 1) % nodes_.size();
+    }
+    return true;
 }
 
 void SimSession::place_files() {
@@ -188,6 +191,8 @@ bool SimSession::agree_on_names(const std::string& path, const aesl::CommonDefin
 void SimSession::give(Node& node, const ScriptFile& file, const aesl::Script& script) {
     aesl::Program before;
     if (node.script && node.script->path == file.path) before = node.script->program;
+    if (node.script) count(node.script->stage)--;
+    count(Stage::Waiting)++;
     node.script = Assignment{
         file.path, script, file.project.common, Stage::Waiting, std::move(before), {}, {}};
     if (file.plain) {
@@ -233,40 +238,41 @@ void SimSession::compile(Node& node) {
     const Compiled& done = compiled(node);
     if (!done.good) {
         script.mistakes = done.mistakes;
-        script.stage = Stage::Failed;
+        enter(script, Stage::Failed);
         return;
     }
     script.mistakes.clear();
     script.program = done.program;
-    script.stage = Stage::Ready;
+    enter(script, Stage::Ready);
 }
 
+void SimSession::enter(Assignment& script, Stage stage) {
+    count(script.stage)--;
+    count(stage)++;
+    script.stage = stage;
+}
+
+// In the order of the robots; goes on where it stopped, for it is called at each instant.
 void SimSession::send_ready() {
-    size_t sent = 0;
-    size_t ready = 0;
-    for (const Node& node : nodes_) {
-        if (node.script && node.script->stage == Stage::Sent) sent++;
-        if (node.script && node.script->stage == Stage::Ready) ready++;
+    const size_t at_once = over_can_ ? kLoadsAtOnceOverCan : kLoadsAtOnce;
+    while (count(Stage::Ready) > 0 && count(Stage::Sent) < at_once) {
+        Node& node = nodes_[next_ready_];
+        next_ready_ = (next_ready_ + 1) % nodes_.size();
+        if (node.script && node.script->stage == Stage::Ready) send(node);
     }
-    if (ready == 0) return;
-    for (Node& node : nodes_) {
-        if (sent >= kLoadsAtOnce) return;
-        if (!node.script || node.script->stage != Stage::Ready) continue;
-        send(node);
-        sent++;
-    }
+    if (count(Stage::Ready) == 0) next_ready_ = 0;
 }
 
 void SimSession::send(Node& node) {
     Assignment& script = *node.script;
     const auto request = network_.load(node.id, script.program);
     if (!request.ok()) {
-        script.stage = Stage::Failed;
+        enter(script, Stage::Failed);
         note(NoteKind::Trouble, script.path + ": " + request.error().what);
         return;
     }
     script.request = request.value();
-    script.stage = Stage::Sent;
+    enter(script, Stage::Sent);
 }
 
 }  // namespace vagus::session

@@ -57,7 +57,9 @@ SoftwareNode::SoftwareNode(aesl::Target target, SoftwareNodeOptions options)
       variables_(target_.variables_size),
       stack_(target_.stack_size) {
     static constexpr node::Board kBoard = {
-        [](node::Node& node, const wire::Frame& frame) { self(node).options_.transmit(frame); },
+        [](node::Node& node, uint16_t type) { self(node).maker_.begin(node, type); },
+        [](node::Node& node, uint8_t byte) { self(node).maker_.put(byte); },
+        [](node::Node& node) { self(node).options_.transmit(self(node).maker_.frame()); },
         [](node::Node& node, vm::Notice notice) { self(node).notice(notice); },
         wire::kVariablesReplyWordsMax};
     config_ = {.id = options_.id,

@@ -24,6 +24,7 @@
 #include "aesl/target.hpp"
 #include "base/result.hpp"
 #include "fastvm/run.hpp"
+#include "node/frame_maker.hpp"
 #include "node/node.hpp"
 #include "wire/frame.hpp"
 
@@ -98,6 +99,7 @@ private:
     node::Description description_ = {};
     vm::Config config_ = {};
     node::Node node_ = {};
+    node::FrameMaker maker_;
 };
 
 }  // namespace vagus::session

@@ -402,10 +402,13 @@ void Arena::Insides::solve() {
             prepare_loose(body);
         awake = awake || body.body->IsAwake();
     }
-    if (!awake) return;
-    world.Step(static_cast<float>(kArenaStep), kVelocityIterations, kPositionIterations);
-    for (const uint32_t index : active)
-        if (bodies[index].solved && has_moved(bodies[index])) fetch(index);
+    if (awake) world.Step(static_cast<float>(kArenaStep), kVelocityIterations, kPositionIterations);
+    for (size_t i = 0; i < active.size(); ++i) {
+        const uint32_t index = active[i];
+        if (!bodies[index].solved) continue;
+        if (awake && has_moved(bodies[index])) fetch(index);
+        strayed[i] = spacing.has_strayed(index) ? 1 : 0;
+    }
 }
 
 void Arena::step() {
@@ -417,13 +420,15 @@ void Arena::step(Crew& crew) {
     Insides& in = *insides_;
     if (!in.spaced) in.space_all();
     in.touches.touches.clear();
-    in.solve();
     in.strayed.resize(in.active.size());
-    crew.each(in.active.size(), [&in](size_t i) {
+    // Who is alone moves while Box2D solves the others: neither looks at the other.
+    const auto go_alone = [&in](size_t i) {
         const uint32_t index = in.active[i];
-        if (!in.bodies[index].solved) in.glide(index);
+        if (in.bodies[index].solved) return;
+        in.glide(index);
         in.strayed[i] = in.spacing.has_strayed(index) ? 1 : 0;
-    });
+    };
+    crew.beside([&in] { in.solve(); }, in.active.size(), go_alone);
     for (size_t i = 0; i < in.active.size(); ++i)
         if (in.strayed[i] != 0) in.spacing.settle(in.active[i]);
     in.hand_over_changed();

@@ -7,8 +7,11 @@
 
 namespace vagus::sim {
 
-const node::Board Machine::kBoard = {Machine::transmit, Machine::notify,
-                                     wire::kVariablesReplyWordsMax};
+const node::Board Machine::kBoard = {
+    [](node::Node& node, uint16_t type) { of(node).maker_.begin(node, type); },
+    [](node::Node& node, uint8_t byte) { of(node).maker_.put(byte); },
+    [](node::Node& node) { of(node).sent_.push_back(of(node).maker_.frame()); }, notify,
+    wire::kVariablesReplyWordsMax};
 
 Machine::Machine(const MachineDefinition& definition)
     : definition_(definition),
@@ -39,12 +42,8 @@ void Machine::restart() {
     heard_is_old_ = true;
 }
 
-void Machine::transmit(node::Node& node, const wire::Frame& frame) {
-    static_cast<Machine*>(node.owner)->sent_.push_back(frame);
-}
-
 void Machine::notify(node::Node& node, vm::Notice notice) {
-    static_cast<Machine*>(node.owner)->bytecode_.notice(notice);
+    of(node).bytecode_.notice(notice);
 }
 
 void Machine::receive(const wire::Frame& frame) {

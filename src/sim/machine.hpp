@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fastvm/bytecode.hpp"
+#include "node/frame_maker.hpp"
 #include "node/node.hpp"
 #include "wire/frame.hpp"
 
@@ -81,7 +82,7 @@ public:
     }
 
 private:
-    static void transmit(node::Node& node, const wire::Frame& frame);
+    static Machine& of(node::Node& node) { return *static_cast<Machine*>(node.owner); }
     static void notify(node::Node& node, vm::Notice notice);
     bool start_pending();
     static const node::Board kBoard;
@@ -93,6 +94,7 @@ private:
     std::vector<uint16_t> breakpoints_;
     vm::Config config_;
     node::Node node_;
+    node::FrameMaker maker_;
     uint64_t heard_ = 0;            // a bit for each local event that has a handler
     bool heard_is_old_ = true;      // the program may have changed since
     std::vector<uint8_t> pending_;  // local events, oldest first

@@ -23,7 +23,7 @@ Status NodeTurns::join(BusModel model) {
         const RobotDefinition& robot = definition_.robots[index];
         if (robot.port) private_buses_[index] = std::make_unique<hub::Hub>();
         unit_of_[index] = units_.size();
-        units_.push_back({index, berths_.size(), berths_.size() + nodes_of(robot.type), {}});
+        units_.push_back({index, berths_.size(), berths_.size() + nodes_of(robot.type), {}, false});
         for (size_t place = 0; place < nodes_of(robot.type); ++place) {
             Berth berth{index, place, {}, {}, {}, false};
             const auto id = static_cast<uint16_t>(robot.node + place);
@@ -109,6 +109,7 @@ void NodeTurns::run(const Surroundings& around, Crew& crew) {
         const Unit& unit = units_[each];
         schedule_.set(each, unit.next);
         wheels_turn_[unit.robot] = 1;
+        if (!unit.has_sent) continue;
         for (size_t i = unit.first; i < unit.end; ++i) collect(i, around.now, Crossing::Timed);
     }
     turns_taken_ += due.size();
@@ -124,7 +125,11 @@ void NodeTurns::take_turn(Unit& unit, const Surroundings& around) {
         more = more || berths_[i].sent_to;
     }
     its.sense(around);
-    for (Machine* const machine : its.machines()) machine->run();
+    unit.has_sent = false;
+    for (Machine* const machine : its.machines()) {
+        machine->run();
+        unit.has_sent = unit.has_sent || !machine->sent().empty();
+    }
     unit.next = more ? around.now + kNodeStep : its.next_due(around.now);
 }
 
@@ -137,9 +142,10 @@ void NodeTurns::hold() {
     schedule_.start(units_.size());
 }
 
-void NodeTurns::drive(Arena& arena, Time now) {
-    for (size_t i = 0; i < wheels_turn_.size(); ++i)
+void NodeTurns::drive(Arena& arena, Time now, Crew& crew) {
+    crew.each(wheels_turn_.size(), [&](size_t i) {
         if (wheels_turn_[i] != 0) wheels_turn_[i] = robot(i).drive(arena, now) ? 1 : 0;
+    });
 }
 
 // ---- the bus ----

@@ -6,7 +6,7 @@
 //     turns.move_in(inhabitants);                       // new robots, at the start of a run
 //     turns.accept(now);                                // an instant: what hosts said before it …
 //     turns.run(surroundings, crew);                    // … and all nodes that are due
-//     turns.drive(arena, now);                          // before each step of the arena
+//     turns.drive(arena, now, crew);                    // before each step of the arena
 //
 // It does not know: happenings, timelines, bodies. `heard` is told what nodes send.
 #pragma once
@@ -49,8 +49,8 @@ public:
     void run(const Surroundings& around, Crew& crew);
     // All nodes, while time stands still.
     void hold();
-    // Variables to wheels.
-    void drive(Arena& arena, Time now);
+    // Variables to wheels, each robot its own.
+    void drive(Arena& arena, Time now, Crew& crew);
     // Something was done to the robot from outside: it is due.
     void call(size_t robot);
 
@@ -78,7 +78,8 @@ private:
         size_t robot = 0;
         size_t first = 0;
         size_t end = 0;
-        Time next{};  // when it is due again, as it said at the end of its turn
+        Time next{};            // when it is due again, as it said at the end of its turn
+        bool has_sent = false;  // in its last turn
     };
     // How a frame leaves its node when the bus is modelled.
     enum class Crossing : uint8_t { Timed, AtOnce };

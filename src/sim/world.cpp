@@ -274,7 +274,7 @@ void World::Insides::note(size_t index, decltype(Happening::what) what, uint16_t
 
 void World::Insides::move_bodies() {
     Arena& arena = inhabitants->arena();
-    turns.drive(arena, now);
+    turns.drive(arena, now, crew);
     arena.step(crew);
     note_touches();
     if (now % kPoseEvery != Duration::zero()) return;

@@ -43,6 +43,14 @@ emit count n
 </node>
 </network>
 """
+# Drives in bends that differ, hits its neighbours, and tells how often it has sensed.
+RESTLESS = """var n = 0
+onevent prox
+n += 1
+motor.left.target = (n * 37) % 500
+motor.right.target = (n * 29) % 500
+emit sensed n
+"""
 # The worked example of docs/spec/aesl-language.md, section 5.2, and the words that stand there.
 ROVER = """<!DOCTYPE aesl-source>
 <network>
@@ -213,6 +221,9 @@ class Cli(unittest.TestCase):
             (("node", "--id", "x"), "--id: expected a whole number from 1 to 65534, found"),
             (("exec", self.script, "--node", "n", "--max-steps", "0"), "expected a whole number from 1 to"),
             (("sim", self.world, "--seed", "-1"), "expected a whole number from 0 to"),
+            (("sim", self.world, "--threads", "0"), '--threads: expected a whole number from 1 to 64, found "0"'),
+            (("sim", self.world, "--threads", "65"), '--threads: expected a whole number from 1 to 64, found "65"'),
+            (("sim", self.world, "--threads", "all"), '--threads: expected a whole number from 1 to 64, found "all"'),
             (("sim", self.world, "--speed", "1", "--speed", "2"), "--speed is given more than once"),
             (("net", "tcp:127.0.0.1:1", "set", "1", "x", "65536"), "expected a whole number from -32768 to 65535"),
         ]:
@@ -574,6 +585,34 @@ class Cli(unittest.TestCase):
         self.assertEqual([event["args"][0] for event in events], list(range(1, len(events) + 1)))
         self.assertEqual((events[0]["node"], events[0]["name"]), (7, "count"))
         self.assertEqual(sorted(line["t"] for line in lines), [line["t"] for line in lines])
+
+    def test_a_crowd_has_the_same_trace_with_one_thread_and_with_more(self):
+        # 100 robots, 20 cm from each other: more than kPartsForTwo, so that two threads share them.
+        robots = [{"name": f"r{i}", "type": "thymio2", "at": [0.3 + 0.2 * (i % 10), 0.3 + 0.2 * (i // 10)],
+                   "angle": i, "node": i + 1} for i in range(100)]
+        crowd = self.file("crowd.world.json", json.dumps({"format": "vagus-world/1", "name": "crowd", "size": [2.4, 2.4],
+                                                          "robots": robots}))
+        script = self.file("restless.aesl", RESTLESS)
+        for threads in (1, 2, 5):
+            self.run_vagus("sim", crowd, "--load", script, "--headless", "--speed", "max", "--duration", "3",
+                           "--threads", threads, "--trace", f"with-{threads}")
+        one = (self.folder / "with-1").read_bytes()
+        kinds = [json.loads(line)["kind"] for line in one.decode().splitlines()]
+        self.assertEqual(kinds.count("pose"), 100 * 30)  # ten a second
+        self.assertGreater(kinds.count("event"), 100 * 25)
+        self.assertIn("contact", kinds)
+        self.assertEqual((self.folder / "with-2").read_bytes(), one)
+        self.assertEqual((self.folder / "with-5").read_bytes(), one)
+
+    def test_it_has_as_many_threads_as_are_asked_for(self):
+        for threads in (1, 4):
+            with subprocess.Popen([VAGUS, "sim", self.world, "--headless", "--duration", "600", "--threads", str(threads),
+                                   "--listen", "tcp:127.0.0.1:0"], stdout=subprocess.PIPE, text=True) as program:
+                try:
+                    self.assertRegex(program.stdout.readline(), r"^listening ")
+                    self.assertEqual(len(os.listdir(f"/proc/{program.pid}/task")), threads)
+                finally:
+                    program.terminate()
 
     def test_mistakes_in_the_script_end_the_run_with_1(self):
         self.script.write_text(PROJECT.replace("STEP", "stp"))

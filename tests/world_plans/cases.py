@@ -108,6 +108,18 @@ class WorldPlans(unittest.TestCase):
         self.assertEqual(trace("second.jsonl"), first)
         self.assertEqual(trace("plain.jsonl", GLIBC_TUNABLES=NO_FMA), first)
 
+    def test_a_run_is_the_same_to_the_byte_with_any_number_of_threads(self):
+        traces = []
+        for threads in (1, 3):
+            path = self.folder / f"{threads}.jsonl"
+            run_vagus("plan", "run", self.plan, "--world", self.world, "--clock", "virtual", "--threads", threads,
+                      "--trace-all", path)
+            traces.append(path.read_bytes())
+        self.assertEqual(traces[0], traces[1])
+        for wrong in ("0", "65", "-1", "two", "2.5"):
+            said = self.refused("--world", self.world, f"--threads={wrong}")
+            self.assertIn(f"--threads {wrong}: expected a whole number from 1 to 64", said)
+
     def test_carbot_drives_the_same_bits_whatever_the_processor_can_do(self):
         def trace(name, **environment):
             path = self.folder / name
@@ -128,6 +140,7 @@ class WorldPlans(unittest.TestCase):
         self.assertIn("a run has one bus", self.refused("--bus", "tcp:127.0.0.1:1", "--world", self.world))
         self.assertIn("--project goes with --bus", self.refused("--project", self.script))
         self.assertIn("--trace-all goes with --world", self.refused("--trace-all", "-"))
+        self.assertIn("--threads goes with --world", self.refused("--threads", "2"))
 
     def test_wrong_files_are_named_with_their_places(self):
         self.write("answer.aesl", SCRIPT.replace("emit", "emt"))

@@ -322,6 +322,7 @@ void SimRun::show() {
 Result<session::SimSession> open_session(const SimRunOptions& options) {
     session::SimOptions made{{}, options.compile, !options.trace.empty()};
     made.world.seed = options.seed;
+    made.world.threads = options.threads;
     made.world.sd_folder = options.sd_folder;
     session::SimSession session = TRY(session::open_sim(options.world, made));
     for (const std::string& path : options.loads) {

@@ -24,6 +24,7 @@ struct SimRunOptions {
     double speed = 1;                // 0: as fast as it goes
     std::optional<double> duration;  // simulated seconds
     std::optional<uint64_t> seed;
+    std::optional<unsigned> threads;  // empty: by the number of robots
     std::string listen;
     std::string trace;
     std::string sd_folder;

@@ -6,6 +6,7 @@
 #include "cli/options.hpp"
 #include "cli/sim/run.hpp"
 #include "cli/verbs.hpp"
+#include "sim/crew.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -50,6 +51,16 @@ void add_time_options(CLI::App& verb, SimRunOptions& options) {
     add_seed_option(verb, options.seed, "of everything random (default: that of the world file)");
 }
 
+void add_threads_option(CLI::App& verb, SimRunOptions& options) {
+    CLI::Option* threads = verb.add_option(
+        "--threads", options.threads,
+        "how many threads sense and run scripts (default: 1 for less than 200 robots, else one for "
+        "each processor); the result is the same to the byte. Robots that share something, a "
+        "folder of cards or the energy of e-pucks, have one");
+    threads->type_name("N");
+    takes_whole_number(*threads, 1, sim::kThreadsMax);
+}
+
 }  // namespace
 
 void add_sim(CLI::App& app, int& exit_code) {
@@ -67,6 +78,7 @@ void add_sim(CLI::App& app, int& exit_code) {
     verb->add_flag("--headless", options->headless, "plain lines also on a terminal");
     add_theme_option(*verb, options->theme);
     add_time_options(*verb, *options);
+    add_threads_option(*verb, *options);
     verb->add_option("--listen", options->listen,
                      "lets hosts connect to the bus; prints `listening tcp:127.0.0.1:PORT` first")
         ->type_name("TARGET");

@@ -18,6 +18,7 @@
 #include "base/test_places.hpp"
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "run/surroundings.hpp"
 #include "run/virtual_time.hpp"
 #include "session/plan_world.hpp"
@@ -86,15 +87,6 @@ public:
 
 private:
     std::filesystem::path path_;
-};
-
-class OneFile final : public plan::Files {
-public:
-    explicit OneFile(std::string text) : text_(std::move(text)) {}
-    Result<std::string> read(const std::string&) const override { return text_; }
-
-private:
-    std::string text_;
 };
 
 // Carbot's scripts; where the reflex is not what is measured, without it.
@@ -241,7 +233,7 @@ Measured run_once(const Case& of, uint64_t seed) {
     parts.bus = &nodes;
     run::CodeLibrary library;
     toolbox::add_builtin(library, parts);
-    const OneFile plan(plan_text(of.way));
+    const plan::OneText plan(plan_text(of.way));
     const plan::Checked checked = plan::check("p.plan.json", plan, library.templates());
     if (!checked.ok()) fail(plan::format_findings_json(checked.findings));
     const plan::Graph graph = plan::make_graph(checked);

@@ -15,6 +15,7 @@
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
 #include "plan/machine.hpp"
+#include "plan/test_files.hpp"
 #include "run/real_time.hpp"
 #include "toolbox/core.hpp"
 
@@ -25,15 +26,6 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kEvents = 100'000;
-
-class OneFile final : public plan::Files {
-public:
-    explicit OneFile(std::string text) : text_(std::move(text)) {}
-    Result<std::string> read(const std::string&) const override { return text_; }
-
-private:
-    std::string text_;
-};
 
 // A ring: the event of each actor's supervisor leads to the next.
 std::string ring(int actors) {
@@ -52,7 +44,7 @@ std::string ring(int actors) {
 
 // Raised, stopped, begun: until the machine wants the next actor's code.
 void measure_events(int actors, const run::CodeLibrary& library) {
-    const OneFile file(ring(actors));
+    const plan::OneText file(ring(actors));
     const plan::Checked checked = plan::check("ring.plan.json", file, library.templates());
     const plan::Graph graph = plan::make_graph(checked);
     plan::Machine machine(graph);
@@ -101,7 +93,7 @@ void measure_events(int actors, const run::CodeLibrary& library) {
 }
 
 void measure_lateness(const run::CodeLibrary& library) {
-    const OneFile file(R"({"format":"vagus-plan/1","name":"Late",
+    const plan::OneText file(R"({"format":"vagus-plan/1","name":"Late",
         "configuration":{"x":{"type":"int","initial":0}},"start":{"actor":"rest"},
         "actors":{"rest":{"template":"WaitForever","states":{},"supervisors":{"w":{
         "template":"Watch","period_ms":1,"in":{"left":"x","op":"'=='","right":1},

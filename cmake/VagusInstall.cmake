@@ -25,7 +25,9 @@ install(TARGETS vagus COMPONENT program RUNTIME DESTINATION ${CMAKE_INSTALL_BIND
 
 # What the program reads at run time stands in share/vagus, seen from its own folder, also where it is built: the
 # examples, and the studio's pages once they are built.
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/ DESTINATION share/vagus/examples COMPONENT program)
+# Examples as they are in the sources: without what trying them has left there.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/ DESTINATION share/vagus/examples COMPONENT program
+  PATTERN .vagus EXCLUDE PATTERN build EXCLUDE)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/web/dist/ DESTINATION share/vagus/pages COMPONENT program OPTIONAL)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share/vagus)
 file(CREATE_LINK ${CMAKE_SOURCE_DIR}/examples ${CMAKE_BINARY_DIR}/share/vagus/examples SYMBOLIC)

@@ -9,24 +9,11 @@
 #include "plan/file.hpp"
 #include "plan/graph.hpp"
 #include "plan/template.hpp"
+#include "plan/test_files.hpp"
 
 using namespace vagus;
 
 namespace {
-
-class OneText final : public plan::Files {
-public:
-    explicit OneText(std::string_view text) : text_(text) {}
-    // Every sub-plan in the same folder is the plan itself: plans may form circles. In others are
-    // none, or each would name one in a folder further inside.
-    Result<std::string> read(const std::string& path) const override {
-        if (path.find('/') == std::string::npos) return std::string(text_);
-        return Error{Code::NotFound, path + " does not exist"};
-    }
-
-private:
-    std::string_view text_;
-};
 
 plan::Library library() {
     plan::Toolbox core{.name = "core"};
@@ -52,7 +39,7 @@ plan::Library library() {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     static const plan::Library kLibrary = library();
-    const plan::Checked checked = plan::check("fuzz.plan.json", OneText(text), kLibrary);
+    const plan::Checked checked = plan::check("fuzz.plan.json", plan::OneText(text), kLibrary);
     for (const plan::Finding& finding : checked.findings) {
         if (finding.message.empty() || finding.rule.empty() || finding.line < 1) std::abort();
     }

@@ -5,7 +5,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # Without a terminal, seconds between two lines that say how far it is. Tests set it.
 progress_every=${VAGUS_PROGRESS_EVERY:-30}
 
-say() { echo "vagus: $*" >&2; }
+# On a terminal it takes the place of a line that another part of the build has left open.
+say() { if [ -t 2 ]; then printf '\r\e[Kvagus: %s\n' "$*" >&2; else echo "vagus: $*" >&2; fi; }
 die() { say "$*"; exit 1; }
 
 # 75 -> 1:15

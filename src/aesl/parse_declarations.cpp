@@ -147,31 +147,11 @@ NodeId Parser::initialiser(bool* is_list) {
     const bool is_minus = at(TokenKind::SignSubtract);
     if (kind_ahead(is_minus ? 2 : 1) == TokenKind::SignComma) {
         *is_list = true;
-        return bare_list();
+        return elements(position_);
     }
     const NodeId value = expression();
     *is_list = tree_[value].kind == NodeKind::Tuple || tree_[value].size == 1;
     return value;
-}
-
-NodeId Parser::bare_list() {
-    const TokenId start = position_;
-    ChildList elements;
-    int64_t words = 0;
-    bool is_known = true;
-    uint16_t depth = 0;
-    do {
-        const NodeId next = element();
-        is_known = is_known && tree_[next].size > 0;
-        words = std::min<int64_t>(words + tree_[next].size, kWordsMax);
-        depth = std::max(depth, tree_[next].depth);
-        append(elements, next);
-    } while (!panic_ && accept(TokenKind::SignComma));
-    return add({.kind = NodeKind::Tuple,
-                .depth = static_cast<uint16_t>(depth + 1),
-                .token = start,
-                .size = is_known ? static_cast<int32_t>(words) : 0,
-                .first = elements.first});
 }
 
 // 2007:  var v[4] = 1, 2  is  var v[4] = [1, 2, 0, 0]  (section 6, rule 4). Other lists stay as

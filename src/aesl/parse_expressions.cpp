@@ -251,7 +251,15 @@ NodeId Parser::tuple() {
     const std::string line = line_of(position_);
     advance();
     if (++nesting_ > kNestingMax) give_up();
-    ChildList elements;
+    const NodeId whole = elements(open);
+    --nesting_;
+    expect(TokenKind::SignBracketClose, Diag::ExpectedTupleEnd, {found(), line});
+    return whole;
+}
+
+// What stands between commas, with brackets around it or without, as one tuple that begins there.
+NodeId Parser::elements(TokenId first) {
+    ChildList all;
     int64_t words = 0;
     bool is_known = true;
     uint16_t depth = 0;
@@ -260,15 +268,13 @@ NodeId Parser::tuple() {
         is_known = is_known && tree_[next].size > 0;
         words = limited(words + tree_[next].size);
         depth = std::max(depth, tree_[next].depth);
-        append(elements, next);
+        append(all, next);
     } while (!panic_ && accept(TokenKind::SignComma));
-    --nesting_;
-    expect(TokenKind::SignBracketClose, Diag::ExpectedTupleEnd, {found(), line});
     return add({.kind = NodeKind::Tuple,
                 .depth = static_cast<uint16_t>(depth + 1),
-                .token = open,
+                .token = first,
                 .size = is_known ? static_cast<int32_t>(words) : 0,
-                .first = elements.first});
+                .first = all.first});
 }
 
 // An element that begins with `[` is just that tuple: `[[1,2]+[3,4],5]` is an error at the `+`.

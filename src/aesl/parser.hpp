@@ -137,7 +137,6 @@ private:
     int32_t checked_size(TokenId name, TokenId bracket, NodeId expression);
     bool name_is_free(TokenId name);
     NodeId initialiser(bool* is_list);
-    NodeId bare_list();
     NodeId filled_with_zeros(NodeId list, int32_t size);
     VariableId declare(TokenId name, int32_t size);
     NodeId undeclared_words(size_t errors_before, TokenId start);
@@ -198,6 +197,7 @@ private:
     NodeId index(TokenId name, VariableId variable);
     NodeId slice(NodeId element, NodeId first);
     NodeId tuple();
+    NodeId elements(TokenId first);
     NodeId parenthesised();
     NodeId element();
     NodeId missing_operand();

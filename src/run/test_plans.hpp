@@ -10,19 +10,11 @@
 
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "plan/trace.hpp"
 #include "run/code.hpp"
 
 namespace vagus::run {
-
-class TestText final : public plan::Files {
-public:
-    explicit TestText(std::string text) : text_(std::move(text)) {}
-    Result<std::string> read(const std::string&) const override { return text_; }
-
-private:
-    std::string text_;
-};
 
 // An actor that does what the function says.
 class TestActor final : public Actor {
@@ -54,7 +46,7 @@ inline Coded test_supervisor(std::string name, int64_t period_ms, MakeSupervisor
 // The graph of a plan that is right; a wrong one ends the test with the findings.
 inline plan::Graph test_graph(const std::string& text, const CodeLibrary& library) {
     const plan::Checked checked =
-        plan::check("test.plan.json", TestText(text), library.templates());
+        plan::check("test.plan.json", plan::OneText(text), library.templates());
     if (!checked.ok()) throw CodeError(plan::format_findings_json(checked.findings));
     return plan::make_graph(checked);
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "plan/check.hpp"
+#include "plan/test_files.hpp"
 #include "toolbox/core.hpp"
 
 namespace vagus::session {
@@ -11,15 +12,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-class OneText final : public plan::Files {
-public:
-    explicit OneText(std::string text) : text_(std::move(text)) {}
-    Result<std::string> read(const std::string&) const override { return text_; }
-
-private:
-    std::string text_;
-};
 
 const BusNames kNames({.events = {{"turning", 1}, {"clear", 0}, {"any", std::nullopt}},
                        .constants = {}},
@@ -70,7 +62,7 @@ TEST(BusNames, FindsWhatAPlanNamesOutrightAndNobodyDeclares) {
     run::CodeLibrary library;
     toolbox::add_core(library);
     const plan::Checked checked =
-        plan::check("p.plan.json", OneText(std::string(kPlan)), library.templates());
+        plan::check("p.plan.json", plan::OneText(kPlan), library.templates());
     ASSERT_TRUE(checked.ok());
     std::vector<std::string> found;
     for (const plan::Finding& finding : kNames.check(checked.plans, library.templates())) {
@@ -102,7 +94,7 @@ TEST(BusNames, FindsTemplatesWhoseEventsNobodyDeclares) {
                                .bus = {.events = {"grip", "clear", "gripped"}}},
                   .actor = make}});
     const plan::Checked checked =
-        plan::check("p.plan.json", OneText(std::string(kPlan)), library.templates());
+        plan::check("p.plan.json", plan::OneText(kPlan), library.templates());
     ASSERT_TRUE(checked.ok());
     const plan::Findings findings = kNames.check(checked.plans, library.templates());
     ASSERT_EQ(findings.size(), 2u);
@@ -125,7 +117,7 @@ TEST(BusNames, APlanOfWaitsUsesNoBus) {
     run::CodeLibrary library;
     toolbox::add_core(library);
     const plan::Checked checked =
-        plan::check("p.plan.json", OneText(std::string(kPlan)), library.templates());
+        plan::check("p.plan.json", plan::OneText(kPlan), library.templates());
     ASSERT_TRUE(checked.ok());
     EXPECT_FALSE(uses_bus(checked.plans, library.templates()));
     EXPECT_THAT(kNames.check(checked.plans, library.templates()), IsEmpty());

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "plan/trace.hpp"
 #include "run/virtual_time.hpp"
 #include "toolbox/core.hpp"
@@ -61,15 +62,6 @@ std::string plan(std::string_view actors) {
            std::string(actors) + "}}";
 }
 
-class OneText final : public plan::Files {
-public:
-    explicit OneText(std::string text) : text_(std::move(text)) {}
-    Result<std::string> read(const std::string&) const override { return text_; }
-
-private:
-    std::string text_;
-};
-
 struct Ran {
     run::Ended ended;
     std::vector<std::string> trace;
@@ -94,7 +86,7 @@ protected:
         EXPECT_TRUE(opened.ok()) << opened.error().what;
         PlanWorld& beside = *opened.value();
         const plan::Checked checked =
-            plan::check("p.plan.json", OneText(plan(actors)), library_.templates());
+            plan::check("p.plan.json", plan::OneText(plan(actors)), library_.templates());
         EXPECT_TRUE(checked.ok()) << plan::format_findings_json(checked.findings);
         const plan::Graph graph = plan::make_graph(checked);
         Ran ran;

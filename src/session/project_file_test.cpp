@@ -156,9 +156,12 @@ TEST_F(OpenProject, FilesMustBeThereAndInside) {
 
 TEST_F(OpenProject, EveryExampleIsOne) {
     size_t opened = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(test::examples())) {
-        if (entry.path().filename() != "vagus.json") continue;
-        const auto project = open_project(entry.path().parent_path().string());
+    for (fs::recursive_directory_iterator at(test::examples()), end; at != end; ++at) {
+        const fs::path& path = at->path();
+        // What somebody who tried an example has left there: versions that were deployed.
+        if (path.filename() == ".vagus") at.disable_recursion_pending();
+        if (path.filename() != "vagus.json") continue;
+        const auto project = open_project(path.parent_path().string());
         EXPECT_TRUE(project.ok()) << project.error().what;
         ++opened;
     }

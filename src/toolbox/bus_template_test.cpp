@@ -408,7 +408,7 @@ TEST_F(BusTemplates, InRealTimeAnswersAreHeardHoweverFastTheyCome) {
           "states": { "There": "@terminate", "Lost": "count" },
           "supervisors": { "touch": { "template": "CheckTouch",
             "events": { "Touched": "count" } } } } } })";
-    const plan::Checked checked = plan::check("p", OnePlan(text), library_.templates());
+    const plan::Checked checked = plan::check("p", plan::OneText(text), library_.templates());
     ASSERT_TRUE(checked.ok()) << plan::format_findings_json(checked.findings);
     const plan::Graph graph = plan::make_graph(checked);
     int watches = 0, leaves = 0, halts = 0;
@@ -437,7 +437,7 @@ TEST_F(BusTemplates, InRealTimeAnswersAreHeardHoweverFastTheyCome) {
 
 TEST_F(BusTemplates, InRealTimeANodeThatLeavesIsAnError) {
     const plan::Checked checked =
-        plan::check("p", OnePlan(go_plan(R"({ "far": 1 })", kTouch)), library_.templates());
+        plan::check("p", plan::OneText(go_plan(R"({ "far": 1 })", kTouch)), library_.templates());
     const plan::Graph graph = plan::make_graph(checked);
     std::vector<std::string> said;
     run::RealTime* running = nullptr;

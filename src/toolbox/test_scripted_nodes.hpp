@@ -13,6 +13,7 @@
 
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "plan/trace.hpp"
 #include "run/surroundings.hpp"
 #include "run/virtual_time.hpp"
@@ -59,15 +60,6 @@ private:
     std::multimap<Time, run::BusEvent> coming_;
 };
 
-class OnePlan final : public plan::Files {
-public:
-    explicit OnePlan(std::string text) : text_(std::move(text)) {}
-    Result<std::string> read(const std::string&) const override { return text_; }
-
-private:
-    std::string text_;
-};
-
 struct Driven {
     run::Ended ended;
     std::vector<std::string> trace;  // "MS KIND …", what a plan that is driven by nodes shows
@@ -77,7 +69,7 @@ struct Driven {
 inline Driven drive(const std::string& plan_text, const run::CodeLibrary& library,
                     ScriptedNodes& nodes) {
     const plan::Checked checked =
-        plan::check("test.plan.json", OnePlan(plan_text), library.templates());
+        plan::check("test.plan.json", plan::OneText(plan_text), library.templates());
     if (!checked.ok()) {
         return {{plan::PlanResult::Error, plan::format_findings_json(checked.findings)}, {}};
     }

@@ -4,6 +4,7 @@
 #include "plan/check.hpp"
 #include "plan/generate.hpp"
 #include "plan/generate_classes.hpp"
+#include "plan/test_files.hpp"
 
 namespace vagus {
 namespace {
@@ -65,14 +66,9 @@ constexpr std::string_view kWall = R"({
   }
 })";
 
-class OneFile final : public plan::Files {
-public:
-    Result<std::string> read(const std::string&) const override { return std::string(kWall); }
-};
-
 TEST(GeneratedText, ReadsInTheOrderOfTableOne) {
     const plan::Library library = carbot();
-    const plan::Checked checked = plan::check("Wall.plan.json", OneFile(), library);
+    const plan::Checked checked = plan::check("Wall.plan.json", plan::OneText(kWall), library);
     ASSERT_TRUE(checked.ok()) << plan::format_findings_json(checked.findings);
     const auto files = plan::generate(checked);
     EXPECT_EQ(files.at("Wall.cpp"), R"(// The plan Wall.

@@ -14,6 +14,7 @@
 #include "base/test_places.hpp"
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "run/virtual_time.hpp"
 #include "tests/plans/sha256.hpp"
 #include "toolbox/core.hpp"
@@ -25,11 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kFolder = test::testdata("golden/plans");
-
-class Disk final : public plan::Files {
-public:
-    Result<std::string> read(const std::string& path) const override { return read_file(path); }
-};
 
 std::vector<std::string> cases() {
     std::vector<std::string> names;
@@ -156,7 +152,7 @@ TEST_P(GoldenPlan, DoesWhatThePageSays) {
     const std::string& name = GetParam();
     run::CodeLibrary library;
     toolbox::add_core(library);
-    const Disk disk;
+    const plan::Disk disk;
     const std::string file = (kFolder / (name + ".plan.json")).string();
     const plan::Checked checked = plan::check(file, disk, library.templates());
     const fs::path findings = kFolder / (name + ".check.json");

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "run/debugger.hpp"
 #include "run/real_time.hpp"
 #include "run/surroundings.hpp"
@@ -21,15 +22,6 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-class OneText final : public plan::Files {
-public:
-    explicit OneText(std::string text) : text_(std::move(text)) {}
-    Result<std::string> read(const std::string&) const override { return text_; }
-
-private:
-    std::string text_;
-};
 
 // Waits for `go`, then for `on`, then for `end`.
 constexpr std::string_view kThree = R"(
@@ -72,7 +64,7 @@ protected:
         const std::string text = R"({ "format": "vagus-plan/1", "name": "P", "toolboxes": )" +
                                  toolboxes + R"(, "start": { "actor": "a" }, "actors": {)" +
                                  std::string(actors) + "}}";
-        checked_ = plan::check("p.plan.json", OneText(text), library_.templates());
+        checked_ = plan::check("p.plan.json", plan::OneText(text), library_.templates());
         EXPECT_TRUE(checked_.ok()) << plan::format_findings_json(checked_.findings);
         graph_ = plan::make_graph(checked_);
         debugger_ = std::make_unique<run::Debugger>(graph_, run::Debugger::At::Start);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "run/real_time.hpp"
 #include "run/virtual_time.hpp"
 #include "tests/plans/random_plan.hpp"
@@ -88,15 +89,6 @@ constexpr std::string_view kBackAndForth = R"({
   }
 })";
 
-class OneFile final : public plan::Files {
-public:
-    explicit OneFile(std::string_view text) : text_(text) {}
-    Result<std::string> read(const std::string&) const override { return text_; }
-
-private:
-    std::string text_;
-};
-
 TEST(RealTime, TwentyThousandInterruptionsLeaveNothingBehind) {
     std::atomic<int> alive = 0;
     run::CodeLibrary library;
@@ -108,7 +100,7 @@ TEST(RealTime, TwentyThousandInterruptionsLeaveNothingBehind) {
     on_go.declared.period_ms = 0;
     on_go.supervisor = [&alive] { return std::make_unique<Counted>(alive); };
     library.add("counted", "", {on_go});
-    const OneFile file(kBackAndForth);
+    const plan::OneText file(kBackAndForth);
     const plan::Checked checked = plan::check("b.plan.json", file, library.templates());
     ASSERT_TRUE(checked.ok()) << plan::format_findings_json(checked.findings);
     const plan::Graph graph = plan::make_graph(checked);

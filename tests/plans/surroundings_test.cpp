@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "run/debugger.hpp"
 #include "run/heard_events.hpp"
 #include "run/surroundings.hpp"
@@ -17,15 +18,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
-
-class OneText final : public plan::Files {
-public:
-    explicit OneText(std::string text) : text_(std::move(text)) {}
-    Result<std::string> read(const std::string&) const override { return text_; }
-
-private:
-    std::string text_;
-};
 
 // Begins each `step`, says which events come at which instant, and keeps a log that the plan's
 // lines go to as well.
@@ -65,7 +57,7 @@ protected:
                                  toolboxes + R"(, "start": { "actor": "a" }, "actors": {)" +
                                  std::string(actors) + "}}";
         const plan::Checked checked =
-            plan::check("p.plan.json", OneText(text), library_.templates());
+            plan::check("p.plan.json", plan::OneText(text), library_.templates());
         EXPECT_TRUE(checked.ok()) << plan::format_findings_json(checked.findings);
         graph_ = plan::make_graph(checked);
         options.surroundings = &clockwork;

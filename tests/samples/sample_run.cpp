@@ -10,6 +10,7 @@
 #include "clearance.hpp"
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "run/virtual_time.hpp"
 #include "session/plan_world.hpp"
 #include "toolbox/builtin.hpp"
@@ -19,11 +20,6 @@ namespace vagus::samples {
 namespace {
 
 constexpr int kPosesTried = 10'000;
-
-class Disk final : public plan::Files {
-public:
-    Result<std::string> read(const std::string& path) const override { return read_file(path); }
-};
 
 // Looks at the robot while the plan runs.
 class Watcher {
@@ -78,7 +74,7 @@ private:
 };
 
 Result<plan::Graph> graph_of(const std::string& path, const run::CodeLibrary& library) {
-    const plan::Checked checked = plan::check(path, Disk(), library.templates());
+    const plan::Checked checked = plan::check(path, plan::Disk(), library.templates());
     if (checked.ok()) return plan::make_graph(checked);
     return Error{Code::BadInput, plan::format_findings_json(checked.findings)};
 }

@@ -7,6 +7,7 @@
 #include "base/file.hpp"
 #include "plan/check.hpp"
 #include "plan/file.hpp"
+#include "plan/test_files.hpp"
 #include "sim/world.hpp"
 #include "toolbox/builtin.hpp"
 #include "trial.hpp"
@@ -18,11 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 7> kFolders = {
     "find-object", "follow-object", "follow-wall", "infrared", "obstacle", "patterns", "rooms"};
-
-class Disk final : public plan::Files {
-public:
-    Result<std::string> read(const std::string& path) const override { return read_file(path); }
-};
 
 std::vector<std::string> files_ending(std::string_view ending) {
     std::vector<std::string> files;
@@ -41,7 +37,7 @@ TEST(SavedForm, NoPlanHasAFindingAndAllAreInTheSavedForm) {
     const std::vector<std::string> files = files_ending(".plan.json");
     EXPECT_GE(files.size(), kFolders.size());
     for (const std::string& file : files) {
-        const plan::Checked checked = plan::check(file, Disk(), library.templates());
+        const plan::Checked checked = plan::check(file, plan::Disk(), library.templates());
         EXPECT_TRUE(checked.findings.empty()) << plan::format_findings_json(checked.findings);
         const auto text = read_file(file);
         ASSERT_TRUE(text.ok()) << text.error().what;

@@ -300,6 +300,17 @@ class Breakpoints(Case):
         self.wait_passed()
         self.assertEqual(self.node()["state"], "running")
 
+    def test_two_breakpoints_of_one_moment_stop_the_clock_twice(self):
+        page = self.open()
+        page.do("break.set", doc=DOC, line=N_LINE)
+        page.do("break.set", doc=DOC, line=EMIT_LINE)
+        for n in range(1, 6):
+            for line in (N_LINE, EMIT_LINE):
+                page.do("run.start")
+                self.wait_node(state="paused", why="breakpoint", at={"line": line, "column": 1})
+                self.wait_clock("paused")
+            self.wait_values(n=n)
+
     def test_a_condition_and_hits_that_are_let_pass(self):
         page = self.open()
         page.do("break.set", doc=DOC, line=LAST_LINE, condition="n == 20")
@@ -480,6 +491,20 @@ class Plans(Case):
         page.do("plan.break.clear")
         page.do("run.start")
         self.wait(lambda: self.rounds() and self.rounds() > 2, "rounds: it stood once")
+
+    def test_run_lets_a_node_go_that_stands_at_a_line_beside_a_plan(self):
+        page = self.open_plan()
+        page.do("break.set", doc=DOC, line=N_LINE)
+        page.do("run.start")
+        for n in range(3):  # the line counts when it has been executed
+            self.wait_node(state="paused", why="breakpoint", at={"line": N_LINE, "column": 1})
+            self.wait_clock("paused")
+            self.wait_values(n=n)
+            page.do("run.start")
+        page.do("break.clear")
+        page.do("run.start")
+        self.wait(lambda: self.rounds() and self.rounds() > 2, "rounds")
+        self.wait_node(state="running")
 
     def test_templates_of_ones_own_run_on_a_thymio_as_they_are(self):
         def make(folder):

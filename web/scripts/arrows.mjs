@@ -1,5 +1,6 @@
 // The layers of the pages: protocol <- core <- app; aesl stands alone.
 // An arrow means "may import". Packages that draw stay out of core.
+// A class is styled in one file of app/look: most of them come with what is first shown, and the last one would win everywhere.
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join, relative, resolve } from 'node:path';
 
@@ -19,6 +20,7 @@ const packages = {
 const wrong = [];
 for (const layer of Object.keys(may))
   for (const file of filesOf(join(root, layer))) check(layer, file);
+checkClasses();
 for (const line of wrong) console.error(line);
 process.exit(wrong.length ? 1 : 0);
 
@@ -37,6 +39,28 @@ function check(layer, file) {
   const lines = readFileSync(file, 'utf8').split('\n').length;
   if (file.endsWith('.tsx') && lines > 151)
     wrong.push(`${relative(root, file)}: a component of ${lines} lines; at most 150`);
+}
+
+function checkClasses() {
+  const homes = new Map();
+  const look = join(root, 'app/look');
+  for (const name of readdirSync(look).sort())
+    for (const one of classesOf(readFileSync(join(look, name), 'utf8'))) {
+      const home = homes.get(one) ?? name;
+      homes.set(one, home);
+      if (home !== name)
+        wrong.push(
+          `app/look/${name}: .${one} is styled in ${home}, too; give one of them another name`,
+        );
+    }
+}
+
+/** The classes that are a whole selector: `.tool {`, not `.row .tool {`. */
+function classesOf(css) {
+  const rules = css.replace(/\/\*[^]*?\*\//g, '').matchAll(/(?:^|[{};])\s*([^{};@]+)\{/g);
+  return [...rules].flatMap(([, selectors]) =>
+    selectors.split(',').flatMap((one) => /^\s*\.([\w-]+)\s*$/.exec(one)?.[1] ?? []),
+  );
 }
 
 function filesOf(folder) {

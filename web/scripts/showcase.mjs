@@ -102,6 +102,7 @@ const views = {
   network: {
     words: ['--example', 'follow-wall'],
     async prepare(hands) {
+      await hands.page.getByRole('radio', { name: 'Script' }).click();
       await hands.page.getByRole('button', { name: /State of the bus/ }).click();
       await hands.runTo(12);
     },

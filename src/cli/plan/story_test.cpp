@@ -4,6 +4,7 @@
 
 #include "cli/screen/screen.hpp"
 #include "plan/check.hpp"
+#include "plan/test_files.hpp"
 #include "run/virtual_time.hpp"
 #include "toolbox/core.hpp"
 
@@ -38,16 +39,11 @@ constexpr std::string_view kPlan = R"({
   }
 })";
 
-class OneText final : public plan::Files {
-public:
-    Result<std::string> read(const std::string&) const override { return std::string(kPlan); }
-};
-
 class PlanStoryTest : public ::testing::Test {
 protected:
     PlanStoryTest() {
         toolbox::add_core(library_);
-        checked_ = plan::check("p.plan.json", OneText(), library_.templates());
+        checked_ = plan::check("p.plan.json", plan::OneText(kPlan), library_.templates());
         graph_ = plan::make_graph(checked_);
         run::RunOptions options;
         options.on_trace = [this](const plan::TraceEvent& event) { trace_.push_back(event); };

@@ -5,6 +5,7 @@
 
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "run/surroundings.hpp"
 #include "run/virtual_time.hpp"
 #include "serve/host/plan_stops.hpp"
@@ -25,11 +26,6 @@ constexpr const char* kTwo = R"({
            "states": { "Received": "@terminate" } }
   }
 })";
-
-class OneText final : public plan::Files {
-public:
-    Result<std::string> read(const std::string&) const override { return std::string(kTwo); }
-};
 
 // Sends go at its second millisecond; `meanwhile` arrives while the plan stands.
 class Bus final : public run::Surroundings {
@@ -84,7 +80,7 @@ struct Standing {
     }
     size_t count() const { return document["events"].size(); }
 
-    OneText files;
+    plan::OneText files{kTwo};
     run::CodeLibrary library;
     plan::Checked checked;
     plan::Graph graph;

@@ -5,6 +5,7 @@
 
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
+#include "plan/test_files.hpp"
 #include "run/virtual_time.hpp"
 #include "serve/host/plan_stops.hpp"
 #include "toolbox/core.hpp"
@@ -28,11 +29,6 @@ constexpr const char* kCount = R"({
   }
 })";
 
-class OneText final : public plan::Files {
-public:
-    Result<std::string> read(const std::string&) const override { return std::string(kCount); }
-};
-
 // Runs the plan to its end; `standing` is called with what it stands for, each time it stands.
 struct OneThread {
     OneThread() {
@@ -55,7 +51,7 @@ struct OneThread {
         return ended;
     }
 
-    OneText files;
+    plan::OneText files{kCount};
     run::CodeLibrary library;
     plan::Checked checked;
     plan::Graph graph;

@@ -107,6 +107,8 @@ public:
     // the instant 0, while its nodes were made ready.
     void begin();
     bool plan_runs() const;
+    // It was opened and has not said yet how it is.
+    bool plan_begins() const { return is_open() && opens_plan_ && !plan_.contains("state"); }
     // The plan that runs waits for an event of that name.
     bool plan_hears(const std::string& event) const {
         return plan_runs() && hears_.contains(event);

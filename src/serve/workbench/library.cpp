@@ -132,13 +132,32 @@ std::vector<std::string> Library::folders_of_example(const std::string& id) cons
     return {folders.begin(), folders.end()};
 }
 
+// Seen from the folder of examples. What the studio keeps beside a project is nobody else's, also
+// where somebody has opened or served an example in its place.
+std::vector<fs::path> Library::files_of_example(const std::string& id) const {
+    std::vector<fs::path> files;
+    std::error_code failed;
+    for (const std::string& folder : folders_of_example(id)) {
+        fs::recursive_directory_iterator at(places_.examples / folder, failed);
+        for (; at != fs::recursive_directory_iterator(); at.increment(failed)) {
+            if (at->path().filename() == kOwnFolder) {
+                at.disable_recursion_pending();
+            } else if (at->is_regular_file(failed)) {
+                files.push_back(at->path().lexically_relative(places_.examples));
+            }
+        }
+    }
+    return files;
+}
+
 Status Library::copy_example(const std::string& id, const fs::path& to) const {
     std::error_code failed;
     fs::create_directories(to / ".vagus", failed);
-    for (const std::string& folder : folders_of_example(id)) {
-        fs::copy(places_.examples / folder, to / folder, fs::copy_options::recursive, failed);
+    for (const fs::path& file : files_of_example(id)) {
+        fs::create_directories((to / file).parent_path(), failed);
+        if (!fs::copy_file(places_.examples / file, to / file, failed)) break;
     }
-    fs::copy_file(places_.examples / kProjectFileName, to / kProjectFileName, failed);
+    if (!failed) fs::copy_file(places_.examples / kProjectFileName, to / kProjectFileName, failed);
     if (failed) {
         return Error{Code::Unavailable, fmt::format("{}: cannot copy the example there: {}",
                                                     to.string(), failed.message())};
@@ -148,13 +167,8 @@ Status Library::copy_example(const std::string& id, const fs::path& to) const {
 
 bool Library::is_untouched(const std::string& id, const fs::path& copy) const {
     std::error_code failed;
-    for (const std::string& folder : folders_of_example(id)) {
-        for (const auto& entry :
-             fs::recursive_directory_iterator(places_.examples / folder, failed)) {
-            if (!entry.is_regular_file()) continue;
-            const fs::path inside = entry.path().lexically_relative(places_.examples);
-            if (!same_bytes(entry.path(), copy / inside)) return false;
-        }
+    for (const fs::path& file : files_of_example(id)) {
+        if (!same_bytes(places_.examples / file, copy / file)) return false;
     }
     return !fs::exists(copy / ".vagus" / "journal", failed) ||
            fs::is_empty(copy / ".vagus" / "journal", failed);

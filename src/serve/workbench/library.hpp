@@ -58,6 +58,7 @@ private:
     Status copy_example(const std::string& id, const std::filesystem::path& to) const;
     bool is_untouched(const std::string& id, const std::filesystem::path& copy) const;
     std::vector<std::string> folders_of_example(const std::string& id) const;
+    std::vector<std::filesystem::path> files_of_example(const std::string& id) const;
 
     LibraryPlaces places_;
     Kept recent_;

@@ -77,6 +77,18 @@ TEST_F(LibraryTest, ACopyIsTakenAgainUntilSomeoneHasWorkedInIt) {
     EXPECT_EQ(read_file(first + "/explore.aesl").value(), "var mine\n");
 }
 
+TEST_F(LibraryTest, WhatTheStudioKeepsBesideAnExampleIsNotCopied) {
+    const fs::path examples = data / "examples";
+    fs::copy(test::examples(), examples, fs::copy_options::recursive);
+    write(examples / "thymio/.vagus/journal/explore.aesl", "typed");
+    write(examples / "thymio/.vagus/versions/1/vagus.json", "{}");
+    Library one({data, examples});
+    const std::string copy = one.copy_of_example("thymio").value();
+    EXPECT_TRUE(fs::exists(fs::path(copy) / "explore.aesl"));
+    EXPECT_FALSE(fs::exists(fs::path(copy) / ".vagus"));
+    EXPECT_EQ(one.copy_of_example("thymio").value(), copy) << "nobody has worked in it";
+}
+
 TEST_F(LibraryTest, AnExampleThatIsNotThereIsNamed) {
     for (const char* id : {"nothing", "../carbot", "", "/etc"}) {
         const auto copy = library().copy_of_example(id);

@@ -220,22 +220,35 @@ void Workbench::start(const Call& call) {
         const std::string why = bus_->why();
         return call.fail("unavailable", why.empty() ? "no node is there yet" : why);
     }
-    if (run_.plan_runs()) return go_on(call);
+    if (run_.plan_runs() || (run_.plan_begins() && !opening_call_)) return go_on(call);
     if (!project_->plan.empty()) {
         return start_plan(call, project_->plan, true);
     }
     start_scripts(call);
 }
 
-// A plan that was held, and the nodes of a bus that stand.
+// A plan that was held, and the nodes that stand.
 void Workbench::go_on(const Call& call) {
     robot_.load_changed(true, [this, call, start = start_](const std::vector<std::string>& failed) {
         tell_failed_loads(failed);
         if (start != start_) return call.fail("failed", kStoppedMeanwhile);
+        if (!bus_) return let_go(call);
         run_.go_on();
-        if (bus_) robot_.run_all([](auto) {});
+        robot_.run_all([](auto) {});
         call.done();
     });
+}
+
+// The nodes that stand go on, and a world's time with them. One that comes to its next breakpoint
+// before all of them run has stopped time again: it stays so.
+void Workbench::let_go(const Call& call) {
+    robot_.run_standing(
+        [this, call, start = start_, stops = stops_](const std::vector<std::string>& stayed) {
+            if (!stayed.empty()) say("warning", joined(stayed));
+            if (start != start_) return call.fail("failed", kStoppedMeanwhile);
+            if (simulates() && stops == stops_) run_.go_on();
+            call.done();
+        });
 }
 
 // The nodes get their scripts, then the plan joins the bus and waits until they run.
@@ -306,13 +319,8 @@ void Workbench::start_scripts(const Call& call) {
     robot_.load_changed(true, [this, call, start = start_](const std::vector<std::string>& failed) {
         tell_failed_loads(failed);
         if (start != start_) return call.fail("failed", kStoppedMeanwhile);
-        robot_.run_standing([this, call, start](const std::vector<std::string>& stayed) {
-            if (!stayed.empty()) say("warning", joined(stayed));
-            if (start != start_) return call.fail("failed", kStoppedMeanwhile);
-            if (simulates()) run_.go_on();
-            ++runs_;
-            call.done();
-        });
+        ++runs_;
+        let_go(call);
     });
 }
 

@@ -55,6 +55,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
         .load = [this] { return run_.load(); },
         .stopped_at_breakpoint =
             [this] {
+                ++stops_;
                 if (simulates()) run_.pause();
             },
         .time = [this] { return clock(); },

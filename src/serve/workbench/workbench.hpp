@@ -159,6 +159,7 @@ private:
     void plan_joined_bus();
     void plan_died();
     void go_on(const Call& call);
+    void let_go(const Call& call);
     void start_scripts(const Call& call);
     void end_start();
     void tell_failed_loads(const std::vector<std::string>& failed);
@@ -209,6 +210,7 @@ private:
     // Counts what makes a start void: another one, Stop, another target. What was begun for it and
     // finds another number lets nothing run any more.
     uint64_t start_ = 0;
+    uint64_t stops_ = 0;  // nodes that came to a breakpoint
     // The plan goes on once the nodes have the breakpoints of a step into a script.
     struct Into {
         Call call;

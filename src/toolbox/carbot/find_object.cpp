@@ -73,17 +73,14 @@ public:
         speed_ = input_of(context, declared(), 4);
         Looker looker(context, parts_, declared());
         Rover rover(context, parts_, Rover::Needs::Drive);
-        try {
+        stopping(rover, [&] {
             const std::optional<Sighting> seen = search(rover, looker);
             context.end(seen ? kObjectFound : kNoObjectFound);
             if (!seen) return;
             const double front = seen->distance_cm - kFrontCm;
             context.out(0, Value(seen->angle_deg));
             context.out(1, Value(seen->distance_cm > 0 ? std::max(front, 0.0) : 0.0));
-        } catch (const run::Stop&) {
-            rover.stop();
-            throw;
-        }
+        });
     }
 
 private:

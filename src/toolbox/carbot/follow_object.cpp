@@ -78,16 +78,13 @@ public:
         patience_ = Duration(static_cast<int64_t>(input_of(context, declared(), 5) * 1e6));
         Looker looker(context, parts_, declared());
         Rover rover(context, parts_, Rover::Needs::DriveAndRange);
-        try {
+        stopping(rover, [&] {
             const State state = follow(context, rover, looker);
             rover.halt();
             context.end(state);
             context.out(0, Value(angle_));
             context.out(1, Value(distance_));
-        } catch (const run::Stop&) {
-            rover.stop();
-            throw;
-        }
+        });
     }
 
 private:

@@ -65,16 +65,13 @@ public:
         speed_ = input_of(context, of, 1);
         patience_ = Duration(static_cast<int64_t>(input_of(context, of, 2) * 1e6));
         Rover rover(context, parts_, Rover::Needs::DriveAndHead);
-        try {
+        stopping(rover, [&] {
             const InfraredState state = drive_there(context, rover);
             rover.halt();
             context.end(state);
             context.out(0, Value(beacon_.direction_deg));
             context.out(1, Value(int64_t{beacon_.intensity}));
-        } catch (const run::Stop&) {
-            rover.stop();
-            throw;
-        }
+        });
     }
 
 private:

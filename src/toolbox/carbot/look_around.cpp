@@ -79,12 +79,7 @@ std::vector<Echo> scan(run::ActorContext& context, const Parts& parts, const pla
     const double spread = input_of(context, of, 0);
     const double step = input_of(context, of, 1);
     Rover rover(context, parts, Rover::Needs::Range);
-    try {
-        return rover.scan(-spread, spread, step);
-    } catch (const run::Stop&) {
-        rover.stop();
-        throw;
-    }
+    return stopping(rover, [&] { return rover.scan(-spread, spread, step); });
 }
 
 class LookAround final : public run::Actor {

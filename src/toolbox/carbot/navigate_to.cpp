@@ -58,14 +58,11 @@ public:
         y_ = input_of(context, declared(), 1);
         speed_ = input_of(context, declared(), 2);
         Rover rover(context, parts_, Rover::Needs::Drive);
-        try {
+        stopping(rover, [&] {
             const State state = go(context, rover);
             rover.halt();
             context.end(state);
-        } catch (const run::Stop&) {
-            rover.stop();
-            throw;
-        }
+        });
     }
 
 private:

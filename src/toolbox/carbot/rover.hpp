@@ -76,6 +76,17 @@ private:
     Time steer_again_{0};
 };
 
+// Does the work. If the plan takes another way meanwhile, the robot stops, and Stop goes on.
+template <typename Work>
+auto stopping(Rover& rover, const Work& work) {
+    try {
+        return work();
+    } catch (const run::Stop&) {
+        rover.stop();
+        throw;
+    }
+}
+
 // A whole number of tenths, as the nodes count, within a word.
 int16_t tenths(double value);
 

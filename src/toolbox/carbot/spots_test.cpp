@@ -4,20 +4,11 @@
 
 #include <cmath>
 
+#include "toolbox/carbot/test_echo.hpp"
 #include "toolbox/carbot/walls.hpp"
 
 namespace vagus::toolbox::carbot {
 namespace {
-
-constexpr double kDegree = 3.14159265358979 / 180;
-
-// What the sensor hears of an endless wall at `distance` from it, whose nearest point lies in the
-// direction `normal` (docs/carbot.md, node range): nothing at more of a slant than 60 degrees.
-Echo look_at(double distance, double normal, double angle) {
-    const double off = std::abs(normal_angle(angle - normal)) - 12;
-    if (off > 60) return {angle, 0};
-    return {angle, off <= 0 ? distance : distance / std::cos(off * kDegree)};
-}
 
 // By hand: a wall 50 cm to the right of the sensor, which stands 18 cm ahead of the middle. The
 // looks at -100, -90 and -80 hear 50: one spot in the middle of them, at (18, -50). That at -60 is

@@ -106,14 +106,11 @@ public:
         left_ = input_of(context, declared(), 4);
         mirror_ = mirror_for(context.in(5).string());
         Rover rover(context, parts_, Rover::Needs::DriveAndRange);
-        try {
+        stopping(rover, [&] {
             const State state = follow(context, rover);
             rover.halt();
             context.end(state);
-        } catch (const run::Stop&) {
-            rover.stop();
-            throw;
-        }
+        });
     }
 
 private:

@@ -4,17 +4,10 @@
 
 #include <cmath>
 
+#include "toolbox/carbot/test_echo.hpp"
+
 namespace vagus::toolbox::carbot {
 namespace {
-
-constexpr double kDegree = 3.14159265358979 / 180;
-
-// What the sensor hears of an endless wall (docs/carbot.md, node range).
-Echo look_at(double distance, double normal, double angle) {
-    const double off = std::abs(normal_angle(angle - normal)) - 12;
-    if (off > 60) return {angle, 0};
-    return {angle, off <= 0 ? distance : distance / std::cos(off * kDegree)};
-}
 
 std::vector<Echo> scan_of(double distance, double normal, double from, double to, double step) {
     std::vector<Echo> echoes;

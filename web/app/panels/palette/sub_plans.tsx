@@ -26,7 +26,7 @@ export function SubPlans({ may, typed }: { may: boolean; typed: string }) {
           <li key={path}>
             <button
               type="button"
-              className="tool"
+              className="plantool"
               aria-label={text.templates.add(path, text.draw.roles.subplan)}
               disabled={!may}
               onClick={() => shown.focus(board.addSubPlan(pathTo(board.doc, path), shown.middle()))}

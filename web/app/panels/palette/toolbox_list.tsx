@@ -49,7 +49,7 @@ function Tool(props: { toolbox: string; template: PlanTemplate; may: boolean }) 
   return (
     <button
       type="button"
-      className="tool"
+      className="plantool"
       title={hider === null ? template.help : words.hidden(template.name, hider, toolbox)}
       aria-label={words.add(template.name, text.draw.roles[template.kind])}
       disabled={!can}

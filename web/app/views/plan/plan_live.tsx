@@ -55,12 +55,12 @@ function Breadcrumb(props: {
 }) {
   const { levels, shown, onChoose } = props;
   return (
-    <nav className="crumbs" aria-label={words.levels}>
+    <nav className="plancrumbs" aria-label={words.levels}>
       {levels.map((level, index) => (
         <button
           key={level.path}
           type="button"
-          className={index === shown ? 'crumb is-on' : 'crumb'}
+          className={index === shown ? 'plancrumb is-on' : 'plancrumb'}
           aria-current={index === shown ? 'true' : undefined}
           onClick={() => onChoose(level.path)}
         >

@@ -100,7 +100,7 @@ function Hanging(props: { board: PlanBoard; keys: PlanBoard['model']['globals'] 
         <button
           key={one.name}
           type="button"
-          className="tool"
+          className="plantool"
           onClick={() => board.select(supervisorKey(one))}
         >
           <RoleShape kind="supervisor" label={words.roles.supervisor} />

@@ -47,7 +47,8 @@ class Network(unittest.TestCase):
         port = listening(self.emulate("microbit:2", "mps2-an385", "atmega1284p:2"))
         target = f"tcp:127.0.0.1:{port}"
         wait_until("not all boards are there", lambda: len(list_nodes(port)) == NODES)
-        self.assertEqual({node["id"]: node["name"] for node in list_nodes(port)}, NAMES)
+        wait_until(f"the network never had {NAMES}",
+                   lambda: {node["id"]: node["name"] for node in list_nodes(port)} == NAMES)
         folder = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-emulate-"))
         project = os.path.join(folder, "round.aesl")
         pathlib.Path(project).write_text(PROJECT, encoding="utf-8")

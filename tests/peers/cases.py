@@ -7,9 +7,9 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
-from harness import (BREAKPOINT_SET_RESULT, GET_NODE_DESCRIPTION, GET_VARIABLES, LIST_NODES, LOCAL_EVENT, NAMED_VARIABLE, NATIVE_FUNCTION,
-                     NODE_PRESENT, ROOT, RUN, SET_BYTECODE, VARIABLES, Bus, Display, Program, free_port, list_nodes, listening,
-                     playground, run_vagus, simulated, vagus, variable_names)
+from harness import (BREAKPOINT_SET_RESULT, GET_NODE_DESCRIPTION, GET_VARIABLES, LIST_NODES, LOCAL_EVENT, NAMED_VARIABLE,
+                     NATIVE_FUNCTION, NODE_PRESENT, ROOT, RUN, SET_BYTECODE, VARIABLES, Bus, Display, Program, free_port,
+                     list_nodes, listening, patiently, playground, run_vagus, simulated, vagus, variable_names)
 
 # Line 7 is that of `onevent ping`; ping is event 0, pong is event 1.
 COUNTER = """<!DOCTYPE aseba-source>
@@ -80,7 +80,7 @@ class Peers(unittest.TestCase):
 
     def wait_for_nodes(self, port, names):
         """Asks until the network lists exactly these names."""
-        for _ in range(60):
+        for _ in patiently():
             found = list_nodes(port)
             if sorted(node["name"] for node in found) == sorted(names):
                 return found
@@ -88,7 +88,7 @@ class Peers(unittest.TestCase):
 
     def wait_value(self, port, node, variable, accept, *options):
         """Reads until the value is accepted."""
-        for _ in range(60):
+        for _ in patiently():
             words = json.loads(self.net(port, "get", node, variable, "--json", *options))[variable]
             if accept(words[0]):
                 return

@@ -142,6 +142,14 @@ def run_vagus(*arguments, status=0):
         return text
 
 
+def patiently():
+    """Turns of a loop that asks until it is told what it wants to hear, until GIVE_UP_AFTER."""
+    deadline = time.monotonic() + GIVE_UP_AFTER
+    while time.monotonic() < deadline:
+        yield
+        time.sleep(ASK_AGAIN_AFTER)
+
+
 def list_nodes(port):
     """What `vagus net list --json` prints. It ends with 1 if nobody is there."""
     with vagus("net", f"tcp:127.0.0.1:{port}", "list", "--json") as program:

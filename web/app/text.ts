@@ -1158,7 +1158,7 @@ export const text = {
     nodeDropped: (node: string, count: number | undefined) =>
       count === undefined
         ? `${node} stands and drops its events; how many is not known.`
-        : `${node} stands and has dropped ${s(count, 'event', 'events')} of its own.`,
+        : `${node} stands and has dropped ${count === 0 ? 'no event' : s(count, 'event', 'events')} of its own.`,
   },
   console: {
     label: 'Console',

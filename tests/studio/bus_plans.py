@@ -136,7 +136,7 @@ class BusPlans(Case):
 
     def test_stop_while_the_plan_begins(self):
         page = self.open_robot()
-        for _ in range(5):
+        for _ in range(20):
             begun = page.ask("run.start")
             self.assertEqual(page.do("stop"), {"stood": [1]})
             with self.assertRaises(Refused) as caught:

@@ -162,6 +162,7 @@ void Workbench::get_nodes_ready() {
 }
 
 void Workbench::end_start() {
+    begun_ = start_;
     const std::optional<Call> call = opening_call_;
     opening_call_.reset();
     if (call) call->done();
@@ -220,7 +221,7 @@ void Workbench::start(const Call& call) {
         const std::string why = bus_->why();
         return call.fail("unavailable", why.empty() ? "no node is there yet" : why);
     }
-    if (run_.plan_runs() || (run_.plan_begins() && !opening_call_)) return go_on(call);
+    if (run_.plan_runs() || (run_.plan_begins() && begun_ == start_)) return go_on(call);
     if (!project_->plan.empty()) {
         return start_plan(call, project_->plan, true);
     }

@@ -210,6 +210,7 @@ private:
     // Counts what makes a start void: another one, Stop, another target. What was begun for it and
     // finds another number lets nothing run any more.
     uint64_t start_ = 0;
+    uint64_t begun_ = 0;  // its value at the latest start that was carried out
     uint64_t stops_ = 0;  // nodes that came to a breakpoint
     // The plan goes on once the nodes have the breakpoints of a step into a script.
     struct Into {

@@ -14,8 +14,6 @@ using wire::MessageType;
 
 VAGUS_FLASH_TEXT(kSaved, "Flashing OK");
 
-constexpr uint16_t kCommands = 0xa000;  // and above: section 2
-
 // Of Firmware::pending.
 constexpr uint8_t kTimerBit = 1 << kTimerEvent;
 constexpr uint8_t kButtonsBit = 1 << kButtonsEvent;

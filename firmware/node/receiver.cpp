@@ -16,7 +16,6 @@ using wire::kHeaderSize;
 constexpr uint16_t kTypeNumberBits = 0x001f;
 constexpr uint16_t kBootloader = 0x8000;
 constexpr uint16_t kNodeMessages = 0x9000;
-constexpr uint16_t kCommands = 0xa000;
 
 // What most events are: of 32 arguments at most, of a node that a CAN bus can name (section 1.6),
 // with a number that a script can emit (section 3.4).

@@ -34,6 +34,8 @@ constexpr uint16_t kBroken_ms = 250;
 // The longest frame takes 46 ms at 115,200 baud: one that takes longer than this is none.
 constexpr uint16_t kFrameWithin_ms = 500;
 constexpr uint16_t kWordsMax = wire::kPayloadMax / 2;
+// Types of section 2 that hosts send: from here on.
+constexpr uint16_t kCommands = 0xa000;
 
 // All zero at the start. Times are the low half of those of the board.
 struct Receiver {

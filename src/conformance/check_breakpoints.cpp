@@ -46,10 +46,16 @@ Status run_through(Bench& bench) {
                    ", " + text_of_flags(ending.state.flags));
 }
 
-Status the_sixth_dump(Bench& bench) {
+// Gives where the two variables lie.
+Result<uint16_t> load_two_stores(Bench& bench) {
     const uint16_t at = TRY(bench.room(2));
     TRY(bench.set(at, {0, 0}));
     TRY(bench.load(two_stores(at)));
+    return at;
+}
+
+Status the_sixth_dump(Bench& bench) {
+    const uint16_t at = TRY(load_two_stores(bench));
     TRY(set_breakpoint(bench, kSecond));
     TRY(run_into(bench, kInitStart, kSecond));
     TRY(bench.expect_values(at, {1, 0}));
@@ -65,9 +71,7 @@ Status the_sixth_dump(Bench& bench) {
 }
 
 Status before_the_first_instruction(Bench& bench) {
-    const uint16_t at = TRY(bench.room(2));
-    TRY(bench.set(at, {0, 0}));
-    TRY(bench.load(two_stores(at)));
+    const uint16_t at = TRY(load_two_stores(bench));
     TRY(set_breakpoint(bench, kInitStart));
     TRY(run_into(bench, kInitStart, kInitStart));
     return bench.expect_values(at, {0, 0});

@@ -4,12 +4,11 @@ import pathlib
 import shutil
 import sys
 import tempfile
-import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
-from harness import (ASK_AGAIN_AFTER, GET_EXECUTION_STATE, GIVE_UP_AFTER, STATE, VAGUS, Bus, Missing, Program, list_nodes,
-                     listening, run_vagus, vagus)
+from harness import (GET_EXECUTION_STATE, GIVE_UP_AFTER, STATE, VAGUS, Bus, Program, list_nodes, listening, run_vagus, vagus,
+                     wait_until)
 
 NODES = 5
 # Each node hears the token of the one before it, adds its own number, and passes it on.
@@ -29,14 +28,6 @@ PROJECT = '<!DOCTYPE aesl-source>\n<network>\n<event size="2" name="token"/>\n' 
 
 def children_of(process):
     return [int(word) for word in pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()]
-
-
-def wait_until(what, is_so):
-    deadline = time.monotonic() + GIVE_UP_AFTER
-    while not is_so():
-        if time.monotonic() > deadline:
-            raise Missing(what)
-        time.sleep(ASK_AGAIN_AFTER)
 
 
 class Network(unittest.TestCase):

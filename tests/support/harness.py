@@ -150,6 +150,14 @@ def patiently():
         time.sleep(ASK_AGAIN_AFTER)
 
 
+def wait_until(what, is_so):
+    """Asks until it is so; `what` says what is wrong if it never is."""
+    for _ in patiently():
+        if is_so():
+            return
+    raise Missing(what)
+
+
 def list_nodes(port):
     """What `vagus net list --json` prints. It ends with 1 if nobody is there."""
     with vagus("net", f"tcp:127.0.0.1:{port}", "list", "--json") as program:

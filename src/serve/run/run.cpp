@@ -411,7 +411,7 @@ void Run::hear_end(const ChildEnd& end) {
         "the run {} at {:.3f} s{}. Everything that was recorded is kept; run it "
         "again to begin anew",
         end.what, t_, last);
-    const bool with_plan = plan_runs() || (opens_plan_ && !plan_.contains("state"));
+    const bool with_plan = plan_runs() || plan_begins();
     state_ = State::Dead;
     has_world_ = false;
     child_.reset();

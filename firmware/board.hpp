@@ -34,6 +34,14 @@ void show_leds(uint16_t leds);
 // The buttons that are pressed, the lowest bit is the first.
 uint16_t buttons();
 
+// Only of a board that is built with VAGUS_MOTORS: -255 … 255 of full power each, the sign is the
+// direction; beyond is as much as there is. 0 brakes or lets roll, as begin() and a reset do.
+void set_motors(int16_t left, int16_t right);
+
+// The loop goes round. A board that has a watchdog is reset by it when this was not called for a
+// second; an interrupt never calls it.
+void alive();
+
 // The number that this board got when it was made; 0 or 0xffff if it got none.
 uint16_t first_id();
 // Starts again as if just switched on. Does not return.

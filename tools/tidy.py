@@ -53,7 +53,7 @@ ROOMS = {
         ("values", "line instructions finding standard_natives"),
         ("the bench", "bench native_call"),
         ("checks", "check checks check_breakpoints check_control check_description check_events check_faults check_flash check_sleep "
-                   "check_limits check_messages check_native_faults check_natives check_opcodes check_operators"),
+                   "check_limits check_messages check_native_faults check_natives check_opcodes check_operators check_program"),
         ("the whole", "examine report_text"),
     ],
     "sim": [
@@ -65,7 +65,7 @@ ROOMS = {
         ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world"),
     ],
     "serve": [
-        ("ground", "process access base64 plan_value"),
+        ("ground", "process access base64 plan_value thrown worker"),
         ("protocol", "protocol/"),
         ("door", "web/"),
         ("pages", "studio/"),
@@ -73,11 +73,16 @@ ROOMS = {
         ("scripts", "script/"),
         ("editing", "edit/"),
         ("robot", "robot/"),
+        ("what a run tells", "follow/ talk/"),
         ("a run", "host/ history/ run/"),
+        ("the life of a run", "life/"),
         ("the whole", "workbench/"),
         ("on a robot", "field/"),
     ],
 }
+
+# Folders of one room that know nothing of each other: what they share stands in a room below.
+APART = {"serve": ["host/ history/ run/"]}
 
 # Modules that compile for a microcontroller: these headers and no others.
 FREESTANDING = ["isa", "vm", "wire", "node"]
@@ -109,6 +114,8 @@ LONG_FUNCTIONS = {
 }
 SLEEPS = re.compile(r"\b(sleep_for|sleep_until|usleep|nanosleep)\s*\(|(?<![\w.])sleep\s*\(\s*\d")
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
+# Of sentences that people read: the words to write instead stand in docs/STYLE.md, "Words".
+OLD_WORDS = re.compile(r'"[^"]*\b(mend|mended|mends|anew)\b')
 TYPE_ALONE = re.compile(r"^\s+(const |static |mutable )*(?!default:)[\w:]+(<[^()]*>)?[&*]?$")
 NAME_AND_COMMENT = re.compile(r"^\s*\w+(\{\})?( = [^;]*)?;\s*//")
 EXAMPLE_LINE = re.compile(r"^\s*//     ")
@@ -158,6 +165,9 @@ class Checker:
             self.say(number, "a tab; indent with spaces (in strings write \\t)")
         if UNFINISHED.search(line):
             self.say(number, "unfinished work: finish it, or put it into an issue")
+        old = OLD_WORDS.search(line)
+        if old and self.module():
+            self.say(number, f'"{old.group(1)}" in a sentence: docs/STYLE.md, "Words", has the word for it')
         if SLEEPS.search(line) and not self.path.startswith("src/net/"):
             self.say(number, "a sleep: wait for the condition, or be told the time")
         if CLOCKS.search(line) and self.module() and not self.is_test() and not self.path.startswith(MAY_TELL_TIME):
@@ -204,6 +214,12 @@ class Checker:
         if here is not None and there is not None and there > here:
             self.say(number, f"an arrow upwards inside {module}: the room \"{ROOMS[module][here][0]}\" may not include "
                              f"\"{ROOMS[module][there][0]}\" (ROOMS in tools/tidy.py)")
+        for folders in APART.get(module, []):
+            mine, other = (next((folder for folder in folders.split() if path.startswith(f"{module}/{folder}")), None)
+                           for path in (self.path[len("src/"):], name))
+            if mine and other and mine != other:
+                self.say(number, f"{module}/{mine} may not include {module}/{other}: what both need stands below both "
+                                 f"(APART in tools/tidy.py)")
 
     def check_shape(self):
         """What a formatter does to declarations and examples when comments are too long for their lines."""
@@ -282,6 +298,8 @@ EXAMPLES = [  # path, text, what must be said of it
     ("src/aesl/scan.cpp", '#include "aesl/parse.hpp"\n', "an arrow upwards inside aesl"),
     ("src/aesl/nowhere.cpp", '#include "aesl/scan.hpp"\n', "no room of aesl"),
     ("src/sim/arena.cpp", '#include "sim/world.hpp"\n', "an arrow upwards inside sim"),
+    ("src/serve/host/a.cpp", '#include "serve/history/tape.hpp"\n', "serve/host/ may not include serve/history/"),
+    ("src/serve/talk/a.cpp", '#include "serve/host/hand.hpp"\n', "an arrow upwards inside serve"),
     ("src/hub/a.hpp", "    std::string\n        name;  // a comment\n", "split by its comment"),
     ("src/hub/a.hpp", "//     first(a); Vm vm; init(vm);\n", "lost its line ends"),
     ("src/hub/a.hpp", "// A header.\n", "#pragma once"),
@@ -290,6 +308,7 @@ EXAMPLES = [  # path, text, what must be said of it
     ("src/hub/a.cpp", "auto t = std::chrono::steady_clock::now();\n", "a clock below the rim"),
     ("src/hub/a_test.cpp", "std::this_thread::sleep_for(1s);\n", "a sleep"),
     ("src/hub/a.cpp", "// TO" + "DO: later\n", "unfinished"),
+    ("src/hub/a.cpp", 'say("start it anew");\n', '"anew" in a sentence'),
     ("src/hub/a.cpp", "void f(int a) {\n" + "    g();\n" * 60 + "}\n", "a function of 62 lines"),
     ("src/hub/a.cpp", '#include "hub.hpp"\n', "write the whole path"),
 ]

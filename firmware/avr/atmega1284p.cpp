@@ -4,9 +4,11 @@
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>
+#include <avr/wdt.h>
 
 #include "firmware/board.hpp"
 #include "firmware/node/machine.hpp"
+#include "firmware/node/shared.hpp"
 #include "isa/flash.hpp"
 
 namespace vagus {
@@ -23,7 +25,7 @@ constexpr uint16_t kEepromBytes = 4096;
 constexpr uint16_t kIdOfMaker = kEepromBytes - 2;
 constexpr uint16_t kSlotBytes = 2044;
 
-volatile uint16_t milliseconds;
+firmware::Shared<uint16_t> milliseconds;
 
 constexpr uint16_t kBytecodeWords = 1000;
 constexpr uint16_t kVariablesWords = 1000;
@@ -32,6 +34,25 @@ static_assert(firmware::kSlotOverhead + 2 * kBytecodeWords <= kSlotBytes,
               "a slot holds the whole bytecode");
 static_assert(2 * kSlotBytes <= kIdOfMaker, "both slots fit before the number of the maker");
 firmware::Memories<kBytecodeWords, kVariablesWords, kStackWords> memories;
+
+// Motors: the power of each is a pin of timer 2, its direction a pin beside it, low ahead.
+constexpr uint8_t kLeftPower = 1 << PD7, kRightPower = 1 << PD6;  // OC2A, OC2B
+constexpr uint8_t kLeftBack = 1 << PD4, kRightBack = 1 << PD5;
+constexpr int16_t kFullPower = 255;
+
+// Phase-correct: with 0 the pin stays low.
+uint8_t power_of(int16_t target) {
+    const int16_t size = target < -kFullPower || target > kFullPower ? kFullPower : target;
+    return static_cast<uint8_t>(size < 0 ? -size : size);
+}
+
+void begin_motors() {
+    OCR2A = 0;
+    OCR2B = 0;
+    DDRD = kLeftPower | kRightPower | kLeftBack | kRightBack;
+    TCCR2A = (1 << COM2A1) | (1 << COM2B1) | (1 << WGM20);
+    TCCR2B = 1 << CS21;  // 16 MHz / 8 / 510: 3.9 kHz
+}
 
 uint8_t* place_of(uint8_t slot, uint16_t at) {
     return reinterpret_cast<uint8_t*>(slot * kSlotBytes + at);
@@ -42,7 +63,12 @@ uint8_t* place_of(uint8_t slot, uint16_t at) {
 const vm::Config kMachine = firmware::machine_of(memories);
 VAGUS_FLASH_TEXT(kName, "atmega1284p");
 
+// After its reset the watchdog goes on, with 16 ms: it is set before all else.
 void begin() {
+    MCUSR = 0;
+    wdt_enable(WDTO_1S);
+    alive();  // simavr counts by the new time only from here on
+    begin_motors();
     DDRB = 0xff;   // lamps
     PORTC = 0xff;  // buttons, pulled up
     UCSR0A = 1 << U2X0;
@@ -58,10 +84,7 @@ void begin() {
 }
 
 uint16_t now_ms() {
-    const uint8_t before = hold();
-    const uint16_t now = milliseconds;
-    release(before);
-    return now;
+    return milliseconds.load();
 }
 
 uint8_t hold() {
@@ -86,6 +109,18 @@ void start_sending() {
 
 void show_leds(uint16_t leds) {
     PORTB = static_cast<uint8_t>(leds);
+}
+
+void set_motors(int16_t left, int16_t right) {
+    const uint8_t back =
+        static_cast<uint8_t>((left < 0 ? kLeftBack : 0) | (right < 0 ? kRightBack : 0));
+    PORTD = back;
+    OCR2A = power_of(left);
+    OCR2B = power_of(right);
+}
+
+void alive() {
+    wdt_reset();
 }
 
 // A pressed button pulls its pin down.
@@ -133,5 +168,6 @@ ISR(USART0_UDRE_vect) {
 }
 
 ISR(TIMER0_COMPA_vect) {
-    vagus::board::milliseconds = vagus::board::milliseconds + 1;
+    uint16_t now = vagus::board::milliseconds.in_interrupt();
+    vagus::board::milliseconds.in_interrupt(++now);
 }

@@ -40,6 +40,9 @@ void sleep() {
     asm volatile("wfi" : : : "memory");
 }
 
+// Neither board has motors.
+void alive() {}
+
 void restart() {
     register_at(kApplicationInterrupt) = kResetRequest;
     for (;;) {

@@ -5,6 +5,7 @@
 #include "firmware/cortex-m/registers.hpp"
 #include "firmware/cortex-m/vectors.hpp"
 #include "firmware/node/machine.hpp"
+#include "firmware/node/shared.hpp"
 
 namespace vagus {
 namespace board {
@@ -67,7 +68,7 @@ constexpr uint32_t kIdOfMaker = kSlotsAt - 4;  // written there with the program
 constexpr uint32_t kUartInterrupt = 2;
 constexpr uint32_t kTimerInterrupt = 8;
 
-volatile uint16_t milliseconds;
+firmware::Shared<uint16_t> milliseconds;
 volatile bool sending;  // a byte is on its way
 
 constexpr uint16_t kBytecodeWords = 2000;
@@ -120,7 +121,7 @@ void begin() {
 }
 
 uint16_t now_ms() {
-    return milliseconds;
+    return milliseconds.load();
 }
 
 void start_sending() {
@@ -185,7 +186,8 @@ static void on_uart() {
 // whoever reads.
 static void on_timer() {
     vagus::register_at(vagus::board::kTimerElapsed) = 0;
-    vagus::board::milliseconds = vagus::board::milliseconds + 1;
+    vagus::board::milliseconds.in_interrupt(
+        static_cast<uint16_t>(vagus::board::milliseconds.in_interrupt() + 1));
     on_uart();
 }
 

@@ -6,6 +6,7 @@
 #include "firmware/cortex-m/registers.hpp"
 #include "firmware/cortex-m/vectors.hpp"
 #include "firmware/node/machine.hpp"
+#include "firmware/node/shared.hpp"
 
 namespace vagus {
 namespace board {
@@ -37,7 +38,7 @@ constexpr uint32_t kSlotsAt = 0x00300000;
 constexpr uint32_t kSlotBytes = 0x4000;
 constexpr uint32_t kIdOfMaker = 0x003ffffc;
 
-volatile uint16_t milliseconds;
+firmware::Shared<uint16_t> milliseconds;
 
 constexpr uint16_t kBytecodeWords = 4000;
 constexpr uint16_t kVariablesWords = 2000;
@@ -64,7 +65,7 @@ void begin() {
 }
 
 uint16_t now_ms() {
-    return milliseconds;
+    return milliseconds.load();
 }
 
 void start_sending() {
@@ -120,7 +121,8 @@ static void on_sent() {
 }
 
 static void on_tick() {
-    vagus::board::milliseconds = vagus::board::milliseconds + 1;
+    vagus::board::milliseconds.in_interrupt(
+        static_cast<uint16_t>(vagus::board::milliseconds.in_interrupt() + 1));
 }
 
 // Stack pointer, start, NMI, HardFault, … ; interrupt n is entry 16 + n.

@@ -8,6 +8,7 @@ extern "C" {
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
+#include <simavr/sim_interrupts.h>
 }
 
 namespace vagus::emulator {
@@ -17,6 +18,10 @@ namespace {
 constexpr const char* kChip = "atmega1284p";
 constexpr size_t kNumberAt = kEepromBytes - 2;  // kIdOfMaker of firmware/avr/atmega1284p.cpp
 constexpr int kRamEnd = 0x40ff;
+constexpr int kReceiveVector = 20;                    // USART0_RX_vect
+constexpr uint16_t kPowerRegisters[] = {0xb3, 0xb4};  // OCR2A, OCR2B
+constexpr uint32_t kLastWord = 0x1fffe;               // of the flash
+constexpr uint16_t kJumpToItself = 0xcfff;
 
 avr_eeprom_desc_t whole(Eeprom& eeprom) {
     return {eeprom.data(), 0, static_cast<uint32_t>(eeprom.size())};
@@ -94,6 +99,70 @@ void Chip::run_until(uint64_t cycle) {
             throw ChipError("the program crashed, or slept with interrupts off");
         }
     }
+}
+
+void Chip::step() {
+    avr_->run_cycle_limit = 1;
+    avr_->run_cycle_count = 1;
+    run_until(avr_->cycle + 1);
+    avr_->run_cycle_limit = kCyclesOfMillisecond;
+}
+
+uint16_t Chip::pointer(int low_register) const {
+    return static_cast<uint16_t>(avr_->data[low_register] | (avr_->data[low_register + 1] << 8));
+}
+
+// LDS, LD and LDD (AVR Instruction Set Manual).
+uint16_t Chip::next_load() const {
+    const uint8_t* const at = avr_->flash + avr_->pc;
+    const auto opcode = static_cast<uint16_t>(at[0] | (at[1] << 8));
+    const int offset = (opcode & 7) | ((opcode >> 7) & 0x18) | ((opcode >> 8) & 0x20);
+    if ((opcode & 0xd208) == 0x8000) return static_cast<uint16_t>(pointer(R_ZL) + offset);
+    if ((opcode & 0xd208) == 0x8008) return static_cast<uint16_t>(pointer(R_YL) + offset);
+    switch (opcode & 0xfe0f) {
+        case 0x9000:
+            return static_cast<uint16_t>(at[2] | (at[3] << 8));
+        case 0x9001:
+            return pointer(R_ZL);
+        case 0x9002:
+            return static_cast<uint16_t>(pointer(R_ZL) - 1);
+        case 0x9009:
+            return pointer(R_YL);
+        case 0x900a:
+            return static_cast<uint16_t>(pointer(R_YL) - 1);
+        case 0x900c:
+        case 0x900d:
+            return pointer(R_XL);
+        case 0x900e:
+            return static_cast<uint16_t>(pointer(R_XL) - 1);
+        default:
+            return 0;
+    }
+}
+
+uint16_t Chip::word(uint16_t at) const {
+    return static_cast<uint16_t>(avr_->data[at] | (avr_->data[at + 1] << 8));
+}
+
+void Chip::receive_now(uint8_t byte) {
+    receive(byte);
+    for (int i = 0; i < avr_->interrupts.vector_count; ++i) {
+        avr_int_vector_t* const vector = avr_->interrupts.vector[i];
+        if (vector->vector == kReceiveVector) avr_raise_interrupt(avr_, vector);
+    }
+    avr_service_interrupts(avr_);
+}
+
+void Chip::hang() {
+    while (avr_->sreg[S_I] == 0) step();
+    avr_->flash[kLastWord] = kJumpToItself & 0xff;
+    avr_->flash[kLastWord + 1] = kJumpToItself >> 8;
+    avr_->pc = kLastWord;
+    avr_->state = cpu_Running;
+}
+
+uint8_t Chip::power(int motor) const {
+    return avr_->data[kPowerRegisters[motor]];
 }
 
 uint64_t Chip::cycle() const {

@@ -1,6 +1,6 @@
 // An ATmega1284P that runs an image, by simavr's library: its serial line, its lamps, its EEPROM,
-// and time as its own cycles. Used by avr.cpp (a board in real time) and latency.cpp (two boards on
-// one clock).
+// and time as its own cycles. Used by avr.cpp (a board in real time), latency.cpp (two boards on
+// one clock), and tests that look inside: interrupted.cpp, motors.cpp.
 //
 //     Chip chip(load_image("atmega1284p.elf"));
 //     chip.on_sent = [&](uint8_t byte) { line.push_back(byte); };
@@ -25,6 +25,8 @@ constexpr uint32_t kClock = 16'000'000;
 constexpr uint32_t kCyclesOfMillisecond = kClock / 1000;
 constexpr uint32_t kBytesOfMillisecond = 11;  // of a line at 115,200 baud
 constexpr size_t kEepromBytes = 4096;
+constexpr uint16_t kRamBegin = 0x100;
+constexpr uint16_t kRamBytes = 0x4000;
 
 using Eeprom = std::array<uint8_t, kEepromBytes>;
 
@@ -55,10 +57,26 @@ public:
     // Bytes, since the beginning.
     int deepest_stack() const;
 
+    // ---- for tests ----
+    // One instruction.
+    void step();
+    // The address of the byte of RAM that the next instruction loads; 0 if it loads none.
+    uint16_t next_load() const;
+    // Two bytes of RAM, low byte first.
+    uint16_t word(uint16_t at) const;
+    // A byte comes in, and its interrupt happens before the next instruction, unless interrupts are
+    // off: then it waits.
+    void receive_now(uint8_t byte);
+    // From here on the program goes round one instruction, but takes interrupts.
+    void hang();
+    // Of motor 0 or 1: the compare register of its PWM.
+    uint8_t power(int motor) const;
+
 private:
     void load(const std::string& image);
     void join_serial_line();
     int stack_pointer() const;
+    uint16_t pointer(int low_register) const;
 
     avr_t* avr_ = nullptr;  // of simavr, which frees it with the process
     avr_irq_t* input_ = nullptr;

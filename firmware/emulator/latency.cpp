@@ -30,8 +30,8 @@ constexpr size_t kRoundsMin = 30;
 constexpr double kLine_ms = 2.72;
 constexpr double kNodes_ms = 2.0;
 
-// onevent timer: leds = 1, emit 0 [variable 40]. onevent 1: leds = 2.
-const Words kAsks = {5, 0xfffe, 5, 1, 11, 0x1001, 0x4024, 0xb000, 40, 1, 0, 0x1002, 0x4024, 0};
+// onevent timer: leds = 1, emit 0 [variable 60]. onevent 1: leds = 2.
+const Words kAsks = {5, 0xfffe, 5, 1, 11, 0x1001, 0x4024, 0xb000, 60, 1, 0, 0x1002, 0x4024, 0};
 // onevent 0: emit 1 [event.args[0]]
 const Words kAnswers = {3, 0, 3, 0xb001, 2, 1, 0};
 

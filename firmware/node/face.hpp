@@ -17,11 +17,22 @@ constexpr uint16_t kLedsAt = kSkippedAt + 1;
 constexpr uint16_t kButtonsAt = kLedsAt + 1;
 constexpr uint16_t kPeriodAt = kButtonsAt + 1;
 
+// A board that has two motors is built with VAGUS_MOTORS (tools/firmware_build).
+#if defined(VAGUS_MOTORS)
+constexpr bool kHasMotors = true;
+#else
+constexpr bool kHasMotors = false;
+#endif
+constexpr uint16_t kMotorsAt = kPeriodAt + 1;  // left, then right
+constexpr uint16_t kMotors = kHasMotors ? 2 : 0;
+constexpr uint16_t kProgramAt = kMotorsAt + kMotors;
+
 // Numbers of the local events.
 constexpr uint8_t kTimerEvent = 0;
 constexpr uint8_t kButtonsEvent = 1;
-constexpr uint8_t kLocalEvents = 2;
-constexpr uint8_t kVariables = 8;
+constexpr uint8_t kHaltedEvent = 2;
+constexpr uint8_t kLocalEvents = kHasMotors ? 3 : 2;
+constexpr uint8_t kVariables = 9 + kMotors;
 
 }  // namespace firmware
 }  // namespace vagus

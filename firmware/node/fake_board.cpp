@@ -133,6 +133,10 @@ void start_sending() {}
 void show_leds(uint16_t leds) {
     here().leds = leds;
 }
+void set_motors(int16_t left, int16_t right) {
+    here().motors = {left, right};
+}
+void alive() {}
 uint16_t buttons() {
     return here().buttons;
 }

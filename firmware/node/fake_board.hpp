@@ -53,6 +53,7 @@ public:
     uint32_t now_ms = 0;
     uint16_t leds = 0;
     uint16_t buttons = 0;
+    std::array<int16_t, kMotors> motors = {};
     uint16_t first_id = 0xffff;
     bool stuck = false;
     int restarts = 0;

@@ -17,6 +17,7 @@ VAGUS_FLASH_TEXT(kSaved, "Flashing OK");
 // Of Firmware::pending.
 constexpr uint8_t kTimerBit = 1 << kTimerEvent;
 constexpr uint8_t kButtonsBit = 1 << kButtonsEvent;
+constexpr uint8_t kHaltedBit = 1 << kHaltedEvent;
 
 Firmware& firmware_of(node::Node& node) {
     return *static_cast<Firmware*>(node.owner);
@@ -33,6 +34,12 @@ void count(uint16_t at, uint16_t more) {
 bool can_run(const Firmware& firmware) {
     const uint16_t flags = firmware.node.vm.flags;
     return (flags & (wire::kFlagActive | wire::kFlagStep)) == wire::kFlagActive;
+}
+
+// Something drives this node: a program, and nobody has stopped it. After a fault, a breakpoint, a
+// new program, Stop, Pause and Reset that is over until Run; while it is stepped, too.
+bool is_in_command(const Firmware& firmware) {
+    return (firmware.node.vm.flags & wire::kFlagStep) == 0 && board::kMachine.bytecode[0] != 0;
 }
 
 bool is_id(uint16_t id) {
@@ -57,7 +64,8 @@ void end(node::Node& node) {
 // Who writes another number into `_id` and saves, names the node anew from its next start on.
 void save(Firmware& firmware) {
     const uint16_t wanted = static_cast<uint16_t>(variable(kIdAt));
-    begin_save(firmware.store, is_id(wanted) ? wanted : firmware.node.vm.id);
+    begin_save(firmware.store, is_id(wanted) ? wanted : firmware.node.vm.id,
+               node::program(firmware.node));
 }
 
 void notify(node::Node& node, vm::Notice notice) {
@@ -77,15 +85,20 @@ bool writes_program(const Firmware& firmware, const Received& frame) {
 }
 
 // A command waits in the receiver until what was asked before it is answered, and there is room for
-// its own answer. True if a frame was taken: then there may be more.
+// its own answer; an event, until a script that is busy had its time. True if a frame was taken:
+// then there may be more.
 [[gnu::noinline]] bool take_frame(Firmware& firmware, uint16_t now_ms) {
     const bool has_room_to_answer = has_room(firmware.sender, kAnswerMax);
-    if (has_room_to_answer && node::is_answering(firmware.node)) node::answer(firmware.node);
-    if (can_run(firmware) && firmware.executed < kInstructionsPerFrame) return false;
+    if ((has_room_to_answer || node::is_counting(firmware.node)) &&
+        node::is_answering(firmware.node)) {
+        node::answer(firmware.node);
+    }
     if (!next_frame(firmware.receiver, now_ms)) return false;
     const Received frame = front(firmware.receiver);
+    const bool is_command = frame.type >= kCommands;
     const bool can_answer = has_room_to_answer && !node::is_answering(firmware.node);
-    if (frame.type >= kCommands && !can_answer) return false;
+    if (is_command && !can_answer) return false;
+    if (!is_command && can_run(firmware) && firmware.executed < kInstructionsPerFrame) return false;
     firmware.executed = 0;
     if (writes_program(firmware, frame)) end_save(firmware.store);
     node::begin_receive(firmware.node, frame.source, frame.type, frame.words, frame.count);
@@ -111,6 +124,20 @@ void look_at_buttons(Firmware& firmware) {
     firmware.pending |= kButtonsBit;
 }
 
+// What is told to the motors while nothing is in command is over at once and for good: the variable
+// itself is 0 again, so only what is written afterwards moves anything.
+void look_at_motors(Firmware& firmware) {
+    int16_t* const targets = &variable(kMotorsAt);
+    if (is_in_command(firmware)) {
+        if (firmware.was_halted) firmware.pending |= kHaltedBit;
+        firmware.was_halted = false;
+    } else if ((targets[0] | targets[1]) != 0) {
+        firmware.was_halted = true;
+        targets[0] = targets[1] = 0;
+    }
+    board::set_motors(targets[0], targets[1]);
+}
+
 void raise(Firmware& firmware, uint8_t bit, uint8_t event) {
     firmware.pending = static_cast<uint8_t>(firmware.pending ^ bit);
     node::local_event(firmware.node, event);
@@ -124,6 +151,9 @@ void run_script(Firmware& firmware) {
     // Also while it is paused, local events wait.
     if (firmware.pending == 0 || vm::is_active(firmware.node.vm)) return;
     if ((firmware.pending & kTimerBit) != 0) return raise(firmware, kTimerBit, kTimerEvent);
+    if (kHasMotors && (firmware.pending & kHaltedBit) != 0) {
+        return raise(firmware, kHaltedBit, kHaltedEvent);
+    }
     raise(firmware, kButtonsBit, kButtonsEvent);
 }
 
@@ -142,7 +172,9 @@ Firmware the_firmware;
 void start(Firmware& firmware) {
     board::begin();
     node::init(firmware.node, board::kMachine, *kDescription, kBoard, &firmware);
-    uint16_t id = load(firmware.store);
+    uint32_t program = 0;
+    uint16_t id = load(firmware.store, program);
+    node::identify_as(firmware.node, program);
     if (!is_id(id)) id = board::first_id();
     if (!is_id(id)) id = 1;
     firmware.node.vm.id = id;
@@ -156,11 +188,13 @@ bool turn(Firmware& firmware) {
     look_at_timer(firmware, now_ms);
     look_at_buttons(firmware);
     run_script(firmware);
+    if (kHasMotors) look_at_motors(firmware);
     count(kSkippedAt, firmware.receiver.skipped);
     firmware.receiver.skipped = 0;
     board::show_leds(static_cast<uint16_t>(variable(kLedsAt)));
     keep(firmware);
-    return took_frame || can_run(firmware) || firmware.store.is_saving || firmware.restarts ||
+    return took_frame || node::is_counting(firmware.node) || can_run(firmware) ||
+           firmware.store.is_saving || firmware.restarts ||
            (firmware.pending != 0 && !vm::is_active(firmware.node.vm));
 }
 

@@ -14,6 +14,7 @@
 
 #include <stdint.h>
 
+#include "firmware/node/face.hpp"
 #include "firmware/node/receiver.hpp"
 #include "firmware/node/sender.hpp"
 #include "firmware/node/store.hpp"
@@ -22,9 +23,10 @@
 namespace vagus {
 namespace firmware {
 
-// Of a script in one turn: short enough that no byte is lost meanwhile.
-constexpr uint16_t kInstructionsAtOnce = 100;
-// A script that is busy gets so many before the next frame is looked at, as in most nodes of the
+// Of a script in one turn: short enough that no byte is lost meanwhile; where something moves, so
+// few that natives with the longest arguments do not keep a Stop waiting, nor the watchdog.
+constexpr uint16_t kInstructionsAtOnce = kHasMotors ? 10 : 100;
+// A script that is busy gets so many before the next event is looked at, as in most nodes of the
 // reference (section 3.6).
 constexpr uint16_t kInstructionsPerFrame = 1000;
 // A piece of the variables, as robots with a small radio send them (section 1.3).
@@ -37,6 +39,7 @@ struct Firmware {
     node::Node node;
     uint8_t pending;       // local events, a bit for each
     bool restarts;         // once nothing is being saved
+    bool was_halted;       // what the motors were told was ended; the script does not know yet
     uint16_t executed;     // instructions since the last frame
     uint16_t timer_began;  // when the timer fired last
     uint16_t buttons;      // as they were last looked at

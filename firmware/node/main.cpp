@@ -15,6 +15,7 @@ bool vagus::board::next_byte(uint8_t& byte) {
 int main() {
     vagus::firmware::start(the_firmware);
     for (;;) {
+        vagus::board::alive();
         if (!vagus::firmware::turn(the_firmware)) vagus::board::sleep();
     }
 }

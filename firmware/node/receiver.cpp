@@ -85,9 +85,9 @@ void move_up(Receiver& receiver) {
     for (uint16_t moved = 0;; ++moved) {
         const uint8_t before = board::hold();
         const uint16_t from = static_cast<uint16_t>(receiver.begin + moved);
-        if (from == receiver.end) {
+        if (from == receiver.end.in_interrupt()) {
             receiver.begin = 0;
-            receiver.end = moved;
+            receiver.end.in_interrupt(moved);
             receiver.seen = moved;
             return board::release(before);
         }
@@ -99,18 +99,19 @@ void move_up(Receiver& receiver) {
 }  // namespace
 
 void receive_byte(Receiver& receiver, uint8_t byte) {
-    const uint16_t end = receiver.end;
+    const uint16_t end = receiver.end.in_interrupt();
     if (end == kReceiveRoom) {
-        receiver.lost = static_cast<uint16_t>(receiver.lost + 1);
+        const uint16_t lost = receiver.lost.in_interrupt();
+        receiver.lost.in_interrupt(static_cast<uint16_t>(lost + 1));
         return;
     }
     reinterpret_cast<uint8_t*>(receiver.row)[end] = byte;
-    receiver.end = static_cast<uint16_t>(end + 1);
+    receiver.end.in_interrupt(static_cast<uint16_t>(end + 1));
 }
 
 [[gnu::noinline]] bool next_frame(Receiver& receiver, uint16_t now_ms) {
     for (;;) {
-        const uint16_t end = receiver.end;
+        const uint16_t end = receiver.end.load();
         if (end != receiver.seen) {
             receiver.seen = end;
             receiver.seen_ms = now_ms;

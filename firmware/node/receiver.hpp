@@ -19,6 +19,7 @@
 
 #include <stdint.h>
 
+#include "firmware/node/shared.hpp"
 #include "wire/protocol.hpp"
 
 namespace vagus {
@@ -39,8 +40,8 @@ constexpr uint16_t kCommands = 0xa000;
 
 // All zero at the start. Times are the low half of those of the board.
 struct Receiver {
-    volatile uint16_t end;           // bytes in the row; the interrupt counts up
-    volatile uint16_t lost;          // bytes that found no room
+    Shared<uint16_t> end;            // bytes in the row; the interrupt counts up
+    Shared<uint16_t> lost;           // bytes that found no room
     uint16_t begin;                  // the first byte that was not used yet
     uint16_t seen;                   // `end`, when the time was last looked at
     uint16_t seen_ms;                // when that was another

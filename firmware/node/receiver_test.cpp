@@ -216,7 +216,7 @@ TEST_F(Line, UnlikelyEventsComeLater) {
 
 TEST_F(Line, WhatDoesNotFitIsCountedAndFoundAgain) {
     put(Bytes(kReceiveRoom + 10, 0xff));
-    EXPECT_EQ(receiver.lost, 10);
+    EXPECT_EQ(receiver.lost.load(), 10);
     EXPECT_EQ(types(), Types{});
     EXPECT_EQ(types_after(kSecond_ms), Types{});
     put(run_command());

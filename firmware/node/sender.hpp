@@ -11,6 +11,8 @@
 
 #include <stdint.h>
 
+#include "firmware/node/shared.hpp"
+
 namespace vagus {
 namespace firmware {
 
@@ -22,8 +24,8 @@ constexpr uint8_t kRoomOfMessages = 128;
 
 // All zero at the start. The interrupt moves `tail`, the loop all else.
 struct Sender {
-    volatile uint8_t head;  // behind the last whole message
-    volatile uint8_t tail;
+    Shared<uint8_t> head;  // behind the last whole message
+    Shared<uint8_t> tail;
     uint8_t end;   // of the message that is being made
     uint8_t room;  // bytes that may wait, this message included; 0 when it did not fit
     uint8_t ring[kSendRoom];

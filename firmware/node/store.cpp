@@ -1,39 +1,33 @@
 #include "firmware/node/store.hpp"
 
 #include "firmware/board.hpp"
+#include "wire/checksum.hpp"
 
 namespace vagus {
 namespace firmware {
 
 namespace {
 
-constexpr uint32_t kNoBytes = 0xffffffff;  // the checksum of none
-constexpr uint32_t kWhole = 0xdebb20e3;    // of bytes and their own checksum behind them
+constexpr uint32_t kWhole = 0xdebb20e3;  // of bytes and their own checksum behind them
 
-// CRC-32 of IEEE 802.3, bit by bit: a table would fill 1 KB.
-[[gnu::noinline]] uint32_t add(uint32_t checksum, uint32_t value) {
-    checksum ^= value;
-    for (uint8_t bit = 0; bit < 32; ++bit) {
-        checksum = (checksum >> 1) ^ ((checksum & 1) != 0 ? 0xedb88320u : 0);
-    }
-    return checksum;
-}
+constexpr uint16_t kHeadUnits = kHeadWords / 2;
 
 void begin(Store& store) {
     store.at = 0;
-    store.checksum = kNoBytes;
+    store.checksum = wire::kChecksumBegin;
 }
 
 bool is_at_checksum(const Store& store) {
-    return store.at == 1 + board::kMachine.bytecode_size / 2;
+    return store.at == kHeadUnits + board::kMachine.bytecode_size / 2;
 }
 
 // One unit from memory to the slot, or from the slot to memory. True if it was the checksum.
 [[gnu::noinline]] bool move_unit(Store& store, bool saves) {
     const bool is_last = is_at_checksum(store);
     const uint16_t place = static_cast<uint16_t>(4 * store.at);
-    uint16_t* const words =
-        store.at == 0 ? store.head : board::kMachine.bytecode + 2 * (store.at - 1);
+    uint16_t* const words = store.at < kHeadUnits
+                                ? store.head + 2 * store.at
+                                : board::kMachine.bytecode + 2 * (store.at - kHeadUnits);
     uint32_t unit = ~store.checksum;
     if (!is_last) unit = words[0] | (static_cast<uint32_t>(words[1]) << 16);
     if (saves) {
@@ -45,7 +39,8 @@ bool is_at_checksum(const Store& store) {
         words[0] = static_cast<uint16_t>(unit);
         words[1] = static_cast<uint16_t>(unit >> 16);
     }
-    store.checksum = add(store.checksum, unit);
+    store.checksum = wire::add_to_checksum(store.checksum, static_cast<uint16_t>(unit));
+    store.checksum = wire::add_to_checksum(store.checksum, static_cast<uint16_t>(unit >> 16));
     ++store.at;
     return is_last;
 }
@@ -67,18 +62,24 @@ uint16_t number_of(uint8_t slot) {
 
 // The later one first. Of one that is not whole the number means nothing; then the other is found
 // second. The next save goes to the one that does not count.
-uint16_t load(Store& store) {
+uint16_t load(Store& store, uint32_t& program) {
     const uint8_t later = static_cast<int16_t>(number_of(1) - number_of(0)) > 0;
     const bool found = load_slot(store, later) || load_slot(store, later ^ 1);
     store.slot ^= 1;
-    if (found) return store.head[kId];
+    if (found) {
+        program = store.head[kProgram] | (static_cast<uint32_t>(store.head[kProgram + 1]) << 16);
+        return store.head[kId];
+    }
+    program = 0;
     board::kMachine.bytecode[0] = 0;
     return 0;
 }
 
-void begin_save(Store& store, uint16_t id) {
+void begin_save(Store& store, uint16_t id, uint32_t program) {
     ++store.head[kNumber];
     store.head[kId] = id;
+    store.head[kProgram] = static_cast<uint16_t>(program);
+    store.head[kProgram + 1] = static_cast<uint16_t>(program >> 16);
     store.is_saving = true;
     begin(store);
     board::erase_slot(store.slot);

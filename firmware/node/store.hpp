@@ -2,6 +2,7 @@
 // slot is, in units of four bytes,
 //
 //     number of the save (u16), id of the node (u16)
+//     which program it is (u32, node::program())
 //     all words of the bytecode, in pairs
 //     CRC-32 of all before
 //
@@ -17,28 +18,31 @@
 namespace vagus {
 namespace firmware {
 
-constexpr uint16_t kSlotOverhead = 8;  // bytes beside the bytecode
+constexpr uint16_t kSlotOverhead = 12;  // bytes beside the bytecode
 constexpr uint8_t kSlots = 2;
 
 // Places in Store::head.
 constexpr uint8_t kNumber = 0;
 constexpr uint8_t kId = 1;
+constexpr uint8_t kProgram = 2;  // low word first
+constexpr uint8_t kHeadWords = 4;
 
 // All zero at the start.
 struct Store {
-    uint16_t head[2];   // the first unit of the last save
-    uint16_t at;        // units that are done
-    uint32_t checksum;  // of these
-    uint8_t slot;       // that the next save goes to
+    uint16_t head[kHeadWords];  // the first units of the last save
+    uint16_t at;                // units that are done
+    uint32_t checksum;          // of these
+    uint8_t slot;               // that the next save goes to
     bool is_saving;
 };
 
-// Reads what was saved last into the board's bytecode; gives the id that was saved with it. 0 if
-// there is nothing: then the bytecode is that of no program. To be called once, before any save.
-uint16_t load(Store& store);
+// Reads what was saved last into the board's bytecode; gives the id that was saved with it, and
+// which program it is. Both 0 if there is nothing: then the bytecode is that of no program. To be
+// called once, before any save.
+uint16_t load(Store& store, uint32_t& program);
 
 // The board's bytecode is going to be saved.
-void begin_save(Store& store, uint16_t id);
+void begin_save(Store& store, uint16_t id, uint32_t program);
 // One step; true when this was the last one, and the program is kept.
 bool save_step(Store& store);
 // The program is about to change: what was saved before goes on to count.

@@ -19,6 +19,8 @@ using Words = std::vector<uint16_t>;
 using testing::AnyOf;
 using testing::ElementsAre;
 
+constexpr uint32_t kMark = 0x12345678;
+
 struct Program {
     uint16_t id = 0;
     Words words;
@@ -33,10 +35,11 @@ void save(TestSlots& slots, const Program& program) {
     TestBoard board(slots);
     board::begin();
     Store store{};
-    (void)load(store);
+    uint32_t mark = 0;
+    (void)load(store, mark);
     board::begin();
     put_bytecode(program.words);
-    begin_save(store, program.id);
+    begin_save(store, program.id, kMark);
     while (!save_step(store)) {
     }
 }
@@ -46,7 +49,9 @@ Program loaded(TestSlots& slots) {
     TestBoard board(slots);
     board::begin();
     Store store{};
-    Program program{.id = load(store), .words = {}};
+    uint32_t mark = 0;
+    Program program{.id = load(store, mark), .words = {}};
+    EXPECT_EQ(mark, program.id == 0 ? 0 : kMark);
     if (board::kMachine.bytecode[0] == 0) return program;
     program.words.assign(board::kMachine.bytecode, board::kMachine.bytecode + kTestBytecode);
     while (!program.words.empty() && program.words.back() == 0) program.words.pop_back();
@@ -65,16 +70,16 @@ TEST(Store, AnEmptySlotHoldsNoProgram) {
 }
 
 // All bytes are inverted. The checksum was computed by another program: zlib's crc32 over number,
-// id and 600 words.
+// id, mark and 600 words.
 TEST(Store, ASlotLooksAsDocumented) {
     TestSlots slots;
     save(slots, {.id = 7, .words = {3, 0xffff, 3}});
     const auto& slot = slots.bytes[0];
-    EXPECT_THAT(
-        std::vector<uint8_t>(slot.begin(), slot.begin() + 12),
-        ElementsAre(0xfe, 0xff, 0xf8, 0xff, 0xfc, 0xff, 0x00, 0x00, 0xfc, 0xff, 0xff, 0xff));
+    EXPECT_THAT(std::vector<uint8_t>(slot.begin(), slot.begin() + 16),
+                ElementsAre(0xfe, 0xff, 0xf8, 0xff, 0x87, 0xa9, 0xcb, 0xed, 0xfc, 0xff, 0x00, 0x00,
+                            0xfc, 0xff, 0xff, 0xff));
     EXPECT_THAT(std::vector<uint8_t>(slot.end() - 8, slot.end()),
-                ElementsAre(0xff, 0xff, 0xff, 0xff, 0xa3, 0x28, 0xf2, 0xf0));
+                ElementsAre(0xff, 0xff, 0xff, 0xff, 0x0a, 0x45, 0x1f, 0xb3));
 }
 
 TEST(Store, TheLaterOfTwoProgramsCounts) {
@@ -92,7 +97,7 @@ TEST(Store, TheNumberOfASlotMayWrap) {
     // By hand: number 0xffff instead of 1, and the checksum that belongs to it.
     slots.bytes[0][0] = 0;
     slots.bytes[0][1] = 0;
-    const uint8_t checksum[] = {0x28, 0x21, 0x9c, 0x6c};
+    const uint8_t checksum[] = {0x6d, 0x2a, 0x68, 0xad};
     std::copy(std::begin(checksum), std::end(checksum), slots.bytes[0].end() - 4);
     ASSERT_EQ(loaded(slots), program_of(1, 3, 1));
     save(slots, program_of(2, 3, 50));
@@ -112,7 +117,7 @@ TEST(Store, WhatIsZeroStaysAsItWasErased) {
     save(slots, {.id = 1, .words = {3, 0xffff, 3}});
     const auto& slot = slots.bytes[0];
     EXPECT_TRUE(
-        std::all_of(slot.begin() + 10, slot.end() - 4, [](uint8_t byte) { return byte == 0xff; }));
+        std::all_of(slot.begin() + 14, slot.end() - 4, [](uint8_t byte) { return byte == 0xff; }));
 }
 
 // At every byte that a save writes the power may go: what then starts is the program from before or
@@ -166,9 +171,10 @@ TEST(Store, ASaveThatIsGivenUpChangesNothing) {
         TestBoard board(slots);
         Store store{};
         board::begin();
-        (void)load(store);
+        uint32_t mark = 0;
+        (void)load(store, mark);
         put_bytecode(Words(10, 99));
-        begin_save(store, 2);
+        begin_save(store, 2, kMark);
         (void)save_step(store);
         end_save(store);
         EXPECT_FALSE(store.is_saving);

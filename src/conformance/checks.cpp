@@ -14,6 +14,7 @@ Checks all_checks() {
     add_fault_checks(checks);
     add_control_checks(checks);
     add_breakpoint_checks(checks);
+    add_program_checks(checks);
     add_flash_checks(checks);
     add_limit_checks(checks);
     add_sleep_checks(checks);

@@ -22,6 +22,7 @@ void add_event_checks(Checks& checks);
 void add_fault_checks(Checks& checks);
 void add_control_checks(Checks& checks);
 void add_breakpoint_checks(Checks& checks);
+void add_program_checks(Checks& checks);
 void add_flash_checks(Checks& checks);
 void add_limit_checks(Checks& checks);
 void add_sleep_checks(Checks& checks);

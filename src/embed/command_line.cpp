@@ -107,8 +107,10 @@ int run_with(MakePlan make, const run::CodeLibrary& library, toolbox::Parts& par
     const std::string listening = prepared.value()->listening();
     if (!listening.empty()) std::printf("listening %s\n", listening.c_str());
     std::fflush(stdout);
+    prepared.value()->end_when_stopped();
     net::watch_for_end();
-    const net::EndWatcher end_watcher([&prepared] { prepared.value()->abort(); });
+    const net::EndWatcher end_watcher(
+        [&prepared] { prepared.value()->abort(net::end_asked_by()); });
     const Result<run::Ended> ended = prepared.value()->run();
     if (!ended.ok()) return complain(program, ended.error().what);
     if (!ended.value().message.empty()) complain(program, ended.value().message);

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "debug/network.hpp"
+#include "debug/roll_call.hpp"
 #include "hub/hub.hpp"
 #include "net/network.hpp"
 #include "session/bus_ears.hpp"
 #include "session/rival_plans.hpp"
+#include "session/stopped_by_others.hpp"
 
 namespace vagus::embed {
 
@@ -21,11 +22,26 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kQuiet = 300ms;         // after the last answer: all have answered
-constexpr Duration kNodesWithin = 3s;      // for nodes to describe themselves
-constexpr Duration kTurn = 20ms;           // while some are still to describe themselves
-constexpr Duration kFarewellWithin = 2s;   // for what was emitted to leave
+constexpr Duration kRunsWithin = 3s;      // for nodes that were stopped to run again
+constexpr Duration kSettles = 300ms;      // then they may say that earlier work of theirs was ended
+constexpr Duration kFarewellWithin = 2s;  // for what was emitted to leave
 constexpr Duration kClosedWithin = 200ms;  // for the peer to close behind it
+// An actor that works there says it first, after kStoppedMax, and names its work.
+constexpr Duration kStoppedByOthersMax = toolbox::kStoppedMax + 500ms;
+
+using How = session::Stopping::How;
+
+using State = session::StopNode::State;
+
+bool is_moving(const std::vector<session::StopNode>& nodes) {
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [](const auto& node) { return node.state == State::Moving; });
+}
+
+bool is_at_rest(const std::vector<session::StopNode>& nodes) {
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [](const auto& node) { return node.state == State::Stopped; });
+}
 
 }  // namespace
 
@@ -45,23 +61,33 @@ public:
     void emit(const run::BusEvent& event);
     void work(run::RealTime& run);
     Status check_single() const;
+    Status begin_at_rest();
+    void stop_robot();
+    std::vector<session::StopNode> leave(How how);
     uint16_t first_token() { return rivals.random_token(); }
-    void wake() { net.wake(); }
+    void end_when_stopped() { ends_when_stopped = true; }
 
     session::BusNames names;
-    std::atomic<bool> stopping = false;
     std::thread thread;
 
 private:
     std::vector<run::BusEvent> turn(Time deadline);
+    void look_for_stopped(run::RealTime& run);
     void look_for_rivals(const debug::Event& event);
     void note(const std::vector<net::Event>& happened);
     void take_unsent();
+    bool may_send(const run::BusEvent& event) const;
+    bool is_worked_on(debug::NodeId id) const;
+    void begin_to_stop(How how);
+    std::vector<session::StopNode> await_rest();
+    void run_what_is_stopped();
     void farewell();
 
     PlanBusOptions options;
     session::BusEars ears;
     session::RivalPlans rivals;
+    session::StoppedByOthers stopped_by_others{kStoppedByOthersMax};
+    bool ends_when_stopped = false;
     std::optional<uint16_t> moved_to;  // our tokens are to count from here on
     debug::Network network;
     hub::Hub hub;
@@ -69,9 +95,15 @@ private:
     hub::LinkId own;
     hub::LinkId peer;
     bool connected = false;
-    std::string lost;  // why
-    Time last_answer{};
-    std::mutex mutex;  // guards what follows
+    std::string lost;                          // why
+    std::optional<debug::RollCall> roll_call;  // while it is open
+    session::Stopping stopping;
+    bool is_stopping = false;              // stopping has begun
+    std::vector<session::StopNode> left;   // how it was when the thread ended
+    std::atomic<bool> stop_asked = false;  // … or is to
+    std::atomic<bool> leaving = false;
+    How leaving_how = How::Rest;  // before `leaving`
+    std::mutex mutex;             // guards what follows
     std::vector<run::BusEvent> unsent;
 };
 
@@ -83,33 +115,29 @@ Status PlanBus::Insides::connect() {
     return Status::done();
 }
 
-// Until nobody has answered for a while and all are described.
 void PlanBus::Insides::discover() {
-    last_answer = net.now();
-    const Time latest = net.now() + kNodesWithin;
-    const auto described = [this] {
-        const auto nodes = network.nodes();
-        return std::all_of(nodes.begin(), nodes.end(), [this](debug::NodeId id) {
-            return !network.node(id)->connected || network.node(id)->described;
-        });
-    };
-    while (connected && net.now() < latest) {
-        if (net.now() >= last_answer + kQuiet && described()) return;
-        (void)turn(std::min(latest, std::max(last_answer + kQuiet, net.now() + kTurn)));
-    }
+    roll_call.emplace(network, net.now(), debug::RollCallOptions());
+    while (connected && !roll_call->over(network, net.now())) (void)turn(roll_call->next());
+    roll_call.reset();
 }
 
 std::vector<run::BusEvent> PlanBus::Insides::turn(Time deadline) {
     take_unsent();
     network.tick(net.now());
+    if (is_stopping) {
+        stopping.tick(net.now());
+        deadline = std::min(deadline, stopping.next_tick());
+    }
     for (const wire::Frame& frame : network.take_frames()) hub.receive(own, frame);
     note(net.poll(std::min(deadline, network.next_tick())));
     wire::Frame frame;
     while (hub.take(own, frame)) network.receive(net.now(), frame);
     std::vector<run::BusEvent> heard;
     for (const debug::Event& event : network.take_events()) {
-        if (!std::holds_alternative<debug::UserEvent>(event.what)) last_answer = net.now();
+        if (roll_call) roll_call->hear(event);
         look_for_rivals(event);
+        if (is_stopping) stopping.hear(event);
+        stopped_by_others.hear(event);
         if (auto one = ears.hear(event)) heard.push_back(std::move(*one));
     }
     return heard;
@@ -160,7 +188,7 @@ void PlanBus::Insides::note(const std::vector<net::Event>& happened) {
             if (!lost.empty()) options.tell(event.what + " is connected again");
             connected = true;
         } else if (event.kind == net::EventKind::Closed || event.kind == net::EventKind::Failed) {
-            if (connected && !stopping) options.tell(event.what);
+            if (connected && !leaving) options.tell(event.what);
             connected = false;
             lost = event.what;
         }
@@ -185,17 +213,128 @@ void PlanBus::Insides::take_unsent() {
     }
     // Refused is only what a supervisor emits as it stops: may_emit() was not asked.
     for (const auto& event : events) {
+        if (!may_send(event)) continue;
         rivals.said(event);
         (void)network.emit(event.name, event.arguments).ok();
     }
 }
 
+// A robot that is being stopped is not told to move again by what the plan says as it ends.
+bool PlanBus::Insides::may_send(const run::BusEvent& event) const {
+    return !stop_asked || options.stops.contains(event.name);
+}
+
 void PlanBus::Insides::work(run::RealTime& run) {
-    while (!stopping) {
-        for (run::BusEvent& event : turn(Time::max())) run.hear(std::move(event));
+    while (!leaving) {
+        if (stop_asked && !is_stopping) begin_to_stop(How::Stop);
+        const Time due = stop_asked ? Time::max() : stopped_by_others.next();
+        for (run::BusEvent& event : turn(due)) run.hear(std::move(event));
+        look_for_stopped(run);
         if (const auto token = std::exchange(moved_to, std::nullopt)) run.move_tokens(*token);
     }
+    const bool stop = stop_asked;
+    if (!is_stopping) begin_to_stop(stop ? How::Stop : leaving_how);
+    left = await_rest();
     farewell();
+}
+
+// A plan must not wait for ever for a node that another host has stopped.
+void PlanBus::Insides::look_for_stopped(run::RealTime& run) {
+    for (const debug::NodeId id : stopped_by_others.take_due(net.now())) {
+        const bool ends = ends_when_stopped && !stop_asked && is_worked_on(id);
+        if (ends) run.fail(toolbox::was_stopped(network.node(id)->name));
+    }
+}
+
+// ---- coming to rest ----
+
+bool PlanBus::Insides::is_worked_on(debug::NodeId id) const {
+    if (options.works_anywhere || options.needs.empty()) return true;
+    const std::string& name = network.node(id)->name;
+    return std::any_of(options.needs.begin(), options.needs.end(), [&name](const auto& need) {
+        return std::find(need.begin(), need.end(), name) != need.end();
+    });
+}
+
+void PlanBus::Insides::begin_to_stop(How how) {
+    is_stopping = true;
+    if (how == How::Stop) return stopping.begin(network, options.safe_stop, how, net.now());
+    std::vector<debug::NodeId> nodes;
+    for (const debug::NodeId id : network.nodes()) {
+        const bool named = options.safe_stop.contains(network.node(id)->name);
+        if (named && network.node(id)->connected && is_worked_on(id)) nodes.push_back(id);
+    }
+    const session::Stopping::Manner manner{.how = how};
+    stopping.begin(network, options.safe_stop, manner, net.now(), nodes);
+}
+
+std::vector<session::StopNode> PlanBus::Insides::await_rest() {
+    const Time latest = net.now() + kRestWithin;
+    while (connected && !stopping.settled() && net.now() < latest) (void)turn(latest);
+    is_stopping = false;
+    return stopping.report();
+}
+
+Status PlanBus::Insides::begin_at_rest() {
+    begin_to_stop(How::Look);
+    const auto before = await_rest();
+    if (!is_at_rest(before)) {
+        begin_to_stop(How::Stop);
+        const auto nodes = await_rest();
+        const std::string found = session::describe(nodes);
+        if (is_moving(nodes)) {
+            return Error{Code::Refused, "the robot on " + options.target +
+                                            " moves, and does not come to rest when it is "
+                                            "stopped (" +
+                                            found +
+                                            "); find out what drives it, and end that first"};
+        }
+        const char* const why = is_moving(before) ? " was moving" : " did not say how it is";
+        options.tell("the robot on " + options.target + why +
+                     ": it was stopped before the plan begins; " + found);
+    }
+    run_what_is_stopped();
+    return Status::done();
+}
+
+// Scripts keep their variables. Without them the plan would wait for nodes that hear nothing, or
+// drive without a reflex. One that was stopped is paused as soon as an event waits for it: that is
+// what somebody said before this plan, and another Stop drops it.
+void PlanBus::Insides::run_what_is_stopped() {
+    const auto stands = [this](debug::NodeId id) {
+        const debug::NodeView* node = network.node(id);
+        return node && node->connected &&
+               (node->state == debug::ProgramState::Stopped ||
+                node->state == debug::ProgramState::Paused);
+    };
+    std::vector<debug::NodeId> asked;
+    for (const debug::NodeId id : network.nodes()) {
+        if (!stands(id)) continue;
+        if (network.node(id)->state == debug::ProgramState::Paused) (void)network.stop_now(id);
+        if (network.run(id).ok()) asked.push_back(id);
+    }
+    const Time latest = net.now() + kRunsWithin;
+    while (connected && std::any_of(asked.begin(), asked.end(), stands) && net.now() < latest) {
+        (void)turn(latest);
+    }
+    const Time settled = net.now() + kSettles;
+    while (!asked.empty() && connected && net.now() < settled) (void)turn(settled);
+}
+
+void PlanBus::Insides::stop_robot() {
+    stop_asked = true;
+    net.wake();
+}
+
+std::vector<session::StopNode> PlanBus::Insides::leave(How how) {
+    if (!thread.joinable()) return {};
+    leaving_how = how;
+    leaving = true;
+    net.wake();
+    thread.join();
+    stop_asked = false;
+    leaving = false;
+    return left;
 }
 
 // Without it, what the peer sends meanwhile could make its system throw away our last frames.
@@ -214,7 +353,7 @@ void PlanBus::Insides::farewell() {
 PlanBus::PlanBus(std::unique_ptr<Insides> insides) : insides_(std::move(insides)) {}
 
 PlanBus::~PlanBus() {
-    stop();
+    (void)leave(How::Stop);
 }
 
 Result<std::unique_ptr<PlanBus>> PlanBus::open(PlanBusOptions options, toolbox::BusNodes& nodes) {
@@ -222,6 +361,7 @@ Result<std::unique_ptr<PlanBus>> PlanBus::open(PlanBusOptions options, toolbox::
     TRY(insides->connect());
     insides->discover();
     TRY(insides->check_single());
+    TRY(insides->begin_at_rest());
     // make_unique cannot reach the constructor.
     return std::unique_ptr<PlanBus>(new PlanBus(std::move(insides)));
 }
@@ -239,16 +379,20 @@ void PlanBus::join(run::RunOptions& options) {
     options.on_emit = [&insides](const run::BusEvent& event) { insides.emit(event); };
 }
 
+void PlanBus::end_when_stopped() {
+    insides_->end_when_stopped();
+}
+
 void PlanBus::start(run::RealTime& run) {
-    insides_->stopping = false;
     insides_->thread = std::thread([&insides = *insides_, &run] { insides.work(run); });
 }
 
-void PlanBus::stop() {
-    if (!insides_->thread.joinable()) return;
-    insides_->stopping = true;
-    insides_->wake();
-    insides_->thread.join();
+void PlanBus::stop_robot() {
+    insides_->stop_robot();
+}
+
+std::vector<session::StopNode> PlanBus::leave(How how) {
+    return insides_->leave(how);
 }
 
 }  // namespace vagus::embed

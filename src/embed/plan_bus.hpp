@@ -6,8 +6,8 @@
 //     bus.join(options);
 //     run::RealTime run(graph, library, options);
 //     bus.start(run);
-//     const run::Ended ended = run.run();
-//     bus.stop();
+//     const run::Ended ended = run.run();          // meanwhile, from anywhere: stop_robot()
+//     const auto nodes = bus.leave(session::Stopping::How::Rest);
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,13 @@
 #include "run/options.hpp"
 #include "run/real_time.hpp"
 #include "session/bus_names.hpp"
+#include "session/stopping.hpp"
 #include "toolbox/bus.hpp"
 #include "toolbox/bus_talk.hpp"
 
 namespace vagus::embed {
 
+constexpr Duration kRestWithin = std::chrono::seconds(3);  // for nodes to be read back at rest
 constexpr size_t kUnsentMax = 65'536;  // events that the plan emitted and that wait for the thread
 
 struct PlanBusOptions {
@@ -39,13 +41,19 @@ struct PlanBusOptions {
     uint64_t seed = 0;                      // of where tokens begin (session/rival_plans.hpp)
     std::vector<toolbox::NodeNames> needs;  // the nodes that the plan works on …
     std::set<std::string> starts;           // … and the events by which work begins there
+    std::set<std::string> stops;            // those by which it ends
+    bool works_anywhere = false;            // not only on `needs`: it sends events of its own
+    session::SafeStop safe_stop = {};
 };
 
 class PlanBus {
 public:
     // Connects, and waits until the nodes that are there have said who they are; from then on
-    // `nodes` tells. The Error says who is not there, or of which node that the plan needs there
-    // are two: a robot has a bus of its own.
+    // `nodes` tells. The Error says who is not there, of which node that the plan needs there are
+    // two (a robot has a bus of its own), or that the robot does not come to rest: if a node on
+    // which the plan works moves, or does not say so, the robot is stopped first, for nobody knows
+    // who drives it.
+    // Scripts that were stopped or paused, by this or before, run again then.
     static Result<std::unique_ptr<PlanBus>> open(PlanBusOptions options, toolbox::BusNodes& nodes);
     ~PlanBus();
 
@@ -53,11 +61,20 @@ public:
     // The run emits on this bus, with tokens from a random place on. Borrowed for the run.
     void join(run::RunOptions& options);
 
+    // Before start(). If another host stops a node on which the plan works, and nobody lets it run
+    // again soon, the run ends with an error. Not for a host that pauses nodes itself.
+    void end_when_stopped();
     // From now on the run hears each event of the bus. A lost connection is tried again, and its
-    // nodes are gone meanwhile. Borrowed until stop().
+    // nodes are gone meanwhile. Borrowed until leave().
     void start(run::RealTime& run);
+    // From any thread, also before start(): every node is told to stop now, and made safe behind
+    // that. Of what the plan emits from now on only its `stops` go out.
+    void stop_robot();
+    // The run is over. With Rest the nodes on which the plan works are brought to rest, and scripts
+    // run on; with Stop, or after stop_robot(), all of the robot is stopped. Gives what was read
+    // back, after kRestWithin at the latest.
     // What was emitted has left when this returns, if somebody takes it.
-    void stop();
+    std::vector<session::StopNode> leave(session::Stopping::How how);
 
 private:
     class Insides;

@@ -86,7 +86,7 @@ std::vector<std::string> errors_of(const LoadedPlan& plan) {
     if (errors.size() > kErrorsToldMax) {
         const size_t more = errors.size() - kErrorsToldMax;
         errors.resize(kErrorsToldMax);
-        errors.push_back(fmt::format("and {} more; mend these first", more));
+        errors.push_back(fmt::format("and {} more; fix these first", more));
     }
     return errors;
 }

@@ -14,7 +14,9 @@
 #include "net/network.hpp"
 #include "run/execution.hpp"
 #include "run/firing.hpp"
+#include "run/traced_variables.hpp"
 #include "session/plan_world.hpp"
+#include "session/safe_stop.hpp"
 #include "sim/crew.hpp"
 #include "toolbox/bus.hpp"
 #include "toolbox/core_values.hpp"
@@ -27,6 +29,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kBehindMax = 200ms;  // a machine that cannot keep up slows time down instead
+
+constexpr const char* kSomebody = "somebody";  // who ends a run, if nobody says
 
 constexpr int kExitTraceLost = 1;  // the plan ended well, but not all of its trace is written
 
@@ -130,13 +134,22 @@ public:
     Status open_bus();
     Status check_alone() const;
     void trace(const plan::TraceEvent& event);
+    void stop_after_error(const plan::TraceEvent& event);
     void write(LineSink& to, std::string_view lines);
     bool complete(LineSink& one);
     Result<run::Ended> run_beside_world();
     run::Ended run_on_bus();
+    void leave_bus(const run::Ended& ended);
+    void stop_guests(const run::Ended& ended);
+    void tell_rest(const std::string& sentence, const std::vector<session::StopNode>& found);
     run::Ended run_with(run::Clock clock, const std::function<run::Ended(run::Execution&)>& go);
-    void abort();
+    void abort(const std::string& by);
     void abort_this();
+    // Who has ended this run; empty if it has ended by itself.
+    std::string ended_by() {
+        const std::lock_guard lock(mutex_);
+        return ended_by_;
+    }
     bool abort_asked() {
         const std::lock_guard lock(mutex_);
         return abort_asked_;
@@ -159,11 +172,16 @@ public:
     LineSink sink;
     LineSink sink_all;
     std::function<void(const std::string&)> tell = tell_on_stderr;
+    std::function<void(const std::string&)> report;  // empty: as `tell`
 
 private:
+    void abort_it(const std::string& by);
+
     std::mutex mutex_;  // guards what follows
     run::Execution* execution_ = nullptr;
-    bool abort_asked_ = false;  // before the run has begun
+    bool abort_asked_ = false;  // this run, and each that follows
+    std::string who_aborts_;
+    std::string ended_by_;  // this run
 };
 
 // ---- making it ready ----
@@ -196,13 +214,16 @@ Status PreparedRun::Insides::open_world() {
     hosts.reset();
     std::optional<unsigned> threads;
     if (!words.threads.empty()) threads = TRY(parse_threads(words.threads));
-    world = TRY(session::PlanWorld::open({.path = words.world,
-                                          .seed = seed,
-                                          .threads = threads,
-                                          .traced = !words.trace_all.empty(),
-                                          .robot = words.robot,
-                                          .needs = toolbox::nodes_needed(what.graph())},
-                                         nodes));
+    session::PlanWorldOptions options{.path = words.world,
+                                      .seed = seed,
+                                      .threads = threads,
+                                      .traced = !words.trace_all.empty(),
+                                      .robot = words.robot,
+                                      .needs = toolbox::nodes_needed(what.graph())};
+    if (!words.listen.empty()) {
+        options.guests = TRY(session::safe_stop_around(words.world, words.toolboxes));
+    }
+    world = TRY(session::PlanWorld::open(options, nodes));
     if (!world_used) {  // said once, however often it is run
         for (const std::string& hint : world->session().hints()) tell_on_stderr(hint);
     }
@@ -230,6 +251,10 @@ Status PreparedRun::Insides::open_bus() {
     options.seed = std::random_device()();
     options.needs = toolbox::nodes_needed(what.graph());
     options.starts = toolbox::starts_on(options.needs, what.library().templates());
+    options.stops = session::stop_events(what.library().templates());
+    options.works_anywhere = session::sends_events(what.plans());
+    const std::string& from = words.project.empty() ? what.plans().front().file : words.project;
+    options.safe_stop = TRY(session::safe_stop_around(from, words.toolboxes));
     if (!words.project.empty()) {
         const std::string text = TRY(read_file(words.project));
         options.common = TRY(aesl::parse_project(text, words.project)).common;
@@ -268,7 +293,15 @@ bool PreparedRun::Insides::complete(LineSink& one) {
     return written.ok();
 }
 
+// The plan is over, but its run only when all its code has ended, which may be never.
+void PreparedRun::Insides::stop_after_error(const plan::TraceEvent& event) {
+    const auto* ended = std::get_if<plan::PlanEnded>(&event.what);
+    const bool failed = ended && ended->result == plan::PlanResult::Error;
+    if (bus && failed && run::level_of(event) == 0) bus->stop_robot();
+}
+
 void PreparedRun::Insides::trace(const plan::TraceEvent& event) {
+    stop_after_error(event);
     if (sink || sink_all) {
         const std::string line = plan::format_trace(event) + "\n";
         write(sink, line);
@@ -295,7 +328,25 @@ Result<run::Ended> PreparedRun::Insides::run_beside_world() {
     const run::Ended ended =
         run_with(run::Clock::Virtual, [](run::Execution& run) { return run.run(); });
     write(sink_all, world->session().take_trace());
+    stop_guests(ended);
     return ended;
+}
+
+// Real nodes may have joined the bus of the world. In virtual time nobody can.
+void PreparedRun::Insides::stop_guests(const run::Ended& ended) {
+    using How = session::Stopping::How;
+    const bool well = ended.result != plan::PlanResult::Error && ended_by().empty();
+    session::SimSession& session = world->session();
+    if (listening.empty() || !session.stop_guests(well ? How::Rest : How::Stop)) return;
+    const Time latest = hosts->now() + kRestWithin;
+    while (!session.guests_rest() && hosts->now() < latest) {
+        (void)hosts->poll(hosts->now() + sim::kNodeStep);
+        session.step(sim::kNodeStep);
+    }
+    (void)hosts->poll(hosts->now());
+    tell_rest(
+        std::string("the nodes that had joined this bus were ") + (well ? "made safe" : "stopped"),
+        session.guests());
 }
 
 run::Ended PreparedRun::Insides::run_on_bus() {
@@ -303,9 +354,32 @@ run::Ended PreparedRun::Insides::run_on_bus() {
     return run_with(run::Clock::Real, [this](run::Execution& run) {
         bus->start(*run.real_time());
         const run::Ended ended = run.run();
-        bus->stop();
+        leave_bus(ended);
         return ended;
     });
+}
+
+// A plan that has come to its end, or to that of its time, leaves the scripts as they are; every
+// other end stops them, too.
+void PreparedRun::Insides::leave_bus(const run::Ended& ended) {
+    const std::string by = ended_by();
+    const bool well = ended.result != plan::PlanResult::Error && by.empty();
+    const auto found =
+        bus->leave(well ? session::Stopping::How::Rest : session::Stopping::How::Stop);
+    std::string sentence = by.empty() ? "the plan has ended" : by + " has ended the plan";
+    sentence += fmt::format(" ({}{})", plan::name_of(ended.result),
+                            ended.timed_out ? ", its time was over" : "");
+    if (!well) sentence += "; the robot was stopped";
+    tell_rest(sentence, found);
+}
+
+void PreparedRun::Insides::tell_rest(const std::string& sentence,
+                                     const std::vector<session::StopNode>& found) {
+    const std::string rest = session::describe(found);
+    const bool at_rest = std::all_of(found.begin(), found.end(), [](const auto& node) {
+        return node.state == session::StopNode::State::Stopped;
+    });
+    (at_rest && report ? report : tell)(rest.empty() ? sentence : sentence + "; " + rest);
 }
 
 // While it runs, abort() reaches it.
@@ -315,7 +389,8 @@ run::Ended PreparedRun::Insides::run_with(run::Clock clock,
     {
         const std::lock_guard lock(mutex_);
         execution_ = &execution;
-        if (abort_asked_) execution.abort();
+        ended_by_.clear();
+        if (abort_asked_) abort_it(who_aborts_);
     }
     const run::Ended ended = go(execution);
     const std::lock_guard lock(mutex_);
@@ -323,15 +398,25 @@ run::Ended PreparedRun::Insides::run_with(run::Clock clock,
     return ended;
 }
 
-void PreparedRun::Insides::abort_this() {
-    const std::lock_guard lock(mutex_);
-    if (execution_) execution_->abort();
+// The robot is stopped while the plan ends, not when it has: nothing is waited for.
+void PreparedRun::Insides::abort_it(const std::string& by) {
+    if (!execution_) return;
+    ended_by_ = by;
+    execution_->abort();
+    if (bus) bus->stop_robot();
+    if (world) world->close_but_for(session::stop_events(what.library().templates()));
 }
 
-void PreparedRun::Insides::abort() {
+void PreparedRun::Insides::abort_this() {
+    const std::lock_guard lock(mutex_);
+    abort_it(kSomebody);
+}
+
+void PreparedRun::Insides::abort(const std::string& by) {
     const std::lock_guard lock(mutex_);
     abort_asked_ = true;
-    if (execution_) execution_->abort();
+    who_aborts_ = by;
+    abort_it(by);
 }
 
 // ---- the public side ----
@@ -374,8 +459,16 @@ Result<run::Ended> PreparedRun::run(run::Debugger* debugger) {
                               [](run::Execution& run) { return run.run(); });
 }
 
-void PreparedRun::abort() {
-    insides_->abort();
+void PreparedRun::abort(const std::string& by) {
+    insides_->abort(by.empty() ? kSomebody : by);
+}
+
+void PreparedRun::end_when_stopped() {
+    if (insides_->bus) insides_->bus->end_when_stopped();
+}
+
+void PreparedRun::report(std::function<void(const std::string&)> report) {
+    insides_->report = std::move(report);
 }
 
 void PreparedRun::tell(std::function<void(const std::string&)> tell) {

@@ -67,17 +67,24 @@ public:
     // Can be called again: each is a run of its own, in a world of its own. Fails only where that
     // world cannot be opened any more.
     Result<run::Ended> run(run::Debugger* debugger = nullptr);
+    // Before run(), on a bus that nobody else looks after, as a debugger would that stops nodes and
+    // lets them run again: a run whose nodes another host stops ends with an error.
+    void end_when_stopped();
     // Before run(): who is told, in a sentence, what a person should know while it runs, on the
     // deciding thread, and of a bus on its thread; stderr unless this is called. That a trace
     // cannot be written any more, once for each: the run goes on, a robot does not stop for a full
     // disk. That the plan does nothing but fire (run/firing.hpp). That the bus is lost or there
     // again, or that somebody else commands the same nodes.
     void tell(std::function<void(const std::string&)> tell);
+    // Before run(): who is told, instead, how a run on a bus has ended, and that nodes are at
+    // rest. A node that is not is for tell() all the same.
+    void report(std::function<void(const std::string&)> report);
     // After run(): the exit status of docs/plans.md, section 6, or 1 for a plan that ended well
     // but whose trace is not complete. Writes what of the traces still waits.
     int exit_status(const run::Ended& ended);
-    // Ends the run (P28), and each that would follow. From any thread, also before run().
-    void abort();
+    // Ends the run (P28), and each that would follow. From any thread, also before run(). On a bus
+    // the robot is stopped at once. `by` is who does that, for the sentence that tells the end.
+    void abort(const std::string& by = "");
     bool abort_asked() const;
     // Ends this run only; the next one begins as usual.
     void abort_this();

@@ -153,6 +153,19 @@ TEST(FastRun, AReturnToNowhereGoesThereAndIsStopped) {
     }
 }
 
+// The last decoded words, the one cell behind them, and what lies behind that: a return leads to
+// each, and finds the 0 there, which is Stop.
+TEST(FastRun, AReturnBehindTheProgramStopsAtThatWord) {
+    for (uint16_t target = 6; target < 20; ++target) {
+        TestMachine machine;
+        machine.load({0x2000, target, op(Opcode::SubRet, 0)});
+        EXPECT_EQ(machine.run(100), 3) << target;
+        EXPECT_EQ(machine.vm.pc, target);
+        EXPECT_EQ(machine.vm.depth, 0);
+        EXPECT_FALSE(vm::is_active(machine.vm));
+    }
+}
+
 TEST(FastRun, ProgramsRunIntoTheZerosBehindThem) {
     TestMachine machine;
     EXPECT_THAT(machine.execute({op(Opcode::Jump, 200)}), IsEmpty());  // 0 is Stop

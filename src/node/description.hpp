@@ -7,7 +7,7 @@
 //     VAGUS_FLASH_TABLE(node::Variable, kVariables, 1) = {{1, kId}};
 //     VAGUS_FLASH_TABLE(node::Description, kDescription, 1) = {
 //         {kName, wire::kProtocolVersion, node::LocalEventSource::OwnId, 1, kVariables, 0, nullptr,
-//          {{node::kStandardNatives, node::kStandardNativeCount}, {nullptr, 0}}}};
+//          {{node::kStandardNatives, node::kStandardNativeCount}, {nullptr, 0}}, 0}};
 //
 // Texts end with '\0'. One that is too long for its message is cut there, at the border of a
 // character.
@@ -68,6 +68,8 @@ struct Description {
     const LocalEvent* local_events;
     // Ids count through both tables: usually the 30 standard natives, then the node's own.
     NativeTable natives[2];
+    // Where `_program` lies, the last variable, of two words (docs/vm.md); 0: it has none.
+    uint16_t program_at;
 };
 
 }  // namespace node

@@ -3,9 +3,11 @@
 #include "isa/flash.hpp"
 #include "isa/isa.hpp"
 #include "node/describe.hpp"
+#include "node/identity.hpp"
 #include "node/message.hpp"
 #include "node/native_tables.hpp"
 #include "wire/bytes.hpp"
+#include "wire/checksum.hpp"
 
 namespace vagus {
 namespace node {
@@ -104,6 +106,7 @@ void init(Node& node, const vm::Config& config, const Description& description, 
     node.random_state = 0;
     node.items_left = 0;
     node.variables_left = 0;
+    node.identity = {wire::kChecksumBegin, 0, 0};
     vm::init(node.vm, config);
 }
 
@@ -132,10 +135,15 @@ void begin_receive(Node& node, uint16_t source, uint16_t type, const uint16_t* w
         if (count >= 3) send_fragment(node, static_cast<int16_t>(words[2]));
         return;
     }
+    if (message == MessageType::SetBytecode && count >= 2) {
+        note_piece(node, words[1], static_cast<uint16_t>(count - 2));
+    }
+    tell_program(node);
     vm::receive(node.vm, type, words, count);
 }
 
 void answer(Node& node) {
+    if (is_counting(node)) return count_words(node);
     if (node.items_left == 0) return send_piece(node);
     --node.items_left;
     send_item(node, node.next_item++);

@@ -44,6 +44,13 @@ struct Board {
     uint16_t variables_at_once;
 };
 
+// Which program was loaded. Its words are counted in steps: no board needs to do all at once.
+struct Identity {
+    uint32_t checksum;  // of the words so far (wire/checksum.hpp)
+    uint16_t end;       // words that were loaded, one piece behind the other
+    uint16_t counted;   // of these, in the checksum
+};
+
 struct Node {
     vm::Vm vm;
     const Description* description;  // in flash on an AVR
@@ -56,6 +63,7 @@ struct Node {
     uint16_t items_left;
     uint16_t next_variable;
     uint16_t variables_left;
+    Identity identity;
 };
 
 // The `host` of the Config of a node's machine; its `owner` must be the Node.
@@ -70,6 +78,11 @@ void init(Node& node, const vm::Config& config, const Description& description, 
 // A frame has come from the bus: answers it, obeys it, or ignores it. Never runs the script.
 void receive(Node& node, const wire::Frame& frame);
 
+// Words of the program are still to be counted: answer() does some, and sends nothing.
+inline bool is_counting(const Node& node) {
+    return node.identity.counted != node.identity.end;
+}
+
 // The same in pieces, for a board whose line takes only so much at once: only the first message of
 // the answer is sent, and answer() sends one more for each call while is_answering(). `words` is
 // the payload, `count` words: an odd last byte does not count. A command must wait until what was
@@ -77,7 +90,7 @@ void receive(Node& node, const wire::Frame& frame);
 void begin_receive(Node& node, uint16_t source, uint16_t type, const uint16_t* words,
                    uint16_t count);
 inline bool is_answering(const Node& node) {
-    return (node.items_left | node.variables_left) != 0;
+    return (node.items_left | node.variables_left) != 0 || is_counting(node);
 }
 void answer(Node& node);
 
@@ -87,6 +100,15 @@ void local_event(Node& node, uint16_t index);
 // Starts a program that lies in the bytecode already, in running mode: what a robot does when it is
 // switched on and finds a program in its flash (section 3.1). The bus is told of the new state.
 void start_program(Node& node);
+
+// What the bytecode holds did not come from the bus, but from where the node keeps it: `count`
+// words, before the first frame …
+void identify(Node& node, uint16_t count);
+// … or what program() gave when it was kept.
+void identify_as(Node& node, uint32_t mark);
+// What `_program` tells: wire::program_mark() of what was loaded, wire::kProgramUnknown if pieces
+// came in another order than that of their words.
+uint32_t program(const Node& node);
 
 // Goes on with the running event for at most `limit` instructions; gives how many were executed.
 uint16_t run(Node& node, uint16_t limit);

@@ -5,6 +5,7 @@
 
 #include "node/test_node.hpp"
 #include "wire/messages.hpp"
+#include "wire/reports.hpp"
 
 namespace vagus::node {
 namespace {
@@ -331,6 +332,101 @@ TEST(Node, MoreParametersThanTheLimitAreNotTold) {
     const Native native = {"f", "", parameters.data(), wire::kParametersMax + 1, nothing};
     TestNode test;
     EXPECT_EQ(described(test, native).parameter_count, wire::kParametersMax);
+}
+
+// ---- Which program it is (section 3.11) ----
+
+class ProgramOfANode : public testing::Test {
+protected:
+    static Description description() {
+        Description description = kTestDescription;
+        description.variable_count = 4;
+        description.variables = kVariables;
+        description.program_at = 34;
+        return description;
+    }
+    // SetBytecode, as a host sends it.
+    void load(uint16_t start, const std::vector<uint16_t>& words) {
+        wire::Frame frame{};
+        frame.type = 0xa001;
+        wire::add_argument(frame, 1);
+        wire::add_argument(frame, static_cast<int16_t>(start));
+        for (const uint16_t word : words) wire::add_argument(frame, static_cast<int16_t>(word));
+        receive(test.node, frame);
+        test.take();
+    }
+    std::string told() {
+        return test.ask("06 00 00 00 0b a0 01 00 22 00 02 00").substr(24);  // behind the address
+    }
+    static constexpr Variable kVariables[] = {
+        {1, "id"}, {1, "source"}, {32, "args"}, {2, "_program"}};
+    const Description description_ = description();
+    TestNode test{description_};
+};
+
+// Checksums by zlib's crc32.
+TEST_F(ProgramOfANode, IsTheChecksumOfItsWordsLowWordFirst) {
+    EXPECT_EQ(told(), "00 00 00 00");
+    load(0, {3, 0xffff, 3, 0});
+    EXPECT_EQ(told(), "24 1b b8 d7");
+    load(0, {1});
+    EXPECT_EQ(told(), "be 23 c2 58");
+    load(0, {0});
+    EXPECT_EQ(told(), "00 00 00 00");
+}
+
+TEST_F(ProgramOfANode, ComesInPieces) {
+    load(0, {3, 0xffff});
+    load(2, {3, 0});
+    EXPECT_EQ(told(), "24 1b b8 d7");
+}
+
+TEST_F(ProgramOfANode, IsNeverToldAsNone) {
+    load(0, {1, 0, 0xb2e4, 0xf421});  // its CRC is 0
+    EXPECT_EQ(told(), "01 00 00 00");
+}
+
+TEST_F(ProgramOfANode, IsUnknownIfAPieceIsMissingOrComesTwice) {
+    load(0, {3, 0xffff});
+    load(3, {0});
+    EXPECT_EQ(told(), "ff ff ff ff");
+    load(4, {0});
+    EXPECT_EQ(told(), "ff ff ff ff");
+    load(0, {3, 0xffff});
+    load(2, {3, 0});
+    load(2, {3, 0});
+    EXPECT_EQ(told(), "ff ff ff ff");
+    load(0, {1});
+    EXPECT_EQ(told(), "be 23 c2 58");
+}
+
+TEST_F(ProgramOfANode, OnlyWordsThatAreKeptCount) {
+    load(0, {1});
+    load(600, {7});  // behind the bytecode
+    EXPECT_EQ(told(), "be 23 c2 58");
+}
+
+TEST_F(ProgramOfANode, IsNotWhatSomebodyWroteThere) {
+    load(0, {1});
+    test.ask("08 00 00 00 0c a0 01 00 22 00 07 00 07 00");
+    EXPECT_EQ(told(), "be 23 c2 58");
+}
+
+// A board does the sum in steps: nothing of the program may run meanwhile.
+TEST_F(ProgramOfANode, IsCountedBeforeTheNextCommand) {
+    begin_receive(test.node, 0, 0xa001, std::vector<uint16_t>{1, 0, 3, 0xffff, 3, 0}.data(), 6);
+    EXPECT_TRUE(is_counting(test.node));
+    EXPECT_TRUE(is_answering(test.node));
+    test.take();
+    while (is_answering(test.node)) answer(test.node);
+    EXPECT_EQ(test.take(), "");
+    EXPECT_EQ(told(), "24 1b b8 d7");
+}
+
+TEST_F(ProgramOfANode, ThatLacksTheVariableIsNotWrittenAnywhere) {
+    TestNode without;
+    without.ask("08 00 00 00 01 a0 01 00 00 00 01 00 02 00");
+    for (const int16_t word : without.variables) ASSERT_EQ(word, 0);
 }
 
 // The list of the specification, section 4.2, word for word.

@@ -48,7 +48,8 @@ inline const Description kTestDescription = {
     kTestVariables,
     2,
     kTestEvents,
-    {{kStandardNatives, kStandardNativeCount}, {nullptr, 0}}};
+    {{kStandardNatives, kStandardNativeCount}, {nullptr, 0}},
+    0};
 
 class TestNode {
 public:

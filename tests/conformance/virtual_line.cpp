@@ -48,6 +48,7 @@ Result<std::optional<wire::Frame>> VirtualLine::receive(Time deadline) {
 
 aesl::Target node_with(Memories memories) {
     aesl::Target target = session::standard_target("virtual");
+    target.variables.push_back({"_program", 2});
     target.bytecode_size = memories.bytecode;
     target.stack_size = memories.stack;
     target.variables_size = memories.variables;

@@ -7,11 +7,11 @@ import unittest
 from board import (ACTIVE, BYTES_OF_A_SECOND, ERROR, LIST, PRESENT, REBOOT, RUN, SET_BYTECODE, STATE, STOP, WRITE, Board,
                    frame, words_of)
 
-USER = 40  # a variable behind those that are described
+USER = 44  # a variable behind those that are described
 DROPPED = 34
 PERIOD, SILENT_MS = 38, 400  # timer.period; a line that is pulled and put in is silent for longer
 TICK = 6
-# onevent 5: variable 40 = 11
+# onevent 5: variable 44 = 11
 ON_FIVE = [3, 5, 3, 0x100B, 0x4000 + USER, 0]
 # The same; onevent timer: emit event 6
 ON_FIVE_AND_TIMER = [5, 5, 5, 0xFFFE, 8, 0x100B, 0x4000 + USER, 0, 0xB000 + TICK, 0, 0, 0]

@@ -59,16 +59,18 @@ constexpr node::Board kBoard = {[](node::Node& node, uint16_t type) { maker.begi
                                 [](node::Node&) { check_sent(maker.frame()); },
                                 [](node::Node&, vm::Notice) {}, wire::kVariablesReplyWordsMax};
 
-const node::Variable kVariableList[] = {{1, "id"}, {1, "event.source"}, {32, "event.args"}};
+const node::Variable kVariableList[] = {
+    {1, "id"}, {1, "event.source"}, {32, "event.args"}, {2, "_program"}};
 const node::LocalEvent kEventList[] = {{"timer", "doc"}, {"prox", ""}};
 const node::Description kDescription = {"fuzzed",
                                         5,
                                         node::LocalEventSource::OwnId,
-                                        3,
+                                        4,
                                         kVariableList,
                                         2,
                                         kEventList,
-                                        {{node::kStandardNatives, node::kStandardNativeCount}, {}}};
+                                        {{node::kStandardNatives, node::kStandardNativeCount}, {}},
+                                        34};
 
 // Each memory on its own, so that the sanitizers see a step beyond any of them.
 struct Memories {

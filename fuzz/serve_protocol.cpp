@@ -94,6 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         if (refusal->problem.what.empty() || refusal->problem.code.empty()) std::abort();
         return 0;
     }
+    if (std::holds_alternative<serve::Pong>(read)) return 0;
     const serve::Request& request = std::get<serve::Request>(read);
     if (request.name == "doc.edit") edit(request.in);
     if (request.name == "doc.patch") patch(request.in);

@@ -29,6 +29,7 @@ async def run_plan(address, speed):
                                   compression=None, max_size=None) as live:
         # Each command has a number; its answer, { "id": …, "ok": … } or { "id": …, "error": … }, comes when it is done.
         # One that comes twice with one number is done once, for clients that repeat it after a lost connection.
+        # What can move a robot has a deadline, 3 s after it was wanted, in the server's time, which the answer to hello tells.
         commands = [("hello", {"token": token, "client": secrets.token_hex(8), "name": "run_plan.py"}),
                     ("driver.ask", {}),
                     ("watch", {"watch": 1, "topic": "plan", "rate": 60}),
@@ -36,14 +37,18 @@ async def run_plan(address, speed):
                     ("clock.speed", {"speed": speed}),
                     ("run.start", {})]
         names = dict(enumerate((name for name, _ in commands), start=1))
-        for number, (name, fields) in enumerate(commands, start=1):
-            await live.send(json.dumps({"id": number, "do": name, "in": fields}))
+        await live.send(json.dumps({"id": 1, "do": "hello", "in": commands[0][1]}))
 
         plan, told, begun = {}, 0, False
         async for text in live:
             message = json.loads(text)
             if "error" in message:
                 sys.exit(f"{names[message['id']]}: {message['error']['what']}")
+            if "ping" in message:  # each second; it says the server's time, too
+                await live.send(json.dumps({"pong": message["ping"]}))
+            if message.get("id") == 1:  # welcome: all others now
+                for number, (name, fields) in enumerate(commands[1:], start=2):
+                    await live.send(json.dumps({"id": number, "do": name, "in": fields, "until": message["ok"]["now"] + 3000}))
             if message.get("id") == len(commands):
                 begun = True  # what came before was of an earlier run
             if message.get("watch") == 2 and begun:  # a stream: items

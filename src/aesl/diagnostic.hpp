@@ -50,7 +50,7 @@ struct Diagnostic {
     int number = 0;  // its number there; 0 for warnings
     Position at;
     Position end;  // one past the last character of what is marked; equal to `at` if nothing is
-    // What was expected, what was found, how to mend it; one sentence, no position in it.
+    // What was expected, what was found, how to fix it; one sentence, no position in it.
     std::string message;
     std::optional<Fix> fix = std::nullopt;
     // Where section 3.2 places the error, if a person is better shown another place: the output of

@@ -142,15 +142,30 @@ bool give_name(Beside& beside) {
     return beside.named;
 }
 
-Status fill(Beside& beside, std::string_view content, mode_t rights, const std::string& path) {
+enum class Disk { Wait, Later };
+
+Status fill(Beside& beside, std::string_view content, mode_t rights, const std::string& path,
+            Disk disk) {
     const OpenFile file(beside.descriptor);
     const Status written = write_all(file, content, path);
     if (!written.ok()) return written;
     if (::fchmod(file.get(), rights) != 0) return failure(beside.name, "given its rights");
     // Without this a crash of the machine could leave the new name with no bytes in it.
-    if (::fsync(file.get()) != 0) return failure(path, "written");
+    if (disk == Disk::Wait && ::fsync(file.get()) != 0) return failure(path, "written");
     if (!give_name(beside)) return failure(path, "written");
     return Status::done();
+}
+
+Status write(const std::string& path, std::string_view content, Disk disk) {
+    const std::string target = final_path(path);
+    if (!is_replaceable(target)) return write_through(path, content);
+    Beside beside = open_beside(target);
+    if (beside.descriptor < 0) return failure(path, "written");
+    Status filled = fill(beside, content, rights_for(target), path, disk);
+    if (filled.ok() && ::rename(beside.name.c_str(), target.c_str()) == 0) return Status::done();
+    const Status failed = filled.ok() ? Status(failure(path, "written")) : filled;
+    if (beside.named) ::unlink(beside.name.c_str());
+    return failed;
 }
 
 }  // namespace
@@ -164,15 +179,31 @@ Result<std::string> read_file(const std::string& path) {
 }
 
 Status write_file(const std::string& path, std::string_view content) {
-    const std::string target = final_path(path);
-    if (!is_replaceable(target)) return write_through(path, content);
-    Beside beside = open_beside(target);
-    if (beside.descriptor < 0) return failure(path, "written");
-    Status filled = fill(beside, content, rights_for(target), path);
-    if (filled.ok() && ::rename(beside.name.c_str(), target.c_str()) == 0) return Status::done();
-    const Status failed = filled.ok() ? Status(failure(path, "written")) : filled;
-    if (beside.named) ::unlink(beside.name.c_str());
-    return failed;
+    return write(path, content, Disk::Wait);
+}
+
+Status write_file_unsynced(const std::string& path, std::string_view content) {
+    return write(path, content, Disk::Later);
+}
+
+Status append_file(const std::string& path, std::string_view content) {
+    const OpenFile file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0600));
+    if (file.get() < 0) return failure(path, "written");
+    struct stat before = {};
+    if (::fstat(file.get(), &before) != 0) return failure(path, "written");
+    const Status written = write_all(file, content, path);
+    // Half a record at its end would hide those that follow.
+    if (!written.ok() && ::ftruncate(file.get(), before.st_size) != 0) {
+        return failure(path, "written");
+    }
+    return written;
+}
+
+Status sync_file(const std::string& path) {
+    const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.get() < 0) return errno == ENOENT ? Status::done() : failure(path, "written");
+    if (::fsync(file.get()) != 0) return failure(path, "written");
+    return Status::done();
 }
 
 }  // namespace vagus

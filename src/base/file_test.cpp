@@ -1,10 +1,13 @@
+#include "base/test_folder.hpp"
 #include "base/file.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 
@@ -16,15 +19,9 @@ namespace fs = std::filesystem;
 // A folder of its own for each test, gone at its end.
 class FileTest : public testing::Test {
 protected:
-    FileTest() {
-        std::string name = (fs::temp_directory_path() / "vagus-file-XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
-    ~FileTest() override { fs::remove_all(folder_); }
-
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-    fs::path folder_;
+    test::Folder folder_;
 };
 
 TEST_F(FileTest, ReadsWhatWasWritten) {
@@ -90,6 +87,30 @@ TEST_F(FileTest, WritesIntoAPipeAndDoesNotReplaceIt) {
     EXPECT_STREQ(read, "words");
     ::close(reader);
     EXPECT_TRUE(fs::is_fifo(path("pipe")));
+}
+
+TEST_F(FileTest, AppendsBehindTheEndOfAFileThatIsMadeIfNeedBe) {
+    ASSERT_TRUE(append_file(path("log"), "one\n").ok());
+    ASSERT_TRUE(append_file(path("log"), "two\n").ok());
+    ASSERT_TRUE(sync_file(path("log")).ok());
+    EXPECT_EQ(read_file(path("log")).value(), "one\ntwo\n");
+    EXPECT_FALSE(append_file(path("no/such/folder"), "x").ok());
+    EXPECT_TRUE(sync_file(path("gone by now")).ok());
+}
+
+// A full disk, as far as a limit of the process is one: half a record would hide the next.
+TEST_F(FileTest, WhatIsAppendedHalfIsTakenBack) {
+    ASSERT_TRUE(append_file(path("log"), "one\n").ok());
+    struct rlimit before = {};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto ignored = ::signal(SIGXFSZ, SIG_IGN);
+    const struct rlimit small = {6, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    const Status appended = append_file(path("log"), "two\n");
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    ::signal(SIGXFSZ, ignored);
+    EXPECT_FALSE(appended.ok());
+    EXPECT_EQ(read_file(path("log")).value(), "one\n");
 }
 
 TEST_F(FileTest, NamesTheFileAndTheReason) {

@@ -110,9 +110,9 @@ std::string JsonObject::word(std::string_view key, const std::vector<std::string
     if (value == nullptr) return std::string(fallback);
     if (std::find(words.begin(), words.end(), value->text) != words.end()) return value->text;
     const std::string guess = nearest(value->text, words);
-    const std::string mend = guess.empty() ? fmt::format("write one of {}", list_of(words))
-                                           : fmt::format("did you mean \"{}\"?", guess);
-    complain(value->at, fmt::format("\"{}\" of {} is {}; {}", key, name_, shown(*value), mend));
+    const std::string fix = guess.empty() ? fmt::format("write one of {}", list_of(words))
+                                          : fmt::format("did you mean \"{}\"?", guess);
+    complain(value->at, fmt::format("\"{}\" of {} is {}; {}", key, name_, shown(*value), fix));
     return std::string(fallback);
 }
 
@@ -129,10 +129,10 @@ void JsonObject::finish() {
                    std::find(known.begin(), known.end(), member.key) == known.end()) {
             const std::string guess = nearest(member.key, known_);
             meant.insert(guess);
-            const std::string mend =
-                guess.empty() ? fmt::format("remove it, or use one of {}", list_of(known))
-                              : fmt::format("did you mean \"{}\"?", guess);
-            complain(member.at, fmt::format("{} has the unknown key {}; {}", name_, key, mend));
+            const std::string fix = guess.empty()
+                                        ? fmt::format("remove it, or use one of {}", list_of(known))
+                                        : fmt::format("did you mean \"{}\"?", guess);
+            complain(member.at, fmt::format("{} has the unknown key {}; {}", name_, key, fix));
         }
     }
     for (const std::string& key : missing_) {

@@ -1,5 +1,5 @@
 // Walks over the text as strictly as JSON demands, one token after the other, without building
-// anything; each thing that can be expected has its function, which says what stands there instead.
+// anything; each thing that can be expected has its function, which says what replaces it.
 #include "base/json_slips.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "base/line_sink.hpp"
 
 #include <fcntl.h>
@@ -23,16 +24,13 @@ using When = LineSink::When;
 class LineSinkTest : public testing::Test {
 protected:
     LineSinkTest() {
-        std::string name = (fs::temp_directory_path() / "vagus-lines-XXXXXX").string();
-        folder_ = mkdtemp(name.data());
         prepare_standard_files();
     }
-    ~LineSinkTest() override { fs::remove_all(folder_); }
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
     std::string written() const { return read_file(path("f")).value(); }
 
-    fs::path folder_;
+    test::Folder folder_;
 };
 
 // As `ulimit -f`, for as long as it lives.

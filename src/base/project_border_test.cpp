@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "base/project_border.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +17,6 @@ namespace fs = std::filesystem;
 class ProjectBorderTest : public testing::Test {
 protected:
     ProjectBorderTest() {
-        std::string name = (fs::temp_directory_path() / "vagus-border-XXXXXX").string();
-        folder_ = fs::canonical(mkdtemp(name.data()));
         for (const char* sub : {"all/one/deep", "all/other", "outside"}) {
             fs::create_directories(folder_ / sub);
         }
@@ -25,7 +24,6 @@ protected:
             EXPECT_TRUE(write_file(path(file), "{}").ok());
         }
     }
-    ~ProjectBorderTest() override { fs::remove_all(folder_); }
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
     // The path from the folder of this test, or the kind of error.
@@ -35,7 +33,7 @@ protected:
         return at.error().code == Code::Refused ? "refused" : "another error";
     }
 
-    fs::path folder_;
+    test::Folder folder_;
 };
 
 TEST_F(ProjectBorderTest, TheOutermostProjectIsTheBorderAndTheInnermostIsOpened) {

@@ -1,6 +1,6 @@
 // The two ways a function can end when the world does not cooperate: a value, or an Error that says
 // why not. Bugs are asserts, never Errors. Errors that a user sees name the thing, the place, what
-// was expected, what was found and how to mend it, all in `what`.
+// was expected, what was found and how to fix it, all in `what`.
 #pragma once
 
 #include <cassert>

@@ -91,6 +91,13 @@ void Control::adopt(const aesl::Program& program) {
     if (!view_.breakpoints.empty()) place_breakpoints();
 }
 
+void Control::forget_program() {
+    view_.program.reset();
+    view_.at.line = 0;
+    wanted_.reset();
+    for (Breakpoint& breakpoint : view_.breakpoints) breakpoint.on_node = false;
+}
+
 Breakpoint* Control::breakpoint_at(uint16_t pc) {
     for (Breakpoint& breakpoint : view_.breakpoints) {
         if (breakpoint.pc == pc && view_.program) return &breakpoint;
@@ -121,6 +128,7 @@ bool Control::is_hit(ProgramState before, const wire::ExecutionStateChanged& sta
 }
 
 void Control::hit(Breakpoint& breakpoint) {
+    out_.tell(view_.id, BreakpointReached{view_.at});
     if (breakpoint.condition.empty()) {
         breakpoint.hits++;
         tell_state();
@@ -146,6 +154,7 @@ void Control::condition_read(const Result<std::vector<std::vector<int16_t>>>& va
         values.ok() ? condition.evaluate(values.value()) : Result<bool>(values.error());
     if (holds.ok() && !holds.value()) {
         resume_ = Resume::Stepping;
+        out_.tell(view_.id, BreakpointPassed{view_.at});
         return step_and_ask();
     }
     tell_state();

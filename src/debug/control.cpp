@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "debug/lines.hpp"
+#include "debug/program_mark.hpp"
 
 namespace vagus::debug {
 namespace {
@@ -71,6 +72,26 @@ Result<RequestId> Control::ask(Kind kind) {
     Request request;
     request.kind = kind;
     return enqueue(std::move(request));
+}
+
+// Not in its turn either: the frame leaves now, behind those that were sent before.
+RequestId Control::at_once(Kind kind) {
+    give_up({Code::Refused, who() + " was " + (kind == Kind::Stop ? "stopped" : "paused") +
+                                " before that was done"});
+    Request request;
+    request.kind = kind;
+    request.id = out_.new_request();
+    requests_.push_back(std::move(request));
+    begin_turn();
+    return requests_.front().id;
+}
+
+void Control::give_up(const Error& why) {
+    for (const Request& request : std::exchange(requests_, {})) {
+        out_.tell(view_.id, RequestDone{request.id, why, ""});
+    }
+    started_ = false;
+    out_.requests.leave(view_.id);
 }
 
 Result<RequestId> Control::load(const aesl::Program& program) {
@@ -250,15 +271,21 @@ void Control::receive(const wire::ExecutionStateChanged& state) {
     if (done) finish(std::move(*done));
 }
 
-// A node that was away and stands as after power-up (3.1), although it had run, or would have run
-// the code before the first handler: its program is gone.
+void Control::lose_program() {
+    forget_program();
+    out_.tell(view_.id, ProgramReplaced{});
+}
+
+void Control::returned_with(uint32_t mark) {
+    if (view_.program && mark != mark_of(view_.program->bytecode)) lose_program();
+}
+
+// A node that cannot tell its program, was away, and stands as after power-up (3.1), although it
+// had run, or would have run the code before the first handler: its program is gone.
 void Control::note_restart(const wire::ExecutionStateChanged& state) {
     const bool fresh = state.pc == 0 && state.flags == 0;
     const bool lost = fresh && view_.program && (view_.at.pc != 0 || runs_at_start(*view_.program));
-    if (std::exchange(restart_check_, false) && lost) {
-        view_.program.reset();
-        out_.tell(view_.id, ProgramReplaced{});
-    }
+    if (std::exchange(restart_check_, false) && lost) lose_program();
 }
 
 // A breakpoint at which the node stands because we stepped there counts as seen, until it moves.
@@ -390,18 +417,14 @@ void Control::foreign_bytecode(const wire::SetBytecode& words) {
         same = static_cast<uint16_t>(words.words.values[i]) == ours[words.start + i];
     }
     if (same) return;  // our own, come back from the switch
-    view_.program.reset();
-    view_.at.line = 0;
-    wanted_.reset();
-    for (Breakpoint& breakpoint : view_.breakpoints) breakpoint.on_node = false;
-    out_.tell(view_.id, ProgramReplaced{});
+    lose_program();
 }
 
 // ---- the connection ----
 
 void Control::connected(const std::vector<aesl::Constant>& constants) {
     constants_ = constants;
-    restart_check_ = true;
+    restart_check_ = !mark_address(view_.target);  // who can tell was asked
     if (view_.program) place_breakpoints();
     out_.command<wire::GetExecutionState>(view_.id);
 }
@@ -410,11 +433,7 @@ void Control::disconnected(const std::string& why) {
     wanted_.reset();
     resume_ = Resume::No;
     for (Breakpoint& breakpoint : view_.breakpoints) breakpoint.on_node = false;
-    for (const Request& request : std::exchange(requests_, {})) {
-        out_.tell(view_.id, RequestDone{request.id, Error{Code::Unavailable, why}, ""});
-    }
-    started_ = false;
-    out_.requests.leave(view_.id);
+    give_up({Code::Unavailable, why});
 }
 
 void Control::tick() {

@@ -22,7 +22,10 @@ public:
 
     // ---- asked by the caller ----
     Result<RequestId> ask(Kind kind);
+    // Before all that was asked, which is given up: Stop, Pause.
+    RequestId at_once(Kind kind);
     Result<RequestId> load(const aesl::Program& program);
+    void forget_program();
     void adopt(const aesl::Program& program);
     Result<RequestId> set_breakpoint(int line, std::string_view condition,
                                      const std::vector<aesl::Constant>& constants);
@@ -39,6 +42,8 @@ public:
     // All but NodeSpecificError stop the program without a further word (D20); Killed does not.
     void fault(FaultKind kind, uint16_t pc, const std::string& text);
     void node_specific(const std::string& text, uint16_t pc);
+    // The node was described, or is back, and told which program it has (debug/program_mark.hpp).
+    void returned_with(uint32_t mark);
     // Another host sent words of a program to this node.
     void foreign_bytecode(const wire::SetBytecode& words);
 
@@ -84,6 +89,7 @@ private:
 
     Result<RequestId> enqueue(Request request);
     void start_next();
+    void give_up(const Error& why);
     void finish(Outcome outcome);
     Request* active(Kind kind);
     bool uploading();
@@ -104,6 +110,7 @@ private:
     bool is_hit(ProgramState before, const wire::ExecutionStateChanged& state);
     void hit(Breakpoint& breakpoint);
     void step_and_ask();
+    void lose_program();
     void note_restart(const wire::ExecutionStateChanged& state);
     void note_step(const wire::ExecutionStateChanged& state);
     void tell_state();

@@ -53,6 +53,9 @@ struct NodeDisconnected {
     bool forgotten = false;
 };
 struct NodeReconnected {};
+// One that was away has described itself again, as it did before. One with another description
+// tells NodeDescribed.
+struct NodeConfirmed {};
 struct ProtocolMismatch {
     uint16_t protocol = 0;
 };
@@ -81,6 +84,15 @@ struct BreakpointResult {
     CodePlace at;
     bool success = false;
 };
+// The node has stopped at a breakpoint, whose condition is not evaluated yet: BreakpointHit,
+// BreakpointPassed or ConditionFailed follows, unless the node is lost or told what to do before.
+struct BreakpointReached {
+    CodePlace at;
+};
+// The condition is false: the node goes on.
+struct BreakpointPassed {
+    CodePlace at;
+};
 // The node stands at the line, which is not yet executed, and the condition is true.
 struct BreakpointHit {
     CodePlace at;
@@ -93,6 +105,11 @@ struct ConditionFailed {
 };
 // Another host loaded something else into the node: lines and script variables are no longer known.
 struct ProgramReplaced {};
+// A node with `_program` told which program it runs: mark_of() it, 0 for none. Unasked after each
+// description and each return.
+struct ProgramTold {
+    uint32_t mark = 0;
+};
 
 // ---- variables and events ----
 // Answer to get(). `first` counts from the beginning of the variable.
@@ -122,9 +139,10 @@ struct RequestDone {
 
 using Happening =
     std::variant<NodeAppeared, NodeDescribed, DescriptionFailed, NodeDisconnected, NodeReconnected,
-                 ProtocolMismatch, NodeIdShared, TooManyNodes, StateChanged, Fault,
-                 BreakpointResult, BreakpointHit, ConditionFailed, ProgramReplaced,
-                 VariablesArrived, VariableChanged, UserEvent, RequestDone>;
+                 NodeConfirmed, ProtocolMismatch, NodeIdShared, TooManyNodes, StateChanged, Fault,
+                 BreakpointResult, BreakpointReached, BreakpointPassed, BreakpointHit,
+                 ConditionFailed, ProgramReplaced, ProgramTold, VariablesArrived, VariableChanged,
+                 UserEvent, RequestDone>;
 
 struct Event {
     Time at{};

@@ -52,6 +52,13 @@ public:
     void touch(NodeId id);
     // … or to all of them.
     void touch_all();
+    template <typename Message>
+    std::optional<RequestId> at_once(NodeId id, Control::Kind kind) {
+        touch(id);
+        if (Peer* const known = peer(id)) return known->control().at_once(kind);
+        out.command<Message>(id);
+        return std::nullopt;
+    }
     std::vector<const NodeView*> views() const;
     Error unknown(NodeId id) const;
 
@@ -64,6 +71,8 @@ public:
 private:
     Time next_tick_of_peers() const;
     void note_name(NodeId id, const wire::Description& header);
+    void note_words(const wire::Frame& frame);
+    void examine(NodeId id, const NodeView& node);
     void tell_shared(NodeId id, std::string other_name);
     // Those that waited for their turn and have it now.
     void give_turns();
@@ -123,7 +132,7 @@ void Network::Impl::receive_node(const wire::Frame& frame) {
             malformed++;
         } else if (Peer* met = meet(frame.source, present.version)) {
             met->seen();
-            if (presences.answered(frame.source, out.now)) tell_shared(frame.source, "");
+            presences.answered(frame.source, out.now);
         }
         return;
     }
@@ -139,6 +148,7 @@ void Network::Impl::receive_node(const wire::Frame& frame) {
         from = meet(frame.source, header.protocol_version);
         if (from != nullptr) note_name(frame.source, header);
     }
+    if (frame.type == static_cast<uint16_t>(wire::MessageType::Variables)) note_words(frame);
     if (from == nullptr) return;  // all else from unknown sources is ignored (2.6, 3)
     const bool was_described = from->view().described;
     const size_t before = from->description_bytes();
@@ -162,6 +172,25 @@ void Network::Impl::receive_node(const wire::Frame& frame) {
 void Network::Impl::note_name(NodeId id, const wire::Description& header) {
     const std::string other = presences.named(id, clean_text(header.name), out.now);
     if (!other.empty()) tell_shared(id, other);
+}
+
+void Network::Impl::note_words(const wire::Frame& frame) {
+    wire::Variables words;
+    if (wire::decode_message(frame, words) != wire::Error::None) return;
+    if (presences.told(frame.source, {words.start, words.values.count})) {
+        tell_shared(frame.source, "");
+    }
+}
+
+void Network::Impl::examine(NodeId id, const NodeView& node) {
+    const uint16_t words = node.target.variables_size;
+    if (!node.connected || !node.described || words < 2 || !presences.doubts(id)) return;
+    for (const Probe& probe : presences.settle(id, words, out.now)) {
+        auto question = message_to<wire::GetVariables>(id);
+        question.start = probe.start;
+        question.length = probe.count;
+        out.send(question);
+    }
 }
 
 void Network::Impl::tell_shared(NodeId id, std::string other_name) {
@@ -228,6 +257,10 @@ void Network::Impl::list_nodes() {
     wire::ListNodes list{};
     list.version = wire::kProtocolVersion;
     out.send(list);
+    if (presences.doubtful()) {
+        for (const auto& [id, known] : peers) examine(id, known->view());
+        presences.drop_doubts();
+    }
     if (anybody_connected()) return;
     wire::GetDescription old{};  // nodes of version 4 know nothing newer (2.6, 6)
     old.version = wire::kProtocolVersion;
@@ -337,8 +370,19 @@ void Network::link_lost() {
     for (const auto& [id, known] : impl_->peers) known->lost();
 }
 
+void Network::call(NodeId id) {
+    if (node(id) != nullptr) return;
+    auto question = message_to<wire::GetNodeDescription>(id);
+    question.version = wire::kProtocolVersion;
+    impl_->out.send(question);
+}
+
 bool Network::doubts_an_id() const {
     return impl_->presences.doubtful();
+}
+
+bool Network::examines_ids() const {
+    return impl_->presences.waits();
 }
 
 void Network::set_common(aesl::CommonDefinitions common) {
@@ -359,12 +403,16 @@ Result<Peer*> Network::usable(NodeId id) const {
 }
 
 Result<RequestId> Network::load(NodeId id, const aesl::Program& program) {
-    return TRY(usable(id))->control().load(program);
+    return TRY(usable(id))->load(program);
 }
 
 Status Network::adopt(NodeId id, const aesl::Program& program) {
     TRY(usable(id))->control().adopt(program);
     return Status::done();
+}
+
+void Network::forget_program(NodeId id) {
+    if (Peer* const known = impl_->peer(id)) known->control().forget_program();
 }
 
 Result<RequestId> Network::run(NodeId id) {
@@ -376,6 +424,12 @@ Result<RequestId> Network::pause(NodeId id) {
 Result<RequestId> Network::stop(NodeId id) {
     return TRY(usable(id))->control().ask(Control::Kind::Stop);
 }
+std::optional<RequestId> Network::stop_now(NodeId id) {
+    return impl_->at_once<wire::Stop>(id, Control::Kind::Stop);
+}
+std::optional<RequestId> Network::pause_now(NodeId id) {
+    return impl_->at_once<wire::Pause>(id, Control::Kind::Pause);
+}
 Result<RequestId> Network::reset(NodeId id) {
     return TRY(usable(id))->control().ask(Control::Kind::Reset);
 }
@@ -384,6 +438,9 @@ Result<RequestId> Network::step(NodeId id) {
 }
 Result<RequestId> Network::query(NodeId id) {
     return TRY(usable(id))->control().ask(Control::Kind::Query);
+}
+Result<RequestId> Network::ask_program(NodeId id) {
+    return TRY(usable(id))->ask_program();
 }
 Result<RequestId> Network::save(NodeId id) {
     return TRY(usable(id))->control().ask(Control::Kind::Save);
@@ -408,13 +465,28 @@ Result<RequestId> Network::get(NodeId id, const VariableRange& range) {
     return TRY(usable(id))->get(range);
 }
 
+namespace {
+
+Status check_count(const VariableRange& range, std::span<const int16_t> values) {
+    if (!values.empty() && values.size() <= range.count) return Status::done();
+    return Error{Code::BadInput, range.name + " takes 1 to " + std::to_string(range.count) +
+                                     " values here, found " + std::to_string(values.size())};
+}
+
+}  // namespace
+
 Result<RequestId> Network::set(NodeId id, const VariableRange& range,
                                std::span<const int16_t> values) {
-    if (values.empty() || values.size() > range.count) {
-        return Error{Code::BadInput, range.name + " takes 1 to " + std::to_string(range.count) +
-                                         " values here, found " + std::to_string(values.size())};
-    }
+    const Status counted = check_count(range, values);
+    if (!counted.ok()) return counted.error();
     return TRY(usable(id))->set(range, values);
+}
+
+Status Network::write(NodeId id, const VariableRange& range, std::span<const int16_t> values) {
+    const Status counted = check_count(range, values);
+    if (!counted.ok()) return counted;
+    TRY(usable(id))->write(range, values);
+    return Status::done();
 }
 
 Status Network::watch(NodeId id, const VariableRange& range, Duration every) {

@@ -83,6 +83,9 @@ struct NodeView {
     CodePlace at;                          // as the node told last
     aesl::Target target;                   // empty until described
     std::optional<aesl::Program> program;  // what this host loaded or was told that the node has
+    // Of a node with `_program`, as it told last: mark_of() what it runs (debug/program_mark.hpp).
+    // None: not told yet since it was described, came back, or got words of a program.
+    std::optional<uint32_t> told_program;
     std::vector<Breakpoint> breakpoints;
 };
 
@@ -131,9 +134,13 @@ public:
     // The link to the bus is lost: everybody counts as disconnected until heard again, and is asked
     // then what is left of its program.
     void link_lost();
-    // A node answered twice where once was expected: after another list_nodes() it is certain
-    // whether two nodes share its id (NodeIdShared).
+    // Asks one node what it is, if nothing was heard of it: one that is slow, or hears badly.
+    void call(NodeId id);
+    // A node answered twice where once was expected: with another list_nodes() it is asked whether
+    // two nodes share its id (NodeIdShared) …
     bool doubts_an_id() const;
+    // … and its answers are still to come.
+    bool examines_ids() const;
 
     // ---- names ----
     // Names and numbers of events and constants that all nodes share; for compile(), emit() and
@@ -151,15 +158,27 @@ public:
     // The node has this program already, as another host or its flash loaded it: gives names,
     // lines, breakpoints.
     Status adopt(NodeId id, const aesl::Program& program);
+    // Nobody knows what the node has now: no names, no lines. Its breakpoints wait for adopt() or
+    // load().
+    void forget_program(NodeId id);
     // Continues; leaves a breakpoint at which the node stands (Step, then Run: 2.8).
     Result<RequestId> run(NodeId id);
     Result<RequestId> pause(NodeId id);
     Result<RequestId> stop(NodeId id);
+    // Now, before whatever waits for the node or is under way there, which is given up. Also for a
+    // node that is away, that has not told what it is, or that nobody has heard of: what it may
+    // answer is then nobody's (nothing returned).
+    std::optional<RequestId> stop_now(NodeId id);
+    std::optional<RequestId> pause_now(NodeId id);
     Result<RequestId> reset(NodeId id);
     // To another line or the end of the event; one instruction if the program is not known.
     Result<RequestId> step(NodeId id);
     // Asks for the state and the place.
     Result<RequestId> query(NodeId id);
+    // Asks a node with `_program` which program it runs: ProgramTold, then RequestDone. An Error if
+    // it lacks that variable. Asked by itself when a node was described or came back; if the answer
+    // is not `program` of its view, ProgramReplaced follows.
+    Result<RequestId> ask_program(NodeId id);
     // The node keeps its program for its next start. Nodes need not answer; the note says what the
     // node told.
     Result<RequestId> save(NodeId id);
@@ -179,6 +198,9 @@ public:
     Result<RequestId> get(NodeId id, const VariableRange& range);
     // Writes and waits for the node's sign of life behind it. At most range.count values.
     Result<RequestId> set(NodeId id, const VariableRange& range, std::span<const int16_t> values);
+    // Writes behind whatever was sent to the node before, and asks nothing: it is no request, so
+    // none can be in front of it.
+    Status write(NodeId id, const VariableRange& range, std::span<const int16_t> values);
     // VariableChanged now and whenever it differs, polled every `every`, at least
     // kWatchEveryMin.
     Status watch(NodeId id, const VariableRange& range, Duration every = kWatchEvery);

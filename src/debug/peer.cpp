@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "debug/program_mark.hpp"
 #include "debug/text.hpp"
 
 namespace vagus::debug {
@@ -113,8 +114,17 @@ void Peer::described() {
         view_.program.reset();  // was made for another node
         watches_.clear();
         out_.tell(view_.id, NodeDescribed{target.name});
+    } else {
+        out_.tell(view_.id, NodeConfirmed{});
     }
+    if (mark_address(view_.target)) read_program({});
     control_.connected(common_.constants);
+}
+
+// What the node told is over from now on.
+Result<RequestId> Peer::load(const aesl::Program& program) {
+    forget_told_program();
+    return control_.load(program);
 }
 
 void Peer::refuse_description() {
@@ -125,6 +135,7 @@ void Peer::refuse_description() {
 
 void Peer::foreign_command(const wire::Frame& frame) {
     if (frame.type == static_cast<uint16_t>(wire::MessageType::SetBytecode)) {
+        forget_told_program();
         with<wire::SetBytecode>(frame, [this](const auto& m) { control_.foreign_bytecode(m); });
     }
     if (frame.type == static_cast<uint16_t>(wire::MessageType::GetNodeDescriptionFragment)) {
@@ -134,11 +145,12 @@ void Peer::foreign_command(const wire::Frame& frame) {
 
 void Peer::leave(const std::string& why) {
     view_.connected = false;
+    forget_told_program();
     out_.descriptions.leave(view_.id);
     const std::string reason = who() + " " + why;
     control_.disconnected(reason);
     for (const Reading& reading : std::exchange(readings_, {})) {
-        if (reading.purpose != Purpose::Get && reading.purpose != Purpose::Confirm) continue;
+        if (reading.request == RequestId{}) continue;
         out_.tell(view_.id, RequestDone{reading.request, Error{Code::Unavailable, reason}, ""});
     }
     for (Watch& watch : watches_) watch.asked = false;

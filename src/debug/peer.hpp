@@ -37,20 +37,23 @@ public:
 
     const NodeView& view() const { return view_; }
     Control& control() { return control_; }
+    Result<RequestId> load(const aesl::Program& program);
     size_t description_bytes() const { return describer_.description().bytes(); }
     // kDescriptionBytesTotalMax is passed: this description is given up.
     void refuse_description();
 
     Result<RequestId> get(const VariableRange& range);
     Result<RequestId> set(const VariableRange& range, std::span<const int16_t> values);
+    void write(const VariableRange& range, std::span<const int16_t> values);
+    Result<RequestId> ask_program();
     Status watch(const VariableRange& range, Duration every);
     void unwatch(std::string_view name);
 
 private:
-    enum class Purpose { Get, Confirm, Watch, Condition };
+    enum class Purpose { Get, Confirm, Watch, Condition, Program };
     struct Reading {
         Purpose purpose = Purpose::Get;
-        RequestId request{};            // Get, Confirm
+        RequestId request{};            // Get, Confirm, Program; 0: nobody asked
         VariableRange range{};          // Get, Watch
         uint32_t condition_number = 0;  // Condition
         size_t variable = 0;            // Condition: which of its variables
@@ -73,6 +76,9 @@ private:
     void arrived(const Reading& reading);
     void failed(const Reading& reading);
     void watched(const Reading& reading);
+    void read_program(RequestId request);
+    void program_told(const Reading& reading);
+    void forget_told_program();
     void read_condition();
     void condition_word(const Reading& reading);
     void tick_readings();

@@ -1,9 +1,11 @@
-// Do two nodes share one id? A host cannot see links; but a node answers ListNodes once, and has
-// one name. Who answers more often than was asked, in two rounds, or has two names within
-// kNamesWithin, is two nodes. One round proves nothing: the answer may belong to a question that
-// another host asked before we listened.
+// Do two nodes share one id? A host cannot see links; but a node has one name, and answers a
+// question once. Who has two names within kNamesWithin is two nodes. Who tells more often that it
+// is there than was asked gives rise to a doubt, no more: it may be slow, and still answer what
+// other hosts asked before we listened. Then it is asked for words of its memory, some that nobody
+// else asks for, twice: who answers each of these questions more than once is two nodes.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <map>
 #include <string>
@@ -16,32 +18,51 @@ namespace vagus::debug {
 constexpr Duration kNamesWithin = std::chrono::milliseconds(1000);
 constexpr Duration kAnswersWithin = std::chrono::milliseconds(1000);  // of a node that is new
 
+// Words of a node's memory to ask for.
+struct Probe {
+    uint16_t start = 0;
+    uint16_t count = 0;  // 0: none
+    friend bool operator==(const Probe&, const Probe&) = default;
+};
+using Probes = std::array<Probe, 2>;
+
 class Presences {
 public:
     // Somebody asked who is there: one more answer of each node is in order.
     void asked(Time now);
-    // True if it is certain now, and was not before.
-    bool answered(NodeId id, Time now);
+    // It said that it is there.
+    void answered(NodeId id, Time now);
     // A header of a description came. The other name if it is certain now, and was not before.
     std::string named(NodeId id, const std::string& name, Time now);
     void forget(NodeId id) { nodes_.erase(id); }
-    // A node answered twice in one round: another would tell more.
-    bool doubtful() const { return doubtful_; }
+
+    // Nodes in doubt are to be asked.
+    bool doubtful() const;
+    bool doubts(NodeId id) const;
+    // What to ask a node in doubt, whose memory has so many words, at least 2; the answers settle
+    // the doubt.
+    Probes settle(NodeId id, uint16_t words, Time now);
+    // Doubts about nodes that could not be asked are over; they come again if there is reason.
+    void drop_doubts();
+    // Words of its memory came. True if it is certain now, and was not before.
+    bool told(NodeId id, const Probe& range);
+    // Some that were asked have not answered yet.
+    bool waits() const;
 
 private:
     struct Presence {
-        int due = 1;         // answers that are in order
-        int surplus = 0;     // rounds with more
-        uint32_t round = 0;  // the last of them
+        int due = 1;  // answers that are in order
+        bool doubted = false;
         bool certain = false;
+        Probes probes = {};
+        std::array<int, 2> answers = {};
         std::string name;
         Time named_at{};
     };
 
     std::map<NodeId, Presence> nodes_;  // of those that are known: at most kNodesMax
     std::deque<Time> questions_;        // the last ones: a node that is new answers them, too
-    uint32_t round_ = 1;
-    bool doubtful_ = false;
+    uint32_t probed_ = 0;
 };
 
 }  // namespace vagus::debug

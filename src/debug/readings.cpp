@@ -2,13 +2,12 @@
 #include <algorithm>
 
 #include "debug/peer.hpp"
+#include "debug/program_mark.hpp"
 
 namespace vagus::debug {
 
 Result<RequestId> Peer::may_read() const {
-    const auto asked = [](const Reading& reading) {
-        return reading.purpose == Purpose::Get || reading.purpose == Purpose::Confirm;
-    };
+    const auto asked = [](const Reading& reading) { return reading.request != RequestId{}; };
     const auto waiting = std::count_if(readings_.begin(), readings_.end(), asked);
     if (static_cast<size_t>(waiting) < kRequestsMax) return out_.new_request();
     return Error{Code::Limit, who() + " has " + std::to_string(kRequestsMax) +
@@ -24,9 +23,7 @@ Result<RequestId> Peer::get(const VariableRange& range) {
     return id;
 }
 
-// The node does not answer SetVariables; reading the same words shows that it got there.
-Result<RequestId> Peer::set(const VariableRange& range, std::span<const int16_t> values) {
-    const RequestId id = TRY(may_read());
+void Peer::write(const VariableRange& range, std::span<const int16_t> values) {
     for (size_t at = 0; at < values.size(); at += wire::kSetVariablesWordsMax) {
         auto write = message_to<wire::SetVariables>(view_.id);
         write.start = static_cast<uint16_t>(range.address + at);
@@ -36,6 +33,12 @@ Result<RequestId> Peer::set(const VariableRange& range, std::span<const int16_t>
                     write.values.values);
         out_.send(write);
     }
+}
+
+// The node does not answer SetVariables; reading the same words shows that it got there.
+Result<RequestId> Peer::set(const VariableRange& range, std::span<const int16_t> values) {
+    const RequestId id = TRY(may_read());
+    write(range, values);
     const auto count = static_cast<uint16_t>(values.size());
     read({.purpose = Purpose::Confirm,
           .request = id,
@@ -86,6 +89,8 @@ void Peer::arrived(const Reading& reading) {
             return watched(reading);
         case Purpose::Condition:
             return condition_word(reading);
+        case Purpose::Program:
+            return program_told(reading);
     }
 }
 
@@ -96,6 +101,9 @@ void Peer::failed(const Reading& reading) {
     switch (reading.purpose) {
         case Purpose::Get:
         case Purpose::Confirm:
+            return out_.tell(view_.id, RequestDone{reading.request, error, ""});
+        case Purpose::Program:
+            if (reading.request == RequestId{}) return;
             return out_.tell(view_.id, RequestDone{reading.request, error, ""});
         case Purpose::Watch:
             for (Watch& watch : watches_) {
@@ -120,6 +128,44 @@ void Peer::watched(const Reading& reading) {
         watch.told = reading.fetch.values();
         out_.tell(view_.id, VariableChanged{watch.range.name, watch.told});
     }
+}
+
+// ---- which program the node runs ----
+
+Result<RequestId> Peer::ask_program() {
+    if (!mark_address(view_.target)) {
+        return Error{Code::NotFound, who() +
+                                         " has no variable \"_program\": it cannot tell which "
+                                         "program it runs; load it again if in doubt"};
+    }
+    const RequestId id = TRY(may_read());
+    read_program(id);
+    return id;
+}
+
+void Peer::read_program(RequestId request) {
+    read({.purpose = Purpose::Program,
+          .request = request,
+          .range = {},
+          .fetch = Fetch(*mark_address(view_.target), 2)});
+}
+
+void Peer::program_told(const Reading& reading) {
+    const auto low = static_cast<uint16_t>(reading.fetch.values()[0]);
+    const auto high = static_cast<uint16_t>(reading.fetch.values()[1]);
+    const uint32_t mark = low | uint32_t{high} << 16;
+    view_.told_program = mark;
+    out_.tell(view_.id, ProgramTold{mark});
+    if (reading.request == RequestId{}) return control_.returned_with(mark);
+    out_.tell(view_.id, RequestDone{reading.request, std::nullopt, ""});
+}
+
+// An answer that is still to come may be of the program before.
+void Peer::forget_told_program() {
+    view_.told_program.reset();
+    std::erase_if(readings_, [](const Reading& reading) {
+        return reading.purpose == Purpose::Program && reading.request == RequestId{};
+    });
 }
 
 // The node stands at a breakpoint with a condition: its variables are read, each once.

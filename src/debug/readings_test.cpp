@@ -86,6 +86,7 @@ TEST_F(Variables, ANodeThatDoesNotAnswerIsAskedThreeTimes) {
     for (int second = 1; second <= 3; second++) {
         EXPECT_EQ(bus.sent(), Dumps{"06 00 00 00 0b a0 01 00 00 00 01 00"});
         EXPECT_TRUE(bus.told<RequestDone>().empty());
+        bus.network.list_nodes();
         bus.node_says("02 00 01 00 0c 90 05 00");
         bus.pass(milliseconds(1000));
     }
@@ -136,6 +137,7 @@ TEST_F(Variables, WatchedOnesArePolledAndToldWhenTheyDiffer) {
 TEST_F(Variables, AWatchGoesOnAfterLostRepliesAndAbsence) {
     ASSERT_TRUE(bus.network.watch(1, bus.network.variable(1, "source").value()).ok());
     for (int second = 0; second < 3; second++) {
+        bus.network.list_nodes();
         bus.node_says("02 00 01 00 0c 90 05 00");
         bus.pass(milliseconds(1000));
     }

@@ -47,6 +47,17 @@ public:
         --frames_;
         if (frames_ == 0) reclaim();
     }
+    // Takes out what `goes` says of the encoded frame; how many there were.
+    template <typename Goes>
+    size_t erase_if(Goes goes) {
+        FrameLane kept;
+        const size_t before = frames_;
+        for (; !empty(); drop_front()) {
+            if (!goes(front())) kept.push(turn(), front());
+        }
+        *this = std::move(kept);
+        return before - frames_;
+    }
     bool empty() const { return frames_ == 0; }
     size_t frames() const { return frames_; }
     size_t bytes() const { return bytes_; }  // of the frames

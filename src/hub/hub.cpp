@@ -49,6 +49,7 @@ struct Hub::NodeOrder {
 void Hub::receive(LinkId from, const wire::Frame& frame) {
     Link& link = get(from);
     ++link.frames_received;
+    if (link.allowed && !link.allowed->contains(frame.type)) return;
     const std::optional<Remap>& remap = link.options.remap;
     if (remap && frame.source == remap->target) {
         wire::Frame renamed = frame;
@@ -159,6 +160,10 @@ void Hub::note_shared_id(const Link& link, uint16_t node) {
         if (!told_shared_.emplace(node, first, second).second) continue;
         shared_ids_.push_back({node, other->options.name, link.options.name});
     }
+}
+
+void Hub::allow_only(LinkId link, std::set<uint16_t> types) {
+    get(link).allowed = std::move(types);
 }
 
 std::vector<LinkId> Hub::take_reached() {

@@ -93,6 +93,9 @@ public:
     // order. So whoever has many such nodes need not ask each.
     std::vector<LinkId> take_reached();
 
+    // From now on only frames of these types are taken from the link; the others are lost.
+    void allow_only(LinkId link, std::set<uint16_t> types);
+
     // Routes a frame that came in on `from`.
     void receive(LinkId from, const wire::Frame& frame);
 
@@ -123,6 +126,7 @@ private:
         uint64_t frames_queued = 0;
         bool is_reached = false;  // it stands in reached_
         std::set<uint16_t> nodes;
+        std::optional<std::set<uint16_t>> allowed;  // types of frames; without: all
         uint16_t last_node = wire::kHostId;  // spares the set a search while one node speaks on
     };
 

@@ -49,6 +49,21 @@ TEST(Hub, GivesAFrameToAllButItsSender) {
     }
 }
 
+// Of a link whose words count no longer, but for some.
+TEST(Hub, TakesOnlyTheTypesThatAreAllowed) {
+    Hub hub;
+    const LinkId a = add(hub), b = add(hub);
+    hub.allow_only(a, {frame_of(kEvent).type});
+    for (const Hex& each : {kRunNode1, kListNodes}) {
+        hub.receive(a, frame_of(each));
+        EXPECT_EQ(received(hub, b), Hex{});
+    }
+    hub.receive(a, frame_of(kEvent));
+    EXPECT_EQ(received(hub, b), kEvent);
+    hub.receive(b, frame_of(kRunNode1));  // others are heard as before
+    EXPECT_EQ(received(hub, a), kRunNode1);
+}
+
 TEST(Hub, EchoesToTheSenderIfAsked) {
     Hub hub;
     const LinkId a = add(hub, {.name = "a", .echo = true}), b = add(hub);

@@ -20,11 +20,65 @@ bool is_event(std::span<const uint8_t> encoded) {
            type == static_cast<uint16_t>(wire::MessageType::EventExecutionKilled);
 }
 
+// Commands begin with the node that they are for.
+uint16_t node_of(std::span<const uint8_t> encoded) {
+    return encoded.size() < wire::kHeaderSize + 2 ? wire::kInvalidId
+                                                  : word_at(encoded.data() + wire::kHeaderSize);
+}
+
+// Changes what the node does, or what it will do.
+bool acts(uint16_t type) {
+    switch (static_cast<wire::MessageType>(type)) {
+        case wire::MessageType::SetBytecode:
+        case wire::MessageType::Reset:
+        case wire::MessageType::Run:
+        case wire::MessageType::Step:
+            return true;
+        default:
+            return false;
+    }
+}
+
 }  // namespace
+
+bool OutputQueue::push_urgent(std::span<const uint8_t> encoded) {
+    const uint16_t type = word_at(encoded.data() + 4);
+    if (!wire::is_command(type)) return false;
+    const uint16_t node = node_of(encoded);
+    if (type == static_cast<uint16_t>(wire::MessageType::Stop)) {
+        push_stop(node, encoded);
+        return true;
+    }
+    if (!stopping_.contains(node)) return false;
+    if (acts(type)) {
+        stopping_.erase(node);
+        return false;
+    }
+    if (urgent_.bytes() + encoded.size() > kUrgentBytesMax) return false;
+    urgent_.push(turn_++, encoded);
+    return true;
+}
+
+// One Stop is enough until something follows that lets the node act.
+void OutputQueue::push_stop(uint16_t node, std::span<const uint8_t> encoded) {
+    if (stopping_.contains(node)) return;
+    const auto set = static_cast<uint16_t>(wire::MessageType::SetVariables);
+    dropped_.messages += messages_.erase_if([&](std::span<const uint8_t> waits) {
+        const uint16_t type = word_at(waits.data() + 4);
+        return wire::is_command(type) && node_of(waits) == node && (acts(type) || type == set);
+    });
+    if (urgent_.bytes() + encoded.size() > kUrgentBytesMax) {
+        ++dropped_.messages;
+        return;
+    }
+    urgent_.push(turn_++, encoded);
+    stopping_.insert(node);
+}
 
 // Where few events wait, dropping frees little. An event is not worth that; a command or a reply
 // is, and the next one then finds no events and is turned away at once.
 void OutputQueue::push(std::span<const uint8_t> encoded) {
+    if (push_urgent(encoded)) return;
     const bool event = is_event(encoded);
     if (!fits(encoded.size()) && !make_room(encoded.size(), event ? kDropFramesMin : 1)) {
         ++(event ? dropped_.events : dropped_.messages);
@@ -35,6 +89,7 @@ void OutputQueue::push(std::span<const uint8_t> encoded) {
 
 // The lane whose oldest frame leaves next; one of them is not empty.
 FrameLane& OutputQueue::next() {
+    if (!urgent_.empty()) return urgent_;
     if (messages_.empty()) return events_;
     if (events_.empty() || events_.frames() > kEventsAhead) return messages_;
     // Turns wrap: what counts is which is behind the other.
@@ -42,15 +97,20 @@ FrameLane& OutputQueue::next() {
     return ahead < 0 ? messages_ : events_;
 }
 
+void OutputQueue::drop_front(FrameLane& lane) {
+    lane.drop_front();
+    if (urgent_.empty()) stopping_.clear();
+}
+
 std::span<const uint8_t> OutputQueue::batch() {
     if (sent_ == batch_.size()) {
         batch_.clear();
         sent_ = batch_whole_ = batch_frames_ = 0;
-        while (batch_.size() < kBatchBytes && events_.frames() + messages_.frames() > 0) {
+        while (batch_.size() < kBatchBytes && waiting() > 0) {
             FrameLane& lane = next();
             const std::span<const uint8_t> frame = lane.front();
             batch_.insert(batch_.end(), frame.begin(), frame.end());
-            lane.drop_front();
+            drop_front(lane);
             ++batch_frames_;
         }
     }
@@ -77,7 +137,7 @@ bool OutputQueue::pop(wire::Frame& frame) {
     frame.source = word_at(bytes.data() + 2);
     frame.type = word_at(bytes.data() + 4);
     std::memcpy(frame.payload, bytes.data() + wire::kHeaderSize, frame.size);
-    lane.drop_front();
+    drop_front(lane);
     return true;
 }
 

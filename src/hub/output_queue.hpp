@@ -7,6 +7,11 @@
 // in the order in which they came. The notice that an event was killed counts as an event here: it
 // comes as often as they do.
 //
+// Stop passes everything, and a full queue has room for it
+// (docs/decisions/0056-stop-passes-everything.md). What waits for the same node and would act there
+// is dropped, since it is older than Stop; what comes behind, as the writes that make a node safe,
+// follows it at once, until the next command that lets the node act.
+//
 // Frames are copied in. A frame has at most 522 bytes, and copying them costs less than counting
 // references to a shared one and naming it to the kernel piece by piece
 // (docs/decisions/0051-frames-are-copied-into-queues.md).
@@ -14,6 +19,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -32,6 +38,8 @@ constexpr size_t kDropFramesAtOnce = kQueueFramesMax / 8;
 constexpr size_t kDropFramesMin = 64;
 // While more events wait, messages pass them.
 constexpr size_t kEventsAhead = 64;
+// Stop, and what follows it, beyond all else.
+constexpr size_t kUrgentBytesMax = 64 * 1024;
 // What is handed to the kernel at once ends with the frame that reaches this size; nothing can pass
 // it any more. On a serial line of 115,200 baud it takes 0.35 s.
 constexpr size_t kBatchBytes = 4096;
@@ -57,19 +65,28 @@ public:
     bool pop(wire::Frame& frame);
 
     bool empty() const { return bytes() == 0; }
-    size_t bytes() const { return events_.bytes() + messages_.bytes() + batch_.size() - sent_; }
+    size_t bytes() const {
+        return events_.bytes() + messages_.bytes() + urgent_.bytes() + batch_.size() - sent_;
+    }
     // A frame of which a part has left counts.
-    size_t frames() const { return events_.frames() + messages_.frames() + batch_frames_; }
+    size_t frames() const { return waiting() + batch_frames_; }
     const Dropped& dropped() const { return dropped_; }
 
 private:
+    size_t waiting() const { return events_.frames() + messages_.frames() + urgent_.frames(); }
+    // True: it is Stop, or follows one, and is in its lane or not needed.
+    bool push_urgent(std::span<const uint8_t> encoded);
+    void push_stop(uint16_t node, std::span<const uint8_t> encoded);
     bool fits(size_t size) const;
     bool make_room(size_t size, size_t events_needed);
     void drop_oldest_events();
     FrameLane& next();
+    void drop_front(FrameLane& lane);
 
     FrameLane events_;
     FrameLane messages_;
+    FrameLane urgent_;
+    std::set<uint16_t> stopping_;  // nodes whose commands follow a Stop that waits
     uint32_t turn_ = 0;
     std::vector<uint8_t> batch_;
     size_t sent_ = 0;          // of the batch

@@ -111,6 +111,82 @@ TEST(OutputQueue, CommandsAndRepliesOutliveEventsAndKeepTheirOrder) {
     EXPECT_EQ(replies, expected);
 }
 
+// ---- Stop passes everything ----
+
+using Type = wire::MessageType;
+
+// A command to a node; `number` in the place of the source tells it again.
+std::vector<uint8_t> command(Type type, uint16_t node, uint16_t number) {
+    wire::Frame frame{};
+    frame.source = number;
+    frame.type = static_cast<uint16_t>(type);
+    frame.size = 4;
+    frame.payload[0] = static_cast<uint8_t>(node & 0xff);
+    frame.payload[1] = static_cast<uint8_t>(node >> 8);
+    std::vector<uint8_t> bytes(wire::kFrameMax);
+    bytes.resize(wire::encode(frame, bytes.data()));
+    return bytes;
+}
+
+TEST(OutputQueue, StopAndWhatMakesANodeSafePassAll) {
+    OutputQueue queue;
+    queue.push(frame(kEvent, 1));
+    queue.push(frame(kReply, 2));
+    queue.push(command(Type::GetVariables, 9, 3));
+    queue.push(command(Type::Stop, 9, 4));
+    queue.push(command(Type::Run, 8, 5));
+    queue.push(command(Type::SetVariables, 9, 6));
+    queue.push(command(Type::GetVariables, 9, 7));
+    EXPECT_EQ(sources(queue), (std::vector<uint16_t>{4, 6, 7, 1, 2, 3, 5}));
+    EXPECT_EQ(queue.dropped(), Dropped{});
+}
+
+TEST(OutputQueue, WhatWouldActOnANodeIsDroppedByAStopThatIsNewer) {
+    OutputQueue queue;
+    const Type acts[] = {Type::SetBytecode, Type::Reset, Type::Run, Type::Step, Type::SetVariables};
+    for (const Type type : acts) queue.push(command(type, 9, 1));
+    queue.push(command(Type::Run, 8, 2));
+    queue.push(command(Type::Stop, 9, 3));
+    EXPECT_EQ(sources(queue), (std::vector<uint16_t>{3, 2}));
+    EXPECT_EQ(queue.dropped(), (Dropped{0, 5}));
+}
+
+TEST(OutputQueue, WhatIsAskedAfterStopStaysBehindIt) {
+    OutputQueue queue;
+    queue.push(command(Type::Stop, 9, 1));
+    queue.push(command(Type::Run, 9, 2));
+    queue.push(command(Type::SetVariables, 9, 3));  // for the program that runs again
+    EXPECT_EQ(sources(queue), (std::vector<uint16_t>{1, 2, 3}));
+    queue.push(command(Type::Stop, 9, 1));
+    queue.push(command(Type::Run, 9, 2));
+    queue.push(command(Type::Stop, 9, 3));
+    EXPECT_EQ(sources(queue).back(), 3);
+}
+
+TEST(OutputQueue, AFullQueueHasRoomForStop) {
+    OutputQueue queue;
+    fill(queue, kReply);
+    queue.push(command(Type::Stop, 9, 1));
+    queue.push(command(Type::SetVariables, 9, 2));
+    wire::Frame out;
+    ASSERT_TRUE(queue.pop(out));
+    EXPECT_EQ(out.type, static_cast<uint16_t>(Type::Stop));
+    ASSERT_TRUE(queue.pop(out));
+    EXPECT_EQ(out.type, static_cast<uint16_t>(Type::SetVariables));
+}
+
+// Nobody makes it grow by saying Stop again and again, to one node or to many.
+TEST(OutputQueue, ManyStopsTakeBoundedRoom) {
+    OutputQueue queue;
+    for (int i = 0; i < 1000; ++i) queue.push(command(Type::Stop, 9, 1));
+    EXPECT_EQ(queue.frames(), 1u);
+    for (uint32_t node = 0; node < 0x10000; ++node) {
+        queue.push(command(Type::Stop, static_cast<uint16_t>(node), 1));
+    }
+    EXPECT_LE(queue.bytes(), kUrgentBytesMax);
+    EXPECT_GT(queue.dropped().messages, 0u);
+}
+
 TEST(OutputQueue, WithoutEventsToDropTheNewcomerGoes) {
     OutputQueue queue;
     fill(queue, kReply);

@@ -43,12 +43,12 @@ void on_end(int signal_number) {
     errno = before;
 }
 
+}  // namespace
+
 bool is_ignored(int signal_number) {
     struct sigaction now = {};
     return ::sigaction(signal_number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
-
-}  // namespace
 
 void die_by(int signal_number) {
     ::signal(signal_number, SIG_DFL);
@@ -77,6 +77,13 @@ void watch_for_end(EndBy by) {
 
 bool end_asked() {
     return g_end_signal != 0;
+}
+
+std::string end_asked_by() {
+    const int by = g_end_signal;
+    if (by == SIGINT) return "SIGINT";
+    if (by == SIGTERM) return "SIGTERM";
+    return by == SIGHUP ? "SIGHUP" : "";
 }
 
 int end_as_asked(int exit_code) {

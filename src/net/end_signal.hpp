@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <thread>
 
 namespace vagus::net {
@@ -16,6 +17,8 @@ namespace vagus::net {
 enum class EndBy { AnySignal, AnyButCtrlC };
 void watch_for_end(EndBy by = EndBy::AnySignal);
 bool end_asked();
+// The name of the signal that asked: "SIGTERM"; empty if none did.
+std::string end_asked_by();
 // Ends the process by the signal that asked for its end, so that a shell script around it stops
 // too; returns `exit_code` if none did.
 int end_as_asked(int exit_code);
@@ -23,6 +26,8 @@ int end_as_asked(int exit_code);
 // nothing. Only calls that are allowed there.
 void before_sudden_end(void (*last_act)());
 
+// Without effect on this process, as SIGHUP under nohup.
+bool is_ignored(int signal_number);
 // Ends the process as the signal does by default; returns if it was only stopped. For handlers.
 void die_by(int signal_number);
 

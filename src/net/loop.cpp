@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "net/end_signal.hpp"
+
 namespace vagus::net {
 
 namespace {
@@ -279,6 +281,7 @@ Status Network::Loop::watch_signals() {
     SystemError error;
     signals_.add(SIGINT, error);
     if (!error) signals_.add(SIGTERM, error);
+    if (!error && !is_ignored(SIGHUP)) signals_.add(SIGHUP, error);
     if (error) return Error{Code::Unavailable, "signals cannot be watched: " + error.message()};
     wait_signal();
     return Status::done();

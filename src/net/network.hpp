@@ -59,7 +59,7 @@ enum class EventKind {
     Closed,    // `link` is gone from the hub, `what` says why
     Failed,    // a connection could not be made or accepted; said once an outage
     Readable,  // a descriptor given to watch_input()
-    Signal,    // SIGINT or SIGTERM, after watch_signals()
+    Signal,    // SIGINT, SIGTERM or SIGHUP, after watch_signals()
     Skipped,   // bytes of a serial line were no frame; said once they are over, once a second
 };
 
@@ -118,7 +118,8 @@ public:
     // Stops listening or connecting, and closes the links that came of it.
     void close(PlaceId place);
 
-    // From now on poll() tells of SIGINT and SIGTERM, which then do not end the process.
+    // From now on poll() tells of SIGINT, SIGTERM and SIGHUP (the terminal is gone), which then do
+    // not end the process. Under nohup SIGHUP stays without effect.
     Status watch_signals();
     // From now on poll() tells when there is something to read (or the end), once for each poll().
     // For standard input; a regular file cannot be watched.

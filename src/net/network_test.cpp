@@ -422,6 +422,9 @@ TEST(Network, TellsOfSignalsAndOfInput) {
     ::raise(SIGTERM);
     ASSERT_TRUE(net.until([&] { return net.count(EventKind::Signal) == 1; }));
     EXPECT_EQ(net.events[0].number, SIGTERM);
+    ::raise(SIGHUP);  // the terminal is gone
+    ASSERT_TRUE(net.until([&] { return net.count(EventKind::Signal) == 2; }));
+    EXPECT_EQ(net.events[1].number, SIGHUP);
 
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);

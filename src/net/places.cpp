@@ -46,14 +46,14 @@ std::string name_of(const Tcp::endpoint& endpoint) {
 }
 
 Error cannot_listen(const Target& target, const SystemError& error) {
-    std::string mend;
+    std::string fix;
     if (error == asio::error::address_in_use) {
-        mend = "; end the program that uses it, or choose another port (0 takes a free one)";
+        fix = "; end the program that uses it, or choose another port (0 takes a free one)";
     } else if (error == asio::error::access_denied) {
-        mend = "; choose a port from 1024 up";
+        fix = "; choose a port from 1024 up";
     }
     return Error{Code::Unavailable,
-                 to_string(target) + ": cannot listen: " + error.message() + mend};
+                 to_string(target) + ": cannot listen: " + error.message() + fix};
 }
 
 }  // namespace

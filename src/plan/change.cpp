@@ -9,8 +9,8 @@ namespace vagus::plan {
 namespace {
 
 constexpr std::string_view kWait =
-    "put it back, or save again when the run has gone on, or stop the run and start it anew";
-constexpr std::string_view kOrAnew = "or stop the run and start it anew";
+    "put it back, or save again when the run has gone on, or stop the run and start it again";
+constexpr std::string_view kOrAnew = "or stop the run and start it again";
 
 std::string_view name_of(Access access) {
     switch (access) {

@@ -25,7 +25,7 @@ struct Finding {
     std::string plan;     // the plan's name
     std::string element;  // innermost actor, supervisor or variable; may be empty
     int line = 0;
-    std::string message;  // one sentence: what is wrong, what was expected, how to mend it
+    std::string message;  // one sentence: what is wrong, what was expected, how to fix it
     int column = 0;       // from 1, in code points; 0: not known
     std::optional<Meant> meant = {};
 };

@@ -270,6 +270,15 @@ void Machine::abort(Time now) {
     interrupt(0, After{}, now);
 }
 
+void Machine::fail_run(std::string_view cause, Time now) {
+    if (over_ || levels_.empty() || stopping_from_ == 0) return;
+    const GraphActor* const active = at(0).active;
+    const std::string_view element = active ? std::string_view(active->name) : "";
+    After after{.failed = true, .message = sentence(0, element, cause)};
+    trace(0, now, ErrorFound{element, after.message});
+    interrupt(0, std::move(after), now);
+}
+
 void Machine::log(ActivationId activation, std::string text, Time now) {
     const int level = level_of(activation);
     if (level < 0) return;

@@ -125,6 +125,9 @@ public:
     void stopped(ActivationId activation, Time now);
     void overstayed(ActivationId activation, Time now);
     void abort(Time now);
+    // The run cannot go on for a reason outside of it: like an abort, but with the result Error. A
+    // run that is being aborted stays so.
+    void fail_run(std::string_view cause, Time now);
     // A line for the log, from the code of the activation.
     void log(ActivationId activation, std::string text, Time now);
     void late(WatchId watch, Duration by, Time now);

@@ -21,7 +21,7 @@ std::vector<std::string> Machine::reasons_against(const NewVersion& next) const 
     if (changes_.size() >= kChangesMax) {
         return {
             fmt::format("this run has taken {} new versions, the most there can be; stop it "
-                        "and start it anew",
+                        "and start it again",
                         kChangesMax)};
     }
     std::vector<std::string> reasons;

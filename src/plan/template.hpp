@@ -49,6 +49,7 @@ struct BusUse {
     std::vector<std::string> events = {};              // sent or waited for
     std::vector<std::string> starts = {};              // those of them that begin work on a node
     std::vector<std::vector<std::string>> nodes = {};  // that do it: one of each list, by name
+    std::vector<std::string> stops = {};               // those that end it there
 };
 
 struct Template {

@@ -38,6 +38,9 @@ struct RunOptions {
     // Whether the bus can carry it; the Error is the failure of the code that emits it. Called on
     // the thread of that code. What supervisors emit as they stop goes out in any case.
     std::function<Status(const BusEvent&)> may_emit = {};
+    // How long the computer has slept so far. A run in real time that works on a bus ends when that
+    // grows, as if it were stopped. Empty: by its clocks; a run that emits nothing does not ask.
+    std::function<Duration()> slept = {};
     // In virtual time: what shares the run's clock (surroundings.hpp). Borrowed for the run.
     Surroundings* surroundings = nullptr;
     Debugger* debugger = nullptr;  // borrowed for the run
@@ -48,7 +51,7 @@ void throw_if_refused(const RunOptions& options, const BusEvent& event);
 
 struct Ended {
     plan::PlanResult result = plan::PlanResult::Ok;
-    std::string message;     // of an error
+    std::string message;     // of an error, or why the run was interrupted
     bool timed_out = false;  // max_time came, or nothing could ever fall due
 };
 

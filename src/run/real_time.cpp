@@ -20,7 +20,8 @@ public:
           options_(options),
           machine_(graph),
           random_(options.seed),
-          numbers_(options.first_token) {}
+          numbers_(options.first_token),
+          sleep_(options) {}
 
     Ended run();
     Lateness lateness() const;
@@ -53,6 +54,7 @@ private:
     void take(Heard& message);
     void take(Written& message);
     void take(Aborted&) { machine_.abort(now()); }
+    void take(RunFailed& message) { machine_.fail_run(message.why, now()); }
     void take(TokensMoved& message) { numbers_.move_to(message.token); }
 
     void start_due_checks();
@@ -91,6 +93,7 @@ private:
     plan::Machine machine_;
     SplitMix64 random_;
     Numbers numbers_;
+    SleepWatch sleep_;
     const std::shared_ptr<Doors> doors_ = std::make_shared<Doors>();
     Inbox& inbox_ = doors_->inbox;
     RunClock& clock_ = doors_->clock;
@@ -136,6 +139,7 @@ Ended RealTime::Engine::decide() {
             inbox_.wait_until(next ? std::optional(clock_.point_of(*next)) : std::nullopt);
             taken_ = inbox_.take();
         }
+        if (!machine_.over() && sleep_.has_slept()) machine_.abort(now());
         while (!taken_.empty()) {
             Posted first = std::move(taken_.front());
             taken_.pop_front();
@@ -147,7 +151,8 @@ Ended RealTime::Engine::decide() {
         obey();
     }
     finish();
-    return {machine_.result(), machine_.message(), timed_out_};
+    const bool failed = !machine_.message().empty();
+    return {machine_.result(), failed ? machine_.message() : sleep_.sentence(), timed_out_};
 }
 
 // Nothing of the run may outlive it: what still runs is told to stop and waited for; a check only
@@ -525,10 +530,7 @@ std::optional<Time> RealTime::Engine::next_deadline() const {
 
 void RealTime::Engine::note_lateness(Duration late) {
     const auto us = static_cast<uint32_t>(std::clamp<int64_t>(late.count(), 0, UINT32_MAX));
-    if (lateness_us_.size() < kLatenessSamples) {
-        lateness_us_.push_back(us);
-        return;
-    }
+    if (lateness_us_.size() < kLatenessSamples) return lateness_us_.push_back(us);
     lateness_us_[lateness_next_] = us;
     lateness_next_ = (lateness_next_ + 1) % kLatenessSamples;
 }
@@ -576,6 +578,10 @@ Lateness RealTime::lateness() const {
 
 void RealTime::abort() {
     engine_->inbox().post(Aborted{});
+}
+
+void RealTime::fail(std::string why) {
+    engine_->inbox().post(RunFailed{std::move(why)});
 }
 
 void RealTime::set(int slot, plan::Value value) {

@@ -47,6 +47,8 @@ public:
 
     // ---- from any thread, at any time ----
     void abort();
+    // Ends the run as abort() does, but with the result Error; `why` is a sentence.
+    void fail(std::string why);
     // Writes a variable of the outermost plan (P29); the Error comes back through `done` or is
     // dropped where nobody asks.
     void set(int slot, plan::Value value);

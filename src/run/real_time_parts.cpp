@@ -1,5 +1,7 @@
 #include "run/real_time_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace vagus::run {
@@ -7,6 +9,8 @@ namespace vagus::run {
 namespace {
 
 constexpr Duration kFar = std::chrono::hours(24 * 365);  // longer waits are this long
+// Two clocks are not read at the same moment; no computer sleeps shorter.
+constexpr Duration kSleepMin = std::chrono::milliseconds(200);
 
 }  // namespace
 
@@ -36,6 +40,26 @@ Time RunClock::now() const {
 SteadyClock::time_point RunClock::point_of(Time time) const {
     const std::lock_guard lock(mutex_);
     return start_ + std::min<Time>(time, 100 * kFar);
+}
+
+// ---- sleep ----
+
+SleepWatch::SleepWatch(const RunOptions& options) : slept_(options.slept) {
+    if (!slept_ && options.on_emit) slept_ = slept_by_clocks;
+    if (slept_) before_ = slept_();
+}
+
+bool SleepWatch::has_slept() {
+    if (!slept_) return false;
+    const Duration slept = slept_();
+    const Duration more = slept - before_;
+    if (more < kSleepMin) return false;
+    before_ = slept;
+    sentence_ = fmt::format(
+        "the computer slept for {:.1f} s, and nobody watched the robot meanwhile; the plan has "
+        "ended; look at the robot, then start the plan again",
+        std::chrono::duration<double>(more).count());
+    return true;
 }
 
 // ---- the inbox ----

@@ -2,9 +2,12 @@
 // and what an actor's code waits on. Only real_time.cpp includes this.
 #pragma once
 
+#include <time.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -40,6 +43,34 @@ private:
     std::optional<Time> halted_at_ = {};  // the time at which it stands
 };
 
+inline Duration read_clock(clockid_t clock) {
+    timespec time{};
+    ::clock_gettime(clock, &time);
+    return std::chrono::seconds(time.tv_sec) + std::chrono::microseconds(time.tv_nsec / 1000);
+}
+
+// Since the computer was started: the one clock goes on while it sleeps, the other does not.
+inline Duration slept_by_clocks() {
+    const Duration awake = read_clock(CLOCK_MONOTONIC);
+    return read_clock(CLOCK_BOOTTIME) - awake;
+}
+
+// Notices that the computer has slept. A plan that wakes does not know what its robot has done
+// meanwhile, and may not go on as if nothing had been.
+class SleepWatch {
+public:
+    explicit SleepWatch(const RunOptions& options);
+    // Has it slept since this was last asked?
+    bool has_slept();
+    // How long, as a sentence; empty if it never has.
+    const std::string& sentence() const { return sentence_; }
+
+private:
+    std::function<Duration()> slept_;  // empty: nobody asks
+    Duration before_{};
+    std::string sentence_;
+};
+
 // ---- what other threads tell the deciding one ----
 
 struct CodeOver {  // run() has returned or thrown
@@ -68,10 +99,14 @@ struct Written {
     plan::Value value;
 };
 struct Aborted {};
+struct RunFailed {  // see Machine::fail_run()
+    std::string why;
+};
 struct TokensMoved {  // see Numbers::move_to()
     uint16_t token;
 };
-using Message = std::variant<CodeOver, Checked, Logged, Heard, Written, Aborted, TokensMoved>;
+using Message =
+    std::variant<CodeOver, Checked, Logged, Heard, Written, Aborted, RunFailed, TokensMoved>;
 
 // Numbers tell in which order messages came, also those that were held meanwhile.
 struct Posted {

@@ -218,5 +218,61 @@ TEST_F(RealTimeChecks, NoTwoChecksOfOneSupervisorRunAtOnce) {
     EXPECT_EQ(hanging_->stopped_beside_a_check, 0);
 }
 
+// ---- a computer that sleeps ----
+
+constexpr std::string_view kEndless = R"({ "format": "vagus-plan/1", "name": "P",
+  "start": { "actor": "a", "supervisors": { "beats": { "template": "Beats",
+                                                       "events": { "Seen": "@ignore" } } } },
+  "actors": { "a": { "template": "UntilItHangs", "states": { "Done": "@terminate" } } } })";
+
+TEST_F(RealTimeChecks, AComputerThatSleptEndsThePlanWhenItWakes) {
+    Duration slept = 5s;  // before the run: that is no matter
+    options_.slept = [&slept] { return slept; };
+    options_.on_trace = [this, &slept, note = options_.on_trace](const plan::TraceEvent& event) {
+        note(event);
+        if (test_line(event) == "actor-start a") slept += 12300ms;
+    };
+    const Ended ended = run(std::string(kEndless));
+    EXPECT_EQ(ended.result, plan::PlanResult::Interrupted);
+    EXPECT_THAT(ended.message, testing::HasSubstr("the computer slept for 12.3 s"));
+    EXPECT_EQ(lines_.back(), "plan-end");
+}
+
+// What it works on is lost: told from outside, on whatever thread.
+TEST_F(RealTimeChecks, ARunThatIsToldThatItCannotGoOnStopsItsCodeAndEndsWithAnError) {
+    RealTime* running = nullptr;
+    bool told = false;
+    library_.add("more", "", {test_actor("Endless", [&](ActorContext& context) {
+                     running->fail("the robot is lost");
+                     try {
+                         context.sleep(1h);
+                     } catch (const Stop&) {
+                         told = true;
+                         throw;
+                     }
+                 })});
+    const plan::Graph graph = test_graph(R"({ "format": "vagus-plan/1", "name": "P",
+        "toolboxes": ["more"], "start": { "actor": "a" },
+        "actors": { "a": { "template": "Endless", "states": { "Done": "@terminate" } } } })",
+                                         library_);
+    RealTime run(graph, library_, options_);
+    running = &run;
+    const Ended ended = run.run();
+    EXPECT_EQ(ended.result, plan::PlanResult::Error);
+    EXPECT_EQ(ended.message, "P: a: the robot is lost");
+    EXPECT_TRUE(told);
+    EXPECT_THAT(lines_, testing::ElementsAre("plan-start", "actor-start a", "error a",
+                                             "interrupted a", "plan-end"));
+}
+
+// The two clocks are not read at the same moment.
+TEST_F(RealTimeChecks, ClocksThatDifferALittleAreNoSleep) {
+    options_.max_time = 50ms;
+    options_.slept = [by = 0ms]() mutable { return by = by == 0ms ? 100ms : 0ms; };
+    const Ended ended = run(std::string(kEndless));
+    EXPECT_TRUE(ended.timed_out);
+    EXPECT_EQ(ended.message, "");
+}
+
 }  // namespace
 }  // namespace vagus::run

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <mutex>
 
 namespace vagus::serve {
 
@@ -40,13 +41,31 @@ Result<std::string> token_in(std::string_view text, const std::string& file) {
                      "delete the file to have one made"};
 }
 
+struct Access::Tokens {
+    std::mutex mutex;
+    std::string drive;
+    std::optional<std::string> look;
+};
+
+Access::Access(std::string drive, std::optional<std::string> look)
+    : tokens_(std::make_shared<Tokens>()) {
+    tokens_->drive = std::move(drive);
+    tokens_->look = std::move(look);
+}
+
+void Access::renew(std::string drive) const {
+    const std::lock_guard lock(tokens_->mutex);
+    tokens_->drive = std::move(drive);
+}
+
 Access::Grade Access::grade(std::string_view token) const {
-    const bool drive = same(token, drive_);
-    const bool look = look_ && same(token, *look_);
+    const std::lock_guard lock(tokens_->mutex);
+    const bool drive = same(token, tokens_->drive);
+    const bool look = tokens_->look && same(token, *tokens_->look);
     return drive ? Grade::Drive : look ? Grade::Look : Grade::Refused;
 }
 
-Time Access::wrong(const std::string& address, Time now) {
+Time WrongTokens::wrong(const std::string& address, Time now) {
     if (wrong_.size() >= kWrongAddressesMax && !wrong_.contains(address)) {
         wrong_.erase(wrong_.begin());
     }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,18 +25,12 @@ std::string token_of(const std::array<uint8_t, 16>& random);
 // The first line of a token file: 16 to 200 letters, digits, "-" or "_".
 Result<std::string> token_in(std::string_view text, const std::string& file);
 
-class Access {
+// Wrong tokens, and when each is answered. The first one at once, since people mistype; then each
+// waits for those before it from the same address, longer each time. Nobody with a right one waits
+// for them: behind one address there may be many people, and 128 random bits are not guessed
+// however fast somebody asks.
+class WrongTokens {
 public:
-    Access(std::string drive, std::optional<std::string> look)
-        : drive_(std::move(drive)), look_(std::move(look)) {}
-
-    enum class Grade { Refused, Look, Drive };
-    Grade grade(std::string_view token) const;
-
-    // A wrong token: when it is answered. The first one at once, since people mistype; then each
-    // waits for those before it from the same address, longer each time. Nobody with a right one
-    // waits for them: behind one address there may be many people, and 128 random bits are not
-    // guessed however fast somebody asks.
     Time wrong(const std::string& address, Time now);
     void right(const std::string& address) { wrong_.erase(address); }
 
@@ -44,9 +39,26 @@ private:
         Duration wait{};
         Time until{};
     };
-    std::string drive_;
-    std::optional<std::string> look_;
     std::map<std::string, Wrong> wrong_;
+};
+
+// Copies know the same tokens, also after renew(), and may be asked on other threads.
+class Access {
+public:
+    Access(std::string drive, std::optional<std::string> look);
+
+    enum class Grade { Refused, Look, Drive };
+    Grade grade(std::string_view token) const;
+    // Another token of those who drive, from now on.
+    void renew(std::string drive) const;
+
+    Time wrong(const std::string& address, Time now) { return wrong_.wrong(address, now); }
+    void right(const std::string& address) { wrong_.right(address); }
+
+private:
+    struct Tokens;
+    std::shared_ptr<Tokens> tokens_;  // owners: all copies
+    WrongTokens wrong_;
 };
 
 }  // namespace vagus::serve

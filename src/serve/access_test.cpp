@@ -25,6 +25,15 @@ TEST(Access, TwoTokensTwoGrades) {
     }
 }
 
+TEST(Access, ANewTokenCountsForAllCopies) {
+    const Access access("drive-drive-drive", "look-look-look-look");
+    const Access copy = access;
+    access.renew("other-other-other");
+    EXPECT_EQ(copy.grade("other-other-other"), Access::Grade::Drive);
+    EXPECT_EQ(copy.grade("drive-drive-drive"), Access::Grade::Refused);
+    EXPECT_EQ(copy.grade("look-look-look-look"), Access::Grade::Look);
+}
+
 TEST(Access, WrongTokensWaitTwiceAsLongEachTime) {
     Access access("drive-drive-drive", std::nullopt);
     EXPECT_EQ(access.wrong("a", 1s), 1s);

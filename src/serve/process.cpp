@@ -275,16 +275,19 @@ Printing& Printing::operator=(Printing&& other) noexcept {
     return *this;
 }
 
+// Asks for the end first: what it prints until then is there to be read.
 bool Printing::read() {
+    if (process_ < 0) return true;
+    const bool ended = waitpid(process_, nullptr, WNOHANG) == process_;
     char buffer[4096];
-    while (process_ >= 0 && text_.size() < kPrintedBytesMax) {
+    while (text_.size() < kPrintedBytesMax) {
         const ssize_t got = ::read(output_, buffer, sizeof buffer);
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) break;
         text_.append(buffer, static_cast<size_t>(got));
     }
-    if (process_ >= 0 && waitpid(process_, nullptr, WNOHANG) == process_) process_ = -1;
-    return process_ < 0;
+    if (ended) process_ = -1;
+    return ended;
 }
 
 bool start_beside(const std::vector<std::string>& words) {

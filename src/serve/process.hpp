@@ -3,7 +3,7 @@
 // the run and not the studio (docs: serve.md, processes).
 //
 //     auto child = Child::start({.program = "/usr/bin/vagus", .arguments = {"run-host"}});
-//     child.value().pipe().send('J', R"({"do":"pause"})");
+//     child.value().pipe().send(talk::encode(talk::StepPlan{}));
 //     for (const Packet& packet : child.value().pipe().receive()) hear(packet);
 //     if (const auto ended = child.value().ended()) say(ended->what);
 //
@@ -27,7 +27,7 @@ constexpr int kTalkDescriptor = 3;  // of the socket in the child
 
 // One message over the pair: four bytes length, one byte kind, then its bytes.
 struct Packet {
-    char kind = 'J';
+    char kind = 0;
     std::string bytes;
 };
 
@@ -41,6 +41,7 @@ public:
 
     // Queues and writes what the system takes. False: too much waits, or the other end is gone.
     bool send(char kind, std::string_view bytes);
+    bool send(const Packet& packet) { return send(packet.kind, packet.bytes); }
     // Writes what waits.
     void flush();
     bool has_unsent() const { return sent_ < out_.size(); }

@@ -7,6 +7,7 @@ namespace vagus::session {
 BusEars::~BusEars() {
     for (const auto& [node, known] : known_) {
         if (known.there) nodes_.left(known.name);
+        if (known.stopped) nodes_.runs(known.name);
     }
 }
 
@@ -19,19 +20,45 @@ std::optional<run::BusEvent> BusEars::hear(const debug::Event& event) {
     }
     if (const auto* described = std::get_if<debug::NodeDescribed>(&event.what)) {
         const auto before = gone(event.node);  // it came back, perhaps under another name
-        const bool renamed = known_[event.node].name != described->name;
-        known_[event.node].name = described->name;
+        Known& known = known_[event.node];
+        const bool renamed = known.name != described->name;
+        if (known.stopped && renamed) nodes_.runs(known.name);
+        known.name = described->name;
+        if (known.stopped) nodes_.stopped(known.name);
         there(event.node);
         return renamed ? before : std::nullopt;
     }
     if (std::holds_alternative<debug::NodeReconnected>(event.what)) there(event.node);
     if (std::holds_alternative<debug::NodeDisconnected>(event.what)) return gone(event.node);
+    if (const auto* changed = std::get_if<debug::StateChanged>(&event.what)) {
+        return hear_state(event.node, changed->state);
+    }
     return std::nullopt;
+}
+
+std::optional<run::BusEvent> BusEars::hear_state(debug::NodeId node, debug::ProgramState state) {
+    // An event that waits for a stopped program makes it a paused one: it still does nothing.
+    if (state != debug::ProgramState::Stopped && state != debug::ProgramState::Running) {
+        return std::nullopt;
+    }
+    Known& known = known_[node];
+    known.ran |= state == debug::ProgramState::Running;
+    // One that has no program yet was not stopped by anybody.
+    const bool stopped = known.ran && state == debug::ProgramState::Stopped;
+    if (std::exchange(known.stopped, stopped) == stopped || known.name.empty()) {
+        return std::nullopt;
+    }
+    if (stopped) {
+        nodes_.stopped(known.name);
+        return run::BusEvent{toolbox::node_stopped(known.name), {}, node};
+    }
+    nodes_.runs(known.name);
+    return run::BusEvent{toolbox::node_runs(known.name), {}, node};
 }
 
 void BusEars::there(debug::NodeId node) {
     const auto found = known_.find(node);
-    if (found == known_.end() || found->second.there) return;
+    if (found == known_.end() || found->second.there || found->second.name.empty()) return;
     found->second.there = true;
     nodes_.appeared(found->second.name);
 }

@@ -1,4 +1,5 @@
-// What a plan hears of a bus: user events by their names, and which nodes are there.
+// What a plan hears of a bus: user events by their names, which nodes are there, and whose programs
+// were stopped.
 //
 //     BusEars ears(nodes);                                // toolbox::BusNodes
 //     for (const debug::Event& event : network.take_events()) {
@@ -35,14 +36,17 @@ public:
 private:
     void there(debug::NodeId node);
     std::optional<run::BusEvent> gone(debug::NodeId node);
+    std::optional<run::BusEvent> hear_state(debug::NodeId node, debug::ProgramState state);
 
     struct Known {
         std::string name;
         bool there = false;
+        bool ran = false;
+        bool stopped = false;
     };
     toolbox::BusNodes& nodes_;
     std::set<debug::NodeId> only_;          // empty: all
-    std::map<debug::NodeId, Known> known_;  // those that have described themselves
+    std::map<debug::NodeId, Known> known_;  // without a name until they have described themselves
 };
 
 }  // namespace vagus::session

@@ -34,6 +34,50 @@ TEST(BusEars, ANodeIsThereFromItsDescriptionUntilItLeaves) {
     EXPECT_TRUE(nodes.has("drive"));
 }
 
+// A program that was stopped cannot answer the plan any more, until it runs again.
+TEST(BusEars, APlanHearsThatAProgramWasStoppedAndThatItRunsAgain) {
+    using State = debug::ProgramState;
+    toolbox::BusNodes nodes;
+    BusEars ears(nodes);
+    const auto state = [&](State now) { return ears.hear(event(1, debug::StateChanged{now, {}})); };
+    EXPECT_FALSE(state(State::Stopped).has_value());  // of a node without a name
+    (void)ears.hear(event(1, debug::NodeDescribed{"drive"}));
+    EXPECT_FALSE(state(State::Running).has_value());
+    const auto stopped = state(State::Stopped);
+    ASSERT_TRUE(stopped.has_value());
+    EXPECT_EQ(stopped->name, toolbox::node_stopped("drive"));
+    EXPECT_FALSE(state(State::Stopped).has_value());
+    EXPECT_FALSE(state(State::Paused).has_value());  // an event waits for it
+    const auto runs = state(State::Running);
+    ASSERT_TRUE(runs.has_value());
+    EXPECT_EQ(runs->name, toolbox::node_runs("drive"));
+}
+
+// Whoever begins to work with a node asks how it is: what was told before that is not told again.
+TEST(BusEars, WhoseProgramWasStoppedCanBeAsked) {
+    using State = debug::ProgramState;
+    toolbox::BusNodes nodes;
+    {
+        BusEars ears(nodes);
+        const auto state = [&](State now) {
+            (void)ears.hear(event(1, debug::StateChanged{now, {}}));
+        };
+        (void)ears.hear(event(1, debug::NodeDescribed{"drive"}));
+        state(State::Stopped);  // it has no program yet
+        EXPECT_FALSE(nodes.is_stopped("drive"));
+        state(State::Running);
+        state(State::Stopped);
+        EXPECT_TRUE(nodes.is_stopped("drive"));
+        (void)ears.hear(event(1, debug::NodeDescribed{"range"}));
+        EXPECT_FALSE(nodes.is_stopped("drive"));
+        EXPECT_TRUE(nodes.is_stopped("range"));
+        state(State::Running);
+        EXPECT_FALSE(nodes.is_stopped("range"));
+        state(State::Stopped);
+    }
+    EXPECT_FALSE(nodes.is_stopped("range"));
+}
+
 // Two drives: one of them can go.
 TEST(BusEars, OnlyTheLastOfANameLeaves) {
     toolbox::BusNodes nodes;

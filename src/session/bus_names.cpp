@@ -142,6 +142,16 @@ bool uses_bus(const std::vector<plan::Plan>& plans, const plan::Library& library
     return uses;
 }
 
+bool sends_events(const std::vector<plan::Plan>& plans) {
+    bool sends = false;
+    for (const plan::Plan& plan : plans) {
+        for_each_template(plan, [&](const auto& element, bool) {
+            sends = sends || element.template_name == kSend;
+        });
+    }
+    return sends;
+}
+
 std::set<std::string> events_heard(const std::vector<plan::Plan>& plans,
                                    const plan::Library& library) {
     std::set<std::string> heard;
@@ -159,6 +169,16 @@ std::set<std::string> events_heard(const std::vector<plan::Plan>& plans,
         });
     }
     return heard;
+}
+
+std::set<std::string> stop_events(const plan::Library& library) {
+    std::set<std::string> stops;
+    for (const plan::Toolbox& toolbox : library.toolboxes()) {
+        for (const plan::Template& one : toolbox.templates) {
+            stops.insert(one.bus.stops.begin(), one.bus.stops.end());
+        }
+    }
+    return stops;
 }
 
 }  // namespace vagus::session

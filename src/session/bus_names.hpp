@@ -26,7 +26,7 @@ public:
     BusNames(aesl::CommonDefinitions common, std::string source)
         : common_(std::move(common)), source_(std::move(source)) {}
 
-    // The Error names the event, a near one, and how to mend it.
+    // The Error names the event, a near one, and how to fix it.
     Status may_emit(const run::BusEvent& event) const;
     // Errors for events that plans name outright (in `Send`, `Receive`, `OnEvent`), or by which
     // their templates work, and that no project declares; what a formula makes of variables is
@@ -46,9 +46,14 @@ private:
 // Whether the plans use a bus at all: those templates of `core` do, and those of other toolboxes.
 bool uses_bus(const std::vector<plan::Plan>& plans, const plan::Library& library);
 
+// Whether they send events of their own (`Send`): then nobody knows on which nodes they work.
+bool sends_events(const std::vector<plan::Plan>& plans);
+
 // Events that the plans wait for, as far as their names stand in them; those by which a template
 // works are among them, whichever way they go.
 std::set<std::string> events_heard(const std::vector<plan::Plan>& plans,
                                    const plan::Library& library);
+// Events by which the templates of a library end their work on nodes.
+std::set<std::string> stop_events(const plan::Library& library);
 
 }  // namespace vagus::session

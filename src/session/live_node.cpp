@@ -20,8 +20,22 @@ bool NodeTimer::elapsed(Time now) {
     return true;
 }
 
+namespace {
+
+// Behind all other variables, unless its words would not find room there.
+void describe_program(aesl::Target& target) {
+    const auto is_named = [](const aesl::NamedVariable& one) { return one.name == "_program"; };
+    if (std::ranges::any_of(target.variables, is_named)) return;
+    size_t words = 2;
+    for (const aesl::NamedVariable& variable : target.variables) words += variable.size;
+    if (words <= target.variables_size) target.variables.push_back({"_program", 2});
+}
+
+}  // namespace
+
 Result<std::unique_ptr<LiveNode>> LiveNode::make(aesl::Target target, LiveNodeOptions options) {
     // The constructor is private, and the node must not move: its callbacks point to it.
+    describe_program(target);
     std::unique_ptr<LiveNode> live(new LiveNode(std::move(options.flash)));
     SoftwareNodeOptions inner;
     inner.id = options.id;

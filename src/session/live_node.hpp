@@ -49,6 +49,7 @@ private:
 
 class LiveNode {
 public:
+    // The node tells which program it has: `_program` becomes the last variable of its description.
     // With a saved program the node starts it at once, in running mode, without a host. Fails as
     // SoftwareNode::make() does. A file that holds no program for this node costs the program, not
     // the node: it starts empty, and flash_trouble() says why.

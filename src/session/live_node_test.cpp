@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "session/live_node.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr uint16_t kPeriod = 35;   // address of timer.period: 1 + 1 + 32 + 1
-constexpr uint16_t kCounter = 36;  // the script's
+constexpr uint16_t kCounter = 38;  // the script's, behind _program
 
 TEST(NodeTimer, NeverRunsOutWithoutAPeriod) {
     NodeTimer timer;
@@ -67,18 +68,12 @@ wire::Frame command(uint16_t type, std::vector<uint16_t> words) {
 
 constexpr uint16_t kSetBytecode = 0xa001;
 constexpr uint16_t kRun = 0xa003;
+constexpr uint16_t kGetState = 0xa007;
 constexpr uint16_t kSave = 0xa00d;
+constexpr uint16_t kProgram = 36;  // address of _program, behind timer.period
 
 class Live : public testing::Test {
 protected:
-    Live() {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("vagus-live-" + std::to_string(getpid()) + "-" +
-                   testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder_);
-    }
-    ~Live() override { std::filesystem::remove_all(folder_); }
-
     std::unique_ptr<LiveNode> node(const std::string& flash = {}) {
         LiveNodeOptions options{.id = 3, .flash = flash};
         options.transmit = [this](const wire::Frame& frame) { sent_.push_back(frame); };
@@ -98,13 +93,13 @@ protected:
         return {error.text.bytes, error.text.size};
     }
 
-    std::filesystem::path folder_;
+    test::Folder folder_;
     std::vector<wire::Frame> sent_;
 };
 
 // timer @5: counter = counter + 1; stop. init @10: timer.period = 10; stop.
-const std::vector<uint16_t> kCounting = {5,      0xfffe, 5, 0xffff, 10,     0x3024, 0x1001,
-                                         0x8002, 0x4024, 0, 0x100a, 0x4023, 0};
+const std::vector<uint16_t> kCounting = {5,      0xfffe, 5, 0xffff, 10,     0x3026, 0x1001,
+                                         0x8002, 0x4026, 0, 0x100a, 0x4023, 0};
 
 TEST_F(Live, KnowsItsId) {
     EXPECT_EQ(node()->node().variables()[0], 3);
@@ -126,7 +121,7 @@ TEST_F(Live, TimerRunsItsHandler) {
 TEST_F(Live, EndlessScriptRunsAThousandInstructionsAMillisecond) {
     const auto live = node();
     // init @3: counter = counter + 1; jump back: five instructions a turn
-    upload(*live, {3, 0xffff, 3, 0x3024, 0x1001, 0x8002, 0x4024, 0x9ffc});
+    upload(*live, {3, 0xffff, 3, 0x3026, 0x1001, 0x8002, 0x4026, 0x9ffc});
     const int16_t before = live->node().variables()[kCounter];
     EXPECT_EQ(live->step(50ms), 51ms);
     EXPECT_EQ(live->node().variables()[kCounter], before + 200);
@@ -151,6 +146,26 @@ TEST_F(Live, SavedProgramRunsAgainAfterARestartWithoutAHost) {
     EXPECT_EQ(again->step(0ms), 10ms);
     again->step(10ms);
     EXPECT_EQ(again->node().variables()[kCounter], 1);
+}
+
+// Also with zeros at its end, and with a `when` that remembers in its words.
+TEST_F(Live, ASavedProgramIsTheSameProgramAfterARestart) {
+    const std::string flash = (folder_ / "three.abo").string();
+    const auto told = [](LiveNode& live) {
+        live.receive(command(kGetState, {3}));
+        const auto words = live.node().variables().subspan(kProgram, 2);
+        return std::vector<int16_t>(words.begin(), words.end());
+    };
+    const auto first = node(flash);
+    EXPECT_THAT(told(*first), ElementsAre(0, 0));
+    // init: when 1 == 1 do end
+    upload(*first, {3, 0xffff, 3, 0x1001, 0x1001, 0xa10a, 2, 0, 0});
+    first->step(0ms);
+    first->receive(command(kSave, {3}));
+    EXPECT_EQ(last_text(), "Flashing OK");
+    const auto mark = told(*first);
+    EXPECT_NE(mark, (std::vector<int16_t>{0, 0}));
+    EXPECT_EQ(told(*node(flash)), mark);
 }
 
 TEST_F(Live, ADamagedFlashFileCostsTheProgramNotTheNode) {

@@ -112,6 +112,7 @@ Result<std::unique_ptr<PlanWorld>> PlanWorld::open(const PlanWorldOptions& optio
     how.world.threads = options.threads;
     how.traced = options.traced;
     how.heard = true;
+    how.guests = options.guests;
     SimSession session = TRY(open_sim(options.path, how));
     TRY(settle(session, options.path));
     const std::optional<sim::RobotId> robot = TRY(choose_robot(session, options));
@@ -137,7 +138,16 @@ void PlanWorld::join(run::RunOptions& options) {
     options.may_emit = [this](const run::BusEvent& event) { return names_.may_emit(event); };
 }
 
+void PlanWorld::close_but_for(std::set<std::string> events) {
+    const std::lock_guard lock(mutex_);
+    only_ = std::move(events);
+}
+
 void PlanWorld::emit(Time at, const run::BusEvent& event) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (only_ && !only_->contains(event.name)) return;
+    }
     // Refused is only what a supervisor emits as it stops: may_emit() was not asked.
     (void)session_.emit(event.name, event.arguments, at).ok();
 }

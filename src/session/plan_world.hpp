@@ -14,7 +14,9 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,7 @@ struct PlanWorldOptions {
     bool traced = false;                   // keep lines for session().take_trace()
     std::string robot = {};  // of several that the plan could drive; empty: the only one
     std::vector<toolbox::NodeNames> needs = {};  // nodes that the plan works on, one of each list
+    SafeStop guests = shipped_safe_stop();       // as SimOptions
 };
 
 class PlanWorld final : public run::Surroundings {
@@ -53,6 +56,9 @@ public:
     sim::RobotId robot() const { return robot_.value_or(sim::RobotId{1}); }
     // That of the robot, for toolbox::Parts; nullptr if it has none.
     toolbox::Camera* camera() { return camera_.exists() ? &camera_ : nullptr; }
+    // From now on only these of what the plan emits go out: a robot that is being stopped is not
+    // told to move again by what the plan says as it ends. From any thread.
+    void close_but_for(std::set<std::string> events);
     // Called at each instant, on the deciding thread, before anything of it happens: to pace the
     // run, to look at it, to act on the world.
     void before_each(std::function<void(Time)> act) { before_each_ = std::move(act); }
@@ -78,6 +84,8 @@ private:
     BusNames names_;
     BusEars ears_;
     std::function<void(Time)> before_each_;
+    std::mutex mutex_;  // guards what follows
+    std::optional<std::set<std::string>> only_;
 };
 
 }  // namespace vagus::session

@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "session/plan_world.hpp"
 
 #include <gmock/gmock.h>
@@ -18,23 +19,6 @@ namespace {
 using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-// A folder of this process that goes with it.
-class Folder {
-public:
-    Folder() {
-        std::string name = std::filesystem::temp_directory_path() / "vagus-plan-world-XXXXXX";
-        path_ = ::mkdtemp(name.data());
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    std::string write(const std::string& name, std::string_view text) const {
-        std::ofstream(path_ / name) << text;
-        return path_ / name;
-    }
-
-private:
-    std::filesystem::path path_;
-};
 
 // The Thymio answers `go` with one more; every 20 ms it emits how often it did.
 constexpr std::string_view kScript = R"(<network>
@@ -106,6 +90,21 @@ protected:
     run::CodeLibrary library_;
     toolbox::BusNodes nodes_;
 };
+
+// A plan that is being stopped may end its work, and begin none.
+TEST_F(PlanWorldTest, WhatIsClosedLetsOnlyTheEventsOutThatWereNamed) {
+    const auto opened = open(kWorld, kScript);
+    ASSERT_TRUE(opened.ok()) << opened.error().what;
+    PlanWorld& world = *opened.value();
+    world.emit(0s, {"go", {1}});
+    EXPECT_THAT(world.session().take_trace(), HasSubstr(R"("node":0,"name":"go")"));
+    world.close_but_for({"pulse"});
+    world.emit(0s, {"go", {1}});
+    world.emit(0s, {"pulse", {1}});
+    const std::string trace = world.session().take_trace();
+    EXPECT_THAT(trace, testing::Not(HasSubstr(R"("name":"go")")));
+    EXPECT_THAT(trace, HasSubstr(R"("node":0,"name":"pulse")"));
+}
 
 // Both have the nodes that the plan needs, and scripts that obey.
 constexpr std::string_view kTwoRobots = R"({

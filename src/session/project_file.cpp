@@ -152,6 +152,9 @@ Result<Reading> read_all(std::string_view text, const std::string& file) {
     reading.project.toolboxes = read_paths(reading, in, "toolboxes");
     read_target(reading, in);
     read_start(reading, in);
+    reading.project.safe_stop = toolbox::read_safe_stop(in, reading.complaints);
+    reading.project.stops_alone =
+        in.word("when_alone", {"run", "stop"}, Need::Optional, "run") == "stop";
     in.finish();
     if (!reading.complaints.empty()) return first_complaint(reading.complaints, file);
     return reading;

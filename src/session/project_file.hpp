@@ -12,6 +12,7 @@
 
 #include "base/json.hpp"
 #include "base/result.hpp"
+#include "toolbox/safe_stop.hpp"
 
 namespace vagus::session {
 
@@ -33,6 +34,8 @@ struct ProjectFile {
     bool start_plan = false;
     // Variables of the plan and their values as `--set` takes them, in the order of the file.
     std::vector<std::pair<std::string, std::string>> start_set;
+    toolbox::SafeStop safe_stop;  // its own entries only: session/safe_stop.hpp adds the others
+    bool stops_alone = false;     // "when_alone": "stop": the robot stops when no page is open
 
     // A path of the file, seen from where the program runs.
     std::string path_of(const std::string& named) const;

@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "session/project_file.hpp"
 
 #include <gtest/gtest.h>
@@ -34,6 +35,8 @@ TEST(ProjectFile, ReadsEveryKey) {
   "toolboxes": ["light.toolbox.json"],
   "target": "tcp:localhost:33333",
   "start": { "plan": true, "set": { "walldist": 30, "speed": 1.50, "on": true, "who": "it" } },
+  "safe_stop": { "arm": { "set": { "speed": 0 } } },
+  "when_alone": "stop",
   "x": { "anything": [1] }
 })",
                                                   "there/vagus.json")
@@ -48,6 +51,8 @@ TEST(ProjectFile, ReadsEveryKey) {
     EXPECT_TRUE(project.start_plan);
     EXPECT_EQ(project.start_set,
               (Values{{"walldist", "30"}, {"speed", "1.50"}, {"on", "true"}, {"who", "it"}}));
+    EXPECT_EQ(project.safe_stop, (toolbox::SafeStop{{"arm", {{{"speed", {0}}}, {}}}}));
+    EXPECT_TRUE(project.stops_alone);
     EXPECT_EQ(project.path_of(project.scripts[0]), "carbot/carbot.aesl");
 }
 
@@ -56,6 +61,8 @@ TEST(ProjectFile, OnlyTheFormatIsNeeded) {
     EXPECT_EQ(project.target, "sim");
     EXPECT_FALSE(project.start_plan);
     EXPECT_EQ(project.plan, "");
+    EXPECT_EQ(project.safe_stop, toolbox::SafeStop());
+    EXPECT_FALSE(project.stops_alone);
     EXPECT_EQ(error_of("{}"), "vagus.json:1:1: the project has no \"format\"; add it");
 }
 
@@ -66,6 +73,10 @@ TEST(ProjectFile, NamesWhatIsWrongAndWhere) {
               "vagus.json:1:43: \"start\" has the unknown key \"plna\"; did you mean \"plan\"?");
     EXPECT_EQ(error_of(with("\"plan\": 1")),
               "vagus.json:1:40: \"plan\" of the project is 1; write a string");
+    EXPECT_EQ(error_of(with("\"when_alone\": \"stpo\"")),
+              "vagus.json:1:46: \"when_alone\" of the project is \"stpo\"; did you mean \"stop\"?");
+    EXPECT_EQ(error_of(with("\"safe_stop\": { \"arm\": 0 }")),
+              "vagus.json:1:54: \"arm\" in \"safe_stop\" is 0; it must be an object: { … }");
     EXPECT_EQ(error_of(with("\"scripts\": [1]")),
               "vagus.json:1:44: \"scripts\" of the project holds paths in quotes, not a whole "
               "number");
@@ -119,20 +130,17 @@ TEST(ProjectFile, IsLimited) {
 class OpenProject : public testing::Test {
 protected:
     OpenProject() {
-        std::string name = (fs::temp_directory_path() / "vagus-project-XXXXXX").string();
-        folder_ = fs::canonical(mkdtemp(name.data()));
         fs::create_directory(folder_ / "in");
         write("in/w.world.json", "{}");
         write("out.aesl", "");
     }
-    ~OpenProject() override { fs::remove_all(folder_); }
 
     void write(const std::string& name, const std::string& text) const {
         ASSERT_TRUE(write_file((folder_ / name).string(), text).ok());
     }
     std::string in() const { return (folder_ / "in").string(); }
 
-    fs::path folder_;
+    test::Folder folder_;
 };
 
 TEST_F(OpenProject, AFolderIsOpenedByItsVagusJson) {

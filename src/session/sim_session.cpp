@@ -101,6 +101,7 @@ void SimSession::listen(const std::vector<wire::Frame>& delivered) {
     for (const wire::Frame& frame : delivered) network_.receive(clock_, frame);
     if (network_.next_tick() <= clock_) network_.tick(clock_);
     for (const debug::Event& event : network_.take_events()) hear(event);
+    if (guests_) guests_->tick(clock_);
 }
 
 void SimSession::speak() {
@@ -165,10 +166,29 @@ bool SimSession::settled() const {
     return waiting_.empty() && on_their_way == 0;
 }
 
+bool SimSession::stop_guests(Stopping::How how) {
+    std::vector<debug::NodeId> ids;
+    for (const debug::NodeId id : network_.nodes()) {
+        const debug::NodeView& node = *network_.node(id);
+        const bool meant = how == Stopping::How::Stop || options_.guests.contains(node.name);
+        if (meant && !find(id) && node.connected) ids.push_back(id);
+    }
+    if (ids.empty()) return false;
+    guests_.emplace();
+    guests_->begin(network_, options_.guests, Stopping::Manner{.how = how}, clock_, ids);
+    send_frames();
+    return true;
+}
+
+std::vector<StopNode> SimSession::guests() const {
+    return guests_ ? guests_->report() : std::vector<StopNode>();
+}
+
 // ---- what the bus says ----
 
 void SimSession::hear(const debug::Event& event) {
     if (options_.heard && heard_.size() < kHeardMax) heard_.push_back(event);
+    if (guests_) guests_->hear(event);
     if (const auto* sent = std::get_if<debug::UserEvent>(&event.what)) {
         hear_user_event(event, *sent);
         return;

@@ -30,6 +30,7 @@
 #include "debug/network.hpp"
 #include "debug/turns.hpp"
 #include "session/script_file.hpp"
+#include "session/stopping.hpp"
 #include "sim/world.hpp"
 
 namespace vagus::session {
@@ -50,8 +51,9 @@ constexpr Duration kSettleWithinMore = std::chrono::milliseconds(20);
 struct SimOptions {
     sim::WorldOptions world;
     aesl::Options compile;
-    bool traced = false;  // keep lines for take_trace()
-    bool heard = false;   // keep what happens on the bus for take_heard()
+    bool traced = false;                    // keep lines for take_trace()
+    bool heard = false;                     // keep what happens on the bus for take_heard()
+    SafeStop guests = shipped_safe_stop();  // what brings nodes to rest that others bring
 };
 
 enum class NoteKind {
@@ -135,6 +137,14 @@ public:
     void hear_ahead();
     // Names of events and constants, by the projects that the robots load.
     const aesl::CommonDefinitions& common() const { return network_.common(); }
+
+    // ---- guests: nodes that others brought to the bus, real ones perhaps ----
+    // Tells them to stop and makes them safe, as SimOptions::guests says; they are read back while
+    // the world steps on. With Rest their scripts run on. False: there are none.
+    bool stop_guests(Stopping::How how = Stopping::How::Stop);
+    // All have been read back at rest, or are gone.
+    bool guests_rest() const { return !guests_ || guests_->settled(); }
+    std::vector<StopNode> guests() const;
 
     // ---- looking ----
     const sim::World& world() const { return world_; }
@@ -259,6 +269,7 @@ private:
     std::vector<Note> notes_;
     std::vector<std::string> hints_;
     std::vector<debug::Event> heard_;
+    std::optional<Stopping> guests_;
     std::string trace_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "session/software_node.hpp"
+#include "session/standard_target.hpp"
+
 namespace vagus::session {
 namespace {
 
@@ -130,6 +133,62 @@ TEST(SimSession, ANodeFromOutsideWithTheIdOfARobotIsToldWithBothLinks) {
     session.step(5ms);
     EXPECT_THAT(texts(session, NoteKind::Trouble),
                 ElementsAre(HasSubstr("node 7 is heard on two links, right and tcp:guest")));
+}
+
+// A real Thymio that somebody brought to the bus of a world, as node 5.
+struct Guest {
+    explicit Guest(SimSession& its_session) : session(its_session) {
+        aesl::Target target = standard_target("thymio-II");
+        target.variables.push_back({"motor.left.target", 1});
+        target.variables.push_back({"motor.right.target", 1});
+        const auto transmit = [this](const wire::Frame& frame) { bus.receive(link, frame); };
+        node = std::move(SoftwareNode::make(target, {.id = 5, .transmit = transmit}).value());
+    }
+    void step(int instants) {
+        wire::Frame frame;
+        for (int i = 0; i < instants; i++) {
+            session.step(1ms);
+            while (bus.take(link, frame)) node->receive(frame);
+        }
+    }
+    int16_t& left_target() {
+        return node->variables()[node->find_variable("motor.left.target")->address];
+    }
+
+    SimSession& session;
+    hub::Hub& bus = session.world().bus();
+    hub::LinkId link = bus.add({.name = "tcp:guest"}).value();
+    std::unique_ptr<SoftwareNode> node;
+};
+
+// The world goes, and must not leave it driving.
+TEST(SimSession, NodesThatOthersBroughtAreStoppedAndReadBack) {
+    SimSession session = two_robots();
+    EXPECT_FALSE(session.stop_guests());
+    Guest guest(session);
+    guest.step(1500);
+    guest.left_target() = 200;
+    ASSERT_TRUE(session.stop_guests());
+    EXPECT_FALSE(session.guests_rest());
+    guest.step(10);
+    EXPECT_TRUE(session.guests_rest());
+    EXPECT_EQ(guest.left_target(), 0);
+    EXPECT_EQ(describe(session.guests()), "at rest: thymio-II (5)");
+}
+
+// What a project says of a node stands above what ships with the program.
+TEST(SimSession, NodesThatOthersBroughtAreStoppedAsTheProjectSays) {
+    SimOptions options;
+    options.guests["thymio-II"] = {{{"motor.left.target", {7}}}, {}};
+    Result<sim::World> world = sim::World::create(sim::WorldDefinition());
+    ASSERT_TRUE(world.ok()) << world.error().what;
+    SimSession session(std::move(world.value()), options);
+    Guest guest(session);
+    guest.step(1500);
+    ASSERT_TRUE(session.stop_guests());
+    guest.step(10);
+    EXPECT_TRUE(session.guests_rest());
+    EXPECT_EQ(guest.left_target(), 7);
 }
 
 // A Carbot with the nodes 2 to 5 and a Thymio with node 9.

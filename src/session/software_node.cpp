@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "debug/program_mark.hpp"
 #include "session/software_natives.hpp"
 
 namespace vagus::session {
@@ -108,7 +109,8 @@ Status SoftwareNode::describe() {
                     .local_event_count = static_cast<uint16_t>(event_list_.size()),
                     .local_events = event_list_.data(),
                     .natives = {{native_list_.data(), static_cast<uint16_t>(native_list_.size())},
-                                {nullptr, 0}}};
+                                {nullptr, 0}},
+                    .program_at = debug::mark_address(target_).value_or(0)};
     return Status::done();
 }
 
@@ -127,6 +129,16 @@ std::optional<uint16_t> SoftwareNode::find_local_event(std::string_view name) co
     return static_cast<uint16_t>(found - target_.local_events.begin());
 }
 
+void SoftwareNode::start_program() {
+    node::start_program(node_);
+    node::identify(node_, loaded_);  // without what a `when` remembered in its words
+}
+
+std::span<const uint16_t> SoftwareNode::program() const {
+    const size_t end = node_.identity.end;
+    return end <= bytecode_.size() ? bytecode().first(end) : bytecode();
+}
+
 Status SoftwareNode::load(std::span<const uint16_t> program) {
     if (program.size() > bytecode_.size()) {
         return Error{Code::Limit, "the program has " + std::to_string(program.size()) +
@@ -134,6 +146,8 @@ Status SoftwareNode::load(std::span<const uint16_t> program) {
                                       std::to_string(bytecode_.size())};
     }
     bytecode_.load(program);
+    loaded_ = static_cast<uint16_t>(program.size());
+    node::identify(node_, loaded_);
     return Status::done();
 }
 

@@ -55,7 +55,7 @@ public:
     // See node.hpp.
     void receive(const wire::Frame& frame) { node::receive(node_, frame); }
     void local_event(uint16_t index) { node::local_event(node_, index); }
-    void start_program() { node::start_program(node_); }
+    void start_program();
     uint16_t run(uint16_t limit) { return fastvm::run(node_.vm, bytecode_, limit); }
     void host_left() { node::host_left(node_); }
     // At most 255 bytes are sent.
@@ -72,6 +72,8 @@ public:
     uint16_t id() const { return config_.id; }
     std::span<int16_t> variables() { return variables_; }
     std::span<const uint16_t> bytecode() const { return bytecode_.words(); }
+    // Of the bytecode what was loaded; all of it if that is not known.
+    std::span<const uint16_t> program() const;
     // Where the variable of that name in the description lies.
     std::optional<VariableRange> find_variable(std::string_view name) const;
     // Its place among the local events of the description.
@@ -99,6 +101,7 @@ private:
     node::Description description_ = {};
     vm::Config config_ = {};
     node::Node node_ = {};
+    uint16_t loaded_ = 0;  // words, by load()
     node::FrameMaker maker_;
 };
 

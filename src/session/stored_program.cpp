@@ -6,10 +6,8 @@
 namespace vagus::session {
 
 Status store_program(const SoftwareNode& node, const std::string& path) {
-    std::vector<uint16_t> words(node.bytecode().begin(), node.bytecode().end());
-    // Zeros at the end need not be kept: loading makes them again. One word says that there is no
-    // program.
-    while (words.size() > 1 && words.back() == 0) words.pop_back();
+    std::vector<uint16_t> words(node.program().begin(), node.program().end());
+    if (words.empty()) words = {0};  // no program
     return write_file(path, aesl::format_abo(node.target(), {.node_id = node.id()}, words));
 }
 

@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "session/stored_program.hpp"
 
 #include <gmock/gmock.h>
@@ -25,21 +26,12 @@ aesl::Target target_named(const std::string& name) {
 
 class StoredProgram : public testing::Test {
 protected:
-    StoredProgram() {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("vagus-stored-" + std::to_string(getpid()) + "-" +
-                   testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder_);
-        path_ = (folder_ / "node.flash").string();
-    }
-    ~StoredProgram() override { std::filesystem::remove_all(folder_); }
-
     static std::unique_ptr<SoftwareNode> node(const std::string& name = "keeper") {
         return std::move(SoftwareNode::make(target_named(name), {.id = 4}).value());
     }
 
-    std::filesystem::path folder_;
-    std::string path_;
+    const test::Folder folder_;
+    const std::string path_ = (folder_ / "node.flash").string();
 };
 
 TEST_F(StoredProgram, IsThereAfterARestart) {

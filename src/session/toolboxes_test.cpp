@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "session/toolboxes.hpp"
 
 #include <gmock/gmock.h>
@@ -58,12 +59,6 @@ TEST(Toolboxes, CarbotsTemplatesUseEventsOfItsProject) {
 
 class OwnToolboxes : public testing::Test {
 protected:
-    OwnToolboxes() {
-        std::string name = fs::temp_directory_path() / "vagus-toolboxes-XXXXXX";
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~OwnToolboxes() override { fs::remove_all(folder_); }
-
     std::string write(const std::string& name, std::string_view text) const {
         EXPECT_TRUE(write_file((folder_ / name).string(), text).ok());
         return (folder_ / name).string();
@@ -73,7 +68,7 @@ protected:
         return added.ok() ? "no error" : added.error().what;
     }
 
-    fs::path folder_;
+    test::Folder folder_;
     toolbox::Parts parts_;
     run::CodeLibrary library_;
 };

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/test_folder.hpp"
 #include "base/file.hpp"
 #include "base/json.hpp"
 #include "base/test_places.hpp"
@@ -25,17 +26,12 @@ namespace {
 // Each test has a folder of its own: tests run side by side.
 class Card : public testing::Test {
 protected:
-    Card() { std::filesystem::create_directories(folder_); }
-    ~Card() override { std::filesystem::remove_all(folder_); }
     std::string folder() const { return folder_.string(); }
     static constexpr int16_t kNumber = 31415;
     std::string path() const { return folder() + "/U31415.DAT"; }
 
 private:
-    const std::filesystem::path folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        fmt::format("card-{}-{}", ::getpid(),
-                    testing::UnitTest::GetInstance()->current_test_info()->name());
+    const test::Folder folder_;
 };
 
 TEST_F(Card, WhatIsWrittenIsReadAgainAndLiesInTheFileLowByteFirst) {

@@ -4,13 +4,29 @@
 
 #include "fastvm/run.hpp"
 #include "isa/isa.hpp"
+#include "wire/bytes.hpp"
+#include "wire/reports.hpp"
 
 namespace vagus::sim {
+
+namespace {
+
+bool is_fault(const wire::Frame& frame) {
+    wire::Fault fault;
+    return wire::read_fault(frame, fault) && fault.kind != wire::FaultKind::Killed;
+}
+
+bool is_stop_for(uint16_t node, const wire::Frame& frame) {
+    if (frame.type != static_cast<uint16_t>(wire::MessageType::Stop)) return false;
+    return wire::Reader(frame.payload, frame.size).u16() == node;
+}
+
+}  // namespace
 
 const node::Board Machine::kBoard = {
     [](node::Node& node, uint16_t type) { of(node).maker_.begin(node, type); },
     [](node::Node& node, uint8_t byte) { of(node).maker_.put(byte); },
-    [](node::Node& node) { of(node).sent_.push_back(of(node).maker_.frame()); }, notify,
+    [](node::Node& node) { of(node).send(of(node).maker_.frame()); }, notify,
     wire::kVariablesReplyWordsMax};
 
 Machine::Machine(const MachineDefinition& definition)
@@ -44,11 +60,23 @@ void Machine::restart() {
 
 void Machine::notify(node::Node& node, vm::Notice notice) {
     of(node).bytecode_.notice(notice);
+    if (notice == vm::Notice::Reset) of(node).break_off();
+}
+
+// A script that was stopped by what it did says so itself, also while it is stepped.
+void Machine::send(const wire::Frame& frame) {
+    if (is_fault(frame)) break_off();
+    sent_.push_back(frame);
+}
+
+void Machine::break_off() const {
+    if (definition_.broken_off != nullptr) definition_.broken_off(definition_.robot);
 }
 
 void Machine::receive(const wire::Frame& frame) {
     --frames_left_;
     node::receive(node_, frame);
+    if (is_stop_for(node_.vm.id, frame)) break_off();
     if (!wire::is_user_event(frame.type)) {
         heard_is_old_ = true;  // it may have been part of a program
         return;

@@ -31,6 +31,9 @@ struct MachineDefinition {
     uint16_t variables_size = 0;
     uint16_t arguments_size = 32;
     void* robot = nullptr;  // for natives, see Machine::robot_of()
+    // Called with `robot` at once when Stop, Reset, new bytecode or a fault has ended what the
+    // program did.
+    void (*broken_off)(void* robot) = nullptr;
 };
 
 // Not copied nor moved: the node inside knows where its memories are.
@@ -63,6 +66,8 @@ public:
     bool is_busy() const {
         return !pending_.empty() || (vm::is_active(node_.vm) && !vm::is_paused_in_event(node_.vm));
     }
+    // Its program runs, or waits for its next event: nothing has stopped or paused it.
+    bool runs() const { return (node_.vm.flags & wire::kFlagStep) == 0; }
     // The only host of a port has left: it takes its breakpoints along (section 1.4).
     void host_left();
 
@@ -84,6 +89,8 @@ public:
 private:
     static Machine& of(node::Node& node) { return *static_cast<Machine*>(node.owner); }
     static void notify(node::Node& node, vm::Notice notice);
+    void send(const wire::Frame& frame);
+    void break_off() const;
     bool start_pending();
     static const node::Board kBoard;
 

@@ -22,7 +22,8 @@ constexpr node::Description kDescription = {
     kVariables,
     3,
     kEvents,
-    {{node::kStandardNatives, node::kStandardNativeCount}, {nullptr, 0}}};
+    {{node::kStandardNatives, node::kStandardNativeCount}, {nullptr, 0}},
+    0};
 constexpr uint16_t kId = 5;
 
 struct Tested {

@@ -8,11 +8,12 @@ void NodeBus::join(uint16_t node, std::string name) {
     places_.push_back({node, can_.join(std::move(name)), {}});
 }
 
-// Only while the longest frame has room: what waits in the hub is dropped by the hub's rule, which
-// spares commands.
+// What waits in the hub is dropped by the hub's rule, which spares commands.
 void NodeBus::accept(Time now) {
+    static_assert(kCanAhead + wire::kCanFramesMax <= kCanQueueMax);
+    const size_t most = hub_.waiting(link_) > kCrowdBytes ? kCanAheadInCrowd : kCanAhead;
     wire::Frame frame;
-    while (can_.room(main_) >= wire::kCanFramesMax && hub_.take(link_, frame))
+    while (kCanQueueMax - can_.room(main_) < most && hub_.take(link_, frame))
         (void)can_.send(main_, frame, now);  // a source that fits no identifier is counted there
 }
 

@@ -11,6 +11,13 @@
 
 namespace vagus::sim {
 
+// CAN frames of hosts that wait at the port of "main"; what is behind them waits in the hub, where
+// Stop passes it. When many wait there, hosts leave a part of the bus to the nodes: these have the
+// higher identifiers, and would never get to answer.
+constexpr size_t kCanAhead = 64;
+constexpr size_t kCanAheadInCrowd = 5;
+constexpr size_t kCrowdBytes = 1024;
+
 class NodeBus {
 public:
     // `link` is ours on the hub, which must outlive this.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "sim/node_bus.hpp"
 #include "sim/world.hpp"
 #include "wire/messages.hpp"
 
@@ -78,6 +79,36 @@ TEST(NodeBus, AFrameArrivesAtTheMillisecondAfterItsTransmission) {
     EXPECT_EQ(answers[1].source, 7);
 }
 
+// 20 events a millisecond, more than the bus carries, under the lowest id: it wins the bus from
+// every node.
+TEST(NodeBus, AFloodUnderAnotherNodesIdKeepsNeitherStopNorItsAnswerAway) {
+    World world = make(with_thymios({3, 7}), can());
+    Host host(world);
+    Host flood(world);
+    const auto flood_for = [&](int milliseconds) {
+        for (int i = 0; i < milliseconds; ++i) {
+            for (int k = 0; k < 20; ++k) flood.send(event_of_zeros(1));
+            world.step(1ms);
+        }
+    };
+    flood_for(500);
+    (void)host.frames();
+    for (const uint16_t node : {uint16_t{3}, uint16_t{7}}) {
+        wire::Stop stop{};
+        stop.dest = node;
+        wire::Frame frame;
+        ASSERT_EQ(wire::encode_message(stop, wire::kHostId, frame), wire::Error::None);
+        host.send(frame);
+    }
+    flood_for(20);
+    std::vector<uint16_t> stopped;
+    for (const wire::Frame& frame : host.frames()) {
+        const auto type = static_cast<wire::MessageType>(frame.type);
+        if (type == wire::MessageType::ExecutionStateChanged) stopped.push_back(frame.source);
+    }
+    EXPECT_EQ(stopped, (std::vector<uint16_t>{3, 7}));
+}
+
 TEST(NodeBus, AnIdealBusAnswersAtOnceAndCountsNothing) {
     World world = make(with_thymios({7, 3}), {});
     Host host(world);
@@ -116,11 +147,10 @@ TEST(NodeBus, AFloodFromAHostWaitsForTheBusAndLosesNothing) {
     World world = make(with_thymios({1}), can());
     Host host(world);
     for (int i = 0; i < 2000; ++i) host.send(event_of_zeros(0));
-    const uint32_t each = can_bits({0x300, 8, {}}) + kCanIntermissionBits;
     world.step(10ms);
-    const uint64_t after_10ms = world.bus_load()->all.frames;
-    EXPECT_EQ(after_10ms, (10'000 + each - 1) / each);  // the last one is under way
-    world.step(300ms);
+    // Not as many as fit: the rest of each millisecond is for nodes.
+    EXPECT_EQ(world.bus_load()->all.frames, size_t{10} * kCanAheadInCrowd);
+    world.step(400ms);
     EXPECT_EQ(world.bus_load()->all.frames, 2000u);
     EXPECT_EQ(world.bus_load()->all.dropped, 0u);
     EXPECT_LE(world.bus_load()->nodes[0].load.waiting_most, kCanQueueMax);

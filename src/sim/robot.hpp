@@ -24,6 +24,7 @@ struct Surroundings {
     std::span<const Colour> colours;  // of bodies by index
     std::span<const Point> beacons;   // infrared ones that are on
     Time now;
+    bool clock_stops_with_nodes = false;  // World::stops_with_nodes()
 };
 
 // The energy that the e-pucks of a world share (docs/spec, section 4.7).

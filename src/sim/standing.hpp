@@ -15,7 +15,7 @@ constexpr double kStandsInMax = 0.005;
 // The hull of a robot of that type, seen from above: a convex polygon, counter-clockwise.
 std::span<const Point> outline_of(RobotType type);
 
-// The fixed thing that the robot would stand in and how to mend it, as the end of a sentence: "the
+// The fixed thing that the robot would stand in and how to fix it, as the end of a sentence: "the
 // wall \"north\"; place one of them somewhere else"; nothing if it has room.
 std::optional<std::string> stands_in(const RobotDefinition& robot, const WorldDefinition& world);
 

@@ -66,6 +66,7 @@ struct World::Insides {
     std::unique_ptr<Inhabitants> inhabitants;
     hub::Hub bus;
     bool somebody_sees_colours;  // else nobody asks which they are
+    bool clock_stops_with_nodes = false;
     Crew crew;
     NodeTurns turns;
     size_t timeline_next = 0;
@@ -194,7 +195,8 @@ void World::Insides::begin_instant() {
     inhabitants->arena().prepare_looks();
     const std::span<const Colour> colours =
         somebody_sees_colours ? inhabitants->colours() : std::span<const Colour>();
-    turns.run({inhabitants->arena(), inhabitants->ground(), colours, inhabitants->beacons(), now},
+    turns.run({inhabitants->arena(), inhabitants->ground(), colours, inhabitants->beacons(), now,
+               clock_stops_with_nodes},
               crew);
 }
 
@@ -299,6 +301,10 @@ void World::Insides::note_touches() {
 
 Time World::now() const {
     return insides_->now;
+}
+
+void World::stops_with_nodes() {
+    insides_->clock_stops_with_nodes = true;
 }
 
 void World::reset() {

@@ -151,6 +151,9 @@ public:
     // sensors, timers and bodies stand. So scripts can be loaded before the time 0 of a run.
     void hold_instant();
     Time now() const;
+    // Whoever steps this world does not step it while a node is paused, but for the moment that it
+    // takes to notice: so a pause ends no driving command (sim/carbot/gate.hpp).
+    void stops_with_nodes();
     // Everything as at the start, time 0; the links of the bus stay, scripts and variables are
     // gone.
     void reset();

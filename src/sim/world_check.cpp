@@ -28,11 +28,11 @@ struct Range {
     const char* unit;  // "m"
 };
 
-Found check_range(const std::string& element, double value, Range range, const char* mend) {
+Found check_range(const std::string& element, double value, Range range, const char* fix) {
     if (value >= range.low && value <= range.high) return std::nullopt;
     return Problem{element, "expected a number from " + text_of(range.low) + " to " +
                                 text_of(range.high) + " (" + range.unit + "), found " +
-                                text_of(value) + "; " + mend};
+                                text_of(value) + "; " + fix};
 }
 
 Found check_count(const std::string& element, size_t count, size_t max) {
@@ -113,11 +113,11 @@ Found check_shape(const ObjectDefinition& object, const std::string& element) {
 
 Found check_lengths(const ObjectDefinition& object, const std::string& element) {
     const Range range = {kObjectSizeMin, kWorldSizeMax, "m"};
-    const char* mend = "lengths are in metres";
+    const char* fix = "lengths are in metres";
     if (is_bare(object)) return std::nullopt;
-    if (!is_rectangle(object)) return check_range(element + ".radius", object.radius, range, mend);
-    if (auto found = check_range(element + ".size", object.width, range, mend)) return found;
-    return check_range(element + ".size", object.length, range, mend);
+    if (!is_rectangle(object)) return check_range(element + ".radius", object.radius, range, fix);
+    if (auto found = check_range(element + ".size", object.width, range, fix)) return found;
+    return check_range(element + ".size", object.length, range, fix);
 }
 
 Found check_mass(const ObjectDefinition& object, const std::string& element) {

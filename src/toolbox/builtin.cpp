@@ -25,6 +25,17 @@ void append(std::vector<run::Coded>& to, std::vector<run::Coded> more) {
     to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+SafeStop read_robots() {
+    const Result<Json> json = parse_json(kRobotsText, "built-in");
+    assert(json.ok());
+    Complaints complaints;
+    JsonObject in(json.value(), "the file", complaints);
+    SafeStop safe = read_safe_stop(in, complaints);
+    in.finish();
+    assert(complaints.empty());
+    return safe;
+}
+
 }  // namespace
 
 void add_builtin(run::CodeLibrary& library, const Parts& parts) {
@@ -48,6 +59,13 @@ void add_carbot(run::CodeLibrary& library, const Parts& parts) {
     append(all, carbot_templates(parts));
     append(all, code_of(file, parts));
     library.add(file.name, file.help, std::move(all));
+}
+
+SafeStop builtin_safe_stop() {
+    SafeStop safe = read_robots();
+    overlay(safe, read_builtin(kDriveText).safe_stop);
+    overlay(safe, read_builtin(kCarbotText).safe_stop);
+    return safe;
 }
 
 }  // namespace vagus::toolbox

@@ -9,6 +9,7 @@
 
 #include "run/code.hpp"
 #include "toolbox/parts.hpp"
+#include "toolbox/safe_stop.hpp"
 
 namespace vagus::toolbox {
 
@@ -23,8 +24,12 @@ void add_drive(run::CodeLibrary& library, const Parts& parts);
 // All that Carbot can do: the templates of `drive`, and its own.
 void add_carbot(run::CodeLibrary& library, const Parts& parts);
 
-// The texts of the toolbox files that are built in.
+// The safe stop of robots that everybody has, and what the built-in toolbox files say.
+SafeStop builtin_safe_stop();
+
+// The texts of the files that are built in.
 extern const std::string_view kDriveText;
 extern const std::string_view kCarbotText;
+extern const std::string_view kRobotsText;  // robots.safe_stop.json
 
 }  // namespace vagus::toolbox

@@ -1,5 +1,5 @@
-// Which nodes are on the bus of a run, by name: told by whoever has the bus, asked by templates
-// whose work is done on nodes. From any thread.
+// Which nodes are on the bus of a run, and whose programs were stopped, by name: told by whoever
+// has the bus, asked by templates whose work is done on nodes. From any thread.
 //
 //     BusNodes nodes;
 //     nodes.appeared("drive");
@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,14 @@ namespace vagus::toolbox {
 // called so: names of events have neither `@` nor spaces.
 inline std::string node_left(std::string_view node) {
     return "@left " + std::string(node);
+}
+
+// The same of a node whose program was stopped, and of one that runs again.
+inline std::string node_stopped(std::string_view node) {
+    return "@stopped " + std::string(node);
+}
+inline std::string node_runs(std::string_view node) {
+    return "@runs " + std::string(node);
 }
 
 class BusNodes {
@@ -38,6 +47,20 @@ public:
         count_.erase(found);
         return true;
     }
+    // Its program was stopped, or runs again. Whoever begins to work with it later asks
+    // is_stopped(): what was told before is not told again.
+    void stopped(const std::string& name) {
+        const std::lock_guard lock(mutex_);
+        stopped_.insert(name);
+    }
+    void runs(const std::string& name) {
+        const std::lock_guard lock(mutex_);
+        stopped_.erase(name);
+    }
+    bool is_stopped(std::string_view name) const {
+        const std::lock_guard lock(mutex_);
+        return stopped_.find(name) != stopped_.end();
+    }
     bool has(std::string_view name) const {
         const std::lock_guard lock(mutex_);
         return count_.find(name) != count_.end();
@@ -51,8 +74,9 @@ public:
     }
 
 private:
-    mutable std::mutex mutex_;  // guards the map
+    mutable std::mutex mutex_;  // guards what follows
     std::map<std::string, int, std::less<>> count_;
+    std::set<std::string, std::less<>> stopped_;
 };
 
 }  // namespace vagus::toolbox

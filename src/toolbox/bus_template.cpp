@@ -73,7 +73,7 @@ public:
 
     void run(ActorContext& context) override {
         const BusTemplate& of = work_.of;
-        BusTalk talk(context, work_.parts, {of.nodes}, answers_of(of));
+        BusTalk talk(context, work_.parts, {of.nodes}, answers_of(of), of.ended);
         std::vector<Value> in;
         for (size_t i = 0; i < of.inputs.size(); ++i) in.push_back(context.in(i));
         talk.say(of.start, words_of(work_, in));
@@ -161,6 +161,7 @@ std::vector<run::Coded> code_of(const ToolboxFile& file, const Parts& parts) {
         const auto work = std::make_shared<const Work>(Work{one, parts});
         run::Coded coded{.declared = one.declared};
         coded.declared.bus = {events_of(one), {one.start}, {one.nodes}};
+        if (!one.stop.empty()) coded.declared.bus.stops.push_back(one.stop);
         if (one.declared.kind == plan::Kind::Supervisor) {
             coded.supervisor = [work] { return std::make_unique<BusSupervisor>(*work); };
         } else {

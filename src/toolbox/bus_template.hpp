@@ -15,6 +15,7 @@
 #include "run/code.hpp"
 #include "toolbox/bus_talk.hpp"
 #include "toolbox/parts.hpp"
+#include "toolbox/safe_stop.hpp"
 
 namespace vagus::toolbox {
 
@@ -43,6 +44,7 @@ struct BusTemplate {
     std::string stop;     // empty: nobody needs to be told
     std::string stopped;  // an actor's answer to `stop`
     std::string alive;    // empty: none; an actor's sign of life
+    std::string ended;    // empty: none; says that the node has ended an actor's work by itself
 };
 
 struct ToolboxFile {
@@ -50,12 +52,13 @@ struct ToolboxFile {
     std::string help;
     std::string project;  // as it is written
     std::vector<BusTemplate> templates;
+    SafeStop safe_stop;
 };
 
 // The parts are borrowed by the code.
 std::vector<run::Coded> code_of(const ToolboxFile& file, const Parts& parts);
 
-// All events that the template sends or waits for.
+// All events that the template sends or waits for; not `ended`, which a project may do without.
 std::vector<std::string> events_of(const BusTemplate& of);
 
 // ---- values on the bus ----

@@ -29,7 +29,7 @@ constexpr std::string_view kToolbox = R"({
       "out": {
         "way": { "type": "int", "words": 2 },
         "hot": { "type": "bool" } },
-      "start": "go", "stop": "halt", "stopped": "halted", "alive": "alive",
+      "start": "go", "stop": "halt", "stopped": "halted", "alive": "alive", "ended": "over",
       "states": {
         "There": { "event": "there", "out": ["way", "hot"] },
         "Lost": { "event": "lost" } } },
@@ -165,6 +165,43 @@ TEST_F(BusTemplates, AnAnswerWithTooFewWordsIsAnInternalErrorAndTheNodeIsToldToS
     const Driven driven = drive(go_plan(R"({ "far": 1 })"), library_, nodes);
     EXPECT_THAT(driven.ended.message, HasSubstr("the event \"there\" came with 1 words"));
     EXPECT_THAT(nodes.said, ElementsAre("0 go 1 10 0 200", "5 halt 1"));
+}
+
+// ---- a node that has ended the work by itself ----
+
+TEST_F(BusTemplates, WorkThatTheNodeHasEndedIsAnInternalError) {
+    // By the token of the actor, or by that of a node that has forgotten whose work it was.
+    for (const int16_t token : {int16_t{1}, int16_t{-1}}) {
+        ScriptedNodes nodes([token](ScriptedNodes& bus, const BusEvent& event) {
+            if (event.name == "go") bus.send(50ms, {"over", {token}});
+        });
+        const Driven driven = drive(go_plan(R"({ "far": 1 })"), library_, nodes);
+        EXPECT_EQ(driven.ended.result, plan::PlanResult::Error);
+        EXPECT_THAT(driven.ended.message,
+                    HasSubstr("go: the node \"cart\" has ended the work by itself"));
+        EXPECT_THAT(nodes.said, ElementsAre("0 go 1 10 0 200", "50 halt 1"));
+    }
+}
+
+TEST_F(BusTemplates, WorkOfAnotherTokenThatTheNodeHasEndedIsNoMatter) {
+    ScriptedNodes nodes([](ScriptedNodes& bus, const BusEvent& event) {
+        if (event.name != "go") return;
+        bus.send(5ms, {"over", {99}});
+        bus.send(6ms, {"over", {}});
+        bus.send(7ms, {"lost", {event.arguments[0]}});
+    });
+    EXPECT_EQ(drive(go_plan(R"({ "far": 1 })"), library_, nodes).ended.result,
+              plan::PlanResult::Ok);
+}
+
+// It has stopped, whatever it says about that: nobody waits for the answer to `stop`.
+TEST_F(BusTemplates, AnActorThatIsStoppedIsOverWhenItsNodeHasEndedTheWork) {
+    ScriptedNodes nodes([](ScriptedNodes& bus, const BusEvent& event) {
+        if (event.name == "watch") bus.send(50ms, {"touch", {event.arguments[0], 0}});
+        if (event.name == "halt") bus.send(10ms, {"over", {-1}});
+    });
+    const Driven driven = drive(go_plan(R"({ "far": 1 })", kTouch), library_, nodes);
+    EXPECT_EQ(driven.ended.result, plan::PlanResult::Ok) << driven.ended.message;
 }
 
 // ---- interruption ----
@@ -348,6 +385,70 @@ TEST_F(BusTemplates, ANodeThatLeavesWhileItIsBeingStoppedIsLogged) {
     EXPECT_THAT(driven.trace,
                 testing::Contains(HasSubstr(
                     R"("kind":"log","actor":"go","text":"the node \"cart\", which does)")));
+}
+
+// A node whose program was stopped has stopped: nothing is waited for, and nothing is wrong.
+TEST_F(BusTemplates, ANodeThatWasStoppedFromOutsideHasStopped) {
+    for (const bool before : {false, true}) {
+        ScriptedNodes nodes([before](ScriptedNodes& bus, const BusEvent& event) {
+            if (event.name == "watch") bus.send(50ms, {"touch", {event.arguments[0], 0}});
+            if (event.name == "watch" && before) bus.send(20ms, {node_stopped("cart"), {}});
+            if (event.name == "halt" && !before) bus.send(10ms, {node_stopped("cart"), {}});
+        });
+        const Driven driven = drive(go_plan(R"({ "far": 1 })", kTouch), library_, nodes);
+        EXPECT_EQ(driven.ended.result, plan::PlanResult::Ok) << driven.ended.message;
+        EXPECT_THAT(driven.trace, testing::Contains(HasSubstr(fmt::format(
+                                      R"("ran":true,"stop_us":{})", before ? 0 : 10000))));
+    }
+}
+
+// One that runs again by then is told to stop as any other, and has to answer.
+TEST_F(BusTemplates, ANodeThatRunsAgainIsWaitedFor) {
+    ScriptedNodes nodes([](ScriptedNodes& bus, const BusEvent& event) {
+        if (event.name == "watch") {
+            bus.send(10ms, {node_stopped("cart"), {}});
+            bus.send(20ms, {node_runs("cart"), {}});
+            bus.send(50ms, {"touch", {event.arguments[0], 0}});
+        }
+        if (event.name == "halt") bus.send(30ms, {"halted", {event.arguments[0]}});
+    });
+    const Driven driven = drive(go_plan(R"({ "far": 1 })", kTouch), library_, nodes);
+    EXPECT_THAT(driven.trace, testing::Contains(HasSubstr(R"("ran":true,"stop_us":30000)")));
+}
+
+// Somebody else has stopped the node, and lets nobody wait for it for ever: 10 ms and kStoppedMax.
+TEST_F(BusTemplates, ANodeThatStaysStoppedEndsTheActorWithAnError) {
+    ScriptedNodes nodes([](ScriptedNodes& bus, const BusEvent& event) {
+        if (event.name == "go") bus.send(10ms, {node_stopped("cart"), {}});
+    });
+    const Driven driven = drive(go_plan(R"({ "far": 1 })"), library_, nodes);
+    EXPECT_EQ(driven.ended.result, plan::PlanResult::Error);
+    EXPECT_THAT(driven.ended.message,
+                HasSubstr("the node \"cart\", which does the work, was stopped"));
+    EXPECT_THAT(driven.trace.back(), HasSubstr(at("3.010000", R"("plan-end")")));
+}
+
+// Nobody tells the actor: it was stopped while another one worked, or before the plan began.
+TEST_F(BusTemplates, ANodeThatWasStoppedBeforeTheActorBeganEndsItToo) {
+    ScriptedNodes nodes([](ScriptedNodes&, const BusEvent&) {});
+    nodes_.stopped("cart");
+    const Driven driven = drive(go_plan(R"({ "far": 1 })"), library_, nodes);
+    EXPECT_EQ(driven.ended.result, plan::PlanResult::Error);
+    EXPECT_THAT(driven.ended.message,
+                HasSubstr("the node \"cart\", which does the work, was stopped by somebody else"));
+    EXPECT_THAT(driven.trace.back(), HasSubstr(at("3.000000", R"("plan-end")")));
+    nodes_.runs("cart");
+}
+
+TEST_F(BusTemplates, ANodeThatRunsAgainInTimeGoesOn) {
+    ScriptedNodes nodes([](ScriptedNodes& bus, const BusEvent& event) {
+        if (event.name != "go") return;
+        bus.send(10ms, {node_stopped("cart"), {}});
+        bus.send(3009ms, {node_runs("cart"), {}});
+        bus.send(4s, {"lost", {event.arguments[0]}});
+    });
+    const Driven driven = drive(go_plan(R"({ "far": 1 })"), library_, nodes);
+    EXPECT_EQ(driven.ended.result, plan::PlanResult::Ok) << driven.ended.message;
 }
 
 // ---- many events ----

@@ -19,7 +19,6 @@ namespace vagus::toolbox {
 namespace {
 
 constexpr std::string_view kFileEnding = ".toolbox.json";
-constexpr std::string_view kLibraryEnding = ".so";
 
 Error refused(const std::string& path, std::string_view sentence) {
     return {Code::Refused, fmt::format("the toolbox {}: {}", path, sentence)};

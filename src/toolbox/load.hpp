@@ -2,7 +2,7 @@
 //
 //     const Status loaded = load_toolbox(library, "lamp.toolbox.json", parts, {});
 //
-// The Error names the file, what is wrong with it and how to mend it.
+// The Error names the file, what is wrong with it and how to fix it.
 #pragma once
 
 #include <string>
@@ -14,6 +14,8 @@
 #include "toolbox/toolbox_file.hpp"
 
 namespace vagus::toolbox {
+
+constexpr std::string_view kLibraryEnding = ".so";  // of shared libraries
 
 // A file NAME.toolbox.json, or a shared library (plugin.hpp) by its ending .so. The parts are
 // borrowed as long as the program runs. `read_project`: see toolbox_file.hpp.

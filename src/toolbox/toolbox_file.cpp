@@ -255,7 +255,8 @@ void check_unlike(Reading& reading, Place at, const std::string& event, const Bu
     const std::pair<std::string_view, const std::string*> taken[] = {{"start", &made.start},
                                                                      {"stop", &made.stop},
                                                                      {"stopped", &made.stopped},
-                                                                     {"alive", &made.alive}};
+                                                                     {"alive", &made.alive},
+                                                                     {"ended", &made.ended}};
     for (const auto& [key, other] : taken) {
         if (event != *other) continue;
         reading.complain(at, fmt::format("\"{}\", the event of {}, is its template's \"{}\" too; "
@@ -326,7 +327,7 @@ void read_nodes(Reading& reading, JsonObject& in, BusTemplate& made) {
     }
 }
 
-// `start`, `stop`, `stopped` and `alive`, by the rules of the template's kind.
+// `start`, `stop`, `stopped`, `alive` and `ended`, by the rules of the template's kind.
 void read_commands(Reading& reading, JsonObject& in, BusTemplate& made) {
     const bool actor = made.declared.kind != Kind::Supervisor;
     made.start = read_event(reading, in, "start", Need::Required);
@@ -334,10 +335,12 @@ void read_commands(Reading& reading, JsonObject& in, BusTemplate& made) {
     if (actor) {
         made.stopped = read_event(reading, in, "stopped", Need::Optional);
         made.alive = read_event(reading, in, "alive", Need::Optional);
+        made.ended = read_event(reading, in, "ended", Need::Optional);
     } else {
         const std::string_view why = "nobody waits until a supervisor has stopped";
         refuse(reading, in, in.name(), "stopped", why);
         refuse(reading, in, in.name(), "alive", "only an actor is kept alive");
+        refuse(reading, in, in.name(), "ended", "only the work of an actor ends");
     }
     const Json* stop = in.find("stop", Need::Optional);
     const Json* stopped = in.find("stopped", Need::Optional);
@@ -351,7 +354,7 @@ void read_commands(Reading& reading, JsonObject& in, BusTemplate& made) {
     size_t words = 1;
     for (const BusValue& input : made.inputs) words += static_cast<size_t>(input.words);
     std::set<std::string> seen;
-    for (const std::string_view key : {"start", "stop", "stopped", "alive"}) {
+    for (const std::string_view key : {"start", "stop", "stopped", "alive", "ended"}) {
         const Json* json = in.find(key, Need::Optional);
         if (!json || json->kind != JsonKind::String) continue;
         if (!seen.insert(json->text).second) {
@@ -360,7 +363,8 @@ void read_commands(Reading& reading, JsonObject& in, BusTemplate& made) {
                                                    key, in.name()));
         }
         reading.events.push_back({json->at, json->text, key == "start" ? words : 1,
-                                  key != "stopped", fmt::format("\"{}\" of {}", key, in.name())});
+                                  key != "stopped" && key != "ended",
+                                  fmt::format("\"{}\" of {}", key, in.name())});
     }
 }
 
@@ -430,6 +434,7 @@ ToolboxFile read_all(Reading& reading, const Json& json, const std::string& path
          named_members(reading, templates, "a template", kTemplatesMax)) {
         file.templates.push_back(read_template(reading, *member));
     }
+    file.safe_stop = read_safe_stop(in, reading.complaints);
     in.finish();
     const Json* project = in.find("project", Need::Optional);
     if (!read_project || !project || project->kind != JsonKind::String) return file;

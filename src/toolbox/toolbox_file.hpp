@@ -3,7 +3,7 @@
 //
 //     Result<ToolboxFile> file = read_toolbox(text, "carbot.toolbox.json", {});
 //
-// The Error names file, line, column and element, what was expected and found, and how to mend it.
+// The Error names file, line, column and element, what was expected and found, and how to fix it.
 #pragma once
 
 #include <cstdint>

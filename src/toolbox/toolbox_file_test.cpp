@@ -192,6 +192,8 @@ constexpr Mistake kMistakes[] = {
     {"\"stop\": \"eye.leave\"", "\"stopped\": \"eye.left\"", "17:40",
      "nobody waits until a supervisor"},
     {"\"stop\": \"eye.leave\"", "\"alive\": \"eye.on\"", "17:38", "only an actor is kept alive"},
+    {"\"stop\": \"eye.leave\"", "\"ended\": \"eye.over\"", "17:38", "only the work of an actor"},
+    {"\"alive\": \"lamp.go.on\"", "\"ended\": \"lamp.is.off\"", "11:82", "another key of"},
     {"\"events\": { \"Dark\"", "\"states\": { \"Dark\"", "15:18", "has no \"events\""},
     {"\"type\": \"bool\",", "\"type\": \"bool\", \"scale\": 2,", "16:51", "0 or 1 on the bus"},
     {"\"type\": \"bool\",", "\"type\": \"bool\", \"range\": [0, 1],", "16:51", "a bool is 0 or 1"},

@@ -26,12 +26,19 @@ session::SimSession make(sim::WorldDefinition world, uint64_t seed) {
 
 }  // namespace
 
+std::string text_of(const std::string& script) {
+    const auto text = read_file(test::examples(script));
+    EXPECT_TRUE(text.ok()) << script;
+    return text.value();
+}
+
 Pilot::Pilot(sim::WorldDefinition world, const std::string& script, uint64_t seed)
-    : session_(make(std::move(world), seed)) {
-    const std::string path = test::examples(script);
-    const auto text = read_file(path);
-    EXPECT_TRUE(text.ok()) << path;
-    session_.load_for(session_.nodes().front().robot, path, text.value());
+    : Pilot(std::move(world), test::examples(script), text_of(script), seed) {}
+
+Pilot::Pilot(sim::WorldDefinition world, const std::string& path, const std::string& text,
+             uint64_t seed)
+    : session_(make(std::move(world), seed)), path_(path) {
+    session_.load_for(session_.nodes().front().robot, path, text);
     EXPECT_TRUE(session_.settle());
     EXPECT_TRUE(session_.mistakes().empty());
 }

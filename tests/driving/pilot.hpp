@@ -24,6 +24,11 @@ class Pilot {
 public:
     // The script is a path from examples/.
     Pilot(sim::WorldDefinition world, const std::string& script, uint64_t seed = 1);
+    // Its text instead.
+    Pilot(sim::WorldDefinition world, const std::string& path, const std::string& text,
+          uint64_t seed);
+    // Another text of the same script, which goes to the nodes in the next milliseconds.
+    void reload(const std::string& text) { session_.reload(path_, text); }
 
     void send(const std::string& event, const std::vector<int16_t>& arguments);
     // From now on drive.alive comes every 100 ms, with this token.
@@ -51,8 +56,12 @@ private:
     void millisecond();
 
     session::SimSession session_;
+    std::string path_;
     std::optional<int16_t> alive_;
     std::vector<Heard> heard_;
 };
+
+// The text of a script of examples/.
+std::string text_of(const std::string& script);
 
 }  // namespace vagus

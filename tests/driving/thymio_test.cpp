@@ -103,6 +103,27 @@ TEST(Thymio, SilenceStopsTheWheelsWithinHalfASecondAndTheSameTokenGoesOn) {
     EXPECT_NEAR(pilot.pose().at.x, 1.5, 0.01);
 }
 
+TEST(Thymio, AfterThreeSecondsOfSilenceTheCommandIsOver) {
+    Pilot pilot(room(), kScript);
+    pilot.send("drive.forward", {7, 1500, 0, 166});
+    pilot.keep_alive(7);
+    pilot.step(3s);
+    pilot.fall_silent();
+    pilot.step(2800ms);
+    EXPECT_EQ(pilot.count("drive.ended"), 0u);
+    EXPECT_TRUE(pilot.wait_for("drive.ended", {7}, 300ms));
+    const double x = pilot.pose().at.x;
+    pilot.keep_alive(7);
+    pilot.step(1s);
+    EXPECT_NEAR(pilot.pose().at.x, x, 1e-6);
+    EXPECT_GE(pilot.count("drive.ended", {7}), 5u) << "each sign of life is answered";
+    pilot.send("drive.forward", {7, 100, 0, 100});
+    EXPECT_TRUE(pilot.wait_for("drive.arrived", {7}, 3s));
+    const size_t ended = pilot.count("drive.ended");
+    pilot.step(1s);
+    EXPECT_EQ(pilot.count("drive.ended"), ended) << "it has arrived: that was the answer";
+}
+
 TEST(Thymio, SteeringIsASignOfLifeItself) {
     Pilot pilot(room(), kScript);
     for (int i = 0; i < 20; ++i) {

@@ -184,6 +184,25 @@ run) mkdir -p dist; echo page >dist/index.html ;; esac
         self.assertIn("slow.Bad", err)
         self.assertRegex(err, r"about \d+ minutes")
 
+    def test_what_talks_has_a_second_try_and_is_named(self):
+        races = "".join(f'''
+add_test(NAME {name} COMMAND sh -c "test -e tried-{name} || {{ touch tried-{name}; false; }}")
+set_tests_properties({name} PROPERTIES LABELS {label})''' for name, label in (("talk.Races", "system"),
+                                                                            ("unit.Races", "unit")))
+        self.write("CMakeLists.txt", PROJECT + races)
+        status, out, err = self.call("./test", "Races")
+        self.assertEqual((status, out.splitlines()[-1]), (1, "1 passed, 1 failed"), err)
+        self.assertIn("vagus: passed at the second try only: talk.Races\n", err)
+        self.assertNotIn("second try only: unit", err)
+        self.assertEqual(self.call("./test", "Races")[:2], (0, "2 passed, 0 failed\n"))
+
+    def test_many_that_fail_have_no_second_try(self):
+        self.write("CMakeLists.txt", PROJECT + "".join(f'''
+add_test(NAME talk.Broken{n} COMMAND sh -c "test -e tried{n} || {{ touch tried{n}; false; }}")
+set_tests_properties(talk.Broken{n} PROPERTIES LABELS system)''' for n in range(6)))
+        status, out, err = self.call("./test", "Broken")
+        self.assertEqual((status, out.splitlines()[-1]), (1, "0 passed, 6 failed"), err)
+
     def test_quick_builds_and_runs_the_units_only(self):
         status, out, err = self.call("./test", "--quick")
         self.assertEqual((status, out), (0, "3 passed, 0 failed\n"), err)

@@ -97,7 +97,8 @@ class Net(unittest.TestCase):
         self.assertEqual(self.net("run", "rovr", status=1),
                          'vagus: there is no node "rovr"; did you mean rover? The nodes are: 1 rover')
         self.assertEqual(self.net("stop", "7", status=1),
-                         'vagus: there is no node "7"; the nodes are: 1 rover')
+                         "vagus: node 7 did not answer; these did: 1 rover; if it is slow, give it more time "
+                         "(--wait SECONDS)")
         self.assertIn("did you mean list?", self.net("lsit", status=2))
         self.assertIn("is not a protocol here", run_vagus("net", "udp:1", "list", status=2))
 

@@ -114,6 +114,9 @@ class Package(unittest.TestCase):
         for line in ("Type=notify", "User=vagus", "NoNewPrivileges=yes", "ProtectSystem=strict", "Restart=on-failure", "WatchdogSec=30",
                      "StateDirectory=vagus vagus/robot", "SupplementaryGroups=dialout", "StartLimitBurst=5"):
             self.assertIn(f"\n{line}\n", unit)
+        # Whatever it was started with, it is stopped with.
+        started = re.search(r"(?m)^ExecStart=(.*) --start (.*)$", unit)
+        self.assertIn(f"\nExecStopPost=-{started.group(1)} --stop-only {started.group(2)}\n", unit)
         if shutil.which("systemd-analyze"):
             here = self.folder / "vagus.service"
             here.write_text(unit.replace("/usr/bin/vagus", str(self.vagus)).replace("Documentation=man:vagus(1)\n", ""), encoding="utf-8")

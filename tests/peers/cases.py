@@ -131,7 +131,7 @@ class Peers(unittest.TestCase):
             self.assertEqual(bus.wait(GET_NODE_DESCRIPTION, source=0), b"\x03\x00\x05\x00")
             header, items = bus.description(3)
         self.assertEqual(header, ("rover", 5, 512, 64, 1060))  # section 5.1
-        self.assertEqual(variable_names(items), ["id", "source", "args", "_productId", "timer.period"])
+        self.assertEqual(variable_names(items), ["id", "source", "args", "_productId", "timer.period", "_program"])
         self.assertEqual([len(items[kind]) for kind in (LOCAL_EVENT, NATIVE_FUNCTION)], [1, 30])
 
     def test_asebacmd_lists_and_describes_a_simulated_thymio(self):
@@ -231,7 +231,7 @@ class Peers(unittest.TestCase):
         with Bus(foreign) as bus:
             bus.send(0, GET_NODE_DESCRIPTION, 6, 5)
             self.expect_thymio(*bus.description(6))
-        self.net(foreign, "set", 6, "motor.left.target", 200)
+        self.net(foreign, "set", 6, "motor.left.target", 200, "--leave")
         self.wait_value(foreign, 6, "motor.left.speed", lambda speed: speed > 100)
 
     def test_vagus_net_log_notices_a_node_that_fell_silent_behind_asebaswitch(self):
@@ -260,7 +260,7 @@ class Peers(unittest.TestCase):
         ports = self.playground(1, 2)
         foreign = self.foreign_switch(*[f"tcp:127.0.0.1;{port}" for port in ports])
         self.wait_for_nodes(foreign, ["thymio-II", "thymio-II"])
-        self.net(foreign, "set", 2, "motor.left.target", 100)
+        self.net(foreign, "set", 2, "motor.left.target", 100, "--leave")
         self.wait_value(foreign, 2, "motor.left.speed", lambda speed: speed > 50)
         self.assertEqual(json.loads(self.net(foreign, "get", 1, "motor.left.target", "--json")),
                          {"motor.left.target": [0]})
@@ -270,7 +270,7 @@ class Peers(unittest.TestCase):
         _, port = self.switch(f"tcp:127.0.0.1:{first}", f"tcp:host=127.0.0.1;port={second};remapLocal=2")
         found = self.wait_for_nodes(port, ["thymio-II", "thymio-II"])
         self.assertEqual(sorted(node["id"] for node in found), [1, 2])
-        self.net(port, "set", 2, "motor.right.target", 100)
+        self.net(port, "set", 2, "motor.right.target", 100, "--leave")
         self.wait_value(port, 2, "motor.right.speed", lambda speed: speed > 50)
         self.assertEqual(json.loads(self.net(port, "get", 1, "motor.right.target", "--json")),
                          {"motor.right.target": [0]})
@@ -310,7 +310,8 @@ class Peers(unittest.TestCase):
             "commands that are too short harm nothing": "D9 D11",
         })
         self.assertEqual([name for name, row in rows.items() if row["result"] == "skipped"],
-                         ["fragments of the description can be asked for", "WriteBytecode leaves program and variables",
+                         ["fragments of the description can be asked for", "_program is the checksum of what was loaded",
+                          "_program says when nobody knows", "WriteBytecode leaves program and variables",
                           "a saved program starts by itself after Reboot",
                           "SuspendToRam leaves a node awake that cannot sleep"])
         not_run = {row["group"] for row in rows.values() if row["result"] == "not run"}
@@ -363,7 +364,7 @@ class Peers(unittest.TestCase):
 
     def test_asebastudio_shows_the_variables_of_a_vagus_node(self):
         words = self.expect_studio_shows(self.switched_node(3), 3, "asebastudio.png")
-        self.assertEqual(len(words), 36)
+        self.assertEqual(len(words), 38)  # two of them _program
 
     def test_asebastudio_shows_the_variables_of_a_simulated_thymio(self):
         words = self.expect_studio_shows(self.simulated_thymio(6), 6, "asebastudio-thymio.png")

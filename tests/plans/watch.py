@@ -89,7 +89,7 @@ class Watch(unittest.TestCase):
         program = self.run_watched(json.dumps(once))
         program.wait_line(r"the plan is over: OK")
         self.save(json.dumps(once, indent=2))
-        program.wait_line(r"was saved: the plan starts anew")
+        program.wait_line(r"was saved: the plan starts again")
         program.wait_line(r"the plan is over: OK")
 
 

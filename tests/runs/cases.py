@@ -57,7 +57,7 @@ class Runs(unittest.TestCase):
     def assert_aborted(self, program, lines):
         """The plan ended as by an abort: P28."""
         self.assertEqual(program.wait_end(), 3, program.lines)
-        last = json.loads(lines()[-1])
+        last = [json.loads(line) for line in lines() if line.startswith("{")][-1]
         self.assertEqual((last["kind"], last["result"]), ("plan-end", "Interrupted"))
         self.assertFalse([line for line in lines() if '"kind":"event","supervisor"' in line])
 
@@ -103,9 +103,8 @@ class Signals(Runs):
                     self.wait_for_start(program)
                     simulation.wait_line(r'"node":0,"name":"drive\.forward"')
                     program.signal(number)
-                    # The robot has heard it before the process is gone, and has answered.
-                    simulation.wait_lines(r'"node":0,"name":"drive\.stop"', r'"name":"drive\.stopped"',
-                                          r'"node":0,"name":"touch\.unwatch"')
+                    # The robot has heard it before the process is gone. Its script was stopped: it does not answer.
+                    simulation.wait_lines(r'"node":0,"name":"drive\.stop"', r'"node":0,"name":"touch\.unwatch"')
                     self.assert_aborted(program, lambda: program.lines)
 
     def test_an_actor_that_does_not_stop_gives_4(self):
@@ -177,19 +176,46 @@ class TwoPlans(Runs):
             self.assertEqual((one.wait_end(), other.wait_end()), (0, 0), one.lines + other.lines)
             self.assertNotIn("commands the same nodes", "\n".join(one.lines + other.lines))
 
-    def test_one_that_hears_another_command_its_nodes_says_so_once(self):
+    def test_one_whose_robot_another_plan_takes_ends_with_an_error_that_says_so(self):
         _, target = self.simulation(self.world)
         words = ["--bus", target, "--project", self.script]
         with vagus("plan", "run", self.drive, *words, "--trace", "-") as first:
             self.wait_for_start(first)
+            # The second does not know who drives: it stops the robot first.
             short = self.write("short.plan.json", json.dumps(DRIVE).replace("1000", "5"))
-            for _ in range(2):
-                run_vagus("plan", "run", short, *words)
-            first.wait_line(rf'^vagus: another plan or host on {target} commands the same nodes as this plan: it sent "')
-            first.signal(signal.SIGTERM)
-            self.assertIn(first.wait_end(), (0, 3, 4))
-            said = [line for line in first.lines if "commands the same nodes" in line]
-            self.assertEqual(len(said), 1, said)
+            with vagus("plan", "run", short, *words) as second:
+                second.wait_line("was moving: it was stopped before the plan begins; at rest: ")
+                first.wait_line('the node "drive" has ended the work by itself')
+                self.assertEqual(first.wait_end(), 4, first.lines)
+                # The end of the first stops the robot, perhaps before the second has driven so far.
+                status = second.wait_end()
+                said = "\n".join(second.lines)
+                self.assertIn(status, (0, 4), said)
+                if status == 4:
+                    self.assertRegex(said, 'the node "drive".* was stopped by somebody else|has ended the work by itself')
+
+    def test_one_whose_nodes_somebody_stops_ends_with_an_error_that_names_a_node(self):
+        def plan(supervised, actors):
+            start = {"actor": next(iter(actors)), "supervisors": supervised}
+            return {"format": "vagus-plan/1", "name": "Stopped", "toolboxes": ["drive"], "start": start, "actors": actors}
+
+        touch = {"touch": {"template": "CheckTouchSensor", "events": {"TouchSensorPressed": "@terminate"}}}
+        drives = {"template": "Forward", "in": {"distance": 1000}, "states": {"ForwardSuccessful": "@terminate"}}
+        # While it drives; while nothing but a supervisor works there; while an actor waits that works on no node.
+        for supervised, actors, node in (
+                ({}, {"ahead": drives}, "drive"),
+                (touch, {"rest": {"template": "WaitForever"}}, "bumper"),
+                ({}, {"look": {"template": "Receive", "in": {"event": "'touched'"}, "states": {"Received": "ahead"}},
+                      "ahead": drives}, "drive")):
+            with self.subTest(actors):
+                _, target = self.simulation(self.world)
+                path = self.write("stopped.plan.json", plan(supervised, actors))
+                with vagus("plan", "run", path, "--bus", target, "--project", self.script, "--trace", "-") as program:
+                    self.wait_for_start(program)
+                    run_vagus("net", target, "stop", "all")
+                    self.assertEqual(program.wait_end(), 4, program.lines)
+                    self.assertIn(f'the node "{node}", which does the work, was stopped by somebody else',
+                                  "\n".join(program.lines))
 
 
 class ManyRobots(Runs):
@@ -272,7 +298,7 @@ class BesideAWorld(Runs):
         with vagus("plan", "run", drive, "--world", self.world, "--headless", "--watch") as program:
             program.wait_line("the plan is over")
             self.write("short.plan.json", json.dumps(DRIVE).replace("@terminate", "nowhere"))
-            program.wait_line(r"short\.plan\.json was saved: the plan starts anew")
+            program.wait_line(r"short\.plan\.json was saved: the plan starts again")
             program.wait_line(r"short\.plan\.json:1:\d+: error: .*nowhere")
             self.write("short.plan.json", json.dumps(DRIVE))
             program.wait_line("was saved")

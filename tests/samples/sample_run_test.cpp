@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "sample_run.hpp"
 
 #include <gmock/gmock.h>
@@ -28,12 +29,6 @@ std::string room(std::string_view objects) {
 
 class SampleRunTest : public ::testing::Test {
 protected:
-    SampleRunTest() {
-        std::string name = std::filesystem::temp_directory_path() / "vagus-samples-XXXXXX";
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~SampleRunTest() override { std::filesystem::remove_all(folder_); }
-
     std::string write(const std::string& name, std::string_view text) const {
         EXPECT_TRUE(write_file(folder_ / name, text).ok());
         return folder_ / name;
@@ -57,7 +52,7 @@ protected:
     }
 
 private:
-    std::filesystem::path folder_;
+    test::Folder folder_;
 };
 
 constexpr std::string_view kForward = R"(

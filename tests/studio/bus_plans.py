@@ -60,8 +60,8 @@ class BusPlans(Case):
         self.wait_plan("ended")
         self.assertEqual((self.plan.value["result"], self.plan.value["doc"]), ("OK", "drive.plan.json"))
         self.assertEqual([line["text"] for line in self.plan.value["story"]].count("round"), 3)
-        # The script got the event, and the robot still is what it was: a robot on a bus.
-        self.wait_values(motor_left_target=150, motor_right_target=150)
+        # What the plan had begun does not go on; the scripts do, and the robot still is what it was: a robot on a bus.
+        self.wait_values(motor_left_target=0, motor_right_target=0)
         self.assertEqual((self.robot.value["kind"], self.robot.value["state"]), ("bus", "connected"))
         self.wait_node(state="running", program="current")
         self.wait(lambda: [event for event in self.events("go") if event["node"] == 0 and event["args"] == [150]], "what the plan said")
@@ -127,7 +127,7 @@ class BusPlans(Case):
             if held:
                 page.do("plan.pause")
                 self.wait_plan("paused")
-            self.assertEqual(page.do("stop"), {"stood": [1]})
+            self.assertEqual(page.do("stop")["stood"], [1])
             self.wait_plan("ended")
             self.assertEqual(self.plan.value["result"], "Interrupted")
             self.wait_node(state="stopped")
@@ -138,7 +138,7 @@ class BusPlans(Case):
         page = self.open_robot()
         for _ in range(20):
             begun = page.ask("run.start")
-            self.assertEqual(page.do("stop"), {"stood": [1]})
+            self.assertEqual(page.do("stop")["stood"], [1])
             with self.assertRaises(Refused) as caught:
                 page.answer(begun)
             self.assertIn("stopped", caught.exception.what)
@@ -156,7 +156,7 @@ class BusPlans(Case):
             self.assertRegex(self.clock.value["why"], r"ended by signal 9 \(Killed\) at \d+\.\d{3} s; the active actor was \w+\.")
             self.wait_plan("ended")
             self.assertEqual(self.plan.value["result"], "Error")
-            self.wait_line("note", "the nodes were stopped")
+            self.wait_line("error", "the nodes were stopped")
             self.wait_node(state="stopped")
             self.wait_values(motor_left_target=0, motor_right_target=0)
             self.assertEqual(self.robot.value["state"], "connected")
@@ -176,7 +176,7 @@ class BusPlans(Case):
         self.wait(lambda: self.robot.value["state"] == "lost", "the loss of the robot")
         # The plan needs none of its nodes by name, and goes on; Stop ends it at once.
         self.wait_rounds(2)
-        self.assertEqual(page.do("stop"), {"stood": []})
+        self.assertEqual(page.do("stop")["stood"], [])
         self.wait_plan("ended")
         self.refused("unavailable", "run.start")
         arena = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-arena-"))

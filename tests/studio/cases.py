@@ -99,7 +99,7 @@ class Runs(Case):
         self.wait_node(described=True, doc=DOC, program="current", robot="alice")
         self.wait_clock("none")
         self.assertEqual(self.clock.value["t"], 0)
-        self.assertEqual([robot["name"] for robot in self.scene.value["robots"]], ["alice"])
+        self.wait(lambda: [robot["name"] for robot in self.scene.value["robots"]] == ["alice"], "the robot in the scene")
         moves = page.watch("poses")
         page.do("run.start")
         self.wait_clock("running")
@@ -139,7 +139,7 @@ class Runs(Case):
         page.do("run.start")
         page.do("event.send", name="go", args=[300])
         self.wait(lambda: moves.frames and poses(moves.frames[-1])[0][0] > 0.52, "a robot that drives")
-        self.assertEqual(page.do("stop"), {"stood": [1]})
+        self.assertEqual(page.do("stop")["stood"], [1])
         self.wait_node(state="stopped")
         self.wait_clock("none")
         # A hand from above makes a frame; the wheels stood before time did.
@@ -237,7 +237,7 @@ class Runs(Case):
         self.wait_node(3, state="paused", why="breakpoint")
         self.wait_node(1, state="running")
         self.wait_node(2, state="running")
-        self.assertEqual(page.do("stop"), {"stood": [1, 2, 3]})
+        self.assertEqual(page.do("stop")["stood"], [1, 2, 3])
 
     def test_each_camera_that_is_watched_is_seen(self):
         # One looks at a red box half a metre ahead, the other along an empty room.
@@ -277,7 +277,7 @@ class Runs(Case):
         page.do("event.send", name="go", args=[50])
         self.wait_passed(0.3)
         self.wait(lambda: moves.frames and len(poses(moves.frames[-1])) == 100, "poses of all")
-        self.assertEqual(page.do("stop"), {"stood": list(range(1, 101))})
+        self.assertEqual(page.do("stop")["stood"], list(range(1, 101)))
         self.wait_clock("none")
 
 
@@ -522,9 +522,8 @@ class Plans(Case):
                     "count": {"template": "Assign", "in": {"value": "rounds + 1"}, "out": {"result": "rounds"}, "states": {"Done": "enough"}},
                     "enough": {"template": "Compare", "in": {"left": "rounds", "op": "'>='", "right": 3},
                                "states": {"True": "@terminate", "False": "purr"}}}}
-        text = page.do("doc.open", doc="rounds.plan.json")
-        page.do("doc.edit", doc="rounds.plan.json", version=text["version"],
-                changes=[{"from": 0, "to": len(text["text"]), "text": json.dumps(plan)}])
+        text = page.do("doc.open", doc="rounds.plan.json")["text"]
+        page.edit("rounds.plan.json", (0, len(text), json.dumps(plan)))
         page.do("run.start")
         self.wait_plan("ended")
         # The node counts half a second for each turn, and its supervisor stops none.
@@ -545,9 +544,8 @@ class Plans(Case):
 
     def test_a_plan_with_a_mistake_says_where(self):
         page = self.open_plan()
-        text = page.do("doc.open", doc="rounds.plan.json")
-        at = text["text"].index('"Wait"')
-        page.do("doc.edit", doc="rounds.plan.json", version=text["version"], changes=[{"from": at, "to": at + 6, "text": '"Weit"'}])
+        at = page.do("doc.open", doc="rounds.plan.json")["text"].index('"Wait"')
+        page.edit("rounds.plan.json", (at, at + 6, '"Weit"'))
         self.assertIn("Weit", self.refused("failed", "run.start"))
         self.wait_clock("none")
 

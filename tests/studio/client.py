@@ -38,7 +38,7 @@ class Client(Case):
         page = self.open_rounds(limit=1)
         client = self.run_client(self.studio.address)
         self.assertEqual(client.wait_end(), 1)
-        self.assertIn("drives; ask for the wheel first", client.lines[-1])
+        self.assertIn("has control; request control first", client.lines[-1])
         client = self.run_client(self.studio.address[:-1] + "~")
         self.assertEqual(client.wait_end(), 1)
         self.assertIn("the token is wrong", client.lines[-1])

@@ -78,6 +78,28 @@ class Deploy(Robots):
         values = self.wait_metrics(deployed_version=1)
         self.assertEqual(values[("vagus_deployments_total", "started")], 1)
 
+    def make_planned(self, number, plan):
+        projects.write(pathlib.Path(self.own) / "desk", "do.plan.json", plan)
+        return self.make(number, plan="do.plan.json")
+
+    def test_how_the_plan_is_is_told(self):
+        self.serve()
+        self.assertEqual(self.deploy(self.make_planned(1, projects.PLAN)), "version 1 runs; its plan runs")
+        short = {**projects.PLAN, "configuration": {**projects.PLAN["configuration"], "limit": {"type": "int", "initial": 1}}}
+        self.assertEqual(self.deploy(self.make_planned(2, short)), "version 2 runs; its plan is over: OK")
+        self.assertEqual(self.wait_metrics(deployed_version=2)[("vagus_plan_results_total", "OK")], 1)
+
+    def test_a_plan_that_fails_at_once_is_taken_back(self):
+        self.serve()
+        self.deploy(self.make_planned(1, projects.PLAN))
+        fails = {"format": "vagus-plan/1", "name": "Fails", "start": {"actor": "fail"},
+                 "actors": {"fail": {"template": "Fail", "in": {"message": "'it is broken'"}, "states": {}}}}
+        said = self.deploy(self.make_planned(2, fails), status=1)
+        self.assertRegex(said, r"rolled back to version 1: (.*: )?it does not start: its plan ended in an error: .*it is broken")
+        self.wait_script(1)
+        values = self.wait_metrics(deployed_version=1, plan_running=1, ready=1)
+        self.assertEqual((values[("vagus_deployments_total", "rolled_back")], values[("vagus_run_ends_total", "error")] > 0), (1, True))
+
     def test_what_was_deployed_runs_at_the_next_boot(self):
         self.serve()
         self.deploy(self.make(1))

@@ -147,7 +147,7 @@ class Held(Case):
         self.assertEqual(self.plan.value["state"], "paused")
         page.do("plan.continue")
         self.wait_clock("running")
-        self.assertIn("only while it stands", self.refused("conflict", "plan.held.drop"))
+        self.assertIn("only while it is paused", self.refused("conflict", "plan.held.drop"))
         self.assertEqual(self.actor(), "b")
 
     def test_a_node_that_stands_says_how_many_events_it_has_dropped(self):

@@ -8,6 +8,7 @@ test can also send what no library would, and read as slowly as it likes.
 """
 import base64
 import json
+import math
 import os
 import pathlib
 import re
@@ -20,7 +21,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from harness import GIVE_UP_AFTER, Missing, vagus
-from protocol import TOPICS, fault, fault_of_answer, fault_of_document
+from protocol import COMMANDS, LIMITS, TOPICS, fault, fault_of_answer, fault_of_document
 
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
 
@@ -63,6 +64,8 @@ def ask_for_live(port, headers=None, target="/live"):
 
 class Wire:
     """A TCP connection that is read exactly, with a deadline."""
+
+    begun = (0, b"")  # the pieces of a message that are there
 
     def __init__(self, port, small_window=False):
         self.socket = socket.socket()
@@ -117,14 +120,21 @@ class Wire:
         return status, headers, self.read(int(headers.get("content-length", 0))).decode()
 
     def read_frame(self):
-        """Of a WebSocket: kind and payload. A server does not mask, and this one does not cut."""
-        first, second = self.read(2)
-        size = second & 0x7F
-        if size == 126:
-            size = struct.unpack(">H", self.read(2))[0]
-        elif size == 127:
-            size = struct.unpack(">Q", self.read(8))[0]
-        return first & 0x0F, self.read(size)
+        """Of a WebSocket: kind and payload of a whole message; the server sends long ones in pieces. It does not mask."""
+        while True:
+            first, second = self.read(2)
+            size = second & 0x7F
+            if size == 126:
+                size = struct.unpack(">H", self.read(2))[0]
+            elif size == 127:
+                size = struct.unpack(">Q", self.read(8))[0]
+            kind, payload = first & 0x0F, self.read(size)
+            if kind >= CLOSE:  # may come between the pieces
+                return kind, payload
+            self.begun = (kind or self.begun[0], self.begun[1] + payload)
+            if first & 0x80:
+                whole, self.begun = self.begun, (0, b"")
+                return whole
 
     def read_to_end(self):
         """All frames until the other end says goodbye or is gone: kinds and payloads."""
@@ -211,7 +221,7 @@ class Topic:
 class Page:
     """One connection. A thread reads what comes; wait() sleeps until something did."""
 
-    def __init__(self, port, token, client=None, name="a test", first_id=1):
+    def __init__(self, port, token, client=None, name="a test", first_id=1, nonce=None):
         self.port, self.token, self.name = port, token, name
         self.client = client or os.urandom(8).hex()
         self.next_id = first_id
@@ -220,12 +230,14 @@ class Page:
         self.topics = {}
         self.faults = []   # what came and is not as the protocol says
         self.closed = None  # why
-        self.news = threading.Condition()
+        self.ahead = -math.inf  # the server's clock, before ours, in ms
+        self.news, self.talks = threading.Condition(), threading.Lock()
         self.wire = open_live(port)
         self.reader = threading.Thread(target=self._read, daemon=True)
         self.reader.start()
         try:
-            self.greeting = self.do("hello", token=token, client=self.client, name=name)
+            self.greeting = self.do("hello", token=token, client=self.client, name=name, **({"nonce": nonce} if nonce else {}))
+            self.ahead = max(self.ahead, self.greeting["now"] - time.monotonic() * 1000)
         except BaseException:
             self.close()
             raise
@@ -272,6 +284,10 @@ class Page:
             self.topics[number].take_bytes(time_of_run, payload[16:])
             return
         message = json.loads(payload)
+        if "ping" in message:
+            self.ahead = max(self.ahead, message["now"] - time.monotonic() * 1000)
+            self.say({"pong": message["ping"]})
+            return
         if "watch" in message:
             found = self.topics[message["watch"]].take(message)
         else:
@@ -285,14 +301,18 @@ class Page:
     def say(self, message):
         """A message as it stands."""
         text = message if isinstance(message, (str, bytes)) else json.dumps(message)
-        self.wire.send(frame(TEXT, text if isinstance(text, bytes) else text.encode()))
+        with self.talks:  # the reader answers pings meanwhile
+            self.wire.send(frame(TEXT, text if isinstance(text, bytes) else text.encode()))
 
     def ask(self, command, _id=None, **fields):
         """Sends a command; its number."""
         number = _id or self.next_id
         self.next_id = max(self.next_id, number + 1)
         self.asked[number] = command
-        self.say({"id": number, "do": command, "in": fields})
+        # What can move a robot has a deadline, in the server's time.
+        act = COMMANDS.get(command, {}).get("kind") == "act"
+        until = {"until": self.ahead + time.monotonic() * 1000 + LIMITS["act_ms"]["value"]} if act else {}
+        self.say({"id": number, "do": command, "in": fields} | until)
         return number
 
     def answer(self, number):
@@ -304,6 +324,14 @@ class Page:
 
     def do(self, command, **fields):
         return self.answer(self.ask(command, **fields))
+
+    def edit(self, doc, *changes, version=None):
+        """Changes a text, each (from, to, text), as an editor does; the version that it has then."""
+        now = self.do("doc.open", doc=doc)
+        done = self.do("doc.edit", doc=doc, epoch=now["epoch"], version=version or now["version"], by=self.client,
+                       changes=[{"from": start, "to": end, "text": text} for start, end, text in changes])
+        assert "behind" not in done and "text" not in done, done
+        return done["version"]
 
     def watch(self, topic, rate=None, **of):
         number = len(self.topics) + 1

@@ -98,7 +98,7 @@ class Peers(Case):
         self.expect_debugging(1, "thymio-II")
         page.do("variable.set", node=1, name="motor.left.target", first=0, values=[100])
         self.wait_values(motor_left_target=100)
-        self.assertEqual(page.do("stop"), {"stood": [1]})
+        self.assertEqual(page.do("stop")["stood"], [1])
         self.wait_node(state="stopped")
         self.wait_values(motor_left_target=0, motor_right_target=0)
         page.do("run.start")

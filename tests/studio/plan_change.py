@@ -47,9 +47,8 @@ class Changes(Case):
     def edit(self, plan):
         """The text anew, not saved."""
         text = json.dumps(plan, indent=2)
-        now = self.page.do("doc.open", doc=self.plan_file)
-        length = len(now["text"].encode("utf-16-le")) // 2
-        self.page.do("doc.edit", doc=self.plan_file, version=now["version"], changes=[{"from": 0, "to": length, "text": text}])
+        now = self.page.do("doc.open", doc=self.plan_file)["text"]
+        self.page.edit(self.plan_file, (0, len(now.encode("utf-16-le")) // 2, text))
 
     def save(self, plan, state):
         """Saves it, and waits for what comes of it."""

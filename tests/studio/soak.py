@@ -25,9 +25,7 @@ def a_round(studio, page, clock, dice, number):
     page.wait(lambda: clock.value["state"] == "running", "a run")
     page.do("clock.speed", speed=dice.choice((1, 5, 20)))
     page.do("event.send", name="go", args=[dice.randrange(-200, 200)])
-    text = page.do("doc.open", doc=projects.DOC)
-    page.do("doc.edit", doc=projects.DOC, version=text["version"],
-            changes=[{"from": 0, "to": 1 if number > 0 else 0, "text": " " if number % 2 else "\n"}])
+    page.edit(projects.DOC, (0, 1 if number > 0 else 0, " " if number % 2 else "\n"))
     page.do("world.put", kind="cylinder", at=[dice.uniform(1.5, 2), dice.uniform(0.5, 2)], radius=0.02)
     now = clock.value["t"]
     page.wait(lambda: clock.value["t"] > now + dice.uniform(0, 1), "time")

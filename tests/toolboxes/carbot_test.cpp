@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/test_folder.hpp"
 #include "base/file.hpp"
 #include "base/test_places.hpp"
 #include "sample_run.hpp"
@@ -22,12 +23,6 @@ constexpr double kPi = 3.14159265358979;
 
 class CarbotTemplates : public ::testing::Test {
 protected:
-    CarbotTemplates() {
-        std::string name = std::filesystem::temp_directory_path() / "vagus-toolboxes-XXXXXX";
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~CarbotTemplates() override { std::filesystem::remove_all(folder_); }
-
     std::string write(const std::string& name, std::string_view text) const {
         EXPECT_TRUE(write_file(folder_ / name, text).ok());
         return folder_ / name;
@@ -59,7 +54,7 @@ protected:
     }
 
 private:
-    std::filesystem::path folder_;
+    test::Folder folder_;
 };
 
 sim::Pose end_of(const Ran& ran) {

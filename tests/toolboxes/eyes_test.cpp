@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/test_folder.hpp"
 #include "base/file.hpp"
 #include "base/test_places.hpp"
 #include "sample_run.hpp"
@@ -29,12 +30,6 @@ struct Scene {
 
 class Eyes : public ::testing::Test {
 protected:
-    Eyes() {
-        std::string name = std::filesystem::temp_directory_path() / "vagus-eyes-XXXXXX";
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~Eyes() override { std::filesystem::remove_all(folder_); }
-
     std::string write(const std::string& name, const std::string& text) const {
         EXPECT_TRUE(write_file(folder_ / name, text).ok());
         return folder_ / name;
@@ -63,7 +58,7 @@ protected:
     }
 
 private:
-    std::filesystem::path folder_;
+    test::Folder folder_;
 };
 
 sim::Pose end_of(const Ran& ran) {

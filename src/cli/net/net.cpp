@@ -24,6 +24,7 @@ struct Call {
     std::vector<std::string> nodes, variables;
     std::string node, variable, event, file;
     std::vector<int> values;
+    bool leave = false;              // of set: returns at once
     std::vector<std::string> place;  // of break: FILE:LINE [if CONDITION]
     BreakOptions at;
 };
@@ -99,13 +100,14 @@ void acts(CLI::App* verb, const SharedCall& call, int& exit_code, Act act) {
 }
 
 void add_looking_verbs(CLI::App& net, const SharedCall& call, int& exit_code) {
-    CLI::App* list =
-        add_verb(net, "list", "who is there, one node a line",
-                 "Ends 0.3 s after the last answer (--wait: another time).\n"
-                 "\"program unknown\": the node has executed nothing since its "
-                 "start, so nobody can\ntell whether it has one. Exit code 1 if no node "
-                 "answers.\n"
-                 "Example:\n  vagus net tcp:127.0.0.1:33333 list --json");
+    CLI::App* list = add_verb(
+        net, "list", "who is there, one node a line",
+        "Ends when nobody has answered for 0.3 s, or for as long as answers took so far (--wait:\n"
+        "another time).\n"
+        "\"program unknown\": the node has executed nothing since its "
+        "start, so nobody can\ntell whether it has one. Exit code 1 if no node "
+        "answers.\n"
+        "Example:\n  vagus net tcp:127.0.0.1:33333 list --json");
     acts(list, call, exit_code, [](NetSession& s, const Call&) { return net_list(s); });
 
     CLI::App* describe =
@@ -136,17 +138,21 @@ void add_variable_verbs(CLI::App& net, const SharedCall& call, int& exit_code) {
     acts(get, call, exit_code,
          [](NetSession& s, const Call& c) { return net_get(s, c.node, c.variables); });
 
-    CLI::App* set = add_verb(net, "set", "writes a variable",
-                             "Example:\n  vagus net tcp:127.0.0.1:33333 set thymio-II "
-                             "motor.left.target 100");
+    CLI::App* set = add_verb(
+        net, "set", "writes a variable",
+        "A variable that drives the node, as `safe_stop` of the --project or of the program says,\n"
+        "is set until Ctrl-C or for --wait seconds: then the node is stopped. Exit code 1 if it\n"
+        "cannot be read back at rest.\n"
+        "Example:\n  vagus net tcp:127.0.0.1:33333 set thymio-II motor.left.target 100");
     set->add_option("NODE", call->node, "number or name of a node")->required();
     set->add_option("VARIABLE", call->variable, variable)->required();
     CLI::Option* value = set->add_option(
         "VALUE", call->values, "as many as the range has words, or fewer; also 0x1f and 0b101");
     value->required();
     takes_words(*value);
+    set->add_flag("--leave", call->leave, "returns at once, also if the node is left driving");
     acts(set, call, exit_code, [](NetSession& s, const Call& c) {
-        return net_set(s, c.node, c.variable, words_of(c.values));
+        return net_set(s, c.node, c.variable, words_of(c.values), c.leave);
     });
 
     CLI::App* emit = add_verb(net, "emit", "sends an event to all nodes",
@@ -188,8 +194,10 @@ constexpr ControlVerb kControlVerbs[] = {
      "Variables keep their values. `run` goes on.\nExample:\n  vagus net tcp:127.0.0.1:33333 reset "
      "all"},
     {debug::Control::Kind::Stop, "stop",
-     "ends what nodes are doing; they ignore events until `run`",
-     "Motors keep what they were told last.\nExample:\n  vagus net tcp:127.0.0.1:33333 stop all"},
+     "ends what nodes are doing and brings them to rest; they ignore events until `run`",
+     "Writes what `safe_stop` of the --project or of the program says, and reads back whether the "
+     "nodes\nare at rest, for 5 seconds (--wait: another time). Exit code 1 if one is not, or does "
+     "not answer.\nExample:\n  vagus net tcp:127.0.0.1:33333 stop all"},
     {debug::Control::Kind::Save, "save", "makes nodes store their programs for their next start",
      "Nodes without flash ignore it and cannot say so.\nExample:\n  vagus net tcp:127.0.0.1:33333 "
      "save 1"},
@@ -200,7 +208,8 @@ void add_control_verbs(CLI::App& net, const SharedCall& call, int& exit_code) {
         CLI::App* verb = add_verb(net, entry.name, entry.what, entry.footer);
         verb->add_option("NODE", call->nodes, "numbers or names of nodes, or all")->required();
         acts(verb, call, exit_code, [kind = entry.kind](NetSession& s, const Call& c) {
-            return net_control(s, kind, c.nodes);
+            const bool stops = kind == debug::Control::Kind::Stop;
+            return stops ? net_stop(s, c.nodes) : net_control(s, kind, c.nodes);
         });
     }
 }

@@ -70,8 +70,9 @@ int complain_unreached(const NetSession& session, const std::vector<std::string>
 }
 
 Verdict net_list(NetSession& session) {
-    const Duration quiet = session.wait_or(std::chrono::duration<double>(kQuiet).count());
-    (void)TRY(session.discover(quiet));
+    debug::RollCallOptions how;
+    if (session.options().wait_s) how.quiet = how.first_within = session.wait_or(0);
+    (void)TRY(session.discover(how));
     session.adopt_scripts();
     std::vector<debug::NodeId> ids = session.network().nodes();
     std::erase_if(ids, [&session](debug::NodeId id) { return !session.view(id).connected; });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 #include "cli/output.hpp"
 #include "hub/hub.hpp"
 #include "net/network.hpp"
@@ -13,6 +14,13 @@ namespace {
 
 constexpr Duration kFlushWithin = std::chrono::seconds(2);
 constexpr Duration kFarewellWithin = std::chrono::milliseconds(200);
+
+// Of a node that is named by its number.
+std::optional<debug::NodeId> id_of(const std::string& name) {
+    const auto number = decimal_number(name);
+    const bool fits = number && *number > wire::kHostId && *number < wire::kInvalidId;
+    return fits ? std::optional(static_cast<debug::NodeId>(*number)) : std::nullopt;
+}
 
 }  // namespace
 
@@ -105,23 +113,9 @@ Status NetSession::turn(Time deadline) {
         if (!hears_user_events_ && wire::is_user_event(frame.type)) continue;
         network_.receive(now(), frame);
     }
-    const size_t before = events_.size();
     for (debug::Event& event : network_.take_events()) events_.push_back(std::move(event));
-    note_answers(before);
     if (bus_->closed) return Error{Code::Unavailable, bus_->why};
     return Status::done();
-}
-
-void NetSession::note_answers(size_t from) {
-    for (size_t i = from; i < events_.size(); i++) {
-        const debug::Event& event = events_[i];
-        const auto& what = event.what;
-        if (std::holds_alternative<debug::DescriptionFailed>(what)) silent_.push_back(event.node);
-        if (std::holds_alternative<debug::NodeAppeared>(what) ||
-            std::holds_alternative<debug::NodeDescribed>(what)) {
-            last_answer_ = event.at;
-        }
-    }
 }
 
 std::vector<debug::Event> NetSession::take_events() {
@@ -188,44 +182,15 @@ std::vector<debug::NodeId> NetSession::undescribed() const {
     return ids;
 }
 
-bool NetSession::ready(debug::NodeId id) const {
-    const debug::NodeView* node = network_.node(id);
-    return node != nullptr && node->connected && node->described &&
-           node->state != debug::ProgramState::Unknown;
-}
-
-bool NetSession::all_ready() const {
-    for (const debug::NodeId id : network_.nodes()) {
-        const bool given_up = std::find(silent_.begin(), silent_.end(), id) != silent_.end();
-        if (view(id).connected && !ready(id) && !given_up) return false;
-    }
-    return true;
-}
-
-Status NetSession::discover(Duration quiet, const std::function<bool()>& enough) {
-    const Time start = now();
-    last_answer_ = start;
-    network_.tick(start);
-    bool asked_again = false;
-    while (!interrupted() && !enough()) {
-        const Time time = now();
-        const Time quiet_since = last_answer_ + quiet;
-        const Time complete_by = last_answer_ + std::max(kNodesWithin, quiet);
-        if (time >= start + std::max(kDiscoverMax, quiet)) break;
-        if (time >= quiet_since && (all_ready() || time >= complete_by)) {
-            if (!network_.doubts_an_id() || std::exchange(asked_again, true)) break;
-            network_.list_nodes();  // two answers of one id: is it two nodes?
-            last_answer_ = time;
-            continue;
-        }
-        (void)TRY(turn(time < quiet_since ? quiet_since : complete_by));
+Status NetSession::discover(const debug::RollCallOptions& options) {
+    debug::RollCall call(network_, now(), options);
+    size_t heard = events_.size();
+    while (!interrupted() && !call.over(network_, now())) {
+        (void)TRY(turn(call.next()));
+        for (; heard < events_.size(); heard++) call.hear(events_[heard]);
     }
     match_scripts();
     return Status::done();
-}
-
-Status NetSession::discover(Duration quiet) {
-    return discover(quiet, [] { return false; });
 }
 
 Duration NetSession::wait_or(double seconds) const {
@@ -253,17 +218,30 @@ Result<std::vector<debug::NodeId>> NetSession::find_all(
 // answered.
 Result<std::vector<debug::NodeId>> NetSession::nodes(const std::vector<std::string>& named) {
     const Time deadline = now() + wait_or(0);
-    const auto numbered = [this](const std::string& name) {
-        const bool number = name.find_first_not_of("0123456789") == std::string::npos;
-        const Result<debug::NodeId> id = network_.find(name);
-        return number && id.ok() && ready(id.value());
-    };
-    (void)TRY(discover(
-        kQuiet, [&named, &numbered] { return std::all_of(named.begin(), named.end(), numbered); }));
+    debug::RollCallOptions how;
+    for (const std::string& name : named) {
+        if (const auto id = id_of(name)) how.wanted.push_back(*id);
+    }
+    how.only_wanted = how.wanted.size() == named.size();
+    (void)TRY(discover(how));
     const auto found = [this, &named] { return find_all(named).ok(); };
     while (!found() && !interrupted() && now() < deadline) (void)TRY(turn(deadline));
     adopt_scripts();
+    for (const debug::NodeId id : how.wanted) {
+        if (network_.node(id) == nullptr) return no_answer(id);
+    }
     return find_all(named);
+}
+
+// It may be there all the same.
+Error NetSession::no_answer(debug::NodeId id) const {
+    std::string sentence = "node " + std::to_string(id) + " did not answer";
+    std::string others;
+    for (const debug::NodeId other : connected()) {
+        others += (others.empty() ? "" : ", ") + std::to_string(other) + " " + view(other).name;
+    }
+    sentence += others.empty() ? ", and no other node did either" : "; these did: " + others;
+    return {Code::Timeout, sentence + "; if it is slow, give it more time (--wait SECONDS)"};
 }
 
 Result<debug::NodeId> NetSession::node(const std::string& named) {

@@ -11,15 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "debug/network.hpp"
+#include "debug/roll_call.hpp"
 #include "session/script_file.hpp"
 
 namespace vagus::cli {
-
-constexpr Duration kQuiet = std::chrono::milliseconds(300);  // after the last answer: all are known
-// Nodes that have not described themselves are waited for as long as others still do.
-constexpr Duration kNodesWithin = std::chrono::milliseconds(3000);
-constexpr Duration kDiscoverMax = std::chrono::seconds(30);  // however many go on answering
 
 // What stands on the command line before the verb.
 struct NetOptions {
@@ -80,9 +75,8 @@ public:
     void farewell();
 
     // ---- nodes ----
-    // Asks who is there; until `quiet` after the last answer, or until it is `enough`.
-    Status discover(Duration quiet, const std::function<bool()>& enough);
-    Status discover(Duration quiet);
+    // Asks who is there, as long as answers may come.
+    Status discover(const debug::RollCallOptions& options = {});
     // Discovers, then finds each by number or name, if need be for --wait seconds; "all" stands for
     // every connected node. Where the project has a script for a node, its names and lines are
     // known from then on.
@@ -105,10 +99,8 @@ private:
 
     explicit NetSession(NetOptions options);
     Status connect();
-    bool all_ready() const;
-    bool ready(debug::NodeId id) const;
+    Error no_answer(debug::NodeId id) const;
     Result<std::vector<debug::NodeId>> find_all(const std::vector<std::string>& named) const;
-    void note_answers(size_t from);
     void match_scripts();
 
     NetOptions options_;
@@ -120,8 +112,6 @@ private:
     std::map<debug::NodeId, int> scripts_;  // index into the project's scripts
     std::deque<Compiled> compiled_;         // their places stay
     bool hears_user_events_ = false;
-    std::vector<debug::NodeId> silent_;  // would not describe themselves
-    Time last_answer_{};
 };
 
 // How it ended; nothing if it worked.

@@ -241,7 +241,10 @@ struct Teller {
                 .at = e.at,
                 .text = e.text};
     }
+    Told operator()(const debug::NodeConfirmed&) const { return {}; }
     Told operator()(const debug::BreakpointResult&) const { return {}; }
+    Told operator()(const debug::BreakpointReached&) const { return {}; }
+    Told operator()(const debug::BreakpointPassed&) const { return {}; }
     Told operator()(const debug::BreakpointHit& e) const {
         return {.kind = "breakpoint", .event = "hit", .at = e.at};
     }
@@ -255,6 +258,7 @@ struct Teller {
     Told operator()(const debug::ProgramReplaced&) const {
         return {.kind = "program", .event = "replaced", .detail = "by another host or a restart"};
     }
+    Told operator()(const debug::ProgramTold&) const { return {}; }
     Told operator()(const debug::VariablesArrived&) const { return {}; }
     Told operator()(const debug::VariableChanged& e) const {
         return {.kind = "variable",

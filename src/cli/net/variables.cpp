@@ -81,7 +81,7 @@ Verdict net_get(NetSession& session, const std::string& node,
 }
 
 Verdict net_set(NetSession& session, const std::string& node, const std::string& variable,
-                const std::vector<int16_t>& values) {
+                const std::vector<int16_t>& values, bool leave) {
     const debug::NodeId id = TRY(session.node(node));
     const debug::VariableRange range = TRY(session.network().variable(id, variable));
     const debug::RequestId request = TRY(session.network().set(id, range, values));
@@ -89,7 +89,8 @@ Verdict net_set(NetSession& session, const std::string& node, const std::string&
     (void)TRY(session.wait_done({request}, events));
     if (const auto error = error_of(events, request)) return *error;
     print(show_values({{variable, values}}, session.options().json));
-    return kExitDone;
+    const bool drives = !leave && TRY(is_driving(session, id, range, values));
+    return drives ? drive_until_end(session, id) : Verdict(kExitDone);
 }
 
 Verdict net_emit(NetSession& session, const std::string& event,

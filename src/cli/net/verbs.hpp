@@ -32,21 +32,32 @@ int complain_unreached(const NetSession& session, const std::vector<std::string>
 
 Verdict net_list(NetSession& session);
 Verdict net_describe(NetSession& session, const std::vector<std::string>& nodes);
-// run, pause, stop, reset, step, save: all nodes are asked, then all are waited for.
+// run, pause, reset, step, save: all nodes are asked, then all are waited for.
 Verdict net_control(NetSession& session, debug::Control::Kind act,
                     const std::vector<std::string>& nodes);
 
 // ---- variables.cpp ----
 Verdict net_get(NetSession& session, const std::string& node,
                 const std::vector<std::string>& variables);
+// A variable that drives the node (docs/formats.md, "Safe stop") is set as long as this runs: until
+// Ctrl-C or the end of --wait. With `leave` it returns at once all the same.
 Verdict net_set(NetSession& session, const std::string& node, const std::string& variable,
-                const std::vector<int16_t>& values);
+                const std::vector<int16_t>& values, bool leave);
 Verdict net_emit(NetSession& session, const std::string& event,
                  const std::vector<int16_t>& arguments);
 Verdict net_watch(NetSession& session, const std::string& node,
                   const std::vector<std::string>& variables);
 // All that happens, or what happens on these nodes.
 Verdict net_log(NetSession& session, const std::vector<std::string>& nodes);
+
+// ---- rest.cpp ----
+// Stops scripts, makes nodes safe, reads back. The exit code tells whether all are at rest.
+Verdict net_stop(NetSession& session, const std::vector<std::string>& nodes);
+// Whether these values of the variable are other than those of the node's safe stop.
+Result<bool> is_driving(const NetSession& session, debug::NodeId id,
+                        const debug::VariableRange& range, const std::vector<int16_t>& values);
+// Then the node is made safe again.
+Verdict drive_until_end(NetSession& session, debug::NodeId id);
 
 // ---- load.cpp ----
 // To every node that the project has a script for, or to `node` if it is not empty.

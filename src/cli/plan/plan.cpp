@@ -62,6 +62,7 @@ int check(const CheckOptions& options) {
 
 // To the end of the plan, or of the watching; gives the exit code.
 int show_run(PlanRun& run, const PlanRunOptions& options) {
+    run.prepared().end_when_stopped();
     const PlanShown shown = how_to_show(options);
     switch (shown) {
         case PlanShown::Screen:
@@ -81,7 +82,7 @@ int run_once(const PlanRunOptions& options) {
     const std::unique_ptr<PlanRun> run = PlanRun::prepare(options);
     if (!run) return kExitUsage;
     net::watch_for_end();
-    const net::EndWatcher end_watcher([&run] { run->prepared().abort(); });
+    const net::EndWatcher end_watcher([&run] { run->prepared().abort(net::end_asked_by()); });
     return show_run(*run, options);
 }
 
@@ -118,11 +119,11 @@ int run_watched(const PlanRunOptions& options) {
             return run && take_save(saved, here, *run, *change);
         });
         const net::EndWatcher end_watcher([&run] {
-            if (run) run->prepared().abort();
+            if (run) run->prepared().abort(net::end_asked_by());
         });
         if (run) exit_code = show_run(*run, options);
         const std::optional<std::string> saved = saves.wait();
-        if (saved) say(*saved + " was saved: the plan starts anew\n");
+        if (saved) say(*saved + " was saved: the plan starts again\n");
     }
     return exit_code;
 }
@@ -212,7 +213,7 @@ void add_run(CLI::App& plan, int& exit_code) {
     add_theme_option(*verb, options->theme);
     verb->add_flag("--watch", options->watch,
                    "a plan that is saved takes over while it runs; any other file that it read "
-                   "starts it anew");
+                   "starts it again");
     verb->callback([options, &exit_code] {
         exit_code = options->watch ? run_watched(*options) : run_once(*options);
     });

@@ -34,6 +34,7 @@ std::unique_ptr<PlanRun> PlanRun::prepare(const PlanRunOptions& options) {
     }
     made->prepared_ = std::move(prepared.value());
     made->prepared_->tell([](const std::string& sentence) { complain(sentence); });
+    if (options.quiet) made->prepared_->report([](const std::string&) {});
     const std::string listening = made->prepared_->listening();
     if (!listening.empty()) print("listening " + listening + "\n");
     return made;

@@ -17,6 +17,7 @@
 #include "cli/sim/view.hpp"
 #include "net/end_signal.hpp"
 #include "net/network.hpp"
+#include "session/safe_stop.hpp"
 #include "session/sim_session.hpp"
 
 namespace vagus::cli {
@@ -26,6 +27,8 @@ using namespace std::chrono_literals;
 
 constexpr Duration kTurn = 10ms;        // of the loop, in real time
 constexpr Duration kHeadlessFor = 20s;  // simulated, unless --duration says otherwise
+constexpr Duration kGuestsWithin = 3s;  // for nodes on the bus to be read back at rest
+
 Duration seconds(double value) {
     return Duration(std::llround(value * 1e6));
 }
@@ -52,6 +55,7 @@ public:
     // False if there are some, or a script did not arrive, and nobody watches their files.
     bool settle();
     int run();
+    void stop_guests();
 
 private:
     bool on_terminal() const { return screen_ != nullptr; }
@@ -154,9 +158,23 @@ int SimRun::run() {
     tell_notes();
     write_trace();
     screen_.reset();
+    stop_guests();
     const Status traced = trace_.flush();
     if (!traced.ok()) return complain(traced.error());
     return net::end_as_asked(kExitDone);
+}
+
+// Real nodes on this bus may do what robots of this world tell them: nobody does any more.
+void SimRun::stop_guests() {
+    if (listening_.empty() || !session_.stop_guests()) return;
+    const Time latest = network_.now() + kGuestsWithin;
+    while (!session_.guests_rest() && network_.now() < latest) {
+        (void)network_.poll(network_.now() + sim::kNodeStep);
+        session_.step(sim::kNodeStep);
+    }
+    (void)network_.poll(network_.now());
+    say("the nodes that had joined this bus were stopped; " + session::describe(session_.guests()) +
+        "\n");
 }
 
 void SimRun::turn() {
@@ -324,6 +342,7 @@ Result<session::SimSession> open_session(const SimRunOptions& options) {
     made.world.seed = options.seed;
     made.world.threads = options.threads;
     made.world.sd_folder = options.sd_folder;
+    if (!options.listen.empty()) made.guests = TRY(session::safe_stop_around(options.world, {}));
     session::SimSession session = TRY(session::open_sim(options.world, made));
     for (const std::string& path : options.loads) {
         const std::string text = TRY(read_file(path));

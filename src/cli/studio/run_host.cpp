@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/output.hpp"
 #include "serve/host/run_host.hpp"
 
 namespace vagus::cli {
@@ -10,7 +11,10 @@ void add_run_host(CLI::App& app, int& exit_code) {
     CLI::App* verb = app.add_subcommand("run-host", "a run of the studio");
     verb->group("");
     verb->footer("Example:\n  vagus run-host 3<>socket");
-    verb->callback([&exit_code] { exit_code = serve::run_host(); });
+    verb->callback([&exit_code] {
+        const serve::HostEnd end = serve::run_host(serve::Pipe(serve::kTalkDescriptor));
+        exit_code = end.why.empty() ? end.status : complain(end.why, end.status);
+    });
 }
 
 }  // namespace vagus::cli

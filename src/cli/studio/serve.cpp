@@ -45,6 +45,9 @@ void add_serve(CLI::App& app, int& exit_code) {
         {"vagus.json"});
     verb->add_flag("--start", options->start,
                    "runs its plan and scripts as soon as the nodes are there");
+    verb->add_flag("--stop-only", options->stop_only,
+                   "stops the robot and ends: for a service manager, when a server is gone that "
+                   "could not do it itself");
     verb->add_option("--target", options->target,
                      "instead of the project's own: sim, tcp:HOST:PORT, ser:DEVICE, can:INTERFACE")
         ->type_name("TARGET");
@@ -56,7 +59,8 @@ void add_serve(CLI::App& app, int& exit_code) {
     verb->footer(
         "It prints `serve http://127.0.0.1:PORT/`, waits for nodes that are not there yet, and "
         "serves the\n"
-        "studio's pages, /healthz and /metrics until it is interrupted; the robot stands then.\n"
+        "studio's pages, /healthz and /metrics until it is interrupted; the robot is stopped "
+        "then.\n"
         "\n"
         "Example:\n"
         "  vagus serve examples/follow-wall --start\n"

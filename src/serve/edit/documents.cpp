@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "serve/edit/json_patch.hpp"
+#include "serve/edit/seen.hpp"
 
 namespace vagus::serve {
 
@@ -16,14 +17,17 @@ std::vector<TextChange> changes_of(const Json& list) {
     return changes;
 }
 
-// An edit that counts in a text that is not the one there is.
-bool conflicts(const Call& call, const std::string& doc, const DocumentView& view) {
-    const uint32_t version = call.in["version"];
-    if (version == view.version) return false;
-    call.fail("conflict", fmt::format("{}: the text is at version {} by now, the change is for {}; "
-                                      "take the new text and change that",
-                                      doc, view.version, version));
-    return true;
+Json json_of(const Update& update) {
+    Json changes = Json::array();
+    for (const TextChange& one : update.changes) {
+        changes.push_back({{"from", one.from}, {"to", one.to}, {"text", one.text}});
+    }
+    return {{"version", update.version}, {"changes", std::move(changes)}, {"by", update.by}};
+}
+
+// Names of those who change texts that are no client's.
+bool is_ours(const std::string& by) {
+    return by.empty() || by == "server" || by == "disk" || by.starts_with("for:");
 }
 
 // "project" for a vagus.json, else the language of the document.
@@ -33,8 +37,8 @@ std::string format_name(const std::string& path, const std::string& language) {
 
 }  // namespace
 
-Documents::Documents(Desk& desk, Files& files, const EditListeners& listeners)
-    : desk_(desk), files_(files), listeners_(listeners) {
+Documents::Documents(Desk& desk, Files& files, const EditListeners& listeners, std::string epoch)
+    : desk_(desk), files_(files), listeners_(listeners), epoch_(std::move(epoch)) {
     desk_.board().document("doc", [this](const Json& of) { return doc_document(of); });
     desk_.board().document("files", [this](const Json&) { return files_document(); });
     declare_commands();
@@ -43,16 +47,21 @@ Documents::Documents(Desk& desk, Files& files, const EditListeners& listeners)
 void Documents::declare_commands() {
     desk_.command("doc.open", [this](const Call& call) { open(call); });
     desk_.command("doc.edit", [this](const Call& call) { edit(call); });
+    desk_.command("doc.pull", [this](const Call& call) { pull(call); });
+    desk_.command("doc.disk", [this](const Call& call) { disk(call); });
     desk_.command("doc.patch", [this](const Call& call) { patch(call); });
     desk_.command("doc.save", [this](const Call& call) { save(call); });
     desk_.command("doc.save_all", [this](const Call& call) { save_all(call); });
     desk_.command("doc.revert", [this](const Call& call) {
-        answer_version(call, files_.revert(call.in["doc"]));
+        if (!seen_all(call, files_, epoch_)) return;
+        answer_version(call, files_.revert(call.in["doc"], made_for(call.member)));
     });
     desk_.command("doc.keep", [this](const Call& call) {
+        if (!seen_all(call, files_, epoch_)) return;
         const std::string doc = call.in["doc"];
         const bool mine = call.in["which"] == "mine";
-        answer_version(call, mine ? files_.keep_mine(doc) : files_.revert(doc));
+        answer_version(call,
+                       mine ? files_.keep_mine(doc) : files_.revert(doc, made_for(call.member)));
     });
 }
 
@@ -60,28 +69,73 @@ void Documents::open(const Call& call) {
     const auto opened = files_.open(call.in["doc"]);
     if (!opened.ok()) return call.fail(opened.error());
     const DocumentView& view = opened.value();
-    call.done({{"text", view.text},
+    call.done({{"epoch", epoch_},
+               {"text", view.text},
                {"version", view.version},
                {"language", view.language},
-               {"unsaved", view.unsaved}});
+               {"unsaved", view.unsaved},
+               {"ends", view.ends}});
+}
+
+// Whether an edit is for another text than the one there is.
+bool Documents::is_behind(const Call& call, const std::string& doc) const {
+    return call.in["epoch"] != epoch_ || call.in["version"] != files_.version(doc);
+}
+
+// What leads from the text that the call names to the one there is.
+void Documents::answer_missing(const Call& call, const std::string& doc) const {
+    // Versions of another life of this server say nothing; none of ours is 0.
+    const bool ours = call.in["epoch"] == epoch_;
+    const auto missing = files_.since(doc, ours ? call.in["version"].get<uint32_t>() : 0);
+    if (!missing.ok()) return call.fail(missing.error());
+    Json out = {{"version", missing.value().version}};
+    if (missing.value().text) {
+        out["text"] = *missing.value().text;
+        out["epoch"] = epoch_;
+    } else {
+        out["behind"] = Json::array();
+        for (const Update& one : missing.value().updates) out["behind"].push_back(json_of(one));
+    }
+    call.done(std::move(out));
 }
 
 void Documents::edit(const Call& call) {
     const std::string doc = call.in["doc"];
-    const auto opened = files_.open(doc);
+    const auto opened = files_.state(doc);
     if (!opened.ok()) return call.fail(opened.error());
-    if (conflicts(call, doc, opened.value())) return;
+    if (is_ours(call.in["by"])) {
+        return call.fail("bad_input",
+                         "by: expected the client's name for itself; for:N, disk, "
+                         "server and an empty one are the server's");
+    }
+    if (is_behind(call, doc)) return answer_missing(call, doc);
     const auto edited =
-        files_.edit(doc, opened.value().version, changes_of(call.in["changes"]), call.member);
+        files_.edit(doc, opened.value().version, changes_of(call.in["changes"]), call.in["by"]);
     if (!edited.ok()) return call.fail(edited.error());
     call.done({{"version", edited.value()}});
+}
+
+void Documents::pull(const Call& call) {
+    answer_missing(call, call.in["doc"]);
+}
+
+void Documents::disk(const Call& call) {
+    const auto text = files_.disk_text(call.in["doc"]);
+    if (!text.ok()) return call.fail(text.error());
+    call.done({{"text", text.value()}});
 }
 
 void Documents::patch(const Call& call) {
     const std::string doc = call.in["doc"];
     const auto opened = files_.open(doc);
     if (!opened.ok()) return call.fail(opened.error());
-    if (conflicts(call, doc, opened.value())) return;
+    const bool ours = !call.in.contains("epoch") || call.in["epoch"] == epoch_;
+    if (!ours || call.in["version"] != opened.value().version) {
+        return call.fail(
+            "behind", fmt::format("{}: the text is at version {} by now, the steps are for {}; "
+                                  "take the new text and change that",
+                                  doc, opened.value().version, call.in["version"].get<uint32_t>()));
+    }
     const DocumentView& view = opened.value();
     const auto steps = read_steps(call.in["steps"]);
     if (!steps.ok()) return call.fail(steps.error());
@@ -94,25 +148,36 @@ void Documents::patch(const Call& call) {
     if (text.value() == view.text) {
         return call.done({{"version", view.version}, {"text", view.text}});
     }
-    const auto version = files_.replace(doc, text.value(), call.member);
+    const auto version = files_.replace(doc, text.value(), made_for(call.member));
     if (!version.ok()) return call.fail(version.error());
     call.done({{"version", version.value()}, {"text", text.value()}});
 }
 
 void Documents::save(const Call& call) {
-    const std::string doc = call.in["doc"];
+    const std::string named = call.in["doc"];
+    const std::string doc = files_.moved_to(named).value_or(named);
     const bool unsaved = files_.is_unsaved(doc);
     const Status saved = files_.save(doc);
+    if (!saved.ok() && files_.has_conflict(doc)) return call.fail("conflict", saved.error().what);
     if (!saved.ok()) return call.fail(saved.error());
     if (unsaved) listeners_.saved(doc.substr(0, doc.rfind('#')));
-    call.done();
+    done_on_disk(call, {{"version", files_.version(doc)}});
+}
+
+// "Saved" is said when a power cut cannot take it back.
+void Documents::done_on_disk(const Call& call, Json out) {
+    files_.when_on_disk([call, out = std::move(out)](const Status& written) {
+        written.ok() ? call.done(out) : call.fail(written.error());
+    });
 }
 
 void Documents::save_all(const Call& call) {
-    const auto saved = files_.save_all();
-    if (!saved.ok()) return call.fail(saved.error());
-    for (const std::string& path : saved.value()) listeners_.saved(path);
-    call.done({{"saved", saved.value()}});
+    std::vector<std::string> saved;
+    const Status all = files_.save_all(saved);
+    for (const std::string& path : saved) listeners_.saved(path);
+    if (all.ok()) return done_on_disk(call, {{"saved", saved}});
+    if (all.error().code == Code::Refused) return call.fail("conflict", all.error().what);
+    call.fail(all.error());
 }
 
 void Documents::answer_version(const Call& call, const Status& status) {
@@ -123,17 +188,21 @@ void Documents::answer_version(const Call& call, const Status& status) {
 }
 
 Json Documents::doc_document(const Json& of) {
-    const auto opened = files_.open(of["doc"]);
-    if (!opened.ok()) {
-        return {{"version", 0}, {"text", ""}, {"unsaved", false}, {"by", 0}, {"gone", true}};
-    }
-    const DocumentView& view = opened.value();
-    Json json = {{"version", view.version},
-                 {"text", view.text},
-                 {"unsaved", view.unsaved},
-                 {"by", view.by},
-                 {"gone", view.gone}};
-    if (view.disk) json["disk"] = *view.disk;
+    const std::string doc = of["doc"];
+    const auto moved = files_.moved_to(doc);
+    const auto found = files_.state(doc);
+    DocumentState state;
+    state.gone = !found.ok();
+    if (found.ok()) state = found.value();
+    Json json = {{"epoch", epoch_},
+                 {"version", state.version},
+                 {"language", found.ok() ? state.language : "text"},
+                 {"ends", found.ok() ? state.ends : "lf"},
+                 {"unsaved", state.unsaved},
+                 {"by", state.by},
+                 {"gone", state.gone},
+                 {"disk", state.conflict}};
+    if (moved) json["moved"] = *moved;
     return json;
 }
 

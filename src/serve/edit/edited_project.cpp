@@ -6,6 +6,10 @@ namespace vagus::serve {
 
 namespace fs = std::filesystem;
 
+std::string made_for(uint32_t member) {
+    return "for:" + std::to_string(member);
+}
+
 std::string folder_of_path(const std::string& path) {
     const size_t slash = path.rfind('/');
     return slash == std::string::npos ? "" : path.substr(0, slash);

@@ -1,6 +1,7 @@
 // What is open, as those who edit need it. Paths are those of documents: from Files::root().
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct EditListeners {
     };
     std::function<void(const std::string& kind, const std::string& text)> say = [](auto&, auto&) {};
 };
+
+// Whose step of a text it is that we make for a client: never what a client calls itself.
+std::string made_for(uint32_t member);
 
 // "a/b" of "a/b/vagus.json"; empty for a file in the root.
 std::string folder_of_path(const std::string& path);

@@ -4,17 +4,17 @@
 
 namespace vagus::serve {
 
-Editing::Editing(Desk& desk, Files& files, Scripts& scripts)
+Editing::Editing(Desk& desk, Files& files, Scripts& scripts, const std::string& epoch)
     : files_(files),
       scripts_(scripts),
       session_(files.session()),
-      documents_(desk, files, listeners_),
-      file_desk_(desk, files, project_, listeners_),
-      script_desk_(desk, files, scripts),
-      search_(desk, files, scripts),
+      documents_(desk, files, listeners_, epoch),
+      file_desk_(desk, files, project_, listeners_, epoch),
+      script_desk_(desk, files, scripts, epoch),
+      search_(desk, files, scripts, epoch),
       findings_(desk, files, scripts, project_),
       plan_desk_(desk, files, findings_),
-      template_desk_(desk, files, scripts, findings_, project_, listeners_) {
+      template_desk_(desk, files, scripts, findings_, project_, listeners_, epoch) {
     files_.on_change([this](const std::string& path) { text_changed(path); });
 }
 

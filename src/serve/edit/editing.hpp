@@ -2,7 +2,7 @@
 // declares their commands and topics at the desk; whoever joins the studio together tells it which
 // project is open and when time passes.
 //
-//     Editing editing(desk, files, scripts);
+//     Editing editing(desk, files, scripts, epoch);
 //     editing.on_text_changed([&](const std::string& path) { breakpoints.follow(path); });
 //     files.enter(folder);
 //     editing.set_project({.plan = "WallFollow.plan.json", .project_file = "vagus.json"});
@@ -27,8 +27,9 @@ namespace vagus::serve {
 
 class Editing {
 public:
-    // All borrowed. Takes Files::on_change for itself.
-    Editing(Desk& desk, Files& files, Scripts& scripts);
+    // All borrowed. Takes Files::on_change for itself. `epoch`: as hello tells it, another one for
+    // each life of this server.
+    Editing(Desk& desk, Files& files, Scripts& scripts, const std::string& epoch);
 
     // After files.enter(), files.leave(), and when vagus.json says something else.
     void set_project(EditedProject project);

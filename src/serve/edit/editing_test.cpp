@@ -16,67 +16,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-// ---- documents ----
-
-TEST_F(EditTest, ATextIsOpenedChangedSavedAndTakenBack) {
-    write("note.txt", "hello\n");
-    enter();
-    const Json opened = ask("doc.open", {{"doc", "note.txt"}});
-    EXPECT_EQ(
-        opened,
-        (Json{{"text", "hello\n"}, {"version", 1}, {"language", "text"}, {"unsaved", false}}));
-    const Json edited =
-        ask("doc.edit",
-            {{"doc", "note.txt"},
-             {"version", 1},
-             {"changes",
-              {{{"from", 0}, {"to", 1}, {"text", "J"}}, {{"from", 4}, {"to", 5}, {"text", "y"}}}}});
-    EXPECT_EQ(edited["version"], 2);
-    const Json seen = document("doc", {{"doc", "note.txt"}});
-    EXPECT_EQ(
-        seen,
-        (Json{{"version", 2}, {"text", "Jelly\n"}, {"unsaved", true}, {"by", 1}, {"gone", false}}));
-    EXPECT_EQ(on_disk("note.txt"), "hello\n");
-    ask("doc.save", {{"doc", "note.txt"}});
-    EXPECT_EQ(on_disk("note.txt"), "Jelly\n");
-    EXPECT_THAT(saved, ElementsAre("note.txt"));
-    edit("note.txt", 0, 6, "");
-    EXPECT_EQ(ask("doc.revert", {{"doc", "note.txt"}})["version"], 4);
-    EXPECT_EQ(text("note.txt"), "Jelly\n");
-    edit("note.txt", 0, 1, "B");
-    EXPECT_EQ(ask("doc.save_all", Json::object())["saved"], Json({"note.txt"}));
-    EXPECT_EQ(on_disk("note.txt"), "Belly\n");
-    EXPECT_THAT(changed, testing::Contains("note.txt"));
-}
-
-TEST_F(EditTest, AChangeForAnotherVersionIsAConflict) {
-    write("note.txt", "hello\n");
-    write("p.json", "{}\n");
-    enter();
-    edit("note.txt", 0, 0, "x");
-    EXPECT_THAT(refusal("doc.edit", {{"doc", "note.txt"},
-                                     {"version", 1},
-                                     {"changes", {{{"from", 0}, {"to", 0}, {"text", "y"}}}}}),
-                StartsWith("conflict: note.txt: the text is at version 2"));
-    EXPECT_THAT(refusal("doc.patch", {{"doc", "p.json"}, {"version", 7}, {"steps", Json::array()}}),
-                StartsWith("conflict: "));
-    EXPECT_EQ(text("note.txt"), "xhello\n");
-}
-
-TEST_F(EditTest, ChangesOutsideOfTheTextAreRefused) {
-    write("note.txt", "a😀b");
-    enter();
-    for (const auto& [from, to] : {std::pair(0, 9), {2, 2}, {3, 1}, {1, 2}}) {
-        EXPECT_THAT(
-            refusal("doc.edit", {{"doc", "note.txt"},
-                                 {"version", 1},
-                                 {"changes", {{{"from", from}, {"to", to}, {"text", "x"}}}}}),
-            StartsWith("bad_input: "));
-    }
-    edit("note.txt", 1, 3, "");
-    EXPECT_EQ(text("note.txt"), "ab");
-}
-
 TEST_F(EditTest, WithoutAProjectEveryCommandSaysSo) {
     const std::string none = "unavailable: no project is open; open one first";
     EXPECT_EQ(refusal("doc.open", {{"doc", "a"}}), none);
@@ -112,48 +51,12 @@ TEST_F(EditTest, HostilePathsAreRefusedEverywhere) {
         EXPECT_NE(refusal("file.bytes", file), "") << path;
         EXPECT_NE(refusal("file.new", {{"path", path}, {"kind", "text"}}), "") << path;
         EXPECT_NE(refusal("file.rename", {{"path", "note.txt"}, {"to", path}}), "") << path;
-        EXPECT_NE(refusal("doc.edit", {{"doc", path}, {"version", 1}, {"changes", Json::array()}}),
-                  "")
-            << path;
+        EXPECT_NE(refusal("doc.edit", edit_of(path, 1, {})), "") << path;
     }
     EXPECT_NE(refusal("doc.open", {{"doc", "note.txt#1"}}), "");
     EXPECT_NE(refusal("doc.open", {{"doc", "note.txt#-1"}}), "");
     EXPECT_EQ(on_disk("note.txt"), "hello\n");
     std::filesystem::remove(outside);
-}
-
-TEST_F(EditTest, ATextThatIsTooLongIsRefused) {
-    write("full.txt", std::string(kTextBytesMax, 'x'));
-    write("long.txt", std::string(kTextBytesMax + 1, 'x'));
-    enter();
-    EXPECT_EQ(version("full.txt"), 1u);
-    EXPECT_THAT(refusal("doc.edit", {{"doc", "full.txt"},
-                                     {"version", 1},
-                                     {"changes", {{{"from", 0}, {"to", 0}, {"text", "y"}}}}}),
-                StartsWith("limit: "));
-    EXPECT_THAT(refusal("doc.open", {{"doc", "long.txt"}}), StartsWith("limit: "));
-}
-
-TEST_F(EditTest, AFileThatChangedOnDiskIsKeptOrTaken) {
-    write("note.txt", "one\n");
-    enter();
-    const auto change_on_disk = [&](const char* with) {
-        edit("note.txt", 0, 0, "my ");
-        write("note.txt", with);
-        std::filesystem::last_write_time(root / "note.txt",
-                                         std::filesystem::file_time_type::clock::now() + now);
-        now += kDiskEvery;
-        editing.tick(now);
-        EXPECT_EQ(document("doc", {{"doc", "note.txt"}})["disk"], with);
-    };
-    change_on_disk("two\n");
-    ask("doc.keep", {{"doc", "note.txt"}, {"which", "mine"}});
-    EXPECT_EQ(text("note.txt"), "my one\n");
-    EXPECT_FALSE(document("doc", {{"doc", "note.txt"}}).contains("disk"));
-    change_on_disk("three\n");
-    ask("doc.keep", {{"doc", "note.txt"}, {"which", "disk"}});
-    EXPECT_EQ(text("note.txt"), "three\n");
-    EXPECT_EQ(document("doc", {{"doc", "note.txt"}})["unsaved"], false);
 }
 
 TEST_F(EditTest, MembersOfAJsonFileAreChanged) {
@@ -265,9 +168,8 @@ TEST_F(EditTest, RandomEditsGiveWhatAPlainStringGives) {
                 return at < model.size() && model[at] >= 0xdc00 && model[at] < 0xe000;
             };
             const std::string& with = pieces[below(pieces.size())];
-            const Json in = {{"doc", doc},
-                             {"version", files.version(doc)},
-                             {"changes", {{{"from", from}, {"to", to}, {"text", with}}}}};
+            const Json in =
+                edit_of(doc, files.version(doc), {{{"from", from}, {"to", to}, {"text", with}}});
             if (inside(from) || inside(to)) {
                 EXPECT_THAT(refusal("doc.edit", in), StartsWith("bad_input"));
                 continue;
@@ -292,9 +194,9 @@ TEST_F(EditTest, NewFilesWorkAtOnce) {
     ask("file.new", {{"path", "room.world.json"}, {"kind", "world"}});
     ask("file.new", {{"path", "arm.toolbox.json"}, {"kind", "toolbox"}});
     ask("file.new", {{"path", "read me.md"}, {"kind", "text"}});
-    EXPECT_EQ(
-        on_disk("vagus.json"),
-        "{\n  \"format\": \"vagus-project/1\",\n  \"toolboxes\": [\"arm.toolbox.json\"]\n}\n");
+    EXPECT_EQ(on_disk("vagus.json"),
+              "{\n  \"format\": \"vagus-project/1\",\n  \"world\": \"room.world.json\",\n"
+              "  \"toolboxes\": [\"arm.toolbox.json\"]\n}\n");
     editing.set_project({.plan = "go to.plan.json",
                          .world = "room.world.json",
                          .project_file = "vagus.json",

@@ -140,6 +140,10 @@ Result<std::string> CheckedTexts::read(const std::string& path) const {
     read_[path] = 0;
     DocumentView view = TRY(files_.open(path));
     read_[path] = view.version;
+    // Its text is still in an editor, but nobody who runs this would find it.
+    if (view.gone && !view.unsaved) {
+        return Error{Code::NotFound, path + ": there is no such file in the project"};
+    }
     return std::move(view.text);
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "serve/edit/named_paths.hpp"
+#include "serve/edit/seen.hpp"
 #include "serve/project/paths.hpp"
 #include "sim/world_file.hpp"
 
@@ -48,8 +49,8 @@ std::string node_name_of(sim::RobotType type) {
 }  // namespace
 
 FileDesk::FileDesk(Desk& desk, Files& files, const EditedProject& project,
-                   const EditListeners& listeners)
-    : files_(files), project_(project), listeners_(listeners) {
+                   const EditListeners& listeners, std::string epoch)
+    : files_(files), project_(project), listeners_(listeners), epoch_(std::move(epoch)) {
     desk.command("file.new", [this](const Call& call) { make(call); });
     desk.command("file.rename", [this](const Call& call) { rename(call); });
     desk.command("file.delete", [this](const Call& call) { remove(call); });
@@ -75,9 +76,22 @@ Status FileDesk::make_file(const std::string& path, const std::string& kind) {
     const std::string name = name_of_file(path);
     if (kind == "script") return files_.make(path, new_script(node_of_project()));
     if (kind == "plan") return files_.make(path, new_plan(name));
-    if (kind == "world") return files_.make(path, new_world(name));
+    if (kind == "world") return make_world(path);
     if (kind == "toolbox") return make_toolbox(path);
     return files_.make(path, "");
+}
+
+// The first one is that of the project: else nothing would run in it.
+Status FileDesk::make_world(const std::string& path) {
+    TRY(files_.make(path, new_world(name_of_file(path))));
+    const std::string& file = project_.project_file;
+    if (file.empty() || !project_.world.empty()) return Status::done();
+    const auto text = files_.text(file);
+    const auto json = read_json(text.ok() ? text.value() : "");
+    const auto* root = std::get_if<Json>(&json);
+    if (!root || root->kind != JsonKind::Object) return Status::done();  // its finding says so
+    const Json name = json_string(name_from(file, path));
+    return follow({file, {{JsonStep::Do::Set, {"world"}, name}}}, "server");
 }
 
 // With the script that does its work, and vagus.json told of it: else no plan could use it.
@@ -109,7 +123,7 @@ Status FileDesk::make_toolbox(const std::string& path) {
     } else {
         follower.steps.push_back({JsonStep::Do::Set, {"toolboxes"}, json_array({value})});
     }
-    return follow(follower, 0);
+    return follow(follower, "server");
 }
 
 // The first node of the first robot of the project's world.
@@ -125,6 +139,7 @@ NewNode FileDesk::node_of_project() const {
 // ---- other names ----
 
 void FileDesk::rename(const Call& call) {
+    if (!seen_all(call, files_, epoch_)) return;
     const std::string from = call.in["path"];
     const std::string to = call.in["to"];
     const std::vector<Follower> after = followers(from, to);
@@ -133,7 +148,7 @@ void FileDesk::rename(const Call& call) {
     listeners_.renamed(from, to);
     nlohmann::json followed = nlohmann::json::array();
     for (const Follower& follower : after) {
-        const Status done = follow(follower, call.member);
+        const Status done = follow(follower, made_for(call.member));
         if (!done.ok()) {
             listeners_.say("warning", fmt::format("{} still names the old place: {}", follower.path,
                                                   done.error().what));
@@ -170,7 +185,7 @@ std::vector<FileDesk::Follower> FileDesk::followers(const std::string& from,
 }
 
 // A file that had nothing unsaved is saved, so that the folder is whole for others, too.
-Status FileDesk::follow(const Follower& follower, uint32_t by) {
+Status FileDesk::follow(const Follower& follower, const std::string& by) {
     const DocumentView view = TRY(files_.open(follower.path));
     const std::string kind = kind_of_file(follower.path);
     const std::string text = TRY(patched(view.text, {kind, follower.path}, follower.steps));

@@ -18,8 +18,8 @@ constexpr size_t kBytesMax = 4u << 20;  // of file.bytes: less than a page may l
 class FileDesk {
 public:
     // All borrowed.
-    FileDesk(Desk& desk, Files& files, const EditedProject& project,
-             const EditListeners& listeners);
+    FileDesk(Desk& desk, Files& files, const EditedProject& project, const EditListeners& listeners,
+             std::string epoch);
 
 private:
     // A file that names others, with what it must be told.
@@ -30,17 +30,19 @@ private:
 
     void make(const Call& call);
     Status make_file(const std::string& path, const std::string& kind);
+    Status make_world(const std::string& path);
     Status make_toolbox(const std::string& path);
     NewNode node_of_project() const;
     void rename(const Call& call);
     std::vector<Follower> followers(const std::string& from, const std::string& to);
-    Status follow(const Follower& follower, uint32_t by);
+    Status follow(const Follower& follower, const std::string& by);
     void remove(const Call& call);
     void bytes(const Call& call);
 
     Files& files_;
     const EditedProject& project_;
     const EditListeners& listeners_;
+    const std::string epoch_;
 };
 
 }  // namespace vagus::serve

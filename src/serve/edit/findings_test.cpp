@@ -331,6 +331,7 @@ TEST_F(EditTest, FindingsComeSoonAfterTheLastKeyAndTypingDoesNotWait) {
         desk.tick(now);
         std::optional<size_t> count;
         for (const Json& message : got) {
+            if (message.contains("ping")) continue;
             const Json& part = message.contains("whole") ? message["whole"] : message["patch"];
             if (part.contains("findings")) count = part["findings"].size();
         }
@@ -390,9 +391,8 @@ TEST_F(EditTest, TypingIntoAThousandLinesIsFast) {
         const uint32_t at_version = files.version("a.aesl#1");
         now += std::chrono::milliseconds(60);
         const auto begin = std::chrono::steady_clock::now();
-        ask("doc.edit", {{"doc", "a.aesl#1"},
-                         {"version", at_version},
-                         {"changes", {{{"from", 12}, {"to", 12}, {"text", i % 2 ? " " : "x"}}}}});
+        ask("doc.edit", edit_of("a.aesl#1", at_version,
+                                {{{"from", 12}, {"to", 12}, {"text", i % 2 ? " " : "x"}}}));
         editing.tick(now);
         desk.tick(now);
         took.push_back(

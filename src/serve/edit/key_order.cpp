@@ -16,10 +16,13 @@ constexpr std::string_view kRobot[] = {"name", "type",   "at",    "angle", "node
                                        "port", "script", "paint", "x"};
 constexpr std::string_view kEntry[] = {"t",  "do",    "id",     "object", "robot",
                                        "at", "angle", "button", "on",     "x"};
-constexpr std::string_view kProject[] = {"format", "name",      "help",   "plan",  "scripts",
-                                         "world",  "toolboxes", "target", "start", "x"};
+constexpr std::string_view kProject[] = {"format",  "name",      "help",       "plan",
+                                         "scripts", "world",     "toolboxes",  "target",
+                                         "start",   "safe_stop", "when_alone", "x"};
 constexpr std::string_view kProjectStart[] = {"plan", "set", "x"};
-constexpr std::string_view kToolbox[] = {"format", "name", "help", "project", "templates", "x"};
+constexpr std::string_view kSafeStop[] = {"set", "read", "x"};
+constexpr std::string_view kToolbox[] = {"format",    "name",      "help", "project",
+                                         "templates", "safe_stop", "x"};
 constexpr std::string_view kTemplate[] = {"kind",  "help", "icon",    "node",   "in",     "out",
                                           "start", "stop", "stopped", "states", "events", "x"};
 constexpr std::string_view kSlot[] = {"type",  "unit",  "help",  "default",
@@ -48,7 +51,9 @@ const std::vector<Order>& orders() {
         {"world", {"timeline", "[]", "object"}, kObject},
         {"project", {}, kProject},
         {"project", {"start"}, kProjectStart},
+        {"project", {"safe_stop", "*"}, kSafeStop},
         {"toolbox", {}, kToolbox},
+        {"toolbox", {"safe_stop", "*"}, kSafeStop},
         {"toolbox", {"templates", "*"}, kTemplate},
         {"toolbox", {"templates", "*", "in", "*"}, kSlot},
         {"toolbox", {"templates", "*", "out", "*"}, kSlot},

@@ -9,7 +9,9 @@
 #include "aesl/limits.hpp"
 #include "aesl/listing.hpp"
 #include "aesl/mentions.hpp"
+#include "serve/edit/edited_project.hpp"
 #include "serve/edit/finding.hpp"
+#include "serve/edit/seen.hpp"
 #include "serve/edit/text_places.hpp"
 
 namespace vagus::serve {
@@ -95,8 +97,8 @@ std::string stem_of(const std::string& path) {
 
 }  // namespace
 
-ScriptDesk::ScriptDesk(Desk& desk, Files& files, Scripts& scripts)
-    : desk_(desk), files_(files), scripts_(scripts) {
+ScriptDesk::ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string epoch)
+    : desk_(desk), files_(files), scripts_(scripts), epoch_(std::move(epoch)) {
     desk_.board().document("script", [this](const Json& of) { return script_document(of); });
     desk_.board().document("scripts", [this](const Json&) { return scripts_document(); });
     declare_questions();
@@ -112,21 +114,28 @@ void ScriptDesk::declare_questions() {
     desk_.command("script.format_name", [this](const Call& call) { format_name(call); });
 }
 
+// A command that changes texts.
+void ScriptDesk::on_change(const std::string& name, std::function<void(const Call&)> obey) {
+    desk_.command(name, [this, obey = std::move(obey)](const Call& call) {
+        if (seen_all(call, files_, epoch_)) obey(call);
+    });
+}
+
 void ScriptDesk::declare_changes() {
-    desk_.command("script.rename", [this](const Call& call) { rename(call); });
-    desk_.command("define.add", [this](const Call& call) {
+    on_change("script.rename", [this](const Call& call) { rename(call); });
+    on_change("define.add", [this](const Call& call) {
         if (is_too_long(call)) return;
         call.answer(scripts_.add(call.in["file"], call.in["kind"], call.in["name"],
-                                 call.in["value"], call.member));
+                                 call.in["value"], made_for(call.member)));
     });
-    desk_.command("define.change", [this](const Call& call) { change(call); });
-    desk_.command("define.remove", [this](const Call& call) {
-        call.answer(
-            scripts_.remove(call.in["file"], call.in["kind"], call.in["name"], call.member));
+    on_change("define.change", [this](const Call& call) { change(call); });
+    on_change("define.remove", [this](const Call& call) {
+        call.answer(scripts_.remove(call.in["file"], call.in["kind"], call.in["name"],
+                                    made_for(call.member)));
     });
-    desk_.command("define.move", [this](const Call& call) {
+    on_change("define.move", [this](const Call& call) {
         call.answer(scripts_.move(call.in["file"], call.in["kind"], call.in["name"], call.in["to"],
-                                  call.member));
+                                  made_for(call.member)));
     });
 }
 
@@ -249,7 +258,7 @@ void ScriptDesk::rename(const Call& call) {
         const std::string file = doc.substr(0, doc.rfind('#'));
         if (found->owner == Owner::Project && file != doc) docs.insert(file);
     }
-    const auto renamed = scripts_.rename(doc, at, call.in["to"], call.member);
+    const auto renamed = scripts_.rename(doc, at, call.in["to"], made_for(call.member));
     if (!renamed.ok()) return call.fail(renamed.error());
     Json changed = Json::array();
     for (const std::string& one : docs) {
@@ -261,7 +270,7 @@ void ScriptDesk::rename(const Call& call) {
 void ScriptDesk::change(const Call& call) {
     if (is_too_long(call)) return;
     const auto changed = scripts_.change(call.in["file"], call.in["kind"], call.in["name"],
-                                         call.in["to"], call.in["value"], call.member);
+                                         call.in["to"], call.in["value"], made_for(call.member));
     if (!changed.ok()) return call.fail(changed.error());
     call.done({{"places", changed.value()}});
 }

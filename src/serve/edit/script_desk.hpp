@@ -16,7 +16,7 @@ public:
     using Json = nlohmann::json;
 
     // All borrowed.
-    ScriptDesk(Desk& desk, Files& files, Scripts& scripts);
+    ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string epoch);
 
     void text_changed(const std::string& path);
     void project_changed();
@@ -26,6 +26,7 @@ public:
 private:
     void declare_questions();
     void declare_changes();
+    void on_change(const std::string& name, std::function<void(const Call&)> obey);
     // The script that a call is about; fails the call if there is none.
     const CompiledScript* script_of(const Call& call);
     void complete(const Call& call);
@@ -43,6 +44,7 @@ private:
     Desk& desk_;
     Files& files_;
     Scripts& scripts_;
+    const std::string epoch_;
     uint64_t targets_ = 0;
 };
 

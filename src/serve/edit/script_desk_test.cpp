@@ -139,7 +139,7 @@ TEST_F(EditTest, EventsAndConstantsAreDeclaredChangedMovedAndRemoved) {
     EXPECT_THAT(refusal("define.remove", define("event", "pong")), StartsWith("not_found: "));
     put("a.aesl", "</network>", "");
     add["value"] = 0;
-    EXPECT_THAT(refusal("define.add", add), StartsWith("failed: mend the file first: a.aesl:"));
+    EXPECT_THAT(refusal("define.add", add), StartsWith("failed: fix the file first: a.aesl:"));
     Json plain = add;
     plain["file"] = "plain.aesl";
     plain["value"] = 0;

@@ -5,7 +5,9 @@
 
 #include "aesl/project.hpp"
 #include "base/text.hpp"
+#include "serve/edit/edited_project.hpp"
 #include "serve/edit/finding.hpp"
+#include "serve/edit/seen.hpp"
 #include "serve/edit/text_places.hpp"
 
 namespace vagus::serve {
@@ -36,7 +38,8 @@ std::vector<std::pair<size_t, size_t>> script_lines(const std::string& path,
 
 }  // namespace
 
-Search::Search(Desk& desk, Files& files, Scripts& scripts) : files_(files), scripts_(scripts) {
+Search::Search(Desk& desk, Files& files, Scripts& scripts, std::string epoch)
+    : files_(files), scripts_(scripts), epoch_(std::move(epoch)) {
     desk.command("text.search", [this](const Call& call) { search(call); });
     desk.command("text.replace", [this](const Call& call) { replace(call); });
 }
@@ -148,6 +151,7 @@ std::vector<TextChange> Search::changes_of(const Call& call, const Pattern& patt
 }
 
 void Search::replace(const Call& call) {
+    if (!seen_all(call, files_, epoch_)) return;
     std::string why;
     const auto pattern = pattern_of(call, why);
     if (!pattern) return call.fail("bad_input", why);
@@ -171,7 +175,7 @@ void Search::replace(const Call& call) {
     }
     Json changed = Json::array();
     for (const auto& [doc, changes] : planned) {
-        const auto edited = files_.edit(doc, files_.version(doc), changes, call.member);
+        const auto edited = files_.edit(doc, files_.version(doc), changes, made_for(call.member));
         if (!edited.ok()) return call.fail(edited.error());
         changed.push_back(doc);
     }

@@ -25,7 +25,7 @@ public:
     using Json = nlohmann::json;
 
     // All borrowed.
-    Search(Desk& desk, Files& files, Scripts& scripts);
+    Search(Desk& desk, Files& files, Scripts& scripts, std::string epoch);
 
 private:
     // A text to look through, and which of its lines belong to other documents.
@@ -57,6 +57,7 @@ private:
 
     Files& files_;
     Scripts& scripts_;
+    const std::string epoch_;
 };
 
 }  // namespace vagus::serve

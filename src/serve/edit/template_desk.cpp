@@ -11,6 +11,7 @@
 #include "plan/formula.hpp"
 #include "serve/edit/finding.hpp"
 #include "serve/edit/json_patch.hpp"
+#include "serve/edit/seen.hpp"
 #include "toolbox/toolbox_file.hpp"
 
 namespace vagus::serve {
@@ -38,16 +39,19 @@ bool has_variable(const aesl::Target& target, std::string_view name) {
 }  // namespace
 
 TemplateDesk::TemplateDesk(Desk& desk, Files& files, Scripts& scripts, Findings& findings,
-                           const EditedProject& project, const EditListeners& listeners)
+                           const EditedProject& project, const EditListeners& listeners,
+                           std::string epoch)
     : files_(files),
       scripts_(scripts),
       findings_(findings),
       project_(project),
-      listeners_(listeners) {
+      listeners_(listeners),
+      epoch_(std::move(epoch)) {
     desk.command("template.new", [this](const Call& call) { make(call); });
 }
 
 void TemplateDesk::make(const Call& call) {
+    if (!seen_all(call, files_, epoch_)) return;
     const std::string doc = call.in["script"];
     const auto part = std::ranges::find_if(scripts_.parts(),
                                            [&](const ScriptPart& one) { return one.doc == doc; });
@@ -61,7 +65,7 @@ void TemplateDesk::make(const Call& call) {
     const ScriptPart chosen = *part;
     const auto change = change_of(chosen, of);
     if (!change.ok()) return call.fail(change.error());
-    const Status written = write(change.value(), call.member);
+    const Status written = write(change.value(), made_for(call.member));
     if (!written.ok()) return call.fail(written.error());
     call.done({{"toolbox", change.value().toolbox},
                {"at", json_of(aesl::Position{change.value().line, 1})}});
@@ -118,7 +122,7 @@ Status TemplateDesk::add_script(const ScriptPart& part, const OwnTemplate& wante
                         part.doc));
     }
     if (!script->result.ok()) {
-        return refused(fmt::format("the script of {} has an error; mend it first: line {}: {}",
+        return refused(fmt::format("the script of {} has an error; fix it first: line {}: {}",
                                    part.node, script->result.first_error().at.line,
                                    script->result.first_error().message));
     }
@@ -197,7 +201,7 @@ Status TemplateDesk::list_toolbox(Change& change) {
     const std::string text = TRY(files_.text(file));
     const auto json = read_json(text);
     const auto* root = std::get_if<vagus::Json>(&json);
-    if (!root) return refused(fmt::format("{} is no JSON; mend it first", file));
+    if (!root) return refused(fmt::format("{} is not JSON; fix it first", file));
     const vagus::Json* listed = root->find("toolboxes");
     const bool is_list = listed && listed->kind == JsonKind::Array;
     const vagus::Json value = json_string(name_from(file, change.new_file));
@@ -212,7 +216,7 @@ Status TemplateDesk::list_toolbox(Change& change) {
 
 // A file that had nothing unsaved is saved, so that the folder is whole for others, too. What
 // cannot be changed takes everything back that was.
-Status TemplateDesk::write(const Change& change, uint32_t by) {
+Status TemplateDesk::write(const Change& change, const std::string& by) {
     if (!change.new_file.empty()) {
         TRY(files_.make(change.new_file, change.texts.at(change.new_file)));
     }

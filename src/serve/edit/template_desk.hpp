@@ -18,7 +18,7 @@ class TemplateDesk {
 public:
     // All borrowed.
     TemplateDesk(Desk& desk, Files& files, Scripts& scripts, Findings& findings,
-                 const EditedProject& project, const EditListeners& listeners);
+                 const EditedProject& project, const EditListeners& listeners, std::string epoch);
 
 private:
     // All new texts by their paths, before any of them is written.
@@ -35,7 +35,7 @@ private:
     Status add_to_toolbox(const std::string& script_file, const OwnTemplate& of, Change& change);
     Status make_toolbox(const std::string& script_file, const OwnTemplate& of, Change& change);
     Status list_toolbox(Change& change);
-    Status write(const Change& change, uint32_t by);
+    Status write(const Change& change, const std::string& by);
     std::string toolbox_for(const std::string& script_file);
 
     Files& files_;
@@ -43,6 +43,7 @@ private:
     Findings& findings_;
     const EditedProject& project_;
     const EditListeners& listeners_;
+    const std::string epoch_;
 };
 
 }  // namespace vagus::serve

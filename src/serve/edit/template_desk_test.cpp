@@ -93,12 +93,12 @@ TEST_F(OwnTemplateTest, WhatCannotBeMadeWholeChangesNothing) {
     ask("doc.revert", {{"doc", "a.aesl"}});
     // The last file to be written cannot be: those before it are as they were.
     put("vagus.json", "\"scripts\": [\"a.aesl\"]", "\"scripts\": [\"a.aesl\"");
-    EXPECT_THAT(refusal("template.new", wanted("Blink")), HasSubstr("vagus.json is no JSON"));
+    EXPECT_THAT(refusal("template.new", wanted("Blink")), HasSubstr("vagus.json is not JSON"));
     ask("doc.revert", {{"doc", "vagus.json"}});
     EXPECT_TRUE(is_untouched());
     put("a.aesl#1", "n += 1", "n += ");
     EXPECT_THAT(refusal("template.new", wanted("Blink")),
-                HasSubstr("the script of thymio-II has an error; mend it first: line"));
+                HasSubstr("the script of thymio-II has an error; fix it first: line"));
 }
 
 TEST_F(OwnTemplateTest, AFileThatWasOpenedAloneHasNoToolboxes) {

@@ -60,9 +60,9 @@ std::string name_of_file(std::string_view path) {
 
 std::string new_script(const NewNode& node) {
     return project_of(node, {},
-                      "# What stands here happens once, at the start.\n"
+                      "# What is written here runs once, at the start.\n"
                       "\n"
-                      "# Behind \"onevent NAME\" stands what happens whenever that event comes.\n");
+                      "# What follows \"onevent NAME\" runs each time that event comes.\n");
 }
 
 std::string new_plan(std::string_view name) {

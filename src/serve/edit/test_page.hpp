@@ -8,9 +8,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <semaphore>
 #include <string>
 #include <vector>
 
+#include "base/test_folder.hpp"
 #include "base/file.hpp"
 #include "serve/edit/editing.hpp"
 #include "session/known_nodes.hpp"
@@ -29,23 +31,21 @@ class EditTest : public testing::Test {
 protected:
     using Json = nlohmann::json;
     static constexpr const char* kToken = "0123456789abcdef";
+    static constexpr const char* kEpoch = "e1";
 
     EditTest()
-        : root(std::filesystem::path(testing::TempDir()) /
-               ("edit-" + std::to_string(::getpid()) + "-" +
-                testing::UnitTest::GetInstance()->current_test_info()->name())),
-          desk(Access(kToken, "fedcba9876543210"), {.send =
+        : desk(Access(kToken, "fedcba9876543210"), {.send =
                                                         [this](ClientId, bool, std::string bytes) {
                                                             got.push_back(Json::parse(bytes));
                                                             unread += bytes.size();
                                                         },
                                                     .close = [](ClientId, const std::string&) {},
                                                     .log = [](const std::string&) {},
-                                                    .wall_ms = [] { return 1e12; }}),
+                                                    .wall_ms = [] { return 1e12; },
+                                                    .random = [] { return std::string(kEpoch); }}),
           scripts(files, [this](const std::string& name, uint16_t) { return target(name); }),
-          editing(desk, files, scripts) {
-        std::filesystem::remove_all(root);
-        std::filesystem::create_directories(root);
+          editing(desk, files, scripts, desk.epoch()) {
+        files.on_wake([this] { disk_news.release(); });
         editing.on_text_changed([this](const std::string& path) { changed.push_back(path); });
         editing.on_saved([this](const std::string& path) { saved.push_back(path); });
         editing.on_renamed([this](const std::string& from, const std::string& to) {
@@ -57,7 +57,6 @@ protected:
         desk.hear(ClientOpened{{1}, "127.0.0.1"}, now);
         ask("hello", {{"token", kToken}, {"client", "test"}});
     }
-    ~EditTest() override { std::filesystem::remove_all(root); }
 
     void write(const std::string& path, std::string_view text) {
         std::filesystem::create_directories((root / path).parent_path());
@@ -78,11 +77,20 @@ protected:
         const Json message = {{"id", ++id}, {"do", command}, {"in", in}};
         desk.hear(ClientText{{1}, message.dump()}, now);
         desk.hear(ClientTook{{1}, std::exchange(unread, 0)}, now);
-        for (const Json& answer : got) {
-            if (answer.value("id", uint64_t{0}) == id) return answer;
+        for (const Json* answer = answered(); true; answer = answered()) {
+            if (answer) return *answer;
+            // What is saved is answered when it is on the disk.
+            if (!disk_news.try_acquire_for(std::chrono::seconds(20))) break;
+            files.tick(now);
         }
         ADD_FAILURE() << command << " was not answered";
         return Json::object();
+    }
+    const Json* answered() const {
+        for (const Json& answer : got) {
+            if (answer.value("id", uint64_t{0}) == id) return &answer;
+        }
+        return nullptr;
     }
     // The answer of a command that is done.
     Json ask(const std::string& command, const Json& in) {
@@ -122,9 +130,18 @@ protected:
     std::string text(const std::string& doc) { return ask("doc.open", {{"doc", doc}})["text"]; }
     uint32_t version(const std::string& doc) { return ask("doc.open", {{"doc", doc}})["version"]; }
     void edit(const std::string& doc, size_t from, size_t to, const std::string& with) {
-        ask("doc.edit", {{"doc", doc},
-                         {"version", version(doc)},
-                         {"changes", {{{"from", from}, {"to", to}, {"text", with}}}}});
+        const Json change = {{"from", from}, {"to", to}, {"text", with}};
+        const Json done = ask("doc.edit", edit_of(doc, version(doc), {change}));
+        EXPECT_EQ(done.size(), 1u) << done.dump();  // neither behind nor another text
+    }
+    // What doc.edit takes from this page.
+    static Json edit_of(const std::string& doc, uint32_t version,
+                        const std::vector<Json>& changes) {
+        return {{"doc", doc},
+                {"epoch", kEpoch},
+                {"version", version},
+                {"by", "page"},
+                {"changes", changes}};
     }
     // Replaces the one place where a text stands, which is plain ASCII before it.
     void put(const std::string& doc, const std::string& what, const std::string& with) {
@@ -160,16 +177,17 @@ protected:
             changes[one.doc].push_back({{"from", one.from}, {"to", one.to}, {"text", one.text}});
         }
         for (const auto& [doc, list] : changes) {
-            ask("doc.edit", {{"doc", doc}, {"version", version(doc)}, {"changes", list}});
+            ask("doc.edit", edit_of(doc, version(doc), list));
         }
     }
 
-    std::filesystem::path root;
+    test::Folder root;
     Time now = std::chrono::seconds(10);
     size_t unread = 0;  // bytes that the page has not taken
     std::vector<Json> got;
     std::vector<std::string> changed, saved, renamed, said;
     Desk desk;
+    std::counting_semaphore<> disk_news{0};  // the files have something to hear
     Files files;
     Scripts scripts;
     Editing editing;

@@ -30,6 +30,20 @@ Error too_much(const std::string& what) {
     return {Code::Limit, what + "; take out of its folder what the robot does not need"};
 }
 
+// A robot gets all of a project or nothing: what cannot be listed cannot be sent.
+Status check_whole(const fs::path& root, const std::string& own) {
+    const FolderScan scan = scan_folder(root);
+    for (const ScanFault& fault : scan.passed_over) {
+        if (fault.path == "." || is_below(own, fault.path)) {
+            return Error{Code::BadInput, fmt::format("{}: {}; nothing was sent",
+                                                     (root / fault.path).string(), fault.why)};
+        }
+    }
+    if (!scan.more) return Status::done();
+    return too_much(fmt::format("{}: more than {} files, or folders deeper than {}", root.string(),
+                                kFilesMax, kFolderDepthMax));
+}
+
 // Files below the folder of the project, but not those of projects inside it.
 std::set<std::string> own_files(const Files& files, const std::string& own) {
     bool more = false;
@@ -97,6 +111,7 @@ Result<CollectedBundle> collect_bundle(const std::string& project) {
     }
     Files files(opened.root);
     const std::string own = folder_of_path(opened.project_file);
+    TRY(check_whole(opened.root, own));
     std::set<std::string> paths = own_files(files, own);
     paths.insert(opened.project_file);
     paths.insert(kProjectFileName);  // makes the border there what it is here

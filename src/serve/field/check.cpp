@@ -34,7 +34,7 @@ std::vector<Finding> check_project(const std::filesystem::path& folder,
                                          .wall_ms = [] { return 0.0; }});
     Files files;
     Scripts scripts(files, target_of);
-    Editing editing(desk, files, scripts);
+    Editing editing(desk, files, scripts, desk.epoch());
     files.enter(project.root);
     scripts.prefer(project.scripts);
     scripts.reread();

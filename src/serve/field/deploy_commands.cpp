@@ -49,7 +49,8 @@ void begin(const Call& call, Deployments& deployments) {
 void part(const Call& call, Deployments& deployments) {
     const auto bytes = from_base64(call.in["base64"].get_ref<const std::string&>());
     if (!bytes) return call.fail("bad_input", "in.base64: expected base64 (RFC 4648)");
-    call.answer(deployments.part(call.in["path"], call.in["from"], *bytes));
+    deployments.part(call.in["path"], call.in["from"], *bytes,
+                     [call](const Status& taken) { call.answer(taken); });
 }
 
 Json list(const Versions& versions) {

@@ -80,7 +80,16 @@ Status Deployments::begin(Bundle bundle) {
     return Status::done();
 }
 
-Status Deployments::part(const std::string& path, size_t from, std::string_view bytes) {
+template <typename Outcome>
+void Deployments::work(std::function<Outcome()> act, std::function<void(Outcome)> then) {
+    ++working_;
+    worked<Outcome>(robot_.work, std::move(act), [this, then = std::move(then)](Outcome outcome) {
+        --working_;
+        then(std::move(outcome));
+    });
+}
+
+Status Deployments::check_part(const std::string& path, size_t from, size_t size) const {
     if (!bundle_) return Error{Code::Refused, kNothingBegun};
     const bool more = file_ < bundle_->files.size();
     const std::string expected = more ? bundle_->files[file_].path : "nothing more";
@@ -88,25 +97,33 @@ Status Deployments::part(const std::string& path, size_t from, std::string_view 
         return Error{Code::BadInput, fmt::format("{} from byte {}: expected {} from byte {}", path,
                                                  from, expected, content_.size())};
     }
-    return receive(from, bytes);
+    const BundleFile& file = bundle_->files[file_];
+    if (size <= file.size - from) return Status::done();
+    return Error{Code::BadInput, fmt::format("{}: more than the {} bytes that were announced",
+                                             file.path, file.size)};
 }
 
-Status Deployments::receive(size_t from, std::string_view bytes) {
-    const BundleFile& file = bundle_->files[file_];
-    if (bytes.size() > file.size - from) {
-        return Error{Code::BadInput, fmt::format("{}: more than the {} bytes that were announced",
-                                                 file.path, file.size)};
-    }
+void Deployments::part(const std::string& path, size_t from, std::string_view bytes, Taken taken) {
+    const Status good = check_part(path, from, bytes.size());
+    if (!good.ok()) return taken(good);
     content_ += bytes;
-    if (content_.size() < file.size) return Status::done();
-    if (sha256_of(content_) != file.sha256) {
-        return Error{Code::BadInput,
-                     file.path + ": it is not what was announced; deploy once more"};
-    }
-    TRY(versions_.add(file.path, content_));
-    ++file_;
-    content_.clear();
-    return Status::done();
+    if (content_.size() < bundle_->files[file_].size) return taken(Status::done());
+    add_file(std::move(taken));
+}
+
+void Deployments::add_file(Taken taken) {
+    const BundleFile& file = bundle_->files[file_++];
+    work<Status>(
+        [&versions = versions_, file, content = std::exchange(content_, {})]() -> Status {
+            if (sha256_of(content) == file.sha256) return versions.add(file.path, content);
+            return Error{Code::BadInput, file.path +
+                                             ": what arrived is not what was announced; deploy "
+                                             "again"};
+        },
+        [this, taken = std::move(taken)](const Status& added) {
+            if (!added.ok()) bundle_.reset();
+            taken(added);
+        });
 }
 
 void Deployments::refuse(const std::string& why, std::vector<Finding> findings) {
@@ -121,17 +138,29 @@ void Deployments::commit(Done done) {
     done_ = std::move(done);
     if (!bundle_) return refuse(kNothingBegun);
     if (file_ < bundle_->files.size()) {
-        return refuse(bundle_->files[file_].path + ": it has not come whole");
+        return refuse(bundle_->files[file_].path + ": it was not fully received");
     }
-    std::vector<Finding> findings = robot_.check(versions_.incoming(*bundle_));
-    if (has_error(findings)) {
-        return refuse("it has mistakes; nothing was changed", std::move(findings));
+    using Found = vagus::Result<std::vector<Finding>>;
+    work<Found>([check = robot_.check(),
+                 folder = versions_.incoming(*bundle_)]() -> Found { return check(folder); },
+                [this](const Found& found) { checked(found); });
+}
+
+void Deployments::checked(const vagus::Result<std::vector<Finding>>& found) {
+    if (!found.ok()) return refuse(found.error().what);
+    if (has_error(found.value())) {
+        return refuse("it has mistakes; nothing was changed", found.value());
     }
-    const uint32_t back = versions_.current();
-    const auto number = versions_.finish(*bundle_);
+    work<vagus::Result<uint32_t>>(
+        [&versions = versions_, bundle = *bundle_] { return versions.finish(bundle); },
+        [this](const vagus::Result<uint32_t>& number) { received(number); });
+}
+
+void Deployments::received(const vagus::Result<uint32_t>& number) {
     if (!number.ok()) return refuse(number.error().what);
+    const uint32_t back = versions_.current();
     bundle_.reset();
-    robot_.log("note", fmt::format("version {} has come and is sound", number.value()));
+    robot_.log("note", fmt::format("version {} was received and checked", number.value()));
     stop_for({.version = number.value(), .back = back});
 }
 
@@ -144,13 +173,20 @@ void Deployments::stop_for(Trying next) {
 }
 
 void Deployments::put_in_force(Trying next) {
-    const bool is_new = next.if_not == IfNot::GoBack;
-    const Status switched = versions_.put_in_force(next.version);
-    if (!switched.ok()) {
-        if (is_new) versions_.end_trial();
-        if (is_new) versions_.remove(next.version);
-        return refuse(switched.error().what + "; the robot stands");
-    }
+    work<Status>(
+        [&versions = versions_, next]() -> Status {
+            const Status switched = versions.put_in_force(next.version);
+            if (!switched.ok() && next.if_not == IfNot::GoBack) {
+                versions.end_trial();
+                versions.remove(next.version);
+            }
+            return switched;
+        },
+        [this, next](const Status& switched) { in_force(next, switched); });
+}
+
+void Deployments::in_force(Trying next, const Status& switched) {
+    if (!switched.ok()) return refuse(switched.error().what + "; the robot is stopped");
     next.until = now_ + kStartWithin;
     trying_ = next;
     const Status opened = robot_.open(versions_.folder(next.version));
@@ -175,10 +211,24 @@ void Deployments::tick(Time now) {
         return put_in_force(*std::exchange(next_, std::nullopt));
     }
     if (!trying_) return;
-    if (starter_.state() == Starter::State::Started) return tried();
+    if (starter_.state() == Starter::State::Failed)
+        return give_up("it does not start: " + starter_.why());
+    if (starter_.state() == Starter::State::Started) {
+        if (!trying_->started) trying_->started = now;
+        const bool has_plan = !robot_.plan().empty();
+        if (!has_plan || now >= *trying_->started + kProvesWithin) tried();
+        return;
+    }
+    trying_->started.reset();  // its run died
     if (now < trying_->until) return;
     give_up(fmt::format("it did not start within {} s: {}", kStartWithin / Duration(1s),
                         starter_.why()));
+}
+
+Time Deployments::next_tick() const {
+    if (stands_) return now_;
+    if (!trying_) return Time::max();
+    return trying_->started ? *trying_->started + kProvesWithin : trying_->until;
 }
 
 void Deployments::give_up(const std::string& why) {
@@ -191,11 +241,17 @@ void Deployments::give_up(const std::string& why) {
 void Deployments::tried() {
     const uint32_t version = trying_->version;
     trying_.reset();
-    versions_.end_trial();
-    versions_.remove_old();
     ++counts_.started;
     robot_.log("note", fmt::format("version {} runs", version));
-    finish({Result::Started, version, {}, ""});
+    work<Status>(
+        [&versions = versions_] {
+            versions.end_trial();
+            versions.remove_old();
+            return Status::done();
+        },
+        [this, version](const Status&) {
+            finish({Result::Started, version, {}, robot_.plan()});
+        });
 }
 
 // It starts whenever it can: it has done so before.
@@ -205,16 +261,22 @@ void Deployments::roll_back(const std::string& why) {
     ++counts_.rolled_back;
     robot_.log("error", fmt::format("version {}: {}; version {} is in force again", tried.version,
                                     why, tried.back));
-    Status back = versions_.put_in_force(tried.back);
-    if (back.ok()) {
-        versions_.end_trial();
-        versions_.remove(tried.version);
-        back = robot_.open(versions_.folder(tried.back));
-    }
-    if (back.ok()) {
+    work<Status>(
+        [&versions = versions_, tried]() -> Status {
+            TRY(versions.put_in_force(tried.back));
+            versions.end_trial();
+            versions.remove(tried.version);
+            return Status::done();
+        },
+        [this, why](const Status& back) { rolled_back(back, why); });
+}
+
+void Deployments::rolled_back(const Status& back, const std::string& why) {
+    const Status opened = back.ok() ? robot_.open(versions_.folder(versions_.current())) : back;
+    if (opened.ok()) {
         starter_.begin(now_);
     } else {
-        robot_.log("error", back.error().what);
+        robot_.log("error", opened.error().what);
     }
     finish({Result::RolledBack, versions_.current(), {}, why});
 }
@@ -225,8 +287,14 @@ void Deployments::stopped() {
     if (!trying_) return;
     const uint32_t version = trying_->version;
     trying_.reset();
-    versions_.end_trial();
-    finish({Result::Stopped, version, {}, "somebody pressed Stop before it ran; it stands"});
+    work<Status>(
+        [&versions = versions_] {
+            versions.end_trial();
+            return Status::done();
+        },
+        [this, version](const Status&) {
+            finish({Result::Stopped, version, {}, "somebody pressed Stop before it ran"});
+        });
 }
 
 void Deployments::finish(DeployOutcome outcome) {

@@ -1,11 +1,12 @@
 // How another version of the project comes into force (docs/field.md): received beside the one that
 // runs, checked, put in force when the robot stands, started, and taken back if it does not start.
 // Told the time; the robot is handed in, so that all of it runs in a test with a scripted clock.
+// The disk and the checks are the work of another thread.
 //
 //     Deployments deployments(versions, starter, {.check = …, .stop = …, .open = …, …});
 //     deployments.boot(now);
 //     deployments.begin(bundle);                      // deploy.begin, deploy.part, deploy.commit
-//     deployments.part("a.aesl", 0, bytes);
+//     deployments.part("a.aesl", 0, bytes, [](const Status& taken) { … });
 //     deployments.commit([](DeployOutcome outcome) { … });
 //     deployments.tick(now);
 #pragma once
@@ -19,10 +20,12 @@
 #include "serve/edit/finding.hpp"
 #include "serve/field/starter.hpp"
 #include "serve/field/versions.hpp"
+#include "serve/worker.hpp"
 
 namespace vagus::serve {
 
 constexpr Duration kStartWithin = 10s;  // of a new version; then the one before is in force again
+constexpr Duration kProvesWithin = 3s;  // that its plan does not fail at once
 constexpr uint32_t kTrialBootsMax = 3;  // that begin with a version which never started
 
 struct DeployOutcome {
@@ -30,7 +33,7 @@ struct DeployOutcome {
     Result result = Result::Refused;
     uint32_t version = 0;  // that is in force now
     std::vector<Finding> findings = {};
-    std::string why = {};  // a sentence, of all but Started
+    std::string why = {};  // a sentence; of Started, how its plan is by then
 };
 
 struct DeployCounts {
@@ -40,15 +43,20 @@ struct DeployCounts {
 class Deployments {
 public:
     struct Robot {
-        // What is wrong with the project in a folder.
-        std::function<std::vector<Finding>(const std::filesystem::path&)> check;
+        // What finds, on another thread, what is wrong with the project in a folder.
+        using Check = std::function<std::vector<Finding>(const std::filesystem::path&)>;
+        std::function<Check()> check;
         // The robot stands when `done` is called.
         std::function<void(std::function<void()> done)> stop;
         std::function<Status(const std::filesystem::path&)> open;
         std::function<void(const std::string& kind, const std::string& text)> log;
         std::function<double()> wall_ms;
+        // How the plan is: "its plan runs"; empty: there is none.
+        std::function<std::string()> plan = [] { return std::string(); };
+        Worker::Post work = Worker::at_once;
     };
     using Done = std::function<void(DeployOutcome)>;
+    using Taken = std::function<void(const Status&)>;
 
     // The first two are borrowed.
     Deployments(Versions& versions, Starter& starter, Robot robot)
@@ -59,18 +67,18 @@ public:
 
     Status begin(Bundle bundle);
     // The files of the bundle in their order, each from its first byte to its last.
-    Status part(const std::string& path, size_t from, std::string_view bytes);
+    void part(const std::string& path, size_t from, std::string_view bytes, Taken taken);
     void commit(Done done);
     // Back to the version before.
     void back(Done done);
     // Somebody has pressed Stop: what is in force stays so, and stands.
     void stopped();
 
-    bool busy() const { return done_ != nullptr; }
+    bool busy() const { return done_ != nullptr || working_ > 0; }
     const DeployCounts& counts() const { return counts_; }
 
     void tick(Time now);
-    Time next_tick() const { return stands_ ? now_ : trying_ ? trying_->until : Time::max(); }
+    Time next_tick() const;
 
 private:
     enum class IfNot { GoBack, Wait };  // if it does not start
@@ -78,15 +86,24 @@ private:
         uint32_t version = 0, back = 0;
         Time until{};
         IfNot if_not = IfNot::GoBack;
+        std::optional<Time> started = {};
     };
 
-    Status receive(size_t from, std::string_view bytes);
+    // Another thread does the first, this one the second with its outcome.
+    template <typename Outcome>
+    void work(std::function<Outcome()> act, std::function<void(Outcome)> then);
+    Status check_part(const std::string& path, size_t from, size_t size) const;
+    void add_file(Taken taken);
+    void checked(const vagus::Result<std::vector<Finding>>& found);
+    void received(const vagus::Result<uint32_t>& number);
     void refuse(const std::string& why, std::vector<Finding> findings = {});
     void stop_for(Trying next);
     void put_in_force(Trying next);
+    void in_force(Trying next, const Status& switched);
     void give_up(const std::string& why);
     void tried();
     void roll_back(const std::string& why);
+    void rolled_back(const Status& back, const std::string& why);
     void finish(DeployOutcome outcome);
 
     Versions& versions_;
@@ -100,6 +117,7 @@ private:
     bool stands_ = false;         // it does
     bool stop_pressed_ = false;   // since the commit
     Done done_;
+    size_t working_ = 0;  // pieces of work under way
     DeployCounts counts_;
     Time now_{};
 };

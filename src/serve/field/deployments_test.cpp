@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "serve/field/deployments.hpp"
 
 #include <gmock/gmock.h>
@@ -16,14 +17,11 @@ using Result = DeployOutcome::Result;
 class DeploymentsTest : public testing::Test {
 protected:
     DeploymentsTest() {
-        fs::remove_all(project);
-        fs::create_directories(project);
         EXPECT_TRUE(write_file((project / "vagus.json").string(), "0").ok());
     }
-    ~DeploymentsTest() override { fs::remove_all(project); }
 
     Deployments::Robot robot() {
-        return {.check = [this](const fs::path&) { return findings; },
+        return {.check = [this] { return [this](const fs::path&) { return findings; }; },
                 .stop = [this](auto done) { stops.push_back(std::move(done)); },
                 .open =
                     [this](const fs::path& folder) {
@@ -31,7 +29,8 @@ protected:
                         return Status::done();
                     },
                 .log = [this](auto& kind, auto& text) { log.push_back(kind + ": " + text); },
-                .wall_ms = [] { return 0.0; }};
+                .wall_ms = [] { return 0.0; },
+                .plan = [] { return "its plan runs"; }};
     }
     static Bundle bundle(const std::string& content) {
         return {.name = "Rover",
@@ -40,7 +39,12 @@ protected:
     }
     void send(const std::string& content) {
         ASSERT_TRUE(deployments.begin(bundle(content)).ok());
-        ASSERT_TRUE(deployments.part("vagus.json", 0, content).ok());
+        ASSERT_TRUE(part("vagus.json", 0, content).ok());
+    }
+    Status part(const std::string& path, size_t from, const std::string& bytes) {
+        Status status = Error{Code::Unavailable, "no answer"};
+        deployments.part(path, from, bytes, [&](const Status& taken) { status = taken; });
+        return status;
     }
     void commit() {
         deployments.commit([this](DeployOutcome ended) { outcome = std::move(ended); });
@@ -64,9 +68,10 @@ protected:
     void runs(Time now) {
         starts.back()("");
         turn(now);
+        turn(now + kProvesWithin);
     }
 
-    fs::path project = fs::path(testing::TempDir()) / ("deployments-" + std::to_string(getpid()));
+    test::Folder project;
     std::vector<std::string> missing, log;
     std::vector<std::function<void(const std::string&)>> starts;
     std::vector<std::function<void()>> stops;
@@ -116,6 +121,53 @@ TEST_F(DeploymentsTest, WhatDoesNotStartWithinTenSecondsIsTakenBack) {
     EXPECT_EQ(deployments.counts().rolled_back, 1u);
 }
 
+TEST_F(DeploymentsTest, WhoDeploysIsToldHowThePlanIsThreeSecondsLater) {
+    ASSERT_TRUE(deployments.boot(true, 0s).ok());
+    try_out("one", 5s);
+    starts.back()("");
+    turn(6s);
+    EXPECT_EQ(deployments.next_tick(), Time(6s + kProvesWithin));
+    turn(6s + kProvesWithin - 1us);
+    EXPECT_FALSE(outcome.has_value());
+    turn(6s + kProvesWithin);
+    ASSERT_TRUE(outcome.has_value());
+    EXPECT_EQ(outcome->result, Result::Started);
+    EXPECT_EQ(outcome->why, "its plan runs");
+}
+
+TEST_F(DeploymentsTest, APlanThatFailsAtOnceHasNotStarted) {
+    ASSERT_TRUE(deployments.boot(true, 0s).ok());
+    try_out("one", 5s);
+    starts.back()("");
+    turn(6s);
+    starter.failed("go: it is broken");
+    const size_t before = starts.size();
+    turn(6s + kProvesWithin - 1us);
+    ASSERT_TRUE(outcome.has_value());
+    EXPECT_EQ(outcome->result, Result::RolledBack);
+    EXPECT_EQ(outcome->why, "it does not start: its plan ended in an error: go: it is broken");
+    EXPECT_EQ(opened, "0");
+    EXPECT_EQ(starts.size(), before + 1) << "the version before is started";
+}
+
+// A run that dies and starts again has to prove itself anew.
+TEST_F(DeploymentsTest, ARunThatDiesWhileItProvesItselfBeginsAnew) {
+    ASSERT_TRUE(deployments.boot(true, 0s).ok());
+    try_out("one", 5s);
+    starts.back()("");
+    turn(6s);
+    starter.died(7s);
+    turn(7s);
+    turn(8s);
+    starts.back()("");
+    turn(8s);
+    turn(6s + kProvesWithin);
+    EXPECT_FALSE(outcome.has_value());
+    turn(8s + kProvesWithin);
+    ASSERT_TRUE(outcome.has_value());
+    EXPECT_EQ(outcome->result, Result::Started);
+}
+
 TEST_F(DeploymentsTest, MistakesAreToldAndNothingChanges) {
     ASSERT_TRUE(deployments.boot(true, 0s).ok());
     findings = {{.doc = "vagus.json",
@@ -152,16 +204,16 @@ TEST_F(DeploymentsTest, RemarksDoNotRefuse) {
 
 TEST_F(DeploymentsTest, PartsComeInTheirOrderAndAsAnnounced) {
     ASSERT_TRUE(deployments.boot(true, 0s).ok());
-    EXPECT_FALSE(deployments.part("vagus.json", 0, "one").ok()) << "nothing was begun";
+    EXPECT_FALSE(part("vagus.json", 0, "one").ok()) << "nothing was begun";
     ASSERT_TRUE(deployments.begin(bundle("one")).ok());
-    EXPECT_FALSE(deployments.part("other", 0, "one").ok());
-    EXPECT_FALSE(deployments.part("vagus.json", 1, "ne").ok());
-    EXPECT_FALSE(deployments.part("vagus.json", 0, "more").ok());
-    EXPECT_TRUE(deployments.part("vagus.json", 0, "on").ok());
+    EXPECT_FALSE(part("other", 0, "one").ok());
+    EXPECT_FALSE(part("vagus.json", 1, "ne").ok());
+    EXPECT_FALSE(part("vagus.json", 0, "more").ok());
+    EXPECT_TRUE(part("vagus.json", 0, "on").ok());
     commit();
-    EXPECT_EQ(outcome->why, "vagus.json: it has not come whole");
+    EXPECT_EQ(outcome->why, "vagus.json: it was not fully received");
     ASSERT_TRUE(deployments.begin(bundle("one")).ok());
-    EXPECT_FALSE(deployments.part("vagus.json", 0, "two").ok()) << "another hash";
+    EXPECT_FALSE(part("vagus.json", 0, "two").ok()) << "another hash";
 }
 
 TEST_F(DeploymentsTest, AVersionThatIsTriedOutLetsNoOtherIn) {

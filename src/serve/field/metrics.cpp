@@ -30,6 +30,17 @@ private:
 void add_runs(Text& text, const Figures& figures) {
     text.one("vagus_runs_total", "counter", "Runs that were started.", figures.runs);
     text.one("vagus_run_deaths_total", "counter", "Processes of runs that died.", figures.deaths);
+    text.family("vagus_run_ends_total", "counter", "Ends of runs by why they came.");
+    for (const auto& [why, count] : figures.ends) {
+        text.sample(fmt::format("vagus_run_ends_total{{why=\"{}\"}}", why), count);
+    }
+    text.family("vagus_plan_results_total", "counter", "Plans that have ended, by their results.");
+    for (const auto& [result, count] : figures.results) {
+        text.sample(fmt::format("vagus_plan_results_total{{result=\"{}\"}}", result), count);
+    }
+    text.one("vagus_unstopped_nodes", "gauge",
+             "Nodes that were not read back as stopped when the last run ended.",
+             figures.missing_stops);
     text.one("vagus_plan_running", "gauge", "1 while a plan runs.", figures.plan_runs ? 1 : 0);
     text.one("vagus_run_seconds", "gauge", "Clock of the run.", figures.seconds);
     text.one("vagus_run_speed_ratio", "gauge",

@@ -16,7 +16,10 @@ TEST(Metrics, EachFigureHasItsHelpItsTypeAndItsValue) {
                           .late_checks = 7,
                           .robot = {.events = 12, .lost = 2, .nodes = 4, .running = 3},
                           .bus_load = 0.25,
-                          .clients = 2};
+                          .clients = 2,
+                          .ends = {{"error", 2}, {"stop", 0}},
+                          .results = {{"Error", 2}},
+                          .missing_stops = 1};
     const std::string text = metrics_text(
         figures, {.version = "0.1.0", .ready = true, .late_worst = 0.002, .deployed = 5});
     EXPECT_THAT(text, HasSubstr("# HELP vagus_runs_total Runs that were started.\n"
@@ -29,6 +32,10 @@ TEST(Metrics, EachFigureHasItsHelpItsTypeAndItsValue) {
     EXPECT_THAT(text, HasSubstr("\nvagus_lateness_seconds 0.002\n"));
     EXPECT_THAT(text, HasSubstr("\nvagus_deployed_version 5\n"));
     EXPECT_THAT(text, HasSubstr("\nvagus_clients 2\n"));
+    EXPECT_THAT(text, HasSubstr("\nvagus_run_ends_total{why=\"error\"} 2\n"
+                                "vagus_run_ends_total{why=\"stop\"} 0\n"));
+    EXPECT_THAT(text, HasSubstr("\nvagus_plan_results_total{result=\"Error\"} 2\n"));
+    EXPECT_THAT(text, HasSubstr("\nvagus_unstopped_nodes 1\n"));
     EXPECT_TRUE(text.ends_with("\n"));
 }
 

@@ -22,9 +22,10 @@ Status take_wheel(LiveClient& robot) {
         if (asked.at("driver")) return Status::done();
         robot.wait(kAskAgainEvery);
     }
-    return Error{Code::Refused,
-                 "somebody drives this robot in a browser and did not give the wheel; ask them, or "
-                 "close that page"};
+    return Error{
+        Code::Refused,
+        "somebody drives this robot in a browser and did not release control; ask them, or "
+        "close that page"};
 }
 
 Status send_file(LiveClient& robot, const BundleFile& file, const std::string& bytes) {
@@ -64,7 +65,7 @@ bool say_outcome(const Json& outcome, const Say& say) {
     const uint32_t version = outcome.at("version");
     const std::string why = outcome.value("why", "");
     if (result == "started") {
-        say(fmt::format("version {} runs", version));
+        say(fmt::format("version {} runs{}", version, why.empty() ? "" : "; " + why));
     } else if (result == "refused") {
         say("refused: " + why);
     } else if (result == "rolled_back") {

@@ -4,17 +4,17 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
 
-#include "net/network.hpp"
 #include "net/service_manager.hpp"
 #include "serve/field/check.hpp"
 #include "serve/field/deploy_commands.hpp"
 #include "serve/field/deployments.hpp"
 #include "serve/field/metrics.hpp"
 #include "serve/field/starter.hpp"
+#include "serve/field/stop_only.hpp"
 #include "serve/process.hpp"
-#include "serve/workbench/workbench.hpp"
+#include "serve/workbench/server_loop.hpp"
+#include "serve/worker.hpp"
 
 namespace vagus::serve {
 
@@ -22,13 +22,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Duration kLastWords = 500ms;  // for what was sent before the end
-
-// Who can reach this page could reach every folder of the robot by them, and change what it starts
-// with at its next boot.
-constexpr const char* kOtherProjects[] = {"project.example", "project.open",   "project.new",
-                                          "project.close",   "project.forget", "folder.list",
-                                          "target.choose",   "target.leave"};
+// By other commands than those that protocol.json marks, who can reach this page could reach every
+// folder of the robot, and change what it starts with at its next boot.
+constexpr const char* kServesOneProject =
+    "this robot serves one project on one target, from its boot on; `vagus deploy` sends it "
+    "another "
+    "version, `vagus serve` starts it with another project";
 
 double seconds(Duration duration) {
     return std::chrono::duration<double>(duration).count();
@@ -40,43 +39,39 @@ public:
         : options_(options),
           talk_(talk),
           manager_(net::ServiceManager::from_environment()),
-          starter_({.missing = [this] { return bench_->missing_nodes(); },
-                    .start = [this](auto done) { bench_->start_run(std::move(done)); },
+          starter_({.missing = [this] { return bench().missing_nodes(); },
+                    .start = [this](auto done) { bench().start_run(std::move(done)); },
                     .log = talk.log}),
           versions_(fs::absolute(options.project)),
           deployments_(versions_, starter_, robot()) {}
 
     Status run() {
-        TRY(network_.watch_signals());
         TRY(begin());
-        while (!ended_) {
-            const Time due = next_tick();
-            for (const net::Event& event : network_.poll(due)) hear(event);
-            turn();
-            late_worst_ = std::max(late_worst_, network_.now() - due);
-        }
-        end();
+        server_.run({.next_tick = [this](Time) { return next_tick(); },
+                     .tick = [this](Time now) { tick(now); },
+                     .before_end = [this] { manager_.tell("STOPPING=1\nSTATUS=stopping"); }});
+        talk_.log("note", "stopped");
         return Status::done();
     }
 
 private:
     Status begin() {
         const fs::path data = user_data_folder(options_.data);
-        door_.emplace(TRY(Door::open(options_.door, data, [this] { network_.wake(); })));
-        desk_ = std::make_unique<Desk>(door_->access(), door_->outside([this](const auto& note) {
-            talk_.log("warning", note);
-        }));
-        bench_ = std::make_unique<Workbench>(network_, *desk_, places(data));
-        bench_->on_line(talk_.log);
-        bench_->on_stop([this] {
+        const auto warn = [this](const std::string& note) { talk_.log("warning", note); };
+        TRY(server_.open(options_.door, data, warn, places(data)));
+        bench().on_line(talk_.log);
+        bench().on_stop([this] {
             starter_.give_up();
             deployments_.stopped();
         });
-        bench_->on_death([this] { starter_.died(network_.now()); });
-        refuse_other_projects();
-        declare_deploy_commands(*desk_, versions_, deployments_);
+        bench().on_end([this](const life::End& end) {
+            if (end.cause.why == life::Why::Error) starter_.failed(end.message);
+        });
+        bench().on_death([this] { starter_.died(server_.network().now()); });
+        server_.desk().allow_only_on_robot(kServesOneProject);
+        declare_deploy_commands(server_.desk(), versions_, deployments_);
         TRY(check_folder());
-        TRY(deployments_.boot(options_.start, network_.now()));
+        TRY(deployments_.boot(options_.start, server_.network().now()));
         tell_address();
         return Status::done();
     }
@@ -92,18 +87,23 @@ private:
 
     Deployments::Robot robot() {
         return {.check =
-                    [this](const fs::path& folder) {
-                        return check_project(folder, [this](const auto& name, uint16_t id) {
-                            return bench_->target_of(name, id);
-                        });
+                    [this] {
+                        return [targets = bench().targets_now()](const fs::path& folder) {
+                            return check_project(folder, targets);
+                        };
                     },
-                .stop = [this](auto done) { bench_->stop_run(std::move(done)); },
+                .stop =
+                    [this](auto done) {
+                        bench().stop_run({"the server", life::Why::Version}, std::move(done));
+                    },
                 .open =
                     [this](const fs::path& folder) {
-                        return bench_->open(folder.string(), network_.now());
+                        return bench().open(folder.string(), server_.network().now());
                     },
                 .log = talk_.log,
-                .wall_ms = [this] { return desk_->wall_ms(); }};
+                .wall_ms = [this] { return server_.desk().wall_ms(); },
+                .plan = [this] { return bench().how_plan_is(); },
+                .work = [this](Worker::Work work) { worker_.post(std::move(work)); }};
     }
 
     WorkbenchPlaces places(const fs::path& data) const {
@@ -116,47 +116,23 @@ private:
                 .serves = true};
     }
 
-    void refuse_other_projects() {
-        for (const char* command : kOtherProjects) {
-            desk_->command(command, [](const Call& call) {
-                call.fail("not_allowed",
-                          "this robot serves one project on one target, from its boot on; "
-                          "`vagus deploy` sends it another version, `vagus serve` starts it with "
-                          "another project");
-            });
-        }
-    }
-
     // The token stays out of the log, which more people may read.
     void tell_address() {
-        talk_.print("serve " + door_->address());
-        talk_.log("note", "the token is in " + door_->token_file());
-        if (door_->is_open_and_plain()) talk_.log("warning", kPlainWords);
-    }
-
-    void hear(const net::Event& event) {
-        if (event.kind == net::EventKind::Signal) {
-            ended_ = true;
-        } else {
-            bench_->hear(event);
-        }
+        talk_.print("serve " + server_.door().address());
+        talk_.log("note", "the token is in " + server_.door().token_file());
+        if (server_.door().is_open_and_plain()) talk_.log("warning", kPlainWords);
     }
 
     Time next_tick() const {
-        const Time now = network_.now();
-        Time next = std::min(
-            {bench_->next_tick(now), desk_->next_tick(now), starter_.next_tick(), figures_at_});
+        Time next = std::min({starter_.next_tick(), deployments_.next_tick(), figures_at_});
         if (manager_.watchdog_every()) next = std::min(next, watchdog_at_);
         return next;
     }
 
-    void turn() {
-        const Time now = network_.now();
-        for (const WebEvent& event : door_->web().take()) desk_->hear(event, now);
-        bench_->tick(now);
+    void tick(Time now) {
+        worker_.tick();
         starter_.tick(now);
         deployments_.tick(now);
-        desk_->tick(now);
         tell_manager(now);
         show_figures(now);
     }
@@ -164,10 +140,10 @@ private:
     // Everything runs that should: what waits for its first project, or was stopped by a person,
     // has nothing to start.
     bool ready() const {
-        if (!bench_->project()) return true;
+        if (!bench().project()) return true;
         const Starter::State state = starter_.state();
         return options_.start ? state == Starter::State::Started || state == Starter::State::Idle
-                              : bench_->missing_nodes().empty();
+                              : bench().missing_nodes().empty();
     }
 
     // It is ready once; what it does later is its status.
@@ -185,7 +161,9 @@ private:
     }
 
     std::string status_line() const {
-        if (starter_.state() == Starter::State::Waiting) return starter_.why();
+        const Starter::State state = starter_.state();
+        const bool says_why = state == Starter::State::Waiting || state == Starter::State::Failed;
+        if (says_why) return starter_.why();
         return ready() ? "ready" : "starting";
     }
 
@@ -195,45 +173,37 @@ private:
         const DeployCounts& counts = deployments_.counts();
         const ServiceFigures service{.version = VAGUS_VERSION,
                                      .ready = ready(),
-                                     .missing = bench_->missing_nodes().size(),
-                                     .late_worst = seconds(std::exchange(late_worst_, {})),
+                                     .missing = bench().missing_nodes().size(),
+                                     .late_worst = seconds(server_.take_late_worst()),
                                      .deployed = versions_.current(),
                                      .deployments = counts.started,
                                      .refused = counts.refused,
                                      .rolled_back = counts.rolled_back};
-        door_->web().publish_metrics(metrics_text(bench_->figures(), service));
+        server_.door().web().publish_metrics(metrics_text(bench().figures(), service));
+        const bool failed = starter_.state() == Starter::State::Failed;
+        server_.door().web().publish_health(failed ? starter_.why() : "");
     }
 
-    // Nothing goes on without its server.
-    void end() {
-        manager_.tell("STOPPING=1\nSTATUS=stopping");
-        bench_->stop_everything();
-        const Time until = network_.now() + kLastWords;
-        while (network_.now() < until && network_.has_unwritten()) (void)network_.poll(until);
-        bench_->close();
-        desk_->tick(network_.now());
-        talk_.log("note", "stopped");
-    }
+    Workbench& bench() { return server_.bench(); }
+    const Workbench& bench() const { return server_.bench(); }
 
     const ServiceOptions& options_;
     const ServiceTalk& talk_;
     net::ServiceManager manager_;
-    net::Network network_;
-    std::optional<Door> door_;
-    std::unique_ptr<Desk> desk_;
-    std::unique_ptr<Workbench> bench_;
+    ServerLoop server_;
     Starter starter_;
     Versions versions_;
     Deployments deployments_;
-    bool ended_ = false, was_ready_ = false;
+    Worker worker_{[this] { server_.network().wake(); }};  // ends before what its work uses
+    bool was_ready_ = false;
     std::string told_;
     Time figures_at_{}, watchdog_at_{};
-    Duration late_worst_{};
 };
 
 }  // namespace
 
 Status run_service(const ServiceOptions& options, const ServiceTalk& talk) {
+    if (options.stop_only) return stop_only(options, talk);
     return Service(options, talk).run();
 }
 

@@ -17,6 +17,7 @@ constexpr Duration kFiguresEvery = 1s;  // /metrics is made anew
 struct ServiceOptions {
     std::string project = {};  // a path
     bool start = false;        // runs as soon as the nodes are there
+    bool stop_only = false;    // stops the robot and ends
     std::string target = {};   // instead of the project's own
     DoorOptions door = {};
     std::string data = {}, config = {};  // folders; empty: the user's
@@ -28,7 +29,8 @@ struct ServiceTalk {
     std::function<void(const std::string& kind, const std::string& text)> log;
 };
 
-// Serves until a signal comes; the robot stands then. The Error says why it cannot begin.
+// Serves until a signal comes, unless it only stops the robot; the robot is stopped then. The Error
+// says why it cannot begin.
 Status run_service(const ServiceOptions& options, const ServiceTalk& talk);
 
 }  // namespace vagus::serve

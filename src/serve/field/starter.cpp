@@ -39,9 +39,15 @@ void Starter::died(Time now) {
     }
     deaths_.clear();
     state_ = State::Idle;
-    why_ = fmt::format("its run died {} times within {} s; it stands until somebody starts it",
+    why_ = fmt::format("its run died {} times within {} s; it is stopped until somebody starts it",
                        kDeathsMax, kDeathsWithin / 1s);
     robot_.log("error", why_);
+}
+
+void Starter::failed(const std::string& why) {
+    if (state_ != State::Started) return;
+    state_ = State::Failed;
+    why_ = "its plan ended in an error: " + why;
 }
 
 void Starter::wait(const std::string& kind, const std::string& why, Time until) {

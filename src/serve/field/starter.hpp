@@ -34,7 +34,7 @@ public:
         // A sentence for the log; each is told once.
         std::function<void(const std::string& kind, const std::string& text)> log;
     };
-    enum class State { Idle, Waiting, Starting, Started };
+    enum class State { Idle, Waiting, Starting, Started, Failed };
 
     explicit Starter(Robot robot) : robot_(std::move(robot)) {}
 
@@ -43,6 +43,8 @@ public:
     void give_up();
     // Its run has died.
     void died(Time now);
+    // Its plan ended in an error: another start would end so again.
+    void failed(const std::string& why);
 
     State state() const { return state_; }
     // Why it does not run yet: a sentence.

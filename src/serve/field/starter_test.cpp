@@ -95,7 +95,7 @@ TEST_F(StarterTest, StandsWhenItsRunDiesForTheFifthTimeWithinAMinute) {
     }
     EXPECT_EQ(starter.state(), Starter::State::Idle);
     EXPECT_EQ(log.back(),
-              "error: its run died 5 times within 60 s; it stands until somebody starts it");
+              "error: its run died 5 times within 60 s; it is stopped until somebody starts it");
     starter.tick(1000s);
     EXPECT_EQ(starts.size(), 5u);
 }
@@ -108,6 +108,23 @@ TEST_F(StarterTest, GoesOnStartingWhenTheFifthDeathIsLater) {
         starter.died(16s * death + 15s);  // four intervals of 16 s are more than a minute
     }
     EXPECT_EQ(starter.state(), Starter::State::Waiting);
+}
+
+TEST_F(StarterTest, APlanThatFailedIsNotStartedAgain) {
+    starter.failed("too early");
+    EXPECT_EQ(starter.state(), Starter::State::Idle);
+    starter.begin(0s);
+    starter.tick(0s);
+    starts[0]("");
+    starter.failed("go: it is broken");
+    EXPECT_EQ(starter.state(), Starter::State::Failed);
+    EXPECT_EQ(starter.why(), "its plan ended in an error: go: it is broken");
+    EXPECT_EQ(starter.next_tick(), Time::max());
+    starter.tick(100s);
+    EXPECT_EQ(starts.size(), 1u);
+    starter.begin(100s);  // somebody sends another version
+    starter.tick(100s);
+    EXPECT_EQ(starts.size(), 2u);
 }
 
 TEST_F(StarterTest, ARunThatSomebodyElseStartedIsNotStartedAgain) {

@@ -44,7 +44,8 @@ Status sync_tree(const fs::path& root) {
     std::error_code failed;
     for (auto entry = fs::recursive_directory_iterator(root, failed);
          !failed && entry != fs::recursive_directory_iterator(); entry.increment(failed)) {
-        if (entry->is_directory()) TRY(sync_folder(entry->path().string()));
+        std::error_code unknown;
+        if (entry->is_directory(unknown)) TRY(sync_folder(entry->path().string()));
     }
     TRY(outcome(failed, root));
     return sync_folder(root.string());

@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "serve/field/versions.hpp"
 
 #include <gtest/gtest.h>
@@ -12,12 +13,6 @@ namespace fs = std::filesystem;
 
 class VersionsTest : public testing::Test {
 protected:
-    VersionsTest() {
-        fs::remove_all(project);
-        fs::create_directories(project);
-    }
-    ~VersionsTest() override { fs::remove_all(project); }
-
     static Bundle bundle(const std::string& content) {
         return {.name = "Rover",
                 .project = "rover",
@@ -38,7 +33,7 @@ protected:
         return text.ok() ? text.value() : "";
     }
 
-    fs::path project = fs::path(testing::TempDir()) / ("versions-" + std::to_string(getpid()));
+    test::Folder project;
     Versions versions{project};
 };
 

@@ -33,9 +33,9 @@ void History::begin(Beginning beginning) {
     run_ = beginning.run;
     kind_ = beginning.kind;
     name_ = beginning.name;
-    if (beginning.plans.empty()) return;
-    plan_ = std::make_unique<PlanPast>(std::move(beginning.plans), std::move(beginning.doc_of),
-                                       beginning.plan_seconds);
+    doc_of_ = std::move(beginning.doc_of);
+    plan_seconds_ = beginning.plan_seconds;
+    plan(1, std::move(beginning.plans));
 }
 
 void History::end() {
@@ -49,6 +49,12 @@ void History::end() {
 
 bool History::record(std::string_view bytes) {
     return tape_.record(bytes);
+}
+
+void History::plan(uint64_t version, PlanPast::Plans plans) {
+    if (plan_) return void(plan_->change(version, std::move(plans)));
+    if (plans.empty()) return;
+    plan_ = std::make_unique<PlanPast>(std::move(plans), doc_of_, plan_seconds_);
 }
 
 bool History::trace(const std::string& line) {

@@ -3,7 +3,8 @@
 // answers for any instant and for any window of time.
 //
 //     History history;
-//     history.begin({.kind = "simulated", .name = "WallFollow", .plans = read_plans(file), …});
+//     history.begin({.kind = "simulated", .name = "WallFollow"});
+//     history.plan(1, plans);                    // of the run host
 //     history.trace(line);
 //     reply(history.at({.t = 86.8, .events = 100}));
 #pragma once
@@ -21,11 +22,6 @@
 
 namespace vagus::serve {
 
-// How busy the bus is stands on the tape like the words of a node: by node, in hundredths of a
-// percent. No node has this number.
-constexpr uint16_t kLoadNode = 0xffff;
-constexpr uint16_t kLoadUnit = 100;
-
 constexpr size_t kTimelineWidthMax = 4000;  // pixels
 constexpr size_t kTimelineWords = 16;       // curves of a timeline
 constexpr size_t kInstantRanges = 256;
@@ -39,7 +35,7 @@ public:
         uint64_t run = 0;                // tells runs apart
         std::string kind = "simulated";  // or "bus", "trace"
         std::string name = {};           // of the plan, the world, or the file
-        PlanPast::Plans plans = {};      // empty: no plan
+        PlanPast::Plans plans = {};      // empty: no plan, or one that is told later
         PlanPast::DocOf doc_of = [](const std::string& file) { return file; };
         double plan_seconds = kTraceSeconds;
     };
@@ -50,9 +46,9 @@ public:
     // ---- what is told ----
     bool record(std::string_view bytes);
     bool trace(const std::string& line);
-    void change_plan(PlanPast::Plans plans) {
-        if (plan_) plan_->change(std::move(plans));
-    }
+    // What the next lines of the trace are of: the first version of a plan, or the one that took
+    // over. One that was told already changes nothing.
+    void plan(uint64_t version, PlanPast::Plans plans);
     void happen(PastEvent event) { events_.add(std::move(event)); }
     void stand(double t, uint16_t node, const std::string& state, int line) {
         events_.stand(t, node, state, line);
@@ -102,6 +98,8 @@ private:
 
     uint64_t run_ = 0;
     std::string kind_ = "none", name_;
+    PlanPast::DocOf doc_of_;
+    double plan_seconds_ = kTraceSeconds;
     std::unique_ptr<PlanPast> plan_;
     Tape tape_;
     EventPast events_;

@@ -25,7 +25,7 @@ constexpr const char* kPlan = R"({"format":"vagus-plan/1","name":"Walk",
 PlanPast::Plans walk() {
     const plan::PlanFile read = plan::parse_plan(kPlan, "Walk.plan.json");
     EXPECT_TRUE(read.readable);
-    return {read.plan};
+    return outlines_of({read.plan});
 }
 
 std::string one(double t, uint16_t node, uint16_t address, int16_t value) {
@@ -283,7 +283,8 @@ TEST(History, AfterAHotChangeThePastKeepsItsOwnPlan) {
     ASSERT_TRUE(past.add(line("1.0", R"("change")")));
     PlanPast::Plans changed = walk();
     changed[0].actors[1].name = "rest";  // it was called stop
-    past.change(changed);
+    EXPECT_TRUE(past.change(2, changed));
+    EXPECT_FALSE(past.change(2, walk()));  // it was told already
     ASSERT_TRUE(past.add(line("2.0", R"("actor-start","actor":"rest","activation":2,"in":{})")));
     EXPECT_EQ(past.at(0.5)["levels"][0]["actor"], "go");
     EXPECT_EQ(past.at(1.5)["levels"][0]["actor"], "go");
@@ -291,6 +292,25 @@ TEST(History, AfterAHotChangeThePastKeepsItsOwnPlan) {
     // near watched with go from the start to the end of its activation.
     EXPECT_EQ(past.at(0.5)["levels"][0]["supervisors"].size(), 2u);
     EXPECT_EQ(past.at(2.5)["levels"][0]["supervisors"].size(), 1u);
+}
+
+// The run tells what it is made of; no file is read.
+TEST(History, AVersionThatIsToldIsThatOfTheLinesBehindIt) {
+    History history;
+    history.begin({.name = "Walk"});
+    EXPECT_FALSE(history.trace(trace()[2]));  // of nothing that is known
+    history.plan(1, walk());
+    ASSERT_TRUE(history.trace(trace()[2]));
+    ASSERT_TRUE(history.trace(line("1.0", R"("change")")));
+    PlanOutlines changed = walk();
+    changed[0].actors[1].name = "rest";  // it was called stop
+    history.plan(2, changed);
+    history.plan(1, walk());  // it was told already
+    ASSERT_TRUE(
+        history.trace(line("2.0", R"("actor-start","actor":"rest","activation":2,"in":{})")));
+    EXPECT_EQ(history.at({.t = 0.5})["plan"]["levels"][0]["template"], "Wait");
+    EXPECT_EQ(history.at({.t = 2})["plan"]["levels"][0]["template"], "Wait");
+    EXPECT_EQ(history.at({.t = 2})["plan"]["levels"][0]["actor"], "rest");
 }
 
 TEST(History, ATraceIsGivenBackAsItCame) {

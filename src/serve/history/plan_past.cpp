@@ -21,7 +21,7 @@ bool PlanPast::add(const std::string& text) {
     if (!read.ok() || !plans_ || plans_->empty()) return false;
     const TraceLine& line = read.value();
     const double t = std::max(to_, line.t());
-    if (!now_) now_.emplace(*plans_, doc_of_);
+    if (!now_) now_.emplace(plans_, doc_of_);
     if (blocks_.empty() || blocks_.back().lines.size() >= kTraceBlockLines) begin_block(t);
     if (const auto event = line.event()) {
         now_->see(*event);
@@ -37,12 +37,14 @@ bool PlanPast::add(const std::string& text) {
     return true;
 }
 
-void PlanPast::change(Plans plans) {
-    if (plans.empty() || !now_ || versions_.size() >= kPlanVersions) return;
-    versions_.push_back(plans_);
+bool PlanPast::change(uint64_t version, Plans plans) {
+    if (plans.empty() || version <= version_ || version > kPlanVersions) return false;
+    version_ = version;
     plans_ = std::make_shared<const Plans>(std::move(plans));
-    now_->change(*plans_);
+    if (!now_) return true;
+    now_->change(plans_);
     begin_block(to_);
+    return true;
 }
 
 void PlanPast::begin_block(double t) {
@@ -173,7 +175,7 @@ std::string PlanPast::text() const {
 // ---- plans ----
 
 PlanPast::Plans read_plans(const std::string& file) {
-    PlanPast::Plans plans;
+    std::vector<plan::Plan> plans;
     const embed::PlanDisk disk(file);
     std::vector<std::string> wanted = {file};
     std::set<std::string> seen;
@@ -187,7 +189,7 @@ PlanPast::Plans read_plans(const std::string& file) {
         }
         plans.push_back(std::move(read.plan));
     }
-    return plans;
+    return outlines_of(plans);
 }
 
 }  // namespace vagus::serve

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
+#include "serve/follow/plan_follower.hpp"
 #include "serve/history/lane.hpp"
 #include "serve/history/trace_line.hpp"
-#include "serve/host/plan_follower.hpp"
 
 namespace vagus::serve {
 
@@ -30,7 +30,7 @@ constexpr double kTraceSeconds = 3600;  // of a run; a trace that is opened is k
 
 class PlanPast {
 public:
-    using Plans = std::vector<plan::Plan>;
+    using Plans = PlanOutlines;
     using DocOf = std::function<std::string(const std::string& file)>;
 
     PlanPast() = default;
@@ -39,9 +39,9 @@ public:
 
     // False: this is no line of a trace, and it is not kept.
     bool add(const std::string& line);
-    // From the last line on a new version of the plan runs (P31); what was before keeps its own.
-    void change(Plans plans);
-    std::string file() const { return plans_->front().file; }
+    // From the last line on this version of the plan runs (P31), counted from 1; what was before
+    // keeps its own. False: it is none that follows, and nothing changes.
+    bool change(uint64_t version, Plans plans);
     bool empty() const { return blocks_.empty(); }
     std::string name() const { return plans_->front().name; }
     double from() const { return blocks_.empty() ? 0 : blocks_.front().from; }
@@ -76,8 +76,8 @@ private:
     void watch(double t, std::string_view without_path = {});
     Lane* lane(const char* kind, const std::string& path, const std::string& name);
 
-    std::shared_ptr<const Plans> plans_;  // the version that runs; owners: this and versions_
-    std::vector<std::shared_ptr<const Plans>> versions_;  // followers of old blocks borrow them
+    PlanFollower::Plans plans_;  // the version that runs
+    uint64_t version_ = 1;       // its number
     DocOf doc_of_;
     double seconds_ = kTraceSeconds;
     std::optional<PlanFollower> now_;

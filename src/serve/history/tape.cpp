@@ -14,7 +14,7 @@ void TapeState::apply(const RecordItem& item) {
         }
         return;
     }
-    if (!nodes_.contains(item.node) && nodes_.size() >= kTapeNodesMax) return;
+    if (!nodes_.contains(item.node) && nodes_.size() >= kRecordedNodesMax) return;
     Words& words = nodes_[item.node];
     const size_t end = size_t{item.address} + item.count;
     if (words.values.size() < end) {

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "serve/history/record.hpp"
+#include "serve/follow/record.hpp"
 
 namespace vagus::serve {
 
@@ -26,13 +26,7 @@ constexpr double kTapeFineSeconds = 600;   // kept as it came
 constexpr double kTapeCoarseStep = 0.2;    // what is older: one instant in so many seconds
 constexpr double kTapeSeconds = 3600;      // what is older still is dropped
 constexpr size_t kTapeBytes = 64u << 20;   // all together
-constexpr size_t kTapeNodesMax = 2048;     // nodes that are kept
 constexpr size_t kTapeThingsMax = 10'000;  // robots and objects
-
-struct Standing {
-    float x = 0, y = 0, angle = 0;
-    friend bool operator==(const Standing&, const Standing&) = default;
-};
 
 // All that is known of one instant.
 class TapeState {

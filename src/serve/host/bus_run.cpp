@@ -2,15 +2,15 @@
 
 namespace vagus::serve {
 
-BusRun::BusRun(embed::PreparedRun& prepared, PlanTalk& talk) {
+BusRun::BusRun(embed::PreparedRun& prepared, run::Debugger& debugger) {
     prepared.listen([this](const plan::TraceEvent& event) {
         const std::lock_guard lock(mutex_);
         seen_.push_back(event);
     });
-    prepared.tell([this](const std::string& sentence) { say("warning", sentence); });
-    runner_ = std::thread([this, &prepared, &talk] {
-        const auto ended = prepared.run(&talk.debugger());
-        if (!ended.ok()) say("error", ended.error().what);
+    prepared.tell([this](const std::string& sentence) { say(talk::LineKind::Warning, sentence); });
+    runner_ = std::thread([this, &prepared, &debugger] {
+        const auto ended = prepared.run(&debugger);
+        if (!ended.ok()) say(talk::LineKind::Error, ended.error().what);
         const std::lock_guard lock(mutex_);
         over_ = true;
     });
@@ -20,7 +20,7 @@ BusRun::~BusRun() {
     runner_.join();
 }
 
-void BusRun::say(const char* kind, const std::string& text) {
+void BusRun::say(talk::LineKind kind, const std::string& text) {
     const std::lock_guard lock(mutex_);
     lines_.push_back({kind, text});
 }

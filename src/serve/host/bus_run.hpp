@@ -1,7 +1,7 @@
 // A plan on a bus runs in real time, on a thread of its own. What it does comes as values, to
 // whoever asks now and then.
 //
-//     BusRun running(prepared, talk);
+//     BusRun running(prepared, debugger);
 //     while (!running.over()) for (const plan::TraceEvent& event : running.take()) see(event);
 #pragma once
 
@@ -13,14 +13,15 @@
 
 #include "embed/prepared_run.hpp"
 #include "plan/trace.hpp"
-#include "serve/host/plan_talk.hpp"
+#include "run/debugger.hpp"
+#include "serve/talk/news.hpp"
 
 namespace vagus::serve {
 
 class BusRun {
 public:
     // Begins. Both are borrowed.
-    BusRun(embed::PreparedRun& prepared, PlanTalk& talk);
+    BusRun(embed::PreparedRun& prepared, run::Debugger& debugger);
     // Waits for the end.
     ~BusRun();
 
@@ -29,13 +30,13 @@ public:
     std::vector<plan::TraceEvent> take();
     // What a person should know: of others on the bus, and why the plan could not run.
     struct Line {
-        const char* kind;
+        talk::LineKind kind;
         std::string text;
     };
     std::vector<Line> take_lines();
 
 private:
-    void say(const char* kind, const std::string& text);
+    void say(talk::LineKind kind, const std::string& text);
 
     std::mutex mutex_;  // guards what follows
     std::vector<plan::TraceEvent> seen_;

@@ -1,12 +1,8 @@
 // The hand from above: what a person moves, puts, takes and presses in a world that stands there.
 #pragma once
 
-#include <cstdint>
-#include <nlohmann/json_fwd.hpp>
-#include <optional>
-#include <string>
-
 #include "base/result.hpp"
+#include "serve/talk/orders.hpp"
 
 namespace vagus::sim {
 class World;
@@ -14,9 +10,14 @@ class World;
 
 namespace vagus::serve {
 
-// One order of the server: move, put, take, press, tap, light. Gives the number of what was put.
 // The Error says what is not there, or why it cannot be.
-Result<std::optional<uint32_t>> hand(sim::World& world, const std::string& what,
-                                     const nlohmann::json& told);
+Status hand(sim::World& world, const talk::MoveRobot& order);
+Status hand(sim::World& world, const talk::MoveObject& order);
+Status hand(sim::World& world, const talk::TakeObject& order);
+Status hand(sim::World& world, const talk::SwitchLight& order);
+Status hand(sim::World& world, const talk::PressButton& order);
+Status hand(sim::World& world, const talk::TapRobot& order);
+// Gives the number of what was put.
+Result<uint32_t> hand(sim::World& world, const talk::PutObject& order);
 
 }  // namespace vagus::serve

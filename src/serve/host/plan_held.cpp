@@ -45,13 +45,15 @@ bool PlanHeld::tell(std::optional<double> since, Json& document) {
     return true;
 }
 
-void PlanHeld::act(PlanTalk& talk, const Json& told, PlanTalk::Answered answered) {
-    std::optional<uint64_t> number;
-    if (told.contains("number")) number = told["number"].get<uint64_t>();
-    const std::string act = told["act"];
-    if (act == "step") return talk.step_event(number, std::move(answered));
-    if (act == "drop") return talk.ask(run::DropHeld{number}, std::move(answered));
-    talk.ask(run::LetGo{number}, std::move(answered));
+void PlanHeld::act(PlanTalk& talk, const talk::HandleHeld& order, PlanTalk::Answered answered) {
+    switch (order.act) {
+        case talk::HeldAct::Go:
+            return talk.ask(run::LetGo{order.number}, std::move(answered));
+        case talk::HeldAct::Step:
+            return talk.step_event(order.number, std::move(answered));
+        case talk::HeldAct::Drop:
+            return talk.ask(run::DropHeld{order.number}, std::move(answered));
+    }
 }
 
 }  // namespace vagus::serve

@@ -4,7 +4,7 @@
 //     PlanHeld held;
 //     held.tend(*talk);                        // now and then
 //     held.tell(standing_since, document);     // true: the document is news
-//     held.act(*talk, told, answered);         // {"act": "go" | "step" | "drop", "number"?}
+//     held.act(*talk, order, answered);
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,13 +12,14 @@
 
 #include "run/held_events.hpp"
 #include "serve/host/plan_talk.hpp"
+#include "serve/talk/orders.hpp"
 
 namespace vagus::serve {
 
 constexpr size_t kHeldShownMax = 200;  // those behind them are only counted
 // Why there is nothing to act on.
 constexpr const char* kPlanDoesNotStand =
-    "events wait for a plan only while it stands at a breakpoint; it does not";
+    "events wait for a plan only while it is paused at a breakpoint; it is not";
 
 class PlanHeld {
 public:
@@ -32,7 +33,7 @@ public:
     bool tell(std::optional<double> since, Json& document);
     // For a plan that stands; without a number it is the first that steps, and all that go or are
     // dropped.
-    static void act(PlanTalk& talk, const Json& told, PlanTalk::Answered answered);
+    static void act(PlanTalk& talk, const talk::HandleHeld& order, PlanTalk::Answered answered);
 
 private:
     run::HeldNow now_;

@@ -53,14 +53,7 @@ struct Standing {
         checked = plan::check("two.plan.json", files, library.templates());
         graph = plan::make_graph(checked);
         talk.emplace(graph);
-        stops.want(Json::array({{{"number", 1},
-                                 {"plan", "two.plan.json"},
-                                 {"kind", "actor"},
-                                 {"element", "b"},
-                                 {"outcome", ""},
-                                 {"condition", ""},
-                                 {"stop_at", 1},
-                                 {"enabled", true}}}));
+        stops.want({{.number = 1, .plan = "two.plan.json", .element = "b"}});
     }
     run::Ended run(std::function<void()> standing) {
         run::RunOptions options;
@@ -129,13 +122,13 @@ TEST(PlanHeld, OneIsDroppedAndWithTheOtherThePlanSteps) {
     std::string said;
     const run::Ended ended = plan.run([&] {
         if (plan.count() == 2 && !std::exchange(dropped, true)) {
-            const Json drop = {{"act", "drop"}, {"number", plan.document["events"][0]["number"]}};
-            PlanHeld::act(*plan.talk, drop,
+            const uint64_t number = plan.document["events"][0]["number"];
+            PlanHeld::act(*plan.talk, {.act = talk::HeldAct::Drop, .number = number},
                           [&](const auto& reply) { said += reply.ok() ? "d" : "-"; });
         }
         if (plan.count() == 1 && steps == 0) {
             ++steps;
-            PlanHeld::act(*plan.talk, {{"act", "step"}},
+            PlanHeld::act(*plan.talk, {.act = talk::HeldAct::Step},
                           [&](const auto& reply) { said += reply.ok() ? "s" : "-"; });
         }
     });
@@ -150,7 +143,7 @@ TEST(PlanHeld, AStepWithoutAnEventIsRefusedAndThePlanStaysWhereItIs) {
     bool asked = false;
     plan.run([&] {
         if (!std::exchange(asked, true)) {
-            PlanHeld::act(*plan.talk, {{"act", "step"}},
+            PlanHeld::act(*plan.talk, {.act = talk::HeldAct::Step},
                           [&](const auto& reply) { why = reply.ok() ? "" : reply.error().what; });
         }
         if (why.empty()) return;

@@ -5,25 +5,31 @@
 
 namespace vagus::serve {
 
-using Json = nlohmann::json;
-
 namespace {
 
-run::Breakpoint breakpoint_of(const Json& wanted) {
+run::Breakpoint::Kind kind_of(talk::BreakpointKind kind) {
     using Kind = run::Breakpoint::Kind;
-    const std::string kind = wanted["kind"];
-    run::Breakpoint made;
-    made.kind = kind == "actor"   ? Kind::Actor
-                : kind == "state" ? Kind::State
-                : kind == "event" ? Kind::Event
-                                  : Kind::Condition;
-    made.plan = wanted["plan"];
-    made.element = wanted["element"];
-    made.outcome = wanted["outcome"];
-    made.condition = wanted["condition"];
-    made.stop_at = wanted["stop_at"];
-    made.enabled = wanted["enabled"];
-    return made;
+    switch (kind) {
+        case talk::BreakpointKind::Actor:
+            return Kind::Actor;
+        case talk::BreakpointKind::State:
+            return Kind::State;
+        case talk::BreakpointKind::Event:
+            return Kind::Event;
+        case talk::BreakpointKind::Condition:
+            return Kind::Condition;
+    }
+    return Kind::Condition;
+}
+
+run::Breakpoint breakpoint_of(const talk::Breakpoint& wanted) {
+    return {.kind = kind_of(wanted.kind),
+            .plan = wanted.plan,
+            .element = wanted.element,
+            .outcome = wanted.outcome,
+            .condition = wanted.condition,
+            .stop_at = wanted.stop_at,
+            .enabled = wanted.enabled};
 }
 
 }  // namespace
@@ -36,15 +42,15 @@ void PlanStops::tend(PlanTalk& talk) {
 
 void PlanStops::forget() {
     known_.clear();
-    posted_ = Json::array();
+    posted_.clear();
     waiting_ = 0;
 }
 
 void PlanStops::post_differences(PlanTalk& talk) {
     posted_ = wanted_;
     std::set<uint64_t> there;
-    for (const Json& wanted : posted_) {
-        const uint64_t number = wanted["number"];
+    for (const talk::Breakpoint& wanted : posted_) {
+        const uint64_t number = wanted.number;
         there.insert(number);
         const auto known = known_.find(number);
         if (known != known_.end() && known->second.wanted == wanted) continue;
@@ -57,8 +63,8 @@ void PlanStops::post_differences(PlanTalk& talk) {
     std::erase_if(known_, [&](const auto& one) { return !there.contains(one.first); });
 }
 
-void PlanStops::add(PlanTalk& talk, const Json& wanted) {
-    const uint64_t number = wanted["number"];
+void PlanStops::add(PlanTalk& talk, const talk::Breakpoint& wanted) {
+    const uint64_t number = wanted.number;
     known_[number] = {.wanted = wanted, .id = std::nullopt, .why = "", .hits = 0};
     ++waiting_;
     talk.ask(run::AddBreakpoint{breakpoint_of(wanted)},
@@ -97,17 +103,14 @@ void PlanStops::note(const std::vector<run::Breakpoint>& list) {
     }
 }
 
-bool PlanStops::tell(Json& list) {
-    list = Json::array();
+std::optional<std::vector<talk::BreakpointNow>> PlanStops::news() {
+    std::vector<talk::BreakpointNow> list;
     for (const auto& [number, known] : known_) {
-        list.push_back({{"number", number},
-                        {"hits", known.hits},
-                        {"set", known.id.has_value()},
-                        {"why", known.why}});
+        list.push_back({number, known.hits, known.id.has_value(), known.why});
     }
-    if (list == told_) return false;
+    if (list == told_) return std::nullopt;
     told_ = list;
-    return true;
+    return list;
 }
 
 std::vector<uint64_t> PlanStops::numbers(const std::vector<int>& ids) const {

@@ -14,7 +14,6 @@ namespace vagus::serve {
 namespace {
 
 using namespace std::chrono_literals;
-using Json = nlohmann::json;
 
 // Counts n up to 5, one a second; its sixth step, at 6 s, finds it above 4 and ends the plan.
 constexpr const char* kCount = R"({
@@ -59,14 +58,13 @@ struct OneThread {
     PlanStops stops;
 };
 
-Json at_step(int stop_at) {
-    return {{"number", 7},   {"plan", "count.plan.json"}, {"kind", "actor"},    {"element", "step"},
-            {"outcome", ""}, {"condition", ""},           {"stop_at", stop_at}, {"enabled", true}};
+talk::Breakpoint at_step(uint64_t stop_at) {
+    return {.number = 7, .plan = "count.plan.json", .element = "step", .stop_at = stop_at};
 }
 
 TEST(PlanTalk, APlanOnTheSameThreadStandsAtABreakpointAndGoesOn) {
     OneThread plan;
-    plan.stops.want(Json::array({at_step(4)}));
+    plan.stops.want({at_step(4)});
     std::vector<Time> stood;
     const run::Ended ended = plan.run([&](const PlanTalk::Heard& heard) {
         stood.push_back(heard.broken->where.at);
@@ -79,30 +77,30 @@ TEST(PlanTalk, APlanOnTheSameThreadStandsAtABreakpointAndGoesOn) {
 
 TEST(PlanTalk, TheHitsOfABreakpointAreToldWhileThePlanStands) {
     OneThread plan;
-    plan.stops.want(Json::array({at_step(3)}));
-    Json told;
+    plan.stops.want({at_step(3)});
     (void)plan.run([&](const PlanTalk::Heard&) { plan.talk->go_on(); });
     // Asked for at the stops, answered before the end.
-    EXPECT_TRUE(plan.stops.tell(told));
-    EXPECT_EQ(told[0]["set"], true);
-    EXPECT_GE(told[0]["hits"].get<int>(), 3);
+    const auto told = plan.stops.news();
+    ASSERT_TRUE(told && told->size() == 1);
+    EXPECT_TRUE(told->front().set);
+    EXPECT_GE(told->front().hits, 3u);
 }
 
 TEST(PlanTalk, ABreakpointThatDoesNotFitSaysWhy) {
     OneThread plan;
-    Json wrong = at_step(1);
-    wrong["element"] = "stepp";
-    plan.stops.want(Json::array({wrong}));
+    talk::Breakpoint wrong = at_step(1);
+    wrong.element = "stepp";
+    plan.stops.want({wrong});
     (void)plan.run([&](const PlanTalk::Heard&) { plan.talk->go_on(); });
-    Json told;
-    EXPECT_TRUE(plan.stops.tell(told));
-    EXPECT_EQ(told[0]["set"], false);
-    EXPECT_EQ(told[0]["why"], "the plan Count has no actor \"stepp\"; did you mean step?");
+    const auto told = plan.stops.news();
+    ASSERT_TRUE(told && told->size() == 1);
+    EXPECT_FALSE(told->front().set);
+    EXPECT_EQ(told->front().why, "the plan Count has no actor \"stepp\"; did you mean step?");
 }
 
 TEST(PlanTalk, WhatIsSetWhileItStandsIsDoneAndItStaysThere) {
     OneThread plan;
-    plan.stops.want(Json::array({at_step(1)}));
+    plan.stops.want({at_step(1)});
     std::string why = "not asked";
     int stops = 0;
     const run::Ended ended = plan.run([&](const PlanTalk::Heard&) {
@@ -125,7 +123,7 @@ TEST(PlanTalk, WhatIsSetWhileItStandsIsDoneAndItStaysThere) {
 
 TEST(PlanTalk, StepsFromABreakpointToTheNextActor) {
     OneThread plan;
-    plan.stops.want(Json::array({at_step(5)}));
+    plan.stops.want({at_step(5)});
     std::vector<std::string> stood;
     (void)plan.run([&](const PlanTalk::Heard& heard) {
         const run::Where& where = heard.stepped ? *heard.stepped : heard.broken->where;

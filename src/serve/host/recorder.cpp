@@ -1,8 +1,7 @@
 #include "serve/host/recorder.hpp"
 
 #include <cmath>
-
-#include "serve/history/history.hpp"
+#include <utility>
 
 namespace vagus::serve {
 
@@ -21,10 +20,12 @@ void Recorder::look(const sim::World& world) {
     if (world.now() < next_) return;
     const auto slower = static_cast<Duration::rep>(words_.size() / kRecordedNodes + 1);
     next_ = world.now() + kRecordEvery * slower;
+    const bool whole = words_.empty() && things_.empty();
     writer_.begin(std::chrono::duration<double>(world.now()).count());
     look_at_nodes(world);
     look_at_things(world);
     look_at_loads(world);
+    if (whole) whole_ = writer_.size();
 }
 
 void Recorder::look_at_nodes(const sim::World& world) {
@@ -38,6 +39,8 @@ void Recorder::look_at_nodes(const sim::World& world) {
 
 // Words that changed side by side go together.
 void Recorder::see(uint16_t node, std::span<const int16_t> words) {
+    // The history keeps no more of them.
+    if (words_.size() >= kRecordedNodesMax && !words_.contains(node)) return;
     std::vector<int16_t>& before = words_[node];
     const bool first = before.size() != words.size();
     if (first) before.assign(words.begin(), words.end());

@@ -3,9 +3,12 @@
 // server has no time for is left out, and the next record tells the whole again.
 #pragma once
 
+#include <map>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "serve/history/tape.hpp"
+#include "serve/follow/record.hpp"
 #include "sim/world.hpp"
 
 namespace vagus::serve {
@@ -14,7 +17,7 @@ constexpr Duration kRecordEvery = std::chrono::milliseconds(20);
 constexpr Duration kLoadEvery = std::chrono::milliseconds(200);  // it costs more to know
 constexpr size_t kRecordedNodes = 32;  // at that pace; with more of them, less often
 constexpr size_t kRecordsAtOnce = 64u << 10;
-constexpr size_t kRecordsMax = 1u << 20;  // bytes that wait for the server
+constexpr size_t kRecordsMax = 1u << 20;  // bytes that wait for the server behind a whole world
 
 class Recorder {
 public:
@@ -25,7 +28,9 @@ public:
     bool is_due_to_send() const { return writer_.size() >= kRecordsAtOnce; }
     // What was written since; may be empty.
     std::string take() { return writer_.take(); }
-    bool overflows() const { return writer_.size() >= kRecordsMax; }
+    // The whole of a large world is more than what waits otherwise, and counts for nothing here: it
+    // would be given up before it was ever sent, and written again at once.
+    bool overflows() const { return writer_.size() >= whole_ + kRecordsMax; }
     // The server did not take it: nothing of it counts.
     void forget();
 
@@ -37,6 +42,7 @@ private:
     void see(uint32_t key, const Standing& standing);
 
     RecordWriter writer_;
+    size_t whole_ = 0;  // bytes of the last record that told the whole
     std::map<uint16_t, std::vector<int16_t>> words_;
     std::map<uint32_t, Standing> things_;
     Time next_{}, next_load_{};

@@ -41,16 +41,22 @@ double height_of(sim::RobotType type) {
     return 0.1;
 }
 
+std::vector<uint16_t> nodes_of(const sim::RobotView& robot) {
+    std::vector<uint16_t> nodes;
+    for (uint16_t i = 0; i < robot.nodes; ++i) {
+        nodes.push_back(static_cast<uint16_t>(robot.node + i));
+    }
+    return nodes;
+}
+
 Json robot_json(const sim::World& world, const sim::RobotView& robot) {
     Json outline = Json::array();
     for (const sim::Point point : robot.outline) outline.push_back(json_of(point));
-    Json nodes = Json::array();
-    for (uint16_t i = 0; i < robot.nodes; ++i) nodes.push_back(robot.node + i);
     Json buttons = Json::array();
     for (const std::string_view button : sim::buttons_of(robot.type)) buttons.push_back(button);
     return {{"name", robot.name},
             {"type", sim::name_of(robot.type)},
-            {"nodes", std::move(nodes)},
+            {"nodes", nodes_of(robot)},
             {"outline", std::move(outline)},
             {"paint", json_of(robot.paint)},
             {"height", height_of(robot.type)},
@@ -77,16 +83,21 @@ Json object_json(const sim::ObjectView& object) {
 
 }  // namespace
 
-Json scene_of(const sim::World& world) {
+talk::Scene scene_of(const sim::World& world) {
     const sim::WorldDefinition& definition = world.definition();
+    talk::Scene scene;
     Json robots = Json::array();
-    for (const sim::RobotView& robot : world.robots()) robots.push_back(robot_json(world, robot));
+    for (const sim::RobotView& robot : world.robots()) {
+        scene.robots.push_back({std::string(robot.name), nodes_of(robot)});
+        robots.push_back(robot_json(world, robot));
+    }
     Json objects = Json::array();
     for (const sim::ObjectView& object : world.objects()) objects.push_back(object_json(object));
-    Json scene = {{"name", definition.name},     {"size", {definition.width, definition.height}},
-                  {"open", definition.open},     {"ground", json_of(definition.ground)},
-                  {"robots", std::move(robots)}, {"objects", std::move(objects)}};
-    if (!definition.ground_image.empty()) scene["image"] = definition.ground_image;
+    Json document = {{"name", definition.name},     {"size", {definition.width, definition.height}},
+                     {"open", definition.open},     {"ground", json_of(definition.ground)},
+                     {"robots", std::move(robots)}, {"objects", std::move(objects)}};
+    if (!definition.ground_image.empty()) document["image"] = definition.ground_image;
+    scene.document.json = std::move(document);
     return scene;
 }
 
@@ -147,6 +158,14 @@ std::string picture_of(const sim::World& world, sim::RobotId robot) {
     const auto& pixels = picture.value().pixels;
     bytes.append(reinterpret_cast<const char*>(pixels.data()), pixels.size() * sizeof pixels[0]);
     return bytes;
+}
+
+void put_robots(sim::World& world, const std::vector<talk::Pose>& poses) {
+    std::vector<sim::RobotId> ids;
+    for (const sim::RobotView& robot : world.robots()) ids.push_back(robot.id);
+    for (size_t i = 0; i < ids.size() && i < poses.size(); ++i) {
+        (void)world.move(ids[i], {{poses[i].x, poses[i].y}, poses[i].angle}).ok();
+    }
 }
 
 }  // namespace vagus::serve

@@ -2,17 +2,20 @@
 // flows). The layouts are those of protocol.json: scene, poses, rays, picture.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
+#include "serve/talk/news.hpp"
 #include "sim/world.hpp"
 
 namespace vagus::serve {
 
-nlohmann::json scene_of(const sim::World& world);
+talk::Scene scene_of(const sim::World& world);
 std::string poses_of(const sim::World& world);
 std::string rays_of(const sim::World& world);
 // What the robot's camera sees; empty without a camera.
 std::string picture_of(const sim::World& world, sim::RobotId robot);
+// Robots where they stood before a run, if a hand put them there: in their order.
+void put_robots(sim::World& world, const std::vector<talk::Pose>& poses);
 
 }  // namespace vagus::serve

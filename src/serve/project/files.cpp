@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <charconv>
 
-#include "aesl/project.hpp"
-#include "aesl/project_text.hpp"
 #include "base/file.hpp"
 #include "base/text.hpp"
-#include "serve/project/difference.hpp"
 #include "serve/project/paths.hpp"
-#include "serve/project/utf16.hpp"
 
 namespace vagus::serve {
 
@@ -19,39 +15,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr size_t kMovedMax = 1000;  // renamed files that are found under their old names
+
 Error not_there(const std::string& doc) {
     return {Code::NotFound, doc + ": there is no such file in the project"};
 }
 
-bool is_project(std::string_view text) {
-    const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-    return first != text.npos && text[first] == '<';
-}
-
-std::string language_of(const std::string& path, int part, std::string_view text) {
-    const std::string kind = kind_of_file(path);
-    if (part > 0) return "aesl";
-    if (kind == "script") return is_project(text) ? "aesl-file" : "aesl";
-    if (kind == "plan" || kind == "world" || kind == "toolbox") return kind;
-    return path.ends_with(".json") ? "json" : "text";
+bool is_in(const std::string& folder, const std::string& path) {
+    return path == folder || path.starts_with(folder + "/");
 }
 
 }  // namespace
-
-std::string kind_of_file(std::string_view path) {
-    if (path.ends_with(".aesl")) return "script";
-    if (path.ends_with(".plan.json")) return "plan";
-    if (path.ends_with(".world.json")) return "world";
-    if (path.ends_with(".toolbox.json")) return "toolbox";
-    if (path == "vagus.json" || path.ends_with("/vagus.json")) return "project";
-    if (path.ends_with(".png") || path.ends_with(".jpg") || path.ends_with(".svg")) {
-        return "picture";
-    }
-    for (const std::string_view end : {".txt", ".md", ".json", ".py", ".c", ".cpp", ".h", ".hpp"}) {
-        if (path.ends_with(end)) return "text";
-    }
-    return "other";
-}
 
 Status Files::check_open() const {
     if (is_open()) return Status::done();
@@ -62,7 +36,7 @@ void Files::enter(fs::path root, std::vector<std::string> only) {
     leave();
     root_ = std::move(root);
     only_ = std::move(only);
-    journal_ = Journal(root_ / kOwnFolder / "journal");
+    journal_ = Journal(root_ / kOwnFolder / "journal", sync_, journal_.next_number());
     waiting_ = journal_.read();
     next_disk_ = next_tick_ = now_;
     std::vector<std::string> paths = only_;
@@ -75,6 +49,7 @@ void Files::enter(fs::path root, std::vector<std::string> only) {
         const auto unsaved = waiting_.extract(path);
         if (unsaved.empty()) continue;
         File& file = files_[path];
+        file.text = OpenText(path, "", first_version_);
         file.gone = true;
         recover(path, file, unsaved.mapped());
     }
@@ -82,26 +57,38 @@ void Files::enter(fs::path root, std::vector<std::string> only) {
 
 // A text of an earlier session; `file` is as it is on disk.
 void Files::recover(const std::string& path, File& file, Unsaved unsaved) {
-    if (file.text == unsaved.text) return journal_.forget(path);
-    // The file changed meanwhile: both are shown.
-    if (!file.gone && hash_of(file.saved) != unsaved.base) file.disk = file.saved;
-    file.text = std::move(unsaved.text);
+    if (file.text.bytes() == unsaved.text) return journal_.forget(path);
+    std::string disk = file.saved;
+    if (!unsaved.base_hash) {
+        file.saved = unsaved.base.value_or("");
+    } else if (!file.gone && hash_of(disk) != *unsaved.base_hash) {
+        file.conflict = Conflict{disk};
+    }
+    file.text.take(unsaved.text, "server");
+    file.unsaved = true;
     file.journaled = true;
-    refresh_parts(path, file);
+    // The file changed meanwhile: what both did is put together, or both are shown. The journal
+    // gets it with the next change: whoever only reads a project writes nothing.
+    if (!file.gone && take_disk(file, std::move(disk))) {
+        file.unsaved = file.text.bytes() != file.saved;
+    }
     recovered_.push_back(path);
 }
 
 void Files::leave() {
     for (auto& [path, file] : files_) {
         if (file.journal_due) write_journal(path, file);
+        first_version_ = std::max(first_version_, file.text.newest_version() + 1);
     }
     ++session_;
     root_.clear();
     only_.clear();
-    journal_ = Journal({});
     waiting_.clear();
     files_.clear();
+    moved_.clear();
     recovered_.clear();
+    passed_over_.clear();
+    told_passed_over_.clear();
 }
 
 std::vector<FileInfo> Files::list(bool& more) const {
@@ -109,23 +96,15 @@ std::vector<FileInfo> Files::list(bool& more) const {
     if (!is_open()) return {};
     if (!only_.empty()) return list_only();
     std::vector<FileInfo> found;
-    std::error_code failed;
-    for (auto entry = fs::recursive_directory_iterator(root_, failed);
-         !failed && entry != fs::recursive_directory_iterator(); entry.increment(failed)) {
-        const std::string path = fs::relative(entry->path(), root_).generic_string();
-        const bool folder = entry->is_directory() && !entry->is_symlink();
-        if (!check_path(path).ok()) {
-            if (folder) entry.disable_recursion_pending();
-            continue;
-        }
-        if (entry.depth() >= static_cast<int>(kFolderDepthMax)) entry.disable_recursion_pending();
-        if (found.size() >= kFilesMax) {
-            more = true;
-            break;
-        }
-        FileInfo info{path, folder ? "folder" : kind_of_file(path), 0, is_unsaved(path)};
-        if (!folder) info.size = entry->is_regular_file() ? entry->file_size() : 0;
-        found.push_back(std::move(info));
+    FolderScan scan = scan_folder(root_);
+    more = scan.more;
+    passed_over_ = std::move(scan.passed_over);
+    for (ScanEntry& entry : scan.entries) {
+        const bool folder = entry.is == FolderEntry::Is::Folder;
+        const bool link = entry.is == FolderEntry::Is::LinkToFolder;
+        const std::string kind = folder ? "folder" : link ? "other" : kind_of_file(entry.path);
+        const bool unsaved = is_unsaved(entry.path);
+        found.push_back({std::move(entry.path), kind, entry.size, unsaved});
     }
     add_unsaved_without_file(found);
     std::sort(found.begin(), found.end(),
@@ -133,13 +112,28 @@ std::vector<FileInfo> Files::list(bool& more) const {
     return found;
 }
 
+// Each once, as long as it is so; one at a time.
+void Files::tell_passed_over() {
+    const auto is_in = [](const std::vector<ScanFault>& list, const ScanFault& one) {
+        return std::find(list.begin(), list.end(), one) != list.end();
+    };
+    std::erase_if(told_passed_over_,
+                  [&](const ScanFault& one) { return !is_in(passed_over_, one); });
+    for (const ScanFault& one : passed_over_) {
+        if (is_in(told_passed_over_, one)) continue;
+        told_passed_over_.push_back(one);
+        trouble_ = one.path + ": passed over: " + one.why;
+        return;
+    }
+}
+
 // Texts that were never saved have no file yet.
 void Files::add_unsaved_without_file(std::vector<FileInfo>& found) const {
     for (const auto& [path, file] : files_) {
         const bool listed = std::any_of(found.begin(), found.end(),
                                         [&](const FileInfo& info) { return info.path == path; });
-        if (!listed && file.text != file.saved) {
-            found.push_back({path, kind_of_file(path), file.text.size(), true});
+        if (!listed && file.unsaved) {
+            found.push_back({path, kind_of_file(path), file.text.text(0).size(), true});
         }
     }
 }
@@ -168,7 +162,30 @@ Result<Files::Place> Files::place_of(const std::string& doc) const {
         }
     }
     TRY(check_path(place.path));
+    place.path = path_now(place.path);
     return place;
+}
+
+// A file that was renamed is found under its old name, too, until there is another one of that
+// name: whoever typed into it while it moved has lost nothing.
+std::string Files::path_now(const std::string& path) const {
+    std::string now = path;
+    for (size_t steps = 0; steps <= moved_.size() && !files_.contains(now); ++steps) {
+        const auto to = moved_.find(now);
+        if (to == moved_.end()) break;
+        std::error_code failed;
+        if (fs::exists(root_ / now, failed)) break;
+        now = to->second;
+    }
+    return now;
+}
+
+std::optional<std::string> Files::moved_to(const std::string& doc) const {
+    const size_t mark = doc.rfind('#');
+    const std::string path = doc.substr(0, mark);
+    const std::string now = path_now(path);
+    if (now == path) return std::nullopt;
+    return mark == std::string::npos ? now : now + doc.substr(mark);
 }
 
 Result<fs::path> Files::real(const std::string& path) const {
@@ -189,176 +206,111 @@ Result<Files::File*> Files::load(const std::string& path) {
     }
     File file;
     file.written = fs::last_write_time(real_path, failed);
-    file.text = TRY(read_file(real_path.string()));
-    if (malformed_utf8_at(file.text)) {
+    file.size = fs::file_size(real_path, failed);
+    file.saved = TRY(read_file(real_path.string()));
+    if (malformed_utf8_at(file.saved)) {
         return Error{Code::BadInput, path + ": not a text in UTF-8; the studio cannot edit it"};
     }
-    file.saved = file.text;
+    file.text = OpenText(path, file.saved, first_version_);
     File& kept = files_[path] = std::move(file);
-    refresh_parts(path, kept);
     if (auto unsaved = waiting_.extract(path); !unsaved.empty()) {
         recover(path, kept, std::move(unsaved.mapped()));
     }
     return &kept;
 }
 
-void Files::refresh_parts(const std::string& path, File& file) {
-    if (kind_of_file(path) != "script" || !is_project(file.text)) return;
-    if (!aesl::parse_project(file.text, path).ok()) return;  // the scripts stay as they were
-    const aesl::ProjectText text(file.text);
-    for (size_t i = 0; i < text.scripts(); ++i) {
-        auto& [version, script] = file.parts[static_cast<int>(i) + 1];
-        std::string now = text.script(i);
-        if (version == 0 || now != script) ++version;
-        script = std::move(now);
+Result<Files::Opened> Files::opened(const std::string& doc) {
+    const Place place = TRY(place_of(doc));
+    File* file = TRY(load(place.path));
+    if (!file->text.has(place.part)) {
+        return Error{Code::NotFound,
+                     fmt::format("{}: the file has {} scripts", doc, file->text.scripts())};
     }
-    file.parts.erase(file.parts.upper_bound(static_cast<int>(text.scripts())), file.parts.end());
+    return Opened{place.path, file, place.part};
+}
+
+DocumentState Files::state_of(const Opened& opened) const {
+    const File& file = *opened.file;
+    const Updates& updates = file.text.updates(opened.part);
+    return {.version = updates.version(),
+            .language = file.text.language(opened.part),
+            .ends = std::string(file.text.ends()),
+            .unsaved = file.unsaved,
+            .by = updates.by(),
+            .conflict = file.conflict.has_value(),
+            .gone = file.gone};
 }
 
 Result<DocumentView> Files::open(const std::string& doc) {
-    const Place place = TRY(place_of(doc));
-    const File* file = TRY(load(place.path));
-    DocumentView view{file->text,
-                      file->version,
-                      language_of(place.path, place.part, file->text),
-                      file->text != file->saved,
-                      file->by,
-                      file->disk,
-                      file->gone};
-    if (place.part == 0) return view;
-    const auto part = file->parts.find(place.part);
-    if (part == file->parts.end()) {
-        return Error{Code::NotFound,
-                     fmt::format("{}: the file has {} scripts", doc, file->parts.size())};
+    const Opened found = TRY(opened(doc));
+    return DocumentView{state_of(found), found.file->text.text(found.part)};
+}
+
+Result<DocumentState> Files::state(const std::string& doc) {
+    return state_of(TRY(opened(doc)));
+}
+
+Result<Missing> Files::since(const std::string& doc, uint32_t version) {
+    const Opened found = TRY(opened(doc));
+    const Updates& updates = found.file->text.updates(found.part);
+    Missing missing{updates.version(), {}, {}};
+    if (auto kept = updates.since(version)) {
+        missing.updates = std::move(*kept);
+    } else {
+        missing.text = found.file->text.text(found.part);
     }
-    view.version = part->second.first;
-    view.text = part->second.second;
-    view.disk.reset();
-    return view;
+    return missing;
 }
 
 uint32_t Files::version(const std::string& doc) {
-    const Result<Place> place = place_of(doc);
-    if (!place.ok()) return 0;
-    const Result<File*> file = load(place.value().path);
-    if (!file.ok()) return 0;
-    if (place.value().part == 0) return file.value()->version;
-    const auto part = file.value()->parts.find(place.value().part);
-    return part == file.value()->parts.end() ? 0 : part->second.first;
+    const Result<Opened> found = opened(doc);
+    return found.ok() ? found.value().file->text.updates(found.value().part).version() : 0;
 }
 
 Result<uint32_t> Files::edit(const std::string& doc, uint32_t version,
-                             const std::vector<TextChange>& changes, uint32_t by) {
-    const DocumentView before = TRY(open(doc));
-    if (before.version != version) {
-        return Error{Code::Refused,
-                     fmt::format("{}: the text is at version {} by now", doc, before.version)};
+                             std::vector<TextChange> changes, const std::string& by) {
+    const Opened found = TRY(opened(doc));
+    OpenText& text = found.file->text;
+    const uint32_t now = text.updates(found.part).version();
+    if (now != version) {
+        return Error{Code::Refused, fmt::format("{}: the text is at version {} by now", doc, now)};
     }
-    auto text = applied(before.text, changes);
-    if (!text) {
-        return Error{Code::BadInput, doc +
-                                         ": a change lies outside of the text, inside a "
-                                         "character, or over another"};
-    }
-    return replace(doc, std::move(*text), by);
+    TRY(text.edit(found.part, std::move(changes), by));
+    if (text.updates(found.part).version() != now) changed(found.path, *found.file);
+    return text.updates(found.part).version();
 }
 
-Result<uint32_t> Files::replace(const std::string& doc, std::string text, uint32_t by) {
-    if (text.size() > kTextBytesMax) {
-        return Error{Code::Limit, fmt::format("{}: the text would have {} bytes; at most {} are "
-                                              "edited",
-                                              doc, text.size(), kTextBytesMax)};
-    }
-    const Place place = TRY(place_of(doc));
-    File* file = TRY(load(place.path));
-    if (place.part == 0) {
-        file->text = std::move(text);
-    } else {
-        const auto part = file->parts.find(place.part);
-        if (part == file->parts.end()) return not_there(doc);
-        const aesl::ProjectText project(file->text);
-        const auto index = static_cast<size_t>(place.part) - 1;
-        if (index >= project.scripts() || project.script(index) != part->second.second) {
-            return Error{Code::Refused,
-                         doc +
-                             ": the file around the script is no project at the moment; mend "
-                             "it first"};
-        }
-        const TextDifference change = difference(part->second.second, text);
-        file->text = project.replace(index, change.from, change.to, change.insert);
-    }
-    changed(place.path, *file, by);
-    return TRY(open(doc)).version;
+Result<uint32_t> Files::replace(const std::string& doc, std::string_view after,
+                                const std::string& by) {
+    const Opened found = TRY(opened(doc));
+    OpenText& text = found.file->text;
+    const uint32_t now = text.updates(found.part).version();
+    TRY(text.replace(found.part, after, by));
+    if (text.updates(found.part).version() != now) changed(found.path, *found.file);
+    return text.updates(found.part).version();
 }
 
-void Files::changed(const std::string& path, File& file, uint32_t by) {
-    ++file.version;
-    file.by = by;
-    refresh_parts(path, file);
-    if (!file.journal_due) file.journal_due = now_ + kJournalWithin;
-    next_tick_ = std::min(next_tick_, *file.journal_due);
+void Files::changed(const std::string& path, File& file) {
+    keep_in_journal(path, file);
     changed_(path);
 }
 
-Status Files::save(const std::string& doc) {
-    const Place place = TRY(place_of(doc));
-    File* file = TRY(load(place.path));
-    if (file->text == file->saved && !file->disk && !file->gone) return Status::done();
-    const fs::path real_path = TRY(real(place.path));
-    TRY(write_file(real_path.string(), file->text));
-    std::error_code failed;
-    file->written = fs::last_write_time(real_path, failed);
-    file->saved = file->text;
-    file->disk.reset();
-    file->gone = false;
-    file->journal_due.reset();
-    file->journaled = false;
-    journal_.forget(place.path);
-    std::erase(recovered_, place.path);
-    changed_(place.path);
-    return Status::done();
-}
-
-Result<std::vector<std::string>> Files::save_all() {
-    TRY(check_open());
-    std::vector<std::string> saved;
-    for (auto& [path, file] : files_) {
-        if (file.text == file.saved) continue;
-        TRY(save(path));
-        saved.push_back(path);
-    }
-    return saved;
-}
-
-Status Files::revert(const std::string& doc) {
-    const Place place = TRY(place_of(doc));
-    File* file = TRY(load(place.path));
-    if (file->disk) file->saved = std::exchange(file->disk, std::nullopt).value();
-    file->text = file->saved;
-    changed(place.path, *file, 0);
-    file->journal_due.reset();
-    journal_.forget(place.path);
-    std::erase(recovered_, place.path);
-    return Status::done();
-}
-
-Status Files::keep_mine(const std::string& doc) {
-    const Place place = TRY(place_of(doc));
-    File* file = TRY(load(place.path));
-    if (file->disk) file->saved = std::exchange(file->disk, std::nullopt).value();
-    changed(place.path, *file, 0);
-    return Status::done();
+void Files::keep_in_journal(const std::string& path, File& file) {
+    file.unsaved = file.text.bytes() != file.saved;
+    // After a failure it waits for its turn: a full disk is not asked at every letter.
+    if (!file.journal_due) write_journal(path, file);
 }
 
 bool Files::is_unsaved(const std::string& doc) const {
     const auto found = files_.find(doc.substr(0, doc.rfind('#')));
-    return found != files_.end() && found->second.text != found->second.saved;
+    return found != files_.end() && found->second.unsaved;
 }
 
 Result<std::string> Files::text(const std::string& path) const {
     const auto known = files_.find(path);
-    if (known != files_.end()) return known->second.text;
-    return bytes(path);
+    if (known == files_.end()) return FileText::read(TRY(bytes(path))).text();
+    if (known->second.gone && !known->second.unsaved) return not_there(path);
+    return known->second.text.text(0);
 }
 
 bool Files::exists(const std::string& path) const {
@@ -390,8 +342,16 @@ Status Files::make(const std::string& path, std::string_view content) {
     if (fs::exists(real_path, failed)) {
         return Error{Code::Refused, path + ": there is such a file already; take another name"};
     }
+    if (is_unsaved(path)) {
+        return Error{Code::Refused, path + ": there is an unsaved text of that name; save it"};
+    }
     fs::create_directories(real_path.parent_path(), failed);
-    TRY(write_file(real_path.string(), content));
+    TRY(write_file_unsynced(real_path.string(), content));
+    sync_.post(real_path.string());
+    moved_.erase(path);
+    if (const auto known = files_.find(path); known != files_.end()) {
+        look_at_disk(path, known->second, Look::Closely);
+    }
     changed_(path);
     return Status::done();
 }
@@ -411,7 +371,7 @@ Status Files::rename(const std::string& path, const std::string& to) {
     const fs::path from_path = TRY(real(path));
     const fs::path to_path = TRY(real(to));
     std::error_code failed;
-    if (fs::exists(to_path, failed)) {
+    if (fs::exists(to_path, failed) || is_unsaved(to)) {
         return Error{Code::Refused, to + ": there is such a file already; take another name"};
     }
     fs::create_directories(to_path.parent_path(), failed);
@@ -421,22 +381,35 @@ Status Files::rename(const std::string& path, const std::string& to) {
                      fmt::format("{}: cannot be renamed: {}", path, failed.message())};
     }
     // Texts move along, those of a folder's files too.
-    std::map<std::string, File> moved;
-    for (auto& [name, file] : files_) {
-        const bool below = name.starts_with(path + "/");
-        if (name != path && !below) continue;
-        journal_.forget(name);
-        if (file.text != file.saved) file.journal_due = now_;
-        moved.emplace(to + name.substr(path.size()), std::move(file));
+    std::vector<std::string> names;
+    for (const auto& [name, file] : files_) {
+        if (is_in(path, name)) names.push_back(name);
     }
-    std::erase_if(files_, [&](const auto& entry) {
-        return entry.first == path || entry.first.starts_with(path + "/");
-    });
-    files_.merge(moved);
-    next_tick_ = now_;
+    for (const std::string& name : names) {
+        move(name, to + name.substr(path.size()), std::move(files_.extract(name).mapped()));
+    }
+    for (std::string& name : only_) {
+        if (is_in(path, name)) name = to + name.substr(path.size());
+    }
     changed_(path);
     changed_(to);
     return Status::done();
+}
+
+void Files::move(const std::string& path, const std::string& to, File file) {
+    journal_.forget(path);
+    moved_.erase(to);
+    if (moved_.size() >= kMovedMax) moved_.erase(moved_.begin());
+    moved_[path] = to;
+    file.text.move_to(to);
+    // There may be a text of that name whose file was deleted: its versions do not come back.
+    if (const auto other = files_.find(to); other != files_.end()) {
+        file.text.begin_again(other->second.text.newest_version() + 1);
+    }
+    std::replace(recovered_.begin(), recovered_.end(), path, to);
+    if (file.sync > 0) file.sync = sync_.post((root_ / to).string());
+    File& kept = files_[to] = std::move(file);
+    keep_in_journal(to, kept);
 }
 
 Status Files::remove(const std::string& path) {
@@ -453,12 +426,14 @@ Status Files::remove(const std::string& path) {
         return Error{Code::Unavailable,
                      fmt::format("{}: cannot be deleted: {}", path, failed.message())};
     }
-    for (const auto& [name, file] : files_) {
-        if (name == path || name.starts_with(path + "/")) journal_.forget(name);
+    // Texts stay: to be looked at, and saved again.
+    for (auto& [name, file] : files_) {
+        if (!is_in(path, name)) continue;
+        file.saved = file.text.bytes();
+        file.conflict.reset();
+        file.gone = true;
+        changed(name, file);
     }
-    std::erase_if(files_, [&](const auto& entry) {
-        return entry.first == path || entry.first.starts_with(path + "/");
-    });
     changed_(path);
     return Status::done();
 }
@@ -466,10 +441,11 @@ Status Files::remove(const std::string& path) {
 void Files::tick(Time now) {
     now_ = now;
     next_tick_ = Time::max();
+    hear_disk();
     if (!is_open()) return;
     if (now >= next_disk_) {
         next_disk_ = now + kDiskEvery;
-        for (auto& [path, file] : files_) look_at_disk(path, file);
+        for (auto& [path, file] : files_) look_at_disk(path, file, Look::IfTouched);
     }
     next_tick_ = next_disk_;
     for (auto& [path, file] : files_) {
@@ -480,45 +456,28 @@ void Files::tick(Time now) {
 
 void Files::write_journal(const std::string& path, File& file) {
     file.journal_due.reset();
-    if (file.text == file.saved) {
+    if (!file.unsaved && file.sync == 0) {
         if (std::exchange(file.journaled, false)) journal_.forget(path);
         return;
     }
-    const Status written = journal_.write(path, {hash_of(file.saved), file.text});
-    file.journaled = written.ok();
-    if (written.ok()) return;
-    trouble_ = "what is typed cannot be kept: " + written.error().what;
-    file.journal_due = now_ + kDiskEvery;
-}
-
-void Files::look_at_disk(const std::string& path, File& file) {
-    const Result<fs::path> real_path = real(path);
-    if (!real_path.ok()) return;
-    std::error_code failed;
-    const auto written = fs::last_write_time(real_path.value(), failed);
-    const bool gone = static_cast<bool>(failed);
-    if (file.gone != gone) {
-        file.gone = gone;
-        changed_(path);
-    }
-    if (gone || written == file.written) return;
-    file.written = written;
-    const Result<std::string> text = read_file(real_path.value().string());
-    if (!text.ok() || text.value() == file.saved || text.value().size() > kTextBytesMax ||
-        malformed_utf8_at(text.value())) {
+    Unsaved unsaved{file.saved, file.text.bytes()};
+    if (file.gone) unsaved.base.reset();
+    const Status written = journal_.write(path, unsaved);
+    if (written.ok()) {
+        file.journaled = true;
+        journal_fails_ = false;
         return;
     }
-    if (file.text == file.saved) {
-        file.text = file.saved = text.value();
-        changed(path, file, 0);
-        file.journal_due.reset();
-    } else {
-        file.disk = text.value();
-        changed(path, file, file.by);
+    if (!std::exchange(journal_fails_, true)) {
+        trouble_ =
+            "unsaved changes cannot be journaled, and are tried again: " + written.error().what;
     }
+    file.journal_due = now_ + kJournalAgain;
+    next_tick_ = std::min(next_tick_, *file.journal_due);
 }
 
 std::optional<std::string> Files::take_trouble() {
+    if (!trouble_) tell_passed_over();
     return std::exchange(trouble_, std::nullopt);
 }
 

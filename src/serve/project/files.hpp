@@ -5,7 +5,7 @@
 //     Files files;
 //     files.enter(root);
 //     auto opened = files.open("carbot/carbot.aesl#1");
-//     auto edited = files.edit("carbot/carbot.aesl#1", opened.value().version, {{0, 3, "var"}});
+//     files.edit("carbot/carbot.aesl#1", opened.value().version, {{0, 3, "var"}}, "a1b2");
 //     files.save("carbot/carbot.aesl");
 //     files.tick(now);                 // journal, the disk
 #pragma once
@@ -21,18 +21,17 @@
 
 #include "base/result.hpp"
 #include "base/time.hpp"
+#include "serve/project/disk_sync.hpp"
 #include "serve/project/journal.hpp"
-#include "serve/project/text_change.hpp"
+#include "serve/project/open_text.hpp"
+#include "serve/project/scan.hpp"
 
 namespace vagus::serve {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kJournalWithin = 500ms;  // of a change
-constexpr Duration kDiskEvery = 1s;         // changes from outside are looked for
-constexpr size_t kTextBytesMax = 2u << 20;
-constexpr size_t kFilesMax = 2000;
-constexpr size_t kFolderDepthMax = 12;
+constexpr Duration kJournalAgain = 1s;  // after the journal could not be written
+constexpr Duration kDiskEvery = 1s;     // changes from outside are looked for
 
 struct FileInfo {
     std::string path;
@@ -41,18 +40,26 @@ struct FileInfo {
     bool unsaved = false;
 };
 
-struct DocumentView {
-    std::string text;
+struct DocumentState {
     uint32_t version = 0;
     std::string language;  // as in the protocol: aesl, aesl-file, plan, …
+    std::string ends;      // lf, crlf, mixed
     bool unsaved = false;
-    uint32_t by = 0;                  // who changed it last; 0: the server
-    std::optional<std::string> disk;  // the file, if it changed under an unsaved text
-    bool gone = false;                // somebody took the file away
+    std::string by;         // who changed it last: Update::by
+    bool conflict = false;  // the file changed on disk where the text is unsaved
+    bool gone = false;      // the file is not on disk
 };
 
-// What a name of a file says: "plan" for NAME.plan.json.
-std::string kind_of_file(std::string_view path);
+struct DocumentView : DocumentState {
+    std::string text;  // each line end is one line feed
+};
+
+// What leads from an older version of a text to the one there is.
+struct Missing {
+    uint32_t version = 0;  // that there is
+    std::vector<Update> updates;
+    std::optional<std::string> text;  // instead of updates, where they are not kept any more
+};
 
 class Files {
 public:
@@ -71,6 +78,7 @@ public:
     uint64_t session() const { return session_; }
 
     const std::filesystem::path& root() const { return root_; }
+    // What cannot be listed is passed over, and told as trouble.
     std::vector<FileInfo> list(bool& more) const;
     const std::vector<std::string>& recovered() const { return recovered_; }
     // Called with the path of each file whose text changed, whoever did it.
@@ -80,21 +88,40 @@ public:
 
     // ---- documents ----
     Result<DocumentView> open(const std::string& doc);
+    Result<DocumentState> state(const std::string& doc);
+    Result<Missing> since(const std::string& doc, uint32_t version);
     // The Error has code Refused if `version` is not the one there is.
-    Result<uint32_t> edit(const std::string& doc, uint32_t version,
-                          const std::vector<TextChange>& changes, uint32_t by);
-    // The whole text of a file anew.
-    Result<uint32_t> replace(const std::string& doc, std::string text, uint32_t by);
+    Result<uint32_t> edit(const std::string& doc, uint32_t version, std::vector<TextChange> changes,
+                          const std::string& by);
+    // The whole text; what is alike stays as it is.
+    Result<uint32_t> replace(const std::string& doc, std::string_view text, const std::string& by);
+    // Refused while the file on disk is another one than the text began as: whatever somebody else
+    // wrote up to this moment is merged, or stays and is shown as a conflict. The file has the new
+    // text then, for everybody; when_on_disk() says when a power cut cannot take it back. Until
+    // then it is in the journal, too.
     Status save(const std::string& doc);
-    Result<std::vector<std::string>> save_all();
-    Status revert(const std::string& doc);
+    // Saves what can be saved; the Error names what cannot. Files that are gone from the disk and
+    // have nothing unsaved stay gone.
+    Status save_all(std::vector<std::string>& saved);
+    // Calls `then` from tick() when all that was written up to now is on the disk, or says what is
+    // not; at once if that is so already. Nobody waits meanwhile.
+    void when_on_disk(std::function<void(const Status&)> then);
+    // Called on another thread when tick() has something to do.
+    void on_wake(std::function<void()> wake) { sync_.on_news(std::move(wake)); }
+    Status revert(const std::string& doc, const std::string& by);
+    // What is on disk may be replaced by the next save.
     Status keep_mine(const std::string& doc);
+    // What is on disk, while there is a conflict.
+    Result<std::string> disk_text(const std::string& doc);
     bool is_unsaved(const std::string& doc) const;
+    bool has_conflict(const std::string& doc) const;
     // Of the text; 0 if it cannot be opened.
     uint32_t version(const std::string& doc);
+    // Where a document went whose file was renamed; nothing if it was not.
+    std::optional<std::string> moved_to(const std::string& doc) const;
 
     // ---- files ----
-    // The text as it is edited, or as it is on disk.
+    // The text as it is edited, or as it is on disk, with line feeds.
     Result<std::string> text(const std::string& path) const;
     // A file, or a text that was never saved.
     bool exists(const std::string& path) const;
@@ -111,16 +138,22 @@ public:
     std::optional<std::string> take_trouble();
 
 private:
+    // A file on disk that is another one than the text began as.
+    struct Conflict {
+        std::string bytes;
+        std::string why_no_text = {};  // it cannot be shown
+        friend bool operator==(const Conflict&, const Conflict&) = default;
+    };
     struct File {
-        std::string text;   // with the line feeds of the file
-        std::string saved;  // as it is on disk, as far as we know
+        OpenText text;
+        std::string saved;  // bytes, as they are on disk as far as we know
         std::filesystem::file_time_type written{};
-        uint32_t version = 1;
-        std::map<int, std::pair<uint32_t, std::string>> parts;  // version and text of each script
-        uint32_t by = 0;
-        std::optional<std::string> disk;
+        uintmax_t size = 0;
+        std::optional<Conflict> conflict;
+        bool unsaved = false;  // the text's bytes are not `saved`
         bool gone = false;
-        std::optional<Time> journal_due;
+        std::optional<Time> journal_due;  // it could not be written
+        uint64_t sync = 0;                // number of the wait for the disk; 0: it is there
         bool journaled = false;
     };
     struct Place {
@@ -128,32 +161,62 @@ private:
         int part = 0;  // 0: the file
     };
 
+    struct Opened {
+        std::string path;
+        File* file = nullptr;
+        int part = 0;
+    };
+
     Status check_open() const;
     Result<Place> place_of(const std::string& doc) const;
-    void recover(const std::string& path, File& file, Unsaved unsaved);
+    std::string path_now(const std::string& path) const;
     Result<File*> load(const std::string& path);
-    void changed(const std::string& path, File& file, uint32_t by);
-    void refresh_parts(const std::string& path, File& file);
-    void look_at_disk(const std::string& path, File& file);
+    Result<Opened> opened(const std::string& doc);
+    DocumentState state_of(const Opened& opened) const;
+    void recover(const std::string& path, File& file, Unsaved unsaved);
+
+    // The text or what is on disk is another one: the journal follows, and who listens.
+    void changed(const std::string& path, File& file);
+    void keep_in_journal(const std::string& path, File& file);
     void write_journal(const std::string& path, File& file);
+
+    enum class Look { IfTouched, Closely };
+    void look_at_disk(const std::string& path, File& file, Look look);
+    bool take_disk(File& file, std::string bytes) const;
+    Status write(const std::string& path, File& file);
+    void move(const std::string& path, const std::string& to, File file);
     Result<std::filesystem::path> real(const std::string& path) const;
 
+    void hear_disk();
+    void tell_passed_over();
     void add_unsaved_without_file(std::vector<FileInfo>& found) const;
     std::vector<FileInfo> list_only() const;
 
     std::filesystem::path root_;
     std::vector<std::string> only_;
     uint64_t session_ = 0;
-    Journal journal_{{}};
+    DiskSync sync_;
+    struct DiskWait {
+        uint64_t number = 0;
+        std::function<void(const Status&)> then;
+    };
+    std::vector<DiskWait> disk_waits_;  // the oldest first
+    uint64_t on_disk_ = 0;              // up to this number
+    Journal journal_;
     // Entries of the journal for files that nobody has opened yet.
     std::map<std::string, Unsaved> waiting_;
     std::map<std::string, File> files_;
+    std::map<std::string, std::string> moved_;  // old path, new path
+    uint32_t first_version_ = 1;  // of a text that is opened: no version is used twice
     std::vector<std::string> recovered_;
     std::function<void(const std::string&)> changed_ = [](const std::string&) {};
     Time now_{};
     Time next_disk_{};
     Time next_tick_{};
     std::optional<std::string> trouble_;
+    bool journal_fails_ = false;                  // told once
+    mutable std::vector<ScanFault> passed_over_;  // by the last list()
+    std::vector<ScanFault> told_passed_over_;
 };
 
 }  // namespace vagus::serve

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <semaphore>
 
 #include "base/file.hpp"
 #include "serve/project/paths.hpp"
@@ -60,7 +61,7 @@ struct FilesTest : testing::Test {
         return read_file((root / path).string()).value();
     }
     uint32_t edit(Files& files, const std::string& doc, std::vector<TextChange> changes) {
-        const auto edited = files.edit(doc, files.open(doc).value().version, changes, 7);
+        const auto edited = files.edit(doc, files.open(doc).value().version, changes, "me");
         EXPECT_TRUE(edited.ok()) << edited.error().what;
         return edited.ok() ? edited.value() : 0;
     }
@@ -88,15 +89,15 @@ TEST_F(FilesTest, ChangesCountInTheTextBeforeThem) {
     Files files(root);
     EXPECT_EQ(edit(files, "note.txt", {{4, 5, "p!"}, {0, 1, "J"}}), 2u);
     EXPECT_EQ(files.open("note.txt").value().text, "Jellp!\n");
-    EXPECT_EQ(files.open("note.txt").value().by, 7u);
-    const auto stale = files.edit("note.txt", 1, {{0, 0, "x"}}, 7);
+    EXPECT_EQ(files.open("note.txt").value().by, "me");
+    const auto stale = files.edit("note.txt", 1, {{0, 0, "x"}}, "me");
     EXPECT_EQ(stale.error().code, Code::Refused);
     for (const auto& [from, to] : {std::pair(8, 8), {3, 2}, {0, 99}}) {
         const auto wrong = files.edit(
-            "note.txt", 2, {{static_cast<size_t>(from), static_cast<size_t>(to), ""}}, 7);
+            "note.txt", 2, {{static_cast<size_t>(from), static_cast<size_t>(to), ""}}, "me");
         EXPECT_FALSE(wrong.ok()) << from;
     }
-    EXPECT_FALSE(files.edit("note.txt", 2, {{0, 3, "a"}, {2, 4, "b"}}, 7).ok());  // overlap
+    EXPECT_FALSE(files.edit("note.txt", 2, {{0, 3, "a"}, {2, 4, "b"}}, "me").ok());  // overlap
 }
 
 TEST_F(FilesTest, SavingWhatWasNotChangedTouchesNothing) {
@@ -110,16 +111,14 @@ TEST_F(FilesTest, SavingWhatWasNotChangedTouchesNothing) {
 TEST_F(FilesTest, WhatWasTypedComesBackAfterACrash) {
     {
         Files files(root);
-        files.tick(0s);
         edit(files, "note.txt", {{0, 5, "unsaved"}});
-        files.tick(kJournalWithin);
         // Killed: nothing more is written.
     }
     Files files(root);
     EXPECT_THAT(files.recovered(), ElementsAre("note.txt"));
     EXPECT_EQ(files.open("note.txt").value().text, "unsaved\n");
     EXPECT_TRUE(files.open("note.txt").value().unsaved);
-    EXPECT_FALSE(files.open("note.txt").value().disk);
+    EXPECT_FALSE(files.has_conflict("note.txt"));
     EXPECT_EQ(on_disk("note.txt"), "hello\n");
     EXPECT_TRUE(files.save("note.txt").ok());
     EXPECT_EQ(on_disk("note.txt"), "unsaved\n");
@@ -130,15 +129,14 @@ TEST_F(FilesTest, AfterACrashAChangedFileIsShownBesideTheText) {
     {
         Files files(root);
         edit(files, "note.txt", {{0, 5, "mine"}});
-        files.tick(kJournalWithin);
     }
     write("note.txt", "theirs\n");
     Files files(root);
     EXPECT_EQ(files.open("note.txt").value().text, "mine\n");
-    EXPECT_EQ(files.open("note.txt").value().disk, "theirs\n");
+    EXPECT_EQ(files.disk_text("note.txt").value(), "theirs\n");
     EXPECT_TRUE(files.keep_mine("note.txt").ok());
-    EXPECT_FALSE(files.open("note.txt").value().disk);
-    EXPECT_TRUE(files.revert("note.txt").ok());
+    EXPECT_FALSE(files.has_conflict("note.txt"));
+    EXPECT_TRUE(files.revert("note.txt", "me").ok());
     EXPECT_EQ(files.open("note.txt").value().text, "theirs\n");
 }
 
@@ -157,9 +155,9 @@ TEST_F(FilesTest, AChangeOnDiskIsTakenOverByACleanTextAndShownBesideAnUnsavedOne
     fs::last_write_time(root / "note.txt", fs::file_time_type::clock::now() + 10s);
     files.tick(kDiskEvery * 2);
     EXPECT_EQ(files.open("note.txt").value().text, "mine\n");
-    EXPECT_EQ(files.open("note.txt").value().disk, "two\n");
-    EXPECT_TRUE(files.save("note.txt").ok());
-    EXPECT_EQ(on_disk("note.txt"), "mine\n");
+    EXPECT_EQ(files.disk_text("note.txt").value(), "two\n");
+    EXPECT_FALSE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "two\n");
 }
 
 TEST_F(FilesTest, LinksThatLeaveTheProjectAreNotFollowed) {
@@ -202,11 +200,13 @@ TEST_F(FilesTest, WithoutAProjectEverythingIsRefused) {
     EXPECT_TRUE(files.list(more).empty());
     EXPECT_FALSE(more);
     const Error expected{Code::Unavailable, "no project is open; open one first"};
+    std::vector<std::string> saved;
     for (const Error& error :
-         {files.open("a").error(), files.edit("a", 1, {}, 1).error(),
-          files.replace("a", "", 1).error(), files.save("a").error(), files.save_all().error(),
-          files.revert("a").error(), files.keep_mine("a").error(), files.text("a").error(),
-          files.bytes("a").error(), files.make("a", "").error(), files.make_folder("a").error(),
+         {files.open("a").error(), files.edit("a", 1, {}, "me").error(),
+          files.replace("a", "", "me").error(), files.save("a").error(),
+          files.save_all(saved).error(), files.revert("a", "me").error(),
+          files.keep_mine("a").error(), files.text("a").error(), files.bytes("a").error(),
+          files.make("a", "").error(), files.make_folder("a").error(),
           files.rename("a", "b").error(), files.remove("a").error()}) {
         EXPECT_EQ(error.code, expected.code);
         EXPECT_EQ(error.what, expected.what);
@@ -219,7 +219,7 @@ TEST_F(FilesTest, LeavingKeepsWhatWasTypedInTheJournalAndForgetsTheRest) {
     Files files;
     files.enter(root);
     edit(files, "note.txt", {{0, 5, "typed"}});
-    files.leave();  // before the journal was due
+    files.leave();
     EXPECT_FALSE(files.is_open());
     EXPECT_FALSE(files.open("note.txt").ok());
     EXPECT_FALSE(files.is_unsaved("note.txt"));
@@ -265,10 +265,189 @@ TEST_F(FilesTest, LongAndBinaryFilesAreNotEdited) {
     EXPECT_EQ(files.open("long.txt").error().code, Code::Limit);
     EXPECT_THAT(files.open("binary.txt").error().what, HasSubstr("UTF-8"));
     write("full.txt", std::string(kTextBytesMax, 'x'));
-    EXPECT_EQ(files.edit("full.txt", files.open("full.txt").value().version, {{0, 0, "y"}}, 1)
+    EXPECT_EQ(files.edit("full.txt", files.open("full.txt").value().version, {{0, 0, "y"}}, "me")
                   .error()
                   .code,
               Code::Limit);
+}
+
+// ---- what somebody else writes meanwhile ----
+
+// What was seen: a file that was overwritten although somebody had changed it a moment before.
+TEST_F(FilesTest, SavingLooksAtTheDiskAtThatMoment) {
+    Files files(root);
+    edit(files, "note.txt", {{0, 5, "mine"}});
+    write("note.txt", "theirs\n");  // no tick has seen it
+    EXPECT_THAT(files.save("note.txt").error().what, HasSubstr("note.txt: the file changed"));
+    std::vector<std::string> saved;
+    EXPECT_THAT(files.save_all(saved).error().what, HasSubstr("note.txt: the file changed"));
+    EXPECT_TRUE(saved.empty());
+    EXPECT_EQ(on_disk("note.txt"), "theirs\n");
+    EXPECT_TRUE(files.keep_mine("note.txt").ok());
+    EXPECT_TRUE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "mine\n");
+}
+
+TEST_F(FilesTest, ContentCountsWhereTimeAndSizeSayNothing) {
+    Files files(root);
+    edit(files, "note.txt", {{0, 5, "mine"}});
+    const auto written = fs::last_write_time(root / "note.txt");
+    write("note.txt", "HELLO\n");
+    fs::last_write_time(root / "note.txt", written);
+    EXPECT_FALSE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "HELLO\n");
+}
+
+TEST_F(FilesTest, AConflictInOneFileDoesNotKeepOthersFromBeingSaved) {
+    write("other.txt", "other\n");
+    Files files(root);
+    edit(files, "note.txt", {{0, 5, "mine"}});
+    edit(files, "other.txt", {{0, 5, "more"}});
+    write("note.txt", "theirs\n");
+    std::vector<std::string> saved;
+    EXPECT_FALSE(files.save_all(saved).ok());
+    EXPECT_THAT(saved, ElementsAre("other.txt"));
+}
+
+TEST_F(FilesTest, OtherLinesThatChangeOnDiskAreTakenIntoAnUnsavedText) {
+    write("three.txt", "one\ntwo\nthree\n");
+    Files files(root);
+    edit(files, "three.txt", {{0, 3, "ONE"}});
+    write("three.txt", "one\ntwo\nthree and more\n");
+    fs::last_write_time(root / "three.txt", fs::file_time_type::clock::now() + 5s);
+    files.tick(kDiskEvery);
+    const DocumentView view = files.open("three.txt").value();
+    EXPECT_EQ(view.text, "ONE\ntwo\nthree and more\n");
+    EXPECT_EQ(view.by, "disk");
+    EXPECT_TRUE(view.unsaved);
+    EXPECT_FALSE(view.conflict);
+    const Missing missing = files.since("three.txt", 2).value();
+    ASSERT_EQ(missing.updates.size(), 1u);
+    EXPECT_EQ(missing.updates[0], (Update{3, {{13, 13, " and more"}}, "disk"}));
+    EXPECT_TRUE(files.save("three.txt").ok());
+    EXPECT_EQ(on_disk("three.txt"), "ONE\ntwo\nthree and more\n");
+}
+
+// What was seen: for a script in an .aesl the page never shows that the file changed.
+TEST_F(FilesTest, AConflictIsOneOfEachScriptOfTheFile) {
+    Files files(root);
+    edit(files, "carbot/a.aesl#1", {{4, 5, "z"}});
+    std::string other(kProject);
+    other.replace(other.find("var x"), 5, "var q");
+    write("carbot/a.aesl", other);
+    EXPECT_FALSE(files.save("carbot/a.aesl#1").ok());
+    for (const char* doc : {"carbot/a.aesl", "carbot/a.aesl#1", "carbot/a.aesl#2"}) {
+        EXPECT_TRUE(files.state(doc).value().conflict) << doc;
+    }
+    EXPECT_EQ(files.disk_text("carbot/a.aesl#1").value(), "var q <\n");
+    EXPECT_EQ(files.disk_text("carbot/a.aesl").value(), other);
+}
+
+TEST_F(FilesTest, WhatIsNoTextAnyMoreIsNotOverwritten) {
+    Files files(root);
+    edit(files, "note.txt", {{0, 0, "x"}});
+    write("note.txt", "\xff\xfe");
+    EXPECT_FALSE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "\xff\xfe");
+    EXPECT_THAT(files.disk_text("note.txt").error().what, HasSubstr("no text in UTF-8"));
+    EXPECT_FALSE(files.revert("note.txt", "me").ok());
+    EXPECT_TRUE(files.keep_mine("note.txt").ok());
+    EXPECT_TRUE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "xhello\n");
+}
+
+TEST_F(FilesTest, AFileThatGoesBackToWhatItWasIsNoConflictAnyMore) {
+    Files files(root);
+    edit(files, "note.txt", {{0, 5, "mine"}});
+    write("note.txt", "theirs\n");
+    EXPECT_FALSE(files.save("note.txt").ok());
+    write("note.txt", "hello\n");
+    EXPECT_TRUE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "mine\n");
+}
+
+// ---- line ends ----
+
+TEST_F(FilesTest, LineEndsAndTheMarkStayWhereNobodyTypes) {
+    write("dos.txt", "\xef\xbb\xbfone\r\ntwo\r\nthree\nfour");
+    Files files(root);
+    const DocumentView view = files.open("dos.txt").value();
+    EXPECT_EQ(view.text, "one\ntwo\nthree\nfour");
+    EXPECT_EQ(view.ends, "mixed");
+    edit(files, "dos.txt", {{4, 4, "new\r\n"}});  // each line end counts one
+    EXPECT_EQ(files.open("dos.txt").value().text, "one\nnew\ntwo\nthree\nfour");
+    EXPECT_TRUE(files.save("dos.txt").ok());
+    EXPECT_EQ(on_disk("dos.txt"), "\xef\xbb\xbfone\r\nnew\r\ntwo\r\nthree\nfour");
+}
+
+// ---- the journal ----
+
+TEST_F(FilesTest, AfterACrashOtherLinesThatChangedOnDiskAreTakenIn) {
+    write("three.txt", "one\r\ntwo\r\nthree\r\n");
+    {
+        Files files(root);
+        edit(files, "three.txt", {{0, 3, "ONE"}});
+    }
+    write("three.txt", "one\r\ntwo\r\nTHREE\r\n");
+    Files files(root);
+    EXPECT_EQ(files.open("three.txt").value().text, "ONE\ntwo\nTHREE\n");
+    EXPECT_FALSE(files.has_conflict("three.txt"));
+    EXPECT_TRUE(files.save("three.txt").ok());
+    EXPECT_EQ(on_disk("three.txt"), "ONE\r\ntwo\r\nTHREE\r\n");
+}
+
+// A power cut may bring the old file back until the disk has the new one: so long the journal has
+// the text, too. Nobody waits for that.
+TEST_F(FilesTest, WhatIsSavedStaysInTheJournalUntilTheDiskHasIt) {
+    std::counting_semaphore<> news{0};
+    Files files(root);
+    files.on_wake([&] { news.release(); });
+    const std::string before = on_disk("note.txt");
+    edit(files, "note.txt", {{0, 0, "typed "}});
+    ASSERT_TRUE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "typed " + before);
+    EXPECT_FALSE(files.is_unsaved("note.txt"));
+    {
+        write("note.txt", before);  // the power was cut
+        EXPECT_EQ(Files(root).open("note.txt").value().text, "typed " + before);
+        write("note.txt", "typed " + before);
+    }
+    std::optional<Status> on_disk_now;
+    files.when_on_disk([&](const Status& status) { on_disk_now = status; });
+    for (Time now = 1s; !on_disk_now && news.try_acquire_for(20s); now += 1s) files.tick(now);
+    ASSERT_TRUE(on_disk_now && on_disk_now->ok());
+    EXPECT_TRUE(fs::is_empty(root / ".vagus/journal"));
+    std::optional<Status> at_once;
+    files.when_on_disk([&](const Status& status) { at_once = status; });
+    EXPECT_TRUE(at_once && at_once->ok());
+}
+
+// Typed again, and taken back, while the disk is waited for.
+TEST_F(FilesTest, WhatIsTypedAndTakenBackBehindASaveLeavesNoOtherTextInTheJournal) {
+    Files files(root);
+    edit(files, "note.txt", {{0, 5, "saved"}});
+    ASSERT_TRUE(files.save("note.txt").ok());
+    edit(files, "note.txt", {{5, 5, " more"}});
+    edit(files, "note.txt", {{5, 10, ""}});
+    const std::string text = files.open("note.txt").value().text;
+    Files again(root);
+    EXPECT_EQ(again.open("note.txt").value().text, text);
+    EXPECT_FALSE(again.is_unsaved("note.txt"));
+}
+
+// As on a full disk: told once, tried again, nothing lost meanwhile.
+TEST_F(FilesTest, AJournalThatCannotBeWrittenIsToldAndTriedAgain) {
+    Files files(root);
+    fs::create_directories(root / ".vagus");
+    write(".vagus/journal", "in the way");
+    edit(files, "note.txt", {{0, 5, "typed"}});
+    EXPECT_THAT(files.take_trouble().value_or(""), HasSubstr("unsaved changes cannot be"));
+    edit(files, "note.txt", {{5, 5, " on"}});
+    files.tick(kJournalAgain);
+    EXPECT_EQ(files.take_trouble(), std::nullopt);
+    fs::remove(root / ".vagus/journal");
+    files.tick(kJournalAgain * 2);
+    EXPECT_EQ(Files(root).open("note.txt").value().text, "typed on\n");
 }
 
 }  // namespace

@@ -76,6 +76,20 @@ const char* name_of(May may) {
     return "";
 }
 
+const char* name_of(CommandKind kind) {
+    switch (kind) {
+        case CommandKind::Look:
+            return "look";
+        case CommandKind::Edit:
+            return "edit";
+        case CommandKind::Act:
+            return "act";
+        case CommandKind::Stop:
+            return "stop";
+    }
+    return "";
+}
+
 const char* name_of(TopicType::Kind kind) {
     switch (kind) {
         case TopicType::Kind::Document:
@@ -89,8 +103,9 @@ const char* name_of(TopicType::Kind kind) {
 }
 
 std::string command_text(const std::string& name, const CommandType& command) {
-    std::string text =
-        fmt::format("### {}\n\n{} For {}.\n\n", name, command.help, name_of(command.may));
+    std::string text = fmt::format("### {}\n\n{} For {}; kind {}.{}\n\n", name, command.help,
+                                   name_of(command.may), name_of(command.kind),
+                                   command.on_robot ? "" : " Not on a robot that serves itself.");
     if (!command.in.empty()) text += "In:\n\n" + table_of(command.in);
     if (!command.out.empty()) text += "Out:\n\n" + table_of(command.out);
     return text;

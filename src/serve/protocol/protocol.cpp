@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "base/nearest.hpp"
+#include "serve/protocol/depth.hpp"
 
 namespace vagus::serve {
 
@@ -31,26 +32,6 @@ std::vector<std::string> names_of(const std::vector<std::pair<std::string, T>>& 
     return names;
 }
 
-// Brackets inside each other, those in strings not counted.
-size_t depth_of(std::string_view text) {
-    size_t depth = 0, deepest = 0;
-    bool quoted = false;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const char letter = text[i];
-        if (quoted) {
-            if (letter == '\\') ++i;
-            if (letter == '"') quoted = false;
-        } else if (letter == '"') {
-            quoted = true;
-        } else if (letter == '{' || letter == '[') {
-            deepest = std::max(deepest, ++depth);
-        } else if ((letter == '}' || letter == ']') && depth > 0) {
-            --depth;
-        }
-    }
-    return deepest;
-}
-
 Refusal refuse(uint64_t id, std::string code, std::string what, std::string place = {}) {
     return {id, {std::move(code), std::move(what), std::move(place)}};
 }
@@ -58,6 +39,15 @@ Refusal refuse(uint64_t id, std::string code, std::string what, std::string plac
 // "in.from: expected a text" as a place and the sentence.
 Refusal refuse_fault(uint64_t id, const std::string& fault) {
     return refuse(id, "bad_message", fault, fault.substr(0, fault.find_first_of(": ")));
+}
+
+// A message with one member that is known, { "pong": 7 }.
+std::optional<Pong> pong_in(const Json& message) {
+    const auto found = message.find("pong");
+    if (message.size() != 1 || found == message.end() || !found->is_number_unsigned()) {
+        return std::nullopt;
+    }
+    return Pong{found->get<uint64_t>()};
 }
 
 std::string did_you_mean(const std::string& near) {
@@ -96,9 +86,15 @@ struct Protocol::Reader {
     Status commands(const Ordered& list) {
         static const std::map<std::string, May> kMay = {
             {"any", May::Any}, {"look", May::Look}, {"drive", May::Drive}, {"driver", May::Driver}};
+        static const std::map<std::string, CommandKind> kKinds = {{"look", CommandKind::Look},
+                                                                  {"edit", CommandKind::Edit},
+                                                                  {"act", CommandKind::Act},
+                                                                  {"stop", CommandKind::Stop}};
         for (const auto& [name, entry] : list.items()) {
             CommandType command;
             command.may = kMay.at(entry["may"].get<std::string>());
+            command.kind = kKinds.at(entry.at("kind").get<std::string>());
+            command.on_robot = entry.value("on_robot", false);
             command.help = entry["help"];
             command.in = TRY(fields(entry["in"]));
             command.out = TRY(fields(entry["out"]));
@@ -180,7 +176,7 @@ const Protocol& Protocol::get() {
     return protocol;
 }
 
-std::variant<Request, Refusal> Protocol::read(std::string_view message) const {
+Message Protocol::read(std::string_view message) const {
     if (message.size() > limit("message_bytes")) {
         return refuse(0, "limit",
                       fmt::format("a message of {} bytes; at most {} are allowed", message.size(),
@@ -194,36 +190,55 @@ std::variant<Request, Refusal> Protocol::read(std::string_view message) const {
     if (!json.is_object()) {
         return refuse(0, "bad_message", "expected a JSON object with id, do and in");
     }
+    if (const auto pong = pong_in(json)) return *pong;
     const auto id_found = json.find("id");
     if (id_found == json.end() || !id_found->is_number_unsigned()) {
         return refuse(0, "bad_message", "id: expected a whole number above 0", "id");
     }
     Request request;
     request.id = id_found->get<uint64_t>();
-    for (const auto& [key, value] : json.items()) {
-        if (key != "id" && key != "do" && key != "in") {
-            return refuse(request.id, "bad_message",
-                          fmt::format("{:.64}: not known; a command has id, do and in", key),
-                          "message");
-        }
-    }
-    const auto name_found = json.find("do");
-    if (name_found == json.end() || !name_found->is_string()) {
-        return refuse(request.id, "bad_message", "do: expected the name of a command", "do");
-    }
-    request.name = name_found->get<std::string>();
-    request.type = command(request.name);
-    if (!request.type) {
-        return refuse(request.id, "unknown_command",
-                      fmt::format("there is no command “{:.64}”{}", request.name,
-                                  did_you_mean(nearest(request.name, names_of(commands_)))),
-                      "do");
-    }
+    if (auto refusal = read_members(json, request)) return std::move(*refusal);
     request.in = json.contains("in") ? std::move(json["in"]) : Json::object();
     if (const auto fault = fault_of_fields(request.in, request.type->in, types_, "in")) {
         return refuse_fault(request.id, *fault);
     }
     return request;
+}
+
+// What stands beside `in`.
+std::optional<Refusal> Protocol::read_members(const Json& json, Request& request) const {
+    for (const auto& [key, value] : json.items()) {
+        if (key != "id" && key != "do" && key != "in" && key != "until") {
+            return refuse(request.id, "bad_message",
+                          fmt::format("{:.64}: not known; a command has id, do, in and until", key),
+                          "message");
+        }
+    }
+    const auto until = json.find("until");
+    if (until != json.end() && !until->is_number()) {
+        return refuse(request.id, "bad_message",
+                      "until: expected a time of the server in milliseconds", "until");
+    }
+    if (until != json.end()) request.until = until->get<double>();
+    const auto name = json.find("do");
+    if (name == json.end() || !name->is_string()) {
+        return refuse(request.id, "bad_message", "do: expected the name of a command", "do");
+    }
+    request.name = name->get<std::string>();
+    request.type = command(request.name);
+    if (request.type) return std::nullopt;
+    return refuse(request.id, "unknown_command",
+                  fmt::format("there is no command “{:.64}”{}", request.name,
+                              did_you_mean(nearest(request.name, names_of(commands_)))),
+                  "do");
+}
+
+std::vector<std::string> Protocol::command_names() const {
+    return names_of(commands_);
+}
+
+std::vector<std::string> Protocol::topic_names() const {
+    return names_of(topics_);
 }
 
 const CommandType* Protocol::command(std::string_view name) const {

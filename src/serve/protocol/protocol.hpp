@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "serve/protocol/type.hpp"
@@ -20,8 +22,15 @@ namespace vagus::serve {
 // one driver.
 enum class May { Any, Look, Drive, Driver };
 
+// What a command does, and so how late it may come. Look changes nothing. Edit changes what is
+// kept: a client repeats it after a lost connection, and it is done once. Act can move something:
+// it has a deadline. Stop only makes things stop, and is obeyed before others that wait.
+enum class CommandKind { Look, Edit, Act, Stop };
+
 struct CommandType {
     May may = May::Driver;
+    CommandKind kind = CommandKind::Act;
+    bool on_robot = false;  // a robot that serves itself obeys it
     std::string help;
     std::vector<Field> in, out;
 };
@@ -54,6 +63,12 @@ struct Request {
     std::string name;
     const CommandType* type = nullptr;
     nlohmann::json in;
+    std::optional<double> until = {};  // ms of the server's time: not done later
+};
+
+// The answer to a ping of the server.
+struct Pong {
+    uint64_t number = 0;
 };
 
 // A refused message, with its id if it had one.
@@ -62,6 +77,9 @@ struct Refusal {
     Problem problem;
 };
 
+// What a client says.
+using Message = std::variant<Request, Refusal, Pong>;
+
 class Protocol {
 public:
     // The list that is built in. A mistake in it is a bug: a test reads it.
@@ -69,9 +87,12 @@ public:
     static Result<Protocol> parse(std::string_view text);
 
     // A text message from a client. Whatever it holds, this ends soon and uses little.
-    std::variant<Request, Refusal> read(std::string_view message) const;
+    Message read(std::string_view message) const;
 
     const CommandType* command(std::string_view name) const;
+    std::vector<std::string> command_names() const;
+    std::vector<std::string> topic_names() const;
+    const Types& types() const { return types_; }
     const TopicType* topic(std::string_view name) const;
     // What is wrong with the `of` of a subscription.
     std::optional<std::string> fault_of_subject(const TopicType& topic,
@@ -88,6 +109,7 @@ public:
 
 private:
     struct Reader;
+    std::optional<Refusal> read_members(const nlohmann::json& json, Request& request) const;
     std::vector<std::string> help_;
     std::vector<std::pair<std::string, LimitType>> limits_;
     std::vector<std::pair<std::string, std::string>> type_helps_;  // in the order of the list

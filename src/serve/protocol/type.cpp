@@ -143,7 +143,7 @@ private:
 const char* name_of_kind(const Json& value) {
     switch (value.type()) {
         case Json::value_t::null:
-            return "nothing";
+            return "null";
         case Json::value_t::object:
             return "an object";
         case Json::value_t::array:
@@ -282,8 +282,8 @@ std::optional<std::string> fault_of_fields(const Json& value, const std::vector<
     for (const Field& field : fields) {
         names.push_back(field.name);
         const auto found = value.find(field.name);
-        if (found == value.end() || found->is_null()) {
-            if (field.optional || field.type.kind == Type::Kind::Json) continue;
+        if (found == value.end()) {
+            if (field.optional) continue;
             return fmt::format("{}.{} is missing", place, field.name);
         }
         if (auto fault = fault_of(*found, field.type, types, place + "." + field.name)) {

@@ -51,7 +51,8 @@ Result<Field> parse_field(std::string_view name, std::string_view text);
 // What is wrong with a value: a sentence that begins with the place, "in.changes[3].from: …".
 std::optional<std::string> fault_of(const nlohmann::json& value, const Type& type,
                                     const Types& types, const std::string& place);
-// The same for an object with these fields; no others are allowed.
+// The same for an object with these fields; no others are allowed. A field that has nothing to say
+// is left out: null is a value of json only.
 std::optional<std::string> fault_of_fields(const nlohmann::json& value,
                                            const std::vector<Field>& fields, const Types& types,
                                            const std::string& place);

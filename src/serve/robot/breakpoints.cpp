@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace vagus::serve {
+
+static constexpr int kLineMax = 10'000'000;  // as the protocol has it
 
 using Json = nlohmann::json;
 
@@ -51,19 +54,21 @@ bool ScriptBreakpoints::waits_for_once() const {
     });
 }
 
-void ScriptBreakpoints::move_lines(const std::string& doc, int at, int lines) {
+bool ScriptBreakpoints::follow(const std::string& doc, const LineMap& lines) {
+    bool changed = false;
+    std::set<int> taken;
+    std::vector<ScriptBreakpoint> kept;
     for (ScriptBreakpoint& one : all_) {
-        if (one.doc == doc && one.line >= at) one.line = std::max(at, one.line + lines);
+        const auto line = one.doc == doc ? lines.after(one.line) : one.line;
+        // Two that have come to one line are one.
+        const bool stays = line && (one.doc != doc || taken.insert(*line).second);
+        changed |= !stays || *line != one.line;
+        if (!stays) continue;
+        one.line = *line;
+        kept.push_back(std::move(one));
     }
-    // Two that have come to one line are one.
-    for (size_t i = 0; i < all_.size(); ++i) {
-        const ScriptBreakpoint first = all_[i];
-        all_.erase(std::remove_if(all_.begin() + static_cast<std::ptrdiff_t>(i) + 1, all_.end(),
-                                  [&](const ScriptBreakpoint& other) {
-                                      return other.doc == first.doc && other.line == first.line;
-                                  }),
-                   all_.end());
-    }
+    all_ = std::move(kept);
+    return changed;
 }
 
 void ScriptBreakpoints::rename(const std::string& from, const std::string& to) {
@@ -93,7 +98,8 @@ void ScriptBreakpoints::from_json(const Json& kept) {
     if (!kept.is_array()) return;
     for (const Json& json : kept) {
         if (!json.is_object() || !json.contains("doc") || !json["doc"].is_string() ||
-            !json.contains("line") || !json["line"].is_number_unsigned()) {
+            !json.contains("line") || !json["line"].is_number_unsigned() || json["line"] < 1 ||
+            json["line"] > kLineMax) {
             continue;
         }
         const auto made = set(json["doc"], json["line"]);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "serve/project/line_map.hpp"
 
 namespace vagus::serve {
 
@@ -40,8 +41,9 @@ public:
     bool clear_once();
     // A node has not said yet whether it has one of these.
     bool waits_for_once() const;
-    // Lines behind a change of a text move along: `at` from 1, `lines` more or fewer.
-    void move_lines(const std::string& doc, int at, int lines);
+    // The text of a document has changed: each stays with its line, or goes with it. Whether any is
+    // another one now.
+    bool follow(const std::string& doc, const LineMap& lines);
     // A file has another name.
     void rename(const std::string& from, const std::string& to);
 

@@ -4,6 +4,25 @@
 
 namespace vagus::serve {
 
+namespace {
+
+// Events, programs, and what lets programs run or sets their variables.
+bool can_move(const wire::Frame& frame) {
+    using wire::MessageType;
+    if (wire::is_user_event(frame.type)) return true;
+    switch (static_cast<MessageType>(frame.type)) {
+        case MessageType::SetBytecode:
+        case MessageType::Run:
+        case MessageType::Step:
+        case MessageType::SetVariables:
+            return true;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
 Result<std::unique_ptr<BusCarrier>> BusCarrier::connect(net::Network& network,
                                                         const std::string& text) {
     const net::Target target = TRY(net::parse_target(text));
@@ -28,10 +47,23 @@ Result<std::string> BusCarrier::open_door() {
         const net::Target here = TRY(net::parse_target("tcp:127.0.0.1:0"));
         door_ = TRY(network_.listen(hub_, here, {.clients = net::Clients::One}));
     }
+    guest_sends_.reset();
     return net::to_string(door_->target);
 }
 
+void BusCarrier::close_door_but_for(std::set<uint16_t> events) {
+    guest_sends_ = std::move(events);
+    if (guest_) hub_.allow_only(*guest_, *guest_sends_);
+}
+
+void BusCarrier::hear_door(const net::Event& event) {
+    if (event.kind == net::EventKind::Opened) guest_ = event.link;
+    if (event.kind == net::EventKind::Closed && guest_ == event.link) guest_.reset();
+    if (guest_ && guest_sends_) hub_.allow_only(*guest_, *guest_sends_);
+}
+
 void BusCarrier::hear(const net::Event& event) {
+    if (door_ && event.place == door_->place) return hear_door(event);
     if (event.place != place_) return;
     if (event.kind == net::EventKind::Opened) {
         connection_ = Connection::Connected;
@@ -47,10 +79,15 @@ void BusCarrier::hear(const net::Event& event) {
     }
 }
 
+void BusCarrier::send(const wire::Frame& frame) {
+    moved_ = moved_ || can_move(frame);
+    hub_.receive(own_, frame);
+}
+
 std::vector<Carried> BusCarrier::take() {
     std::vector<Carried> frames;
     wire::Frame frame;
-    while (hub_.take(own_, frame)) frames.push_back({frame});
+    while (frames.size() < kTakenAtOnce && hub_.take(own_, frame)) frames.push_back({frame});
     return frames;
 }
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "hub/hub.hpp"
@@ -23,8 +24,13 @@ public:
     // Where another process of this computer can join the bus: "tcp:127.0.0.1:40123". Only one at a
     // time is there.
     Result<std::string> open_door();
+    // From now on the bus gets only these events of who came by the door. It still hears all.
+    void close_door_but_for(std::set<uint16_t> events);
 
-    void send(const wire::Frame& frame) override { hub_.receive(own_, frame); }
+    void send(const wire::Frame& frame) override;
+    // Something was sent that can move a node, since the beginning or since it was forgotten.
+    bool moved() const { return moved_; }
+    void forget_moves() { moved_ = false; }
     std::vector<Carried> take() override;
     Connection connection() const override { return connection_; }
     std::string why() const override { return why_; }
@@ -32,14 +38,18 @@ public:
 
 private:
     explicit BusCarrier(net::Network& network) : network_(network) {}
+    void hear_door(const net::Event& event);
 
     net::Network& network_;
     hub::Hub hub_;
     hub::LinkId own_;
     net::PlaceId place_;
     std::optional<net::Listening> door_;
+    std::optional<hub::LinkId> guest_;               // who came by the door
+    std::optional<std::set<uint16_t>> guest_sends_;  // events; without: all that it likes
     Connection connection_ = Connection::Connecting;
     std::string why_;
+    bool moved_ = false;
 };
 
 }  // namespace vagus::serve

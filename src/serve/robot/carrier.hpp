@@ -24,13 +24,16 @@ struct Carried {
     std::optional<double> t = {};
 };
 
+// A flood of events must not keep a loop from what people say.
+constexpr size_t kTakenAtOnce = 256;
+
 enum class Connection { Connecting, Connected, Lost, Failed };
 
 class Carrier {
 public:
     virtual ~Carrier() = default;
     virtual void send(const wire::Frame& frame) = 0;
-    // What came since.
+    // What came since; a carrier may keep what is behind the first kTakenAtOnce for the next time.
     virtual std::vector<Carried> take() = 0;
     virtual Connection connection() const = 0;
     // Why it is lost or failed: a sentence.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "debug/condition.hpp"
 #include "serve/robot/robot.hpp"
 
 namespace vagus::serve {
@@ -13,40 +14,13 @@ namespace {
 
 constexpr const char* kNoRobot = "there is no robot; choose a target first";
 
+constexpr const char* kBrakes =
+    "the robot is alive: it brakes at every hit, also at one that does not count, since only here "
+    "is known whether it counts";
+
 }  // namespace
 
 // ---- breakpoints ----
-
-ScriptBreakpoint* Robot::breakpoint_of(uint16_t node, int line) {
-    return breakpoints_.find(doc_of(node), line);
-}
-
-void Robot::place_breakpoints() {
-    desk_.board().touch("breakpoints");
-    if (!network_) return;
-    for (const uint16_t node : live_nodes()) {
-        const std::string doc = doc_of(node);
-        const debug::NodeView* view = network_->node(node);
-        if (doc.empty() || !view->program) continue;
-        for (const debug::Breakpoint& there : std::vector(view->breakpoints)) {
-            const ScriptBreakpoint* wanted = breakpoints_.find(doc, there.line);
-            if (!wanted || !wanted->enabled || wanted->condition != there.condition) {
-                (void)network_->clear_breakpoint(node, there.line).ok();
-            }
-        }
-        for (const ScriptBreakpoint& wanted : breakpoints_.all()) {
-            if (wanted.doc != doc || !wanted.enabled) continue;
-            const auto& there = network_->node(node)->breakpoints;
-            const bool known = std::any_of(there.begin(), there.end(), [&](const auto& one) {
-                return one.line == wanted.line && one.condition == wanted.condition;
-            });
-            if (known) continue;
-            const auto asked = network_->set_breakpoint(node, wanted.line, wanted.condition);
-            ScriptBreakpoint* mark = breakpoints_.find(doc, wanted.line);
-            mark->why = asked.ok() ? "" : asked.error().what;
-        }
-    }
-}
 
 void Robot::set_breakpoint(const Call& call) {
     const std::string doc = call.in["doc"];
@@ -66,6 +40,11 @@ void Robot::set_breakpoint(const Call& call) {
                                          line));
         }
         line = next;
+        const std::string condition = call.in.value("condition", "");
+        const auto parsed =
+            debug::Condition::parse(condition.empty() ? "1" : condition,
+                                    script->result.program.variables, script->common.constants);
+        if (!parsed.ok()) return call.fail("bad_input", "in.condition: " + parsed.error().what);
     }
     const auto made = breakpoints_.set(doc, line);
     if (!made.ok()) return call.fail(made.error());
@@ -77,7 +56,9 @@ void Robot::set_breakpoint(const Call& call) {
     one.once = false;
     place_breakpoints();
     breakpoints_changed_();
-    call.done({{"line", line}});
+    Json answer = {{"line", line}};
+    if (live() && (!one.condition.empty() || one.ignore > 0)) answer["note"] = kBrakes;
+    call.done(std::move(answer));
 }
 
 // ---- commands ----
@@ -95,6 +76,8 @@ void Robot::set_variable(const Call& call) {
     auto range = network_->variable(node, text);
     if (!range.ok()) return call.fail(range.error());
     range.value().count = static_cast<uint16_t>(values.size());
+    end_rest();
+    note_lease(call.member, node, call.in["name"]);
     start_batch(
         {node}, [&](uint16_t id) { return network_->set(id, range.value(), values); },
         [call](Batch& batch) {
@@ -106,11 +89,11 @@ void Robot::set_variable(const Call& call) {
 
 void Robot::declare_node_commands() {
     desk_.command("node.run", [this](const Call& call) {
+        if (call.in["node"] == 0) release_all();
         act(
             call, [this](uint16_t node) { return let_run(node); }, "starting");
     });
-    desk_.command("node.pause",
-                  [this](const Call& call) { act(call, &debug::Network::pause, "pausing"); });
+    desk_.command("node.pause", [this](const Call& call) { act(call, &Robot::pause, "pausing"); });
     desk_.command("node.step", [this](const Call& call) {
         act(
             call, [this](uint16_t node) { return step(node); }, "stepping");
@@ -126,7 +109,7 @@ void Robot::declare_node_commands() {
             "stopping");
     });
     desk_.command("node.reset",
-                  [this](const Call& call) { act(call, &debug::Network::reset, "starting anew"); });
+                  [this](const Call& call) { act(call, &Robot::reset, "restarting"); });
     desk_.command("node.save", [this](const Call& call) {
         if (!network_) return call.fail("unavailable", kNoRobot);
         start_batch(
@@ -166,6 +149,7 @@ void Robot::declare_commands() {
         if (!network_) return call.fail("unavailable", kNoRobot);
         const std::vector<int16_t> args = call.in["args"];
         const std::string name = call.in["name"];
+        end_rest();
         const Status sent = network_->emit(name, args);
         if (!sent.ok()) return call.fail(sent.error());
         happen("event", 0, name, "", args);

@@ -67,18 +67,25 @@ Json Robot::node_line(uint16_t id) const {
                        known.fault.empty();
     if (waits) node["state"] = "paused";
     const CompiledScript* script = doc.empty() ? nullptr : scripts_.compiled(doc);
-    node["program"] = !known.has_program ? (view->program ? "unknown" : "none")
+    node["program"] = known.away || known.in_doubt ? "unknown"
+                      : !known.has_program         ? (view->program ? "unknown" : "none")
                       : script && script->source == known.loaded ? "current"
                                                                  : "older";
     if (known.loaded_wall > 0) node["loaded_wall"] = known.loaded_wall;
     const bool stands =
         view->state == debug::ProgramState::Paused || view->state == debug::ProgramState::Stopped;
-    if (stands && !stopped && !waits && view->at.line > 0)
-        node["at"] = {{"line", view->at.line}, {"column", 1}};
+    // After a fault the next event is begun and waits: its line is not that of the mistake.
+    const bool faulty = known.why == "fault" && known.fault_line > 0;
+    const int line = faulty ? known.fault_line : view->at.line;
+    if (stands && !stopped && !waits && line > 0) node["at"] = {{"line", line}, {"column", 1}};
     if (stands && !known.why.empty()) node["why"] = known.why;
     if (!known.fault.empty()) node["fault"] = known.fault;
     if (const auto dropped = dropped_.of(id)) node["dropped"] = *dropped;
     if (!known.busy.empty()) node["busy"] = known.busy;
+    if (const auto stop = stopping_.state_of(id)) {
+        node["stop"] = word_of(*stop);
+        if (*stop == StopNode::State::Asked) node["busy"] = "stopping";
+    }
     return node;
 }
 
@@ -99,12 +106,12 @@ Json Robot::robot_document() const {
     Json robot = {{"target", target_},
                   {"name", name_},
                   {"kind", kind_},
-                  {"state", carrier_ ? word_of(carrier_->connection()) : "none"},
+                  {"state", carrier_ ? word_of(state()) : "none"},
                   {"nodes", std::move(nodes)},
                   {"twins", std::move(twins)},
                   {"lost", network_ ? network_->counts().dropped : 0},
                   {"events_a_second", events_a_second_}};
-    if (carrier_ && !carrier_->why().empty()) robot["why"] = carrier_->why();
+    if (const std::string why = why_lost(); !why.empty()) robot["why"] = why;
     if (const auto load = hints_.load()) robot["load"] = *load;
     return robot;
 }

@@ -32,22 +32,17 @@ void Robot::hear(const debug::Event& event, const debug::NodeDescribed& describe
     happen("appeared", event.node, described.name, "");
     Known& known = known_[event.node];
     const auto loaded = hints_.loaded_already(event.node);
-    known.came_back = known.has_program && !loaded;
     if (loaded && !known.has_program) {
         known.loaded = *loaded;
         known.has_program = true;
+        return restore(event.node);
     }
-    if (known.has_program) restore(event.node);
+    came_back(event.node);
 }
 
 void Robot::hear(const debug::Event& event, const debug::StateChanged& state) {
     Known& known = known_[event.node];
-    // As after power-up: a program that has begun stands behind its table of events.
-    const bool fresh = state.state == debug::ProgramState::Running && state.at.pc == 0;
-    if (std::exchange(known.came_back, false) && fresh && known.has_program) {
-        known.lost_program = true;
-        known.has_program = false;
-    }
+    note_state(event.node, state.state);
     if (state.state == debug::ProgramState::Running) {
         known.why.clear();
         known.stopped = false;
@@ -62,9 +57,18 @@ void Robot::hear(const debug::Event& event, const debug::StateChanged& state) {
            stands ? fmt::format("line {}", state.at.line) : "");
 }
 
+// Whoever paused it: another program on the bus may have, too.
+void Robot::note_state(uint16_t node, debug::ProgramState state) {
+    Known& known = known_[node];
+    const bool ran = std::exchange(known.runs, state == debug::ProgramState::Running);
+    if (ran && !known.runs && !known.stopped && !known.braking) brake(node);
+}
+
 void Robot::hear(const debug::Event& event, const debug::Fault& fault) {
     Known& known = known_[event.node];
+    if (fault.kind != debug::FaultKind::Killed) brake(event.node);
     known.fault = fault.text;
+    known.fault_line = fault.at.line;
     known.why = "fault";
     const std::string place = fault.at.line > 0 ? fmt::format(" at line {}", fault.at.line) : "";
     happen("fault", event.node, debug::name_of(fault.kind), fault.text + place);
@@ -77,12 +81,12 @@ void Robot::hear(const debug::Event& event, const debug::BreakpointHit& hit) {
     desk_.board().touch("breakpoints");
     if (breakpoint && hit.hits <= breakpoint->ignore) {
         (void)network_->run(event.node).ok();
-        return;
+        return release(event.node);
     }
     known_[event.node].why = "breakpoint";
     hints_.stopped_at_breakpoint();
     if (breakpoint && breakpoint->once && breakpoints_.clear_once()) place_breakpoints();
-    say_("note", fmt::format("{} stands at line {}", name_of(event.node), hit.at.line));
+    say_("note", fmt::format("{} is paused at line {}", name_of(event.node), hit.at.line));
 }
 
 void Robot::hear_place(const debug::Event& event, const debug::BreakpointResult& result) {
@@ -115,8 +119,12 @@ void Robot::count_dropped(uint16_t from, uint16_t event) {
 
 void Robot::hear(const debug::Event& event) {
     desk_.board().touch("robot");
+    // A node that was just being started may have said meanwhile that it runs.
+    if (const auto stopped = stopping_.hear(event)) known_[*stopped].stopped = true;
+    (void)resting_.hear(event);
     const auto* what = &event.what;
     if (const auto* done = std::get_if<debug::RequestDone>(what)) {
+        if (known_[event.node].braking == done->request) known_[event.node].braking.reset();
         hear(*done);
     } else if (const auto* described = std::get_if<debug::NodeDescribed>(what)) {
         hear(event, *described);
@@ -126,6 +134,10 @@ void Robot::hear(const debug::Event& event) {
         hear(event, *fault);
     } else if (const auto* hit = std::get_if<debug::BreakpointHit>(what)) {
         hear(event, *hit);
+    } else if (std::get_if<debug::BreakpointReached>(what)) {
+        brake(event.node);
+    } else if (std::get_if<debug::BreakpointPassed>(what)) {
+        release(event.node);
     } else if (const auto* placed = std::get_if<debug::BreakpointResult>(what)) {
         hear_place(event, *placed);
     } else if (const auto* sent = std::get_if<debug::UserEvent>(what)) {
@@ -143,11 +155,14 @@ void Robot::hear(const debug::Event& event) {
     } else if (const auto* gone = std::get_if<debug::NodeDisconnected>(what)) {
         dropped_.state(event.node, debug::ProgramState::Unknown);
         happen("gone", event.node, name_of(event.node), gone->forgotten ? "it said so" : "");
+        went_away(event.node);
     } else if (std::get_if<debug::NodeReconnected>(what)) {
         happen("appeared", event.node, name_of(event.node), "");
         place_breakpoints();
-    } else {
-        return;
+    } else if (const auto* told = std::get_if<debug::ProgramTold>(what)) {
+        told_program(event.node, told->mark);
+    } else if (std::get_if<debug::NodeConfirmed>(what)) {
+        came_back(event.node);
     }
 }
 

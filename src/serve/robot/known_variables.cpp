@@ -98,6 +98,8 @@ constexpr KnownVariable kKnown[] = {
      "0 the wheels stand, 1 driving, 2 braking, 3 paused"},
     {"drive", "motion.left", false, "",
      "what is left of the command, low word first: mm (move, curve), 0.1° (turn)"},
+    {"drive", "_program", false, "",
+     "which program it has: its checksum, low word first; 0 is none"},
     {"bumper", "_id", false, "",
      "number of the node on the network"},
     {"bumper", "event.source", false, "",
@@ -111,6 +113,8 @@ constexpr KnownVariable kKnown[] = {
      "sectors that are pressed"},
     {"bumper", "button.escape", false, "",
      "1 while the button is pressed"},
+    {"bumper", "_program", false, "",
+     "which program it has: its checksum, low word first; 0 is none"},
     {"range", "_id", false, "",
      "number of the node on the network"},
     {"range", "event.source", false, "",
@@ -123,6 +127,8 @@ constexpr KnownVariable kKnown[] = {
      "where the rotator stood at the last measurement"},
     {"range", "sonar.distance", false, "mm",
      "from the rotator's axis, 30 to 3000; 0: nothing within 3 m"},
+    {"range", "_program", false, "",
+     "which program it has: its checksum, low word first; 0 is none"},
     {"head", "_id", false, "",
      "number of the node on the network"},
     {"head", "event.source", false, "",
@@ -137,6 +143,8 @@ constexpr KnownVariable kKnown[] = {
      "1 while something higher than 3 cm is within 15 cm of the front"},
     {"head", "colour.rgb", false, "",
      "red, green, blue of what is near, 0 to 1000; 0 0 0 without it"},
+    {"head", "_program", false, "",
+     "which program it has: its checksum, low word first; 0 is none"},
 };
 // clang-format on
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "serve/robot/stand.hpp"
-
 namespace vagus::serve {
 
 using Json = nlohmann::json;
@@ -34,6 +32,7 @@ Json Robot::Batch::answers() const {
 
 Robot::Robot(Desk& desk, Files& files, Scripts& scripts, ScriptBreakpoints& breakpoints)
     : desk_(desk), files_(files), scripts_(scripts), breakpoints_(breakpoints) {
+    safe_stop_ = session::shipped_safe_stop();
     declare_topics();
     declare_commands();
 }
@@ -49,12 +48,20 @@ void Robot::connect(Carrier& carrier, const std::string& target, const std::stri
     target_ = target;
     name_ = name;
     kind_ = kind;
-    now_ = now;
+    now_ = due_ = looked_at_ = now;
+    connection_ = Connection::Connecting;
     network_ = std::make_unique<debug::Network>();
     desk_.board().touch("robot");
 }
 
 void Robot::disconnect() {
+    stopping_.end();
+    end_rest();
+    brake_causes_.clear();
+    braked_.clear();
+    leases_.clear();
+    in_charge_ = mute_ = more_ = false;
+    silence_ = {};
     carrier_ = nullptr;
     target_.clear();
     name_.clear();
@@ -75,14 +82,27 @@ void Robot::disconnect() {
     desk_.board().touch("network");
 }
 
-std::optional<aesl::Target> Robot::target_of(const std::string& name, uint16_t id) const {
-    if (!network_) return std::nullopt;
-    std::optional<aesl::Target> found;
+std::vector<DescribedNode> Robot::described() const {
+    std::vector<DescribedNode> found;
+    if (!network_) return found;
     for (const debug::NodeId node : network_->nodes()) {
         const debug::NodeView* view = network_->node(node);
-        if (!view->described || (!name.empty() && view->name != name)) continue;
-        if (node == id) return view->target;
-        if (!found) found = view->target;
+        if (view->described) found.push_back({node, view->name, view->target});
+    }
+    return found;
+}
+
+std::optional<aesl::Target> Robot::target_of(const std::string& name, uint16_t id) const {
+    return target_among(described(), name, id);
+}
+
+std::optional<aesl::Target> target_among(const std::vector<DescribedNode>& nodes,
+                                         const std::string& name, uint16_t id) {
+    std::optional<aesl::Target> found;
+    for (const DescribedNode& node : nodes) {
+        if (!name.empty() && node.name != name) continue;
+        if (node.id == id) return node.target;
+        if (!found) found = node.target;
     }
     return found;
 }
@@ -174,6 +194,8 @@ void Robot::hear(const debug::RequestDone& done) {
         if (found == batch->waiting.end()) continue;
         const uint16_t node = found->second;
         batch->waiting.erase(found);
+        // The line that it stepped over may have set what drives.
+        if (known_[node].busy == "stepping" && !brake_causes_.empty()) make_safe(node);
         known_[node].busy.clear();
         desk_.board().touch("robot");
         if (done.error) {
@@ -188,7 +210,7 @@ void Robot::hear(const debug::RequestDone& done) {
 
 void Robot::act(const Call& call, Act what, const char* busy) {
     act(
-        call, [this, what](uint16_t node) { return (network_.get()->*what)(node); }, busy);
+        call, [this, what](uint16_t node) { return (this->*what)(node); }, busy);
 }
 
 void Robot::act(const Call& call, const Ask& ask, const char* busy) {
@@ -215,6 +237,12 @@ void Robot::load(const std::vector<uint16_t>& nodes, bool run, std::function<voi
             good.push_back(node);
         }
     }
+    in_charge_ = true;
+    for (const uint16_t node : good) {
+        // What it does until its program is there is not for its old one to say.
+        if (live() && moves(node)) (void)network_->stop_now(node);
+        brake(node);
+    }
     start_batch(
         good,
         [&, run](uint16_t node) -> Result<debug::RequestId> {
@@ -226,21 +254,35 @@ void Robot::load(const std::vector<uint16_t>& nodes, bool run, std::function<voi
             // anybody says something else.
             if (!run) (void)network_->stop(node).ok();
             Known& known = known_[node];
+            end_rest();
+            if (run) stopping_.forget(node);
             known.loaded = script->source;
             known.has_program = true;
-            known.lost_program = false;
+            known.lost_program = known.in_doubt = false;
             known.fault.clear();
             known.why.clear();
             return asked;
         },
-        [this, failed = std::move(failed), finish = std::move(finish)](Batch& batch) {
-            for (const uint16_t node : batch.done) happen("loaded", node, name_of(node), "");
+        [this, run, failed = std::move(failed), finish = std::move(finish)](Batch& batch) {
+            for (const uint16_t node : batch.done) {
+                happen("loaded", node, name_of(node), "");
+                if (run) release(node);
+            }
+            note_failed_loads(batch);
             batch.failed.insert(batch.failed.end(), failed.begin(), failed.end());
             desk_.board().touch("node");  // it has the variables of its new program
             place_breakpoints();
             finish(batch);
         },
         "loading");
+}
+
+// What such a node has is neither the old program nor the new one.
+void Robot::note_failed_loads(const Batch& batch) {
+    for (const auto& [node, why] : batch.failed) {
+        known_[node].has_program = false;
+        if (network_) network_->forget_program(node);
+    }
 }
 
 void Robot::load_changed(bool run, std::function<void(std::vector<std::string>)> done) {
@@ -255,21 +297,20 @@ void Robot::load_changed(bool run, std::function<void(std::vector<std::string>)>
     load(changed, run, [done](Batch& batch) { done(sentences(batch.failed)); });
 }
 
-void Robot::act_on(const std::vector<uint16_t>& nodes, Act what, const char* busy,
-                   std::function<void(std::vector<std::string>)> done) {
-    start_batch(
-        nodes, [&](uint16_t node) { return (network_.get()->*what)(node); },
-        [done = std::move(done)](Batch& batch) { done(sentences(batch.failed)); }, busy);
-}
-
 // What was stopped begins anew.
 Result<debug::RequestId> Robot::let_run(uint16_t node) {
+    in_charge_ = true;
+    end_rest();
+    stopping_.forget(node);
     if (std::exchange(known_[node].stopped, false)) (void)network_->reset(node).ok();
+    braked_.erase(node);
+    release(node);
     return network_->run(node);
 }
 
 void Robot::let_run(const std::vector<uint16_t>& nodes,
                     std::function<void(std::vector<std::string>)> done) {
+    release_all();
     start_batch(
         nodes, [this](uint16_t node) { return let_run(node); },
         [done = std::move(done)](Batch& batch) { done(sentences(batch.failed)); }, "starting");
@@ -280,7 +321,9 @@ void Robot::run_all(std::function<void(std::vector<std::string>)> done) {
 }
 
 void Robot::pause_all(std::function<void(std::vector<std::string>)> done) {
-    act_on(live_nodes(), &debug::Network::pause, "pausing", std::move(done));
+    start_batch(
+        live_nodes(), [this](uint16_t node) { return pause(node); },
+        [done = std::move(done)](Batch& batch) { done(sentences(batch.failed)); }, "pausing");
 }
 
 void Robot::run_standing(std::function<void(std::vector<std::string>)> done) {
@@ -295,6 +338,9 @@ void Robot::step_standing(std::function<void(std::vector<std::string>)> done) {
 
 // Why it stood before is no longer why it stands.
 Result<debug::RequestId> Robot::step(uint16_t node) {
+    in_charge_ = true;
+    end_rest();
+    stopping_.forget(node);
     known_[node].why = "step";
     return network_->step(node);
 }
@@ -316,29 +362,40 @@ bool Robot::stands_inside() const {
     });
 }
 
-void Robot::stop_all(std::function<void(std::vector<uint16_t>)> done) {
+void Robot::stop_all(std::function<void(const StopReport&)> done) {
     if (!network_) return done({});
-    start_batch(
-        live_nodes(), [this](uint16_t node) { return stop(node); },
-        [this, done](Batch& batch) {
-            note_stopped(batch);
-            done(batch.done);
-        },
-        "stopping");
-    // Queued behind Stop: the script can no longer set them.
-    for (const uint16_t node : live_nodes()) {
-        for (const std::string& name : driving_variables(network_->node(node)->target)) {
-            const auto range = network_->variable(node, name);
-            const int16_t zero = 0;
-            if (range.ok()) (void)network_->set(node, range.value(), {&zero, 1}).ok();
-        }
+    in_charge_ = true;
+    brake_causes_.clear();  // nothing is left that would run again by itself
+    braked_.clear();
+    leases_.clear();
+    for (const debug::NodeId node : network_->nodes()) {
+        known_[node].why = "asked";
+        known_[node].stopped = true;
+        known_[node].lost_program = false;
     }
+    std::vector<uint16_t> heard;
+    for (const LinkView& link : carrier_->links()) {
+        heard.insert(heard.end(), link.nodes.begin(), link.nodes.end());
+    }
+    end_rest();
+    stopping_.begin(*network_, safe_stop_, heard, state() == Connection::Connected, now_,
+                    std::move(done));
+    send_frames();
+    desk_.board().touch("robot");
+}
+
+void Robot::acknowledge_stop() {
+    stopping_.acknowledge();
+    desk_.board().touch("robot");
 }
 
 Result<debug::RequestId> Robot::stop(uint16_t node) {
+    if (!network_->node(node)) return network_->stop(node);  // there is none: says so
     known_[node].why = "asked";
     known_[node].stopped = true;
-    return network_->stop(node);
+    const auto asked = network_->stop_now(node);
+    brake(node);
+    return *asked;
 }
 
 // A node that was just being started has said meanwhile that it runs.
@@ -346,20 +403,9 @@ void Robot::note_stopped(const Batch& batch) {
     for (const uint16_t node : batch.done) known_[node].stopped = true;
 }
 
-// The program that the node has is known by its text: names, lines, breakpoints.
-void Robot::restore(uint16_t node) {
-    const CompiledScript* script = scripts_.compiled(doc_of(node));
-    const Known& known = known_[node];
-    if (!script || !script->result.ok() || !known.has_program) return;
-    network_->set_common(script->common);
-    if (known.loaded == script->source) (void)network_->adopt(node, script->result.program).ok();
-    place_breakpoints();
-    desk_.board().touch("robot");
-    desk_.board().touch("node");
-}
-
 void Robot::script_changed(const std::string& file) {
     desk_.board().touch("robot");
+    follow_lines(file);
     const aesl::CommonDefinitions* common = scripts_.common(file);
     // What nodes have loaded tells numbers of events by its own list.
     const bool loaded = std::any_of(known_.begin(), known_.end(),
@@ -372,39 +418,44 @@ void Robot::script_changed(const std::string& file) {
 void Robot::tick(Time now) {
     now_ = now;
     if (!carrier_) return finish_batches();
-    if (carrier_->connection() != connection_) {
-        if (connection_ == Connection::Connected) network_->link_lost();
-        connection_ = carrier_->connection();
-        if (connection_ == Connection::Connected) network_->list_nodes();
-        desk_.board().touch("robot");
-    }
-    for (const Carried& carried : carrier_->take()) {
+    if (state() != connection_) link_changed();
+    const std::vector<Carried> taken = carrier_->take();
+    more_ = taken.size() >= kTakenAtOnce;
+    for (const Carried& carried : taken) {
         network_->receive(now, carried.frame);
         heard_t_ = carried.t;
-        for (const debug::Event& event : network_->take_events()) hear(event);
+        hear_all();
     }
     heard_t_.reset();
+    watch_link(now, !taken.empty());
     watch_what_is_shown();
     network_->tick(now);
-    for (const debug::Event& event : network_->take_events()) hear(event);
-    // A node that came back without its program gets it again, and stands.
-    for (auto& [node, known] : known_) {
-        if (!known.lost_program) continue;
-        known.lost_program = false;
-        say_("note", name_of(node) + " came back without its script; it gets it again and stands");
-        load({node}, false, [](Batch&) {});
-    }
+    hear_all();
+    stopping_.tick(now);
+    now < rest_until_ ? resting_.tick(now) : end_rest();
+    end_leases();
+    load_lost_programs();
     finish_batches();
-    for (const wire::Frame& frame : network_->take_frames()) carrier_->send(frame);
+    send_frames();
     count_rates(now);
+    due_ = next_tick();
+}
+
+void Robot::hear_all() {
+    for (const debug::Event& event : network_->take_events()) hear(event);
+}
+
+void Robot::send_frames() {
+    for (const wire::Frame& frame : network_->take_frames()) carrier_->send(frame);
 }
 
 Time Robot::next_tick() const {
     const bool finished = std::any_of(batches_.begin(), batches_.end(),
                                       [](const auto& batch) { return batch->waiting.empty(); });
-    if (finished) return now_;
+    if (finished || more_) return now_;
     if (!network_) return Time::max();
-    return std::min(network_->next_tick(), rates_at_ + kRatesEvery);
+    return std::min({network_->next_tick(), stopping_.next_tick(), resting_.next_tick(),
+                     rates_at_ + kRatesEvery});
 }
 
 void Robot::count_rates(Time now) {

@@ -5,8 +5,13 @@
 //     robot.connect(std::move(carrier), "tcp:127.0.0.1:33333");
 //     robot.tick(now);
 //
-// A node that was away comes back without anybody doing anything: one that kept its program goes on
-// with its breakpoints, one that lost it gets it again and stands until someone lets it run.
+// A node that was away comes back without anybody doing anything: one that says that it kept its
+// program goes on with its breakpoints; any other gets it again and stands until someone lets it
+// run.
+//
+// What moves is stopped wherever nobody watches it (safe stop): stop_all() reads back whether nodes
+// are at rest; of a live robot, one node that stands brakes all (brake.cpp); who drives by hand and
+// loses the connection drives no more (lease.cpp).
 #pragma once
 
 #include <deque>
@@ -23,11 +28,17 @@
 #include "serve/robot/breakpoints.hpp"
 #include "serve/robot/carrier.hpp"
 #include "serve/robot/dropped_events.hpp"
+#include "serve/robot/stopping.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
 
 namespace vagus::serve {
 
+constexpr Duration kRestWithin = 500ms;  // make_safe() writes again what was written over
+// A link on which nobody answers for so long is lost, counted while our own loop was on time.
+constexpr Duration kLinkSilentMax = 3s;
+constexpr Duration kLateMax = 100ms;       // a tick that comes later than this was not on time
+constexpr size_t kLeasesMax = 1024;        // clients that drive by hand
 constexpr Duration kRatesEvery = 1s;       // events a second are counted over this
 constexpr size_t kTrafficMax = 2000;       // different events by sender
 constexpr Duration kWatchedEvery = 50ms;   // variables that somebody looks at are asked for
@@ -69,6 +80,15 @@ struct RobotTold {
         [](double, uint16_t, uint16_t, uint16_t) {};
 };
 
+struct DescribedNode {
+    uint16_t id = 0;
+    std::string name;
+    aesl::Target target;
+};
+// The one of that name and number, or else the first of that name; an empty name is any.
+std::optional<aesl::Target> target_among(const std::vector<DescribedNode>& nodes,
+                                         const std::string& name, uint16_t id);
+
 class Robot {
 public:
     using Json = nlohmann::json;
@@ -93,13 +113,33 @@ public:
                  const std::string& kind, Time now);
     void disconnect();
     bool connected() const { return carrier_ != nullptr; }
+    // As people see it: also one on which nobody answers is lost.
+    Connection state() const;
     const std::string& target() const { return target_; }
+    // Nodes that have told what they are.
+    std::vector<DescribedNode> described() const;
     // What a live node is, for compiling; nothing if it is not there.
     std::optional<aesl::Target> target_of(const std::string& name, uint16_t id) const;
 
     // ---- acting, also for other parts ----
-    // Stop for every node, then what makes the wheels stand. `done` gets the nodes that answered.
-    void stop_all(std::function<void(std::vector<uint16_t>)> done);
+    // What makes each node safe, by its name.
+    void set_safe_stop(session::SafeStop safe) {
+        end_rest();
+        safe_stop_ = std::move(safe);
+    }
+    // Stop for every node, then what makes it safe, then what it says of that: before everything
+    // else that is asked of nodes. `done` gets the report once, at the latest after kStopWithin.
+    // Nodes that are not at rest then are asked on, until they are or acknowledge_stop().
+    void stop_all(std::function<void(const StopReport&)> done);
+    // As it is now, for as long as nobody lets the nodes run; empty while a Stop is not answered.
+    StopReport stop_report() const { return stopping_.report(); }
+    void acknowledge_stop();
+    // What makes nodes safe, while their scripts run.
+    // What a handler under way writes over that is written again, for kRestWithin at most: then a
+    // script that drives by itself does so.
+    void make_safe();
+    // Something is to move from now on: what made nodes safe before is over.
+    void end_rest() { resting_.end(); }
     // Loads what differs from the texts; `done` gets sentences for what failed.
     void load_changed(bool run, std::function<void(std::vector<std::string>)> done);
     void run_all(std::function<void(std::vector<std::string>)> done);
@@ -118,7 +158,9 @@ public:
     RobotCounts counts() const;
     // A document has another text: marks and breakpoints follow.
     void script_changed(const std::string& file);
-    // Breakpoints are as the project keeps them: sets them on the nodes.
+    // Breakpoints are as another project keeps them: from now on they stay with their lines.
+    void follow_breakpoints();
+    // Sets them on the nodes, as they are now.
     void place_breakpoints();
     // [Breakpoint] of the protocol.
     Json breakpoints_list() const;
@@ -127,7 +169,7 @@ public:
     Time next_tick() const;
 
 private:
-    using Act = Result<debug::RequestId> (debug::Network::*)(debug::NodeId);
+    using Act = Result<debug::RequestId> (Robot::*)(uint16_t);
     using Ask = std::function<Result<debug::RequestId>(uint16_t)>;
     // What we know of a node beside debug::NodeView.
     struct Known {
@@ -136,10 +178,14 @@ private:
         double loaded_wall = 0;
         std::string why;  // it stands
         std::string fault;
+        int fault_line = 0;  // 0: not known
         std::string busy;
-        bool lost_program = false;  // it came back without
-        bool came_back = false;     // what it says of its state first tells whether without
-        bool stopped = false;       // its next run begins anew
+        bool lost_program = false;                // it came back without
+        bool away = false;                        // it was there, and is not heard
+        bool in_doubt = false;                    // it is back, and has not told what it runs
+        bool stopped = false;                     // its next run starts from the beginning
+        bool runs = false;                        // it said so last
+        std::optional<debug::RequestId> braking;  // it is being paused for another
         uint64_t events = 0;
     };
     // One command for several nodes.
@@ -164,6 +210,8 @@ private:
     void act(const Call& call, const Ask& ask, const char* busy);
     Result<debug::RequestId> let_run(uint16_t node);
     Result<debug::RequestId> step(uint16_t node);
+    Result<debug::RequestId> pause(uint16_t node);
+    Result<debug::RequestId> reset(uint16_t node);
     void let_run(const std::vector<uint16_t>& nodes,
                  std::function<void(std::vector<std::string>)> done);
     void start_batch(const std::vector<uint16_t>& nodes, const Ask& ask,
@@ -171,6 +219,35 @@ private:
     void finish_batches();
     Result<debug::RequestId> stop(uint16_t node);
     void note_stopped(const Batch& batch);
+    void note_failed_loads(const Batch& batch);
+
+    // ---- the link ----
+    std::string why_lost() const;
+    void watch_link(Time now, bool heard);
+    void link_changed();
+
+    // ---- a live robot brakes as a whole (brake.cpp) ----
+    // Its clock does not stop when a node does.
+    bool live() const { return carrier_ && kind_ == "bus"; }
+    bool moves(uint16_t node) const;
+    void make_safe(uint16_t node);
+    // The node stands, or is away, or is about to.
+    void brake(uint16_t cause);
+    // It does not any more: when no other does, the nodes that were paused for it run again.
+    void release(uint16_t cause);
+    void release_all();
+    void brake_one(uint16_t node);
+
+    // ---- direct driving (lease.cpp) ----
+    void note_lease(uint32_t member, uint16_t node, const std::string& variable);
+    void end_leases();
+
+    // ---- nodes that were away (returning.cpp) ----
+    void went_away(uint16_t node);
+    void came_back(uint16_t node);
+    void program_is_lost(uint16_t node);
+    void told_program(uint16_t node, uint32_t mark);
+    void load_lost_programs();
     std::vector<uint16_t> nodes_of(const Json& node) const;
     std::vector<uint16_t> live_nodes() const;
     std::vector<uint16_t> standing_nodes() const;
@@ -178,13 +255,14 @@ private:
         const auto known = known_.find(node);
         return known != known_.end() && known->second.stopped;
     }
-    void act_on(const std::vector<uint16_t>& nodes, Act what, const char* busy,
-                std::function<void(std::vector<std::string>)> done);
     void load(const std::vector<uint16_t>& nodes, bool run, std::function<void(Batch&)> finish);
     void set_variable(const Call& call);
     void set_breakpoint(const Call& call);
 
+    void hear_all();
+    void send_frames();
     void hear(const debug::Event& event);
+    void note_state(uint16_t node, debug::ProgramState state);
     void hear(const debug::Event& event, const debug::NodeDescribed& described);
     void hear(const debug::Event& event, const debug::StateChanged& state);
     void hear(const debug::Event& event, const debug::Fault& fault);
@@ -203,6 +281,13 @@ private:
     void count_rates(Time now);
     double time() const { return heard_t_ ? *heard_t_ : hints_.time(); }
     void restore(uint16_t node);
+    // ---- placing.cpp: breakpoints on the nodes ----
+    // Lines of what a node has loaded against those of the text as it is now.
+    enum class Direction { ToText, ToNode };
+    LineMap lines_between(uint16_t node, Direction direction) const;
+    void remember_lines();
+    void follow_lines(const std::string& file);
+    void place_breakpoints(uint16_t node);
     ScriptBreakpoint* breakpoint_of(uint16_t node, int line);
     std::string doc_of(uint16_t node) const;
     std::string name_of(uint16_t node) const;
@@ -224,10 +309,24 @@ private:
     Carrier* carrier_ = nullptr;
     std::string target_, name_, kind_ = "none";
     Connection connection_ = Connection::Connecting;
+    Duration silence_{};  // since something was heard, of a link with nodes
+    bool mute_ = false;   // for too long
+    bool more_ = false;   // frames wait that were not taken
+    Time due_{};          // when this asked to be called
+    Time looked_at_{};    // at the link
+    session::SafeStop safe_stop_;
+    Stopping stopping_;
+    session::Stopping resting_;  // while scripts run on
+    Time rest_until_{};
+    bool in_charge_ = false;                         // somebody has acted on the robot from here
+    std::set<uint16_t> brake_causes_;                // nodes that stand, or are away
+    std::set<uint16_t> braked_;                      // nodes that were paused because of them
+    std::map<uint32_t, std::set<uint16_t>> leases_;  // what each client drives by hand
     std::unique_ptr<debug::Network> network_;
     Time now_{};
     std::optional<double> heard_t_;  // of the frame that is heard, by the clock of a simulation
     std::map<uint16_t, Known> known_;
+    std::map<std::string, std::string> marked_;  // texts that breakpoints count in, by document
     std::vector<std::unique_ptr<Batch>> batches_;
 
     // Values of watched variables as they were told last: by node and address.

@@ -10,7 +10,12 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr const char* kKinds[] = {"actor", "state", "event", "condition"};
+constexpr auto& kKinds = talk::Words<talk::BreakpointKind>::kAll;
+
+talk::BreakpointKind kind_of(const std::string& word) {
+    const auto found = std::find(std::begin(kKinds), std::end(kKinds), word);
+    return static_cast<talk::BreakpointKind>(found - std::begin(kKinds));
+}
 
 bool same_place(const PlanBreakpoint& one, const PlanBreakpoint& other) {
     if (one.doc != other.doc || one.kind != other.kind) return false;
@@ -44,8 +49,8 @@ Result<PlanBreakpoint*> PlanBreakpoints::set(const PlanBreakpoint& wanted) {
     }
     PlanBreakpoint* found = find(wanted);
     if (!found && wanted.number > 0) {
-        return Error{Code::NotFound,
-                     fmt::format("there is no breakpoint {} any more; set it anew", wanted.number)};
+        return Error{Code::NotFound, fmt::format("there is no breakpoint {} any more; set it again",
+                                                 wanted.number)};
     }
     if (!found && all_.size() >= kPlanBreakpointsMax) {
         return Error{Code::Limit,
@@ -73,31 +78,31 @@ void PlanBreakpoints::rename(const std::string& from, const std::string& to) {
     }
 }
 
-Json PlanBreakpoints::orders(
+std::vector<talk::Breakpoint> PlanBreakpoints::orders(
     const std::function<std::string(const std::string& doc)>& path_of) const {
-    Json list = Json::array();
+    std::vector<talk::Breakpoint> list;
     for (const PlanBreakpoint& one : all_) {
-        list.push_back({{"number", one.number},
-                        {"plan", path_of(one.doc)},
-                        {"kind", one.kind},
-                        {"element", one.element},
-                        {"outcome", one.outcome},
-                        {"condition", one.condition},
-                        {"stop_at", one.stop_at},
-                        {"enabled", one.enabled}});
+        list.push_back({.number = one.number,
+                        .plan = path_of(one.doc),
+                        .kind = kind_of(one.kind),
+                        .element = one.element,
+                        .outcome = one.outcome,
+                        .condition = one.condition,
+                        .stop_at = one.stop_at,
+                        .enabled = one.enabled});
     }
     return list;
 }
 
-bool PlanBreakpoints::note(const Json& list) {
+bool PlanBreakpoints::note(const std::vector<talk::BreakpointNow>& list) {
     const Json before = this->list();
     for (PlanBreakpoint& one : all_) one.set = false;
-    for (const Json& told : list) {
+    for (const talk::BreakpointNow& told : list) {
         for (PlanBreakpoint& one : all_) {
-            if (told["number"] != one.number) continue;
-            one.hits = told["hits"];
-            one.set = told["set"];
-            one.why = told["why"];
+            if (told.number != one.number) continue;
+            one.hits = told.hits;
+            one.set = told.set;
+            one.why = told.why;
         }
     }
     return this->list() != before;

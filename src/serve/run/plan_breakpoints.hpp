@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "serve/talk/news.hpp"
+#include "serve/talk/orders.hpp"
 
 namespace vagus::serve {
 
@@ -43,10 +45,11 @@ public:
     void rename(const std::string& from, const std::string& to);
 
     // What the run host is told; `path_of` gives the file of a document.
-    Json orders(const std::function<std::string(const std::string& doc)>& path_of) const;
+    std::vector<talk::Breakpoint> orders(
+        const std::function<std::string(const std::string& doc)>& path_of) const;
     // What it told; those that are not in the list are not set any more, and keep their hits. True
     // if that is news.
-    bool note(const Json& list);
+    bool note(const std::vector<talk::BreakpointNow>& list);
     // [PlanBreakpoint] of the protocol.
     Json list() const;
 

@@ -61,8 +61,7 @@ TEST(PlanBreakpoints, AreKeptWithoutWhatBelongsToARun) {
     one.stop_at = 3;
     one.enabled = false;
     const uint64_t number = all.set(one).value()->number;
-    EXPECT_TRUE(
-        all.note(Json::array({{{"number", number}, {"hits", 4}, {"set", true}, {"why", ""}}})));
+    EXPECT_TRUE(all.note({{.number = number, .hits = 4, .set = true, .why = ""}}));
     EXPECT_EQ(all.list()[0]["hits"], 4);
 
     const Json kept = all.to_json();

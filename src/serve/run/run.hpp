@@ -7,7 +7,6 @@
 //     run.tick(now);
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -19,13 +18,15 @@
 
 #include "serve/process.hpp"
 #include "serve/robot/carrier.hpp"
+#include "serve/run/flows.hpp"
+#include "serve/run/hand_order.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/talk/codec.hpp"
 
 namespace vagus::serve {
 
 constexpr Duration kHangingAfter = 2s;  // without a word: shown, with a button that ends it
 constexpr Duration kSilentAfter = 300ms;
-constexpr size_t kTraceKept = 100'000;  // lines of a run's trace
 
 struct RunOrder {
     std::string world;  // paths of this computer
@@ -33,20 +34,32 @@ struct RunOrder {
     std::vector<std::string> toolboxes;
     nlohmann::json set = nlohmann::json::object();
     std::string from;  // the actor that the plan begins with; empty: its start
-    nlohmann::json breakpoints = nlohmann::json::array();  // as PlanBreakpoints::orders()
+    std::vector<talk::Breakpoint> breakpoints;  // as PlanBreakpoints::orders()
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
     bool keep_poses = false;   // robots stand where they stood before
     bool paused = true;        // at first
 };
 
+// The process of a run, as it is held: a child, or what a test makes of it.
+class RunProcess {
+public:
+    virtual ~RunProcess() = default;  // ends it, at once
+    virtual Pipe& pipe() = 0;
+    virtual std::optional<ChildEnd> ended() = 0;
+    virtual void kill() = 0;
+};
+using StartRunProcess = std::function<Result<std::unique_ptr<RunProcess>>()>;
+// A child that runs `program`.
+StartRunProcess start_run_host(std::string program);
+
 class Run final : public Carrier {
 public:
     using Json = nlohmann::json;
     enum class State { None, Running, Paused, Hanging, Dead };
 
-    // Declares the topics clock, plan, held, scene, poses, rays, picture. It starts `program`.
-    Run(Desk& desk, std::string program);
+    // Declares the topics clock, plan, held, scene, poses, rays, picture.
+    Run(Desk& desk, StartRunProcess start);
 
     void on_say(std::function<void(const std::string& kind, const std::string& text)> say) {
         say_ = std::move(say);
@@ -65,24 +78,33 @@ public:
     void on_failed(std::function<void(const std::string& why)> failed) {
         failed_ = std::move(failed);
     }
-    // What the debugger of the plan says of its breakpoints: [{number, hits, set, why}].
-    void on_breakpoints(std::function<void(const Json& list)> told) {
+    // What the debugger of the plan says of its breakpoints.
+    using BreakpointsNow = std::vector<talk::BreakpointNow>;
+    void on_breakpoints(std::function<void(const BreakpointsNow& list)> told) {
         breakpoints_told_ = std::move(told);
     }
-    // What it tells for the history: a line of the trace, or records of the world.
+    // What it tells for the history: which plan runs from now on, once for each version; a line of
+    // the trace; records of the world.
     struct Told {
+        std::function<void(const talk::PlanVersion& version)> plan = [](auto&) {};
         std::function<void(const std::string& line)> trace = [](auto&) {};
         std::function<void(const std::string& bytes)> records = [](auto&) {};
     };
     void on_told(Told told) { told_ = std::move(told); }
-    // Its process has died, whatever ran in it.
-    void on_death(std::function<void()> died) { died_ = std::move(died); }
-    // Its process has died while a plan ran, or was about to: the plan can put nothing in order.
-    void on_plan_died(std::function<void()> died) { plan_died_ = std::move(died); }
+    // Its process has died, whatever ran in it: a sentence.
+    void on_death(std::function<void(const std::string& why)> died) { died_ = std::move(died); }
+    // The plan has ended by itself or as it was told; not for one whose process died.
+    struct PlanEnd {
+        std::string result;   // OK, Interrupted, Error
+        std::string message;  // of an Error
+    };
+    void on_plan_ended(std::function<void(const PlanEnd& end)> ended) {
+        plan_ended_ = std::move(ended);
+    }
 
     Status open(const RunOrder& order, Time now);
     void close();
-    bool is_open() const { return child_.has_value(); }
+    bool is_open() const { return child_ != nullptr; }
     // A simulated world stands and can be talked to.
     bool has_world() const { return has_world_ && is_open(); }
     State state() const { return state_; }
@@ -107,28 +129,29 @@ public:
     // the instant 0, while its nodes were made ready.
     void begin();
     bool plan_runs() const;
-    // It was opened and has not said yet how it is.
-    bool plan_begins() const { return is_open() && opens_plan_ && !plan_.contains("state"); }
     // The plan that runs waits for an event of that name.
     bool plan_hears(const std::string& event) const {
         return plan_runs() && hears_.contains(event);
     }
-    // What was opened last has a plan.
-    bool opens_plan() const { return opens_plan_; }
+    // Events by which the plan on a bus ends its work on nodes.
+    const std::set<std::string>& stop_events() const { return stops_work_; }
     // It has not said a word for longer than one that works would.
     bool is_silent() const { return is_open() && now_ > heard_ + kSilentAfter; }
-    void tell(const Json& message);  // to the host
+    // ---- the plan ----
+    void step_plan();  // to the next actor that begins
+    void stop_plan();
+    void set_breakpoints(const std::vector<talk::Breakpoint>& list);
     // A hand from above: `done` gets the number of an object that was put, or why it was not done.
     using HandDone = std::function<void(std::optional<uint32_t> number, const std::string& why)>;
-    void lend_hand(const Json& order, HandDone done);
+    void lend_hand(HandOrder order, HandDone done);
     // Writes a variable of the plan; `done` gets why not, or nothing.
     using SetDone = std::function<void(const std::string& why)>;
     void set_variable(int level, const std::string& name, const Json& value, SetDone done);
     // Raises an event of a supervisor that watches, as if it had done so itself.
     void raise(const std::string& supervisor, const std::string& event, const Json& outputs,
                SetDone done);
-    // Of the events that wait while the plan stands: "go", "step" or "drop" (PlanHeld).
-    void handle_held(const std::string& act, std::optional<uint64_t> number, SetDone done);
+    // Of the events that wait while the plan is paused.
+    void handle_held(talk::HeldAct act, std::optional<uint64_t> number, SetDone done);
 
     // Plan files have been saved: what the plan that runs is made of is to take over (P31). What
     // came of it is in the document of the plan, and is said.
@@ -149,8 +172,6 @@ public:
     size_t node_count() const;
     // Sources that the world has loaded into nodes.
     const std::map<uint16_t, std::string>& programs() const { return programs_; }
-    const Json& scene() const { return scene_; }
-    const std::deque<std::string>& trace() const { return trace_; }
 
     void tick(Time now);
     Time next_tick() const;
@@ -163,74 +184,92 @@ public:
     std::vector<LinkView> links() const override;
 
 private:
-    using Answer = std::function<void(const Json& told)>;
-    void ask(Json order, Answer answer);
-    void hear(const Packet& packet);
-    void hear_flow(const Packet& packet);
-    void hear_json(const Json& told);
-    void hear_beginning(const std::string& what, const Json& told);
-    void hear_answer(const Json& told);
-    void hear_end(const ChildEnd& end);
-    std::string last_actor() const;
+    // ---- run.cpp: what it is told ----
+    using Answered = std::function<void(const talk::Answer& answer)>;
+    void tell(const talk::Order& order);
+    template <typename Request>
+    void ask(Request order, Answered answered);
+    void forget_run();
+    talk::Open open_order(const RunOrder& order);
+    const std::vector<talk::SceneRobot>& robots() const;
+    void show_what_is_watched();
+    Reasons reasons_in(const talk::Answer& answer) const;
+    void keep_change(const std::vector<std::string>& files, const talk::Answer& answer);
     void forget_asked(const std::string& why);
     void forget_held();
-    Reasons reasons_in(const Json& told) const;
-    void keep_change(const std::vector<std::string>& files, const Json& told);
+
+    // ---- run_hearing.cpp: what it tells ----
+    void hear_all();
+    std::optional<std::string> hear_packets();
+    bool counts(const talk::News& news) const;
+    void hear(const talk::Alive&) {}
+    void hear(const talk::Opening&) { opening_ = false; }
+    void hear(talk::Opened& opened);
+    void hear(const talk::OpenFailed& failure);
+    void hear(const talk::PlanVersion& version) { told_.plan(version); }
+    void hear(const talk::Traced& traced);
+    void hear(talk::PlanNow& plan);
+    void hear(talk::HeldNow& held);
+    void hear(const talk::BreakpointsNow& now) { breakpoints_told_(now.list); }
+    void hear(const talk::PlanOver&) { rest(); }
+    void hear(const talk::Answer& answer);
+    void hear(const talk::Line& line);
+    void hear(const talk::Clock& clock);
+    void hear(talk::SceneNow& scene);
+    void hear(const talk::FrameSeen& seen);
+    void hear(talk::Poses& poses) { flows_.show(std::move(poses)); }
+    void hear(talk::Rays& rays) { flows_.show(std::move(rays)); }
+    void hear(talk::Picture& picture) { flows_.show(std::move(picture)); }
+    void hear(const talk::Records& records) { told_.records(records.bytes.bytes); }
+    void hear_end(const std::string& what);
+
+    // ---- run_documents.cpp: what pages see of it ----
     void declare_topics();
-    void show_what_is_watched();
     Json clock_document() const;
     Json plan_document() const;
-    std::vector<std::array<double, 3>> poses_now() const;
+    Json scene_document() const;
 
     Desk& desk_;
-    const std::string program_;
+    const StartRunProcess start_;
     std::function<void(const std::string&, const std::string&)> say_ = [](auto&, auto&) {};
     std::function<std::string(const std::string&)> doc_of_ = [](const std::string& f) { return f; };
     std::function<std::string(const std::string&)> short_ = [](const std::string& t) { return t; };
     std::function<void()> opened_ = [] {};
     std::function<void(const std::string&)> failed_ = [](const std::string&) {};
-    std::function<void()> died_ = [] {};
-    std::function<void()> plan_died_ = [] {};
-    std::function<void(const Json&)> breakpoints_told_ = [](const Json&) {};
+    std::function<void(const std::string&)> died_ = [](const std::string&) {};
+    std::function<void(const PlanEnd&)> plan_ended_ = [](const PlanEnd&) {};
+    std::function<void(const BreakpointsNow&)> breakpoints_told_ = [](const auto&) {};
     Told told_;
     uint64_t asked_ = 0;
-    std::map<uint64_t, Answer> answers_;  // of the host, by number of what was asked
+    std::map<uint64_t, Answered> answers_;  // of the host, by number of what was asked
     std::map<uint16_t, std::string> programs_;
     std::set<std::string> hears_;  // events, by the plan
+    std::set<std::string> stops_work_;
     uint64_t generation_ = 0;
     uint64_t orders_ = 0;
     bool opening_ = false;  // what the host tells is still of the order before
     bool rests_ = true;
-    bool opens_plan_ = false;
-    bool has_world_ = false;
     uint64_t deaths_ = 0, late_checks_ = 0;
 
-    std::optional<Child> child_;
+    std::unique_ptr<RunProcess> child_;
     State state_ = State::None;
     std::string why_;
     std::vector<Carried> frames_;
     uint64_t frames_in_ = 0, frames_out_ = 0;
-    Json scene_ = Json::object();
-    Json plan_ = Json::object();
-    Json held_;    // events that wait while the plan stands
+    bool has_world_ = false;
+    std::optional<talk::Scene> scene_;   // as it was told last
+    std::optional<talk::PlanNow> plan_;  // the same; none: no plan has run in this run
+    Json held_;                          // events that wait while the plan is paused
     Json change_;  // what came of the last save while the plan ran; null: none
     uint64_t changes_ = 0;
-    std::deque<std::string> trace_;
+    std::string last_actor_;  // that began
     double t_ = 0, real_ = 0, speed_ = 1;
     bool paused_ = true;
     std::optional<double> load_;
     Time heard_{};
     Time now_{};
-    Json shown_ = Json::object();
-    struct Flow {
-        uint64_t number = 0;
-        double t = 0;
-        std::string bytes;
-    };
-    Flow poses_, rays_;
-    std::map<std::string, Flow> pictures_;  // by robot, of those that somebody watches
-    friend struct FlowWatch;
-    friend struct PictureWatch;
+    std::optional<talk::Show> shown_;  // none: it was not told yet
+    Flows flows_;
 };
 
 }  // namespace vagus::serve

@@ -197,7 +197,7 @@ std::vector<Spot> Scripts::definition(const std::string& doc, aesl::Position at)
 }
 
 Result<size_t> Scripts::rename(const std::string& doc, aesl::Position at, const std::string& to,
-                               uint32_t by) {
+                               const std::string& by) {
     const auto found = references(doc, at);
     if (!found) return Error{Code::NotFound, "there is no name at this place"};
     if (found->owner == Owner::Node) {
@@ -234,7 +234,7 @@ Result<size_t> Scripts::rename(const std::string& doc, aesl::Position at, const 
 }
 
 Status Scripts::replace_mentions(const std::string& doc, const std::string& name, MentionKind kind,
-                                 const std::string& to, uint32_t by, size_t& places) {
+                                 const std::string& to, const std::string& by, size_t& places) {
     const CompiledScript* script = compiled(doc);
     if (!script) return Status::done();
     std::vector<TextChange> changes;
@@ -258,7 +258,7 @@ Result<std::string> Scripts::project_text(const std::string& file) {
                                         "to share events and constants"};
     }
     if (!known->second.mistake.empty()) {
-        return Error{Code::Refused, "mend the file first: " + known->second.mistake};
+        return Error{Code::Refused, "fix the file first: " + known->second.mistake};
     }
     return files_.text(file);
 }
@@ -280,7 +280,7 @@ Status Scripts::check_new_name(const std::string& file, const std::string& name)
 }
 
 Status Scripts::add(const std::string& file, const std::string& element, const std::string& name,
-                    int32_t value, uint32_t by) {
+                    int32_t value, const std::string& by) {
     const std::string text = TRY(project_text(file));
     TRY(check_new_name(file, name));
     (void)TRY(files_.replace(file, aesl::ProjectText(text).add({element, name, value}), by));
@@ -289,7 +289,7 @@ Status Scripts::add(const std::string& file, const std::string& element, const s
 
 Result<size_t> Scripts::change(const std::string& file, const std::string& element,
                                const std::string& name, const std::string& to, int32_t value,
-                               uint32_t by) {
+                               const std::string& by) {
     TRY(project_text(file));
     if (to != name) TRY(check_new_name(file, to));
     const MentionKind kind = element == "event" ? MentionKind::Event : MentionKind::Constant;
@@ -308,7 +308,7 @@ Result<size_t> Scripts::change(const std::string& file, const std::string& eleme
 }
 
 Status Scripts::remove(const std::string& file, const std::string& element, const std::string& name,
-                       uint32_t by) {
+                       const std::string& by) {
     const std::string text = TRY(project_text(file));
     auto changed = aesl::ProjectText(text).remove(element, name);
     if (!changed) return no_such(element, name, file);
@@ -317,7 +317,7 @@ Status Scripts::remove(const std::string& file, const std::string& element, cons
 }
 
 Status Scripts::move(const std::string& file, const std::string& element, const std::string& name,
-                     size_t to, uint32_t by) {
+                     size_t to, const std::string& by) {
     const std::string text = TRY(project_text(file));
     auto changed = aesl::ProjectText(text).move(element, name, to);
     if (!changed) return no_such(element, name, file);

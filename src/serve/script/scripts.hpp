@@ -96,18 +96,18 @@ public:
     std::vector<Spot> definition(const std::string& doc, aesl::Position at);
     // Gives the thing at a place another name, everywhere; how many places it had.
     Result<size_t> rename(const std::string& doc, aesl::Position at, const std::string& to,
-                          uint32_t by);
+                          const std::string& by);
 
     // Events and constants of a file. `element` is "event" or "constant".
     Status add(const std::string& file, const std::string& element, const std::string& name,
-               int32_t value, uint32_t by);
+               int32_t value, const std::string& by);
     Result<size_t> change(const std::string& file, const std::string& element,
                           const std::string& name, const std::string& to, int32_t value,
-                          uint32_t by);
+                          const std::string& by);
     Status remove(const std::string& file, const std::string& element, const std::string& name,
-                  uint32_t by);
+                  const std::string& by);
     Status move(const std::string& file, const std::string& element, const std::string& name,
-                size_t to, uint32_t by);
+                size_t to, const std::string& by);
 
 private:
     // What was read last without a mistake, and the mistake there is now.
@@ -123,7 +123,7 @@ private:
     void collect_parts();
     size_t place_of(const std::string& file) const;
     Status replace_mentions(const std::string& doc, const std::string& name, aesl::MentionKind kind,
-                            const std::string& to, uint32_t by, size_t& places);
+                            const std::string& to, const std::string& by, size_t& places);
     Result<std::string> project_text(const std::string& file);
     Status check_new_name(const std::string& file, const std::string& name);
 

@@ -1,3 +1,4 @@
+#include "base/test_folder.hpp"
 #include "serve/script/scripts.hpp"
 
 #include <gmock/gmock.h>
@@ -18,11 +19,6 @@ constexpr std::string_view kProject =
 
 struct ScriptsTest : testing::Test {
     void SetUp() override {
-        root = fs::path(testing::TempDir()) /
-               ("scripts-" + std::to_string(::getpid()) + "-" +
-                testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(root);
-        fs::create_directories(root);
         std::ofstream(root / "a.aesl") << kProject;
         std::ofstream(root / "plain.aesl") << "onevent tick\nemit hello\n";
         files = std::make_unique<Files>(root);
@@ -37,10 +33,9 @@ struct ScriptsTest : testing::Test {
         });
         files->on_change([this](const std::string& path) { scripts->changed(path); });
     }
-    void TearDown() override { fs::remove_all(root); }
     std::string text(const std::string& doc) { return files->open(doc).value().text; }
 
-    fs::path root;
+    test::Folder root;
     std::unique_ptr<Files> files;
     std::unique_ptr<Scripts> scripts;
 };
@@ -69,17 +64,17 @@ TEST_F(ScriptsTest, WhatTheProjectNamesComesFirst) {
 }
 
 TEST_F(ScriptsTest, AnEditIsCompiledAtOnce) {
-    ASSERT_TRUE(files->edit("a.aesl#1", 1, {{0, 3, "vra"}}, 1).ok());
+    ASSERT_TRUE(files->edit("a.aesl#1", 1, {{0, 3, "vra"}}, "me").ok());
     EXPECT_FALSE(scripts->compiled("a.aesl#1")->result.ok());
     EXPECT_TRUE(scripts->compiled("a.aesl#2")->result.ok());
 }
 
 TEST_F(ScriptsTest, ABrokenFileKeepsItsScriptsAndSaysWhy) {
-    ASSERT_TRUE(files->replace("a.aesl", "<network><node", 1).ok());
+    ASSERT_TRUE(files->replace("a.aesl", "<network><node", "me").ok());
     ASSERT_EQ(scripts->broken().size(), 1u);
     EXPECT_EQ(scripts->broken()[0].file, "a.aesl");
     EXPECT_EQ(scripts->parts().size(), 3u);
-    ASSERT_TRUE(files->revert("a.aesl").ok());
+    ASSERT_TRUE(files->revert("a.aesl", "me").ok());
     EXPECT_TRUE(scripts->broken().empty());
 }
 
@@ -94,7 +89,7 @@ TEST_F(ScriptsTest, ReferencesAreOfTheSameThing) {
 }
 
 TEST_F(ScriptsTest, RenamingAnEventChangesEveryScriptAndTheFile) {
-    const auto renamed = scripts->rename("a.aesl#1", {4, 8}, "pong", 1);
+    const auto renamed = scripts->rename("a.aesl#1", {4, 8}, "pong", "me");
     ASSERT_TRUE(renamed.ok()) << renamed.error().what;
     EXPECT_EQ(renamed.value(), 3u);
     EXPECT_THAT(text("a.aesl"), HasSubstr("<event size=\"1\" name=\"pong\"/>"));
@@ -104,33 +99,33 @@ TEST_F(ScriptsTest, RenamingAnEventChangesEveryScriptAndTheFile) {
 }
 
 TEST_F(ScriptsTest, RenamingAConstantAndAVariable) {
-    ASSERT_TRUE(scripts->rename("a.aesl#2", {3, 8}, "MOST", 1).ok());
+    ASSERT_TRUE(scripts->rename("a.aesl#2", {3, 8}, "MOST", "me").ok());
     EXPECT_THAT(text("a.aesl#1"), HasSubstr("var x = MOST"));
-    ASSERT_TRUE(scripts->rename("a.aesl#1", {1, 5}, "count", 1).ok());
+    ASSERT_TRUE(scripts->rename("a.aesl#1", {1, 5}, "count", "me").ok());
     EXPECT_EQ(text("a.aesl#1"), "var count = MOST\nonevent tick\n  count++\n  emit ping count\n");
     EXPECT_THAT(text("a.aesl#2"), HasSubstr("var x\n"));
 }
 
 TEST_F(ScriptsTest, WhatCannotBeRenamedSaysWhy) {
-    EXPECT_THAT(scripts->rename("a.aesl#1", {2, 10}, "tock", 1).error().what,
+    EXPECT_THAT(scripts->rename("a.aesl#1", {2, 10}, "tock", "me").error().what,
                 HasSubstr("belongs to the node"));
-    EXPECT_THAT(scripts->rename("a.aesl#1", {4, 8}, "x", 1).error().what, HasSubstr("declares"));
-    EXPECT_THAT(scripts->rename("a.aesl#1", {4, 8}, "while", 1).error().what,
+    EXPECT_THAT(scripts->rename("a.aesl#1", {4, 8}, "x", "me").error().what, HasSubstr("declares"));
+    EXPECT_THAT(scripts->rename("a.aesl#1", {4, 8}, "while", "me").error().what,
                 HasSubstr("is no name"));
     EXPECT_EQ(text("a.aesl"), kProject);
 }
 
 TEST_F(ScriptsTest, EventsAndConstantsComeAndGo) {
-    ASSERT_TRUE(scripts->add("a.aesl", "event", "pong", 3, 1).ok());
-    EXPECT_FALSE(scripts->add("a.aesl", "event", "pong", 3, 1).ok());
+    ASSERT_TRUE(scripts->add("a.aesl", "event", "pong", 3, "me").ok());
+    EXPECT_FALSE(scripts->add("a.aesl", "event", "pong", 3, "me").ok());
     EXPECT_EQ(scripts->common("a.aesl")->events.size(), 2u);
-    ASSERT_TRUE(scripts->move("a.aesl", "event", "pong", 0, 1).ok());
+    ASSERT_TRUE(scripts->move("a.aesl", "event", "pong", 0, "me").ok());
     EXPECT_EQ(scripts->common("a.aesl")->events[0].name, "pong");
-    ASSERT_TRUE(scripts->change("a.aesl", "constant", "LIMIT", "LIMIT", 9, 1).ok());
+    ASSERT_TRUE(scripts->change("a.aesl", "constant", "LIMIT", "LIMIT", 9, "me").ok());
     EXPECT_EQ(scripts->common("a.aesl")->constants[0].value, 9);
-    ASSERT_TRUE(scripts->remove("a.aesl", "event", "pong", 1).ok());
-    EXPECT_FALSE(scripts->remove("a.aesl", "event", "pong", 1).ok());
-    EXPECT_THAT(scripts->add("plain.aesl", "event", "e", 0, 1).error().what,
+    ASSERT_TRUE(scripts->remove("a.aesl", "event", "pong", "me").ok());
+    EXPECT_FALSE(scripts->remove("a.aesl", "event", "pong", "me").ok());
+    EXPECT_THAT(scripts->add("plain.aesl", "event", "e", 0, "me").error().what,
                 HasSubstr("a plain script declares nothing"));
 }
 

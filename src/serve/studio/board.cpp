@@ -64,7 +64,7 @@ std::optional<Problem> Board::watch(ClientId client, const Json& in, Time now) {
     const std::string topic = in["topic"];
     const TopicType* type = Protocol::get().topic(topic);
     if (!type) return Problem{"not_found", "there is no topic “" + topic + "”", "in.topic"};
-    const Json of = in.contains("of") && in["of"].is_object() ? in["of"] : Json::object();
+    const Json of = in.value("of", Json::object());
     if (const auto fault = Protocol::get().fault_of_subject(*type, of)) {
         return Problem{"bad_message", *fault, "in.of"};
     }

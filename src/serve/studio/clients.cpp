@@ -41,6 +41,13 @@ void Clients::leave(ClientId connection, Time now) {
     if (asked_ && drives(*member)) answer(true);
 }
 
+const Clients::Member* Clients::connected_with(const std::string& key, Role role) const {
+    for (const auto& [number, member] : members_) {
+        if (member.key == key && member.role == role && member.connection) return &member;
+    }
+    return nullptr;
+}
+
 Clients::Member* Clients::find(ClientId connection) {
     const auto found = connections_.find(connection);
     return found == connections_.end() ? nullptr : find(found->second);
@@ -72,6 +79,11 @@ Clients::Seen Clients::begin(Member& member, uint64_t id) {
     if (member.answers.size() >= kAnswersKept) forget_oldest(member);
     member.answers.emplace(id, std::string());
     return Seen::New;
+}
+
+bool Clients::is_answered(const Member& member, uint64_t id) {
+    const auto found = member.answers.find(id);
+    return found != member.answers.end() && !found->second.empty();
 }
 
 void Clients::finish(Member& member, uint64_t id, const std::string& answer) {

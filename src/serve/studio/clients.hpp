@@ -55,6 +55,8 @@ public:
                   Time now, std::optional<ClientId>& replaced);
     void leave(ClientId connection, Time now);
 
+    // Who connects with this key and role now, if a page does.
+    const Member* connected_with(const std::string& key, Role role) const;
     Member* find(ClientId connection);
     Member* find(uint32_t number);
     const Member* find(uint32_t number) const;
@@ -66,6 +68,7 @@ public:
     // ---- commands that come twice ----
     enum class Seen { New, UnderWay, Done, TooOld };
     Seen begin(Member& member, uint64_t id);
+    static bool is_answered(const Member& member, uint64_t id);
     // The text of the answer, kept for a repetition.
     void finish(Member& member, uint64_t id, const std::string& answer);
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "serve/studio/answer_text.hpp"
+#include "serve/thrown.hpp"
+
 namespace vagus::serve {
 
 using Json = nlohmann::json;
@@ -30,32 +33,15 @@ const char* code_of(Code code) {
     return "failed";
 }
 
-std::string text_of(const Json& message) {
-    return message.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-Json json_of(const Problem& problem) {
-    Json json = {{"code", problem.code}, {"what", problem.what}};
-    if (!problem.place.empty()) json["place"] = problem.place;
-    return json;
-}
-
-std::string answer_text(uint64_t id, const Call::Outcome& outcome) {
-    Json message = {{"id", id}};
-    if (const auto* out = std::get_if<Json>(&outcome)) {
-        message["ok"] = *out;
-    } else {
-        message["error"] = json_of(std::get<Problem>(outcome));
-    }
-    return text_of(message);
-}
-
 double allowance_max() {
     return static_cast<double>(Protocol::get().limit("commands_a_second")) * kBurstSeconds;
 }
 
-Duration limit_ms(const char* name) {
-    return std::chrono::milliseconds(Protocol::get().limit(name));
+// What was not read where it came in is read here.
+template <typename Use>
+auto with_message(const ClientText& text, const Use& use) {
+    if (text.message) return use(*text.message);
+    return use(Protocol::get().read(text.text));
 }
 
 }  // namespace
@@ -65,7 +51,10 @@ void Call::fail(const Error& error) const {
 }
 
 Desk::Desk(Access access, Outside outside)
-    : access_(std::move(access)), outside_(std::move(outside)) {}
+    : access_(std::move(access)),
+      outside_(std::move(outside)),
+      log_(outside_.log),
+      epoch_(outside_.random()) {}
 
 void Desk::command(const std::string& name, std::function<void(const Call&)> obey) {
     commands_[name] = std::move(obey);
@@ -91,53 +80,98 @@ void Desk::hear(const WebEvent& event, Time now) {
     now_ = now;
     if (const auto* opened = std::get_if<ClientOpened>(&event)) return on_opened(*opened, now);
     if (const auto* text = std::get_if<ClientText>(&event)) {
-        return on_text(text->client, text->text, now);
+        return with_message(
+            *text, [&](const Message& message) { on_message(text->client, message, now); });
     }
-    if (const auto* took = std::get_if<ClientTook>(&event)) return on_took(*took, now);
+    if (const auto* took = std::get_if<ClientTook>(&event)) return on_took(*took);
     if (const auto* closed = std::get_if<ClientClosed>(&event)) {
         return on_closed(closed->client, now);
     }
-    outside_.log(std::get<WebNote>(event).text);
+    if (const auto* stop = std::get_if<StopAsked>(&event)) return on_stop_asked(*stop);
+    log(std::get<WebNote>(event).text);
+}
+
+void Desk::hear(std::vector<WebEvent> events, Time now) {
+    const auto stops = [this](const WebEvent& event) { return is_stop(event); };
+    const bool posted = std::any_of(events.begin(), events.end(), [](const WebEvent& event) {
+        return std::holds_alternative<StopAsked>(event);
+    });
+    // Where a request of its own came among the others, nobody knows: it counts as the last.
+    const auto last =
+        posted ? events.end() : std::find_if(events.rbegin(), events.rend(), stops).base();
+    const auto overtaken = std::stable_partition(events.begin(), last, stops);
+    for (auto event = events.begin(); event != events.end(); ++event) {
+        overtaken_ = event >= overtaken && event < last;
+        hear(*event, now);
+    }
+    overtaken_ = false;
+}
+
+// A command of a page that is known.
+bool Desk::is_stop(const WebEvent& event) const {
+    if (std::holds_alternative<StopAsked>(event)) return true;
+    const auto* text = std::get_if<ClientText>(&event);
+    if (!text) return false;
+    const auto from = connections_.find(text->client);
+    if (from == connections_.end() || !from->second.known) return false;
+    return with_message(*text, [](const Message& message) {
+        const auto* request = std::get_if<Request>(&message);
+        return request && request->type->kind == CommandKind::Stop;
+    });
+}
+
+// Of someone without a page: what comes of it is in the log.
+void Desk::on_stop_asked(const StopAsked& asked) {
+    log(asked.address + ": POST /stop");
+    const auto found = commands_.find("stop");
+    if (found == commands_.end()) return;
+    const Call call(Json::object(), 0, [this](const Call::Outcome& outcome) {
+        if (const auto* problem = std::get_if<Problem>(&outcome)) log("stop: " + problem->what);
+    });
+    if (const auto thrown = thrown_by([&] { found->second(call); })) log("stop: " + *thrown);
 }
 
 void Desk::on_opened(const ClientOpened& opened, Time now) {
     Connection& connection = connections_[opened.client];
     connection.address = opened.address;
-    connection.opened = connection.took = connection.allowance_at = now;
+    connection.opened = connection.allowance_at = now;
     connection.allowance = allowance_max();  // a page that has just come brings its subscriptions
-    if (connections_.size() > Protocol::get().limit("clients")) {
-        drop(opened.client, fmt::format("more than {} pages; close another first",
-                                        Protocol::get().limit("clients")));
-    }
+    make_room();
 }
 
-void Desk::on_took(const ClientTook& took, Time now) {
+void Desk::on_took(const ClientTook& took) {
     const auto found = connections_.find(took.client);
     if (found == connections_.end()) return;
     found->second.unsent -= std::min(found->second.unsent, took.bytes);
-    found->second.took = now;
+    found->second.silent = {};
 }
 
 void Desk::on_closed(ClientId client, Time now) {
     connections_.erase(client);
     board_.drop(client);
     clients_.leave(client, now);
+    settle_twins(client, std::nullopt, now);
     people_changed_();
 }
 
-void Desk::on_text(ClientId client, const std::string& text, Time now) {
+void Desk::on_message(ClientId client, const Message& message, Time now) {
     const auto found = connections_.find(client);
     if (found == connections_.end() || found->second.dropped) return;
-    if (found->second.refuse_at) return;
-    const auto read = Protocol::get().read(text);
-    if (const auto* refusal = std::get_if<Refusal>(&read)) {
-        outside_.log(
-            fmt::format("{}: refused a message: {}", found->second.address, refusal->problem.what));
+    if (found->second.refuse_at || found->second.twin) return;
+    take(client, found->second, message, now);
+}
+
+void Desk::take(ClientId client, Connection& connection, const Message& message, Time now) {
+    if (const auto* refusal = std::get_if<Refusal>(&message)) {
+        log(fmt::format("{}: refused a message: {}", connection.address, refusal->problem.what));
         send(client, false, answer_text(refusal->id, refusal->problem));
-        if (!found->second.known) drop(client, "expected the command hello");
+        if (!connection.known) drop(client, "expected the command hello");
         return;
     }
-    const Request& request = std::get<Request>(read);
+    const auto* pong = std::get_if<Pong>(&message);
+    if (pong && connection.known) return on_pong(client, *pong, now);
+    if (pong) return drop(client, "expected the command hello");
+    const Request& request = std::get<Request>(message);
     Clients::Member* member = clients_.find(client);
     if (request.name == "hello") return greet(client, request, now);
     if (!member) {
@@ -146,7 +180,8 @@ void Desk::on_text(ClientId client, const std::string& text, Time now) {
                          Problem{"not_allowed", "say hello first, with the token", "do"}));
         return drop(client, "expected the command hello");
     }
-    if (!within_rate(found->second, now)) {
+    const bool stops = request.type->kind == CommandKind::Stop;
+    if (!within_rate(connection, now) && !stops) {
         send(client, false,
              answer_text(request.id,
                          Problem{"limit",
@@ -168,76 +203,70 @@ bool Desk::within_rate(Connection& connection, Time now) const {
     return true;
 }
 
-void Desk::greet(ClientId client, const Request& request, Time now) {
-    Connection& connection = connections_.at(client);
-    const std::string address = connection.address;
-    if (connection.known) {
-        return send(client, false,
-                    answer_text(request.id, Problem{"conflict",
-                                                    "this connection has said hello; open another "
-                                                    "for another client",
-                                                    "do"}));
-    }
-    const Access::Grade grade = access_.grade(request.in["token"].get<std::string>());
-    if (grade == Access::Grade::Refused) {
-        outside_.log(address + ": a wrong token");
-        // No longer than a connection may go without a hello at all.
-        connection.refuse_at =
-            std::min(access_.wrong(address, now), connection.opened + limit_ms("hello_ms"));
-        connection.refused_id = request.id;
-        if (*connection.refuse_at <= now) refuse(client, connection);
-        return;
-    }
-    access_.right(address);
-    welcome(client, request, grade == Access::Grade::Drive ? Role::Drive : Role::Look, now);
-}
-
-void Desk::refuse(ClientId client, Connection& connection) {
-    const Problem problem{"not_allowed",
-                          "the token is wrong; open the address that the server has printed",
-                          "in.token"};
-    send(client, false, answer_text(connection.refused_id, problem));
-    drop(client, "wrong token");
-}
-
-void Desk::welcome(ClientId client, const Request& request, Role role, Time now) {
-    Connection& connection = connections_.at(client);
-    connection.known = true;
-    std::optional<ClientId> replaced;
-    const Clients::Member& member = clients_.enter(
-        client, request.in["client"], request.in.value("name", "a page"), role, now, replaced);
-    if (replaced && *replaced != client) drop(*replaced, "the same page has connected anew");
-    const Json out = {{"version", VAGUS_VERSION},
-                      {"role", role == Role::Drive ? "drive" : "look"},
-                      {"number", member.number},
-                      {"driver", clients_.drives(member)},
-                      {"wall", outside_.wall_ms()}};
-    send(client, false, answer_text(request.id, out));
-    people_changed_();
-}
-
 std::optional<Problem> Desk::refusal(const Clients::Member& member, const Request& request) const {
     switch (request.type->may) {
         case May::Any:
         case May::Look:
-            return std::nullopt;
+            break;
         case May::Drive:
-            if (member.role == Role::Drive) return std::nullopt;
+            if (member.role == Role::Drive) break;
             return Problem{"not_allowed", "this token may only look", ""};
         case May::Driver:
-            if (clients_.drives(member)) return std::nullopt;
+            if (clients_.drives(member)) break;
             if (member.role == Role::Look) {
                 return Problem{"not_allowed", "this token may only look", ""};
             }
             return Problem{"not_driver",
-                           fmt::format("{} drives; ask for the wheel first",
+                           fmt::format("{} has control; request control first",
                                        clients_.driver() ? clients_.driver()->name : "nobody"),
                            ""};
     }
-    return std::nullopt;
+    if (only_on_robot_.empty() || request.type->on_robot) return std::nullopt;
+    return Problem{"not_allowed", only_on_robot_, ""};
 }
 
+// A command that can move something is not done later than the person who gave it expects.
+std::optional<Problem> Desk::lateness(const Request& request, Time now) const {
+    if (request.type->kind != CommandKind::Act) return std::nullopt;
+    if (overtaken_) return Problem{"failed", "it was stopped before it ran", ""};
+    if (!request.until) {
+        return Problem{"late",
+                       request.name +
+                           " can move something and has no deadline; it was not done. Send until, "
+                           "a time of the server in milliseconds (docs/protocol.md)",
+                       "until"};
+    }
+    const double ms = server_ms(now);
+    const auto most = static_cast<double>(Protocol::get().limit("act_ms"));
+    if (*request.until < ms) {
+        return Problem{"late",
+                       fmt::format("{} came {:.0f} ms too late; it was not done. Give it again",
+                                   request.name, ms - *request.until),
+                       "until"};
+    }
+    if (*request.until <= ms + most + kUntilAheadMax) return std::nullopt;
+    return Problem{
+        "late",
+        fmt::format("{} names a deadline {:.0f} ms ahead; at most {:.0f} are allowed, so "
+                    "it was not done. Give it again",
+                    request.name, *request.until - ms, most),
+        "until"};
+}
+
+// Whatever a command meets, it is answered, and the server goes on.
 void Desk::obey(Clients::Member& member, ClientId client, const Request& request, Time now) {
+    const uint32_t number = member.number;
+    const auto thrown = thrown_by([&] { obey_new(member, client, request, now); });
+    if (!thrown) return;
+    log(fmt::format("{}: {}", request.name, *thrown));
+    const Problem problem{"failed", fmt::format("{} could not be done: {}", request.name, *thrown),
+                          "do"};
+    const bool only_here = request.name == "watch" || request.name == "unwatch";
+    if (only_here) return send(client, false, answer_text(request.id, problem));
+    answer(number, request.id, problem);
+}
+
+void Desk::obey_new(Clients::Member& member, ClientId client, const Request& request, Time now) {
     // What only concerns this connection begins anew with each.
     if (request.name == "watch" || request.name == "unwatch") {
         return obey_here(member, client, request, now);
@@ -258,6 +287,10 @@ void Desk::obey(Clients::Member& member, ClientId client, const Request& request
     if (const auto problem = refusal(member, request)) {
         return answer(member.number, request.id, *problem);
     }
+    if (const auto problem = lateness(request, now)) {
+        log(fmt::format("{}: {}", member.name, problem->what));
+        return answer(member.number, request.id, *problem);
+    }
     if (is_here(request.name)) return obey_here(member, client, request, now);
     const auto found = commands_.find(request.name);
     if (found == commands_.end()) {
@@ -271,7 +304,7 @@ void Desk::obey(Clients::Member& member, ClientId client, const Request& request
 }
 
 bool Desk::is_here(const std::string& name) const {
-    return name.starts_with("driver.");
+    return name.starts_with("driver.") || name == "access.renew";
 }
 
 void Desk::obey_here(Clients::Member& member, ClientId client, const Request& request, Time now) {
@@ -285,6 +318,7 @@ void Desk::obey_here(Clients::Member& member, ClientId client, const Request& re
         board_.unwatch(client, request.in["watch"]);
         return send(client, false, answer_text(request.id, Json::object()));
     }
+    if (request.name == "access.renew") return renew_access(member, client, request.id);
     Json out = Json::object();
     if (request.name == "driver.ask") out["driver"] = clients_.ask(member, now);
     if (request.name == "driver.answer") clients_.answer(request.in["give"]);
@@ -295,7 +329,7 @@ void Desk::obey_here(Clients::Member& member, ClientId client, const Request& re
 
 void Desk::answer(uint32_t number, uint64_t id, const Call::Outcome& outcome) {
     Clients::Member* member = clients_.find(number);
-    if (!member) return;
+    if (!member || Clients::is_answered(*member, id)) return;
     const std::string text = answer_text(id, outcome);
     clients_.finish(*member, id, text);
     if (member->connection) send(*member->connection, false, text);
@@ -318,35 +352,33 @@ void Desk::drop(ClientId client, const std::string& why) {
 }
 
 void Desk::tick(Time now) {
+    const Duration since = now - std::exchange(ticked_, now);
     now_ = now;
+    log_.tick(now);
     if (clients_.tick(now)) people_changed_();
+    ping(now);
     const auto has_room = [this](ClientId client) {
         const auto found = connections_.find(client);
         return found != connections_.end() && !found->second.dropped &&
                found->second.unsent < kRoomBytes;
     };
-    board_.flush(now, has_room, [this](ClientId client, bool binary, std::string bytes) {
-        send(client, binary, std::move(bytes));
+    const auto thrown = thrown_by([&] {
+        board_.flush(now, has_room, [this](ClientId client, bool binary, std::string bytes) {
+            send(client, binary, std::move(bytes));
+        });
     });
+    if (thrown) log("a document cannot be shown: " + *thrown);
+    const Duration passed = since < kOnTime ? since : Duration{};
     for (auto& [client, connection] : connections_) {
-        if (connection.dropped) continue;
-        if (connection.refuse_at && now >= *connection.refuse_at) {
-            refuse(client, connection);
-            continue;
-        }
-        if (connection.unsent == 0) connection.took = now;
-        if (now > connection.took + limit_ms("silent_ms")) {
-            drop(client, "this page took nothing for too long; it may return");
-        } else if (!connection.known && now > connection.opened + limit_ms("hello_ms")) {
-            drop(client, "expected the command hello");
-        }
+        if (!connection.dropped) look_after(client, connection, passed, now);
     }
 }
 
 Time Desk::next_tick(Time now) const {
     Time next = std::min(board_.next_due(now), clients_.next_tick());
-    if (!connections_.empty()) next = std::min(next, now + 1s);
+    if (!connections_.empty()) next = std::min(next, std::max(now, next_ping_));
     for (const auto& [client, connection] : connections_) {
+        if (connection.twin) next = std::min(next, connection.twin->until);
         if (connection.refuse_at && !connection.dropped) {
             next = std::min(next, *connection.refuse_at);
         }

@@ -13,16 +13,22 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "base/result.hpp"
 #include "serve/access.hpp"
 #include "serve/studio/board.hpp"
+#include "serve/studio/calm_log.hpp"
 #include "serve/studio/clients.hpp"
 #include "serve/web/server.hpp"
 
 namespace vagus::serve {
 
 constexpr size_t kRoomBytes = 256 * 1024;  // unsent to a page, above which it gets nothing new
+constexpr uint64_t kPingsMissedMax = 3;    // a page that left so many unanswered is silent
+constexpr Duration kTwinWithin = 1s;       // a page that may have a twin answers a ping
+constexpr Duration kOnTime = 2s;         // a tick so long after the last one: our own loop was late
+constexpr double kUntilAheadMax = 1000;  // ms by which a page may take our clock to be ahead
 
 // One command under way. Its answer may come later; it is kept for a client that lost its
 // connection meanwhile.
@@ -58,13 +64,22 @@ public:
         std::function<void(ClientId, std::string reason)> close;
         std::function<void(const std::string&)> log;
         std::function<double()> wall_ms;  // milliseconds since 1970
+        // The client has shown a right token: its connection has a place of its own from now on.
+        std::function<void(ClientId)> know = [](ClientId) {};
+        // Makes a new token of those who drive, in the place of the one that Access has.
+        std::function<Result<std::string>()> renew = {};
+        std::function<std::string()> random = [] { return std::string("0"); };  // 32 digits
     };
 
     Desk(Access access, Outside outside);
 
     void command(const std::string& name, std::function<void(const Call&)> obey);
+    // A robot that serves itself: only commands that protocol.json marks are obeyed, others hear
+    // why.
+    void allow_only_on_robot(std::string why_not) { only_on_robot_ = std::move(why_not); }
     Board& board() { return board_; }
     double wall_ms() const { return outside_.wall_ms(); }
+    const std::string& epoch() const { return epoch_; }
     const Clients& clients() const { return clients_; }
     // Version, driver, who asks, how many: what the topic studio says of them.
     Json people() const;
@@ -72,33 +87,65 @@ public:
     void on_people(std::function<void()> changed) { people_changed_ = std::move(changed); }
 
     void hear(const WebEvent& event, Time now);
+    // All of one turn: what stops comes before everything else.
+    void hear(std::vector<WebEvent> events, Time now);
     // Sends what is due; drops who takes nothing.
     void tick(Time now);
     Time next_tick(Time now) const;
 
 private:
+    // A page whose name another one has, too: it waits until that one answered a ping, or did not.
+    struct Twin {
+        Request request;
+        Role role = Role::Look;
+        ClientId other;
+        uint64_t ping = 0;
+        Time until{};
+    };
     struct Connection {
         std::string address;
+        std::string nonce = {};  // of the page load
+        std::optional<Twin> twin = {};
+        uint64_t pings_missed = 0;
         Time opened{};
         bool known = false;                  // said hello
         bool dropped = false;                // sent away; what it says is not heard any more
         std::optional<Time> refuse_at = {};  // it had a wrong token, and hears so then
         uint64_t refused_id = 0;
         size_t unsent = 0;     // bytes
-        Time took{};           // when it last took something, or had nothing to take
+        Duration silent{};     // it took nothing of that, while our own loop was on time
         double allowance = 0;  // commands it may send now
         Time allowance_at{};
     };
 
     void on_opened(const ClientOpened& opened, Time now);
-    void on_text(ClientId client, const std::string& text, Time now);
-    void on_took(const ClientTook& took, Time now);
+    void on_message(ClientId client, const Message& message, Time now);
+    void on_took(const ClientTook& took);
     void on_closed(ClientId client, Time now);
+    void on_stop_asked(const StopAsked& asked);
+    bool is_stop(const WebEvent& event) const;
+    void take(ClientId client, Connection& connection, const Message& message, Time now);
+
+    // ---- greeting.cpp: who comes ----
+    void make_room();
     void greet(ClientId client, const Request& request, Time now);
+    bool wait_for_twin(ClientId client, const Request& request, Role role, Time now);
+    void settle_twins(ClientId other, std::optional<uint64_t> ponged, Time now);
+    void settle_twin(ClientId client, bool are_two, Time now);
     void welcome(ClientId client, const Request& request, Role role, Time now);
     void refuse(ClientId client, Connection& connection);
+    void refuse_hello(ClientId client, uint64_t id, Problem problem);
+    void on_pong(ClientId client, const Pong& pong, Time now);
+    void ping(Time now);
+    void send_ping(ClientId client, Time now);
+    void look_after(ClientId client, Connection& connection, Duration passed, Time now);
+    void renew_access(const Clients::Member& member, ClientId client, uint64_t id);
+
+    // ---- obeying ----
     void obey(Clients::Member& member, ClientId client, const Request& request, Time now);
+    void obey_new(Clients::Member& member, ClientId client, const Request& request, Time now);
     void obey_here(Clients::Member& member, ClientId client, const Request& request, Time now);
+    std::optional<Problem> lateness(const Request& request, Time now) const;
     bool is_here(const std::string& name) const;
     std::optional<Problem> refusal(const Clients::Member& member, const Request& request) const;
     bool within_rate(Connection& connection, Time now) const;
@@ -106,14 +153,22 @@ private:
     void send(ClientId client, bool binary, std::string bytes);
     void drop(ClientId client, const std::string& why);
 
+    void log(const std::string& line) { log_.add(line, now_); }
+
     Access access_;
     Outside outside_;
+    CalmLog log_;
+    const std::string epoch_;  // of this life of the server
+    std::string only_on_robot_;
     Board board_;
     Clients clients_;
     std::map<ClientId, Connection> connections_;
     std::map<std::string, std::function<void(const Call&)>> commands_;
     std::function<void()> people_changed_ = [] {};
-    Time now_{};
+    bool overtaken_ = false;  // what is heard now came before a Stop that was obeyed first
+    Time now_{}, ticked_{};
+    uint64_t pings_ = 0;
+    Time next_ping_{};
 };
 
 }  // namespace vagus::serve

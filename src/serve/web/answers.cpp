@@ -17,9 +17,15 @@ constexpr const char* kContentPolicy =
     "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self' blob:; "
     "manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
+// The page needs no device of the computer and no place; the clipboard is for copying.
+constexpr const char* kPermissions =
+    "accelerometer=(), camera=(), display-capture=(), geolocation=(), gyroscope=(), "
+    "magnetometer=(), microphone=(), midi=(), payment=(), serial=(), usb=()";
+
 void secure(Answer& answer) {
     answer.set(http::field::server, "Vagus");
     answer.set("Content-Security-Policy", kContentPolicy);
+    answer.set("Permissions-Policy", kPermissions);
     answer.set("X-Content-Type-Options", "nosniff");
     answer.set("X-Frame-Options", "DENY");
     answer.set("Referrer-Policy", "no-referrer");
@@ -55,14 +61,23 @@ std::string_view token_of(const Asking& asked) {
     return header.starts_with(kScheme) ? header.substr(kScheme.size()) : std::string_view();
 }
 
+Answer without_token(const Asking& asked, const Shown& shown) {
+    shown.note(fmt::format("refused: {} without the right token", std::string(asked.target())));
+    Answer answer =
+        plain(asked, http::status::unauthorized, "expected the header Authorization: Bearer TOKEN");
+    answer.set(http::field::www_authenticate, "Bearer");
+    return answer;
+}
+
+// Without JSON, without a page and without a WebSocket: nothing is in front of it.
+Answer stop_answer(const Asking& asked, const Shown& shown) {
+    if (!shown.may_look(token_of(asked))) return without_token(asked, shown);
+    shown.stop();
+    return plain(asked, http::status::accepted, "Stop is given");
+}
+
 Answer metrics_answer(const Asking& asked, const Shown& shown) {
-    if (!shown.may_look(token_of(asked))) {
-        shown.note("refused: /metrics without the right token");
-        Answer answer = plain(asked, http::status::unauthorized,
-                              "expected the header Authorization: Bearer TOKEN");
-        answer.set(http::field::www_authenticate, "Bearer");
-        return answer;
-    }
+    if (!shown.may_look(token_of(asked))) return without_token(asked, shown);
     Answer answer = plain(asked, http::status::ok, "");
     answer.set(http::field::content_type, "text/plain; version=0.0.4; charset=utf-8");
     answer.body() = *shown.metrics;
@@ -83,11 +98,28 @@ Answer plain(const Asking& asked, http::status status, const std::string& senten
     return answer;
 }
 
-Answer answer_for(const Asking& asked, const Shown& shown) {
-    if (asked.method() != http::verb::get && asked.method() != http::verb::head) {
-        return plain(asked, http::status::method_not_allowed, "only GET and HEAD are answered");
+std::optional<std::string> ambiguity_of(const Asking& asked) {
+    if (asked.count(http::field::host) > 1) return "expected one Host";
+    const size_t codings = asked.count(http::field::transfer_encoding);
+    const auto coding = asked[http::field::transfer_encoding];
+    if (codings > 1 || (codings == 1 && !beast::iequals(coding, "chunked"))) {
+        return "this Transfer-Encoding is not known; expected chunked, or none";
     }
-    if (asked.target() == "/healthz") return plain(asked, http::status::ok, "ok");
+    return std::nullopt;
+}
+
+Answer answer_for(const Asking& asked, const Shown& shown) {
+    if (asked.method() == http::verb::post && asked.target() == "/stop") {
+        return stop_answer(asked, shown);
+    }
+    if (asked.method() != http::verb::get && asked.method() != http::verb::head) {
+        return plain(asked, http::status::method_not_allowed,
+                     "only GET and HEAD are answered, and POST of /stop");
+    }
+    if (asked.target() == "/healthz") {
+        return shown.ill.empty() ? plain(asked, http::status::ok, "ok")
+                                 : plain(asked, http::status::service_unavailable, shown.ill);
+    }
     if (asked.target() == "/live") {
         return plain(asked, http::status::bad_request,
                      fmt::format("expected a WebSocket with the subprotocol {}", kLiveProtocol));

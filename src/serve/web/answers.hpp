@@ -18,9 +18,14 @@ using Answer = boost::beast::http::response<boost::beast::http::string_body>;
 struct Shown {
     const Pages& pages;
     const std::optional<std::string>& metrics;
+    const std::string& ill;  // why /healthz does not say ok; empty: it does
     const std::function<bool(std::string_view token)>& may_look;
+    std::function<void()> stop;             // somebody with a token wants everything to stop
     std::function<void(std::string)> note;  // for the log
 };
+
+// What another server between us could read otherwise than we do: a sentence.
+std::optional<std::string> ambiguity_of(const Asking& asked);
 
 Answer answer_for(const Asking& asked, const Shown& shown);
 // A sentence.

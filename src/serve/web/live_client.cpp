@@ -5,9 +5,11 @@
 #include <boost/asio/ssl.hpp>
 #include <boost/asio/use_future.hpp>
 #include <charconv>
+#include <limits>
 #include <optional>
 
 #include "serve/process.hpp"
+#include "serve/protocol/protocol.hpp"
 #include "serve/web/beast.hpp"
 #include "serve/web/server.hpp"
 
@@ -40,8 +42,23 @@ void prepare(Stream& socket) {
     }));
 }
 
+double own_ms() {
+    const auto now = asio::steady_timer::clock_type::now().time_since_epoch();
+    return std::chrono::duration<double, std::milli>(now).count();
+}
+
+// The server's time, from what it says of it. What lay unread for a while makes its clock seem
+// slow, never fast.
+struct ServerTime {
+    double ahead = std::numeric_limits<double>::lowest();  // of our clock, in ms
+    void hear(double now) { ahead = std::max(ahead, now - own_ms()); }
+    double deadline() const {
+        return ahead + own_ms() + static_cast<double>(Protocol::get().limit("act_ms"));
+    }
+};
+
 template <typename Stream>
-awaitable<std::string> exchange(Stream& socket, uint64_t id, std::string text) {
+awaitable<std::string> exchange(Stream& socket, uint64_t id, std::string text, ServerTime& time) {
     beast::get_lowest_layer(socket).expires_after(kAnswerWithin);
     co_await socket.async_write(asio::buffer(text), use_awaitable);
     for (;;) {
@@ -51,6 +68,12 @@ awaitable<std::string> exchange(Stream& socket, uint64_t id, std::string text) {
         const auto message = nlohmann::json::parse(came, nullptr, false);
         const bool ours = message.is_object() && message.contains("id") && message["id"] == id;
         if (ours) co_return came;
+        const bool ping = message.is_object() && message.contains("ping") &&
+                          message.contains("now") && message["now"].is_number();
+        if (!ping) continue;
+        time.hear(message["now"]);
+        const std::string pong = nlohmann::json{{"pong", message["ping"]}}.dump();
+        co_await socket.async_write(asio::buffer(pong), use_awaitable);
     }
 }
 
@@ -113,16 +136,21 @@ public:
         }
         const auto greeted =
             ask("hello", {{"token", address.token}, {"client", client}, {"name", name}});
-        return greeted.ok() ? Status::done() : Status(greeted.error());
+        if (!greeted.ok()) return greeted.error();
+        const Json now = greeted.value().value("now", Json());
+        if (now.is_number()) time_.hear(now);
+        return Status::done();
     }
 
     Result<Json> ask(const std::string& command, Json in) {
         const uint64_t id = ++last_;
-        const Json message = {{"id", id}, {"do", command}, {"in", std::move(in)}};
+        Json message = {{"id", id}, {"do", command}, {"in", std::move(in)}};
+        const CommandType* type = Protocol::get().command(command);
+        if (type && type->kind == CommandKind::Act) message["until"] = time_.deadline();
         try {
             const std::string text = message.dump();
-            const std::string came =
-                secure_ ? run(exchange(*secure_, id, text)) : run(exchange(*plain_, id, text));
+            const std::string came = secure_ ? run(exchange(*secure_, id, text, time_))
+                                             : run(exchange(*plain_, id, text, time_));
             const Json answer = Json::parse(came);
             if (answer.contains("ok")) return answer["ok"];
             return Error{code_of(answer.at("error").at("code")), answer.at("error").at("what")};
@@ -184,6 +212,7 @@ private:
     std::optional<Plain> plain_;  // exactly one of these, once connected
     std::optional<Secure> secure_;
     uint64_t last_ = 0;
+    ServerTime time_;
 };
 
 LiveClient::LiveClient(std::unique_ptr<Insides> insides) : insides_(std::move(insides)) {}

@@ -41,12 +41,13 @@ Result<Pages> Pages::read(const std::string& folder) {
     size_t bytes = 0;
     for (auto entry = fs::recursive_directory_iterator(folder, error);
          !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-        if (!entry->is_regular_file() || entry->path().extension() == ".gz") continue;
+        std::error_code unknown;
+        if (!entry->is_regular_file(unknown) || entry->path().extension() == ".gz") continue;
         const std::string path = entry->path().string();
         Page page;
         page.type = type_of(entry->path());
         page.content = TRY(read_file(path));
-        if (fs::exists(path + ".gz")) page.gzipped = TRY(read_file(path + ".gz"));
+        if (fs::exists(path + ".gz", unknown)) page.gzipped = TRY(read_file(path + ".gz"));
         const std::string name = "/" + fs::relative(entry->path(), folder).generic_string();
         page.lasting = name.starts_with("/assets/");
         bytes += page.content.size() + page.gzipped.size();

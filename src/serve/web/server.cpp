@@ -2,7 +2,10 @@
 // here; the thread that takes events reaches it by posting.
 #include "serve/web/server.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <array>
 #include <boost/asio/as_tuple.hpp>
@@ -10,14 +13,16 @@
 #include <boost/asio/ssl/context.hpp>
 #include <deque>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <thread>
 
+#include "serve/access.hpp"
 #include "serve/web/answers.hpp"
 #include "serve/web/beast.hpp"
+#include "serve/web/inbox.hpp"
 #include "serve/web/origin.hpp"
 #include "serve/web/pages.hpp"
+#include "serve/web/strangers.hpp"
 #include "serve/web/tls.hpp"
 
 namespace vagus::serve {
@@ -31,32 +36,23 @@ using std::chrono::seconds;
 constexpr size_t kBodyBytesMax = 4096;   // of a request; none of ours has one
 constexpr size_t kFirstBytesMax = 4096;  // read at once when a request begins
 constexpr auto kGoodbyeWithin = seconds(2);
-constexpr size_t kRefusedMax = 64;  // connections that are told at a time that there are too many
+constexpr size_t kPieceBytes = 64 * 1024;  // of a message to a page: so much of it counts as taken
+constexpr auto kWrongTokenWithin = seconds(5);  // a request with a wrong token is answered
 
-// Events for the thread that takes them.
-class Inbox {
-public:
-    explicit Inbox(std::function<void()> wake) : wake_(std::move(wake)) {}
+// The same connection once more, to end it from outside whatever carries it: its coroutine then
+// reads the end. Closed with the last copy.
+std::function<void()> ender_of(int connection) {
+    const int own = ::fcntl(connection, F_DUPFD_CLOEXEC, 0);
+    const std::shared_ptr<int> held(new int(own), [](const int* descriptor) {
+        if (*descriptor >= 0) ::close(*descriptor);
+        delete descriptor;
+    });
+    return [held] {
+        if (*held >= 0) ::shutdown(*held, SHUT_RDWR);
+    };
+}
 
-    void put(WebEvent event) {
-        {
-            const std::lock_guard lock(mutex_);
-            events_.push_back(std::move(event));
-        }
-        wake_();
-    }
-    std::vector<WebEvent> take() {
-        const std::lock_guard lock(mutex_);
-        return std::exchange(events_, {});
-    }
-
-private:
-    std::function<void()> wake_;
-    std::mutex mutex_;
-    std::vector<WebEvent> events_;
-};
-
-struct Message {
+struct Outgoing {
     bool binary = false;
     std::string bytes;
 };
@@ -66,16 +62,29 @@ struct Shared {
     const WebOptions& options;
     const Pages& pages;
     Inbox& inbox;
-    size_t connections = 0;
+    Strangers& strangers;
+};
+
+// A connection among the strangers, as long as it is one.
+struct Place {
+    Place(Strangers& all, const std::string& address, std::function<void()> end)
+        : strangers(all), number(all.add(owner_of(address), std::move(end))) {}
+    ~Place() { strangers.remove(number); }
+    Place(const Place&) = delete;
+    Place& operator=(const Place&) = delete;
+    void heard() const { strangers.heard(number); }
+    Strangers& strangers;
+    const Strangers::Place number;
 };
 
 // A WebSocket, whatever carries it.
 class Live {
 public:
     virtual ~Live() = default;
-    virtual void send(Message message) = 0;
+    virtual void send(Outgoing message) = 0;
     virtual void close(std::string reason) = 0;
     virtual void resume() = 0;  // what it said was taken
+    virtual void know() = 0;    // it has shown its token
 };
 // Owners: the table below, and the coroutines of each connection, which may outlive the entry.
 using Lives = std::map<ClientId, std::shared_ptr<Live>>;
@@ -83,10 +92,11 @@ using Lives = std::map<ClientId, std::shared_ptr<Live>>;
 template <typename Stream>
 class LiveOver final : public Live, public std::enable_shared_from_this<LiveOver<Stream>> {
 public:
-    LiveOver(Stream stream, ClientId id, Shared& shared)
+    LiveOver(Stream stream, ClientId id, Shared& shared, const Place& place)
         : socket_(std::move(stream)),
           id_(id),
           shared_(shared),
+          place_(place.number),
           ready_(socket_.get_executor()),
           taken_(socket_.get_executor()),
           goodbye_(socket_.get_executor()) {
@@ -94,7 +104,7 @@ public:
         taken_.expires_at(asio::steady_timer::time_point::max());
     }
 
-    void send(Message message) override {
+    void send(Outgoing message) override {
         if (closing_) return;
         queue_.push_back(std::move(message));
         ready_.cancel();
@@ -105,9 +115,16 @@ public:
         closing_ = true;
         reason_ = std::move(reason);
         ready_.cancel();
+        taken_.cancel();
         asio::co_spawn(
             socket_.get_executor(), [self = this->shared_from_this()] { return self->cut_off(); },
             asio::detached);
+    }
+    void know() override {
+        known_ = true;
+        shared_.strangers.remove(place_);
+        socket_.read_message_max(shared_.options.message_bytes_max);
+        taken_.cancel();
     }
     void resume() override {
         waiting_ = waiting_bytes_ = 0;
@@ -132,7 +149,7 @@ private:
     void prepare() {
         websocket::stream_base::timeout limits{shared_.options.request_within, seconds(30), true};
         socket_.set_option(limits);
-        socket_.read_message_max(shared_.options.message_bytes_max);
+        socket_.read_message_max(shared_.options.hello_bytes_max);
         socket_.auto_fragment(false);
         socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& answer) {
             answer.set(http::field::sec_websocket_protocol, kLiveProtocol);
@@ -154,7 +171,12 @@ private:
                 close("expected text; binary messages only come from the server");
                 continue;
             }
-            shared_.inbox.put(ClientText{id_, beast::buffers_to_string(buffer.data())});
+            std::string text = beast::buffers_to_string(buffer.data());
+            Message message = Protocol::get().read(text);
+            shared_.inbox.put(ClientText{id_, std::move(text), std::move(message)});
+            shared_.strangers.heard(place_);
+            // Who it is must be known before it says more.
+            while (!known_ && !closing_) co_await taken_.async_wait(as_tuple(use_awaitable));
             // Who sends faster than it is heard is not read further.
             waiting_bytes_ += size;
             if (++waiting_ < kClientTextsMax &&
@@ -172,17 +194,29 @@ private:
                 co_await ready_.async_wait(as_tuple(use_awaitable));
                 continue;
             }
-            const Message message = std::move(queue_.front());
+            const Outgoing message = std::move(queue_.front());
             queue_.pop_front();
-            socket_.binary(message.binary);
-            const auto [failed, size] =
-                co_await socket_.async_write(asio::buffer(message.bytes), as_tuple(use_awaitable));
-            if (failed) co_return;
-            shared_.inbox.put(ClientTook{id_, message.bytes.size()});
+            if (!co_await write(message)) co_return;
         }
         if (over_) co_return;
         const websocket::close_reason why(websocket::close_code::policy_error, reason_);
         co_await socket_.async_close(why, as_tuple(use_awaitable));
+    }
+
+    // In pieces: who takes a long message slowly is seen to take it.
+    awaitable<bool> write(const Outgoing& message) {
+        socket_.binary(message.binary);
+        size_t at = 0;
+        do {
+            const size_t piece = std::min(kPieceBytes, message.bytes.size() - at);
+            const bool last = at + piece == message.bytes.size();
+            const auto [failed, size] = co_await socket_.async_write_some(
+                last, asio::buffer(message.bytes.data() + at, piece), as_tuple(use_awaitable));
+            if (failed) co_return false;
+            at += piece;
+            shared_.inbox.put(ClientTook{id_, piece});
+        } while (at < message.bytes.size());
+        co_return true;
     }
 
     awaitable<void> cut_off() {
@@ -194,11 +228,12 @@ private:
     websocket::stream<Stream> socket_;
     const ClientId id_;
     Shared& shared_;
+    const Strangers::Place place_;
     asio::steady_timer ready_, taken_, goodbye_;
-    std::deque<Message> queue_;
+    std::deque<Outgoing> queue_;
     size_t waiting_ = 0;  // texts that nobody has taken yet
     size_t waiting_bytes_ = 0;
-    bool closing_ = false, over_ = false;
+    bool known_ = false, closing_ = false, over_ = false;
     std::string reason_;
 };
 
@@ -262,13 +297,21 @@ public:
         return events;
     }
 
-    void send(ClientId client, Message message) {
+    void send(ClientId client, Outgoing message) {
         asio::post(io_, [this, client, message = std::move(message)]() mutable {
             if (Live* live = find(client)) live->send(std::move(message));
         });
     }
     void publish_metrics(std::string text) {
         asio::post(io_, [this, text = std::move(text)]() mutable { metrics_ = std::move(text); });
+    }
+    void publish_health(std::string why) {
+        asio::post(io_, [this, why = std::move(why)]() mutable { ill_ = std::move(why); });
+    }
+    void know(ClientId client) {
+        asio::post(io_, [this, client] {
+            if (Live* live = find(client)) live->know();
+        });
     }
     void close(ClientId client, std::string reason) {
         reason.resize(std::min<size_t>(reason.size(), 120));
@@ -278,6 +321,12 @@ public:
     }
 
 private:
+    // Of a connection; borrowed from the coroutine that began with it.
+    struct Ends {
+        Tcp::endpoint local, remote;
+        const Place& place;
+    };
+
     Live* find(ClientId client) {
         const auto found = lives_.find(client);
         return found == lives_.end() ? nullptr : found->second.get();
@@ -311,58 +360,29 @@ private:
                 co_await pause.async_wait(as_tuple(use_awaitable));
                 continue;
             }
-            if (shared_.connections >= options_.connections_max) {
-                if (refusing_ < kRefusedMax) {
-                    asio::co_spawn(io_, refuse(std::move(socket)), asio::detached);
-                }
-                continue;
-            }
             asio::co_spawn(io_, connection(std::move(socket)), asio::detached);
         }
     }
 
-    // Says so and waits until the other end has read it: who closes first while something is unread
-    // takes its own words back.
-    awaitable<void> refuse(Tcp::socket socket) {
-        static constexpr std::string_view kBusy =
-            "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nRetry-After: 5\r\n"
-            "Content-Type: text/plain\r\nContent-Length: 37\r\n\r\n"
-            "too many connections; try again soon\n";
-        if (!told_busy_) inbox_.put(WebNote{"connections above the limit are refused"});
-        told_busy_ = true;
-        ++refusing_;
-        beast::tcp_stream stream(std::move(socket));
-        stream.expires_after(kGoodbyeWithin);
-        co_await asio::async_write(stream, asio::buffer(kBusy), as_tuple(use_awaitable));
-        SystemError ignored;
-        stream.socket().shutdown(Tcp::socket::shutdown_send, ignored);
-        std::array<char, 1024> unread;
-        for (bool there = true; there;) {
-            const auto [failed, size] =
-                co_await stream.async_read_some(asio::buffer(unread), as_tuple(use_awaitable));
-            there = !failed;
-        }
-        --refusing_;
-    }
-
     awaitable<void> connection(Tcp::socket socket) {
-        ++shared_.connections;
         SystemError failed;
         socket.set_option(Tcp::no_delay(true), failed);
         const Tcp::endpoint local = socket.local_endpoint(failed);
         const Tcp::endpoint remote = socket.remote_endpoint(failed);
+        const Place place(strangers_, remote.address().to_string(),
+                          ender_of(socket.native_handle()));
+        const Ends ends{local, remote, place};
         beast::tcp_stream stream(std::move(socket));
         stream.expires_after(options_.request_within);
         if (tls_) {
-            co_await secured(std::move(stream), local, remote);
+            co_await secured(std::move(stream), ends);
         } else {
-            co_await talk(std::move(stream), local, remote);
+            co_await talk(std::move(stream), ends);
         }
-        --shared_.connections;
     }
 
     // Who speaks plain HTTP here has typed http:// or nothing, and hears what to type.
-    awaitable<void> secured(beast::tcp_stream stream, Tcp::endpoint local, Tcp::endpoint remote) {
+    awaitable<void> secured(beast::tcp_stream stream, const Ends& ends) {
         beast::flat_buffer begun;
         const auto [lost, is_tls] =
             co_await beast::async_detect_ssl(stream, begun, as_tuple(use_awaitable));
@@ -375,11 +395,11 @@ private:
         beast::ssl_stream<beast::tcp_stream> secure(std::move(stream), *tls_);
         const auto [refused, used] = co_await secure.async_handshake(
             asio::ssl::stream_base::server, begun.data(), as_tuple(use_awaitable));
-        if (!refused) co_await talk(std::move(secure), local, remote);
+        if (!refused) co_await talk(std::move(secure), ends);
     }
 
     template <typename Stream>
-    awaitable<void> talk(Stream stream, Tcp::endpoint local, Tcp::endpoint remote) {
+    awaitable<void> talk(Stream stream, const Ends& ends) {
         beast::flat_buffer buffer;
         for (bool first = true;; first = false) {
             if (!first && !co_await begins(stream, buffer)) break;
@@ -393,16 +413,26 @@ private:
                 co_await tell_malformed(stream, failed);
                 co_return;
             }
+            ends.place.heard();
             Asking asked = parser.release();
+            if (const auto odd = ambiguity_of(asked)) {
+                co_await tell(stream, http::status::bad_request, odd->c_str());
+                co_return;
+            }
             const auto refusal =
-                refusal_of(who_asks(asked, local, tls_.has_value()), options_.hosts);
+                refusal_of(who_asks(asked, ends.local, tls_.has_value()), options_.hosts);
             if (!refusal && wants_live(asked)) {
-                co_await live(std::move(stream), std::move(asked), remote);
+                co_await live(std::move(stream), std::move(asked), ends);
                 co_return;
             }
             if (refusal) inbox_.put(WebNote{"refused: " + *refusal});
+            const std::string address = ends.remote.address().to_string();
             Answer answer = refusal ? plain(asked, http::status::forbidden, *refusal)
-                                    : answer_for(asked, shown());
+                                    : answer_for(asked, shown(address));
+            if (answer.result() == http::status::unauthorized) {
+                beast::get_lowest_layer(stream).expires_after(options_.request_within);
+                co_await wait_for_wrong(address);
+            }
             const bool more = answer.keep_alive();
             if (!co_await write(stream, std::move(answer), asked.method() == http::verb::head) ||
                 !more) {
@@ -413,9 +443,22 @@ private:
         beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_send, ignored);
     }
 
-    Shown shown() {
-        return {shared_.pages, metrics_, options_.may_look,
-                [this](std::string note) { inbox_.put(WebNote{std::move(note)}); }};
+    Shown shown(const std::string& address) {
+        return {.pages = shared_.pages,
+                .metrics = metrics_,
+                .ill = ill_,
+                .may_look = options_.may_look,
+                .stop = [this, address] { inbox_.put_first(StopAsked{address}); },
+                .note = [this](std::string note) { inbox_.put(WebNote{std::move(note)}); }};
+    }
+
+    // As long as a page that said hello with one would wait.
+    awaitable<void> wait_for_wrong(const std::string& address) {
+        const auto now = asio::steady_timer::clock_type::now().time_since_epoch();
+        const auto since = std::chrono::duration_cast<Duration>(now);
+        const Duration wait = wrong_.wrong(address, since) - since;
+        asio::steady_timer timer(io_, std::min<Duration>(wait, kWrongTokenWithin));
+        co_await timer.async_wait(as_tuple(use_awaitable));
     }
 
     // Waits for the first bytes of the next request: a browser keeps its connections for the parts
@@ -432,6 +475,8 @@ private:
 
     template <typename Stream>
     awaitable<bool> write(Stream& stream, Answer answer, bool head) {
+        // The browser asks for nothing here without TLS any more.
+        if (tls_) answer.set("Strict-Transport-Security", "max-age=31536000");
         if (head) {
             http::response<http::empty_body> bare(std::move(answer.base()));
             http::response_serializer<http::empty_body> serializer(bare);
@@ -470,12 +515,13 @@ private:
     }
 
     template <typename Stream>
-    awaitable<void> live(Stream stream, Asking asked, Tcp::endpoint remote) {
+    awaitable<void> live(Stream stream, Asking asked, const Ends& ends) {
         const ClientId id{++last_client_};
         beast::get_lowest_layer(stream).expires_never();  // the WebSocket has limits of its own
-        const auto live = std::make_shared<LiveOver<Stream>>(std::move(stream), id, shared_);
+        const auto live =
+            std::make_shared<LiveOver<Stream>>(std::move(stream), id, shared_, ends.place);
         lives_.emplace(id, live);
-        inbox_.put(ClientOpened{id, remote.address().to_string()});
+        inbox_.put(ClientOpened{id, ends.remote.address().to_string()});
         co_await live->run(std::move(asked));
         lives_.erase(id);
         inbox_.put(ClientClosed{id});
@@ -485,15 +531,17 @@ private:
     Inbox inbox_;
     Pages pages_;
     std::optional<std::string> metrics_;  // nothing: there is no such page
+    std::string ill_;                     // empty: all is well
+    // Connections that end with io_ still give their places back.
+    Strangers strangers_{{options_.strangers_max, options_.strangers_of_address_max}};
+    WrongTokens wrong_;
     asio::io_context io_{1};
     std::optional<asio::ssl::context> tls_;
     Tcp::acceptor acceptor_;
     uint16_t port_ = 0;
-    Shared shared_{options_, pages_, inbox_};
+    Shared shared_{options_, pages_, inbox_, strangers_};
     Lives lives_;
     uint32_t last_client_ = 0;
-    bool told_busy_ = false;
-    size_t refusing_ = 0;
     std::thread thread_;
 };
 
@@ -519,8 +567,15 @@ void WebServer::send(ClientId client, std::string text) {
 void WebServer::send_binary(ClientId client, std::string bytes) {
     insides_->send(client, {.binary = true, .bytes = std::move(bytes)});
 }
+void WebServer::publish_health(std::string why) {
+    insides_->publish_health(std::move(why));
+}
+
 void WebServer::publish_metrics(std::string text) {
     insides_->publish_metrics(std::move(text));
+}
+void WebServer::know(ClientId client) {
+    insides_->know(client);
 }
 void WebServer::close(ClientId client, std::string reason) {
     insides_->close(client, std::move(reason));

@@ -1,6 +1,6 @@
 // The door to browsers: HTTP for the pages, WebSocket for everything that lives, on a thread of its
-// own. It knows bytes, addresses and limits, not what messages mean: they come out as values, and
-// what is sent goes in as text or bytes.
+// own. It knows bytes, addresses and limits, not what messages are for: they come out as values,
+// read by the protocol's list, and what is sent goes in as text or bytes.
 //
 //     auto started = WebServer::start({.pages = "share/pages"}, [&] { network.wake(); });
 //     WebServer& web = *started.value();
@@ -8,21 +8,25 @@
 //     web.send(client, R"({"id":1,"ok":{}})");
 //
 // What a browser may do here (serve.md, who may do what): GET and HEAD of the pages, /healthz,
-// /metrics with a token, and the WebSocket at /live. Host must name this machine and Origin, if
-// there is one, the same host: other pages in the same browser and names that point here get
-// nothing. Who is whom is decided by the token, in the first message, by whoever takes the events.
+// /metrics with a token, POST /stop with a token, and the WebSocket at /live. Host must name this
+// machine and Origin, if there is one, the same host: other pages in the same browser and names
+// that point here get nothing. Who is whom is decided by the token, in the first message, by
+// whoever takes the events. Until know() says so a connection is a stranger: it may say one short
+// message, and above the limits the stranger that is silent the longest makes room for the next.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "base/result.hpp"
+#include "serve/protocol/protocol.hpp"
 
 namespace vagus::serve {
 
@@ -42,11 +46,13 @@ struct WebOptions {
     uint16_t port = 0;                    // 0: a free one
     std::string pages = {};               // folder of the built pages
     std::vector<std::string> hosts = {};  // further names of this machine that Host may have
-    // Who may read /metrics; asked on the thread of the server.
+    // Who may read /metrics, and stop; asked on the thread of the server.
     std::function<bool(std::string_view token)> may_look = [](std::string_view) { return false; };
     std::string tls_cert = {}, tls_key = {};  // PEM files; empty: HTTP
-    size_t connections_max = 512;
+    size_t strangers_max = 128;
+    size_t strangers_of_address_max = 64;
     size_t message_bytes_max = 4u << 20;
+    size_t hello_bytes_max = 4096;  // of a stranger's message
     std::chrono::milliseconds request_within = kRequestWithin;
     std::chrono::milliseconds idle_within = kIdleWithin;
 };
@@ -59,6 +65,8 @@ struct ClientOpened {
 struct ClientText {
     ClientId client;
     std::string text;
+    // What it says, if it was read already: JSON is read on this thread, not in the loop.
+    std::optional<Message> message = {};
 };
 // So many bytes of what was sent have left for the client.
 struct ClientTook {
@@ -72,7 +80,12 @@ struct ClientClosed {
 struct WebNote {
     std::string text;
 };
-using WebEvent = std::variant<ClientOpened, ClientText, ClientTook, ClientClosed, WebNote>;
+// POST /stop with a token: it comes before all that has not been taken yet.
+struct StopAsked {
+    std::string address;
+};
+using WebEvent =
+    std::variant<ClientOpened, ClientText, ClientTook, ClientClosed, WebNote, StopAsked>;
 
 class WebServer {
 public:
@@ -90,6 +103,10 @@ public:
     void send_binary(ClientId client, std::string bytes);
     // What /metrics shows from now on, to who has a token; before, there is no such page.
     void publish_metrics(std::string text);
+    // Why /healthz answers 503 from now on; empty: it says ok.
+    void publish_health(std::string why);
+    // The client has shown its token: it has a place of its own, and is read further.
+    void know(ClientId client);
     // Says goodbye with a reason (at most 120 bytes) after what was sent before.
     void close(ClientId client, std::string reason);
 

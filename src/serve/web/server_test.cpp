@@ -1,4 +1,5 @@
 // The server with real connections on loopback.
+#include "base/test_folder.hpp"
 #include "serve/web/server.hpp"
 
 #include <gmock/gmock.h>
@@ -28,19 +29,13 @@ using Tcp = asio::ip::tcp;
 
 struct WebServerTest : testing::Test {
     void SetUp() override {
-        folder = std::filesystem::path(testing::TempDir()) /
-                 ("pages-" + std::to_string(::getpid()) + "-" +
-                  testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::create_directories(folder / "assets");
         std::ofstream(folder / "index.html") << "<!doctype html>hello";
         std::ofstream(folder / "assets/a-1.js") << "1";
         std::ofstream(folder / "assets/a-1.js.gz") << "zipped";
         begin({});
     }
-    void TearDown() override {
-        server.reset();
-        std::filesystem::remove_all(folder);
-    }
+    void TearDown() override { server.reset(); }
     void begin(WebOptions options) {
         options.pages = folder.string();
         auto started = WebServer::start(options, [this] {
@@ -96,7 +91,7 @@ struct WebServerTest : testing::Test {
         return socket;
     }
 
-    std::filesystem::path folder;
+    test::Folder folder;
     asio::io_context io;
     std::mutex mutex;
     std::condition_variable changed;
@@ -112,9 +107,19 @@ TEST_F(WebServerTest, PagesComeWithTheirHeaders) {
     EXPECT_THAT(page, HasSubstr("Content-Security-Policy: default-src 'none'"));
     EXPECT_THAT(page, HasSubstr("frame-ancestors 'none'"));
     EXPECT_THAT(page, HasSubstr("X-Content-Type-Options: nosniff"));
+    EXPECT_THAT(page, HasSubstr("Permissions-Policy: accelerometer=()"));
+    EXPECT_THAT(page, Not(HasSubstr("Strict-Transport-Security")));  // not without TLS
     EXPECT_THAT(page, Not(HasSubstr("Access-Control-Allow-Origin")));
     EXPECT_THAT(get("/assets/a-1.js"), HasSubstr("immutable"));
     EXPECT_THAT(get("/assets/a-1.js", "Accept-Encoding: gzip, br\r\n"), HasSubstr("zipped"));
+    EXPECT_THAT(get("/healthz"), HasSubstr("\r\n\r\nok\n"));
+}
+
+TEST_F(WebServerTest, HealthSaysWhatIsWrong) {
+    server->publish_health("the plan ended in an error: no wall");
+    EXPECT_THAT(get("/healthz"), StartsWith("HTTP/1.1 503"));
+    EXPECT_THAT(get("/healthz"), HasSubstr("\r\n\r\nthe plan ended in an error: no wall\n"));
+    server->publish_health("");
     EXPECT_THAT(get("/healthz"), HasSubstr("\r\n\r\nok\n"));
 }
 
@@ -155,6 +160,7 @@ TEST_F(WebServerTest, MessagesGoBothWaysAndAreCounted) {
     const ClientId client = next<ClientOpened>().client;
     page->write(asio::buffer(std::string("hello")));
     EXPECT_EQ(next<ClientText>().text, "hello");
+    server->know(client);
     server->send(client, "answer");
     server->send_binary(client, std::string("\x01\x00", 2));
     beast::flat_buffer buffer;
@@ -177,8 +183,9 @@ TEST_F(WebServerTest, AnOversizedMessageEndsItsPageOnly) {
     server.reset();
     begin({.message_bytes_max = 100});
     auto large = live();
+    server->know(next<ClientOpened>().client);
     auto other = live();
-    next<ClientOpened>();
+    server->know(next<ClientOpened>().client);
     large->write(asio::buffer(std::string(101, 'x')));
     beast::flat_buffer buffer;
     boost::system::error_code failed;
@@ -190,13 +197,77 @@ TEST_F(WebServerTest, AnOversizedMessageEndsItsPageOnly) {
     EXPECT_EQ(next<ClientText>().text.size(), 100u);
 }
 
-TEST_F(WebServerTest, ConnectionsAboveTheLimitAreRefusedWithAnAnswer) {
+// Above the limit the one that is silent the longest goes, and who is known is none of them.
+TEST_F(WebServerTest, WhoHoldsConnectionsKeepsNobodyOut) {
     server.reset();
-    begin({.connections_max = 3});
+    begin({.strangers_of_address_max = 3});
+    auto page = live();
+    const ClientId client = next<ClientOpened>().client;
+    page->write(asio::buffer(std::string("hello")));
+    EXPECT_EQ(next<ClientText>().text, "hello");
+    server->know(client);
     std::vector<Tcp::socket> idle;
-    for (int i = 0; i < 3; ++i) idle.push_back(connect());
-    EXPECT_THAT(ask(""), StartsWith("HTTP/1.1 503"));
-    auto waiting = connect();
+    for (int i = 0; i < 100; ++i) idle.push_back(connect());
+    EXPECT_THAT(get("/healthz"), StartsWith("HTTP/1.1 200"));
+    auto another = live();
+    EXPECT_NE(next<ClientOpened>().client, client);
+    page->write(asio::buffer(std::string("still here")));
+    EXPECT_EQ(next<ClientText>().text, "still here");
+    std::string nothing;
+    boost::system::error_code ended;
+    asio::read(idle.front(), asio::dynamic_buffer(nothing), ended);
+    EXPECT_TRUE(ended == asio::error::eof || ended == asio::error::connection_reset);
+}
+
+TEST_F(WebServerTest, AStrangerSaysOneShortMessage) {
+    auto page = live();
+    const ClientId client = next<ClientOpened>().client;
+    page->write(asio::buffer(std::string(4096, 'x')));
+    page->write(asio::buffer(std::string(5000, 'y')));
+    EXPECT_EQ(next<ClientText>().text.size(), 4096u);
+    server->know(client);
+    EXPECT_EQ(next<ClientText>().text.size(), 5000u);
+    auto other = live();
+    next<ClientOpened>();
+    other->write(asio::buffer(std::string(4097, 'x')));
+    beast::flat_buffer buffer;
+    boost::system::error_code failed;
+    other->read(buffer, failed);
+    EXPECT_EQ(other->reason().code, beast::websocket::close_code::too_big);
+    EXPECT_THAT(next<WebNote>().text, HasSubstr("above the limit"));
+}
+
+TEST_F(WebServerTest, ALongMessageIsTakenPieceByPiece) {
+    auto page = live();
+    const ClientId client = next<ClientOpened>().client;
+    const std::string whole(1'000'000, 'x');
+    server->send(client, whole);
+    beast::flat_buffer buffer;
+    page->read(buffer);
+    EXPECT_TRUE(beast::buffers_to_string(buffer.data()) == whole);
+    EXPECT_LT(next<ClientTook>().bytes, whole.size());
+}
+
+TEST_F(WebServerTest, StopNeedsATokenAndNothingElse) {
+    server.reset();
+    begin({.may_look = [](std::string_view token) { return token == "right"; }});
+    auto page = live();
+    page->write(asio::buffer(std::string("hello")));
+    const std::string head = "POST /stop HTTP/1.1\r\nHost: " + host() + "\r\nContent-Length: 0\r\n";
+    EXPECT_THAT(ask(head + "\r\n"), StartsWith("HTTP/1.1 401"));
+    EXPECT_THAT(ask(head + "Authorization: Bearer wrong\r\n\r\n"), StartsWith("HTTP/1.1 401"));
+    EXPECT_THAT(ask(head + "Origin: http://evil.example\r\nAuthorization: Bearer right\r\n\r\n"),
+                StartsWith("HTTP/1.1 403"));
+    EXPECT_THAT(ask(head + "Authorization: Bearer right\r\n\r\n"), StartsWith("HTTP/1.1 202"));
+    const std::vector<WebEvent> taken = server->take();
+    ASSERT_FALSE(taken.empty());
+    EXPECT_TRUE(std::holds_alternative<StopAsked>(taken.front()));  // before the hello
+    EXPECT_THAT(get("/stop"), StartsWith("HTTP/1.1 404"));
+}
+
+TEST_F(WebServerTest, WhatCanBeReadInTwoWaysIsRefused) {
+    EXPECT_THAT(get("/", "Host: " + host() + "\r\n"), StartsWith("HTTP/1.1 400"));
+    EXPECT_THAT(get("/", "Transfer-Encoding: gzip\r\n"), StartsWith("HTTP/1.1 400"));
 }
 
 TEST_F(WebServerTest, AConnectionMayRestBetweenRequestsButNotWithinOne) {

@@ -19,6 +19,13 @@ aesl::Target Workbench::target_of(const std::string& name, uint16_t id) const {
     return live ? *live : session::known_node(name);
 }
 
+Scripts::TargetOf Workbench::targets_now() const {
+    return [nodes = robot_.described()](const std::string& name, uint16_t id) {
+        const auto live = target_among(nodes, name, id);
+        return live ? *live : session::known_node(name);
+    };
+}
+
 std::vector<std::string> Workbench::missing_nodes() const {
     std::vector<std::string> missing;
     if (!bus_ || !project_) return missing;
@@ -40,8 +47,15 @@ void Workbench::start_run(std::function<void(const std::string& why)> done) {
         }));
 }
 
-void Workbench::stop_run(std::function<void()> done) {
-    stop(Call(Json::object(), kNobody, [done = std::move(done)](const Call::Outcome&) { done(); }));
+void Workbench::stop_run(const life::Cause& cause, std::function<void()> done) {
+    stop(Call(Json::object(), kNobody, [done = std::move(done)](const Call::Outcome&) { done(); }),
+         cause);
+}
+
+std::string Workbench::how_plan_is() const {
+    if (!project_ || project_->plan.empty()) return "";
+    if (life_.plan_runs()) return "its plan runs";
+    return "its plan is over: " + ends_.last_result();
 }
 
 Figures Workbench::figures() const {
@@ -52,7 +66,10 @@ Figures Workbench::figures() const {
                     .speed = run_.measured_speed(),
                     .late_checks = run_.late_checks(),
                     .robot = robot_.counts(),
-                    .clients = desk_.clients().connected()};
+                    .clients = desk_.clients().connected(),
+                    .ends = ends_.counts(),
+                    .results = ends_.results(),
+                    .missing_stops = ends_.missing()};
     if (const auto percent = run_.load()) figures.bus_load = *percent / 100;
     return figures;
 }

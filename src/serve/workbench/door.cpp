@@ -26,14 +26,26 @@ bool is_loopback(const std::string& address) {
     return address == "::1" || address.starts_with("127.");
 }
 
-Result<std::string> token_from(const std::string& file) {
-    std::error_code failed;
-    if (fs::exists(file, failed)) return token_in(TRY(read_file(file)), file);
+std::string random_token() {
     std::array<uint8_t, 16> random;
     const std::string bytes = random_bytes(random.size());
     std::memcpy(random.data(), bytes.data(), random.size());
-    const std::string token = token_of(random);
+    return token_of(random);
+}
+
+Result<std::string> token_from(const std::string& file) {
+    std::error_code failed;
+    if (fs::exists(file, failed)) return token_in(TRY(read_file(file)), file);
+    const std::string token = random_token();
     TRY(write_secret(file, token + "\n"));
+    return token;
+}
+
+// The file first: a token that no file has would be lost with the server.
+Result<std::string> renewed(const Access& access, const std::string& file) {
+    const std::string token = random_token();
+    TRY(write_secret(file, token + "\n"));
+    access.renew(token);
     return token;
 }
 
@@ -111,7 +123,10 @@ Desk::Outside Door::outside(std::function<void(const std::string&)> log) {
             .close = [web](ClientId client,
                            std::string reason) { web->close(client, std::move(reason)); },
             .log = std::move(log),
-            .wall_ms = wall_ms};
+            .wall_ms = wall_ms,
+            .know = [web](ClientId client) { web->know(client); },
+            .renew = [access = access_, file = token_file_] { return renewed(access, file); },
+            .random = random_token};
 }
 
 }  // namespace vagus::serve

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/file.hpp"
@@ -70,9 +71,20 @@ Result<History::Window> window_of(const Json& in) {
     return window;
 }
 
+// The plan of the project that has this name; empty if none has.
+std::string plan_file_of(const std::vector<TraceFile::Plan>& plans, const std::string& name) {
+    const std::string plan = name.substr(0, name.find('/'));
+    for (const TraceFile::Plan& one : plans) {
+        const Json json = Json::parse(one.text, nullptr, false);
+        if (json.is_object() && json.contains("name") && json["name"] == plan) return one.real;
+    }
+    return {};
+}
+
 }  // namespace
 
-HistoryDesk::HistoryDesk(Desk& desk, Files& files) : desk_(desk), files_(files) {
+HistoryDesk::HistoryDesk(Desk& desk, Files& files, Worker::Post post)
+    : desk_(desk), files_(files), post_(std::move(post)) {
     declare();
 }
 
@@ -80,27 +92,24 @@ void HistoryDesk::declare() {
     desk_.board().document("history", [this](const Json&) { return now_->document(); });
     desk_.command("history.at", [this](const Call& call) {
         const auto instant = instant_of(call.in);
-        const auto history = asked(call.in);
         if (!instant.ok()) return call.fail(instant.error());
-        if (!history.ok()) return call.fail(history.error());
-        call.done(history.value()->at(instant.value()));
+        ask(call,
+            [call, instant](const History& history) { call.done(history.at(instant.value())); });
     });
     desk_.command("history.lanes", [this](const Call& call) {
         const auto window = window_of(call.in);
-        const auto history = asked(call.in);
         if (!window.ok()) return call.fail(window.error());
-        if (!history.ok()) return call.fail(history.error());
-        call.done(history.value()->lanes(window.value()));
+        ask(call,
+            [call, window](const History& history) { call.done(history.lanes(window.value())); });
     });
     desk_.command("history.open", [this](const Call& call) {
-        const auto opened = open(call.in["trace"]);
-        if (!opened.ok()) return call.fail(opened.error());
-        const OpenTrace& trace = *opened.value();
-        call.done({{"from", trace.history->plan()->from()},
-                   {"to", trace.history->to()},
-                   {"lines", trace.lines},
-                   {"refused", trace.refused},
-                   {"plan", trace.has_plan}});
+        open(call, [call](const OpenTrace& trace) {
+            call.done({{"from", trace.history.plan()->from()},
+                       {"to", trace.history.to()},
+                       {"lines", trace.lines},
+                       {"refused", trace.refused},
+                       {"plan", trace.has_plan}});
+        });
     });
     desk_.command("history.save", [this](const Call& call) {
         const auto saved = save();
@@ -109,10 +118,12 @@ void HistoryDesk::declare() {
     });
 }
 
-Result<const History*> HistoryDesk::asked(const Json& in) {
-    if (in.contains("trace")) return TRY(open(in["trace"]))->history.get();
-    if (!now_->empty()) return now_.get();
-    return Error{Code::Unavailable, "nothing has run yet; Run starts it"};
+void HistoryDesk::ask(const Call& call, const Ask& then) {
+    if (call.in.contains("trace")) {
+        return open(call, [then](const OpenTrace& trace) { then(trace.history); });
+    }
+    if (now_->empty()) return call.fail("unavailable", "nothing has run yet; Run starts it");
+    then(*now_);
 }
 
 // ---- what is told ----
@@ -129,7 +140,12 @@ void HistoryDesk::begin(History::Beginning beginning) {
 void HistoryDesk::forget() {
     next_.reset();
     now_ = std::make_unique<History>();
-    traces_.clear();
+    for (auto& trace : std::exchange(traces_, {})) drop(std::move(trace));
+    for (const auto& [path, waiting] : std::exchange(waiting_, {})) {
+        for (const Waiting& one : waiting) {
+            one.call.fail("unavailable", path + ": the project was closed while it was read");
+        }
+    }
     desk_.board().touch("history");
 }
 
@@ -143,12 +159,12 @@ History& HistoryDesk::told_at(double t) {
     return *now_;
 }
 
+void HistoryDesk::plan(uint64_t version, const PlanOutlines& plans) {
+    (next_ ? *next_ : *now_).plan(version, plans);
+}
+
 void HistoryDesk::trace(const std::string& line) {
-    History& history = next_ ? *next_ : *now_;
-    (void)history.trace(line);
-    // Quotes inside of a text are escaped, so this is the kind. What was saved is what runs now.
-    if (!history.plan() || line.find(R"("kind":"change")") == line.npos) return;
-    history.change_plan(read_plans(history.plan()->file()));
+    (void)(next_ ? *next_ : *now_).trace(line);
 }
 
 void HistoryDesk::records(const std::string& bytes) {
@@ -186,70 +202,97 @@ void HistoryDesk::tick(double t) {
 
 // ---- traces as files ----
 
-Result<HistoryDesk::OpenTrace*> HistoryDesk::open(const std::string& path) {
-    (void)TRY(files_.size(path));
-    std::error_code failed;
-    const auto written = fs::last_write_time(files_.root() / path, failed);
-    for (auto one = traces_.begin(); one != traces_.end(); ++one) {
-        if (one->path != path) continue;
-        traces_.splice(traces_.begin(), traces_, one);
-        if (traces_.front().written == written) return &traces_.front();
-        traces_.pop_front();
-        break;
+void HistoryDesk::open(const Call& call, const Use& use) {
+    const std::string path = call.in["trace"];
+    auto file = look_for(path);
+    if (!file.ok()) return call.fail(file.error());
+    const auto known = std::find_if(traces_.begin(), traces_.end(),
+                                    [&](const auto& one) { return one->path == path; });
+    if (known != traces_.end() && (*known)->written == file.value().written) {
+        traces_.splice(traces_.begin(), traces_, known);
+        return use(*traces_.front());
     }
-    traces_.push_front(TRY(read(path)));
-    traces_.front().written = written;
-    if (traces_.size() > kTracesOpen) traces_.pop_back();
-    return &traces_.front();
+    std::vector<Waiting>& waiting = waiting_[path];
+    waiting.push_back({call, use});
+    if (waiting.size() > 1) return;
+    using Read = Result<std::shared_ptr<OpenTrace>>;
+    worked<Read>(
+        post_, [file = std::move(file.value())] { return read_trace(file); },
+        [this, path](const Read& read) { opened(path, read); });
 }
 
-Result<HistoryDesk::OpenTrace> HistoryDesk::read(const std::string& path) const {
+// Of several requests while it was read each gets its answer.
+void HistoryDesk::opened(const std::string& path, const Result<std::shared_ptr<OpenTrace>>& read) {
+    const auto waiting = waiting_.extract(path);
+    if (waiting.empty()) return;
+    if (read.ok()) {
+        for (auto one = traces_.begin(); one != traces_.end();) {
+            const auto next = std::next(one);
+            if ((*one)->path == path) drop(std::move(*one)), traces_.erase(one);
+            one = next;
+        }
+        traces_.push_front(read.value());
+        if (traces_.size() > kTracesOpen) drop(std::move(traces_.back())), traces_.pop_back();
+    }
+    for (const Waiting& one : waiting.mapped()) {
+        read.ok() ? one.use(*read.value()) : one.call.fail(read.error());
+    }
+}
+
+// To forget a long one takes a while, too.
+void HistoryDesk::drop(std::shared_ptr<OpenTrace> trace) {
+    post_([trace = std::move(trace)]() -> Worker::Then { return [] {}; });
+}
+
+Result<TraceFile> HistoryDesk::look_for(const std::string& path) const {
     const uintmax_t size = TRY(files_.size(path));
     if (size > kTraceFileBytes) {
         return Error{Code::BadInput, fmt::format("{}: a trace has at most {} bytes, this one has "
                                                  "{}; take its last part",
                                                  path, kTraceFileBytes, size)};
     }
-    const std::string text = TRY(read_file((files_.root() / path).string()));
-    const size_t end = text.find('\n');
-    const auto first = TraceLine::read(text.substr(0, end));
+    std::error_code failed;
+    TraceFile file{path, (files_.root() / path).string(), {}, {}};
+    file.written = fs::last_write_time(file.real, failed);
+    bool more = false;
+    for (const FileInfo& one : files_.list(more)) {
+        if (one.kind != "plan") continue;
+        const auto text = files_.text(one.path);
+        const std::string real = (files_.root() / one.path).string();
+        if (text.ok()) file.plans.push_back({real, text.value(), doc_of_(real)});
+    }
+    return file;
+}
+
+Result<std::shared_ptr<OpenTrace>> read_trace(const TraceFile& file) {
+    const std::string text = TRY(read_file(file.real));
+    const auto first = TraceLine::read(text.substr(0, text.find('\n')));
     if (!first.ok()) {
-        return Error{Code::BadInput, fmt::format("{}:1: {}", path, first.error().what)};
+        return Error{Code::BadInput, fmt::format("{}:1: {}", file.path, first.error().what)};
     }
     const std::string name = first.value().plan();
-    OpenTrace opened;
-    opened.path = path;
-    const std::string plan = plan_file_of(name);
-    opened.has_plan = !plan.empty();
-    History::Beginning beginning{.kind = "trace", .name = path, .plan_seconds = 1e12};
-    if (opened.has_plan) beginning.plans = read_plans(plan);
+    auto opened = std::make_shared<OpenTrace>();
+    opened->path = file.path;
+    opened->written = file.written;
+    const std::string plan = plan_file_of(file.plans, name);
+    opened->has_plan = !plan.empty();
+    History::Beginning beginning{.kind = "trace", .name = file.path, .plan_seconds = 1e12};
+    if (opened->has_plan) beginning.plans = read_plans(plan);
     // Without its plan a trace still says who worked, and when.
     if (beginning.plans.empty()) beginning.plans.emplace_back().name = name;
-    beginning.doc_of = [this](const std::string& file) { return doc_of_(file); };
-    opened.history = std::make_unique<History>();
-    opened.history->begin(std::move(beginning));
+    beginning.doc_of = [plans = file.plans](const std::string& real) {
+        const auto found = std::find_if(plans.begin(), plans.end(),
+                                        [&](const auto& one) { return one.real == real; });
+        return found == plans.end() ? real : found->doc;
+    };
+    opened->history.begin(std::move(beginning));
     for (size_t at = 0; at < text.size();) {
         const size_t stop = std::min(text.find('\n', at), text.size());
-        const bool good = opened.history->trace(text.substr(at, stop - at));
-        ++(good ? opened.lines : opened.refused);
+        const bool good = opened->history.trace(text.substr(at, stop - at));
+        ++(good ? opened->lines : opened->refused);
         at = stop + 1;
     }
     return opened;
-}
-
-// The plan of the project that has this name; empty if none has.
-std::string HistoryDesk::plan_file_of(const std::string& name) const {
-    const std::string plan = name.substr(0, name.find('/'));
-    bool more = false;
-    for (const FileInfo& file : files_.list(more)) {
-        if (file.kind != "plan") continue;
-        const std::string real = (files_.root() / file.path).string();
-        const auto text = files_.text(file.path);
-        if (!text.ok()) continue;
-        const Json json = Json::parse(text.value(), nullptr, false);
-        if (json.is_object() && json.contains("name") && json["name"] == plan) return real;
-    }
-    return {};
 }
 
 Result<std::string> HistoryDesk::save() {

@@ -8,12 +8,18 @@
 //     histories.tick(clock);
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <list>
+#include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "serve/history/history.hpp"
 #include "serve/project/files.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/worker.hpp"
 
 namespace vagus::serve {
 
@@ -22,11 +28,32 @@ constexpr size_t kTraceFileBytes = 32u << 20;  // as much as a run keeps
 constexpr size_t kTraceNamesMax = 1000;        // NAME-1.trace.jsonl, NAME-2, …
 constexpr const char* kTraceEnding = ".trace.jsonl";
 
+// A trace as a file, and what it is read with.
+struct TraceFile {
+    std::string path;  // in the project
+    std::string real;  // on this computer
+    std::filesystem::file_time_type written{};
+    struct Plan {
+        std::string real, text, doc;
+    };
+    std::vector<Plan> plans;  // of the project
+};
+struct OpenTrace {
+    std::string path;
+    std::filesystem::file_time_type written{};
+    History history;
+    size_t lines = 0, refused = 0;
+    bool has_plan = false;
+};
+// Seconds, for a long one: uses nothing but the file.
+Result<std::shared_ptr<OpenTrace>> read_trace(const TraceFile& file);
+
 class HistoryDesk {
 public:
     using Json = nlohmann::json;
-    // Both are borrowed. Declares its topic and commands.
-    HistoryDesk(Desk& desk, Files& files);
+    // Both are borrowed. Declares its topic and commands. Traces that are files are read where
+    // `post` puts it.
+    HistoryDesk(Desk& desk, Files& files, Worker::Post post = Worker::at_once);
 
     void set_doc_of(std::function<std::string(const std::string& file)> doc_of) {
         doc_of_ = std::move(doc_of);
@@ -38,6 +65,8 @@ public:
     void forget();
 
     // ---- what is told ----
+    // What runs from the next line of the trace on, by its number.
+    void plan(uint64_t version, const PlanOutlines& plans);
     void trace(const std::string& line);
     void records(const std::string& bytes);
     void happening(const Json& happening, double t);
@@ -48,19 +77,19 @@ public:
     void tick(double t);
 
 private:
-    struct OpenTrace {
-        std::string path;
-        std::filesystem::file_time_type written{};
-        std::unique_ptr<History> history;
-        size_t lines = 0, refused = 0;
-        bool has_plan = false;
+    using Ask = std::function<void(const History&)>;
+    using Use = std::function<void(const OpenTrace&)>;
+    struct Waiting {
+        Call call;
+        Use use;
     };
     History& told_at(double t);
     void declare();
-    Result<const History*> asked(const Json& in);
-    Result<OpenTrace*> open(const std::string& path);
-    Result<OpenTrace> read(const std::string& path) const;
-    std::string plan_file_of(const std::string& name) const;
+    void ask(const Call& call, const Ask& then);
+    void open(const Call& call, const Use& use);
+    void opened(const std::string& path, const Result<std::shared_ptr<OpenTrace>>& read);
+    Result<TraceFile> look_for(const std::string& path) const;
+    void drop(std::shared_ptr<OpenTrace> trace);
     Result<std::string> save();
 
     Desk& desk_;
@@ -69,7 +98,10 @@ private:
     std::unique_ptr<History> now_ = std::make_unique<History>();
     std::unique_ptr<History> next_;  // of what has been opened and does not go yet
     uint64_t run_ = 0;
-    std::list<OpenTrace> traces_;  // the one that was asked for last first
+    std::list<std::shared_ptr<OpenTrace>> traces_;  // the one that was asked for last first
+    // For traces that are being read, by path.
+    std::map<std::string, std::vector<Waiting>> waiting_;
+    const Worker::Post post_;
     double told_to_ = 0;
 };
 

@@ -5,23 +5,29 @@
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "serve/protocol/depth.hpp"
 
 namespace vagus::serve {
 
 using Json = nlohmann::json;
 
-Kept::Kept(std::string file) : file_(std::move(file)) {
+Kept::Kept(std::string file, DiskSync* disk) : file_(std::move(file)), disk_(disk) {
     std::error_code failed;
     if (!std::filesystem::is_regular_file(file_, failed)) return;
     if (std::filesystem::file_size(file_, failed) > kKeptBytesMax) return;
     const Result<std::string> text = read_file(file_);
-    if (!text.ok()) return;
+    if (!text.ok() || depth_of(text.value()) > kKeptDepthMax) return;
     Json read = Json::parse(text.value(), nullptr, false);
     if (read.is_object()) values_ = std::move(read);
 }
 
 Json Kept::get(const std::string& key) const {
     return values_.value(key, Json());
+}
+
+Json Kept::object(const std::string& key) const {
+    Json value = get(key);
+    return value.is_object() ? value : Json::object();
 }
 
 Status Kept::put(const std::string& key, Json value) {
@@ -41,7 +47,9 @@ Status Kept::put(const std::string& key, Json value) {
     if (file_.empty()) return Status::done();
     std::error_code failed;
     std::filesystem::create_directories(std::filesystem::path(file_).parent_path(), failed);
-    return write_file(file_, text);
+    TRY(write_file_unsynced(file_, text));
+    if (disk_) disk_->post(file_);
+    return Status::done();
 }
 
 }  // namespace vagus::serve

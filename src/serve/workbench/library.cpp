@@ -9,6 +9,7 @@
 #include "base/file.hpp"
 #include "base/project_border.hpp"
 #include "serve/project/paths.hpp"
+#include "serve/project/scan.hpp"
 #include "serve/workbench/new_files.hpp"
 #include "session/project_file.hpp"
 
@@ -59,8 +60,9 @@ size_t count_of(std::string_view text, std::string_view word) {
 
 std::string content_of(const fs::path& folder, const session::ProjectFile& project) {
     size_t plans = 0;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.path().filename().string().ends_with(".plan.json")) ++plans;
+    std::error_code failed;
+    for (const FolderEntry& entry : entries_of(folder, failed)) {
+        if (entry.name.ends_with(".plan.json")) ++plans;
     }
     if (plans > 1) return fmt::format("{} plans", plans);
     if (!project.plan.empty()) {
@@ -98,18 +100,20 @@ Library::Library(LibraryPlaces places)
 Json Library::examples() const {
     std::vector<std::pair<size_t, Json>> found;
     std::error_code failed;
-    for (const auto& entry : fs::directory_iterator(places_.examples, failed)) {
-        const std::string id = entry.path().filename().string();
-        const auto read = session::open_project((entry.path() / kProjectFileName).string());
+    for (const FolderEntry& entry : entries_of(places_.examples, failed)) {
+        if (entry.is != FolderEntry::Is::Folder) continue;
+        const std::string id = entry.name;
+        const fs::path folder = places_.examples / id;
+        const auto read = session::open_project((folder / kProjectFileName).string());
         // Those without a world need a compiler or a robot.
-        if (!entry.is_directory() || !read.ok() || read.value().world.empty()) continue;
+        if (!read.ok() || read.value().world.empty()) continue;
         const auto place = std::find(std::begin(kOrder), std::end(kOrder), id);
         found.emplace_back(place - std::begin(kOrder),
                            Json{{"id", id},
                                 {"name", read.value().name},
                                 {"help", read.value().help},
-                                {"robot", robots_in(entry.path() / read.value().world)},
-                                {"content", content_of(entry.path(), read.value())}});
+                                {"robot", robots_in(folder / read.value().world)},
+                                {"content", content_of(folder, read.value())}});
     }
     std::sort(found.begin(), found.end());
     Json list = Json::array();
@@ -139,7 +143,7 @@ std::vector<fs::path> Library::files_of_example(const std::string& id) const {
     std::error_code failed;
     for (const std::string& folder : folders_of_example(id)) {
         fs::recursive_directory_iterator at(places_.examples / folder, failed);
-        for (; at != fs::recursive_directory_iterator(); at.increment(failed)) {
+        for (; !failed && at != fs::recursive_directory_iterator(); at.increment(failed)) {
             if (at->path().filename() == kOwnFolder) {
                 at.disable_recursion_pending();
             } else if (at->is_regular_file(failed)) {
@@ -162,7 +166,7 @@ Status Library::copy_example(const std::string& id, const fs::path& to) const {
         return Error{Code::Unavailable, fmt::format("{}: cannot copy the example there: {}",
                                                     to.string(), failed.message())};
     }
-    return write_file((to / ".vagus" / kMark).string(), id + "\n");
+    return write_file_unsynced((to / ".vagus" / kMark).string(), id + "\n");
 }
 
 bool Library::is_untouched(const std::string& id, const fs::path& copy) const {
@@ -230,7 +234,7 @@ Result<std::string> Library::make_project(const std::string& name, const std::st
                                           bool plan) {
     const fs::path folder = TRY(new_folder(name));
     for (const NewFile& file : new_project_files(name, robot, plan, places_.examples.string())) {
-        TRY(write_file((folder / file.path).string(), file.text));
+        TRY(write_file_unsynced((folder / file.path).string(), file.text));
     }
     return folder.string();
 }
@@ -249,11 +253,11 @@ Result<std::string> Library::make_robot_project(const std::string& target) {
         }
         const fs::path folder = TRY(new_folder(name));
         for (const NewFile& file : robot_project_files(target)) {
-            TRY(write_file((folder / file.path).string(), file.text));
+            TRY(write_file_unsynced((folder / file.path).string(), file.text));
         }
         std::error_code made;
         fs::create_directories(folder / ".vagus", made);
-        TRY(write_file((folder / ".vagus" / kRobotMark).string(), target + "\n"));
+        TRY(write_file_unsynced((folder / ".vagus" / kRobotMark).string(), target + "\n"));
         return folder.string();
     }
     return Error{Code::Limit, "there are too many robot projects; delete some"};
@@ -266,14 +270,30 @@ bool Library::is_robot_project(const fs::path& folder) const {
 
 // ---- recent ----
 
-Json Library::recent() const {
+// Whatever the file holds: what does not fit was not written by us and is passed over.
+Json Library::kept_recent() const {
+    const Json kept = recent_.get("recent");
     Json list = Json::array();
+    for (const Json& entry : kept.is_array() ? kept : Json::array()) {
+        const auto is = [&entry](const char* key, bool (Json::*kind)() const noexcept) {
+            return entry.contains(key) && (entry[key].*kind)();
+        };
+        const bool whole = entry.is_object() && is("path", &Json::is_string) &&
+                           is("name", &Json::is_string) && is("when_wall", &Json::is_number);
+        if (!whole || list.size() >= kRecentMax) continue;
+        const std::string& path = entry["path"].get_ref<const std::string&>();
+        const std::string& name = entry["name"].get_ref<const std::string&>();
+        if (path.size() > kRecentPathBytesMax || name.size() > kRecentNameBytesMax) continue;
+        list.push_back({{"path", path}, {"name", name}, {"when_wall", entry["when_wall"]}});
+    }
+    return list;
+}
+
+Json Library::recent() const {
+    Json list = kept_recent();
     std::error_code failed;
-    for (Json entry : recent_.get("recent").is_array() ? recent_.get("recent") : Json::array()) {
-        if (!entry.is_object() || list.size() >= kRecentMax) continue;
-        const std::string path = entry.value("path", "");
-        entry["there"] = fs::exists(path, failed);
-        list.push_back(std::move(entry));
+    for (Json& entry : list) {
+        entry["there"] = fs::exists(entry["path"].get<std::string>(), failed);
     }
     return list;
 }
@@ -281,7 +301,7 @@ Json Library::recent() const {
 void Library::opened(const std::string& path, const std::string& name, double now_wall) {
     forget(path);
     Json list = Json::array({Json{{"path", path}, {"name", name}, {"when_wall", now_wall}}});
-    for (Json& entry : recent_.get("recent")) {
+    for (const Json& entry : kept_recent()) {
         if (list.size() < kRecentMax) list.push_back(entry);
     }
     // What was opened is no reason to fail.
@@ -290,9 +310,8 @@ void Library::opened(const std::string& path, const std::string& name, double no
 
 void Library::forget(const std::string& path) {
     Json list = Json::array();
-    const Json before = recent_.get("recent");
-    for (const Json& entry : before) {
-        if (entry.is_object() && entry.value("path", "") != path) list.push_back(entry);
+    for (const Json& entry : kept_recent()) {
+        if (entry["path"] != path) list.push_back(entry);
     }
     (void)recent_.put("recent", std::move(list)).ok();
 }

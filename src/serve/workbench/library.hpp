@@ -15,6 +15,8 @@
 namespace vagus::serve {
 
 constexpr size_t kRecentMax = 20;
+constexpr size_t kRecentPathBytesMax = 1024;
+constexpr size_t kRecentNameBytesMax = 200;
 constexpr size_t kCopiesMax = 1000;  // of one name
 
 struct LibraryPlaces {
@@ -61,6 +63,8 @@ private:
     std::vector<std::filesystem::path> files_of_example(const std::string& id) const;
 
     LibraryPlaces places_;
+    Json kept_recent() const;
+
     Kept recent_;
 };
 

@@ -1,4 +1,5 @@
 // What a person opens, and what stands in the user's own folder.
+#include "base/test_folder.hpp"
 #include "serve/workbench/library.hpp"
 
 #include <gtest/gtest.h>
@@ -23,20 +24,12 @@ namespace fs = std::filesystem;
 namespace {
 
 struct LibraryTest : testing::Test {
-    LibraryTest()
-        : data(fs::canonical(testing::TempDir()) /
-               ("library-" + std::to_string(::getpid()) + "-" +
-                testing::UnitTest::GetInstance()->current_test_info()->name())) {
-        fs::remove_all(data);
-        fs::create_directories(data);
-    }
-    ~LibraryTest() override { fs::remove_all(data); }
     Library library() const { return Library({data, test::examples()}); }
     static void write(const fs::path& file, std::string_view text) {
         fs::create_directories(file.parent_path());
         std::ofstream(file) << text;
     }
-    const fs::path data;
+    const test::Folder data;
 };
 
 TEST_F(LibraryTest, ExamplesThatRunInTheSimulatorStandInTheirOrder) {
@@ -215,6 +208,49 @@ TEST_F(LibraryTest, WhatIsNoJsonObjectCountsAsEmpty) {
     for (const char* text : {"", "{", "[1]", "nonsense", "{\"a\":1}x"}) {
         write(data / "kept.json", text);
         EXPECT_TRUE(Kept((data / "kept.json").string()).values().empty()) << text;
+    }
+}
+
+TEST_F(LibraryTest, WhatNestsTooDeepWasNotWrittenByUs) {
+    const auto nested = [](size_t deep) {
+        return "{\"a\":" + std::string(deep - 1, '[') + std::string(deep - 1, ']') + "}";
+    };
+    const std::string file = (data / "kept.json").string();
+    write(file, nested(kKeptDepthMax));
+    EXPECT_FALSE(Kept(file).values().empty());
+    write(file, nested(kKeptDepthMax + 1));
+    EXPECT_TRUE(Kept(file).values().empty());
+    write(file, nested(400'000));
+    EXPECT_TRUE(Kept(file).values().empty());
+}
+
+TEST_F(LibraryTest, AnObjectOfAnotherKindIsAnEmptyOne) {
+    for (const char* value : {"null", "1", "\"x\"", "[1]", "[]"}) {
+        write(data / "kept.json", std::string("{\"window\":") + value + "}");
+        EXPECT_EQ(Kept((data / "kept.json").string()).object("window"), nlohmann::json::object());
+    }
+}
+
+TEST_F(LibraryTest, OddEntriesOfTheRecentOnesArePassedOver) {
+    const std::string good = R"({"path":"/a","name":"a","when_wall":1})";
+    for (const char* odd :
+         {"null", "1", "[]", "{}", R"({"path":1,"name":"a","when_wall":1})",
+          R"({"path":"/b","name":{},"when_wall":1})", R"({"path":"/b","name":"b"})",
+          R"({"path":"/b","name":"b","when_wall":"now"})"}) {
+        write(data / "recent.json", std::string("{\"recent\":[") + odd + "," + good + "]}");
+        Library library({data, data / "examples"});
+        EXPECT_EQ(library.recent().size(), 1u) << odd;
+        library.opened("/c", "c", 2);
+        library.forget("/a");
+        ASSERT_EQ(library.recent().size(), 1u) << odd;
+        EXPECT_EQ(library.recent()[0]["path"], "/c");
+    }
+    for (const char* list : {"null", "{}", "7", "\"x\"", "{\"a\":[]}"}) {
+        write(data / "recent.json", std::string("{\"recent\":") + list + "}");
+        Library library({data, data / "examples"});
+        EXPECT_EQ(library.recent().size(), 0u) << list;
+        library.opened("/c", "c", 2);
+        EXPECT_EQ(library.recent().size(), 1u) << list;
     }
 }
 

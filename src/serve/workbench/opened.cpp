@@ -46,6 +46,8 @@ Result<OpenedProject> open_folder(const fs::path& folder) {
     for (const std::string& one : project.toolboxes) opened.toolboxes.push_back(inside(one));
     opened.target = project.target;
     opened.start_set = project.start_set;
+    opened.stops_alone = project.stops_alone;
+    opened.safe_stop = project.safe_stop;
     return opened;
 }
 

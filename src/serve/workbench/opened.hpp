@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "session/safe_stop.hpp"
 
 namespace vagus::serve {
 
@@ -26,6 +27,8 @@ struct OpenedProject {
     std::string plan, world, project_file;
     std::vector<std::string> scripts, toolboxes;
     std::string target = "sim";
+    bool stops_alone = false;     // when the last page is closed
+    session::SafeStop safe_stop;  // what its file says of nodes
     std::vector<std::pair<std::string, std::string>> start_set;
     std::string copy_of;  // an example
 

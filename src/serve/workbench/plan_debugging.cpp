@@ -40,7 +40,7 @@ Json place(const aesl::Position& at) {
 }  // namespace
 
 // Before a run and during it the host has the same list.
-Json Workbench::plan_breakpoint_orders() const {
+std::vector<talk::Breakpoint> Workbench::plan_breakpoint_orders() const {
     return plan_breakpoints_.orders(
         [this](const std::string& doc) { return project_ ? project_->real(doc) : doc; });
 }
@@ -48,7 +48,7 @@ Json Workbench::plan_breakpoint_orders() const {
 void Workbench::plan_breakpoints_changed() {
     desk_.board().touch("breakpoints");
     keep_breakpoints();
-    run_.tell({{"do", "plan.breakpoints"}, {"list", plan_breakpoint_orders()}});
+    run_.set_breakpoints(plan_breakpoint_orders());
 }
 
 void Workbench::set_plan_breakpoint(const Call& call) {
@@ -105,25 +105,19 @@ void Workbench::step_into_script(const Call& call) {
                          "no script of the project handles the events by which this works on a "
                          "node; write onevent with one of their names");
     }
-    if (into_) into_->call.fail("conflict", "another step into a script was asked for");
     robot_.place_breakpoints();
-    into_.emplace(Into{call, spots, now_ + kIntoWithin});
+    const life::CallNumber number = keep(call);
+    results_[number] = {{"spots", spots}};
+    tell_life(life::StepInto{number});
+    live();
 }
 
-void Workbench::go_into_script() {
-    if (!into_ || (breakpoints_.waits_for_once() && now_ < into_->until)) return;
-    const Into into = std::move(*into_);
-    into_.reset();
-    run_.go_on();
-    into.call.done({{"spots", into.spots}});
-}
-
-// The three acts on events that wait while the plan stands, by the names that the run host knows.
+// The three acts on events that wait while the plan stands.
 void Workbench::declare_held_commands() {
-    for (const auto& [name, act] : {std::pair("plan.held.go", "go"),
-                                    {"plan.held.step", "step"},
-                                    {"plan.held.drop", "drop"}}) {
-        desk_.command(name, [this, what = std::string(act)](const Call& call) {
+    for (const auto& [name, act] : {std::pair("plan.held.go", talk::HeldAct::Go),
+                                    {"plan.held.step", talk::HeldAct::Step},
+                                    {"plan.held.drop", talk::HeldAct::Drop}}) {
+        desk_.command(name, [this, what = act](const Call& call) {
             if (!run_.plan_runs()) return call.fail("unavailable", "no plan runs");
             std::optional<uint64_t> number;
             if (call.in.contains("number")) number = static_cast<uint64_t>(call.in["number"]);

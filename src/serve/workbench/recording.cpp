@@ -13,6 +13,7 @@ void Workbench::record_history() {
     history_.set_doc_of(
         [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
     run_.on_told({
+        .plan = [this](const talk::PlanVersion& one) { history_.plan(one.number, one.plans); },
         .trace = [this](const std::string& line) { history_.trace(line); },
         .records = [this](const std::string& bytes) { history_.records(bytes); },
     });
@@ -37,14 +38,12 @@ void Workbench::record_history() {
 void Workbench::record_plan(const RunOrder& order) {
     History::Beginning beginning{.name = order.plan.empty() ? order.world : order.plan};
     beginning.name = beginning.name.substr(beginning.name.rfind('/') + 1);
-    if (!order.plan.empty()) beginning.plans = read_plans(order.plan);
     history_.begin(std::move(beginning));
 }
 
-void Workbench::record_bus(const std::string& plan) {
+void Workbench::record_bus() {
     history_since_ = now_;
     History::Beginning beginning{.kind = "bus", .name = project_ ? project_->target : ""};
-    if (!plan.empty()) beginning.plans = read_plans(plan);
     history_.forget();
     history_.begin(std::move(beginning));
 }

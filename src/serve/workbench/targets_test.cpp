@@ -1,4 +1,5 @@
 // Finding targets, from what the system shows of them.
+#include "base/test_folder.hpp"
 #include "serve/workbench/targets.hpp"
 
 #include <gtest/gtest.h>
@@ -13,19 +14,14 @@ namespace fs = std::filesystem;
 namespace {
 
 struct TargetsTest : testing::Test {
-    TargetsTest()
-        : folder(fs::canonical(testing::TempDir()) /
-                 ("targets-" + std::to_string(::getpid()) + "-" +
-                  testing::UnitTest::GetInstance()->current_test_info()->name())) {
-        fs::remove_all(folder);
+    TargetsTest() {
         fs::create_directories(folder / "dev");
         fs::create_directories(folder / "by-id");
     }
-    ~TargetsTest() override { fs::remove_all(folder); }
     void write(const char* name, std::string_view text) const {
         std::ofstream(folder / name) << text;
     }
-    const fs::path folder;
+    const vagus::test::Folder folder;
 };
 
 TEST_F(TargetsTest, SerialDevicesHaveTheNamesOfTheirMakers) {

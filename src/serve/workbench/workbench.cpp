@@ -25,13 +25,15 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
       desk_(desk),
       places_(places),
       library_(places.library),
-      settings_(places.settings),
+      settings_(places.settings, &kept_on_disk_),
       scripts_(files_,
                [this](const std::string& name, uint16_t id) { return target_of(name, id); }),
-      editing_(desk, files_, scripts_),
+      editing_(desk, files_, scripts_, desk.epoch()),
       robot_(desk, files_, scripts_, breakpoints_),
-      run_(desk, places.program),
-      history_(desk, files_) {
+      run_(desk, start_run_host(places.program)),
+      worker_([&network] { network.wake(); }),
+      history_(desk, files_, worker_.poster()) {
+    files_.on_wake([&network] { network.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
         say(kind, with_short_paths(text));
     };
@@ -53,11 +55,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
         .robot_of = [this](uint16_t node) { return run_.robot_of(node); },
         .plan_hears = [this](const std::string& event) { return run_.plan_hears(event); },
         .load = [this] { return run_.load(); },
-        .stopped_at_breakpoint =
-            [this] {
-                ++stops_;
-                if (simulates()) run_.pause();
-            },
+        .stopped_at_breakpoint = [this] { tell_life(life::Halted{}); },
         .time = [this] { return clock(); },
         .loaded_already =
             [this](uint16_t node) {
@@ -69,14 +67,12 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     run_.set_doc_of(
         [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
     run_.set_short([this](const std::string& text) { return with_short_paths(text); });
-    run_.on_opened([this] { world_opened(); });
-    run_.on_failed([this](const std::string& why) { world_failed(with_short_paths(why)); });
-    run_.on_plan_died([this] { plan_died(); });
-    run_.on_breakpoints([this](const Json& list) {
+    hear_run();
+    run_.on_breakpoints([this](const Run::BreakpointsNow& list) {
         if (plan_breakpoints_.note(list)) desk_.board().touch("breakpoints");
     });
     record_history();
-    desk.on_people([this] { desk_.board().touch("studio"); });
+    desk.on_people([this] { people_changed(); });
     declare_topics();
     declare_project_commands();
     declare_kept_commands();
@@ -109,12 +105,13 @@ void Workbench::declare_topics() {
     });
     board.document("targets", [this](const Json&) { return targets_.document(); });
     board.document("state", [this](const Json&) {
-        return Json{{"values", state_.values().value("window", Json::object())}};
+        return Json{{"values", state_.object("window")}};
     });
     board.document("breakpoints", [this](const Json&) {
         return Json{{"breakpoints", robot_.breakpoints_list()},
                     {"plans", plan_breakpoints_.list()}};
     });
+    board.document("end", [this](const Json&) { return ends_.document(); });
     board.stream("console", Protocol::get().limit("lines_kept"));
 }
 
@@ -130,23 +127,28 @@ Json Workbench::studio_document() const {
 // ---- what is open ----
 
 void Workbench::declare_project_commands() {
-    const auto answer = [this](const Call& call, const Status& done) {
-        if (!done.ok()) return call.fail(done.error());
-        call.done({{"path", project_->folder}});
+    const auto open_for = [this](const Call& call, const Result<std::string>& path) {
+        if (!path.ok()) return call.fail(path.error());
+        const Status opened = open(path.value(), now_, [this, call] {
+            if (!project_) return call.fail("unavailable", "the project was closed meanwhile");
+            call.done({{"path", project_->folder}});
+        });
+        if (!opened.ok()) call.fail(opened.error());
     };
-    desk_.command("project.example", [this, answer](const Call& call) {
-        const auto copy = library_.copy_of_example(call.in["id"]);
-        answer(call, copy.ok() ? open(copy.value(), now_) : Status(copy.error()));
+    desk_.command("project.example", [this, open_for](const Call& call) {
+        open_for(call, library_.copy_of_example(call.in["id"]));
     });
-    desk_.command("project.open",
-                  [this, answer](const Call& call) { answer(call, open(call.in["path"], now_)); });
-    desk_.command("project.new", [this, answer](const Call& call) {
-        const auto made = library_.make_project(call.in["name"], call.in["robot"], call.in["plan"]);
-        answer(call, made.ok() ? open(made.value(), now_) : Status(made.error()));
+    desk_.command("project.open", [open_for](const Call& call) {
+        open_for(call, Result<std::string>(call.in["path"].get<std::string>()));
+    });
+    desk_.command("project.new", [this, open_for](const Call& call) {
+        open_for(call, library_.make_project(call.in["name"], call.in["robot"], call.in["plan"]));
     });
     desk_.command("project.close", [this](const Call& call) {
-        close();
-        call.done();
+        leave({who_asks(call), life::Why::Project}, [this, call] {
+            forget_project();
+            call.done();
+        });
     });
     desk_.command("project.forget", [this](const Call& call) {
         library_.forget(call.in["path"]);
@@ -173,13 +175,14 @@ void Workbench::declare_project_commands() {
 Json Workbench::list_folder(const std::string& path) const {
     Json entries = Json::array();
     std::error_code failed;
-    for (const auto& entry :
-         fs::directory_iterator(path, fs::directory_options::skip_permission_denied, failed)) {
-        const std::string name = entry.path().filename().string();
+    for (const FolderEntry& entry : entries_of(path, failed)) {
+        const std::string& name = entry.name;
         if (entries.size() >= kEntriesMax) break;
-        if (name.starts_with(".") || name.size() > 500) continue;
-        if (entry.is_directory(failed)) {
-            const bool project = fs::exists(entry.path() / "vagus.json", failed);
+        if (entry.failed || name.starts_with(".") || name.size() > 500) continue;
+        const bool folder =
+            entry.is == FolderEntry::Is::Folder || entry.is == FolderEntry::Is::LinkToFolder;
+        if (folder) {
+            const bool project = fs::exists(fs::path(path) / name / "vagus.json", failed);
             entries.push_back({{"name", name}, {"kind", project ? "project" : "folder"}});
             continue;
         }
@@ -201,11 +204,15 @@ Json Workbench::list_folder(const std::string& path) const {
             {"entries", std::move(entries)}};
 }
 
-Status Workbench::open(const std::string& path, Time now) {
+Status Workbench::open(const std::string& path, Time now, std::function<void()> then) {
     now_ = now;
     OpenedProject project = TRY(open_path(path));
-    close();
-    enter(std::move(project));
+    leave({"the server", life::Why::Project},
+          [this, project = std::move(project), then = std::move(then)] {
+              forget_project();
+              enter(project);
+              then();
+          });
     return Status::done();
 }
 
@@ -220,10 +227,12 @@ void Workbench::enter(OpenedProject project) {
     files_.enter(project_->root, project_->only);
     scripts_.prefer(project_->scripts);
     scripts_.reread();
-    state_ = Kept((project_->root / ".vagus" / "state.json").string());
+    state_ = Kept((project_->root / ".vagus" / "state.json").string(), &kept_on_disk_);
     breakpoints_.from_json(state_.get("breakpoints"));
+    robot_.follow_breakpoints();
     plan_breakpoints_.from_json(state_.get("plan_breakpoints"));
     editing_.set_project(edited_project());
+    take_safe_stop();
     library_.opened(project_->file, project_->name, desk_.wall_ms());
     for (const std::string& path : files_.recovered()) {
         say("warning", path + ": this text was not saved when the studio ended; here it is again");
@@ -233,7 +242,7 @@ void Workbench::enter(OpenedProject project) {
     const bool nothing =
         project_->target.empty() || (project_->target == "sim" && project_->world.empty());
     if (nothing) return;
-    const Status chosen = choose_target(project_->target);
+    const Status chosen = join_target(project_->target);
     if (!chosen.ok()) say("error", chosen.error().what);
 }
 
@@ -246,7 +255,11 @@ EditedProject Workbench::edited_project() const {
 }
 
 void Workbench::close() {
-    leave_target();
+    perform(life::Disconnect{});
+    forget_project();
+}
+
+void Workbench::forget_project() {
     history_.forget();
     files_.leave();
     scripts_.reread();
@@ -260,6 +273,15 @@ void Workbench::close() {
     }
 }
 
+// What makes its nodes safe. A toolbox file that cannot be read is told where it is used.
+void Workbench::take_safe_stop() {
+    std::vector<std::string> toolboxes;
+    for (const std::string& one : project_->toolboxes) toolboxes.push_back(project_->real(one));
+    auto safe = session::safe_stop_of(toolboxes, project_->safe_stop);
+    if (!safe.ok()) safe = session::safe_stop_of({}, project_->safe_stop);
+    if (safe.ok()) robot_.set_safe_stop(std::move(safe.value()));
+}
+
 // Its plan, world and scripts may be others now; the target stays until someone chooses another.
 void Workbench::project_file_changed() {
     auto read = open_path(project_->folder);
@@ -269,6 +291,7 @@ void Workbench::project_file_changed() {
     project_ = std::move(read.value());
     scripts_.prefer(project_->scripts);
     editing_.set_project(edited_project());
+    take_safe_stop();
     desk_.board().touch("studio");
 }
 
@@ -290,7 +313,7 @@ Result<std::string> Workbench::add_script(uint16_t node) {
         TRY(files_.make(file, new_scripts_file()));
     }
     const aesl::ProjectText text(TRY(files_.text(file)));
-    (void)TRY(files_.replace(file, text.add_script(name, node), 0));
+    (void)TRY(files_.replace(file, text.add_script(name, node), "server"));
     TRY(files_.save(file));
     return fmt::format("{}#{}", file, text.scripts() + 1);
 }
@@ -327,7 +350,7 @@ void Workbench::declare_kept_commands() {
         if (!project_) {
             return call.fail("unavailable", "no project is open; open one first");
         }
-        Json window = state_.values().value("window", Json::object());
+        Json window = state_.object("window");
         window[call.in["key"].get<std::string>()] = call.in["value"];
         const Status kept = state_.put("window", std::move(window));
         desk_.board().touch("state");
@@ -352,14 +375,13 @@ void Workbench::hear(const net::Event& event) {
 void Workbench::tick(Time now) {
     now_ = now;
     run_.tick(now);
+    live();
     watch_run();
     robot_.tick(now);
     if (run_.is_open() || bus_) history_.tick(history_clock());
     add_missing_scripts();
-    get_nodes_ready();
-    go_into_script();
-    stop_nodes();
-    rest();
+    tick_life();
+    worker_.tick();
     editing_.tick(now);
     change_plan();
     if (desk_.board().watched("targets") && targets_.look(now)) desk_.board().touch("targets");
@@ -377,8 +399,9 @@ void Workbench::watch_run() {
 Time Workbench::next_tick(Time now) const {
     Time next = std::min({run_.next_tick(), robot_.next_tick(), editing_.next_tick()});
     if (desk_.board().watched("targets")) next = std::min(next, now + kLookEvery);
-    if (opening_ || into_ || nodes_stop_at_ || rest_at_) next = std::min(next, now + 20ms);
-    return next;
+    if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
+    if (!told_life_.empty()) return now;
+    return std::min(next, life_.next_tick());
 }
 
 }  // namespace vagus::serve

@@ -10,14 +10,18 @@
 //     }
 #pragma once
 
+#include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "net/network.hpp"
 #include "serve/edit/editing.hpp"
+#include "serve/life/life.hpp"
 #include "serve/project/files.hpp"
 #include "serve/robot/breakpoints.hpp"
 #include "serve/robot/bus_carrier.hpp"
@@ -30,14 +34,13 @@
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
 #include "serve/workbench/opened.hpp"
+#include "serve/workbench/run_ends.hpp"
 #include "serve/workbench/targets.hpp"
+#include "serve/worker.hpp"
 
 namespace vagus::serve {
 
-// A run waits so long for the nodes of its world to describe themselves.
-constexpr Duration kDescribeWithin = 3s;
-constexpr Duration kIntoWithin = 1s;  // nodes get breakpoints; then a plan goes on without the rest
-constexpr int kStepMs = 10;           // of run.step, unless it says otherwise
+constexpr int kStepMs = 10;  // of run.step, unless it says otherwise
 
 struct WorkbenchPlaces {
     LibraryPlaces library;
@@ -58,6 +61,8 @@ struct Figures {
     RobotCounts robot = {};
     std::optional<double> bus_load = {};  // 0 to 1
     size_t clients = 0;
+    std::map<std::string, uint64_t> ends = {}, results = {};  // of runs: why; of their plans
+    size_t missing_stops = 0;  // nodes that the last end did not read back as stopped
 };
 
 class Workbench {
@@ -66,11 +71,13 @@ public:
     Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& places);
     ~Workbench();
 
-    // Opens what a path names, in place of what is open; what is unsaved there stays in its
-    // journal. The Error says what can be opened.
-    Status open(const std::string& path, Time now);
+    // Opens what a path names, in place of what is open, as soon as its robot has stopped; what is
+    // unsaved there stays in its journal. The Error says what can be opened.
+    Status open(
+        const std::string& path, Time now, std::function<void()> then = [] {});
     // The newest copy of an example, or a fresh one.
     Status open_example(const std::string& id, Time now);
+    // At once, the last act of a server.
     void close();
 
     void hear(const net::Event& event);
@@ -83,21 +90,29 @@ public:
     std::vector<std::string> missing_nodes() const;
     // What run.start and stop do. `done` gets why it does not run, or nothing.
     void start_run(std::function<void(const std::string& why)> done);
-    void stop_run(std::function<void()> done);
+    void stop_run(const life::Cause& cause, std::function<void()> done);
     // What a node of that name is: the one that is there, or one that is known.
     aesl::Target target_of(const std::string& name, uint16_t id) const;
+    // The same for another thread: of the nodes that are there now.
+    Scripts::TargetOf targets_now() const;
     Figures figures() const;
     // Each line of the console, too.
     void on_line(std::function<void(const std::string& kind, const std::string& text)> line) {
         line_ = std::move(line);
     }
+    // "its plan runs", "its plan is over: OK"; empty: it has none.
+    std::string how_plan_is() const;
     // Somebody has pressed Stop.
     void on_stop(std::function<void()> stopped) { stopped_ = std::move(stopped); }
     // The process of the run has died.
-    void on_death(std::function<void()> died) { run_.on_death(std::move(died)); }
+    void on_death(std::function<void()> died) { died_ = std::move(died); }
+    // A run has ended, however; once for each.
+    void on_end(std::function<void(const life::End& end)> ended) { ended_ = std::move(ended); }
 
-    // The nodes stand and the plan has ended, as far as a dying server can: its last act.
-    void stop_everything();
+    // If anything runs, or was sent that can move a node: the plan ends, and all nodes stop. Until
+    // that is over, or given up, is_stopping().
+    void end_by(const std::string& by, life::Why why);
+    bool is_stopping() const { return life_.is_stopping(); }
 
 private:
     // ---- workbench.cpp: what is open ----
@@ -105,7 +120,9 @@ private:
     void declare_project_commands();
     void declare_kept_commands();
     void enter(OpenedProject project);
+    void forget_project();
     void project_file_changed();
+    void take_safe_stop();
     EditedProject edited_project() const;
     void watch_run();
     void keep_breakpoints();
@@ -122,59 +139,75 @@ private:
     void declare_held_commands();
     void set_plan_breakpoint(const Call& call);
     void plan_breakpoints_changed();
-    Json plan_breakpoint_orders() const;
+    std::vector<talk::Breakpoint> plan_breakpoint_orders() const;
     Json handlers_of(const std::vector<std::string>& events);
     void step_into_script(const Call& call);
-    void go_into_script();
 
     // ---- recording.cpp: what the history is told ----
     void record_history();
     void record_plan(const RunOrder& order);
-    void record_bus(const std::string& plan);
+    void record_bus();
     double history_clock() const;
 
-    // ---- running.cpp: what runs ----
+    // ---- running.cpp: what people ask of a run ----
     void declare_run_commands();
     void declare_plan_commands();
     void declare_world_commands();
-    Status choose_target(const std::string& target);
-    void leave_target();
+    void leave(const life::Cause& cause, std::function<void()> then);
+    void choose_target(const Call& call);
+    Status join_target(const std::string& target);
     bool simulates() const { return run_.has_world(); }
-    // Opens the world, and the plan if there is one to run; it stands until its nodes are ready.
-    Status open_world(const std::string& plan, const Json& set, bool keep_poses, bool then_go);
     RunOrder order_of(const std::string& plan, const Json& set) const;
-    Status open_order(RunOrder order, bool keep_poses, bool then_go);
     bool world_has_changed() const;
-    void reopen_world();
     void world_saved(const std::string& path);
     void file_saved(const std::string& path);
     void change_plan();
     void check_change(const Call& call);
-    void world_opened();
-    void world_failed(const std::string& why);
     void start(const Call& call);
-    // `call` may say with which values, and from which actor.
-    void start_plan(const Call& call, const std::string& plan, bool go);
-    void start_plan_on_bus(const Call& call, RunOrder order, bool go);
-    void plan_joined_bus();
-    void plan_died();
-    void go_on(const Call& call);
-    void let_go(const Call& call);
-    void start_scripts(const Call& call);
-    void end_start();
-    void tell_failed_loads(const std::vector<std::string>& failed);
-    void give_up_start(const std::string& why);
+    void start_with(const Call& call, const std::string& plan, life::Start start);
+    void reset(const Call& call);
     void step(const Call& call);
-    void stop(const Call& call);
-    void stop_nodes();
-    void rest();
+    void stop(const Call& call, life::Cause cause);
     bool save_all(const Call& call);
-    void get_nodes_ready();
+    void people_changed();
+
+    // ---- living.cpp: the wires of its life ----
+    life::CallNumber keep(const Call& call);
+    std::string who_asks(const Call& call) const;
+    void tell_life(life::Input input);
+    void live();
+    void tick_life();
+    void watch_stop();
+    void hear_run();
+    Status open_plan(RunOrder order);
+    Status open_world(RunOrder order, bool keep_poses);
+    std::set<uint16_t> stop_events() const;
+    void perform(const life::Action& action);
+    void perform(const life::OpenHost& open);
+    void perform(const life::ConnectWorld&);
+    void perform(const life::LoadNodes& load);
+    void perform(const life::LetNodesGo& go);
+    void perform(const life::BeginRun&);
+    void perform(const life::ContinueRun&);
+    void perform(const life::StepPlan&);
+    void perform(const life::PauseRun&);
+    void perform(const life::RestRun&);
+    void perform(const life::PauseNodes& pause);
+    void perform(const life::CountStart&);
+    void perform(const life::EndPlan& end);
+    void perform(const life::StopNodes& stop);
+    void perform(const life::MakeSafe&);
+    void perform(const life::Disconnect&);
+    void perform(const life::GoOnLeaving& leaving);
+    void perform(const life::Answer& answer);
+    void perform(const life::AnswerStop& answer);
+    void perform(const life::Tell& told);
 
     net::Network& network_;
     Desk& desk_;
     WorkbenchPlaces places_;
     Library library_;
+    DiskSync kept_on_disk_;
     Kept settings_;
     Kept state_;  // of the project
 
@@ -185,6 +218,7 @@ private:
     Editing editing_;
     Robot robot_;
     Run run_;
+    Worker worker_;
     HistoryDesk history_;
     Time history_since_{};  // of a bus
     std::unique_ptr<BusCarrier> bus_;
@@ -193,36 +227,26 @@ private:
 
     std::function<void(const std::string&, const std::string&)> line_ = [](auto&, auto&) {};
     std::function<void()> stopped_ = [] {};
+    std::function<void()> died_ = [] {};
+    std::function<void(const life::End&)> ended_ = [](const life::End&) {};
 
     std::optional<OpenedProject> project_;
     Time now_{};
     uint64_t runs_ = 0;
     std::string failed_loads_;                        // of the start under way
     std::pair<int, uint64_t> watched_run_ = {-1, 0};  // descriptor, generation
-    // A world that opens, or a plan on a bus: what is done once its nodes are there.
-    struct Opening {
-        Time until{};
-        bool opened = false;
-        bool go = false;
-    };
-    std::optional<Opening> opening_;
-    std::optional<Call> opening_call_;  // answered then
-    // Counts what makes a start void: another one, Stop, another target. What was begun for it and
-    // finds another number lets nothing run any more.
-    uint64_t start_ = 0;
-    uint64_t begun_ = 0;  // its value at the latest start that was carried out
-    uint64_t stops_ = 0;  // nodes that came to a breakpoint
-    // The plan goes on once the nodes have the breakpoints of a step into a script.
-    struct Into {
-        Call call;
-        Json spots;
-        Time until{};
-    };
-    std::optional<Into> into_;
-    // Stop, under way.
-    std::optional<Time> nodes_stop_at_;
-    std::vector<Call> stop_calls_;
-    std::optional<Time> rest_at_;
+    Life life_;
+    std::deque<life::Input> told_life_;  // not taken yet
+    bool lives_ = false;                 // it is at work
+    bool send_at_once_ = false;
+    life::CallNumber calls_ = 0;
+    std::map<life::CallNumber, Call> waiting_;  // commands that it answers
+    std::map<life::CallNumber, RunOrder> orders_;
+    std::map<life::CallNumber, Json> results_;                   // of those that give one
+    std::map<life::CallNumber, std::function<void()>> leaving_;  // what is done then
+    RunEnds ends_;
+    uint64_t stop_number_ = 0;  // of the latest
+    size_t people_ = 0;
     std::vector<std::string> saved_plans_;             // the run is not told of them yet
     std::string opened_world_;                         // text of the world that stands there
     std::map<uint16_t, std::string> loaded_by_world_;  // source by node

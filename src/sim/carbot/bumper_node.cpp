@@ -7,7 +7,7 @@ namespace {
 
 #define VAGUS_VARIABLES "sim/carbot/bumper_variables.def"
 #include "sim/node_variables.inl"
-static_assert(sizeof(Layout) == 48 * kWord, "docs/carbot.md: 48 words are described");
+static_assert(sizeof(Layout) == 50 * kWord, "docs/carbot.md: 50 words are described");
 static_assert(sizeof(Layout::touch_sectors) == kSectors * kWord, "one word for each sector");
 
 enum Event : uint8_t { kTouch, kButton, kTickEvent };

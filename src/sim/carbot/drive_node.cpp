@@ -19,13 +19,14 @@ constexpr int kRateLimit = 1360;              // 0.1 deg/s
 
 #define VAGUS_VARIABLES "sim/carbot/drive_variables.def"
 #include "sim/node_variables.inl"
-static_assert(sizeof(Layout) == 47 * kWord, "docs/carbot.md: 47 words are described");
+static_assert(sizeof(Layout) == 49 * kWord, "docs/carbot.md: 49 words are described");
 
 enum Event : uint8_t { kArrived, kTurned, kHalted, kTickEvent };
-constexpr node::LocalEvent kEvents[] = {{"arrived", "A move or a curve is done, the wheels stand"},
-                                        {"turned", "A turn is done, the wheels stand"},
-                                        {"halted", "The wheels stand after a brake or a pause"},
-                                        {"tick", "Every 20 ms"}};
+constexpr node::LocalEvent kEvents[] = {
+    {"arrived", "A move or a curve is done, the wheels are at rest"},
+    {"turned", "A turn is done, the wheels are at rest"},
+    {"halted", "The wheels are at rest after a brake or a pause"},
+    {"tick", "Every 20 ms"}};
 
 Driver& driver_of(node::Node& node) {
     return *static_cast<Driver*>(Machine::robot_of(node));
@@ -51,6 +52,7 @@ void move(node::Node& node) {
     const int16_t speed = pop_word(node);
     driver_of(node).motion.move(metres(low, high),
                                 std::max(speed_of(speed, kSpeedLimit), 1.0) / kMetre);
+    driver_of(node).tell_command();
 }
 
 void turn(node::Node& node) {
@@ -58,6 +60,7 @@ void turn(node::Node& node) {
     const int16_t speed = pop_word(node);
     driver_of(node).motion.turn(angle / kTenths,
                                 std::max(speed_of(speed, kTurnLimit), 1.0) / kDegrees);
+    driver_of(node).tell_command();
 }
 
 void curve(node::Node& node) {
@@ -66,16 +69,19 @@ void curve(node::Node& node) {
     const int16_t speed = pop_word(node);
     driver_of(node).motion.curve(std::max<int>(radius, 1) / kMetre, angle / kTenths,
                                  speed_of(speed, kSpeedLimit) / kMetre);
+    driver_of(node).tell_command();
 }
 
 void steer(node::Node& node) {
     const int speed = std::clamp<int>(pop_word(node), -kSpeedLimit, kSpeedLimit);
     const int rate = std::clamp<int>(pop_word(node), -kRateLimit, kRateLimit);
     driver_of(node).motion.steer(speed / kMetre, rate / kTenths);
+    driver_of(node).tell_command();
 }
 
 void brake(node::Node& node) {
     driver_of(node).motion.brake();
+    driver_of(node).tell_command();
 }
 
 void pause(node::Node& node) {
@@ -134,8 +140,21 @@ int16_t word(double value) {
 }  // namespace
 
 DriveNode::DriveNode(uint16_t id, uint64_t seed)
-    : machine_(machine_of(kDescription, id, &driver_)), chassis_(seed) {
+    : machine_(machine_of(kDescription, id, &driver_,
+                          [](void* driver) { static_cast<Driver*>(driver)->cut(); })),
+      chassis_(seed) {
     machine_.variable(ADDRESS(id)) = static_cast<int16_t>(id);
+    driver_.command = &machine_.variable(ADDRESS(motion_kind));
+}
+
+void Driver::tell_command() const {
+    *command = static_cast<int16_t>(motion.kind());
+}
+
+void Driver::cut() {
+    if (!motion.cut()) return;
+    owes_halted = true;
+    tell_command();
 }
 
 Drive DriveNode::drive() {
@@ -145,11 +164,25 @@ Drive DriveNode::drive() {
 }
 
 void DriveNode::sense(const Surroundings& around) {
+    if (gate_.shuts(machine_, around)) driver_.cut();
     write_variables();
-    if (driver_.motion.take(Ending::Arrived)) machine_.raise(kArrived);
-    if (driver_.motion.take(Ending::Turned)) machine_.raise(kTurned);
-    if (driver_.motion.take(Ending::Halted)) machine_.raise(kHalted);
+    if (machine_.runs()) raise_endings();
     if (around.now % kTick == Duration::zero()) machine_.raise(kTickEvent);
+}
+
+// A program that does not run would miss them: they wait until it does. That the node has ended a
+// command is told when the wheels stand, or when they have another command before that; to the next
+// program if this one would not hear it, for it may be an empty one.
+void DriveNode::raise_endings() {
+    Motion& motion = driver_.motion;
+    if (motion.take(Ending::Arrived)) machine_.raise(kArrived);
+    if (motion.take(Ending::Turned)) machine_.raise(kTurned);
+    const bool stand = motion.take(Ending::Halted);
+    if (stand && !driver_.owes_halted) machine_.raise(kHalted);
+    if (!driver_.owes_halted || motion.state() == MotionState::Brakes) return;
+    if (!machine_.hears(kHalted)) return;
+    machine_.raise(kHalted);
+    driver_.owes_halted = false;
 }
 
 void DriveNode::write_variables() {

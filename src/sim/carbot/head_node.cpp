@@ -14,7 +14,7 @@ constexpr Point kLightPlace = {-0.08, 0};
 
 #define VAGUS_VARIABLES "sim/carbot/head_variables.def"
 #include "sim/node_variables.inl"
-static_assert(sizeof(Layout) == 40 * kWord, "docs/carbot.md: 40 words are described");
+static_assert(sizeof(Layout) == 42 * kWord, "docs/carbot.md: 42 words are described");
 
 enum Event : uint8_t { kInfrared, kColour, kTickEvent };
 constexpr node::LocalEvent kEvents[] = {{"infrared", "New values of the infrared sensor"},

@@ -112,6 +112,12 @@ void Motion::resume() {
     halting_ = false;
 }
 
+bool Motion::cut() {
+    if (kind_ == MotionKind::None) return false;
+    brake();
+    return true;
+}
+
 double Motion::left() const {
     return std::max(0.0, path_.left / path_.scale);
 }

@@ -31,6 +31,8 @@ public:
     void brake();
     void pause();   // keeps the command
     void resume();  // of a paused one
+    // As brake(), because whoever commands is gone. False, and nothing done, without a command.
+    bool cut();
 
     // One step of kArenaStep: where the wheels shall go, given how they stand.
     WheelPair step(const WheelPair& wheels);

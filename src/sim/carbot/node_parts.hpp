@@ -27,7 +27,10 @@ struct NodeTexts {
     std::span<const node::Native> natives;
 };
 
+// The last of the variables is `_program`.
 constexpr node::Description describe(const NodeTexts& texts) {
+    uint16_t words = 0;
+    for (const node::Variable& variable : texts.variables) words += variable.size;
     return {texts.name,
             wire::kProtocolVersion,
             node::LocalEventSource::OwnId,
@@ -36,18 +39,20 @@ constexpr node::Description describe(const NodeTexts& texts) {
             static_cast<uint16_t>(texts.events.size()),
             texts.events.data(),
             {{node::kStandardNatives, node::kStandardNativeCount},
-             {texts.natives.data(), static_cast<uint16_t>(texts.natives.size())}}};
+             {texts.natives.data(), static_cast<uint16_t>(texts.natives.size())}},
+            static_cast<uint16_t>(words - texts.variables.back().size)};
 }
 
-// `robot` is what the natives of the node get from Machine::robot_of().
-inline MachineDefinition machine_of(const node::Description& description, uint16_t id,
-                                    void* robot) {
+// `robot` is what the natives of the node get from Machine::robot_of(), and `broken_off`.
+inline MachineDefinition machine_of(const node::Description& description, uint16_t id, void* robot,
+                                    void (*broken_off)(void* robot) = nullptr) {
     return {.description = &description,
             .id = id,
             .bytecode_size = kBytecodeSize,
             .stack_size = kStackSize,
             .variables_size = kVariablesSize,
-            .robot = robot};
+            .robot = robot,
+            .broken_off = broken_off};
 }
 
 // The value of a native's parameter of one word, 0 after a fault; pops its address.

@@ -7,12 +7,13 @@ namespace {
 
 #define VAGUS_VARIABLES "sim/carbot/range_variables.def"
 #include "sim/node_variables.inl"
-static_assert(sizeof(Layout) == 37 * kWord, "docs/carbot.md: 37 words are described");
+static_assert(sizeof(Layout) == 39 * kWord, "docs/carbot.md: 39 words are described");
 
-enum Event : uint8_t { kReached, kEcho, kTickEvent };
+enum Event : uint8_t { kReached, kEcho, kTickEvent, kHalted };
 constexpr node::LocalEvent kEvents[] = {{"reached", "The rotator stands where it was told"},
                                         {"echo", "sonar.distance has a new value"},
-                                        {"tick", "Every 20 ms"}};
+                                        {"tick", "Every 20 ms"},
+                                        {"halted", "The node itself has stopped the rotator"}};
 
 Sonar& sonar_of(node::Node& node) {
     return *static_cast<Sonar*>(Machine::robot_of(node));
@@ -36,18 +37,27 @@ constexpr node::Description kDescription = describe({"range", kVariables, kEvent
 }  // namespace
 
 RangeNode::RangeNode(uint16_t id, uint64_t seed)
-    : sonar_(seed), machine_(machine_of(kDescription, id, &sonar_)) {
+    : sonar_(seed), machine_(machine_of(kDescription, id, &sonar_, [](void* sonar) {
+          static_cast<Sonar*>(sonar)->hold();
+      })) {
     machine_.variable(ADDRESS(id)) = static_cast<int16_t>(id);
 }
 
 void RangeNode::sense(const Surroundings& around, BodyId body) {
+    if (gate_.shuts(machine_, around)) sonar_.hold();
     sonar_.step(around.arena, body, around.now);
     machine_.variable(ADDRESS(rotator_angle)) = sonar_.angle();
     machine_.variable(ADDRESS(sonar_angle)) = sonar_.heard_angle();
     machine_.variable(ADDRESS(sonar_distance)) = sonar_.distance();
+    if (machine_.runs()) raise_endings();
+    if (around.now % kTick == Duration::zero()) machine_.raise(kTickEvent);
+}
+
+// A program that does not run would miss them: they wait until it does.
+void RangeNode::raise_endings() {
     if (sonar_.take_reached()) machine_.raise(kReached);
     if (sonar_.take_echo()) machine_.raise(kEcho);
-    if (around.now % kTick == Duration::zero()) machine_.raise(kTickEvent);
+    if (sonar_.take_halted()) machine_.raise(kHalted);
 }
 
 }  // namespace vagus::sim::carbot

@@ -1,6 +1,8 @@
-// The node `range` of a Carbot: an ultrasonic sensor on a rotator.
+// The node `range` of a Carbot: an ultrasonic sensor on a rotator, which obeys its program only
+// while that runs (sim/carbot/gate.hpp).
 #pragma once
 
+#include "sim/carbot/gate.hpp"
 #include "sim/carbot/sonar.hpp"
 #include "sim/machine.hpp"
 #include "sim/robot.hpp"
@@ -19,8 +21,11 @@ public:
     std::optional<Beam> look(const Pose& robot) const { return sonar_.look(robot); }
 
 private:
+    void raise_endings();
+
     Sonar sonar_;
     Machine machine_;
+    Gate gate_;
 };
 
 }  // namespace vagus::sim::carbot

@@ -69,6 +69,11 @@ void Sonar::turn(int16_t angle) {
     turning_ = true;
 }
 
+void Sonar::hold() {
+    halted_ = halted_ || turning_;
+    turning_ = false;
+}
+
 void Sonar::ping() {
     if (ping_ == Ping::None) ping_ = Ping::Asked;
 }
@@ -110,6 +115,10 @@ bool Sonar::take_reached() {
 
 bool Sonar::take_echo() {
     return std::exchange(echo_, false);
+}
+
+bool Sonar::take_halted() {
+    return std::exchange(halted_, false);
 }
 
 std::optional<Beam> Sonar::look(const Pose& robot) const {

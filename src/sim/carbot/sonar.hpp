@@ -38,6 +38,8 @@ public:
     void turn(int16_t angle);
     // Nothing while one is under way.
     void ping();
+    // Holds the rotator where it is. If it was on its way, take_halted() says so.
+    void hold();
 
     // One millisecond has passed.
     void step(const Arena& arena, BodyId body, Time now);
@@ -49,6 +51,7 @@ public:
     // Has it happened since it was last asked?
     bool take_reached();
     bool take_echo();
+    bool take_halted();
     // Where the last measurement went, for drawings; nothing before the first.
     std::optional<Beam> look(const Pose& robot) const;
 
@@ -66,6 +69,7 @@ private:
     int16_t target_ = 0;
     bool turning_ = false;
     bool reached_ = false;
+    bool halted_ = false;
     Ping ping_ = Ping::None;
     Heard next_;
     Time due_{};

@@ -73,7 +73,8 @@ node::Description describe(const char* name) {
             static_cast<uint16_t>(std::size(kEvents)),
             kEvents,
             {{node::kStandardNatives, node::kStandardNativeCount},
-             {kNatives, static_cast<uint16_t>(std::size(kNatives))}}};
+             {kNatives, static_cast<uint16_t>(std::size(kNatives))}},
+            0};
 }
 
 // "e-puckN" with N = id - 1, kept between 0 and 9 (docs/spec, 5.3).

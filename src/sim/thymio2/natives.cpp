@@ -140,6 +140,7 @@ const node::Description kDescription = {"thymio-II",
                                         static_cast<uint16_t>(std::size(kEvents)),
                                         kEvents,
                                         {{node::kStandardNatives, node::kStandardNativeCount},
-                                         {kNatives, static_cast<uint16_t>(std::size(kNatives))}}};
+                                         {kNatives, static_cast<uint16_t>(std::size(kNatives))}},
+                                        0};
 
 }  // namespace vagus::sim::thymio2

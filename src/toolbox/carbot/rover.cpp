@@ -58,7 +58,8 @@ Rover::Rover(run::ActorContext& context, const Parts& parts, Needs needs)
     : context_(context),
       talk_(context, parts, nodes_of(needs),
             {"range.measured", "range.done", "drive.odometry", "drive.stopped", "infrared.told",
-             "colour.told"}),
+             "colour.told"},
+            "drive.ended"),
       ranges_(needs == Needs::Range || needs == Needs::DriveAndRange) {}
 
 plan::BusUse Rover::bus_of(Needs needs) {

@@ -1,0 +1,194 @@
+// Files against the disk: what is saved, and what somebody else wrote there meanwhile.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "serve/project/files.hpp"
+#include "serve/project/merge.hpp"
+
+namespace vagus::serve {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Error conflict_of(const std::string& path) {
+    return {Code::Refused,
+            path +
+                ": the file changed on disk where the text has unsaved changes; compare the two, "
+                "keep one of them, then save"};
+}
+
+}  // namespace
+
+Status Files::save(const std::string& doc) {
+    const Place place = TRY(place_of(doc));
+    File* file = TRY(load(place.path));
+    look_at_disk(place.path, *file, Look::Closely);
+    if (file->conflict) return conflict_of(place.path);
+    if (!file->unsaved && !file->gone) return Status::done();
+    return write(place.path, *file);
+}
+
+Status Files::write(const std::string& path, File& file) {
+    const fs::path real_path = TRY(real(path));
+    std::error_code failed;
+    if (file.gone) fs::create_directories(real_path.parent_path(), failed);
+    std::string bytes = file.text.bytes();
+    TRY(write_file_unsynced(real_path.string(), bytes));
+    file.sync = sync_.post(real_path.string());
+    file.written = fs::last_write_time(real_path, failed);
+    file.size = bytes.size();
+    file.saved = std::move(bytes);
+    file.gone = false;
+    file.journal_due.reset();
+    file.unsaved = false;
+    std::erase(recovered_, path);
+    changed_(path);
+    return Status::done();
+}
+
+// The journal has what was saved until the disk has it: the old file may come back with a power
+// cut.
+void Files::hear_disk() {
+    const DiskSync::News news = sync_.take();
+    on_disk_ = news.done;
+    for (const DiskSync::Failure& failure : news.failures) trouble_ = failure.why;
+    for (auto& [path, file] : files_) {
+        if (file.sync == 0 || file.sync > on_disk_) continue;
+        const uint64_t number = std::exchange(file.sync, 0);
+        const bool failed = std::ranges::any_of(
+            news.failures, [&](const auto& one) { return one.number == number; });
+        if (!failed && !file.journal_due) write_journal(path, file);
+    }
+    while (!disk_waits_.empty() && disk_waits_.front().number <= on_disk_) {
+        const DiskWait wait = std::move(disk_waits_.front());
+        disk_waits_.erase(disk_waits_.begin());
+        const bool failed = !news.failures.empty();
+        wait.then(failed ? Status(Error{Code::Unavailable, news.failures.front().why})
+                         : Status::done());
+    }
+}
+
+void Files::when_on_disk(std::function<void(const Status&)> then) {
+    if (on_disk_ >= sync_.last()) return then(Status::done());
+    disk_waits_.push_back({sync_.last(), std::move(then)});
+}
+
+Status Files::save_all(std::vector<std::string>& saved) {
+    TRY(check_open());
+    std::vector<std::string> paths;
+    for (auto& [path, file] : files_) {
+        if (file.unsaved || file.conflict) paths.push_back(path);
+    }
+    std::string refused;
+    for (const std::string& path : paths) {
+        const Status done = save(path);
+        if (done.ok()) saved.push_back(path);
+        if (!done.ok()) refused += (refused.empty() ? "" : "; ") + done.error().what;
+    }
+    if (!refused.empty()) return Error{Code::Refused, refused};
+    return Status::done();
+}
+
+Status Files::revert(const std::string& doc, const std::string& by) {
+    const Place place = TRY(place_of(doc));
+    File* file = TRY(load(place.path));
+    look_at_disk(place.path, *file, Look::Closely);
+    if (file->conflict) {
+        if (!file->conflict->why_no_text.empty()) {
+            return Error{Code::BadInput, place.path + ": " + file->conflict->why_no_text};
+        }
+        file->saved = std::exchange(file->conflict, std::nullopt)->bytes;
+    }
+    file->text.take(file->saved, by);
+    std::erase(recovered_, place.path);
+    changed(place.path, *file);
+    return Status::done();
+}
+
+Status Files::keep_mine(const std::string& doc) {
+    const Place place = TRY(place_of(doc));
+    File* file = TRY(load(place.path));
+    if (file->conflict) file->saved = std::exchange(file->conflict, std::nullopt)->bytes;
+    changed(place.path, *file);
+    return Status::done();
+}
+
+Result<std::string> Files::disk_text(const std::string& doc) {
+    const Opened found = TRY(opened(doc));
+    if (!found.file->conflict) {
+        return Error{Code::NotFound, doc + ": the file on disk is the one that the text began as"};
+    }
+    const Conflict& conflict = *found.file->conflict;
+    if (!conflict.why_no_text.empty()) {
+        return Error{Code::BadInput, found.path + ": " + conflict.why_no_text};
+    }
+    const OpenText disk(found.path, conflict.bytes, 1);
+    if (disk.has(found.part)) return disk.text(found.part);
+    return Error{Code::NotFound,
+                 fmt::format("{}: the file on disk has {} scripts", doc, disk.scripts())};
+}
+
+bool Files::has_conflict(const std::string& doc) const {
+    const auto found = files_.find(doc.substr(0, doc.rfind('#')));
+    return found != files_.end() && found->second.conflict;
+}
+
+void Files::look_at_disk(const std::string& path, File& file, Look look) {
+    const Result<fs::path> real_path = real(path);
+    if (!real_path.ok()) return;
+    std::error_code failed;
+    const bool gone = !fs::is_regular_file(real_path.value(), failed);
+    const auto written = fs::last_write_time(real_path.value(), failed);
+    const uintmax_t size = gone ? 0 : fs::file_size(real_path.value(), failed);
+    const bool same = file.gone == gone && file.written == written && file.size == size;
+    if (look == Look::IfTouched && (same || (gone && file.gone))) return;
+    const bool came_or_went = std::exchange(file.gone, gone) != gone;
+    if (gone) {
+        // Nobody's text would be overwritten any more.
+        const bool was_conflict = std::exchange(file.conflict, std::nullopt).has_value();
+        if (came_or_went || was_conflict) changed_(path);
+        return;
+    }
+    file.written = written;
+    file.size = size;
+    Result<std::string> bytes = read_file(real_path.value().string());
+    const auto before = file.conflict;
+    bool taken = false;
+    if (bytes.ok()) {
+        taken = take_disk(file, std::move(bytes.value()));
+    } else {
+        file.conflict = Conflict{"", bytes.error().what};
+    }
+    if (taken) return changed(path, file);
+    if (came_or_went || file.conflict != before) changed_(path);
+}
+
+// The bytes of the file as somebody else may have written it. True: the text follows them.
+bool Files::take_disk(File& file, std::string bytes) const {
+    if (bytes == file.saved) {
+        file.conflict.reset();
+        return false;
+    }
+    const bool no_text = malformed_utf8_at(bytes).has_value();
+    if (no_text || bytes.size() > kTextBytesMax) {
+        const char* const why = no_text ? "the file on disk is no text in UTF-8 any more"
+                                        : "the file on disk is too long to be edited";
+        file.conflict = Conflict{std::move(bytes), why};
+        return false;
+    }
+    auto both = file.unsaved ? merged(file.saved, file.text.bytes(), bytes) : bytes;
+    if (!both || both->size() > kTextBytesMax) {
+        file.conflict = Conflict{std::move(bytes)};
+        return false;
+    }
+    file.text.take(*both, "disk");
+    file.saved = std::move(bytes);
+    file.conflict.reset();
+    return true;
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,89 @@
+#include "serve/project/merge.hpp"
+
+#include <algorithm>
+
+#include "serve/project/difference.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+using Lines = std::vector<std::string_view>;
+
+bool is_insertion(const LineDifference& one) {
+    return one.from == one.to;
+}
+
+bool same_place(const LineDifference& one, const LineDifference& other) {
+    if (is_insertion(one) && is_insertion(other)) return one.from == other.from;
+    if (is_insertion(one)) return other.from < one.from && one.from < other.to;
+    if (is_insertion(other)) return one.from < other.from && other.from < one.to;
+    return std::max(one.from, other.from) < std::min(one.to, other.to);
+}
+
+// What both did alike is no conflict.
+bool alike(const LineDifference& one, const Lines& its, const LineDifference& other,
+           const Lines& others) {
+    if (one.from != other.from || one.to != other.to) return false;
+    return std::equal(its.begin() + static_cast<long>(one.at),
+                      its.begin() + static_cast<long>(one.end),
+                      others.begin() + static_cast<long>(other.at),
+                      others.begin() + static_cast<long>(other.end));
+}
+
+class Merge {
+public:
+    Merge(std::string_view base, std::string_view mine, std::string_view theirs)
+        : base_(lines_of(base)), mine_(lines_of(mine)), theirs_(lines_of(theirs)) {}
+
+    std::optional<std::string> run() {
+        const auto my = line_differences(base_, mine_);
+        const auto their = line_differences(base_, theirs_);
+        size_t i = 0;
+        size_t j = 0;
+        while (i < my.size() || j < their.size()) {
+            const bool both = i < my.size() && j < their.size();
+            if (both && alike(my[i], mine_, their[j], theirs_)) {
+                ++j;
+                continue;
+            }
+            if (both && same_place(my[i], their[j])) return std::nullopt;
+            const bool take_mine = j >= their.size() || (both && comes_first(my[i], their[j]));
+            if (take_mine) {
+                take(my[i++], mine_);
+            } else {
+                take(their[j++], theirs_);
+            }
+        }
+        copy_base(base_.size());
+        return std::move(result_);
+    }
+
+private:
+    static bool comes_first(const LineDifference& one, const LineDifference& other) {
+        return std::pair(one.from, one.to) < std::pair(other.from, other.to);
+    }
+    void copy_base(size_t to) {
+        for (; at_ < to; ++at_) result_ += base_[at_];
+    }
+    void take(const LineDifference& one, const Lines& lines) {
+        copy_base(one.from);
+        for (size_t i = one.at; i < one.end; ++i) result_ += lines[i];
+        at_ = one.to;
+    }
+
+    Lines base_, mine_, theirs_;
+    std::string result_;
+    size_t at_ = 0;  // line of the base that comes next
+};
+
+}  // namespace
+
+std::optional<std::string> merged(std::string_view base, std::string_view mine,
+                                  std::string_view theirs) {
+    if (mine == base) return std::string(theirs);
+    if (theirs == base || theirs == mine) return std::string(mine);
+    return Merge(base, mine, theirs).run();
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,96 @@
+// A live robot brakes as a whole: where one node stands, is lost or gets another program, a reflex
+// is missing. The nodes that move are paused and made safe; those that only sense go on, so that
+// one can look at them. What they did before is not taken up by itself: Run lets exactly those run
+// that were paused here.
+//
+// A world whose clock stops with a breakpoint needs none of this.
+#include <algorithm>
+
+#include "serve/robot/robot.hpp"
+
+namespace vagus::serve {
+
+// The safe stop names it.
+bool Robot::moves(uint16_t node) const {
+    return safe_stop_.contains(described_name(node));
+}
+
+void Robot::make_safe(uint16_t node) {
+    const auto found = safe_stop_.find(described_name(node));
+    if (found == safe_stop_.end()) return;
+    for (const auto& [name, values] : found->second.set) {
+        const auto range = network_->variable(node, name);
+        if (range.ok()) (void)network_->write(node, range.value(), values).ok();
+    }
+}
+
+void Robot::make_safe() {
+    if (!network_) return;
+    resting_.begin(*network_, safe_stop_, session::Stopping::How::Rest, now_);
+    rest_until_ = now_ + kRestWithin;
+}
+
+// A host that has only looked so far does not interfere.
+void Robot::brake(uint16_t cause) {
+    if (!live() || !in_charge_) return;
+    braked_.erase(cause);
+    brake_causes_.insert(cause);
+    for (const uint16_t node : live_nodes()) {
+        if (!moves(node)) continue;
+        if (node != cause) brake_one(node);
+        make_safe(node);
+    }
+    desk_.board().touch("robot");
+}
+
+// One that is being loaded is paused behind that: half a program helps nobody.
+void Robot::brake_one(uint16_t node) {
+    if (brake_causes_.contains(node) || braked_.contains(node)) return;
+    Known& known = known_[node];
+    const bool starting = known.busy == "starting";
+    const bool loading = known.busy == "loading";
+    const bool running = network_->node(node)->state == debug::ProgramState::Running;
+    if (!starting && !loading && !running) return;
+    braked_.insert(node);
+    known.why = "robot";
+    if (loading) {
+        const auto asked = network_->pause(node);
+        if (asked.ok()) known.braking = asked.value();
+    } else {
+        known.braking = network_->pause_now(node);
+    }
+}
+
+// A node that moves gets its pause before everything else: what makes it safe is behind that, for
+// its script would write over it.
+Result<debug::RequestId> Robot::pause(uint16_t node) {
+    in_charge_ = true;
+    const bool now = live() && moves(node);
+    const auto at_once = now ? network_->pause_now(node) : std::nullopt;
+    auto asked = at_once ? Result<debug::RequestId>(*at_once) : network_->pause(node);
+    brake(node);
+    return asked;
+}
+
+Result<debug::RequestId> Robot::reset(uint16_t node) {
+    in_charge_ = true;
+    if (live() && moves(node)) (void)network_->stop_now(node);
+    auto asked = network_->reset(node);
+    brake(node);
+    return asked;
+}
+
+void Robot::release(uint16_t cause) {
+    if (brake_causes_.erase(cause) == 0 || !brake_causes_.empty()) return;
+    release_all();
+}
+
+void Robot::release_all() {
+    brake_causes_.clear();
+    for (const uint16_t node : std::exchange(braked_, {})) {
+        if (network_) (void)network_->run(node).ok();
+    }
+    desk_.board().touch("robot");
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,50 @@
+#include "serve/run/hand_order.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+namespace {
+
+talk::Point point_of(const Json& pair) {
+    return {pair[0], pair[1]};
+}
+
+HandOrder move_of(const Json& in) {
+    std::optional<double> angle;
+    if (in.contains("angle")) angle = in["angle"].get<double>();
+    if (in.contains("object")) return talk::MoveObject{0, in["object"], point_of(in["at"]), angle};
+    return talk::MoveRobot{0, in["robot"], point_of(in["at"]), angle};
+}
+
+talk::ObjectKind kind_of(const std::string& word) {
+    if (word == "wall") return talk::ObjectKind::Wall;
+    return word == "box" ? talk::ObjectKind::Box : talk::ObjectKind::Cylinder;
+}
+
+talk::PutObject put_of(const Json& in) {
+    talk::PutObject put;
+    put.kind = kind_of(in["kind"]);
+    put.at = point_of(in["at"]);
+    put.angle = in.value("angle", put.angle);
+    if (in.contains("size")) put.size = point_of(in["size"]);
+    put.radius = in.value("radius", put.radius);
+    return put;
+}
+
+}  // namespace
+
+HandOrder hand_order(const std::string& command, const Json& in) {
+    if (command == "world.move") return move_of(in);
+    if (command == "world.put") return put_of(in);
+    if (command == "world.take") return talk::TakeObject{0, in["object"]};
+    if (command == "world.light") return talk::SwitchLight{0, in["object"], in["on"]};
+    if (command == "world.press") {
+        return talk::PressButton{0, in["robot"], in["button"], in["down"]};
+    }
+    return talk::TapRobot{0, in["robot"]};
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,339 @@
+// The server's end of a run, with a process that says what the test says.
+#include "serve/run/run.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/socket.h>
+
+#include "serve/talk/codec.hpp"
+
+namespace vagus::serve {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+// Without a process behind it: the test holds the other end of its pipe.
+struct Scripted final : RunProcess {
+    Scripted(int descriptor, bool& its_killed, std::optional<ChildEnd>& its_end)
+        : own(descriptor), killed(its_killed), end(its_end) {}
+    Pipe& pipe() override { return own; }
+    std::optional<ChildEnd> ended() override { return end; }
+    void kill() override { killed = true; }
+    Pipe own;
+    bool& killed;
+    std::optional<ChildEnd>& end;
+};
+
+class RunTest : public testing::Test {
+protected:
+    RunTest() {
+        run.on_say([this](auto& kind, auto& text) { lines.push_back(kind + ": " + text); });
+        run.on_opened([this] { ++opened; });
+        run.on_failed([this](const std::string& why) { failures.push_back(why); });
+        run.on_death([this](const std::string& why) { deaths.push_back(why); });
+        run.on_plan_ended([this](const serve::Run::PlanEnd& one) { ends.push_back(one.result); });
+    }
+    Result<std::unique_ptr<RunProcess>> start() {
+        int pair[2];
+        EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
+        host.emplace(pair[1]);
+        end.reset();
+        return std::unique_ptr<RunProcess>(std::make_unique<Scripted>(pair[0], killed, end));
+    }
+    // Orders of a kind that the process got.
+    template <typename Order>
+    std::vector<Order> orders() {
+        std::vector<Order> found;
+        for (const Packet& packet : host->receive()) {
+            const auto order = talk::decode_order(packet);
+            EXPECT_TRUE(order.ok()) << (order.ok() ? "" : order.error().what);
+            const auto* one = order.ok() ? std::get_if<Order>(&order.value()) : nullptr;
+            if (one) found.push_back(*one);
+        }
+        return found;
+    }
+    void say(const talk::News& news) { say(talk::encode(news)); }
+    void say(const Packet& packet) {
+        ASSERT_TRUE(host->send(packet));
+        run.tick(now += 1ms);
+    }
+    void open() {
+        RunOrder order;
+        order.world = "hall.world.json";
+        order.plan = "Go.plan.json";
+        ASSERT_TRUE(run.open(order, now).ok());
+        run.tick(now);
+        number = orders<talk::Open>().at(0).order;
+    }
+    static talk::Opened opened_answer(uint64_t order) {
+        return {.order = order,
+                .scene = talk::Scene{},
+                .programs = {{3, "var n"}},
+                .hears = {"told"},
+                .stops = {}};
+    }
+    static talk::Clock clock(double t) { return {.t = t, .paused = false, .real = 1, .load = {}}; }
+
+    // What pages that watch are sent.
+    void flush() {
+        frames.clear();
+        for (int i = 0; i < 10; ++i) {
+            desk.board().flush(
+                now += 100ms, [](ClientId) { return true; },
+                [this](ClientId, bool, const std::string& bytes) { frames.push_back(bytes); });
+        }
+    }
+
+    Time now = 1s;
+    Desk desk{Access("0123456789abcdef", "fedcba9876543210"),
+              {.send = [this](ClientId, bool binary,
+                              std::string bytes) { (binary ? frames : texts).push_back(bytes); },
+               .close = [](ClientId, auto) {},
+               .log = [](auto&) {},
+               .wall_ms = [] { return 1e12; }}};
+    serve::Run run{desk, [this] { return start(); }};
+    std::optional<Pipe> host;
+    bool killed = false;
+    std::optional<ChildEnd> end;
+    uint64_t number = 0;
+    int opened = 0;
+    std::vector<std::string> lines, failures, deaths, ends, texts, frames;
+};
+
+TEST_F(RunTest, OnlyWhatIsSaidOfTheLatestOrderCounts) {
+    open();
+    const uint64_t first = number;
+    open();
+    say(opened_answer(first));
+    EXPECT_EQ(opened, 0);
+    EXPECT_FALSE(run.has_world());
+    say(opened_answer(number));
+    EXPECT_EQ(opened, 1);
+    EXPECT_TRUE(run.has_world());
+    EXPECT_EQ(run.programs().at(3), "var n");
+}
+
+// What still comes of the order before is of another world.
+TEST_F(RunTest, WhatComesBeforeTheAnswerToAnOrderIsOfTheOneBefore) {
+    open();
+    say(clock(5));
+    EXPECT_EQ(run.time(), 0);
+    say(opened_answer(number));
+    say(clock(5));
+    EXPECT_EQ(run.time(), 5);
+    EXPECT_EQ(run.state(), serve::Run::State::Running);
+}
+
+TEST_F(RunTest, WhyItCannotBeOpenedIsTold) {
+    open();
+    say(talk::OpenFailed{number, "there is no start"});
+    EXPECT_EQ(failures, std::vector<std::string>{"there is no start"});
+    EXPECT_EQ(run.state(), serve::Run::State::None);
+}
+
+TEST_F(RunTest, APlanThatIsOverAtOnceHasEndedToo) {
+    open();
+    say(opened_answer(number));
+    talk::PlanNow plan;
+    plan.state = talk::PlanState::Ended;
+    plan.result = "Error";
+    say(plan);
+    say(plan);
+    EXPECT_EQ(ends, std::vector<std::string>{"Error"});
+}
+
+TEST_F(RunTest, TheEndOfAPlanIsToldOnce) {
+    open();
+    say(opened_answer(number));
+    talk::PlanNow plan;
+    say(plan);
+    EXPECT_TRUE(run.plan_runs());
+    plan.state = talk::PlanState::Ended;
+    plan.result = "OK";
+    say(plan);
+    say(plan);
+    EXPECT_EQ(ends, std::vector<std::string>{"OK"});
+    EXPECT_FALSE(run.plan_runs());
+}
+
+TEST_F(RunTest, ADeathAnswersWhatWasAskedAndSaysWhereItWas) {
+    open();
+    say(opened_answer(number));
+    say(talk::Traced{.line = R"({"kind":"actor-start","actor":"go"})", .actor = "go"});
+    std::vector<std::string> answers;
+    run.set_variable(0, "n", 1, [&](const std::string& why) { answers.push_back(why); });
+    end = ChildEnd{false, 9, "ended by signal 9 (Killed)"};
+    run.tick(now += 1ms);
+    ASSERT_EQ(deaths.size(), 1u);
+    EXPECT_THAT(deaths[0], HasSubstr("signal 9 (Killed) at 0.000 s; the active actor was go."));
+    EXPECT_EQ(answers, deaths);
+    EXPECT_EQ(run.state(), serve::Run::State::Dead);
+    EXPECT_EQ(run.deaths(), 1u);
+}
+
+// The server lives, the process does not, and everybody is told what it sent.
+TEST_F(RunTest, AProcessThatSpeaksNonsenseIsEnded) {
+    const Packet clock_of_another = talk::encode(talk::News(clock(1)));
+    const std::pair<Packet, const char*> nonsense[] = {
+        {{'J', R"({"say": "clock"})"}, "sent a message: expected one of the numbers 1 to 19"},
+        {{'\0', ""}, "sent a message: expected one of the numbers 1 to 19, found 0"},
+        {{clock_of_another.kind, ""}, "sent clock.t: expected this field, found its end"},
+        {{clock_of_another.kind, clock_of_another.bytes + "x"},
+         "sent clock: expected its end, found 1 bytes more"},
+        {talk::encode(talk::News(talk::Records{{"no records"}})),
+         "sent records.bytes: expected whole records, found 10 bytes that are none"},
+    };
+    for (const auto& [packet, sentence] : nonsense) {
+        killed = false;
+        deaths.clear();
+        run.close();
+        open();
+        say(opened_answer(number));
+        std::string why;
+        run.set_variable(0, "n", 1, [&](const std::string& said) { why = said; });
+        ASSERT_FALSE(killed);
+        say(packet);
+        EXPECT_TRUE(killed) << sentence;
+        EXPECT_EQ(run.state(), serve::Run::State::Dead);
+        EXPECT_FALSE(run.is_open());
+        ASSERT_EQ(deaths.size(), 1u);
+        EXPECT_THAT(deaths[0], HasSubstr("the run's process " + std::string(sentence)));
+        EXPECT_EQ(lines.back(), "error: " + deaths[0]);
+        EXPECT_EQ(why, deaths[0]);
+    }
+}
+
+// Whatever the server does with what it hears: an exception ends the run, not the server.
+TEST_F(RunTest, WhatCannotBeFollowedEndsTheRun) {
+    run.on_told({.records = [](auto&) { throw std::runtime_error("no room"); }});
+    open();
+    say(opened_answer(number));
+    say(talk::Records{});
+    EXPECT_TRUE(killed);
+    ASSERT_EQ(deaths.size(), 1u);
+    EXPECT_THAT(deaths[0], HasSubstr("no room"));
+}
+
+// ---- two orders, one behind the other ----
+
+TEST_F(RunTest, WhatIsToldCountsFromTheAnswerOnWhicheverItIs) {
+    const std::function<talk::News()> answers[] = {
+        [this] { return talk::Opening{number}; },
+        [this] { return opened_answer(number); },
+        [this] {
+            return talk::OpenFailed{number, "no"};
+        },
+    };
+    for (const auto& answer : answers) {
+        run.close();
+        open();
+        say(clock(3));
+        EXPECT_EQ(run.time(), 0);
+        say(answer());
+        say(clock(5));
+        EXPECT_EQ(run.time(), 5) << answer().index();
+    }
+}
+
+TEST_F(RunTest, AnOrderBehindAnotherStartsNoProcessAndForgetsWhatWasAsked) {
+    open();
+    say(opened_answer(number));
+    const uint64_t process = run.generation();
+    std::vector<std::string> answers;
+    run.set_variable(0, "n", 1, [&](const std::string& why) { answers.push_back(why); });
+    const uint64_t asked = orders<talk::SetVariable>().at(0).request;
+    RunOrder order;
+    order.paused = false;
+    ASSERT_TRUE(run.open(order, now).ok());
+    ASSERT_TRUE(run.open(order, now).ok());
+    EXPECT_EQ(run.generation(), process);
+    EXPECT_EQ(answers, std::vector<std::string>{"the run was started again"});
+    say(talk::Answer{.request = asked, .why = "late"});  // nobody waits for it any more
+    EXPECT_EQ(answers.size(), 1u);
+    const auto told = orders<talk::Open>();
+    ASSERT_EQ(told.size(), 2u);
+    EXPECT_EQ(told[1].order, told[0].order + 1);
+    // All of the first comes before anything of the second.
+    say(talk::Opening{told[0].order});
+    say(opened_answer(told[0].order));
+    say(clock(7));
+    EXPECT_EQ(opened, 1);
+    EXPECT_EQ(run.time(), 0);
+    say(talk::Opening{told[1].order});
+    say(opened_answer(told[1].order));
+    say(clock(8));
+    EXPECT_EQ(opened, 2);
+    EXPECT_EQ(run.time(), 8);
+}
+
+// ---- the plan ----
+
+TEST_F(RunTest, AVersionOfThePlanIsPassedOnWithItsNumber) {
+    std::vector<std::string> told;
+    run.on_told({.plan =
+                     [&](const talk::PlanVersion& one) {
+                         told.push_back(std::to_string(one.number) + one.plans.front().name);
+                     },
+                 .trace = [&](const std::string& line) { told.push_back(line); }});
+    open();
+    PlanOutline plan;
+    plan.name = "Walk";
+    say(talk::PlanVersion{1, {plan}});  // of the order before
+    say(opened_answer(number));
+    say(talk::PlanVersion{1, {plan}});
+    say(talk::Traced{.line = "change"});
+    say(talk::PlanVersion{2, {plan}});
+    EXPECT_EQ(told, (std::vector<std::string>{"1Walk", "change", "2Walk"}));
+}
+
+TEST_F(RunTest, LateChecksAreCountedFromTheirMarkNotFromText) {
+    open();
+    say(opened_answer(number));
+    say(talk::Traced{.line = R"({"kind":"log","text":"\"kind\":\"late\""})"});
+    say(talk::Traced{.line = "late", .late = true});
+    EXPECT_EQ(run.late_checks(), 1u);
+}
+
+TEST_F(RunTest, ThePlanOfPagesHasTheirDocuments) {
+    run.set_doc_of([](const std::string& file) { return "doc of " + file; });
+    open();
+    say(opened_answer(number));
+    talk::PlanNow plan;
+    plan.t = 2;
+    plan.file = "a";
+    plan.levels = {{"b", {{{"path", "A/b"}, {"doc", "b"}}}}};
+    plan.stands_at = {4};
+    say(plan);
+    ASSERT_FALSE(desk.board().watch(ClientId{1}, {{"watch", 1}, {"topic", "plan"}}, now));
+    flush();
+    ASSERT_FALSE(frames.empty());
+    const Json shown = Json::parse(frames.back())["whole"];
+    EXPECT_EQ(shown["doc"], "doc of a");
+    EXPECT_EQ(shown["levels"][0], Json({{"path", "A/b"}, {"doc", "doc of b"}}));
+    EXPECT_EQ(shown["stands_at"], Json::array({4}));
+    EXPECT_EQ(shown["state"], "running");
+}
+
+// A camera costs time: the picture that a page has is not sent to it again.
+TEST_F(RunTest, APictureIsSentOnceToEachWhoWatches) {
+    open();
+    say(opened_answer(number));
+    const ClientId page{1};
+    const Json watch = {{"watch", 1}, {"topic", "picture"}, {"of", {{"robot", "alice"}}}};
+    ASSERT_FALSE(desk.board().watch(page, watch, now).has_value());
+    const auto look = [this] {
+        flush();
+        return frames.size();
+    };
+    EXPECT_EQ(look(), 0u);
+    say(talk::Picture{2, "alice", {"pixels"}});
+    EXPECT_EQ(look(), 1u);
+    say(talk::Picture{2, "bob", {"pixels"}});
+    EXPECT_EQ(look(), 0u);
+    say(talk::Picture{2, "alice", {"others"}});
+    EXPECT_EQ(look(), 1u);
+    EXPECT_THAT(frames[0], HasSubstr("others"));
+}
+
+}  // namespace
+}  // namespace vagus::serve

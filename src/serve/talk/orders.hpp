@@ -1,0 +1,336 @@
+// What the server tells the process of a run: every order there is. How they travel: codec.hpp.
+//
+//     pipe.send(talk::encode(talk::SetPace{.paused = false, .speed = 2}));
+//
+// The first is Open; it can come again at any time, and ends what runs. Orders with a `request` are
+// answered once each by an Answer with that number (news.hpp).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "plan/value.hpp"
+#include "serve/talk/values.hpp"
+
+namespace vagus::serve::talk {
+
+// ---- a run begins ----
+
+enum class BreakpointKind { Actor, State, Event, Condition };
+template <>
+struct Words<BreakpointKind> {
+    static constexpr std::string_view kAll[] = {"actor", "state", "event", "condition"};
+};
+
+struct Breakpoint {
+    uint64_t number = 0;    // as pages know it
+    std::string plan = {};  // its file
+    BreakpointKind kind = BreakpointKind::Actor;
+    std::string element = {};
+    std::string outcome = {};  // of a state or event; empty: any
+    std::string condition = {};
+    uint64_t stop_at = 1;  // at this hit and each after it
+    bool enabled = true;
+    static void layout(auto& each, auto& it) {
+        each("number", it.number);
+        each("plan", it.plan);
+        each("kind", it.kind);
+        each("element", it.element);
+        each("outcome", it.outcome);
+        each("condition", it.condition);
+        each("stop_at", it.stop_at);
+        each("enabled", it.enabled);
+    }
+    bool operator==(const Breakpoint&) const = default;
+};
+
+struct Open {
+    uint64_t order = 0;      // counts up; what is told of it names it
+    std::string world = {};  // files of this computer
+    std::string plan = {};   // empty: the world alone
+    std::vector<std::string> toolboxes = {};
+    std::map<std::string, std::string> set = {};  // variables of the plan, as texts
+    std::vector<Breakpoint> breakpoints = {};
+    std::string robot = {};  // that the plan drives; empty: the only one
+    std::string from = {};   // the actor that it begins with; empty: its start
+    std::string bus = {},
+                project = {};      // the plan on a bus instead of in a world: target and .aesl
+    std::vector<Pose> poses = {};  // of robots, in their order; none: where the file says
+    static constexpr std::string_view kName = "open";
+    static void layout(auto& each, auto& it) {
+        each("order", it.order);
+        each("world", it.world);
+        each("plan", it.plan);
+        each("toolboxes", it.toolboxes);
+        each("set", it.set);
+        each("breakpoints", it.breakpoints);
+        each("robot", it.robot);
+        each("from", it.from);
+        each("bus", it.bus);
+        each("project", it.project);
+        each("poses", it.poses);
+    }
+    bool operator==(const Open&) const = default;
+};
+
+// ---- time ----
+
+struct SetPace {
+    bool paused = true;
+    double speed = 1;  // 0: as fast as it goes
+    static constexpr std::string_view kName = "pace";
+    static void layout(auto& each, auto& it) {
+        each("paused", it.paused);
+        each("speed", it.speed);
+    }
+    bool operator==(const SetPace&) const = default;
+};
+
+// While paused.
+struct LetTimePass {
+    uint32_t milliseconds = 0;
+    static constexpr std::string_view kName = "step";
+    static void layout(auto& each, auto& it) { each("milliseconds", it.milliseconds); }
+    bool operator==(const LetTimePass&) const = default;
+};
+
+// ---- what costs time and is made only while somebody looks ----
+
+struct Show {
+    bool rays = false;
+    std::set<std::string> pictures = {};  // robots whose cameras
+    static constexpr std::string_view kName = "show";
+    static void layout(auto& each, auto& it) {
+        each("rays", it.rays);
+        each("pictures", it.pictures);
+    }
+    bool operator==(const Show&) const = default;
+};
+
+// ---- the plan ----
+
+// To the next actor that begins.
+struct StepPlan {
+    static constexpr std::string_view kName = "plan.step";
+    static void layout(auto&, auto&) {}
+    bool operator==(const StepPlan&) const = default;
+};
+
+struct StopPlan {
+    static constexpr std::string_view kName = "plan.stop";
+    static void layout(auto&, auto&) {}
+    bool operator==(const StopPlan&) const = default;
+};
+
+// The whole list, each time it changes.
+struct SetBreakpoints {
+    std::vector<Breakpoint> list = {};
+    static constexpr std::string_view kName = "plan.breakpoints";
+    static void layout(auto& each, auto& it) { each("list", it.list); }
+    bool operator==(const SetBreakpoints&) const = default;
+};
+
+struct SetVariable {
+    uint64_t request = 0;
+    uint32_t level = 0;  // 0: the outermost plan
+    std::string name = {};
+    plan::Value value = {};
+    static constexpr std::string_view kName = "plan.set";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("level", it.level);
+        each("name", it.name);
+        each("value", it.value);
+    }
+    bool operator==(const SetVariable&) const = default;
+};
+
+// As if the supervisor, which must watch now, had raised it.
+struct RaiseEvent {
+    uint64_t request = 0;
+    std::string supervisor = {}, event = {};
+    std::map<std::string, plan::Value> outputs = {};
+    static constexpr std::string_view kName = "plan.raise";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("supervisor", it.supervisor);
+        each("event", it.event);
+        each("outputs", it.outputs);
+    }
+    bool operator==(const RaiseEvent&) const = default;
+};
+
+enum class HeldAct { Go, Step, Drop };
+template <>
+struct Words<HeldAct> {
+    static constexpr std::string_view kAll[] = {"go", "step", "drop"};
+};
+
+// Of the events that wait while the plan is paused: without a number the first steps, and all go or
+// are dropped.
+struct HandleHeld {
+    uint64_t request = 0;
+    HeldAct act = HeldAct::Go;
+    std::optional<uint64_t> number = {};
+    static constexpr std::string_view kName = "plan.held";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("act", it.act);
+        each("number", it.number);
+    }
+    bool operator==(const HandleHeld&) const = default;
+};
+
+// These files have been saved: what is made of them is to take over (P31).
+struct ChangePlan {
+    uint64_t request = 0;
+    std::vector<std::string> files = {};
+    static constexpr std::string_view kName = "plan.change";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("files", it.files);
+    }
+    bool operator==(const ChangePlan&) const = default;
+};
+
+// Whether it could take over now, if files had these texts.
+struct CheckPlan {
+    uint64_t request = 0;
+    std::map<std::string, std::string> texts = {};
+    static constexpr std::string_view kName = "plan.check";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("texts", it.texts);
+    }
+    bool operator==(const CheckPlan&) const = default;
+};
+
+// ---- a hand from above ----
+
+struct MoveRobot {
+    uint64_t request = 0;
+    std::string robot = {};
+    Point at = {};
+    std::optional<double> angle = {};  // without: it keeps its own
+    static constexpr std::string_view kName = "robot.move";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("robot", it.robot);
+        each("at", it.at);
+        each("angle", it.angle);
+    }
+    bool operator==(const MoveRobot&) const = default;
+};
+
+struct MoveObject {
+    uint64_t request = 0;
+    uint32_t object = 0;  // its number in the scene
+    Point at = {};
+    std::optional<double> angle = {};
+    static constexpr std::string_view kName = "object.move";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("object", it.object);
+        each("at", it.at);
+        each("angle", it.angle);
+    }
+    bool operator==(const MoveObject&) const = default;
+};
+
+enum class ObjectKind { Wall, Box, Cylinder };
+template <>
+struct Words<ObjectKind> {
+    static constexpr std::string_view kAll[] = {"wall", "box", "cylinder"};
+};
+
+// Its answer has the number of the object.
+struct PutObject {
+    uint64_t request = 0;
+    ObjectKind kind = ObjectKind::Box;
+    Point at = {};
+    double angle = 0;
+    Point size{0.2, 0.2};  // not of a cylinder
+    double radius = 0.05;  // of a cylinder
+    static constexpr std::string_view kName = "object.put";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("kind", it.kind);
+        each("at", it.at);
+        each("angle", it.angle);
+        each("size", it.size);
+        each("radius", it.radius);
+    }
+    bool operator==(const PutObject&) const = default;
+};
+
+struct TakeObject {
+    uint64_t request = 0;
+    uint32_t object = 0;
+    static constexpr std::string_view kName = "object.take";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("object", it.object);
+    }
+    bool operator==(const TakeObject&) const = default;
+};
+
+struct SwitchLight {
+    uint64_t request = 0;
+    uint32_t object = 0;
+    bool on = false;
+    static constexpr std::string_view kName = "object.light";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("object", it.object);
+        each("on", it.on);
+    }
+    bool operator==(const SwitchLight&) const = default;
+};
+
+struct PressButton {
+    uint64_t request = 0;
+    std::string robot = {}, button = {};
+    bool down = false;
+    static constexpr std::string_view kName = "robot.press";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("robot", it.robot);
+        each("button", it.button);
+        each("down", it.down);
+    }
+    bool operator==(const PressButton&) const = default;
+};
+
+struct TapRobot {
+    uint64_t request = 0;
+    std::string robot = {};
+    static constexpr std::string_view kName = "robot.tap";
+    static void layout(auto& each, auto& it) {
+        each("request", it.request);
+        each("robot", it.robot);
+    }
+    bool operator==(const TapRobot&) const = default;
+};
+
+// ---- the bus of the world ----
+
+struct SendFrame {
+    BusFrame frame = {};
+    static constexpr std::string_view kName = "frame";
+    static void layout(auto& each, auto& it) { each("frame", it.frame); }
+    bool operator==(const SendFrame&) const = default;
+};
+
+// All of them. Which one a packet holds is its place in this list.
+using Order =
+    std::variant<Open, SetPace, LetTimePass, Show, StepPlan, StopPlan, SetBreakpoints, SetVariable,
+                 RaiseEvent, HandleHeld, ChangePlan, CheckPlan, MoveRobot, MoveObject, PutObject,
+                 TakeObject, SwitchLight, PressButton, TapRobot, SendFrame>;
+
+}  // namespace vagus::serve::talk

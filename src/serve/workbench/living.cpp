@@ -1,0 +1,249 @@
+// What the life of a run wants done, and what it is told: the wires between it and the process of
+// the run, the nodes, and who waits for answers.
+#include <fmt/format.h>
+
+#include "serve/workbench/workbench.hpp"
+
+namespace vagus::serve {
+
+using Json = nlohmann::json;
+
+namespace {
+
+std::string joined(const std::vector<std::string>& sentences) {
+    std::string text;
+    for (const std::string& one : sentences) text += (text.empty() ? "" : "\n") + one;
+    return text;
+}
+
+}  // namespace
+
+// ---- in ----
+
+life::CallNumber Workbench::keep(const Call& call) {
+    waiting_.emplace(++calls_, call);
+    return calls_;
+}
+
+std::string Workbench::who_asks(const Call& call) const {
+    const Clients::Member* member = desk_.clients().find(call.member);
+    if (!member) return "the server";
+    return member->name.empty() ? "a page" : member->name;
+}
+
+// What comes while something is being done is told behind it.
+void Workbench::tell_life(life::Input input) {
+    told_life_.push_back(std::move(input));
+}
+
+void Workbench::live() {
+    if (std::exchange(lives_, true)) return;
+    while (!told_life_.empty()) {
+        const life::Input input = std::move(told_life_.front());
+        told_life_.pop_front();
+        for (const life::Action& action : life_.take(input, now_)) perform(action);
+    }
+    lives_ = false;
+    // What nodes were told is on its way at once.
+    if (std::exchange(send_at_once_, false)) robot_.tick(now_);
+}
+
+void Workbench::tick_life() {
+    if (life_.waits_for_nodes()) {
+        if (run_.has_world() && robot_.all_described(run_.node_count())) {
+            tell_life(life::Described{});
+        }
+        if (!breakpoints_.waits_for_once()) tell_life(life::BreakpointsSet{});
+    }
+    watch_stop();
+    live();
+    lives_ = true;
+    for (const life::Action& action : life_.tick(now_, run_.is_silent())) perform(action);
+    lives_ = false;
+    live();
+}
+
+// Nodes that were silent, or moved, when the end was told are asked on.
+void Workbench::watch_stop() {
+    if (!ends_.open()) return;
+    const StopReport now = robot_.stop_report();
+    if (!now.nodes.empty() && ends_.differs(now)) tell_life(life::Stopped{stop_number_, now});
+}
+
+void Workbench::hear_run() {
+    run_.on_opened([this] { tell_life(life::Opened{}); });
+    run_.on_failed(
+        [this](const std::string& why) { tell_life(life::Failed{with_short_paths(why)}); });
+    run_.on_death([this](const std::string& why) {
+        tell_life(life::Died{with_short_paths(why)});
+        died_();
+    });
+    run_.on_plan_ended([this](const Run::PlanEnd& end) {
+        tell_life(life::PlanEnded{end.result, with_short_paths(end.message)});
+    });
+}
+
+// ---- out ----
+
+void Workbench::perform(const life::Action& action) {
+    std::visit([this](const auto& one) { perform(one); }, action);
+}
+
+void Workbench::perform(const life::OpenHost& open) {
+    const auto order = orders_.find(open.call);
+    const bool plan = open.what == life::OpenHost::What::Plan && order != orders_.end();
+    const Status opened = plan ? open_plan(order->second)
+                               : open_world(order_of("", Json::object()),
+                                            open.what == life::OpenHost::What::WorldAgain);
+    if (opened.ok()) return;
+    say("error", opened.error().what);
+    tell_life(life::Failed{opened.error().what});
+}
+
+Status Workbench::open_plan(RunOrder order) {
+    if (!bus_) return open_world(order, run_.time() > 0 && !world_has_changed());
+    order.world.clear();
+    order.bus = TRY(bus_->open_door());
+    order.project = project_->scripts.empty() ? "" : project_->real(project_->scripts.front());
+    record_bus();
+    return run_.open(order, now_);
+}
+
+Status Workbench::open_world(RunOrder order, bool keep_poses) {
+    order.keep_poses = keep_poses;
+    const auto text = files_.text(project_->world);
+    opened_world_ = text.ok() ? text.value() : "";
+    loaded_by_world_.clear();
+    record_plan(order);
+    return run_.open(order, now_);
+}
+
+void Workbench::perform(const life::ConnectWorld&) {
+    loaded_by_world_ = run_.programs();
+    robot_.connect(run_, "sim", "Simulator", "simulator", now_);
+    desk_.board().touch("robot");
+}
+
+void Workbench::perform(const life::LoadNodes& load) {
+    if (load.fresh) robot_.place_breakpoints();
+    robot_.load_changed(true, [this, start = load.start](const std::vector<std::string>& failed) {
+        if (!failed.empty()) failed_loads_ = joined(failed);
+        if (!failed.empty()) say("error", failed_loads_);
+        tell_life(life::Loaded{start});
+    });
+}
+
+// A node that does not go is no reason to hold the others.
+void Workbench::perform(const life::LetNodesGo& go) {
+    const auto went = [this, start = go.start](const std::vector<std::string>& stayed) {
+        if (!stayed.empty()) say("warning", joined(stayed));
+        tell_life(life::Went{start});
+    };
+    go.all ? robot_.run_all(went) : robot_.run_standing(went);
+}
+
+void Workbench::perform(const life::BeginRun&) {
+    robot_.end_rest();
+    run_.begin();
+}
+
+void Workbench::perform(const life::ContinueRun&) {
+    robot_.end_rest();
+    run_.go_on();
+}
+
+void Workbench::perform(const life::StepPlan&) {
+    robot_.end_rest();
+    run_.step_plan();
+}
+
+void Workbench::perform(const life::PauseRun&) {
+    if (run_.is_open()) run_.pause();
+}
+
+void Workbench::perform(const life::RestRun&) {
+    run_.rest();
+}
+
+void Workbench::perform(const life::PauseNodes& pause) {
+    robot_.pause_all([this, call = pause.call](const std::vector<std::string>& failed) {
+        tell_life(life::NodesPaused{call, joined(failed)});
+    });
+}
+
+void Workbench::perform(const life::CountStart&) {
+    ++runs_;
+}
+
+// Of what the plan still says the bus gets no more than that work ends.
+void Workbench::perform(const life::EndPlan& end) {
+    run_.stop_plan();
+    if (end.silence && bus_) bus_->close_door_but_for(stop_events());
+}
+
+// As the bus knows them, by number.
+std::set<uint16_t> Workbench::stop_events() const {
+    std::set<uint16_t> numbers;
+    if (!project_ || project_->scripts.empty()) return numbers;
+    const aesl::CommonDefinitions* common = scripts_.common(project_->scripts.front());
+    if (!common) return numbers;
+    for (size_t i = 0; i < common->events.size(); ++i) {
+        if (!run_.stop_events().contains(common->events[i].name)) continue;
+        numbers.insert(static_cast<uint16_t>(i));
+    }
+    return numbers;
+}
+
+void Workbench::perform(const life::StopNodes& stop) {
+    send_at_once_ = true;
+    stop_number_ = stop.number;
+    robot_.stop_all([this, number = stop.number](const StopReport& report) {
+        if (bus_) bus_->forget_moves();
+        tell_life(life::Stopped{number, report});
+    });
+}
+
+void Workbench::perform(const life::MakeSafe&) {
+    robot_.make_safe();
+}
+
+void Workbench::perform(const life::Disconnect&) {
+    robot_.disconnect();
+    run_.close();
+    bus_.reset();
+    loaded_by_world_.clear();
+}
+
+void Workbench::perform(const life::GoOnLeaving& leaving) {
+    const auto found = leaving_.find(leaving.call);
+    const auto then = std::move(found->second);
+    leaving_.erase(found);
+    then();
+}
+
+void Workbench::perform(const life::Answer& answer) {
+    const auto found = waiting_.find(answer.call);
+    const Call call = std::move(found->second);
+    waiting_.erase(found);
+    orders_.erase(answer.call);
+    const auto result = results_.extract(answer.call);
+    if (!answer.why.empty()) return call.fail(answer.code, answer.why);
+    call.done(result ? result.mapped() : Json::object());
+}
+
+void Workbench::perform(const life::AnswerStop& answer) {
+    const auto found = waiting_.find(answer.call);
+    const Call call = std::move(found->second);
+    waiting_.erase(found);
+    call.done(answer_of(answer.report));
+}
+
+void Workbench::perform(const life::Tell& told) {
+    desk_.board().touch("end");
+    if (told.again) return ends_.renew(told.end);
+    ends_.add(told.end, clock(), desk_.wall_ms());
+    say(ends_.kind(), ends_.sentence());
+    ended_(told.end);
+}
+
+}  // namespace vagus::serve

@@ -2,7 +2,7 @@
 
 import { createContext, useCallback, useContext, useSyncExternalStore } from 'react';
 import { useStore } from 'zustand';
-import type { Topics } from '../protocol/messages';
+import type { Doc, Topics } from '../protocol/messages';
 import type { Link } from '../core/connection';
 import type { Emitter } from '../core/emitter';
 import { readSettings, type Settings } from '../core/settings';
@@ -65,6 +65,15 @@ export function useChanges(changed: Emitter<void>): number {
   );
 }
 
+/** Something was typed that the server does not have; with a document: in that one. */
+export function useUnsent(doc?: Doc): boolean {
+  const { documents } = useStudio();
+  return useSyncExternalStore(
+    useCallback((listener: () => void) => documents.changed.on(listener), [documents]),
+    () => (doc === undefined ? documents.isUnsent : documents.waits(doc)),
+  );
+}
+
 export function useWindow<T>(select: (state: WindowState) => T): T {
   return useStore(useStudio().window, select);
 }
@@ -87,6 +96,14 @@ export function useCommands(): readonly Command[] {
 
 export function useSettings(): Settings {
   return readSettings(useTopic('studio', {})?.settings);
+}
+
+/** True if this page may change files: also while there is no connection. */
+export function useMayEdit(): boolean {
+  const studio = useStudio();
+  useLink();
+  useTopic('studio', {});
+  return studio.mayEdit;
 }
 
 /** True if this page may change things. */

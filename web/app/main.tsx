@@ -19,15 +19,18 @@ import { Studio } from '../core/studio';
 import { App } from './app';
 import { editCommands } from './commands/edit_commands';
 import { fileCommands } from './commands/file_commands';
+import { panels } from './dock/panels';
 import { followAlways } from './commands/looks';
-import { planCommands } from './commands/plan_commands';
+import { planCommands } from './views/plan/plan_commands';
 import { problemCommands } from './commands/problem_commands';
 import { robotCommands } from './commands/robot_commands';
 import { nodeCommands, runCommands } from './commands/run_commands';
 import { pastCommands } from './commands/past_commands';
 import { viewCommands } from './commands/view_commands';
-import { worldCommands } from './commands/world_commands';
+import { refuse } from './commands/why_not';
+import { worldCommands } from './views/world/world_commands';
 import { StudioContext } from './hooks';
+import { PageGuard } from './page_guard';
 import { keptTheme } from './window_life';
 
 const kTokenKey = 'vagus.token';
@@ -43,11 +46,12 @@ function start(): void {
     crypto.getRandomValues(new Uint32Array(4)).join('-'),
   );
   const studio = new Studio(browserWorld(address.href), identity, takeToken(), () => Date.now());
+  studio.registry.isApple = /Mac|iPhone|iPad/.test(navigator.platform);
   for (const make of [
     editCommands,
     fileCommands,
     problemCommands,
-    viewCommands,
+    (one: Studio) => viewCommands(one, panels),
     pastCommands,
     robotCommands,
     nodeCommands,
@@ -56,13 +60,16 @@ function start(): void {
     worldCommands,
   ])
     studio.registry.add(make(studio));
+  studio.registry.refuse = (command, key) => refuse(studio, command, key);
   followAlways(studio);
   studio.connection.start();
   const root = document.getElementById('root');
   if (root)
     createRoot(root).render(
       <StudioContext value={studio}>
-        <App />
+        <PageGuard studio={studio}>
+          <App />
+        </PageGuard>
       </StudioContext>,
     );
 }

@@ -3,8 +3,9 @@
 import { useEffect, useRef, useState } from 'react';
 import { isLayoutName } from '../core/layouts';
 import type { Theme } from '../core/settings';
-import { revealPanel, update } from '../core/window_state';
+import { revealPanel, toast, update } from '../core/window_state';
 import { countsOf } from '../core/findings';
+import { text } from './text';
 import { useLink, usePart, useSettings, useStudio, useTopic, useWindow } from './hooks';
 
 const kThemeKey = 'vagus.theme';
@@ -66,6 +67,7 @@ function typesIn(target: EventTarget | null): boolean {
 export function WindowLife(): null {
   const studio = useStudio();
   useAskForWheel();
+  useUnsentWork();
   const values = useTopic('state', {})?.values;
   const folder = useTopic('studio', {})?.project?.folder;
   const hasPlan = useTopic('studio', {})?.project?.plan !== undefined;
@@ -84,6 +86,26 @@ export function WindowLife(): null {
   }, [studio, known, folder]);
   useProblemsOpen();
   return null;
+}
+
+/** What is not with the server is asked for before the page is left; what was refused is told. */
+function useUnsentWork(): void {
+  const studio = useStudio();
+  useEffect(() => {
+    const { documents } = studio;
+    const leaves = (event: BeforeUnloadEvent) => {
+      documents.fields.settle();
+      if (documents.isUnsent) event.preventDefault();
+    };
+    addEventListener('beforeunload', leaves);
+    const end = documents.refused.on(({ doc, refusal }) =>
+      toast(studio.window, 'error', text.documents.refused(doc, refusal)),
+    );
+    return () => {
+      removeEventListener('beforeunload', leaves);
+      end();
+    };
+  }, [studio]);
 }
 
 /** Letters are larger in a layout that is looked at from afar. */

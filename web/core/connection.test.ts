@@ -1,17 +1,22 @@
 import { expect, test } from 'vitest';
-import { Connection, kFirstRetryMs } from './connection';
+import { answers, Connection, kFirstRetryMs, kSilentMs } from './connection';
 import { TestWorld } from './test_world';
 
 function make(firstId = 1) {
   const world = new TestWorld();
+  const renamed: string[] = [];
+  const time = { own: 0 };
   const connection = new Connection(world, {
     token: 'secret',
     client: 'me',
+    nonce: 'load',
     firstId,
+    renamed: (client) => renamed.push(client),
     now: () => 0,
+    clock: () => time.own,
   });
   connection.start();
-  return { world, connection };
+  return { world, connection, renamed, time };
 }
 
 const settled = () => new Promise((resolve) => setTimeout(resolve));
@@ -25,7 +30,16 @@ test('HelloIsTheFirstMessageAndNothingGoesBeforeItsAnswer', () => {
   expect(hello?.in).toMatchObject({ token: 'secret', client: 'me' });
   world.say({
     id: hello?.id,
-    ok: { version: 'test', role: 'drive', number: 7, driver: true, wall: 0 },
+    ok: {
+      version: 'test',
+      epoch: 'e',
+      client: 'me',
+      role: 'drive',
+      number: 7,
+      driver: true,
+      now: 0,
+      wall: 0,
+    },
   });
   expect(world.last.sent.map((one) => one.do)).toEqual(['hello', 'stop']);
 });
@@ -41,8 +55,60 @@ test('AnUnansweredCommandIsRepeatedWithItsNumberAfterALostConnection', async () 
   expect(world.sockets).toHaveLength(2);
   world.welcome();
   expect(world.last.sent.find((one) => one.do === 'stop')?.id).toBe(id);
-  world.say({ id, ok: { stood: [1] } });
-  expect(await answer).toEqual({ stood: [1] });
+  world.say({ id, ok: { stood: [1], nodes: [] } });
+  expect(await answer).toEqual({ stood: [1], nodes: [] });
+});
+
+test('AnActHasADeadlineInTheServersTimeAsItWasToldLast', () => {
+  const { world, connection, time } = make();
+  time.own = 500;
+  world.welcome(7, { now: 10_000 });
+  time.own = 700;
+  void connection.send('node.run', { node: 1 });
+  expect(world.last.sent.at(-1)).toMatchObject({ do: 'node.run', until: 13_200 });
+  world.say({ ping: 4, now: 20_000 });
+  expect(world.last.sent.at(-1)).toEqual({ pong: 4 });
+  time.own = 701;
+  void connection.send('run.start', {});
+  expect(world.last.sent.at(-1)).toMatchObject({ do: 'run.start', until: 23_001 });
+  // A ping that was read late does not set the clock back.
+  time.own = 5000;
+  world.say({ ping: 5, now: 21_000 });
+  void connection.send('run.start', {});
+  expect(world.last.sent.at(-1)).toMatchObject({ until: 27_300 });
+  void connection.send('stop', {});
+  expect(world.last.sent.at(-1)).not.toHaveProperty('until');
+});
+
+test('AnActIsNeitherSentAgainNorKeptForLater', async () => {
+  const { world, connection } = make();
+  await expect(connection.send('run.start', {})).rejects.toThrow('not connected');
+  world.welcome();
+  const run = connection.send('run.start', {});
+  const edit = connection.send('driver.leave', {});
+  world.last.events.closed();
+  await expect(run).rejects.toThrow('not sent again');
+  await expect(connection.send('run.start', {})).rejects.toThrow('nothing was sent');
+  world.pass(1000);
+  world.welcome();
+  expect(world.last.sent.map((one) => one.do)).toEqual(['hello', 'driver.leave']);
+  world.say({ id: world.last.sent.at(-1)?.id, ok: {} });
+  await edit;
+});
+
+test('APageTakesTheNameThatTheServerGivesIt', () => {
+  const { world, renamed } = make();
+  world.welcome();
+  expect(world.last.sent[0]?.in).toMatchObject({ client: 'me', nonce: 'load' });
+  expect(renamed).toEqual([]);
+  world.last.events.closed();
+  world.pass(1000);
+  world.welcome(8, { client: 'other' });
+  expect(renamed).toEqual(['other']);
+  world.last.events.closed();
+  world.pass(1000);
+  world.last.events.open();
+  expect(world.last.sent[0]?.in).toMatchObject({ client: 'other', nonce: 'load' });
 });
 
 test('AnAnsweredCommandIsNotRepeated', async () => {
@@ -153,4 +219,23 @@ test('BinaryFramesReachTheirSubscription', () => {
   frame.setInt16(20, -7, true);
   world.last.events.bytes(frame.buffer);
   expect(got).toBe('1.5 -7');
+});
+
+test('AfterThreeMissingPingsWhatMovesARobotIsRefusedAndStopIsSent', async () => {
+  const { world, connection } = make();
+  world.welcome();
+  for (let ping = 0; ping < 5; ping++) {
+    world.pass(1000);
+    world.say({ ping, now: 1000 * ping });
+  }
+  expect(answers(connection.link)).toBe(true);
+  world.pass(kSilentMs);
+  expect(answers(connection.link)).toBe(false);
+  await expect(connection.send('run.start', {})).rejects.toThrow();
+  const sent = world.last.sent.length;
+  void connection.send('stop', {});
+  void connection.send('doc.save_all', {});
+  expect(world.last.sent.slice(sent).map((one) => one.do)).toEqual(['stop', 'doc.save_all']);
+  world.say({ ping: 6, now: 9000 });
+  expect(answers(connection.link)).toBe(true);
 });

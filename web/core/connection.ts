@@ -1,10 +1,12 @@
 // One connection to the server that outlives its sockets: it says hello, comes back by itself, asks
 // again for what was not answered, and renews its subscriptions. A caller sees a promise for each
-// command and never a socket.
+// command and never a socket. What can move a robot (kind act) has a deadline in the server's time
+// and is never asked again: minutes later nobody expects it.
 
 import { misfit, misfitItem } from '../protocol/check';
 import {
   commandTable,
+  limits,
   topicTable,
   type CommandName,
   type Commands,
@@ -22,11 +24,28 @@ export const kRetryMsMax = 5000;
 /** As many commands may wait for an answer; the next one is refused at once. */
 export const kWaitingMax = 2000;
 
+/** The server pings every second; three pings that are missing are silence. */
+export const kSilentMs = 3500;
+
+const kTimesKept = 8;
+
 export type Link =
   | { state: 'connecting' }
-  | { state: 'open'; number: number; role: 'drive' | 'look'; version: string }
+  | {
+      state: 'open';
+      number: number;
+      role: 'drive' | 'look';
+      version: string;
+      /** The connection stands, but the server has said nothing for kSilentMs. */
+      silentSince?: number;
+    }
   | { state: 'lost'; since: number }
   | { state: 'refused'; problem: Problem };
+
+/** Somebody is there to do at once what is asked. */
+export function answers(link: Link): boolean {
+  return link.state === 'open' && link.silentSince === undefined;
+}
 
 export class CommandError extends Error {
   constructor(readonly problem: Problem) {
@@ -60,12 +79,18 @@ interface Watch {
 export interface ConnectionOptions {
   token: string;
   client: string;
+  /** Of this page load. */
+  nonce?: string | undefined;
+  /** The server has given this page another name: another one has its own. */
+  renamed?: ((client: string) => void) | undefined;
   name?: string | undefined;
   /** The first number of a command; higher than all that this client has used before. */
   firstId?: number | undefined;
   /** Told before a number is used, so that a reload goes on behind it. */
   usedId?: ((id: number) => void) | undefined;
   now(): number;
+  /** Milliseconds that never jump; `now` if it is missing. */
+  clock?: (() => number) | undefined;
 }
 
 export class Connection {
@@ -81,13 +106,23 @@ export class Connection {
   private readonly waiting = new Map<number, Waiting>();
   private readonly watches = new Map<number, Watch>();
   private cancelRetry: (() => void) | null = null;
+  private cancelSilence: () => void = ignore;
   private closed = false;
+  private client: string;
+  /** By how much the server's clock was ahead of ours, as the last messages that told it say. */
+  private ahead: number[] = [];
 
   constructor(
     private readonly world: World,
     private readonly options: ConnectionOptions,
   ) {
     this.nextId = options.firstId ?? 1;
+    this.client = options.client;
+  }
+
+  /** For requests beside the socket. */
+  get token(): string {
+    return this.options.token;
   }
 
   start(): void {
@@ -105,6 +140,7 @@ export class Connection {
   stop(): void {
     this.closed = true;
     this.cancelRetry?.();
+    this.cancelSilence();
     const socket = this.socket;
     this.socket = null;
     socket?.close();
@@ -112,9 +148,13 @@ export class Connection {
 
   send<C extends CommandName>(command: C, input: Commands[C]['in']): Promise<Commands[C]['out']> {
     const id = this.takeId();
-    const text = JSON.stringify({ id, do: command, in: input });
+    const act = commandTable[command].kind === 'act';
+    const until = act ? this.deadline() : undefined;
+    const text = JSON.stringify({ id, do: command, in: input, until });
     return new Promise((resolve, reject) => {
       const failed = (problem: Problem) => reject(new CommandError(problem));
+      if (act && !answers(this.link))
+        return failed(this.link.state === 'refused' ? this.link.problem : notSent);
       if (this.waiting.size >= kWaitingMax) return failed(tooMany);
       // The check at the border has proved the shape.
       const done = (out: Json) => resolve(out as Commands[C]['out']);
@@ -147,6 +187,19 @@ export class Connection {
     };
   }
 
+  private deadline(): number | undefined {
+    // What lay unread for a while makes the server's clock seem slow, never fast.
+    return this.ahead.length ? Math.max(...this.ahead) + this.clock() + limits.act_ms : undefined;
+  }
+
+  private clock(): number {
+    return (this.options.clock ?? this.options.now)();
+  }
+
+  private tellTime(server: number): void {
+    this.ahead = [...this.ahead, server - this.clock()].slice(-kTimesKept);
+  }
+
   private takeId(): number {
     const id = this.nextId++;
     this.options.usedId?.(id);
@@ -155,10 +208,9 @@ export class Connection {
 
   private sayHello(): void {
     this.helloId = this.takeId();
-    const { token, client, name } = this.options;
-    this.socket?.send(
-      JSON.stringify({ id: this.helloId, do: 'hello', in: { token, client, name } }),
-    );
+    const { token, name, nonce } = this.options;
+    const input = { token, client: this.client, name, nonce };
+    this.socket?.send(JSON.stringify({ id: this.helloId, do: 'hello', in: input }));
   }
 
   private welcomed(out: Json): void {
@@ -170,7 +222,12 @@ export class Connection {
       });
     const hello = out as unknown as Commands['hello']['out'];
     this.retries = 0;
+    this.ahead = [];
+    this.tellTime(hello.now);
+    if (hello.client !== this.client) this.options.renamed?.(hello.client);
+    this.client = hello.client;
     this.setLink({ state: 'open', number: hello.number, role: hello.role, version: hello.version });
+    this.listenForPings();
     // Unanswered commands first, in their order: what is subscribed to shows their effect at once.
     for (const [, waiting] of this.waiting) this.socket?.send(waiting.text);
     for (const [number, watch] of this.watches) this.sendWatch(number, watch);
@@ -194,6 +251,7 @@ export class Connection {
   private received(message: string): void {
     const parsed = parse(message);
     if (parsed === null) return this.odd.emit('a message that is not JSON');
+    if ('ping' in parsed) return this.answerPing(parsed);
     if ('watch' in parsed) return this.receivedChange(parsed);
     const id = Number(parsed['id']);
     const problem = parsed['error'] as unknown as Problem | undefined;
@@ -205,6 +263,25 @@ export class Connection {
       if (problem) this.watches.get(watch)?.events.failed?.(problem);
     } else if (problem) this.fail(id, problem);
     else this.succeed(id, parsed['ok'] ?? {});
+  }
+
+  private answerPing(ping: Record<string, Json>): void {
+    this.tellTime(Number(ping['now']));
+    this.socket?.send(JSON.stringify({ pong: ping['ping'] }));
+    if (this.link.state !== 'open') return;
+    if (!answers(this.link)) {
+      const { number, role, version } = this.link;
+      this.setLink({ state: 'open', number, role, version });
+    }
+    this.listenForPings();
+  }
+
+  private listenForPings(): void {
+    this.cancelSilence();
+    this.cancelSilence = this.world.later(kSilentMs, () => {
+      if (this.link.state === 'open')
+        this.setLink({ ...this.link, silentSince: this.options.now() });
+    });
   }
 
   private succeed(id: number, out: Json): void {
@@ -255,7 +332,10 @@ export class Connection {
 
   private lost(): void {
     this.socket = null;
+    this.cancelSilence();
     this.watchIds.clear();
+    for (const [id, waiting] of [...this.waiting])
+      if (commandTable[waiting.command].kind === 'act') this.fail(id, unknown);
     if (this.closed) return;
     if (this.link.state !== 'lost') this.setLink({ state: 'lost', since: this.options.now() });
     const wait = Math.min(kRetryMsMax, kFirstRetryMs * 2 ** this.retries++);
@@ -274,6 +354,15 @@ export class Connection {
 const tooMany: Problem = {
   code: 'limit',
   what: 'Too many commands wait for the server. Wait until it answers.',
+};
+
+const notSent: Problem = {
+  code: 'unavailable',
+  what: 'The server is not connected; nothing was sent. Do it again when it is.',
+};
+const unknown: Problem = {
+  code: 'unavailable',
+  what: 'The connection was lost before the answer came. It may have been done; it is not sent again.',
 };
 
 function ignore(): void {}

@@ -1,117 +1,228 @@
-// The texts that are open, each shared by all views of it, dropped when the last view has gone and
-// the server has everything.
+// The files that are open, each with one session that all its views share. A session stays until
+// another project is open: its undo survives layouts, tabs and views.
 
-import type { Doc } from '../protocol/messages';
-import type { Connection } from './connection';
-import { SharedDocument } from './document';
+import type { Doc, Problem } from '../protocol/messages';
+import { CommandError, type Connection } from './connection';
+import { Emitter } from './emitter';
+import { Fields } from './session/fields';
+import type { OpenDocument } from './session/open';
+import type { Ended } from './session/sync';
+import type { Refusal } from './session/text_session';
+import type { DocLink } from './session/wire';
 import type { TopicCache } from './topics';
 
-export interface OpenDocument {
-  shared: SharedDocument;
-  language: string;
-  /** What an editor wants to find again when it is shown next: its history of undo, its place. */
-  kept: unknown;
-}
+export type { OpenDocument } from './session/open';
 
-/** A text stays open so long after its last view has gone: a tab moves, a layout changes. */
+/** What the server says of a file is followed so long after its last view has gone. */
 export const kStayMs = 120_000;
 
 interface Entry {
+  doc: Doc;
   users: number;
   opened: Promise<OpenDocument>;
-  end: () => void;
+  /** The same, once it is there. */
+  there: OpenDocument | null;
+  unfollow: (() => void) | null;
+}
+
+export interface DocumentsOptions {
+  later(milliseconds: number, act: () => void): () => void;
+  /** Milliseconds. */
+  now(): number;
+  /** A word for this life of the page. */
+  page: string;
 }
 
 export class Documents {
+  /** Something is unsent, or no longer. */
+  readonly changed = new Emitter<void>();
+  readonly refused = new Emitter<{ doc: Doc; refusal: Refusal }>();
+  /** A file has another name; its session has gone with it. */
+  readonly moved = new Emitter<{ from: Doc; to: Doc }>();
+  readonly fields = new Fields();
   private readonly entries = new Map<Doc, Entry>();
-  private readonly others = new Set<() => Promise<void>>();
+  private edits = 0;
 
   constructor(
     private readonly connection: Connection,
     private readonly topics: TopicCache,
-    private readonly later: (milliseconds: number, act: () => void) => () => void,
-  ) {}
+    private readonly options: DocumentsOptions,
+  ) {
+    connection.changed.on(() => {
+      for (const { there } of this.entries.values()) there?.sync.linked(this.isLinked);
+    });
+    this.fields.changed.on(() => this.changed.emit());
+  }
 
-  /** Opens a text, or joins those who have; release() when it is no longer looked at. */
+  /** Opens a file, or joins those who have; release() when it is no longer looked at. */
   acquire(doc: Doc): { opened: Promise<OpenDocument>; release: () => void } {
     const entry = this.entries.get(doc) ?? this.begin(doc);
     entry.users++;
+    this.follow(entry);
     let held = true;
     const release = () => {
-      if (held) this.release(doc, entry);
+      if (held) this.release(entry);
       held = false;
     };
     return { opened: entry.opened, release };
   }
 
-  /** What else is edited is sent with the texts: files that are edited by their members. */
-  join(flushed: () => Promise<void>): () => void {
-    this.others.add(flushed);
-    return () => void this.others.delete(flushed);
+  /** Something was typed or drawn that the server does not have. */
+  get isUnsent(): boolean {
+    return this.fields.isTyped || [...this.entries.values()].some(isUnsent);
   }
 
-  /** Sends what was typed and not yet sent, in all texts; gives the version of each that the server then has. */
-  async flushAll(): Promise<Map<Doc, number>> {
-    await Promise.allSettled([...this.others].map((flushed) => flushed()));
-    const flushed = await Promise.allSettled(
-      [...this.entries].map(async ([doc, entry]): Promise<[Doc, number]> => {
-        const { shared } = await entry.opened;
-        await shared.flushed();
-        return [doc, shared.confirmedVersion];
-      }),
-    );
-    return new Map(flushed.flatMap((one) => (one.status === 'fulfilled' ? [one.value] : [])));
+  /** The same for one file; a field may belong to any. */
+  waits(doc: Doc): boolean {
+    const entry = this.entries.get(doc);
+    return this.fields.isTyped || (entry !== undefined && isUnsent(entry));
   }
 
-  /** Another project is open: what it calls by the same name is another text. */
+  /**
+   * Takes what is typed in fields and sends what was not sent yet, in all files; gives the version of
+   * each that the server then has. Throws with the reason if it does not get there.
+   */
+  flushAll(): Promise<Map<Doc, number>> {
+    this.fields.settle();
+    return this.flush(() => true);
+  }
+
+  /** The same for one file: what is wrong with another one is no reason not to save it. */
+  flushOne(doc: Doc): Promise<void> {
+    this.fields.settle();
+    return this.sent(doc);
+  }
+
+  /** Only sends what was not sent yet in one file: what is typed in a field goes on being typed. */
+  async sent(doc: Doc): Promise<void> {
+    await this.flush((one) => fileOf(one) === fileOf(doc));
+  }
+
+  /** A file has another name: its session, and who shows it, go with it. */
+  renamed(from: Doc, to: Doc): void {
+    if (from === to) return;
+    const entry = this.entries.get(from);
+    if (entry) this.drop(entry);
+    if (entry && !this.entries.has(to)) {
+      entry.doc = to;
+      this.entries.set(to, entry);
+      this.follow(entry);
+    }
+    this.moved.emit({ from, to });
+  }
+
+  /** This page may change things again: what was refused is sent. */
+  tryAgain(): void {
+    for (const { there } of this.entries.values())
+      if (there?.sync.problem) void there.sync.flushed();
+  }
+
+  /** Another project is open: what it calls by the same name is another file. */
   forget(): void {
-    for (const entry of this.entries.values()) entry.end();
+    for (const entry of this.entries.values()) entry.unfollow?.();
     this.entries.clear();
+    this.changed.emit();
+  }
+
+  private async flush(is: (doc: Doc) => boolean): Promise<Map<Doc, number>> {
+    const open = [...this.entries.values()].filter((entry) => entry.there && is(entry.doc));
+    const all = await Promise.all(
+      open.map(async ({ doc, there }) => ({ doc, ended: await there?.sync.flushed() })),
+    );
+    const versions = new Map<Doc, number>();
+    for (const { doc, ended } of all) {
+      if (ended?.is === 'sent') versions.set(doc, ended.version);
+      else if (ended) throw new CommandError(whyNot(ended, doc));
+    }
+    return versions;
+  }
+
+  private get isLinked(): boolean {
+    return this.connection.link.state === 'open';
   }
 
   private begin(doc: Doc): Entry {
-    const entry: Entry = { users: 0, opened: this.open(doc), end: () => {} };
+    const entry: Entry = { doc, users: 0, opened: this.open(doc), there: null, unfollow: null };
     this.entries.set(doc, entry);
     entry.opened.then(
-      ({ shared }) => {
-        if (this.entries.get(doc) !== entry) return;
-        // Shared with all who show something of it: the whole text comes with each change. What is
-        // there already is from before the answer, and older.
-        entry.end = this.topics.subscribe('doc', { doc }, () => {
-          const state = this.topics.get('doc', { doc });
-          if (state) shared.told(state);
-        });
-      },
-      () => this.entries.get(doc) === entry && this.entries.delete(doc),
+      (opened) => this.entered(entry, opened),
+      () => this.drop(entry),
     );
     return entry;
   }
 
+  private entered(entry: Entry, opened: OpenDocument): void {
+    entry.there = opened;
+    opened.sync.changed.on(() => this.changed.emit());
+    opened.session.refused.on((refusal) => this.refused.emit({ doc: entry.doc, refusal }));
+    opened.sync.linked(this.isLinked);
+    this.told(entry);
+  }
+
   private async open(doc: Doc): Promise<OpenDocument> {
-    const opened = await this.connection.send('doc.open', { doc });
-    const shared = new SharedDocument(
-      {
-        open: () => this.connection.send('doc.open', { doc }),
-        edit: async (version, changes) =>
-          (await this.connection.send('doc.edit', { doc, version, changes })).version,
-      },
-      opened,
-    );
-    return { shared, language: opened.language, kept: null };
+    const [opened, { openDocument }] = await Promise.all([
+      this.connection.send('doc.open', { doc }),
+      import('./session/open'),
+    ]);
+    const name = () => `${this.options.page}.${++this.edits}`;
+    // The name of the file may be another one by then.
+    const nameNow = () => [...this.entries.values()].find((one) => one.there === made)?.doc ?? doc;
+    const link: DocLink = {
+      edit: (order) =>
+        this.connection.send('doc.edit', {
+          ...order,
+          changes: [...order.changes],
+          doc: nameNow(),
+        }),
+      pull: (from) => this.connection.send('doc.pull', { ...from, doc: nameNow() }),
+    };
+    const made = openDocument(opened, { link, name, now: () => this.options.now() });
+    return made;
   }
 
-  private release(doc: Doc, entry: Entry): void {
+  private follow(entry: Entry): void {
+    if (entry.unfollow) return;
+    const of = { doc: entry.doc };
+    entry.unfollow = this.topics.subscribe('doc', of, () => this.told(entry));
+    this.told(entry);
+  }
+
+  private told(entry: Entry): void {
+    const state = this.topics.get('doc', { doc: entry.doc });
+    if (!state) return;
+    if (state.moved !== undefined) this.renamed(entry.doc, state.moved);
+    // A file that is gone keeps its text.
+    else if (state.version > 0) entry.there?.sync.told(state);
+  }
+
+  private drop(entry: Entry): void {
+    entry.unfollow?.();
+    entry.unfollow = null;
+    if (this.entries.get(entry.doc) === entry) this.entries.delete(entry.doc);
+  }
+
+  private release(entry: Entry): void {
     entry.users--;
-    if (entry.users === 0) this.later(kStayMs, () => this.finish(doc, entry));
+    if (entry.users === 0) this.options.later(kStayMs, () => this.leave(entry));
   }
 
-  private finish(doc: Doc, entry: Entry): void {
-    void entry.opened.then(async ({ shared }) => {
-      if (entry.users > 0) return;
-      await shared.flushed();
-      if (entry.users > 0 || this.entries.get(doc) !== entry) return;
-      entry.end();
-      this.entries.delete(doc);
-    });
+  /** Nobody looks: it is asked again when somebody does. */
+  private leave(entry: Entry): void {
+    if (entry.users > 0 || isUnsent(entry)) return;
+    entry.unfollow?.();
+    entry.unfollow = null;
   }
+}
+
+function isUnsent({ there }: Entry): boolean {
+  return there?.sync.isUnsent ?? false;
+}
+
+function fileOf(doc: Doc): string {
+  return doc.replace(/#\d+$/, '');
+}
+
+function whyNot(ended: Exclude<Ended, { is: 'sent' }>, doc: Doc): Problem {
+  if (ended.is === 'refused') return { ...ended.problem, place: ended.problem.place ?? doc };
+  return { code: 'unavailable', what: 'There is no connection. What was typed is kept here.' };
 }

@@ -11,8 +11,12 @@ export interface Keep {
 
 export interface Identity {
   client: string;
+  /** Of this page load: a tab that was duplicated has the same name and another one of these. */
+  nonce: string;
   firstId: number;
   usedId(id: number): void;
+  /** The server has given the page another name. */
+  renamed(client: string): void;
 }
 
 export function identityOf(keep: Keep, make: () => string): Identity {
@@ -22,7 +26,9 @@ export function identityOf(keep: Keep, make: () => string): Identity {
   let reserved = firstId - 1;
   return {
     client,
+    nonce: make(),
     firstId,
+    renamed: (name) => keep.setItem('vagus.client', name),
     usedId(id) {
       if (id <= reserved) return;
       reserved = id + kIdBlock;

@@ -7,6 +7,7 @@ export interface KeyPress {
   shiftKey: boolean;
   altKey: boolean;
   metaKey: boolean;
+  getModifierState?(name: string): boolean;
 }
 
 /** "Ctrl+Shift+F" in one spelling, so that two spellings of one key are seen to clash. */
@@ -17,17 +18,24 @@ export function normalKey(text: string): string {
   return spell(has('ctrl'), has('alt'), has('shift'), key.length === 1 ? key.toUpperCase() : key);
 }
 
-/** The spellings by which a press can be meant; "?" is met with or without Shift. */
-export function pressedKeys(press: KeyPress): string[] {
+/**
+ * The spellings by which a press can be meant, the exact one first; "?" is met with or without Shift.
+ * What AltGr types, and Option on a keyboard of Apple, is typed: nothing is meant by it.
+ */
+export function pressedKeys(press: KeyPress, isApple = false): string[] {
+  const { key, altKey, shiftKey } = press;
+  const isOne = [...key].length === 1;
+  const isOption = isApple && altKey && !press.ctrlKey && !press.metaKey;
+  const isTyped = isOption || (press.getModifierState?.('AltGraph') ?? false);
+  if (isTyped && (isOne || key === 'Dead')) return [];
   const control = press.ctrlKey || press.metaKey;
-  const letter =
-    press.key === ' ' ? 'Space' : press.key.length === 1 ? press.key.toUpperCase() : press.key;
-  const found = [spell(control, press.altKey, press.shiftKey, letter)];
-  if (press.shiftKey && letter.length === 1)
-    found.push(spell(control, press.altKey, false, letter));
-  // With Alt a keyboard may give another letter; the place of the key still tells.
+  const letter = key === ' ' ? 'Space' : isOne ? key.toUpperCase() : key;
+  const found = [spell(control, altKey, shiftKey, letter)];
+  if (isOne && shiftKey && !/\p{L}/u.test(key)) found.push(spell(control, altKey, false, letter));
+  // A keyboard of another script has the letters of ours at their places.
   const place = /^Key([A-Z])$/.exec(press.code)?.[1];
-  if (place && place !== letter) found.push(spell(control, press.altKey, press.shiftKey, place));
+  if (place && isOne && /\p{L}/u.test(key) && !/\p{Script=Latin}/u.test(key))
+    found.push(spell(control, altKey, shiftKey, place));
   return found;
 }
 

@@ -132,13 +132,10 @@ export const layoutPlans: Record<LayoutName, Split> = {
       { is: 'documents', takes: ['plan'], opens: ['plan'] },
       {
         is: 'column',
-        size: 600,
-        wide: 1100,
-        narrow: 520,
-        parts: [
-          { is: 'panels', panels: ['world'] },
-          { is: 'panels', panels: ['plots'], size: 240, wide: 420, narrow: 180 },
-        ],
+        size: 460,
+        wide: 820,
+        narrow: 360,
+        parts: [{ is: 'panels', panels: ['world'] }],
       },
     ],
   },

@@ -22,8 +22,12 @@ export interface Command {
 export class Registry {
   readonly changed = new Emitter<void>();
   readonly failed = new Emitter<unknown>();
+  /** Says why the key of a command does nothing now; false: the key is somebody else's. */
+  refuse: (command: Command, key: string) => boolean = () => false;
   private readonly commands = new Map<string, Command>();
   private snapshot: readonly Command[] = [];
+  /** The keyboard has Option where others have Alt. */
+  isApple = false;
 
   /** Adds commands until the returned function is called. The last one of an id counts. */
   add(commands: readonly Command[]): () => void {
@@ -63,16 +67,22 @@ export class Registry {
     typing: boolean,
     isWithin: (place: string) => boolean = () => false,
   ): boolean {
-    for (const pressed of pressedKeys(press)) {
+    for (const pressed of pressedKeys(press, this.isApple)) {
       if (typing && typesText(pressed)) continue;
-      for (const command of this.snapshot) {
-        if (command.within !== undefined && !isWithin(command.within)) continue;
-        if (command.keysAreEvents) continue;
-        if (command.keys?.some((key) => normalKey(key) === pressed) && this.run(command.id))
-          return true;
-      }
+      const meant = this.meantBy(pressed, isWithin);
+      if (meant.some((command) => this.run(command.id))) return true;
+      if (meant[0] && this.refuse(meant[0], pressed)) return true;
     }
     return false;
+  }
+
+  private meantBy(pressed: string, isWithin: (place: string) => boolean): Command[] {
+    return this.snapshot.filter(
+      ({ within, keysAreEvents, keys }) =>
+        (within === undefined || isWithin(within)) &&
+        !keysAreEvents &&
+        keys?.some((key) => normalKey(key) === pressed),
+    );
   }
 
   private async attempt(command: Command): Promise<void> {

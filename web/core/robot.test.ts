@@ -358,7 +358,12 @@ describe('words on the screen', () => {
   const open = () => {
     const world = new TestWorld();
     let now = 0;
-    const studio = new Studio(world, { client: 'c', firstId: 1, usedId: () => {} }, '', () => now);
+    const studio = new Studio(
+      world,
+      { client: 'c', nonce: 'n', renamed: () => {}, firstId: 1, usedId: () => {} },
+      '',
+      () => now,
+    );
     studio.connection.start();
     world.welcome();
     const frame = (watch: number, address: number, values: number[]) => {
@@ -453,7 +458,12 @@ describe('plots follow the server', () => {
   const setUp = () => {
     const world = new TestWorld();
     let now = 0;
-    const studio = new Studio(world, { client: 'c', firstId: 1, usedId: () => {} }, '', () => now);
+    const studio = new Studio(
+      world,
+      { client: 'c', nonce: 'n', renamed: () => {}, firstId: 1, usedId: () => {} },
+      '',
+      () => now,
+    );
     studio.connection.start();
     world.welcome();
     const watchOf = (topic: string) =>

@@ -4,7 +4,6 @@ import type { Finding, Json, JsonStep } from '../protocol/messages';
 import { misfit } from '../protocol/check';
 import { readField } from '../protocol/shape';
 import { countsOf, ordered, sameFinding, stepIndex } from './findings';
-import { change, createHistory, redo, undo } from './history';
 import { identityOf, kIdBlock, tokenIn } from './identity';
 import { applySteps } from './json_steps';
 import { normalKey, pressedKeys, typesText, type KeyPress } from './keys';
@@ -44,6 +43,53 @@ describe('keys', () => {
       false,
       false,
     ]);
+  });
+  const control = (key: string, code: string, more: Partial<KeyPress> = {}) =>
+    pressedKeys(press(key, { code, ctrlKey: true, ...more }));
+  const altGr = (name: string) => name === 'AltGraph';
+
+  test('LettersAreMeantWithTheShiftThatIsHeld', () => {
+    expect(control('Z', 'KeyZ', { shiftKey: true })).toEqual(['Ctrl+Shift+Z']);
+    expect(control('?', 'Minus', { shiftKey: true })).toEqual(['Ctrl+Shift+?', 'Ctrl+?']);
+  });
+  // The key for z stands where English keyboards have y, and the other way round.
+  test('OnAGermanOrSwissKeyboardTheLetterCountsAndNotItsPlace', () => {
+    expect(control('z', 'KeyY')).toEqual(['Ctrl+Z']);
+    expect(control('y', 'KeyZ')).toEqual(['Ctrl+Y']);
+    expect(control('Z', 'KeyY', { shiftKey: true })).toEqual(['Ctrl+Shift+Z']);
+    expect(control('/', 'Digit7', { shiftKey: true })).toContain('Ctrl+/');
+    expect(pressedKeys(press('è', { code: 'BracketLeft' }))).toEqual(['È']);
+  });
+  test('OnAFrenchKeyboardTheLetterCountsAndDigitsAreMetWithShift', () => {
+    expect(control('z', 'KeyW')).toEqual(['Ctrl+Z']);
+    expect(control('w', 'KeyZ')).toEqual(['Ctrl+W']);
+    expect(control('1', 'Digit1', { shiftKey: true })).toContain('Ctrl+1');
+  });
+  test('OnACyrillicKeyboardThePlaceOfALetterCounts', () => {
+    expect(control('я', 'KeyZ')).toEqual(['Ctrl+Я', 'Ctrl+Z']);
+    expect(control('Я', 'KeyZ', { shiftKey: true })).toEqual(['Ctrl+Shift+Я', 'Ctrl+Shift+Z']);
+  });
+  test('WhatAltGrAndOptionTypeMeansNothing', () => {
+    expect(pressedKeys(press('€', { code: 'KeyE', getModifierState: altGr }))).toEqual([]);
+    const windows = { code: 'KeyE', ctrlKey: true, altKey: true, getModifierState: altGr };
+    expect(pressedKeys(press('€', windows))).toEqual([]);
+    // A browser that does not tell of AltGr.
+    expect(pressedKeys(press('€', { code: 'KeyE' }))).toEqual(['€']);
+    expect(pressedKeys(press('π', { code: 'KeyP', altKey: true }), true)).toEqual([]);
+    expect(pressedKeys(press('Dead', { code: 'KeyN', altKey: true }), true)).toEqual([]);
+    expect(pressedKeys(press('l', { code: 'KeyL', altKey: true }))).toEqual(['Alt+L']);
+    expect(pressedKeys(press('F12', { altKey: true }), true)).toEqual(['Alt+F12']);
+  });
+  test('WhatRedoesNeverUndoesEvenIfNothingIsToRedo', () => {
+    const registry = new Registry();
+    const undo = { id: 'undo', title: '', group: '', keys: ['Ctrl+Z'], run: vi.fn() };
+    const keys = ['Ctrl+Y', 'Ctrl+Shift+Z'];
+    registry.add([undo, { ...undo, id: 'redo', keys, enabled: () => false, run: vi.fn() }]);
+    const held = { ctrlKey: true, shiftKey: true };
+    expect(registry.press(press('Z', { ...held, code: 'KeyZ' }), false)).toBe(false);
+    expect(registry.press(press('Z', { ...held, code: 'KeyY' }), false)).toBe(false);
+    expect(registry.press(press('y', { ctrlKey: true, code: 'KeyZ' }), false)).toBe(false);
+    expect(undo.run).not.toHaveBeenCalled();
   });
 });
 
@@ -90,10 +136,10 @@ describe('the registry of commands', () => {
     const commands = [
       make('Layout Debug'),
       make('Upload to the node'),
-      make('Put the panels of this layout back'),
+      make('Reset the panels of this layout'),
     ];
     const found = rankCommands(commands, 'layout', () => true).map((one) => one.command.id);
-    expect(found).toEqual(['Layout Debug', 'Put the panels of this layout back']);
+    expect(found).toEqual(['Layout Debug', 'Reset the panels of this layout']);
     expect(rankCommands(commands, 'utn', () => true)[0]?.command.id).toBe('Upload to the node');
   });
 });
@@ -233,15 +279,6 @@ describe('steps of a JSON file', () => {
     const done = applySteps(value, steps);
     expect(done.value).toEqual({ objects: [{}, { at: [3, 4] }, { at: [1, 9] }], help: 'x' });
     expect(applySteps(done.value, done.undo).value).toEqual(value);
-  });
-  test('AHistoryGoesBackAndForth', () => {
-    const history = createHistory({ a: 1 });
-    change(history, [{ do: 'set', at: ['a'], value: 2 }]);
-    expect(undo(history)).toEqual([{ do: 'set', at: ['a'], value: 1 }]);
-    expect(history.getState().value).toEqual({ a: 1 });
-    expect(undo(history)).toBeNull();
-    expect(redo(history)).toEqual([{ do: 'set', at: ['a'], value: 2 }]);
-    expect(history.getState().value).toEqual({ a: 2 });
   });
 });
 

@@ -20,6 +20,8 @@ export interface World {
   frame(act: () => void): void;
   /** 0 to 1. */
   chance(): number;
+  /** An HTTP request without a body; rejects unless the server has accepted it. */
+  post(path: string, token: string): Promise<void>;
 }
 
 export function browserWorld(address: string): World {
@@ -39,5 +41,10 @@ export function browserWorld(address: string): World {
     },
     frame: (act) => void requestAnimationFrame(act),
     chance: Math.random,
+    async post(path, token) {
+      const headers = { Authorization: `Bearer ${token}` };
+      const answer = await fetch(path, { method: 'POST', headers, keepalive: true });
+      if (!answer.ok) throw new Error(`${path}: ${answer.status}`);
+    },
   };
 }

@@ -1,7 +1,7 @@
 // Everything behind the pages, put together: one of these for each page.
 
 import type { CommandName, Commands } from '../protocol/messages';
-import { CommandError, Connection } from './connection';
+import { answers, CommandError, Connection } from './connection';
 import { Documents } from './documents';
 import { Happenings } from './happenings';
 import type { Identity } from './identity';
@@ -10,12 +10,14 @@ import { PickList } from './picks';
 import { Plotter } from './plotter';
 import { Registry } from './registry';
 import type { World } from './socket';
+import { Stopping } from './stopping';
 import { TopicCache } from './topics';
 import { createWindowStore, forgetProject, toast, type WindowStore } from './window_state';
 import { LiveWords } from './words';
 
 export class Studio {
   readonly connection: Connection;
+  readonly stopping: Stopping;
   readonly topics: TopicCache;
   readonly documents: Documents;
   readonly registry = new Registry();
@@ -29,6 +31,8 @@ export class Studio {
   readonly watched = new PickList();
   /** Of the project that is looked at; '' if there is none, null until the server has said it. */
   private folder: string | null = null;
+  /** What the server calls this page, or did when it was last heard. */
+  private number: number | null = null;
 
   constructor(
     readonly world: World,
@@ -36,10 +40,24 @@ export class Studio {
     token: string,
     now: () => number,
   ) {
-    const { client, firstId, usedId } = identity;
-    this.connection = new Connection(world, { token, client, firstId, usedId, now });
+    const { client, nonce, firstId, usedId, renamed } = identity;
+    this.connection = new Connection(world, {
+      token,
+      client,
+      nonce,
+      firstId,
+      usedId,
+      renamed,
+      now,
+      clock: () => performance.now(),
+    });
+    this.stopping = new Stopping(this.connection, world);
     this.topics = new TopicCache(this.connection, (ms, act) => world.later(ms, act));
-    this.documents = new Documents(this.connection, this.topics, (ms, act) => world.later(ms, act));
+    this.documents = new Documents(this.connection, this.topics, {
+      later: (ms, act) => world.later(ms, act),
+      now,
+      page: Math.floor(world.chance() * 2 ** 52).toString(36),
+    });
     const timed = {
       frame: (act: () => void) => world.frame(act),
       later: (ms: number, act: () => void) => world.later(ms, act),
@@ -50,7 +68,13 @@ export class Studio {
     this.plotter = new Plotter(this.connection, this.topics, this.happenings, timed);
     this.past = this.makePast();
     this.registry.failed.on((problem) => this.tell(problem));
-    this.topics.subscribe('studio', {}, () => this.lookAtProject());
+    this.topics.subscribe('studio', {}, () => {
+      this.lookAtProject();
+      if (this.drives) this.documents.tryAgain();
+    });
+    this.connection.changed.on((link) => {
+      if (link.state === 'open') this.number = link.number;
+    });
   }
 
   private makePast(): Past {
@@ -74,8 +98,21 @@ export class Studio {
     if (first) return;
     this.documents.forget();
     this.past.closeTrace();
+    this.happenings.clear();
     this.topics.forget(['studio', 'start', 'targets']);
     forgetProject(this.window);
+  }
+
+  /** This page may change things. */
+  get drives(): boolean {
+    return answers(this.connection.link) && this.mayEdit;
+  }
+
+  /** The same, also while there is no connection: what is typed then is sent when it is back. */
+  get mayEdit(): boolean {
+    const { state } = this.connection.link;
+    if (state !== 'open' && state !== 'lost') return false;
+    return this.number !== null && this.topics.get('studio', {})?.driver === this.number;
   }
 
   send<C extends CommandName>(command: C, input: Commands[C]['in']): Promise<Commands[C]['out']> {

@@ -8,8 +8,16 @@ export interface TestSocket {
   closed: boolean;
 }
 
+export interface TestPost {
+  path: string;
+  token: string;
+  delivered: () => void;
+  lost: () => void;
+}
+
 export class TestWorld implements World {
   readonly sockets: TestSocket[] = [];
+  readonly posts: TestPost[] = [];
   private now = 0;
   private due: { at: number; act: () => void }[] = [];
 
@@ -36,6 +44,12 @@ export class TestWorld implements World {
     return 0.5;
   }
 
+  post(path: string, token: string): Promise<void> {
+    return new Promise((delivered, lost) =>
+      this.posts.push({ path, token, delivered, lost: () => lost(new Error('not delivered')) }),
+    );
+  }
+
   pass(milliseconds: number): void {
     const until = this.now + milliseconds;
     for (;;) {
@@ -55,12 +69,22 @@ export class TestWorld implements World {
   }
 
   /** Opens the newest socket and answers its hello. */
-  welcome(number = 7): void {
+  welcome(number = 7, more: Record<string, unknown> = {}): void {
     this.last.events.open();
     const hello = this.last.sent[0];
     this.say({
       id: hello?.id,
-      ok: { version: 'test', role: 'drive', number, driver: true, wall: 0 },
+      ok: {
+        version: 'test',
+        epoch: 'e',
+        client: 'me',
+        role: 'drive',
+        number,
+        driver: true,
+        now: 0,
+        wall: 0,
+        ...more,
+      },
     });
   }
 

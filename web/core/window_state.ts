@@ -48,6 +48,10 @@ export interface WindowState {
   events: { filter: EventFilter; paused: boolean; counts: boolean; send: boolean };
   /** The plot in numbers. */
   plotTable: boolean;
+  /** What F5 could not run, said in the document where it was pressed. */
+  runNote: { doc: Doc | null; text: string } | null;
+  /** The menu of targets is open. */
+  targets: boolean;
   /** Nodes that the buttons of the network are for; none: all. */
   chosenNodes: NodeId[];
 }
@@ -73,6 +77,8 @@ export function createWindowStore() {
     references: null,
     events: { filter: allEvents, paused: false, counts: false, send: false },
     plotTable: false,
+    runNote: null,
+    targets: false,
     chosenNodes: [],
   }));
 }

@@ -80,7 +80,7 @@ test(
     await line.getByRole('button', { name: 'Save' }).click();
     await gone(line);
     await reads(live, /P: the new version runs/);
-    await seen(page.getByRole('img', { name: 'saved, on the robot, runs' }));
+    await seen(page.getByRole('img', { name: 'saved, on the robot, running' }));
     // Drawn anew while it runs: an actor that the new version brings is live.
     await reads(live, /stay/);
   },
@@ -97,7 +97,7 @@ test(
     await press('Delete');
     const before = page
       .getByRole('status')
-      .filter({ hasText: 'Saving cannot change the running plan' });
+      .filter({ hasText: 'The running plan cannot take this change' });
     await seen(before);
     await reads(before, /\[P15\]/);
     await press('Control+z');
@@ -110,14 +110,14 @@ test(
     await seen(before);
     await reads(before, /the supervisor "late" watches/);
     await press('Control+s');
-    const after = page.getByRole('status').filter({ hasText: 'The plan as it was runs on.' });
+    const after = page.getByRole('status').filter({ hasText: 'could not take what was saved' });
     await seen(after);
     await reads(after, /the supervisor "late" watches/);
-    await seen(page.getByRole('img', { name: 'saved, the robot has an older one, runs' }));
-    await reads(live, /runs/);
-    await after.getByRole('button', { name: 'Stop and start anew' }).click();
+    await seen(page.getByRole('img', { name: 'saved, the robot has an older one, running' }));
+    await reads(live, /running/);
+    await after.getByRole('button', { name: 'Stop and start again' }).click();
     await gone(after);
-    await seen(page.getByRole('img', { name: 'saved, on the robot, runs' }));
+    await seen(page.getByRole('img', { name: 'saved, on the robot, running' }));
     await reads(live, /stay/);
   },
 );

@@ -77,7 +77,7 @@ const drawn = (page) =>
 
 /** Whoever comes within ten seconds of a death asks for the wheel. */
 async function drive(page) {
-  const wheel = page.getByRole('button', { name: 'Ask for the wheel' });
+  const wheel = page.getByRole('button', { name: 'Request control' });
   await wheel
     .or(page.getByRole('button', { name: 'Upload' }))
     .first()

@@ -30,26 +30,26 @@ test('each node runs, stands, steps and stops by itself, and all together', two,
   await command('Show Network');
   await seen(page.getByRole('group', { name: 'The bus with 2 nodes' }));
   await press('F5');
-  await reads(stateOf(page, 'left'), /runs/);
-  await reads(stateOf(page, 'right'), /runs/);
+  await reads(stateOf(page, 'left'), /running/);
+  await reads(stateOf(page, 'right'), /running/);
   await seen(page.getByRole('row', { name: /left tick right \d+/ }));
   await button('Pause: right').click();
-  await reads(stateOf(page, 'right'), /stands/);
-  await reads(stateOf(page, 'left'), /runs/);
+  await reads(stateOf(page, 'right'), /paused/);
+  await reads(stateOf(page, 'left'), /running/);
   await button('Step: right').click();
-  await reads(stateOf(page, 'right'), /stands/);
+  await reads(stateOf(page, 'right'), /paused/);
   await button('Run: right').click();
-  await reads(stateOf(page, 'right'), /runs/);
-  await seen(mark(studio, 'right', /, runs$/));
+  await reads(stateOf(page, 'right'), /running/);
+  await seen(mark(studio, 'right', /, running$/));
   await button('Pause: All nodes').click();
-  await reads(stateOf(page, 'left'), /stands/);
-  await reads(stateOf(page, 'right'), /stands/);
-  await seen(mark(studio, 'left', /stands/));
+  await reads(stateOf(page, 'left'), /paused/);
+  await reads(stateOf(page, 'right'), /paused/);
+  await seen(mark(studio, 'left', /paused/));
   await press('Shift+F5');
   await reads(stateOf(page, 'left'), /stopped/);
   await reads(stateOf(page, 'right'), /stopped/);
   await button('Run: left').click();
-  await reads(stateOf(page, 'left'), /runs/);
+  await reads(stateOf(page, 'left'), /running/);
 });
 
 test(
@@ -59,31 +59,31 @@ test(
     const { page, press, editor, tab, button, server, left, right } = studio;
     await seen(editor('left'));
     await press('F5');
-    await seen(mark(studio, 'right', /, runs$/));
+    await seen(mark(studio, 'right', /, running$/));
     await tab(/right 2/).click();
     await editor('right').click();
     await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'Control+F9');
     await page.getByLabel('Stops if').fill('args[0] % 10 == 0');
     await press('Enter');
-    await seen(page.getByText('right stands at line 4'));
+    await seen(page.getByText('right paused at line 4'));
     await seen(page.getByText('if args[0] % 10 == 0'));
     await reads(page.locator('.cm-values'), /args(\[0\])? = \d*0\b/);
     await studio.layout('Debug');
     await seen(page.getByRole('list', { name: 'Breakpoints' }).getByText(/[1-9]\d* hits?/));
     // The other one was not asked to stand.
-    await seen(mark(studio, 'left', /, runs$/));
+    await seen(mark(studio, 'left', /, running$/));
 
     // Unplugged: it is said, and nothing has to be answered.
     await right.program.stop();
-    await seen(mark(studio, 'right', /does not run/));
+    await seen(mark(studio, 'right', /stopped/));
     assert.equal(await page.getByRole('alertdialog').count(), 0);
     const again = await startNode(studio.t, 'right', 2, right.port);
     assert.equal(again.port, right.port);
     // Plugged in: script and breakpoint are back; it stands until someone lets it run.
-    await seen(mark(studio, 'right', /[^t] on the robot, (stands|does not run)/));
+    await seen(mark(studio, 'right', /[^t] on the robot, (paused|stopped)/));
     await tab(/right 2/).click();
     await button('Run this node').click();
-    await seen(page.getByText('right stands at line 4'));
+    await seen(page.getByText('right paused at line 4'));
     await reads(page.locator('.cm-values'), /args(\[0\])? = \d*0\b/);
     // After the studio has gone and come back the breakpoint is there, too.
     await page.reload();
@@ -105,9 +105,9 @@ test('a fault is shown at the line that caused it', faulty, async (studio) => {
   const { page, press, editor, command, button } = studio;
   await seen(editor('left'));
   await press('F5');
-  await seen(mark(studio, 'left', /, runs$/));
+  await seen(mark(studio, 'left', /, running$/));
   await command('Send an event…');
   await page.getByRole('button', { name: 'Send', exact: true }).click();
   await seen(page.getByText(/The node stopped here: .*/));
-  await seen(page.getByText('left stands at line 5'));
+  await seen(page.getByText('left paused at line 5'));
 });

@@ -214,7 +214,7 @@ test(
     await page.evaluate(() => navigator.clipboard.writeText('something else'));
     await element(page, 'Start').focus();
     await press('Control+v');
-    await seen(page.getByText('There are no elements of a plan in the clipboard.'));
+    await seen(page.getByText('The clipboard has no elements of a plan.'));
   },
 );
 

@@ -126,7 +126,7 @@ test('search and replace over all files', two, async (studio) => {
   await press('Enter');
   await seen(page.getByText(/places in 2 texts|places in 3 texts/));
   await page.getByLabel('Find', { exact: true }).fill('seen');
-  await page.getByLabel('Replace by').fill('heard');
+  await page.getByLabel('Replace with').fill('heard');
   await button('Replace all').click();
   await seen(page.getByText(/places in .* replaced/));
   await open(studio, 'right');
@@ -169,7 +169,7 @@ test('constants and events: added, renamed, removed, sent', two, async (studio) 
   await press('Enter');
   await seen(button('Change AWAY'));
   await row('AWAY').hover();
-  await button('Remove AWAY').click();
+  await button('Delete AWAY').click();
   await gone(button('Change AWAY'));
   await button('Add an event').click();
   await page.getByLabel('Name', { exact: true }).fill('ring');

@@ -77,7 +77,7 @@ test('what is undone is the file as it was', { timeout: kTestMs }, async (t) => 
   const { seeded } = await core('test_seeded');
   const random = seeded(seed);
   const { PlanBoard } = await core('plan/board');
-  const { JsonDocument } = await core('json_document');
+  const { openDocument } = await core('session/open');
   const place = mkdtempSync(join(tmpdir(), 'vagus-edits-'));
   atEnd(t, () => rmSync(place, { recursive: true }));
   cpSync(join(root, 'examples'), place, { recursive: true });
@@ -91,23 +91,27 @@ test('what is undone is the file as it was', { timeout: kTestMs }, async (t) => 
     const { toolboxes } = await client.first('templates');
     const opened = await client.do('doc.open', { doc });
     const link = {
-      open: () => client.do('doc.open', { doc }),
-      patch: (version, steps) => client.do('doc.patch', { doc, version, steps }),
-      edit: (version, changes) => client.do('doc.edit', { doc, version, changes }),
+      edit: (order) => client.do('doc.edit', { doc, ...order }),
+      pull: (from) => client.do('doc.pull', { doc, ...from }),
     };
-    const file = new JsonDocument(link, opened);
-    file.trouble.on((what) => assert.fail(`seed ${seed}: ${what}`));
-    // Ways of arrows are not looked at here: each look at its clock is a second later.
+    let edits = 0;
+    // A step each two seconds: none is one with the one before.
+    const made = openDocument(opened, { link, name: () => `e${++edits}`, now: () => edits * 2000 });
+    made.session.refused.on((why) => assert.fail(`seed ${seed}: ${JSON.stringify(why)}`));
+    const file = made.file();
+    const flushed = async () => assert.equal((await made.sync.flushed()).is, 'sent');
+    // Ways of arrows are not looked at here: each look at the clock is a second later.
     let seconds = 0;
-    const board = new PlanBoard(doc, file, toolboxes, new Map(), () => ++seconds * 1000);
+    const turns = { now: () => ++seconds * 1000, later: (act) => void setTimeout(act) };
+    const board = new PlanBoard(doc, file, toolboxes, turns);
     file.changed.on(() => board.refresh());
     for (let edit = 0; edit < kEditsOfOne; edit++) {
       change(board, toolboxes, random);
       if (random(8) === 0) file.undo();
       if (random(8) === 0) file.redo();
-      if (random(4) === 0) await file.flushed();
+      if (random(4) === 0) await flushed();
     }
-    await file.flushed();
+    await flushed();
     await client.do('doc.save', { doc });
     const path = join(place, doc);
     const saved = readFileSync(path, 'utf8');
@@ -116,19 +120,19 @@ test('what is undone is the file as it was', { timeout: kTestMs }, async (t) => 
     let steps = 0;
     for (; file.canUndo; steps++) {
       file.undo();
-      await file.flushed();
+      await flushed();
     }
     const { text } = await client.do('doc.open', { doc });
     assert.equal(text, opened.text, `seed ${seed}, after ${done} edits`);
     // What was undone here, not what was undone before it.
     for (; steps > 0; steps--) {
       file.redo();
-      await file.flushed();
+      await flushed();
     }
     const again = await client.do('doc.open', { doc });
     assert.equal(again.text, saved, `seed ${seed}, after ${done} edits`);
     file.undo();
-    await file.flushed();
+    await flushed();
     await client.do('doc.revert', { doc });
     cpSync(join(root, 'examples', doc), path);
   }

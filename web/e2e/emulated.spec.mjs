@@ -39,19 +39,19 @@ async function breakAndStep(studio, name) {
   const { page, press, editor, tab } = studio;
   const mark = (words) => tab(new RegExp(`^${name}`)).getByRole('img', { name: words });
   await tab(new RegExp(`^${name}`)).click();
-  await seen(mark(/on the robot, runs/));
+  await seen(mark(/on the robot, running/));
   await until('it counts', async () => Number(await page.getByTitle('Change n').innerText()) > 3);
   await editor(name).click();
   await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'F9');
-  await seen(page.getByText(`${name} stands at line 4`));
+  await seen(page.getByText(`${name} paused at line 4`));
   await press('F10');
-  await seen(page.getByText(`${name} stands at line 5`));
+  await seen(page.getByText(`${name} paused at line 5`));
   const n = await page.getByTitle('Change n').innerText();
   await press('F10', 'F10');
   await reads(page.getByTitle('Change leds'), n);
   // Goes on: the breakpoint is taken away.
   await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'F9', 'F5');
-  await seen(mark(/on the robot, runs/));
+  await seen(mark(/on the robot, running/));
 }
 
 test('two emulated boards are programmed, stand and step', boards, async (studio) => {

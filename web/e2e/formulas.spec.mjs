@@ -46,7 +46,7 @@ const seconds = async (place) =>
 test('a formula is completed by the keyboard', plan, async (studio) => {
   const { page, press, place } = studio;
   const field = (await form(studio)).getByRole('combobox', { name: 'seconds' });
-  const list = page.getByRole('listbox', { name: 'What may stand here' });
+  const list = page.getByRole('listbox', { name: 'Suggestions' });
   await field.fill('');
   await field.pressSequentially('sq');
   await seen(list.getByRole('option', { name: 'sqrt sqrt(x)' }));

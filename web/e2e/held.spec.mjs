@@ -71,8 +71,8 @@ async function standAtSecond(studio) {
   await press('Space', 'F9', 'F5');
   await seen(page.getByRole('button', { name: /Running/ }));
   await send(studio, 'go');
-  await seen(page.getByText('Paused by the breakpoint second; the plan stands'));
-  await seen(page.getByText('None has come since.'));
+  await seen(page.getByText('Paused by the breakpoint second'));
+  await seen(page.getByText('No events since.'));
 }
 
 test('held events are dropped, let go and stepped with, by the keyboard', three, async (studio) => {
@@ -91,11 +91,11 @@ test('held events are dropped, let go and stepped with, by the keyboard', three,
   await reads(page.getByRole('contentinfo', { name: 'What works now' }), /third/);
   await reads(held(page).first(), /go/);
   await command('Held events: drop all');
-  await seen(page.getByText('None has come since.'));
+  await seen(page.getByText('No events since.'));
   await send(studio, 'end');
-  await page.getByRole('button', { name: 'Let go end' }).focus();
+  await page.getByRole('button', { name: 'Release end' }).focus();
   await press('Enter');
-  await seen(page.getByText('None has come since.'));
+  await seen(page.getByText('No events since.'));
   await press('F5');
   await gone(page.getByRole('heading', { name: 'Held events' }));
 });
@@ -108,9 +108,9 @@ test('a node that stands says how many events it has dropped', three, async (stu
   await press('Control+End', 'ArrowUp', 'F9', 'F5');
   await seen(page.getByRole('button', { name: /Running/ }));
   await send(studio, 'go');
-  await reads(page.getByRole('contentinfo', { name: 'State' }), /thymio-II stands at line \d+/);
+  await reads(page.getByRole('contentinfo', { name: 'State' }), /thymio-II paused at line \d+/);
   await send(studio, 'go', 'go', 'end');
   // Its script has no handler of end: nothing is lost by that.
-  await seen(page.getByText('thymio-II stands and has dropped 2 events of its own.'));
+  await seen(page.getByText('thymio-II is paused and has dropped 2 events of its own.'));
   await look(studio, 'dropped events');
 });

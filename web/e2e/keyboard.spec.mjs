@@ -40,13 +40,13 @@ test('a robot is programmed without a mouse', {}, async (studio) => {
 
   // Break at line 5.
   await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'F9');
-  await seen(page.getByText('thymio-II stands at line 5'));
+  await seen(page.getByText('thymio-II paused at line 5'));
   await seen(page.getByRole('button', { name: /Paused/ }));
   await reads(page.locator('.cm-values'), /count = \d+/);
 
   // Step.
   await press('F10');
-  await seen(page.getByText('thymio-II stands at line 6'));
+  await seen(page.getByText('thymio-II paused at line 6'));
 
   // Change a value.
   await press('Control+Alt+v');
@@ -81,7 +81,7 @@ test('a robot is programmed without a mouse', {}, async (studio) => {
   await seen(page.getByRole('table', { name: 'Things' }));
   await until('the robot turns to the right', async () => (await angleOf(page, 'thymio')) < -20);
   await press('Shift+F5');
-  await seen(page.getByRole('button', { name: /Stands/ }));
+  await seen(page.getByRole('button', { name: /Stopped/ }));
 });
 
 async function focusEditor({ press, editor }) {

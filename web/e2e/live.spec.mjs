@@ -49,15 +49,15 @@ test('a breakpoint by the keyboard stops the plan, which says so', rounds, async
   await press('Space', 'F9');
   await seen(element(page, 'count, computation For').getByRole('img', { name: 'Breakpoint' }));
   await press('F5');
-  await seen(page.getByText('Paused by the breakpoint count; the plan stands'));
+  await seen(page.getByText('Paused by the breakpoint count'));
   // It stands before its third actor: one say, one rest, and no count yet.
   await reads(element(page, 'say, actor Log'), /×1 0\.0 s/);
   await reads(element(page, 'rest, actor Wait'), /×1 0\.1 s/);
   await command('Breakpoints');
-  await reads(shows(page), /count\s+Rounds\.plan\s+stands here\s+1 hit/);
+  await reads(shows(page), /count\s+Rounds\.plan\s+paused here\s+1 hit/);
   await press('F5');
   await reads(element(page, 'rest, actor Wait'), /×2 0\.2 s/);
-  await reads(shows(page), /stands here\s+2 hits/);
+  await reads(shows(page), /paused here\s+2 hits/);
   await page.getByRole('switch', { name: 'count: On' }).click();
   await press('F5');
   await reads(shows(page), /off/);
@@ -70,13 +70,13 @@ test('a state stops at its Nth hit; it is set by the menu and its form', rounds,
   await layout('Draw');
   const count = element(page, 'count, computation For');
   await count.getByTitle('Loop').first().click({ button: 'right' });
-  await page.getByRole('menuitem', { name: 'Plan: breakpoint at what is chosen' }).click();
+  await page.getByRole('menuitem', { name: 'Plan: breakpoint at the selection' }).click();
   await seen(count.getByRole('img', { name: 'Breakpoint' }));
   await page.getByLabel('from hit').fill('3');
   await press('Enter');
   await seen(count.getByRole('img', { name: 'Breakpoint, from hit 3' }));
   await press('F5');
-  await seen(page.getByText('Paused by the breakpoint count · Loop; the plan stands'));
+  await seen(page.getByText('Paused by the breakpoint count · Loop'));
   // Three loops: n is 3, and the next say gives it.
   await reads(element(page, 'n, variable, int'), /3/);
 
@@ -110,7 +110,7 @@ test('a condition stops the plan, and an event is raised by hand', rounds, async
   await command('Breakpoints');
   await page.getByLabel('Stop when').fill('n == 4');
   await press('Enter', 'F5');
-  await seen(page.getByText('Paused by the breakpoint when n == 4; the plan stands'));
+  await seen(page.getByText('Paused by the breakpoint when n == 4'));
   await reads(element(page, 'n, variable, int'), /4/);
   const late = element(page, 'late, supervisor Timeout');
   await late.focus();
@@ -145,10 +145,10 @@ test(
     await page.getByRole('tab', { name: /WallFollow/ }).click();
     await actor.focus();
     await press('F9', 'F5');
-    await seen(page.getByText('Paused by the breakpoint searchFirstWall; the plan stands'));
+    await seen(page.getByText('Paused by the breakpoint searchFirstWall'));
     await actor.focus();
     await press('Control+F10');
-    await reads(page.getByRole('contentinfo', { name: 'State' }), /drive stands at line \d+/);
+    await reads(page.getByRole('contentinfo', { name: 'State' }), /drive paused at line \d+/);
     await seen(page.locator('.cm-standing'));
     await page.getByRole('button', { name: 'Show searchFirstWall' }).click();
     await seen(actor);

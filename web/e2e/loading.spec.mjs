@@ -12,13 +12,13 @@ test(
     const part = /\/search_panel-[^/]*\.js$/;
     await page.route(part, (route) => route.abort());
     await press('Control+Shift+F');
-    await seen(page.getByText('This part of the page did not come.'));
+    await seen(page.getByText('This part of the page could not be loaded.'));
     // The browser says what failed: each try, and what was shown instead.
     assert.ok(complaints.length >= 4, `the page tried by itself: ${complaints.length}`);
     complaints.splice(0);
     await page.unroute(part);
     await button('Try again').click();
     await seen(page.getByRole('textbox', { name: 'Find' }));
-    await gone(page.getByText('This part of the page did not come.'));
+    await gone(page.getByText('This part of the page could not be loaded.'));
   },
 );

@@ -5,7 +5,7 @@ test('a newcomer makes a Thymio avoid obstacles', {}, async (studio) => {
   const { page, press, type, button, layout } = studio;
   await page.getByRole('button', { name: /^New/ }).click();
   await page.getByLabel('Name').fill('avoid');
-  await button('Make it').click();
+  await button('Create').click();
   const editor = studio.editor('thymio-II');
   await editor.click();
   await press('Control+a', 'Delete');
@@ -33,7 +33,7 @@ test('a newcomer makes a Thymio avoid obstacles', {}, async (studio) => {
   await page
     .locator('.cm-lineNumbers .cm-gutterElement', { hasText: /^4$/ })
     .click({ position: { x: -6, y: 8 }, force: true });
-  await seen(page.getByText('thymio-II stands at line 4'));
+  await seen(page.getByText('thymio-II paused at line 4'));
   await page
     .locator('.cm-lineNumbers .cm-gutterElement', { hasText: /^4$/ })
     .click({ position: { x: -6, y: 8 }, force: true });

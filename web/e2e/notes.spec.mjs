@@ -62,7 +62,7 @@ test('a note is written, moved, resized and removed by the keyboard', plan, asyn
   await until('the file is as it was', () => file(place) === kPlan);
 });
 
-test('a note is written and drawn larger by the mouse', plan, async (studio) => {
+test('a note is written and enlarged by the mouse', plan, async (studio) => {
   const { page, layout, press, place, button } = studio;
   await layout('Draw');
   await button('New note').click();

@@ -67,7 +67,7 @@ for (const theme of ['dark', 'light'])
     await seen(button('Running'));
     await button('Stop').tap();
     await seen(button('Run'));
-    await reads(page.locator('.phone__clock'), /^Stands · /);
+    await reads(page.locator('.phone__clock'), /^Stopped · /);
   });
 
 test('who only looks can stop', phone, async (studio) => {
@@ -76,11 +76,11 @@ test('who only looks can stop', phone, async (studio) => {
   await seen(button('Running'));
   const other = await context.newPage();
   await other.goto(server.address);
-  await seen(other.getByText(/You look on/));
+  await seen(other.getByText(/View only/));
   assert.ok(await other.getByRole('button', { name: 'Running' }).isDisabled());
   await other.getByRole('button', { name: 'Stop', exact: true }).tap();
   await seen(button('Run'));
-  await seen(page.getByText(/Stands/));
+  await seen(page.getByText(/Stopped/));
 });
 
 test('a wide window is the studio, a narrow one a telephone', phone, async ({ page, tab }) => {

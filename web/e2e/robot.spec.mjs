@@ -24,7 +24,7 @@ async function run(studio) {
   await seen(studio.editor('left'));
   await studio.press('F5');
   await seen(
-    studio.page.getByText(/left: the script of .* runs/).or(studio.page.getByText('tick')),
+    studio.page.getByText(/left: running the script of/).or(studio.page.getByText('tick')),
   );
 }
 const variable = (page, name) =>
@@ -79,8 +79,8 @@ test('events are listed, filtered, held, counted, saved, sent', two, async (stud
   await gone(happened(page).getByText('tick'));
   await seen(happened(page).getByText(/loaded/));
   await page.getByRole('searchbox', { name: /Filter/ }).fill('');
-  await button('Hold the list').click();
-  await seen(page.getByText(/\d+ newer ones? held back/));
+  await button('Pause the list').click();
+  await seen(page.getByText(/\d+ newer ones? not shown/));
   await button('Continue the list').click();
   const [saved] = await Promise.all([page.waitForEvent('download'), button('Save as CSV').click()]);
   const csv = readFileSync(await saved.path(), 'utf8');
@@ -111,7 +111,7 @@ test('any variable, element or argument is plotted with one click', two, async (
   await button('Plot the arguments of tick').click();
   await seen(page.getByLabel(/Axis of .*tick/).first());
   await page.getByLabel(/Axis of .*wave\[3\]/).selectOption('2');
-  await button('Hold the plot').click();
+  await button('Pause the plot').click();
   await page.getByRole('img', { name: /Plot of/ }).focus();
   await press('ArrowLeft', 'ArrowLeft', '+');
   await button('As a table').click();

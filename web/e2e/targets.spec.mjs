@@ -66,16 +66,16 @@ async function drive(studio) {
   await seen(page.getByText('prox.horizontal'));
   // Loaded, runs, watched.
   await press('F5');
-  await seen(tab(/^thymio-II/).getByRole('img', { name: /on the robot, runs/ }));
+  await seen(tab(/^thymio-II/).getByRole('img', { name: /on the robot, running/ }));
   const n = page.getByTitle('Change n');
   await until('it counts', async () => Number(await n.innerText()) > 3);
   // Break, step, go on.
   await editor('thymio-II').click();
   await press('Control+Home', 'ArrowDown', 'ArrowDown', 'F9');
-  await seen(page.getByText('thymio-II stands at line 3'));
+  await seen(page.getByText('thymio-II paused at line 3'));
   await press('F10');
-  await seen(page.getByText('thymio-II stands at line 4'));
-  await press('F9');
+  await seen(page.getByText('thymio-II paused at line 4'));
+  // Without a breakpoint: each hit stops the wheels of a live robot.
   await press('Control+Home', 'ArrowDown', 'ArrowDown', 'F9', 'F5');
   await page.getByRole('searchbox', { name: 'Find in all nodes' }).fill('motor.left');
   await until(
@@ -119,7 +119,7 @@ test('a target is chosen by its address; the node keeps its program', flash, asy
   await seen(page.getByRole('button', { name: /State of the bus: rover/ }));
   await button('Upload').click();
   await seen(page.getByText('rover is on the robot.'));
-  await button('Keep').click();
+  await button('Save on the robot').click();
   await seen(page.getByText(/The node keeps its program|saved/));
   await until('the file is there', () => existsSync(file));
   // A target that is not there is said, and nothing waits for an answer.

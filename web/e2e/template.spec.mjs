@@ -24,7 +24,7 @@ test(
     const form = await asked(studio);
     await type('Wait');
     await seen(form.getByText('There is a template of that name already.'));
-    assert.equal(await form.getByRole('button', { name: 'Make it' }).isDisabled(), true);
+    assert.equal(await form.getByRole('button', { name: 'Create' }).isDisabled(), true);
     await press('Control+a');
     await type('2nd');
     await seen(form.getByText('Letters, digits and _ only, not beginning with a digit.'));

@@ -12,7 +12,7 @@ test(
     await until('it may change the robot', () => upload(second).isEnabled());
     // While a page drives, one more only looks.
     const third = await openWindow(t, studio.server);
-    await seen(third.button('Ask for the wheel'));
+    await seen(third.button('Request control'));
     await until('the third one looks', () => upload(third).isDisabled());
     await until('the second one drives still', () => upload(second).isEnabled());
   },

@@ -10,14 +10,22 @@ export const limits = {
   message_depth: 32,
   /** pages at a time */
   clients: 64,
-  /** connections at a time, HTTP included */
-  connections: 512,
+  /** connections that have shown no token, HTTP included; for another one that which is silent the longest makes room */
+  strangers: 128,
+  /** the same, of one address */
+  strangers_of_address: 64,
   /** subscriptions of a page */
   watches: 256,
   /** commands of a page, averaged over two seconds */
   commands_a_second: 500,
   /** what waits for a page that reads slowly; documents and streams are merged below it */
   unsent_bytes: 8388608,
+  /** an act is done so long after the key press at most */
+  act_ms: 3000,
+  /** from one ping of the server to the next */
+  ping_ms: 1000,
+  /** the first message of a client */
+  hello_bytes: 4096,
   /** time for the first message */
   hello_ms: 5000,
   /** a page that takes nothing for so long is dropped and may return */
@@ -62,7 +70,7 @@ export interface Edit {
   from: number;
   /** the same, behind the last one that goes */
   to: number;
-  /** what stands there instead */
+  /** what replaces it */
   text: string;
 }
 
@@ -72,11 +80,27 @@ export interface Change {
   from: number;
   /** the same, behind the last one that goes */
   to: number;
-  /** what stands there instead */
+  /** what replaces it */
   text: string;
 }
 
-/** How a finding can be mended. */
+/** One step of a text. Versions count the steps, one by one. */
+export interface Update {
+  /** that it leads to */
+  version: number;
+  changes: Change[];
+  /** as doc.edit named it; of what the server does: for:N for the client with that number, disk for a file that changed on disk, else server */
+  by: string;
+}
+
+/** A text as a client has it. A command that changes several texts may name what its client has seen of them, and is refused (behind) if one of them is another by now. */
+export interface DocVersion {
+  doc: Doc;
+  version: number;
+  epoch?: string;
+}
+
+/** How a finding can be fixed. */
 export interface Fix {
   /** what a button says: Write "==" */
   label: string;
@@ -103,7 +127,7 @@ export interface Finding {
 
 /** Why a command was not done. */
 export interface Problem {
-  code: 'bad_message' | 'unknown_command' | 'not_allowed' | 'not_driver' | 'not_found' | 'bad_input' | 'conflict' | 'limit' | 'unavailable' | 'timeout' | 'failed';
+  code: 'bad_message' | 'unknown_command' | 'not_allowed' | 'not_driver' | 'not_found' | 'bad_input' | 'conflict' | 'behind' | 'limit' | 'unavailable' | 'timeout' | 'failed' | 'late';
   /** a sentence for a person: what, where, what to do */
   what: string;
   /** the part of the message, or FILE:LINE:COLUMN */
@@ -214,11 +238,11 @@ export interface PlanBreakpoint {
   why?: string;
 }
 
-/** An event of the bus that waits while the plan stands. */
+/** An event of the bus that waits while the plan is paused. */
 export interface HeldEvent {
   /** handle for plan.held.go, plan.held.step and plan.held.drop */
   number: number;
-  /** where the clock of the run stands */
+  /** the time of the run's clock */
   t: number;
   /** so many seconds after the plan came to stand; 0 where time stands with it */
   after: number;
@@ -243,16 +267,27 @@ export interface Node {
   program: 'none' | 'unknown' | 'older' | 'current';
   /** when it was loaded */
   loaded_wall?: number;
-  /** where it stands */
+  /** where it is paused */
   at?: Place;
-  /** why it stands */
-  why?: 'asked' | 'breakpoint' | 'step' | 'fault' | 'start';
+  /** why it is paused; robot: it moves, and another node of the live robot is paused */
+  why?: 'asked' | 'breakpoint' | 'step' | 'fault' | 'start' | 'robot';
+  /** what came of Stop: read back as stopped, or not; missing once it may run again */
+  stop?: 'asked' | 'stopped' | 'moving' | 'silent' | 'gone';
   /** what stopped it */
   fault?: string;
   /** what is under way */
   busy?: string;
   /** events for its script that came since it stands at a line: a node that stands drops them; missing while it runs, or if its script is not known */
   dropped?: number;
+}
+
+/** What came of Stop at a node. */
+export interface StopNode {
+  node: NodeId;
+  /** empty if it has not told it */
+  name: string;
+  /** asked: it has answered, but not who it is; stopped: read back; moving: read back as not at rest yet; silent: it did not answer; gone: it was away before */
+  state: 'asked' | 'stopped' | 'moving' | 'silent' | 'gone';
 }
 
 /** A connection of the bus. */
@@ -637,6 +672,22 @@ export interface NodeNote {
   what: string;
 }
 
+/** How a run ended, and which nodes stopped. */
+export interface RunEnd {
+  number: number;
+  /** the clock of the run */
+  t: number;
+  wall: number;
+  /** a page's name, a signal, the plan, the server */
+  by: string;
+  why: 'stop' | 'plan' | 'error' | 'died' | 'signal' | 'target' | 'project' | 'version' | 'alone' | 'slept';
+  /** of the plan */
+  result?: 'OK' | 'Interrupted' | 'Error';
+  /** why it is an error */
+  message?: string;
+  nodes: StopNode[];
+}
+
 /** A file of a project that is sent to a robot. */
 export interface DeployFile {
   /** from the border of the project */
@@ -657,7 +708,7 @@ export interface Deployed {
   current: boolean;
 }
 
-/** Someone who asks for the wheel. */
+/** Someone who requests control. */
 export interface Asked {
   client: number;
   name: string;
@@ -672,12 +723,20 @@ export interface Commands {
     client: string;
     /** what others see */
     name?: string;
+    /** made by each page load: one client with two nonces is two pages */
+    nonce?: string;
   }; out: {
     version: string;
+    /** random, of the server's life */
+    epoch: string;
+    /** its name from now on: another one if two pages have the same */
+    client: string;
+    /** the server's time in ms, for until */
+    now: number;
     role: 'drive' | 'look';
     /** of this client */
     number: number;
-    /** holds the wheel */
+    /** has control */
     driver: boolean;
     wall: number;
   } };
@@ -695,20 +754,31 @@ export interface Commands {
   'unwatch': { in: {
     watch: number;
   }; out: Record<never, never> };
-  /** Stops the robot, whoever asks: ends the plan, sends Stop to every node, makes the wheels stand. */
+  /** Stops the robot, whoever asks: ends the plan, sends Stop to every node, brings the wheels to rest. */
   'stop': { in: Record<never, never>; out: {
-    /** nodes that answered */
+    /** nodes that were read back as stopped */
     stood: NodeId[];
+    nodes: StopNode[];
   } };
-  /** Asks for the wheel. At once if nobody holds it or the driver's page is closed; else the driver is asked, and 10 s without an answer refuse it. */
+  /** Somebody knows of the nodes that did not answer when the run ended: they are asked no more. */
+  'end.acknowledge': { in: {
+    /** of the end */
+    number: number;
+  }; out: Record<never, never> };
+  /** Requests control. At once if nobody has it or the driver's page is closed; else the driver is asked, and 10 s without an answer refuse it. */
   'driver.ask': { in: Record<never, never>; out: {
     driver: boolean;
   } };
-  /** Gives the wheel to the one who asked, or keeps it. */
+  /** Gives control to the one who requested it, or keeps it. */
   'driver.answer': { in: {
     give: boolean;
   }; out: Record<never, never> };
-  /** Lets the wheel go. */
+  /** Makes a new token of those who drive, in the place of the old one, and disconnects all others who used that. */
+  'access.renew': { in: Record<never, never>; out: {
+    /** the new one */
+    token: string;
+  } };
+  /** Releases control. */
   'driver.leave': { in: Record<never, never>; out: Record<never, never> };
   /** A robot that serves itself: announces another version of its project. */
   'deploy.begin': { in: {
@@ -790,6 +860,7 @@ export interface Commands {
   'file.rename': { in: {
     path: Path;
     to: Path;
+    seen?: DocVersion[];
   }; out: {
     followed: Path[];
   } };
@@ -803,51 +874,89 @@ export interface Commands {
   }; out: {
     base64: string;
   } };
-  /** The text of a document as it is now, saved or not. */
+  /** The text of a document as it is now, saved or not. Each line ends with one line feed, whatever its file has there, and counts one; the file keeps what it has. */
   'doc.open': { in: {
     doc: Doc;
   }; out: {
+    /** of the server's life, in which versions count */
+    epoch: string;
     text: string;
     version: number;
     language: 'aesl' | 'aesl-file' | 'plan' | 'world' | 'toolbox' | 'json' | 'text';
     unsaved: boolean;
+    /** of the file's lines */
+    ends: 'lf' | 'crlf' | 'mixed';
   } };
-  /** Changes a text. It is in the journal within a second. */
+  /** Changes a text. It is in the journal before it is answered. It is done if the answer has neither behind nor text; else nothing was done: the client makes its changes fit the text that there is, and sends them again. */
   'doc.edit': { in: {
     doc: Doc;
+    epoch: string;
     /** the text that the changes count in */
     version: number;
+    /** the client's name for itself, the same in each of its edits */
+    by: string;
     changes: Change[];
   }; out: {
+    /** that there is now */
     version: number;
+    /** the steps that the client lacks */
+    behind?: Update[];
+    /** all of it, where the steps are not kept or the epoch is another */
+    text?: string;
+    /** with text */
+    epoch?: string;
   } };
-  /** Changes a JSON file by its members; the rest keeps its form. */
+  /** The steps that lead from a version to the text that there is, or its whole text. */
+  'doc.pull': { in: {
+    doc: Doc;
+    epoch: string;
+    version: number;
+  }; out: {
+    version: number;
+    behind?: Update[];
+    text?: string;
+    /** with text */
+    epoch?: string;
+  } };
+  /** What the file has on disk, while that is another text than the one that unsaved changes began as. */
+  'doc.disk': { in: {
+    doc: Doc;
+  }; out: {
+    text: string;
+  } };
+  /** Changes a JSON file by its members; the rest keeps its form. Refused (behind) if the text is another by now. */
   'doc.patch': { in: {
     doc: Doc;
+    epoch?: string;
     version: number;
     steps: JsonStep[];
   }; out: {
     version: number;
     text: string;
   } };
-  /** Replaces the file by the text. Saving what was not changed changes no byte. */
+  /** Replaces the file by the text. Saving what was not changed changes no byte. What somebody else wrote into the file meanwhile is put together with it where both changed other lines; else it is refused (conflict) until doc.keep or doc.revert. */
   'doc.save': { in: {
     doc: Doc;
-  }; out: Record<never, never> };
-  /** Saves all that is unsaved. */
+  }; out: {
+    /** that is on disk */
+    version: number;
+  } };
+  /** Saves all that is unsaved. Refused (conflict) if a file changed on disk where its text has unsaved changes; the others are saved. */
   'doc.save_all': { in: Record<never, never>; out: {
     saved: Path[];
   } };
   /** Back to the file as it is on disk. */
   'doc.revert': { in: {
     doc: Doc;
+    seen?: DocVersion[];
   }; out: {
     version: number;
   } };
-  /** The file changed on disk under an unsaved text: keeps the text (mine) or takes the file (disk). */
+  /** The file changed on disk where its text has unsaved changes: keeps the text (mine), which can be saved then, or takes the file (disk). */
   'doc.keep': { in: {
     doc: Doc;
     which: 'mine' | 'disk';
+    seen?: DocVersion[];
   }; out: {
     version: number;
   } };
@@ -891,6 +1000,7 @@ export interface Commands {
     doc: Doc;
     at: Place;
     to: Name;
+    seen?: DocVersion[];
   }; out: {
     changed: Doc[];
     places: number;
@@ -941,6 +1051,7 @@ export interface Commands {
     by: string;
     /** only in these */
     docs?: Doc[];
+    seen?: DocVersion[];
   }; out: {
     changed: Doc[];
     places: number;
@@ -970,6 +1081,7 @@ export interface Commands {
     /** whose node does the work */
     script: Doc;
     help: string;
+    seen?: DocVersion[];
   }; out: {
     toolbox: string;
     /** in the script, where its author goes on */
@@ -981,6 +1093,7 @@ export interface Commands {
     kind: 'event' | 'constant';
     name: Name;
     value: number;
+    seen?: DocVersion[];
   }; out: Record<never, never> };
   /** Changes its value or name; scripts follow the name. */
   'define.change': { in: {
@@ -989,6 +1102,7 @@ export interface Commands {
     name: Name;
     to: Name;
     value: number;
+    seen?: DocVersion[];
   }; out: {
     places: number;
   } };
@@ -997,6 +1111,7 @@ export interface Commands {
     file: Path;
     kind: 'event' | 'constant';
     name: Name;
+    seen?: DocVersion[];
   }; out: Record<never, never> };
   /** Moves it within its list; numbers of events follow their order. */
   'define.move': { in: {
@@ -1004,6 +1119,7 @@ export interface Commands {
     kind: 'event' | 'constant';
     name: Name;
     to: number;
+    seen?: DocVersion[];
   }; out: Record<never, never> };
   /** Connects to a target: sim, or one of the command line's. What ran before is stopped. */
   'target.choose': { in: {
@@ -1037,12 +1153,12 @@ export interface Commands {
   } };
   /** To the next line. */
   'node.step': { in: {
-    /** 0: all that stand */
+    /** 0: all that are paused */
     node: number;
   }; out: {
     failed: Failed[];
   } };
-  /** Stops a node's program; its next run begins anew. */
+  /** Stops a node's program; its next run starts from the beginning. */
   'node.stop': { in: {
     /** 0: all */
     node: number;
@@ -1074,6 +1190,8 @@ export interface Commands {
   }; out: {
     /** where it stands: the next line with code */
     line: number;
+    /** what it does to a robot that is alive */
+    note?: string;
   } };
   /** Removes a breakpoint, or all. */
   'break.clear': { in: {
@@ -1135,7 +1253,7 @@ export interface Commands {
   'plan.step': { in: Record<never, never>; out: Record<never, never> };
   /** Ends the plan as from outside (P28). */
   'plan.stop': { in: Record<never, never>; out: Record<never, never> };
-  /** The plan goes on until the handler of one of these events begins on a node, which then stands there. */
+  /** The plan goes on until the handler of one of these events begins on a node, which is then paused there. */
   'plan.into': { in: {
     events: Name[];
   }; out: {
@@ -1326,18 +1444,23 @@ export interface Topics {
     files: FileEntry[];
     more: boolean;
   } };
-  /** A text with its marks. */
+  /** How a text is; doc.pull gets what changed in it. A document that cannot be opened has version 0. */
   'doc': { kind: 'document'; of: {
     doc: Doc;
   }; is: {
+    epoch: string;
     version: number;
-    text: string;
+    language: 'aesl' | 'aesl-file' | 'plan' | 'world' | 'toolbox' | 'json' | 'text';
+    ends: 'lf' | 'crlf' | 'mixed';
     unsaved: boolean;
-    /** client of the last change, 0: the server */
-    by: number;
-    /** the file, if it changed under an unsaved text */
-    disk?: string;
+    /** of the last step */
+    by: string;
+    /** the file changed on disk where the text has unsaved changes: doc.disk shows it, doc.keep chooses, until then nothing is saved */
+    disk: boolean;
+    /** the file is not on disk; saving makes it again */
     gone: boolean;
+    /** the file was renamed: what the document is now */
+    moved?: Doc;
   } };
   /** All mistakes and remarks of the project. */
   'findings': { kind: 'document'; of: Record<never, never>; is: {
@@ -1419,6 +1542,12 @@ export interface Topics {
     /** why it ended */
     why?: string;
   } };
+  /** The last end of a run. */
+  'end': { kind: 'document'; of: Record<never, never>; is: {
+    end?: RunEnd;
+    /** a node was not read back as stopped, and nobody has acknowledged it */
+    open: boolean;
+  } };
   /** The plan that runs. */
   'plan': { kind: 'document'; of: Record<never, never>; is: {
     state: 'none' | 'running' | 'paused' | 'ended';
@@ -1453,7 +1582,7 @@ export interface Topics {
   'state': { kind: 'document'; of: Record<never, never>; is: {
     values: Json;
   } };
-  /** What stands in the world; where it stands comes by poses. */
+  /** What is in the world; where it is comes by poses. */
   'scene': { kind: 'document'; of: Record<never, never>; is: {
     name: string;
     size: number[];
@@ -1463,7 +1592,7 @@ export interface Topics {
     robots: Robot[];
     objects: SceneObject[];
   } };
-  /** Events of the bus that wait while the plan stands in its debugger. */
+  /** Events of the bus that wait while the plan is paused in its debugger. */
   'held': { kind: 'document'; of: Record<never, never>; is: {
     stands: boolean;
     events: HeldEvent[];
@@ -1508,6 +1637,7 @@ export type TopicOf<K extends 'document' | 'stream' | 'binary'> = {
   [T in TopicName]: Topics[T]['kind'] extends K ? T : never;
 }[TopicName];
 
+export type CommandKind = 'look' | 'edit' | 'act' | 'stop';
 type Fields = Readonly<Record<string, string>>;
 
 /** The same at run time, for the check of what arrives. */
@@ -1520,9 +1650,11 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Place: { line: 'int(1..10000000)', column: 'int(1..10000000)' },
   Edit: { doc: 'Doc', from: 'int(0..2097152)', to: 'int(0..2097152)', text: 'text(2097152)' },
   Change: { from: 'int(0..2097152)', to: 'int(0..2097152)', text: 'text(2097152)' },
+  Update: { version: 'int(0..4294967295)', changes: '[Change; 1000]', by: 'line(64)' },
+  DocVersion: { doc: 'Doc', version: 'int(0..4294967295)', epoch: 'line(32)?' },
   Fix: { label: 'line(200)', edits: '[Edit; 100]' },
   Finding: { doc: 'Doc', severity: 'word(error|warning)', code: 'line(64)', element: 'line(256)?', at: 'Place', end: 'Place', what: 'text(2000)', fixes: '[Fix; 8]', keys: '[json; 100]?' },
-  Problem: { code: 'word(bad_message|unknown_command|not_allowed|not_driver|not_found|bad_input|conflict|limit|unavailable|timeout|failed)', what: 'text(4000)', place: 'line(600)?' },
+  Problem: { code: 'word(bad_message|unknown_command|not_allowed|not_driver|not_found|bad_input|conflict|behind|limit|unavailable|timeout|failed|late)', what: 'text(4000)', place: 'line(600)?' },
   FileEntry: { path: 'Path', kind: 'word(folder|script|plan|world|toolbox|project|picture|text|other)', size: 'int(0..1000000000000)', unsaved: 'bool' },
   Found: { target: 'line(256)', name: 'line(256)', kind: 'word(simulator|serial|local|network)', help: 'line(300)' },
   Example: { id: 'line(64)', name: 'line(100)', help: 'line(300)', robot: 'line(100)', content: 'line(100)' },
@@ -1534,7 +1666,8 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Breakpoint: { doc: 'Doc', line: 'int(1..10000000)', condition: 'line(500)', ignore: 'int(0..1000000)', enabled: 'bool', hits: 'int(0..4294967295)', set: 'bool', why: 'line(300)?' },
   PlanBreakpoint: { number: 'number', doc: 'Doc', kind: 'word(actor|state|event|condition)', element: 'line(128)', outcome: 'line(128)', condition: 'line(500)', stop_at: 'number', enabled: 'bool', hits: 'number', set: 'bool', why: 'text(2000)?' },
   HeldEvent: { number: 'number', t: 'number', after: 'number', node: 'int(0..65534)', name: 'Name', args: 'Words' },
-  Node: { id: 'NodeId', name: 'Name', robot: 'line(128)', state: 'word(unknown|running|paused|stopped|gone)', protocol: 'int(0..255)', described: 'bool', doc: 'Doc?', program: 'word(none|unknown|older|current)', loaded_wall: 'number?', at: 'Place?', why: 'word(asked|breakpoint|step|fault|start)?', fault: 'text(500)?', busy: 'line(100)?', dropped: 'number?' },
+  Node: { id: 'NodeId', name: 'Name', robot: 'line(128)', state: 'word(unknown|running|paused|stopped|gone)', protocol: 'int(0..255)', described: 'bool', doc: 'Doc?', program: 'word(none|unknown|older|current)', loaded_wall: 'number?', at: 'Place?', why: 'word(asked|breakpoint|step|fault|start|robot)?', stop: 'word(asked|stopped|moving|silent|gone)?', fault: 'text(500)?', busy: 'line(100)?', dropped: 'number?' },
+  StopNode: { node: 'NodeId', name: 'line(255)', state: 'word(asked|stopped|moving|silent|gone)' },
   Link: { name: 'line(300)', nodes: '[NodeId; 1024]', frames_in: 'number', frames_out: 'number', lost: 'number' },
   Traffic: { from: 'int(0..65534)', event: 'Name', count: 'number', to: '[int(0..65534); 1024]' },
   Variable: { name: 'Name', address: 'int(0..65535)', size: 'int(1..65535)', of: 'word(node|script)', unit: 'line(32)?', help: 'line(400)?', writable: 'bool' },
@@ -1575,110 +1708,115 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   ListingLine: { line: 'int(0..10000000)', address: 'int(0..65535)', words: 'int(1..65535)', text: 'line(200)' },
   Failed: { node: 'NodeId', why: 'text(2000)' },
   NodeNote: { node: 'NodeId', what: 'text(2000)' },
+  RunEnd: { number: 'number', t: 'number', wall: 'number', by: 'line(100)', why: 'word(stop|plan|error|died|signal|target|project|version|alone|slept)', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', nodes: '[StopNode; 1024]' },
   DeployFile: { path: 'Path', size: 'int(0..16777216)', sha256: 'line(64)' },
   Deployed: { version: 'int(0..4294967295)', name: 'line(200)', when_wall: 'number?', current: 'bool' },
   Asked: { client: 'int(1..1000000000)', name: 'line(100)', until_wall: 'number' },
 };
-export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; out: Fields }>> = {
-  'hello': { may: 'any', out: { version: 'line(64)', role: 'word(drive|look)', number: 'int(1..1000000000)', driver: 'bool', wall: 'number' } },
-  'watch': { may: 'look', out: {} },
-  'unwatch': { may: 'look', out: {} },
-  'stop': { may: 'look', out: { stood: '[NodeId; 1024]' } },
-  'driver.ask': { may: 'drive', out: { driver: 'bool' } },
-  'driver.answer': { may: 'driver', out: {} },
-  'driver.leave': { may: 'driver', out: {} },
-  'deploy.begin': { may: 'driver', out: {} },
-  'deploy.part': { may: 'driver', out: {} },
-  'deploy.commit': { may: 'driver', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
-  'deploy.back': { may: 'driver', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
-  'deploy.list': { may: 'look', out: { versions: '[Deployed; 100]' } },
-  'project.example': { may: 'driver', out: { path: 'line(1024)' } },
-  'project.open': { may: 'driver', out: { path: 'line(1024)' } },
-  'project.new': { may: 'driver', out: { path: 'line(1024)' } },
-  'project.close': { may: 'driver', out: {} },
-  'project.forget': { may: 'driver', out: {} },
-  'folder.list': { may: 'driver', out: { path: 'line(1024)', parent: 'line(1024)', entries: '[FolderEntry; 2000]' } },
-  'file.new': { may: 'driver', out: {} },
-  'file.rename': { may: 'driver', out: { followed: '[Path; 100]' } },
-  'file.delete': { may: 'driver', out: {} },
-  'file.bytes': { may: 'look', out: { base64: 'text(5592408)' } },
-  'doc.open': { may: 'look', out: { text: 'text(2097152)', version: 'int(0..4294967295)', language: 'word(aesl|aesl-file|plan|world|toolbox|json|text)', unsaved: 'bool' } },
-  'doc.edit': { may: 'driver', out: { version: 'int(0..4294967295)' } },
-  'doc.patch': { may: 'driver', out: { version: 'int(0..4294967295)', text: 'text(2097152)' } },
-  'doc.save': { may: 'driver', out: {} },
-  'doc.save_all': { may: 'driver', out: { saved: '[Path; 2000]' } },
-  'doc.revert': { may: 'driver', out: { version: 'int(0..4294967295)' } },
-  'doc.keep': { may: 'driver', out: { version: 'int(0..4294967295)' } },
-  'script.complete': { may: 'look', out: { from: 'Place', items: '[Suggestion; 2000]' } },
-  'script.hover': { may: 'look', out: { found: 'bool', at: 'Place?', end: 'Place?', title: 'line(300)?', help: 'text(2000)?' } },
-  'script.definition': { may: 'look', out: { spots: '[Spot; 16]' } },
-  'script.references': { may: 'look', out: { name: 'line(200)', spots: '[Spot; 5000]' } },
-  'script.rename': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
-  'script.listing': { may: 'look', out: { lines: '[ListingLine; 65536]' } },
-  'script.add': { may: 'driver', out: { doc: 'Doc' } },
-  'script.handlers': { may: 'look', out: { spots: '[Spot; 1000]' } },
-  'script.format_name': { may: 'look', out: { good: 'bool', why: 'line(300)?' } },
-  'text.search': { may: 'look', out: { spots: '[Spot; 5000]', more: 'bool', why: 'line(300)?' } },
-  'text.replace': { may: 'driver', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
-  'plan.check': { may: 'look', out: { findings: '[Finding; 2000]' } },
-  'plan.code': { may: 'look', out: { name: 'line(256)', text: 'text(4194304)', marks: '[CodeMark; 20000]', findings: '[Finding; 2000]' } },
-  'template.new': { may: 'driver', out: { toolbox: 'line(256)', at: 'Place' } },
-  'define.add': { may: 'driver', out: {} },
-  'define.change': { may: 'driver', out: { places: 'int(0..100000)' } },
-  'define.remove': { may: 'driver', out: {} },
-  'define.move': { may: 'driver', out: {} },
-  'target.choose': { may: 'driver', out: {} },
-  'target.leave': { may: 'driver', out: {} },
-  'node.load': { may: 'driver', out: { loaded: '[NodeId; 1024]', failed: '[Failed; 1024]' } },
-  'node.run': { may: 'driver', out: { failed: '[Failed; 1024]' } },
-  'node.pause': { may: 'driver', out: { failed: '[Failed; 1024]' } },
-  'node.step': { may: 'driver', out: { failed: '[Failed; 1024]' } },
-  'node.stop': { may: 'driver', out: { failed: '[Failed; 1024]' } },
-  'node.reset': { may: 'driver', out: { failed: '[Failed; 1024]' } },
-  'node.save': { may: 'driver', out: { failed: '[Failed; 1024]', notes: '[NodeNote; 1024]' } },
-  'break.set': { may: 'driver', out: { line: 'int(1..10000000)' } },
-  'break.clear': { may: 'driver', out: {} },
-  'variable.set': { may: 'driver', out: {} },
-  'event.send': { may: 'driver', out: {} },
-  'run.start': { may: 'driver', out: {} },
-  'run.pause': { may: 'driver', out: {} },
-  'run.step': { may: 'driver', out: {} },
-  'run.reset': { may: 'driver', out: {} },
-  'run.end': { may: 'driver', out: {} },
-  'clock.speed': { may: 'driver', out: {} },
-  'plan.start': { may: 'driver', out: {} },
-  'plan.check_change': { may: 'look', out: { runs: 'bool', reasons: '[text(2000); 1000]' } },
-  'plan.pause': { may: 'driver', out: {} },
-  'plan.continue': { may: 'driver', out: {} },
-  'plan.step': { may: 'driver', out: {} },
-  'plan.stop': { may: 'driver', out: {} },
-  'plan.into': { may: 'driver', out: { spots: '[Spot; 1000]' } },
-  'plan.raise': { may: 'driver', out: {} },
-  'plan.held.go': { may: 'driver', out: {} },
-  'plan.held.step': { may: 'driver', out: {} },
-  'plan.held.drop': { may: 'driver', out: {} },
-  'plan.break.set': { may: 'driver', out: { number: 'number' } },
-  'plan.break.clear': { may: 'driver', out: {} },
-  'plan.set': { may: 'driver', out: {} },
-  'history.at': { may: 'look', out: { run: 'number', t: 'number', to: 'number', plan: 'json?', before: 'number?', next: 'number?', values: '[HistoryWords; 256]', robots: '[json; 1024]', objects: '[json; 10000]', nodes: '[HistoryNode; 2048]', events: '[Happening; 2000]', exact: 'bool?' } },
-  'history.lanes': { may: 'look', out: { run: 'number', from: 'number', to: 'number', lanes: '[HistoryLane; 600]', curves: '[HistoryCurve; 16]', loads: '[HistoryCurve; 64]', left_out: 'number' } },
-  'history.open': { may: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
-  'history.save': { may: 'driver', out: { path: 'Path' } },
-  'world.move': { may: 'driver', out: {} },
-  'world.put': { may: 'driver', out: { number: 'number' } },
-  'world.take': { may: 'driver', out: {} },
-  'world.press': { may: 'driver', out: {} },
-  'world.tap': { may: 'driver', out: {} },
-  'world.light': { may: 'driver', out: {} },
-  'state.put': { may: 'driver', out: {} },
-  'settings.put': { may: 'driver', out: {} },
+export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; kind: CommandKind; out: Fields }>> = {
+  'hello': { may: 'any', kind: 'look', out: { version: 'line(64)', epoch: 'line(32)', client: 'line(64)', now: 'number', role: 'word(drive|look)', number: 'int(1..1000000000)', driver: 'bool', wall: 'number' } },
+  'watch': { may: 'look', kind: 'look', out: {} },
+  'unwatch': { may: 'look', kind: 'look', out: {} },
+  'stop': { may: 'look', kind: 'stop', out: { stood: '[NodeId; 1024]', nodes: '[StopNode; 1024]' } },
+  'end.acknowledge': { may: 'look', kind: 'edit', out: {} },
+  'driver.ask': { may: 'drive', kind: 'edit', out: { driver: 'bool' } },
+  'driver.answer': { may: 'driver', kind: 'edit', out: {} },
+  'access.renew': { may: 'driver', kind: 'edit', out: { token: 'line(200)' } },
+  'driver.leave': { may: 'driver', kind: 'edit', out: {} },
+  'deploy.begin': { may: 'driver', kind: 'edit', out: {} },
+  'deploy.part': { may: 'driver', kind: 'edit', out: {} },
+  'deploy.commit': { may: 'driver', kind: 'act', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
+  'deploy.back': { may: 'driver', kind: 'act', out: { result: 'word(started|stopped|refused|rolled_back|waiting)', version: 'int(0..4294967295)', findings: '[Finding; 2000]', why: 'text(4000)?' } },
+  'deploy.list': { may: 'look', kind: 'look', out: { versions: '[Deployed; 100]' } },
+  'project.example': { may: 'driver', kind: 'edit', out: { path: 'line(1024)' } },
+  'project.open': { may: 'driver', kind: 'edit', out: { path: 'line(1024)' } },
+  'project.new': { may: 'driver', kind: 'edit', out: { path: 'line(1024)' } },
+  'project.close': { may: 'driver', kind: 'edit', out: {} },
+  'project.forget': { may: 'driver', kind: 'edit', out: {} },
+  'folder.list': { may: 'driver', kind: 'look', out: { path: 'line(1024)', parent: 'line(1024)', entries: '[FolderEntry; 2000]' } },
+  'file.new': { may: 'driver', kind: 'edit', out: {} },
+  'file.rename': { may: 'driver', kind: 'edit', out: { followed: '[Path; 100]' } },
+  'file.delete': { may: 'driver', kind: 'edit', out: {} },
+  'file.bytes': { may: 'look', kind: 'look', out: { base64: 'text(5592408)' } },
+  'doc.open': { may: 'look', kind: 'look', out: { epoch: 'line(32)', text: 'text(2097152)', version: 'int(0..4294967295)', language: 'word(aesl|aesl-file|plan|world|toolbox|json|text)', unsaved: 'bool', ends: 'word(lf|crlf|mixed)' } },
+  'doc.edit': { may: 'driver', kind: 'edit', out: { version: 'int(0..4294967295)', behind: '[Update; 1000]?', text: 'text(2097152)?', epoch: 'line(32)?' } },
+  'doc.pull': { may: 'look', kind: 'look', out: { version: 'int(0..4294967295)', behind: '[Update; 1000]?', text: 'text(2097152)?', epoch: 'line(32)?' } },
+  'doc.disk': { may: 'look', kind: 'look', out: { text: 'text(2097152)' } },
+  'doc.patch': { may: 'driver', kind: 'edit', out: { version: 'int(0..4294967295)', text: 'text(2097152)' } },
+  'doc.save': { may: 'driver', kind: 'edit', out: { version: 'int(0..4294967295)' } },
+  'doc.save_all': { may: 'driver', kind: 'edit', out: { saved: '[Path; 2000]' } },
+  'doc.revert': { may: 'driver', kind: 'edit', out: { version: 'int(0..4294967295)' } },
+  'doc.keep': { may: 'driver', kind: 'edit', out: { version: 'int(0..4294967295)' } },
+  'script.complete': { may: 'look', kind: 'look', out: { from: 'Place', items: '[Suggestion; 2000]' } },
+  'script.hover': { may: 'look', kind: 'look', out: { found: 'bool', at: 'Place?', end: 'Place?', title: 'line(300)?', help: 'text(2000)?' } },
+  'script.definition': { may: 'look', kind: 'look', out: { spots: '[Spot; 16]' } },
+  'script.references': { may: 'look', kind: 'look', out: { name: 'line(200)', spots: '[Spot; 5000]' } },
+  'script.rename': { may: 'driver', kind: 'edit', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
+  'script.listing': { may: 'look', kind: 'look', out: { lines: '[ListingLine; 65536]' } },
+  'script.add': { may: 'driver', kind: 'edit', out: { doc: 'Doc' } },
+  'script.handlers': { may: 'look', kind: 'look', out: { spots: '[Spot; 1000]' } },
+  'script.format_name': { may: 'look', kind: 'look', out: { good: 'bool', why: 'line(300)?' } },
+  'text.search': { may: 'look', kind: 'look', out: { spots: '[Spot; 5000]', more: 'bool', why: 'line(300)?' } },
+  'text.replace': { may: 'driver', kind: 'edit', out: { changed: '[Doc; 2000]', places: 'int(0..100000)' } },
+  'plan.check': { may: 'look', kind: 'look', out: { findings: '[Finding; 2000]' } },
+  'plan.code': { may: 'look', kind: 'look', out: { name: 'line(256)', text: 'text(4194304)', marks: '[CodeMark; 20000]', findings: '[Finding; 2000]' } },
+  'template.new': { may: 'driver', kind: 'edit', out: { toolbox: 'line(256)', at: 'Place' } },
+  'define.add': { may: 'driver', kind: 'edit', out: {} },
+  'define.change': { may: 'driver', kind: 'edit', out: { places: 'int(0..100000)' } },
+  'define.remove': { may: 'driver', kind: 'edit', out: {} },
+  'define.move': { may: 'driver', kind: 'edit', out: {} },
+  'target.choose': { may: 'driver', kind: 'act', out: {} },
+  'target.leave': { may: 'driver', kind: 'edit', out: {} },
+  'node.load': { may: 'driver', kind: 'act', out: { loaded: '[NodeId; 1024]', failed: '[Failed; 1024]' } },
+  'node.run': { may: 'driver', kind: 'act', out: { failed: '[Failed; 1024]' } },
+  'node.pause': { may: 'driver', kind: 'stop', out: { failed: '[Failed; 1024]' } },
+  'node.step': { may: 'driver', kind: 'act', out: { failed: '[Failed; 1024]' } },
+  'node.stop': { may: 'driver', kind: 'stop', out: { failed: '[Failed; 1024]' } },
+  'node.reset': { may: 'driver', kind: 'act', out: { failed: '[Failed; 1024]' } },
+  'node.save': { may: 'driver', kind: 'act', out: { failed: '[Failed; 1024]', notes: '[NodeNote; 1024]' } },
+  'break.set': { may: 'driver', kind: 'edit', out: { line: 'int(1..10000000)', note: 'line(300)?' } },
+  'break.clear': { may: 'driver', kind: 'edit', out: {} },
+  'variable.set': { may: 'driver', kind: 'act', out: {} },
+  'event.send': { may: 'driver', kind: 'act', out: {} },
+  'run.start': { may: 'driver', kind: 'act', out: {} },
+  'run.pause': { may: 'driver', kind: 'stop', out: {} },
+  'run.step': { may: 'driver', kind: 'act', out: {} },
+  'run.reset': { may: 'driver', kind: 'act', out: {} },
+  'run.end': { may: 'driver', kind: 'stop', out: {} },
+  'clock.speed': { may: 'driver', kind: 'edit', out: {} },
+  'plan.start': { may: 'driver', kind: 'act', out: {} },
+  'plan.check_change': { may: 'look', kind: 'look', out: { runs: 'bool', reasons: '[text(2000); 1000]' } },
+  'plan.pause': { may: 'driver', kind: 'stop', out: {} },
+  'plan.continue': { may: 'driver', kind: 'act', out: {} },
+  'plan.step': { may: 'driver', kind: 'act', out: {} },
+  'plan.stop': { may: 'driver', kind: 'stop', out: {} },
+  'plan.into': { may: 'driver', kind: 'act', out: { spots: '[Spot; 1000]' } },
+  'plan.raise': { may: 'driver', kind: 'act', out: {} },
+  'plan.held.go': { may: 'driver', kind: 'act', out: {} },
+  'plan.held.step': { may: 'driver', kind: 'act', out: {} },
+  'plan.held.drop': { may: 'driver', kind: 'act', out: {} },
+  'plan.break.set': { may: 'driver', kind: 'edit', out: { number: 'number' } },
+  'plan.break.clear': { may: 'driver', kind: 'edit', out: {} },
+  'plan.set': { may: 'driver', kind: 'act', out: {} },
+  'history.at': { may: 'look', kind: 'look', out: { run: 'number', t: 'number', to: 'number', plan: 'json?', before: 'number?', next: 'number?', values: '[HistoryWords; 256]', robots: '[json; 1024]', objects: '[json; 10000]', nodes: '[HistoryNode; 2048]', events: '[Happening; 2000]', exact: 'bool?' } },
+  'history.lanes': { may: 'look', kind: 'look', out: { run: 'number', from: 'number', to: 'number', lanes: '[HistoryLane; 600]', curves: '[HistoryCurve; 16]', loads: '[HistoryCurve; 64]', left_out: 'number' } },
+  'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
+  'history.save': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
+  'world.move': { may: 'driver', kind: 'act', out: {} },
+  'world.put': { may: 'driver', kind: 'act', out: { number: 'number' } },
+  'world.take': { may: 'driver', kind: 'act', out: {} },
+  'world.press': { may: 'driver', kind: 'act', out: {} },
+  'world.tap': { may: 'driver', kind: 'act', out: {} },
+  'world.light': { may: 'driver', kind: 'act', out: {} },
+  'state.put': { may: 'driver', kind: 'edit', out: {} },
+  'settings.put': { may: 'driver', kind: 'edit', out: {} },
 };
 export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream' | 'binary'; number?: number; is?: Fields; item?: string }>> = {
   'studio': { kind: 'document', is: { version: 'line(64)', driver: 'int(0..1000000000)', driver_name: 'line(100)', asked: 'Asked?', clients: 'int(0..1000)', project: 'Project?', serves: 'bool?', settings: 'json', recovered: '[Doc; 2000]' } },
   'start': { kind: 'document', is: { examples: '[Example; 200]', recent: '[Recent; 20]' } },
   'targets': { kind: 'document', is: { found: '[Found; 200]' } },
   'files': { kind: 'document', is: { files: '[FileEntry; 2000]', more: 'bool' } },
-  'doc': { kind: 'document', is: { version: 'int(0..4294967295)', text: 'text(2097152)', unsaved: 'bool', by: 'int(0..1000000000)', disk: 'text(2097152)?', gone: 'bool' } },
+  'doc': { kind: 'document', is: { epoch: 'line(32)', version: 'int(0..4294967295)', language: 'word(aesl|aesl-file|plan|world|toolbox|json|text)', ends: 'word(lf|crlf|mixed)', unsaved: 'bool', by: 'line(64)', disk: 'bool', gone: 'bool', moved: 'Doc?' } },
   'findings': { kind: 'document', is: { findings: '[Finding; 2000]', more: 'int(0..1000000)', versions: '{int(0..4294967295); 2000}' } },
   'templates': { kind: 'document', is: { toolboxes: '[PlanToolbox; 200]', formulas: '[FormulaWord; 200]' } },
   'script': { kind: 'document', is: { version: 'int(0..4294967295)', good: 'bool', node: 'Name', for: 'line(200)', bytecode: 'Meter', variables: 'Meter', stack: 'Meter', handlers: '[Handler; 1000]', code_lines: '[int(1..10000000); 65536]' } },
@@ -1688,6 +1826,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'node': { kind: 'document', is: { name: 'Name', variables: '[Variable; 4096]', events: '[LocalEvent; 256]', natives: '[Native; 512]' } },
   'breakpoints': { kind: 'document', is: { breakpoints: '[Breakpoint; 1000]', plans: '[PlanBreakpoint; 1000]' } },
   'clock': { kind: 'document', is: { t: 'number', wall: 'number', state: 'word(none|running|paused|ended|hanging|dead)', speed: 'number', real: 'number', why: 'text(2000)?' } },
+  'end': { kind: 'document', is: { end: 'RunEnd?', open: 'bool' } },
   'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', stands_at: '[number; 1000]?', levels: '[PlanLevel; 64]', story: '[Line; 200]', change: 'PlanChange?' } },
   'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
   'state': { kind: 'document', is: { values: 'json' } },

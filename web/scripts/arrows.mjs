@@ -1,5 +1,5 @@
 // The layers of the pages: protocol <- core <- app; aesl stands alone.
-// An arrow means "may import". Packages that draw stay out of core.
+// An arrow means "may import". Inside app no arrow leads upwards: storeys, below. Packages that draw stay out of core.
 // A class is styled in one file of app/look: most of them come with what is first shown, and the last one would win everywhere.
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join, relative, resolve } from 'node:path';
@@ -13,9 +13,23 @@ const may = {
 };
 const packages = {
   protocol: /^$/,
-  core: /^(immer|zundo|zustand\/vanilla|@codemirror\/state)$/,
+  core: /^(immer|zustand\/vanilla|@codemirror\/(collab|commands|merge|state))$/,
   aesl: /^(@lezer\/|@codemirror\/(language|state)$)/,
 };
+
+/** Of app, from above to below: a folder may import what stands behind it; files beside the folders are for all. */
+const storeys = [
+  'phone',
+  'dock',
+  'overlay',
+  'start',
+  'topbar',
+  'panels',
+  'views',
+  'commands',
+  'parts',
+  'look',
+];
 
 const wrong = [];
 for (const layer of Object.keys(may))
@@ -33,12 +47,22 @@ function check(layer, file) {
       const other = relative(root, resolve(dirname(file), target)).split('/')[0];
       if (!may[layer].includes(other) && !(test && other in may))
         wrong.push(`${relative(root, file)}: ${layer} may not import ${other} (${target})`);
+      checkStorey(file, target);
     } else if (!test && packages[layer] && !packages[layer].test(target))
       wrong.push(`${relative(root, file)}: ${layer} may not import ${target}`);
   }
   const lines = readFileSync(file, 'utf8').split('\n').length;
   if (file.endsWith('.tsx') && lines > 151)
     wrong.push(`${relative(root, file)}: a component of ${lines} lines; at most 150`);
+}
+
+function checkStorey(file, target) {
+  const storeyOf = (path) => storeys.indexOf(relative(join(root, 'app'), path).split('/')[0]);
+  const [from, to] = [storeyOf(file), storeyOf(resolve(dirname(file), target))];
+  if (from >= 0 && to >= 0 && to < from)
+    wrong.push(
+      `${relative(root, file)}: ${storeys[from]} may not import ${storeys[to]} (${target})`,
+    );
 }
 
 function checkClasses() {

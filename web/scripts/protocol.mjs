@@ -53,6 +53,7 @@ function make(from) {
     "  [T in TopicName]: Topics[T]['kind'] extends K ? T : never;",
     '}[TopicName];',
     '',
+    "export type CommandKind = 'look' | 'edit' | 'act' | 'stop';",
     'type Fields = Readonly<Record<string, string>>;',
     '',
     '/** The same at run time, for the check of what arrives. */',
@@ -61,9 +62,10 @@ function make(from) {
       ([name, type]) => `  ${name}: ${type.fields ? bare(type.fields) : quote(type.is)},`,
     ),
     '};',
-    "export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; out: Fields }>> = {",
+    "export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; kind: CommandKind; out: Fields }>> = {",
     ...Object.entries(from.commands).map(
-      ([name, c]) => `  ${quote(name)}: { may: ${quote(c.may)}, out: ${bare(c.out)} },`,
+      ([name, c]) =>
+        `  ${quote(name)}: { may: ${quote(c.may)}, kind: ${quote(c.kind)}, out: ${bare(c.out)} },`,
     ),
     '};',
     "export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream' | 'binary'; number?: number; is?: Fields; item?: string }>> = {",

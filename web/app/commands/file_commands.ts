@@ -57,7 +57,7 @@ export function fileCommands(studio: Studio): Command[] {
       title: titles['file.save'],
       group,
       keys: ['Ctrl+S'],
-      enabled: () => inProject() && shown() !== null,
+      enabled: inProject,
       run: () => save(studio),
     },
     {
@@ -66,10 +66,7 @@ export function fileCommands(studio: Studio): Command[] {
       group,
       keys: ['Ctrl+Shift+S'],
       enabled: inProject,
-      async run() {
-        await studio.documents.flushAll();
-        await studio.send('doc.save_all', {});
-      },
+      run: () => saveAll(studio),
     },
     {
       id: 'file.revert',
@@ -98,9 +95,15 @@ export function fileCommands(studio: Studio): Command[] {
   ];
 }
 
+async function saveAll(studio: Studio): Promise<void> {
+  await studio.documents.flushAll();
+  await studio.send('doc.save_all', {});
+}
+
+/** The document that is looked at; all if nobody has said which that is. */
 async function save(studio: Studio): Promise<void> {
   const { doc } = studio.window.getState();
-  if (doc === null) return;
-  await studio.documents.flushAll();
+  if (doc === null) return saveAll(studio);
+  await studio.documents.flushOne(doc);
   await studio.send('doc.save', { doc });
 }

@@ -8,8 +8,7 @@ export const robotOf = (studio: Studio) => studio.topics.get('robot', {});
 export const clockOf = (studio: Studio) => studio.topics.get('clock', {});
 
 export function drives(studio: Studio): boolean {
-  const { link } = studio.connection;
-  return link.state === 'open' && studio.topics.get('studio', {})?.driver === link.number;
+  return studio.drives;
 }
 
 /** May open another project: a robot that serves itself has one. */

@@ -66,7 +66,7 @@ export function pressFix(studio: Studio, finding: Finding, fix: Fix): void {
 }
 
 /** What the checkers say of what is on the screen: what was typed last is sent and waited for. */
-async function freshFindings(studio: Studio): Promise<readonly Finding[]> {
+export async function freshFindings(studio: Studio): Promise<readonly Finding[]> {
   const versions = await studio.documents.flushAll();
   const answer = await studio.topics.until(
     'findings',
@@ -77,13 +77,15 @@ async function freshFindings(studio: Studio): Promise<readonly Finding[]> {
   return answer?.findings ?? [];
 }
 
-/** Sends the edits of a fix of a text that is known to the server. */
+/** Makes the edits of a fix of a text that the server has as it is here: taken back like one's own. */
 async function applyFix(studio: Studio, fix: Fix | undefined): Promise<void> {
   if (!fix) return;
   for (const [doc, edits] of editsByDoc(fix.edits)) {
-    const { version } = await studio.send('doc.open', { doc });
-    const changes = edits.map(({ from, to, text: inserted }) => ({ from, to, text: inserted }));
-    await studio.send('doc.edit', { doc, version, changes });
+    const held = studio.documents.acquire(doc);
+    const { session } = await held.opened;
+    const changes = edits.map(({ from, to, text: insert }) => ({ from, to, insert }));
+    session.type({ changes, at: Date.now() });
+    held.release();
   }
 }
 

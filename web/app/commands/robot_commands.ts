@@ -6,8 +6,9 @@ import { sourceKey, sourcesOf, withCurve, withoutCurve, type Source } from '../.
 import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
 import { revealPanel, toast, update } from '../../core/window_state';
+import { takeFocus } from '../parts/take_focus';
 import { text } from '../text';
-import { plotPicture } from '../panels/plots/plot_handles';
+import { plotPicture } from './plot_handles';
 import { download } from './download';
 import { projectOf, robotOf, drives } from './looks';
 
@@ -86,10 +87,13 @@ function find(studio: Studio, panel: 'variables' | 'watch' | 'events' | 'plots')
 }
 
 /** The panel may have to be loaded first. */
-function focusFind(panel: string, tries = 30): void {
-  const field = document.querySelector<HTMLElement>(`[data-find="${panel}"]`);
-  if (field && field.offsetParent !== null) field.focus();
-  else if (tries > 0) requestAnimationFrame(() => focusFind(panel, tries - 1));
+function focusFind(panel: string): void {
+  takeFocus(() => {
+    const field = document.querySelector<HTMLElement>(`[data-find="${panel}"]`);
+    if (!field || field.offsetParent === null) return false;
+    field.focus();
+    return true;
+  });
 }
 
 function pauseEvents(studio: Studio): void {

@@ -4,6 +4,7 @@ import { runStateOf } from '../../core/run_state';
 import { toast } from '../../core/window_state';
 import type { Failed, NodeId } from '../../protocol/messages';
 import { text } from '../text';
+import { runRobot } from './run_robot';
 import { clockOf, drives, projectOf, robotOf, shownNode } from './looks';
 
 const titles = text.commands;
@@ -21,7 +22,7 @@ export function runCommands(studio: Studio): Command[] {
       group,
       keys: ['Shift+F5'],
       // Always: also for those who only look.
-      run: async () => void (await studio.send('stop', {})),
+      run: async () => void (await studio.stopping.press()),
     },
     {
       id: 'run.start',
@@ -29,10 +30,7 @@ export function runCommands(studio: Studio): Command[] {
       group,
       keys: ['F5'],
       enabled: may,
-      async run() {
-        await studio.documents.flushAll();
-        await studio.send('run.start', {});
-      },
+      run: () => runRobot(studio),
     },
     {
       id: 'run.pause',
@@ -104,7 +102,7 @@ export function nodeCommands(studio: Studio): Command[] {
       id: 'node.load',
       title: titles['node.load'],
       group,
-      keys: ['Ctrl+U'],
+      keys: ['Ctrl+Alt+U'],
       enabled: () => drives(studio) && (robotOf(studio)?.nodes.length ?? 0) > 0,
       run: () => load(studio, shownNode(studio)?.id ?? 0),
     },

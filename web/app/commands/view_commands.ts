@@ -3,7 +3,6 @@ import type { Studio } from '../../core/studio';
 import { layoutNames, type LayoutName } from '../../core/layouts';
 import { readSettings, type Theme } from '../../core/settings';
 import { revealDoc, revealPanel, update } from '../../core/window_state';
-import { panels } from '../dock/panels';
 import { text } from '../text';
 import { focusRegion } from './focus';
 import { drives, keepState, projectOf } from './looks';
@@ -12,8 +11,14 @@ const titles = text.commands;
 const group = text.groups.view;
 const themes: readonly Theme[] = ['system', 'dark', 'light'];
 
+/** What there is to be shown. */
+export interface Panel {
+  id: string;
+  title: string;
+}
+
 /** Panels, layouts, theme, palette, help. */
-export function viewCommands(studio: Studio): Command[] {
+export function viewCommands(studio: Studio, panels: readonly Panel[]): Command[] {
   const overlay = (name: 'palette' | 'keys') => () =>
     update(studio.window, (draft) => void (draft.overlay = draft.overlay === name ? null : name));
   const open = () => projectOf(studio) !== null;

@@ -12,6 +12,7 @@ import { Suspense, useRef } from 'react';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
 import { DocumentView } from '../views/document_view';
+import { RunNote } from '../views/run_note';
 import { DocumentTools } from './document_tools';
 import { DocumentTitle, PanelTitle } from './tab_titles';
 import { configOf } from './model';
@@ -68,6 +69,7 @@ function contentOf(node: TabNode) {
       <Suspense fallback={null}>
         {doc !== undefined ? <DocumentView doc={doc} /> : View ? <View /> : null}
       </Suspense>
+      {doc !== undefined ? <RunNote doc={doc} /> : null}
     </div>
   );
 }

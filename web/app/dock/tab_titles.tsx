@@ -1,14 +1,14 @@
 import { IconAlertOctagon, IconCpu } from '@tabler/icons-react';
-import { Suspense } from 'react';
+import { Suspense, useEffect } from 'react';
 import type { Doc } from '../../protocol/messages';
 import { countsOf } from '../../core/findings';
 import { partOf } from '../../core/paths';
-import { usePart, useStudio, useTopic } from '../hooks';
+import { usePart, useStudio, useTopic, useUnsent } from '../hooks';
 import { FileIcon, kStroke } from '../parts/icons';
 import { PastBadge } from '../parts/past_badge';
 import { Marks, marksOf, SavedMark } from '../parts/marks';
 import { text } from '../text';
-import { fileKindOf, kindOf, nameOf, secondNameOf } from './documents';
+import { fileKindOf, kindOf, nameOf, secondNameOf } from '../documents';
 import { panelOf } from './panels';
 
 /** The tab of a document: what it is, whether it has errors, and its marks. */
@@ -21,11 +21,17 @@ export function DocumentTitle({ doc }: { doc: Doc }) {
   const node = robot?.nodes.find((one) => one.doc === doc);
   const second = secondNameOf(studio, doc);
   const { file } = partOf(doc);
-  const unsaved = usePart(
+  const isUnsent = useUnsent(doc);
+  const isUnsaved = usePart(
     'files',
     {},
     (is) => is?.files.find((one) => one.path === file)?.unsaved ?? false,
   );
+  const unsaved = isUnsaved || isUnsent;
+  const moved = usePart('doc', { doc }, (is) => is?.moved);
+  useEffect(() => {
+    if (moved !== undefined) studio.documents.renamed(doc, moved);
+  }, [studio, doc, moved]);
   const icon = part ? (
     <IconCpu className="icon" size={14} stroke={kStroke} aria-hidden />
   ) : (

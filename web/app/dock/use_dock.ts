@@ -1,7 +1,14 @@
 // The life of the panels' model: made when a layout is chosen, kept when it changes, fitted to the
 // window, and asked to show what someone wants to see.
 
-import { Actions, DockLocation, TabNode, type Action, type Model } from 'flexlayout-react';
+import {
+  Actions,
+  DockLocation,
+  TabNode,
+  TabSetNode,
+  type Action,
+  type Model,
+} from 'flexlayout-react';
 import { useCallback, useEffect, useLayoutEffect, useRef, useState, type RefObject } from 'react';
 import type { Json } from '../../protocol/messages';
 import { layoutPlans, type DocumentKind, type LayoutName } from '../../core/layouts';
@@ -9,6 +16,7 @@ import type { Studio } from '../../core/studio';
 import { update, type Reveal } from '../../core/window_state';
 import { keepState } from '../commands/looks';
 import { usePart, useStudio, useWindow } from '../hooks';
+import { takeFocus } from '../parts/take_focus';
 import { panelOf } from './panels';
 import {
   areaFor,
@@ -21,7 +29,7 @@ import {
   panelTab,
   type Extent,
 } from './model';
-import { documentExists, documentsOf, kindOf, tabNameOf } from './documents';
+import { documentExists, documentsOf, kindOf, tabNameOf } from '../documents';
 
 /** What was dragged is kept so long after the last change. */
 const kKeepMs = 800;
@@ -49,6 +57,7 @@ export function useDock(frame: RefObject<HTMLDivElement | null>): {
 
   useFit(frame, model, extent);
   useReveal(studio, model);
+  useNames(studio, model);
   return { model, changed: useKeep(studio, layout) };
 }
 
@@ -129,6 +138,32 @@ function useReveal(studio: Studio, model: Model | null): void {
   }, [studio, model, reveal]);
 }
 
+/** A file has another name: its tab follows, at its place. */
+function useNames(studio: Studio, model: Model | null): void {
+  useEffect(() => {
+    if (!model) return;
+    return studio.documents.moved.on(({ from, to }) => {
+      const tab = model.getNodeById(`doc:${from}`);
+      const area = tab?.getParent();
+      if (!(tab instanceof TabNode) || !(area instanceof TabSetNode)) return;
+      const index = area.getChildren().indexOf(tab);
+      const isShown = area.getSelectedNode() === tab;
+      if (!model.getNodeById(`doc:${to}`))
+        model.doAction(
+          Actions.addTab(
+            documentTab(to, tabNameOf(studio, to)),
+            area.getId(),
+            DockLocation.CENTER,
+            index,
+            isShown,
+          ),
+        );
+      model.doAction(Actions.deleteTab(tab.getId()));
+      noteShown(studio, model);
+    });
+  }, [studio, model]);
+}
+
 function show(studio: Studio, model: Model, reveal: Reveal): void {
   const id = reveal.what === 'panel' ? `panel:${reveal.panel}` : `doc:${reveal.doc}`;
   const there = model.getNodeById(id);
@@ -175,14 +210,24 @@ function addPanel(model: Model, id: string): void {
     model.doAction(Actions.addTab(panelTab(id), area.getId(), DockLocation.CENTER, -1, true));
 }
 
-/** The tab's content may need a moment to be there. */
-function focusTab(id: string, tries = 20): void {
-  const place = document.querySelector<HTMLElement>(`[data-tab-content="${CSS.escape(id)}"]`);
-  const target = place?.querySelector<HTMLElement>(
-    '[data-autofocus], .cm-content, select, button:not(:disabled), input, [tabindex="0"]',
+/** What an empty tab is used for first; a drawing comes after its tools. */
+function firstIn(place: HTMLElement | null): HTMLElement | null {
+  const meant = place?.querySelector<HTMLElement>('[data-autofocus]') ?? null;
+  if (meant || !place || place.querySelector('.plan')) return meant;
+  return place.querySelector<HTMLElement>(
+    '.cm-content, select, button:not(:disabled), input, [tabindex="0"]',
   );
-  if (target && target.offsetParent !== null) target.focus();
-  else if (tries > 0) requestAnimationFrame(() => focusTab(id, tries - 1));
+}
+
+/** The tab's content may need a moment to be there. */
+function focusTab(id: string): void {
+  const place = () => document.querySelector<HTMLElement>(`[data-tab-content="${CSS.escape(id)}"]`);
+  takeFocus(() => {
+    const target = firstIn(place());
+    if (!target || target.offsetParent === null) return false;
+    target.focus();
+    return true;
+  });
 }
 
 function isTable(value: Json | undefined): value is Record<string, Json> {

@@ -1,20 +1,23 @@
 import { IconSearch } from '@tabler/icons-react';
-import { useEffect, useMemo, useRef, useState } from 'react';
+import { useEffect, useMemo, useReducer, useRef, useState } from 'react';
 import type { Command } from '../../core/registry';
 import { rankCommands, type Ranked } from '../../core/rank';
+import { whyNot } from '../commands/why_not';
 import { useCommands, useStudio } from '../hooks';
 import { kStroke } from '../parts/icons';
 import { Kbd } from '../parts/kbd';
 import { text } from '../text';
-import { OverlayFrame, useCloseOverlay } from './overlay_frame';
+import { OverlayFrame, useCloseOverlay } from '../parts/overlay_frame';
 
 /** All commands, found by what is typed. */
 export default function Palette() {
-  const { registry } = useStudio();
+  const studio = useStudio();
+  const { registry } = studio;
   const close = useCloseOverlay();
   const commands = useCommands();
   const [query, setQuery] = useState('');
   const [chosen, setChosen] = useState(0);
+  const [, redraw] = useReducer((count: number) => count + 1, 0);
   const found = useMemo(
     () =>
       rankCommands(
@@ -26,7 +29,9 @@ export default function Palette() {
   );
   const run = (index: number) => {
     const command = found[index]?.command;
-    if (!command || !registry.isEnabled(command.id)) return;
+    if (!command) return;
+    // What could be done when the list was drawn: now it says why not.
+    if (!registry.isEnabled(command.id)) return redraw();
     close();
     registry.run(command.id);
   };
@@ -68,7 +73,7 @@ export default function Palette() {
               ranked={one}
               index={index}
               chosen={index === chosen}
-              enabled={registry.isEnabled(one.command.id)}
+              why={whyNot(studio, one.command)}
               onRun={() => run(index)}
             />
           ))}
@@ -83,11 +88,12 @@ interface ItemProps {
   ranked: Ranked;
   index: number;
   chosen: boolean;
-  enabled: boolean;
+  /** Why it cannot be done now; '': it can. */
+  why: string;
   onRun(): void;
 }
 
-function Item({ ranked, index, chosen, enabled, onRun }: ItemProps) {
+function Item({ ranked, index, chosen, why, onRun }: ItemProps) {
   const row = useRef<HTMLLIElement>(null);
   useEffect(() => {
     if (chosen) row.current?.scrollIntoView({ block: 'nearest' });
@@ -100,7 +106,7 @@ function Item({ ranked, index, chosen, enabled, onRun }: ItemProps) {
       role="option"
       className="palette__item"
       aria-selected={chosen}
-      aria-disabled={!enabled}
+      aria-disabled={why !== ''}
       onClick={onRun}
     >
       <span>
@@ -108,6 +114,7 @@ function Item({ ranked, index, chosen, enabled, onRun }: ItemProps) {
           marked.has(at) ? <mark key={at}>{letter}</mark> : letter,
         )}
       </span>
+      {why ? <span className="palette__why">{why}</span> : null}
       <span className="palette__group">{command.group}</span>
       <Keys command={command} />
     </li>

@@ -8,10 +8,11 @@ import {
 import { countsOf } from '../../core/findings';
 import { shownTime } from '../../core/numbers';
 import { standsAt } from '../../core/run_state';
-import { kindOf } from '../dock/documents';
-import { usePart, useStudio, useTopic, useWindow } from '../hooks';
+import { kindOf } from '../documents';
+import { usePart, useStudio, useTopic, useUnsent, useWindow } from '../hooks';
 import { Kbd } from '../parts/kbd';
 import { kStroke } from '../parts/icons';
+import { timeOf } from '../parts/time_of';
 import { useEnd, usePastTime } from '../past_hooks';
 import { text } from '../text';
 
@@ -34,6 +35,7 @@ function Left() {
   const { registry } = useStudio();
   const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
   const warnings = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).warnings);
+  const isUnsent = useUnsent();
   const unsaved = usePart('files', {}, (is) => is?.files.some((file) => file.unsaved) ?? false);
   const Icon = errors > 0 ? IconAlertOctagon : warnings > 0 ? IconAlertTriangle : IconCircleCheck;
   const found = [
@@ -46,7 +48,9 @@ function Left() {
         <Icon size={13} stroke={kStroke} aria-hidden />
         {found.length > 0 ? found.join(', ') : text.status.noProblems}
       </button>
-      <span className="status__part">{unsaved ? text.status.notSaved : text.status.saved}</span>
+      <span className="status__part">
+        {unsaved || isUnsent ? text.status.notSaved : text.status.saved}
+      </span>
       <Runs />
     </>
   );
@@ -107,10 +111,6 @@ function ActiveActor() {
   );
 }
 
-export function timeOf(wall: number): string {
-  return new Date(wall).toLocaleTimeString('en-GB', { hour: '2-digit', minute: '2-digit' });
-}
-
 function Hints({ started }: { started: boolean }) {
   const layout = useWindow((state) => state.layout);
   const doc = useWindow((state) => state.doc);
@@ -130,7 +130,7 @@ function Hints({ started }: { started: boolean }) {
     else if (paused) hints.push(['F5', words.continue], ['F10', words.step]);
     else if (errors > 0) hints.push(['Alt+Enter', words.fix]);
     if (doc !== null && kindOf(doc) === 'plan') hints.push(['F9', words.breakpoint]);
-    if (doc?.includes('#')) hints.push(['F9', words.breakpoint], ['Ctrl+U', words.upload]);
+    if (doc?.includes('#')) hints.push(['F9', words.breakpoint], ['Ctrl+Alt+U', words.upload]);
     hints.push(['F6', words.next]);
     if (layout === 'Draw' || !doc?.includes('#'))
       hints.push(['Ctrl+K', words.commands], ['?', words.keys]);

@@ -2,7 +2,7 @@ import { IconAlertOctagon, IconAlertTriangle } from '@tabler/icons-react';
 import type { Finding } from '../../protocol/messages';
 import { ordered } from '../../core/findings';
 import { pressFix, showProblem } from '../commands/problem_commands';
-import { nameOf } from '../dock/documents';
+import { nameOf } from '../documents';
 import { useDrives, useStudio, useTopic, useWindow } from '../hooks';
 import { Quiet } from '../parts/blank';
 import { Button } from '../parts/button';

@@ -2,7 +2,7 @@ import type { ReactNode } from 'react';
 import { codeSizes, indentSizes, type Settings, type Theme } from '../../core/settings';
 import { update } from '../../core/window_state';
 import { useDrives, useSettings, useStudio, useTopic } from '../hooks';
-import { KeysList } from '../overlay/keys_help';
+import { KeysList } from '../parts/keys_list';
 import { text } from '../text';
 import '../look/lists.css';
 

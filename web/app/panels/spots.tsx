@@ -1,6 +1,6 @@
 import type { Doc, Spot } from '../../protocol/messages';
 import { revealDoc } from '../../core/window_state';
-import { nameOf } from '../dock/documents';
+import { nameOf } from '../documents';
 import { useStudio } from '../hooks';
 
 /** Places in documents, by document, each with its line. */

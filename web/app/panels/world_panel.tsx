@@ -8,7 +8,7 @@ import { text } from '../text';
 import {
   useFileStage,
   useHasScene,
-  useJsonDocument,
+  useJsonFile,
   useLive,
   useVisible,
   useWorldModel,
@@ -52,7 +52,7 @@ function Running() {
 
 function AsFile({ doc }: { doc: Doc }) {
   const model = useWorldModel();
-  const { file } = useJsonDocument(doc);
+  const { file } = useJsonFile(doc);
   useFileStage(model, file, doc, false);
   return (
     <div className="world world--panel" data-world>

@@ -2,13 +2,17 @@ import { Menu, type MenuProps } from '@mantine/core';
 import type { ReactNode } from 'react';
 import { useStudio } from '../hooks';
 import { Kbd } from './kbd';
+import { useOpened } from './use_opened';
 
 /** A menu in the look of the studio. */
 export function StudioMenu({
   button,
   children,
+  opened,
+  onChange,
   ...rest
 }: { button: ReactNode; children: ReactNode } & Partial<MenuProps>) {
+  const open = useOpened({ opened, onChange });
   return (
     <Menu
       position="bottom-start"
@@ -20,10 +24,13 @@ export function StudioMenu({
         label: 'menu__label',
         divider: 'menu__line',
       }}
+      returnFocus={false}
       {...rest}
+      opened={open.opened}
+      onChange={open.onChange}
     >
       <Menu.Target>{button as React.ReactElement}</Menu.Target>
-      <Menu.Dropdown>{children}</Menu.Dropdown>
+      <Menu.Dropdown onKeyDown={open.onKeyDown}>{children}</Menu.Dropdown>
     </Menu>
   );
 }

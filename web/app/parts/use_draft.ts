@@ -1,4 +1,5 @@
-import { useState, type KeyboardEvent } from 'react';
+import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
+import { useStudio } from '../hooks';
 
 /** What is typed into a field until it counts: Enter and leaving take it, Escape forgets it. */
 export interface Draft {
@@ -6,18 +7,29 @@ export interface Draft {
   readonly typed: string | null;
   /** What the field shows. */
   readonly shown: string;
+  /** What is typed was refused: it stays until it is changed. */
+  readonly isRefused: boolean;
   set(text: string | null): void;
-  done(): void;
+  /** False: it is refused. */
+  done(): boolean;
   /** True if the key was the draft's own. */
   key(event: KeyboardEvent): boolean;
 }
 
-/** `take` gets what was typed, if it is another text than the value. */
-export function useDraft(value: string, take: (typed: string) => void): Draft {
-  const [typed, set] = useState<string | null>(null);
+/** `take` gets what was typed, if it is another text than the value; false: it cannot be that. */
+export function useDraft(value: string, take: (typed: string) => boolean | void): Draft {
+  const { fields } = useStudio().documents;
+  const [typed, setTyped] = useState<string | null>(null);
+  const [isRefused, setRefused] = useState(false);
+  const set = (text: string | null) => {
+    setTyped(text);
+    setRefused(false);
+  };
   const done = () => {
-    if (typed !== null && typed !== value) take(typed);
-    set(null);
+    const isTaken = typed === null || typed === value || take(typed) !== false;
+    if (isTaken) set(null);
+    else setRefused(true);
+    return isTaken;
   };
   const key = (event: KeyboardEvent) => {
     if (event.key === 'Enter') done();
@@ -25,5 +37,15 @@ export function useDraft(value: string, take: (typed: string) => void): Draft {
     else return false;
     return true;
   };
-  return { typed, shown: typed ?? value, set, done, key };
+  const isTyped = typed !== null && typed !== value;
+  // Save and Run take what is typed before they do their work.
+  const settle = useRef(done);
+  useEffect(() => {
+    settle.current = done;
+  });
+  useEffect(
+    () => (isTyped ? fields.add({ settle: () => settle.current() }) : undefined),
+    [fields, isTyped],
+  );
+  return { typed, shown: typed ?? value, isRefused, set, done, key };
 }

@@ -2,7 +2,7 @@ import { IconArrowUp, IconX } from '@tabler/icons-react';
 import { useEffect, useState } from 'react';
 import type { Commands, FolderEntry } from '../../protocol/messages';
 import { useStudio } from '../hooks';
-import { OverlayFrame, useCloseOverlay } from '../overlay/overlay_frame';
+import { OverlayFrame, useCloseOverlay } from '../parts/overlay_frame';
 import { Quiet } from '../parts/blank';
 import { Button } from '../parts/button';
 import { FileIcon, kStroke } from '../parts/icons';

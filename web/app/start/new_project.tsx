@@ -1,7 +1,7 @@
 import { useState } from 'react';
 import { badName } from '../../core/paths';
 import { useStudio } from '../hooks';
-import { OverlayFrame, useCloseOverlay } from '../overlay/overlay_frame';
+import { OverlayFrame, useCloseOverlay } from '../parts/overlay_frame';
 import { Button } from '../parts/button';
 import { text } from '../text';
 

@@ -6,7 +6,9 @@ import {
   IconPlayerPlayFilled,
   IconPlayerStopFilled,
 } from '@tabler/icons-react';
+import type { Topics } from '../../protocol/messages';
 import { usePart, useStudio } from '../hooks';
+import { whatRuns } from '../../core/run_choice';
 import { useEnd, useMayAct, usePastTime } from '../past_hooks';
 import { shownTime } from '../../core/numbers';
 import { Button } from '../parts/button';
@@ -28,6 +30,9 @@ export function Clock() {
   const speed = usePart('clock', {}, (is) => is?.speed ?? 1);
   const real = usePart('clock', {}, (is) => is?.real ?? 1);
   const why = usePart('clock', {}, (is) => is?.why);
+  const nodes = usePart('robot', {}, (is) => whatRuns(is, undefined));
+  const plan = usePart('plan', {}, (is) => whatRuns(undefined, is));
+  const runs = plan || nodes;
   const isBus = usePart('robot', {}, (is) => is?.kind === 'bus');
   // On a bus there is a clock only while a plan runs.
   if (isBus && state === 'none') return null;
@@ -46,7 +51,7 @@ export function Clock() {
         {past === null ? t.toFixed(state === 'paused' ? 3 : 1) : shownTime(past)} s
       </span>
       <span className="clock__state">
-        {past === null ? text.run[state] : text.past.agoShort((end - past).toFixed(1))}
+        {past === null ? stateText(state, runs) : text.past.agoShort((end - past).toFixed(1))}
       </span>
       <span className="clock__line" />
       <span className="hidden-text">{text.menu.speed}</span>
@@ -93,4 +98,10 @@ export function Clock() {
       <CommandItem id="run.end" />
     </StudioMenu>
   );
+}
+
+/** "Running: WallFollow": a world alone says so, too. */
+function stateText(state: Topics['clock']['is']['state'], runs: string): string {
+  const word = text.run[state];
+  return state === 'running' ? `${word}: ${runs || text.run.worldOnly}` : word;
 }

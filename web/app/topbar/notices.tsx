@@ -4,6 +4,7 @@ import { useLink, useStudio, useTopic, usePart } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
+import { EndNotice } from './end_notice';
 import { Notice } from './notice';
 import { PastNotice } from './past_notice';
 import { RunNotice } from './run_notice';
@@ -13,6 +14,7 @@ export function Notices() {
   return (
     <div className="notices">
       <PastNotice />
+      <EndNotice />
       <LinkNotice />
       <RunNotice />
       <RobotNotice />
@@ -24,9 +26,11 @@ export function Notices() {
 
 function LinkNotice() {
   const link = useLink();
-  const seconds = useSecondsSince(link.state === 'lost' ? link.since : null);
+  const silentSince = link.state === 'open' ? link.silentSince : undefined;
+  const seconds = useSecondsSince(link.state === 'lost' ? link.since : (silentSince ?? null));
   const icon = <IconPlugConnectedX className="icon" size={14} stroke={kStroke} aria-hidden />;
   if (link.state === 'lost') return <Notice icon={icon}>{text.link.lost(seconds)}</Notice>;
+  if (silentSince !== undefined) return <Notice icon={icon}>{text.link.silent(seconds)}</Notice>;
   if (link.state !== 'refused') return null;
   return (
     <Notice icon={icon} error>

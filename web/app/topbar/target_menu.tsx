@@ -6,9 +6,9 @@ import {
   IconPlugConnectedX,
   IconUsb,
 } from '@tabler/icons-react';
-import { useState } from 'react';
 import type { Found } from '../../protocol/messages';
-import { useDrives, useStudio, useTopic } from '../hooks';
+import { update } from '../../core/window_state';
+import { useDrives, useStudio, useTopic, useWindow } from '../hooks';
 import { kStroke } from '../parts/icons';
 import { StudioPopover } from '../parts/popover';
 import { text } from '../text';
@@ -25,7 +25,9 @@ const icons = {
 export function TargetMenu() {
   const robot = useTopic('robot', {});
   const serves = useTopic('studio', {})?.serves ?? false;
-  const [open, setOpen] = useState(false);
+  const { window: store } = useStudio();
+  const open = useWindow((state) => state.targets);
+  const setOpen = (next: boolean) => update(store, (draft) => void (draft.targets = next));
   const none = !robot || robot.kind === 'none';
   const Icon = none
     ? IconPlugConnectedX

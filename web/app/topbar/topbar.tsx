@@ -6,6 +6,7 @@ import { text } from '../text';
 import { Bus } from './bus';
 import { Clock } from './clock';
 import { LayoutSwitch } from './layout_switch';
+import { Missing } from './missing';
 import { ProjectMenu } from './project_menu';
 import { RunControls } from './run_controls';
 import { TargetMenu } from './target_menu';
@@ -28,6 +29,7 @@ export function TopBar() {
         </>
       ) : null}
       <div className="grow" />
+      <Missing />
       <TargetMenu />
       {project ? <Bus /> : null}
       <Tools />

@@ -1,7 +1,7 @@
 import { late } from '../parts/late';
 import type { Doc } from '../../protocol/messages';
 import { partOf } from '../../core/paths';
-import { kindOf } from '../dock/documents';
+import { kindOf } from '../documents';
 
 const PlanDocument = late(() => import('./plan/plan_document'));
 const WorldDocument = late(() => import('./world/world_document'));

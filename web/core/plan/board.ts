@@ -3,7 +3,7 @@
 
 import type { Doc, Json, JsonStep } from '../../protocol/messages';
 import { Emitter } from '../emitter';
-import type { JsonDocument } from '../json_document';
+import type { JsonFile } from '../session/json_file';
 import { drawingOf, goOn, supervisorKey, type Drawing } from './arrows';
 import * as edit from './edit';
 import {
@@ -19,7 +19,7 @@ import {
 import { extract, type Extracted, type WhyNot } from './extract';
 import * as notes from './notes';
 import { Draft, paste, partOf, type Part } from './part';
-import { freePlace, sceneOf, type Scene } from './place';
+import { found, freePlace, sceneOf, type Places, type Scene } from './place';
 import { kNodeWidth, type Box, type Point } from './shape';
 import type { SubPlans } from './sub_plans';
 import type { Found, Toolboxes } from './templates';
@@ -36,6 +36,13 @@ const kShownMs = 1000;
 
 export type Source = Actor | Supervisor | typeof kStart;
 
+/** Where a board gets its time, and goes on with what it does bit by bit. */
+export interface Turns {
+  /** Milliseconds. */
+  now(): number;
+  later(act: () => void): void;
+}
+
 export class PlanBoard {
   readonly changed = new Emitter<void>();
   /** Said to who cannot see it. */
@@ -47,24 +54,29 @@ export class PlanBoard {
   drawing: Drawing;
   private chosen = new Set<string>();
   private held = new Map<string, Point>();
+  /** Where elements stand that have no place in the file. */
+  private stood: Places = new Map();
   private finishing = false;
   private heldSizes = new Map<string, notes.Size>();
 
   constructor(
     readonly doc: Doc,
-    readonly file: JsonDocument,
+    readonly file: JsonFile,
     private toolboxes: Toolboxes,
+    private readonly turns: Turns,
     private subPlans: SubPlans = new Map(),
-    private readonly clock: () => number = () => performance.now(),
   ) {
     this.model = planModel(file.value, toolboxes, subPlans);
     this.scene = sceneOf(this.model);
+    this.stood = found(this.model, this.scene, this.stood);
     this.drawing = drawingOf(this.model, this.scene, { isTime: this.within(kAtOnceMs) });
     this.finish();
   }
 
   /** The file or the templates are others now. */
   refresh(toolboxes: Toolboxes = this.toolboxes, subPlans: SubPlans = this.subPlans): void {
+    // Other templates make other boxes, which need another room.
+    if (toolboxes !== this.toolboxes) this.stood = new Map();
     this.toolboxes = toolboxes;
     this.subPlans = subPlans;
     this.model = planModel(this.file.value, toolboxes, subPlans);
@@ -220,8 +232,8 @@ export class PlanBoard {
 
   // ---- editing ----
 
-  commit(steps: JsonStep[]): void {
-    this.file.commit(steps);
+  commit(steps: JsonStep[]): boolean {
+    return this.file.commit(steps);
   }
 
   connect(key: string, outcome: string, target: string | null): void {
@@ -362,6 +374,8 @@ export class PlanBoard {
 
   rename(key: string, to: string): void {
     const { value } = this.file;
+    const stood = this.stood.get(key);
+    if (stood) this.stood = new Map([...this.stood, [to, stood]]);
     const supervisor = this.supervisor(key);
     const variable = this.variable(key);
     const steps = this.actor(key)
@@ -391,7 +405,8 @@ export class PlanBoard {
     for (const [name, { x, y }] of this.held) places.set(name, [x, y]);
     const isHeld = this.held.size > 0;
     const model = isHeld ? { ...this.model, places } : this.model;
-    this.scene = sceneOf(model);
+    this.scene = sceneOf(model, this.stood);
+    this.stood = found(model, this.scene, this.stood);
     this.drawing = drawingOf(model, this.scene, {
       isTime: this.within(isHeld ? kWhileHeldMs : kAtOnceMs),
       before: this.drawing,
@@ -405,24 +420,24 @@ export class PlanBoard {
   private finish(): void {
     if (this.finishing || !this.drawing.isSketch) return;
     this.finishing = true;
-    let shown = this.clock();
+    let shown = this.turns.now();
     const turn = () => {
       this.finishing = false;
       this.drawing = goOn(this.drawing, { isTime: this.within(kTurnMs) });
-      if (!this.drawing.isSketch || this.clock() - shown > kShownMs) {
-        shown = this.clock();
+      if (!this.drawing.isSketch || this.turns.now() - shown > kShownMs) {
+        shown = this.turns.now();
         this.tell();
       }
       if (!this.drawing.isSketch) return;
       this.finishing = true;
-      setTimeout(turn);
+      this.turns.later(turn);
     };
-    setTimeout(turn);
+    this.turns.later(turn);
   }
 
   private within(ms: number): () => boolean {
-    const end = this.clock() + ms;
-    return () => this.clock() >= end;
+    const end = this.turns.now() + ms;
+    return () => this.turns.now() >= end;
   }
 
   private tell(): void {

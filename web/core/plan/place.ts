@@ -14,6 +14,8 @@ import {
   type Point,
 } from './shape';
 
+export type Places = ReadonlyMap<string, readonly [number, number]>;
+
 export interface Scene {
   start: Block;
   actors: readonly Block[];
@@ -29,12 +31,63 @@ export const kSnap = 8;
 
 export const snapped = (value: number) => Math.round(value / kSnap) * kSnap;
 
-export function sceneOf(model: PlanModel): Scene {
+/**
+ * What has a place in the file stands there; the rest where it stood `before`, if it did and nothing covers it now:
+ * nothing moves because something else was dropped or deleted.
+ */
+export function sceneOf(file: PlanModel, before: Places = new Map()): Scene {
+  const model = before.size === 0 ? file : { ...file, places: uncovered(file, before) };
   const actors = placeActors(model);
   const startAt = placeOf(model, kStart) ?? freePlaceForStart(model, actors);
   const start = blockAt(kStart, startAt, kStartSize, model.globals);
-  const configuration = placeOf(model, kConfiguration) ?? aboveAll([...actors, start], model);
+  const blocks = [...actors, start];
+  const kept = placeOf(model, kConfiguration);
+  const isFree =
+    kept !== undefined && (file.places.has(kConfiguration) || fits(model, kept, blocks));
+  const configuration = isFree ? kept : aboveAll(blocks, model);
   return { start, actors, configuration, pills: pillBoxes(model, configuration) };
+}
+
+/** Of places that were found before only those where an element still has room: it or its neighbour may have grown. */
+function uncovered(file: PlanModel, before: Places): Places {
+  const places = new Map(file.places);
+  const taken: Block[] = [];
+  const blocks = [
+    ...file.actors.map((actor) => ({ name: actor.name, at: (to: Point) => actorBlock(actor, to) })),
+    { name: kStart, at: (to: Point) => blockAt(kStart, to, kStartSize, file.globals) },
+  ];
+  for (const { name, at } of blocks) {
+    const place = placeOf(file, name);
+    if (place) taken.push(at(place));
+  }
+  for (const { name, at } of blocks) {
+    const known = before.get(name);
+    if (!known || places.has(name)) continue;
+    const block = at({ x: known[0], y: known[1] });
+    if (taken.some((one) => overlaps(one.whole, block.whole))) continue;
+    taken.push(block);
+    places.set(name, known);
+  }
+  const pills = before.get(kConfiguration);
+  if (pills && !places.has(kConfiguration)) places.set(kConfiguration, pills);
+  return places;
+}
+
+function fits(model: PlanModel, at: Point, blocks: readonly Block[]): boolean {
+  return !pillBoxes(model, at).some(({ box }) => blocks.some(({ whole }) => overlaps(whole, box)));
+}
+
+/** Where those stand that have no place in the file, beside what was known of them before. */
+export function found(file: PlanModel, scene: Scene, before: Places): Places {
+  const known = new Map(before);
+  const keep = (name: string, { x, y }: Point) => {
+    if (!file.places.has(name)) known.set(name, [x, y]);
+  };
+  for (const { name, box } of scene.actors) keep(name, box);
+  // An empty drawing has no places yet: Start stands where the first actor wants it.
+  if (scene.actors.length > 0) keep(kStart, scene.start.box);
+  if (scene.actors.length > 0 && scene.pills.length > 0) keep(kConfiguration, scene.configuration);
+  return known;
 }
 
 function placeOf(model: PlanModel, name: string): Point | undefined {

@@ -105,6 +105,11 @@ export function normalAngle(angle: number): number {
   return rest === 0 ? Math.PI : rest - Math.PI;
 }
 
+/** What a person reads: -180 to 180. */
+export function shownDegrees(angle: number): number {
+  return degrees(normalAngle(angle));
+}
+
 export function degrees(angle: number): number {
   return (angle * 180) / Math.PI;
 }

@@ -10,6 +10,7 @@ import {
   reachOf,
   rectangle,
   seenFrom,
+  shownDegrees,
 } from './geometry';
 import { drawOrder, thingAt, thingOnRay, type Standing } from './hit';
 import { WorldModel } from './model';
@@ -319,4 +320,9 @@ describe('a world that is looked at', () => {
     const { x, y } = model.freePlace(0.2);
     expect(Math.hypot(x - 3, y - 2.25)).toBeGreaterThan(0.2);
   });
+});
+
+test('AnglesAreShownFromMinus180To180', () => {
+  const shown = [396, -359.5, 180, -180, 0, 725].map((given) => shownDegrees(radians(given)));
+  expect(shown.map((one) => Math.round(one * 10) / 10)).toEqual([36, 0.5, 180, 180, 0, 5]);
 });

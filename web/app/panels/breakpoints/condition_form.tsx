@@ -1,5 +1,6 @@
 import { useState } from 'react';
-import { kindOf } from '../../dock/documents';
+import { mistakeIn } from '../../../core/condition';
+import { kindOf } from '../../documents';
 import { useDrives, useStudio, useTopic, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
@@ -13,10 +14,14 @@ export function ConditionForm() {
   const looked = useWindow((state) => state.doc);
   const own = useTopic('studio', {})?.project?.plan;
   const [condition, setCondition] = useState('');
+  const [tried, setTried] = useState('');
+  const wrong = mistakeIn(condition);
+  const told = tried === condition ? wrong : '';
   const doc = looked !== null && kindOf(looked) === 'plan' ? looked : own;
   if (doc === undefined) return null;
   const add = () => {
-    if (condition.trim() === '') return;
+    setTried(condition);
+    if (condition.trim() === '' || wrong) return;
     studio.order('plan.break.set', { doc, kind: 'condition', condition: condition.trim() });
     setCondition('');
   };
@@ -28,11 +33,17 @@ export function ConditionForm() {
           className="field field--small"
           placeholder={words.whenHint}
           value={condition}
+          aria-invalid={told !== ''}
           spellCheck={false}
           disabled={!drives}
           onChange={(event) => setCondition(event.target.value)}
         />
       </label>
+      {told ? (
+        <p className="planform__why" role="alert">
+          {told}
+        </p>
+      ) : null}
       <Button small type="submit" disabled={!drives || condition.trim() === ''}>
         {words.add}
       </Button>

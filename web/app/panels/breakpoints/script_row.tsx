@@ -1,6 +1,6 @@
 import type { Breakpoint } from '../../../protocol/messages';
 import { revealDoc } from '../../../core/window_state';
-import { nameOf } from '../../dock/documents';
+import { nameOf } from '../../documents';
 import { useStudio } from '../../hooks';
 import { text } from '../../text';
 import { BreakRow } from './break_row';

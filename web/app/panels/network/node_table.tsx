@@ -73,7 +73,8 @@ const Row = memo(NodeRow, (before, after) => JSON.stringify(before) === JSON.str
 
 function NodeRow({ node, says, hears, chosen }: RowProps) {
   const { window: store } = useStudio();
-  const { id, name, state, at, program, doc, fault, busy } = node;
+  const { id, name, state, at, program, doc, fault, busy, stop } = node;
+  const unstopped = stop !== undefined && stop !== 'stopped' ? text.stop.states[stop] : undefined;
   const choose = () =>
     update(store, (draft) => {
       draft.chosenNodes = chosen
@@ -100,10 +101,10 @@ function NodeRow({ node, says, hears, chosen }: RowProps) {
         )}{' '}
         <span className="muted num">{id}</span> {doc ? null : <WriteScript node={node} />}
       </th>
-      <td className={fault ? 'is-error' : undefined} title={fault}>
+      <td className={(fault ?? unstopped) ? 'is-error' : undefined} title={fault}>
         <span className="table__state">
           <StateSign state={state} />
-          {busy ?? text.target.nodeState[state]}
+          {unstopped ?? busy ?? text.target.nodeState[state]}
           {at ? <span className="muted">{words.line(at.line)}</span> : null}
         </span>
       </td>

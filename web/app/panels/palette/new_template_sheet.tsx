@@ -1,4 +1,4 @@
-import { OverlayFrame, useCloseOverlay } from '../../overlay/overlay_frame';
+import { OverlayFrame, useCloseOverlay } from '../../parts/overlay_frame';
 import { text } from '../../text';
 import { NewTemplateForm } from './new_template_form';
 import '../../look/palette.css';

@@ -8,7 +8,7 @@ import { spanWith } from '../../../core/timeline';
 import { useStudio } from '../../hooks';
 import { useShownTheme } from '../../robot_hooks';
 import { dataOf, makeChart, pressPlot, wheelPlot, type PlotCursor } from './chart';
-import { showPlot } from './plot_handles';
+import { showPlot } from '../../commands/plot_handles';
 import { pictureOfPlot } from './plot_picture';
 
 export function useChart(host: RefObject<HTMLDivElement | null>, cursor: PlotCursor): void {

@@ -1,10 +1,11 @@
-import { useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import type { FileEntry, Path } from '../../../protocol/messages';
 import { badName, baseName, folderOf, joinPath } from '../../../core/paths';
 import { revealDoc, update } from '../../../core/window_state';
-import { documentsIn } from '../../dock/documents';
+import { documentsIn } from '../../documents';
 import { useStudio } from '../../hooks';
 import { FileIcon } from '../../parts/icons';
+import { takeFocus } from '../../parts/take_focus';
 import { text } from '../../text';
 
 type NewKind = 'folder' | 'script' | 'plan' | 'world' | 'toolbox' | 'text';
@@ -31,6 +32,14 @@ export function NameInput({
   const studio = useStudio();
   const [name, setName] = useState(rename ? baseName(rename) : `new${endings[kind]}`);
   const why = badName(name);
+  const field = useRef<HTMLInputElement>(null);
+  // The panel may stand behind another tab until it has come to the front.
+  useEffect(() => {
+    takeFocus(() => {
+      field.current?.focus();
+      return !field.current || document.activeElement === field.current;
+    });
+  }, []);
   const end = () => update(studio.window, (draft) => void (draft.naming = null));
   const done = async () => {
     if (why) return;
@@ -39,7 +48,10 @@ export function NameInput({
     if (rename && path !== rename) await studio.send('file.rename', { path: rename, to: path });
     if (rename) return;
     await studio.send('file.new', { path, kind });
-    if (kind !== 'folder') revealDoc(studio.window, documentsIn(studio, path)[0] ?? path, null);
+    if (kind === 'folder') return;
+    // Whoever names the next file already stays in its field.
+    const free = studio.window.getState().naming === null;
+    revealDoc(studio.window, documentsIn(studio, path)[0] ?? path, null, free);
   };
   return (
     <form
@@ -52,7 +64,7 @@ export function NameInput({
       <FileIcon kind={rename ? iconKind(rename) : kind} />
       <input
         className="field field--small field--ui"
-        autoFocus
+        ref={field}
         aria-label={rename ? text.tree.rename : text.tree.newName}
         aria-invalid={why !== ''}
         title={why}
@@ -60,7 +72,8 @@ export function NameInput({
         spellCheck={false}
         onChange={(event) => setName(event.target.value)}
         onFocus={(event) => event.target.setSelectionRange(0, stem(event.target.value))}
-        onBlur={end}
+        // A window that another one covers keeps its field.
+        onBlur={(event) => document.activeElement !== event.target && end()}
         onKeyDown={(event) => event.key === 'Escape' && (event.stopPropagation(), end())}
       />
     </form>

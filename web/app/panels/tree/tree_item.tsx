@@ -2,9 +2,10 @@ import { IconChevronDown, IconChevronRight } from '@tabler/icons-react';
 import { useState } from 'react';
 import { partOf, shownName } from '../../../core/paths';
 import type { TreeRow } from '../../../core/tree';
-import { useDrives, useStudio, useTopic, useWindow } from '../../hooks';
+import { useDrives, useTopic, useWindow } from '../../hooks';
 import { FileIcon, kStroke } from '../../parts/icons';
 import { Marks, marksOf, SavedMark } from '../../parts/marks';
+import { DeleteAsk } from './delete_ask';
 import { NameInput } from './name_input';
 import { TreeMenu } from './tree_menu';
 import type { TreeState } from './use_tree';
@@ -18,13 +19,13 @@ interface Props {
 }
 
 export function TreeItem({ row, tree, tabbed, onKey }: Props) {
-  const studio = useStudio();
   const drives = useDrives();
   const naming = useWindow((state) => state.naming);
   const shown = useWindow((state) => state.doc !== null && partOf(state.doc).file === row.path);
   const [menu, setMenu] = useState(false);
   if (naming && 'rename' in naming && naming.rename === row.path)
     return <NameInput folder="" kind="text" rename={row.path} />;
+  if (tree.asked === row.path) return <DeleteAsk row={row} tree={tree} />;
   const press = (event: React.KeyboardEvent) => {
     if (event.target !== event.currentTarget) return;
     if (event.key === 'Enter' || event.key === ' ') tree.open(row);
@@ -32,8 +33,7 @@ export function TreeItem({ row, tree, tabbed, onKey }: Props) {
     else if (event.key === 'ArrowRight' && row.kind === 'folder' && !row.open)
       tree.toggle(row.path, true);
     else if (event.key === 'F2' && drives) tree.rename(row);
-    else if (event.key === 'Delete' && drives)
-      void tree.remove(row).catch((problem: unknown) => studio.tell(problem));
+    else if (event.key === 'Delete' && drives) tree.ask(row);
     else if (event.key === 'ContextMenu' || (event.key === 'F10' && event.shiftKey)) setMenu(true);
     else if (!onKey(event.key)) return;
     event.preventDefault();

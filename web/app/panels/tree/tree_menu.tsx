@@ -2,7 +2,7 @@ import { Menu } from '@mantine/core';
 import { IconDots } from '@tabler/icons-react';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc } from '../../../core/window_state';
-import { documentsIn } from '../../dock/documents';
+import { documentsIn } from '../../documents';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
 import { Kbd } from '../../parts/kbd';
@@ -54,7 +54,7 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
         <Menu.Item
           disabled={!drives}
           rightSection={<Kbd keys="Del" />}
-          onClick={() => void tree.remove(row).catch((problem: unknown) => studio.tell(problem))}
+          onClick={() => tree.ask(row)}
         >
           {text.tree.delete}
         </Menu.Item>

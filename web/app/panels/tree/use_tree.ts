@@ -3,7 +3,7 @@
 import { useCallback, useMemo, useState } from 'react';
 import type { Path } from '../../../protocol/messages';
 import { openTrace } from '../../commands/past_commands';
-import { documentsIn } from '../../dock/documents';
+import { documentsIn } from '../../documents';
 import { folderOf, isTrace } from '../../../core/paths';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc, toast, update } from '../../../core/window_state';
@@ -21,6 +21,10 @@ export interface TreeState {
   open(row: TreeRow): void;
   openText(row: TreeRow): void;
   rename(row: TreeRow): void;
+  /** The file that is to be deleted, once that is confirmed. */
+  asked: Path | null;
+  ask(row: TreeRow): void;
+  keep(): void;
   remove(row: TreeRow): Promise<void>;
 }
 
@@ -28,6 +32,7 @@ export function useTree(): TreeState {
   const studio = useStudio();
   const [closed, setClosed] = useState<ReadonlySet<Path>>(new Set());
   const [chosen, choose] = useState<Path | null>(null);
+  const [asked, setAsked] = useState<Path | null>(null);
   const toggle = useCallback((path: Path, open: boolean) => {
     setClosed((before) => {
       const next = new Set(before);
@@ -50,7 +55,7 @@ export function useTree(): TreeState {
           ? row.kind === 'folder'
             ? row.path
             : folderOf(row.path)
-          : folderOf(rows.find((one) => one.kind === 'project')?.path ?? '');
+          : folderOf(outermost(rows)?.path ?? '');
       },
       open: (row) => {
         if (row.kind === 'folder') return toggle(row.path, !row.open);
@@ -60,11 +65,25 @@ export function useTree(): TreeState {
       },
       openText: (row) => revealDoc(studio.window, row.path, null),
       rename: (row) => update(studio.window, (draft) => void (draft.naming = { rename: row.path })),
+      asked,
+      ask: (row) => setAsked(row.path),
+      keep: () => setAsked(null),
       remove: async (row) => {
+        setAsked(null);
         await studio.send('file.delete', { path: row.path });
         toast(studio.window, 'note', text.tree.remove(row.name));
       },
     }),
-    [studio, closed, chosen, toggle],
+    [studio, closed, chosen, asked, toggle],
   );
+}
+
+/** Of the project that is open: those of projects inside of it lie deeper. */
+function outermost(rows: readonly TreeRow[]): TreeRow | undefined {
+  return rows
+    .filter((row) => row.kind === 'project')
+    .reduce<TreeRow | undefined>(
+      (best, row) => (best && best.level <= row.level ? best : row),
+      undefined,
+    );
 }

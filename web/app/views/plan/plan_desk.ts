@@ -11,6 +11,10 @@ export interface ShownPlan {
   board: PlanBoard;
   /** The middle of what is seen, on the canvas. */
   middle(): Point;
+  zoom(): number;
+  zoomed: Emitter<void>;
+  /** Around the middle. */
+  zoomTo(zoom: number): void;
   /** Brings the keyboard to an element. */
   focus(key: string): void;
 }

@@ -4,7 +4,7 @@ import {
   IconChevronRight,
   IconLayoutDistributeVertical,
 } from '@tabler/icons-react';
-import { useEffect, useReducer } from 'react';
+import { useCallback, useEffect, useReducer, useSyncExternalStore } from 'react';
 import type { Doc } from '../../../protocol/messages';
 import { revealDoc } from '../../../core/window_state';
 import { useDrives, useStudio, useWindow } from '../../hooks';
@@ -56,6 +56,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
       >
         {words.tidy}
       </Button>
+      <Zoom doc={doc} />
       <span className="grow" />
       <Switch name="data" />
       <Switch name="map" />
@@ -63,6 +64,28 @@ export function PlanTools({ doc }: { doc: Doc }) {
       <Switch name="code" />
       <Switch name="live" />
     </div>
+  );
+}
+
+/** In per cent; pressed, it is 100 %. */
+function Zoom({ doc }: { doc: Doc }) {
+  const { shown } = usePlanDesk(useStudio());
+  const own = shown?.board.doc === doc ? shown : undefined;
+  const zoom = useSyncExternalStore(
+    useCallback((listener: () => void) => own?.zoomed.on(listener) ?? (() => {}), [own]),
+    () => own?.zoom() ?? 1,
+  );
+  return (
+    <Button
+      kind="plain"
+      small
+      disabled={!own}
+      tip={words.zoomTo}
+      aria-label={words.zoom(Math.round(zoom * 100))}
+      onClick={() => own?.zoomTo(1)}
+    >
+      <span className="num">{Math.round(zoom * 100)} %</span>
+    </Button>
   );
 }
 

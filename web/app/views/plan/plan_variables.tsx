@@ -31,6 +31,7 @@ function Variable({ level, variable }: { level: number; variable: PlanVariable }
   const draft = useDraft(valueOf(value), (given) => {
     const typed = typedValue(type, given);
     if (typed !== undefined) set(typed);
+    return typed !== undefined;
   });
   return (
     <li className="planvar">

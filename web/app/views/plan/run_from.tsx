@@ -3,7 +3,7 @@ import type { Json, PlanVariable } from '../../../protocol/messages';
 import type { Variable } from '../../../core/plan/model';
 import { typedValue } from '../../../core/plan_view';
 import { useStudio } from '../../hooks';
-import { OverlayFrame, useCloseOverlay } from '../../overlay/overlay_frame';
+import { OverlayFrame, useCloseOverlay } from '../../parts/overlay_frame';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
 import { planDeskOf } from './plan_desk';

@@ -80,8 +80,10 @@ async function complete(
   // A number is no beginning of a name.
   if (!context.explicit && !/^[\p{L}_]/u.test(word?.text ?? '')) return null;
   const at = placeOf(context.state.doc, context.pos);
-  await studio.documents.flushAll();
-  const answer = await studio.send('script.complete', { doc, at }).catch(() => null);
+  const answer = await studio.documents
+    .sent(doc)
+    .then(() => studio.send('script.complete', { doc, at }))
+    .catch(() => null);
   if (!answer || context.aborted || answer.items.length === 0) return null;
   const keywords = new Set(answer.items.filter(isKeyword).map((one) => one.label));
   // Nothing is left to complete of a keyword that stands there in full: the list goes.

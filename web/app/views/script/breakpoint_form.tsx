@@ -1,4 +1,5 @@
 import { useState } from 'react';
+import { mistakeIn } from '../../../core/condition';
 import type { Doc } from '../../../protocol/messages';
 import { useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
@@ -14,8 +15,11 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
   const [condition, setCondition] = useState(there?.condition ?? '');
   const [ignore, setIgnore] = useState(String(there?.ignore ?? 0));
   const [enabled, setEnabled] = useState(there?.enabled ?? true);
-  const good = /^\d{1,6}$/.test(ignore);
+  const [tried, setTried] = useState(false);
+  const wrong = mistakeIn(condition);
+  const good = /^\d{1,6}$/.test(ignore) && wrong === '';
   const save = () => {
+    setTried(true);
     if (!good) return;
     studio.order('break.set', { doc, line, condition, ignore: Number(ignore), enabled });
     onEnd();
@@ -29,6 +33,7 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
           autoFocus
           placeholder={words.conditionHint}
           value={condition}
+          aria-invalid={tried && wrong !== ''}
           spellCheck={false}
           onChange={(event) => setCondition(event.target.value)}
         />
@@ -39,7 +44,7 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
           className="field num"
           inputMode="numeric"
           value={ignore}
-          aria-invalid={!good}
+          aria-invalid={!/^\d{1,6}$/.test(ignore)}
           onChange={(event) => setIgnore(event.target.value)}
         />
       </label>
@@ -51,6 +56,11 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
         />
         {words.enabled}
       </label>
+      {tried && wrong ? (
+        <p className="planform__why" role="alert">
+          {wrong}
+        </p>
+      ) : null}
       <div className="form__end">
         {there ? (
           <Button onClick={() => (studio.order('break.clear', { doc, line }), onEnd())}>

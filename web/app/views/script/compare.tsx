@@ -1,11 +1,31 @@
 import { MergeView } from '@codemirror/merge';
 import { EditorState } from '@codemirror/state';
 import { EditorView, lineNumbers } from '@codemirror/view';
-import { useEffect, useRef } from 'react';
+import { useEffect, useRef, useState } from 'react';
+import type { Doc } from '../../../protocol/messages';
+import { useStudio } from '../../hooks';
 import { text } from '../../text';
 
-/** Two texts side by side, what differs marked. */
-export default function Compare({ mine, theirs }: { mine: string; theirs: string }) {
+/** The text from here and the one on disk side by side, what differs marked. */
+export default function Compare({ doc, version }: { doc: Doc; version: number }) {
+  const studio = useStudio();
+  const [texts, setTexts] = useState<{ mine: string; theirs: string } | null>(null);
+  useEffect(() => {
+    let gone = false;
+    const held = studio.documents.acquire(doc);
+    Promise.all([held.opened, studio.send('doc.disk', { doc })]).then(
+      ([{ session }, { text: theirs }]) => gone || setTexts({ mine: session.text, theirs }),
+      (problem: unknown) => studio.tell(problem),
+    );
+    return () => {
+      gone = true;
+      held.release();
+    };
+  }, [studio, doc, version]);
+  return texts ? <SideBySide {...texts} /> : null;
+}
+
+function SideBySide({ mine, theirs }: { mine: string; theirs: string }) {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
     if (!host.current) return;

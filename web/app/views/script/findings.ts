@@ -1,5 +1,5 @@
 // Findings in the text: what is meant is underlined, and an error's sentence stands in a block below
-// its line, with its fix as a button.
+// its line, with its fix as a button: once the caret has left the line, or has typed nothing for half a second.
 
 import {
   RangeSet,
@@ -9,8 +9,16 @@ import {
   type Extension,
   type Range,
   type Text,
+  type Transaction,
 } from '@codemirror/state';
-import { Decoration, EditorView, WidgetType, type DecorationSet } from '@codemirror/view';
+import {
+  Decoration,
+  EditorView,
+  ViewPlugin,
+  WidgetType,
+  type DecorationSet,
+  type ViewUpdate,
+} from '@codemirror/view';
 import type { Finding, Fix } from '../../../protocol/messages';
 import { offsetOf } from './places';
 
@@ -21,25 +29,49 @@ export interface FindingsShown {
 
 export const setFindings = StateEffect.define<FindingsShown>();
 
+/** Nobody has typed for a moment. */
+const settle = StateEffect.define<null>();
+export const kSettledMs = 500;
+
 interface FieldValue {
   marks: DecorationSet;
   blocks: DecorationSet;
   findings: readonly Finding[];
+  /** What was told last, as long as it is about the text as it is. */
+  told: FindingsShown | null;
+  /** Somebody types: sentences below the caret's line neither come nor go, so that the text does not jump. */
+  types: boolean;
 }
 
-const nothing: FieldValue = { marks: Decoration.none, blocks: Decoration.none, findings: [] };
+const nothing: FieldValue = {
+  marks: Decoration.none,
+  blocks: Decoration.none,
+  findings: [],
+  told: null,
+  types: false,
+};
 
 const field = StateField.define<FieldValue>({
   create: () => nothing,
-  update(value, transaction) {
-    for (const effect of transaction.effects)
-      if (effect.is(setFindings)) return shown(effect.value, transaction.state.doc);
-    if (!transaction.docChanged) return value;
-    return {
-      ...value,
-      marks: value.marks.map(transaction.changes),
-      blocks: value.blocks.map(transaction.changes),
-    };
+  update(before, transaction) {
+    const { state } = transaction;
+    const told = transaction.effects.find((effect) => effect.is(setFindings))?.value;
+    const typed = transaction.isUserEvent('input') || transaction.isUserEvent('delete');
+    const settled =
+      transaction.effects.some((effect) => effect.is(settle)) || leavesLine(transaction);
+    const types = typed || (before.types && !settled);
+    const mapped = transaction.docChanged
+      ? {
+          ...before,
+          told: null,
+          marks: before.marks.map(transaction.changes),
+          blocks: before.blocks.map(transaction.changes),
+        }
+      : before;
+    const news = told ?? (before.types && !types ? mapped.told : null);
+    if (!news) return types === before.types && mapped === before ? before : { ...mapped, types };
+    const next = { ...shown(news, state.doc), told: news, types };
+    return types ? { ...next, blocks: heldAtCaret(state, mapped.blocks, next.blocks) } : next;
   },
   provide: (self) => [
     EditorView.decorations.from(self, (value) => value.marks),
@@ -47,7 +79,45 @@ const field = StateField.define<FieldValue>({
   ],
 });
 
-export const findingsExtension: Extension = field;
+function leavesLine({ startState, state, docChanged, selection }: Transaction): boolean {
+  const line = (of: EditorState) => of.doc.lineAt(of.selection.main.head).number;
+  return !docChanged && selection !== undefined && line(startState) !== line(state);
+}
+
+/** New sentences, but at the caret's line those that stood there. */
+function heldAtCaret(state: EditorState, old: DecorationSet, news: DecorationSet): DecorationSet {
+  const { from, to } = state.doc.lineAt(state.selection.main.head);
+  const isAtCaret = (at: number) => at >= from && at <= to;
+  const held: Range<Decoration>[] = [];
+  old.between(from, to, (at, _to, block) => {
+    if (isAtCaret(at)) held.push(block.range(at));
+  });
+  return news.update({ filter: (at) => !isAtCaret(at), add: held, sort: true });
+}
+
+const settling = ViewPlugin.define((view) => {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  return {
+    update(update: ViewUpdate) {
+      if (!update.state.field(field).types) return clearTimeout(timer);
+      if (!update.docChanged) return;
+      clearTimeout(timer);
+      timer = setTimeout(() => view.dispatch({ effects: settle.of(null) }), kSettledMs);
+    },
+    destroy: () => clearTimeout(timer),
+  };
+});
+
+export const findingsExtension: Extension = [field, settling];
+
+/** Numbers of the lines below which a sentence stands. */
+export function linesWithSentence(state: EditorState): number[] {
+  const found: number[] = [];
+  state.field(field).blocks.between(0, state.doc.length, (at) => {
+    found.push(state.doc.lineAt(at).number);
+  });
+  return found;
+}
 
 /** The findings at an offset, for the help under the pointer. */
 export function findingsAt(state: EditorState, offset: number): Finding[] {
@@ -60,7 +130,10 @@ export function findingsAt(state: EditorState, offset: number): Finding[] {
   return found;
 }
 
-function shown({ findings, onFix }: FindingsShown, doc: Text): FieldValue {
+function shown(
+  { findings, onFix }: FindingsShown,
+  doc: Text,
+): Pick<FieldValue, 'marks' | 'blocks' | 'findings'> {
   const marks: Range<Decoration>[] = [];
   const blocks = new Map<number, Range<Decoration>>();
   findings.forEach((finding, index) => {

@@ -4,7 +4,7 @@ import { late } from '../../parts/late';
 import type { Doc } from '../../../protocol/messages';
 import { countsOf } from '../../../core/findings';
 import { useDrives, useStudio, useTopic } from '../../hooks';
-import { timeOf } from '../../overlay/status_bar';
+import { timeOf } from '../../parts/time_of';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
@@ -34,7 +34,7 @@ function LoadedNotice({ doc }: { doc: Doc }) {
   return (
     <Line
       end={
-        <Button small kind="plain" keys="Ctrl+U" onClick={() => registry.run('node.load')}>
+        <Button small kind="plain" keys="Ctrl+Alt+U" onClick={() => registry.run('node.load')}>
           {words.upload}
         </Button>
       }
@@ -50,7 +50,7 @@ export function DiskNotice({ doc }: { doc: Doc }) {
   const [compare, setCompare] = useState(false);
   const state = useTopic('doc', { doc });
   if (state?.gone) return <Line>{words.gone}</Line>;
-  if (state?.disk === undefined) return null;
+  if (!state?.disk) return null;
   const keep = (which: 'mine' | 'disk') => () => studio.order('doc.keep', { doc, which });
   const end = (
     <>
@@ -70,7 +70,7 @@ export function DiskNotice({ doc }: { doc: Doc }) {
       <Line end={end}>{words.disk}</Line>
       {compare ? (
         <Suspense fallback={null}>
-          <Compare mine={state.text} theirs={state.disk} />
+          <Compare doc={doc} version={state.version} />
         </Suspense>
       ) : null}
     </>

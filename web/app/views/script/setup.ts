@@ -1,7 +1,7 @@
 // The editor's parts, put together for one document.
 
 import { closeBrackets, closeBracketsKeymap, completionKeymap } from '@codemirror/autocomplete';
-import { defaultKeymap, history, historyKeymap, indentWithTab } from '@codemirror/commands';
+import { defaultKeymap, indentWithTab } from '@codemirror/commands';
 import { json } from '@codemirror/lang-json';
 import {
   bracketMatching,
@@ -14,7 +14,7 @@ import {
   syntaxHighlighting,
 } from '@codemirror/language';
 import { highlightSelectionMatches, search, searchKeymap } from '@codemirror/search';
-import { Compartment, EditorState, type Extension } from '@codemirror/state';
+import { Compartment, EditorState, Prec, type Extension } from '@codemirror/state';
 import {
   crosshairCursor,
   drawSelection,
@@ -56,13 +56,10 @@ export function makeState(options: {
   return EditorState.create({
     doc: text,
     extensions: [
-      // Offsets are those of the server's text, whatever its line ends.
-      EditorState.lineSeparator.of('\n'),
       extensions,
       lineNumbers(),
       foldGutter({ openText: '⌄', closedText: '›' }),
       codeFolding({ placeholderText: '…' }),
-      history(),
       drawSelection(),
       dropCursor(),
       rectangularSelection(),
@@ -79,7 +76,6 @@ export function makeState(options: {
         ...closeBracketsKeymap,
         ...ownKeys(),
         ...searchKeymap,
-        ...historyKeymap,
         ...foldKeymap,
         ...completionKeymap,
         indentWithTab,
@@ -116,6 +112,31 @@ export function readOnlyOf(readOnly: boolean): Extension {
   return EditorState.readOnly.of(readOnly);
 }
 
+/** Undo and redo by keys and by the browser's menu. Ctrl+Y and Ctrl+Shift+Z never undo. */
+export function backKeys(act: (act: 'undo' | 'redo') => void): Extension {
+  // The key is the editor's also where nothing is to undo.
+  const back = (view: EditorView, which: 'undo' | 'redo') => {
+    if (!view.state.readOnly) act(which);
+    return true;
+  };
+  const key = (key: string, act: 'undo' | 'redo') => ({
+    key,
+    run: (view: EditorView) => back(view, act),
+    preventDefault: true,
+  });
+  return [
+    Prec.high(keymap.of([key('Mod-z', 'undo'), key('Mod-y', 'redo'), key('Mod-Shift-z', 'redo')])),
+    EditorView.domEventHandlers({
+      beforeinput(event, view) {
+        const act = { historyUndo: 'undo', historyRedo: 'redo' }[event.inputType];
+        if (act !== 'undo' && act !== 'redo') return false;
+        event.preventDefault();
+        return back(view, act);
+      },
+    }),
+  ];
+}
+
 /** The studio's own keys come first: what it uses is left out here. */
 function ownKeys() {
   const taken = new Set([
@@ -126,7 +147,6 @@ function ownKeys() {
     'F8',
     'Alt-Enter',
     'Mod-Alt-\\',
-    'Mod-u',
     'Alt-l',
     'Ctrl-k',
   ]);

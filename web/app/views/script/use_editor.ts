@@ -6,18 +6,17 @@ import {
   Transaction,
   type TransactionSpec,
   type StateEffect,
-  type ChangeSet,
 } from '@codemirror/state';
 import { EditorView, type ViewUpdate } from '@codemirror/view';
 import { useEffect, useRef, useState, type RefObject } from 'react';
 import type { Doc } from '../../../protocol/messages';
 import type { OpenDocument } from '../../../core/documents';
+import type { Typed } from '../../../core/session/text_session';
 import { readSettings } from '../../../core/settings';
 import type { Studio } from '../../../core/studio';
 import { textDiff } from '../../../core/text_diff';
 import { update } from '../../../core/window_state';
-import { drives } from '../../commands/looks';
-import { nameOf } from '../../dock/documents';
+import { nameOf } from '../../documents';
 import { useStudio } from '../../hooks';
 import { text } from '../../text';
 import { assist } from './assist';
@@ -25,11 +24,12 @@ import { goToDefinition } from './editor_acts';
 import { findingsExtension } from './findings';
 import { lineMarks } from './line_marks';
 import { revealSentence } from './reveal_sentence';
-import { makeState } from './setup';
+import { backKeys, makeState } from './setup';
 import { editBreakpoint, toggleBreakpoint } from './editor_acts';
 import { placeOf } from './places';
 
-const fromOthers = Annotation.define<boolean>();
+/** Undo is the session's: the editor only shows what it does. */
+const fromSession = Annotation.define<boolean>();
 
 export interface EditorLife {
   host: RefObject<HTMLDivElement | null>;
@@ -74,34 +74,47 @@ function attach(
   opened: OpenDocument,
   parent: HTMLElement,
 ): { view: EditorView; end: () => void } {
-  const { shared } = opened;
+  const { session } = opened;
   const view: EditorView = new EditorView({
     parent,
     state: stateFor(studio, doc, opened),
     dispatchTransactions(transactions) {
       view.update(transactions);
       for (const one of transactions)
-        if (one.docChanged && !one.annotation(fromOthers)) shared.edit(one.changes);
+        if (one.docChanged && !one.annotation(fromSession)) session.type(typedIn(view, one));
     },
   });
-  const late = textDiff(view.state.doc.toString(), shared.text);
-  if (late.length > 0) view.dispatch(remote({ changes: late }));
-  const offs = [
-    shared.remote.on((changes: ChangeSet) => view.dispatch(remote({ changes }))),
-    shared.trouble.on((what) => studio.tell(what)),
-  ];
+  const late = textDiff(view.state.doc.toString(), session.text);
+  if (late.length > 0) view.dispatch(followed({ changes: late }));
+  const end = session.followed.on(({ changes, from, selection }) => {
+    if (from === view || changes.empty) return;
+    // Undo leads the caret to where it was, in the editor that has the keyboard.
+    const leads = view.hasFocus && selection !== undefined;
+    view.dispatch(followed(leads ? { changes, selection, scrollIntoView: true } : { changes }));
+  });
   return {
     view,
     end() {
-      offs.forEach((off) => off());
+      end();
       opened.kept = view.state;
       view.destroy();
     },
   };
 }
 
-function remote(spec: TransactionSpec): TransactionSpec {
-  return { ...spec, annotations: [fromOthers.of(true), Transaction.addToHistory.of(false)] };
+function typedIn(view: EditorView, one: Transaction): Typed {
+  return {
+    changes: one.changes,
+    at: Date.now(),
+    from: view,
+    before: one.startState.selection,
+    after: one.newSelection,
+    userEvent: one.annotation(Transaction.userEvent),
+  };
+}
+
+function followed(spec: TransactionSpec): TransactionSpec {
+  return { ...spec, annotations: fromSession.of(true) };
 }
 
 function stateFor(studio: Studio, doc: Doc, opened: OpenDocument): EditorState {
@@ -110,6 +123,7 @@ function stateFor(studio: Studio, doc: Doc, opened: OpenDocument): EditorState {
   const isScript = doc.includes('#');
   const name = nameOf(studio, doc);
   const extensions = [
+    backKeys((act) => opened.session[act]()),
     EditorView.updateListener.of((change) => tellCursor(studio, doc, change)),
     findingsExtension,
     revealSentence,
@@ -121,13 +135,13 @@ function stateFor(studio: Studio, doc: Doc, opened: OpenDocument): EditorState {
   ];
   const settings = readSettings(studio.topics.get('studio', {})?.settings);
   return makeState({
-    text: opened.shared.text,
+    text: opened.session.text,
     language: opened.language,
     label: isScript ? text.editor.label(name) : text.editor.textLabel(name),
     extensions,
     settings,
     dark: document.documentElement.dataset['theme'] !== 'light',
-    readOnly: !drives(studio),
+    readOnly: !studio.mayEdit,
   });
 }
 

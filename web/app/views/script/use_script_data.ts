@@ -11,7 +11,7 @@ import { standsAt } from '../../../core/run_state';
 import { update } from '../../../core/window_state';
 import { addEditor } from '../../commands/editor_handles';
 import { pressFix } from '../../commands/problem_commands';
-import { useDrives, useSettings, useStudio, useTopic, useWindow } from '../../hooks';
+import { useMayEdit, useSettings, useStudio, useTopic, useWindow } from '../../hooks';
 import { text } from '../../text';
 import {
   findReferences,
@@ -30,7 +30,7 @@ import { showView } from './views';
 export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | null): void {
   const studio = useStudio();
   const settings = useSettings();
-  const drives = useDrives();
+  const mayEdit = useMayEdit();
   const script = useTopic('script', isScript ? { doc } : null);
   const all = useTopic('findings', {})?.findings;
   const findings = useMemo(() => all?.filter((one) => one.doc === doc) ?? [], [all, doc]);
@@ -62,7 +62,7 @@ export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | nu
     () => setBreaks.of((breakpoints ?? []).filter((one) => one.doc === doc).map(markOf)),
     [breakpoints, doc],
   );
-  useEffectIn(view, () => readOnlyPart.reconfigure(readOnlyOf(!drives)), [drives]);
+  useEffectIn(view, () => readOnlyPart.reconfigure(readOnlyOf(!mayEdit)), [mayEdit]);
   useEffectIn(
     view,
     () =>

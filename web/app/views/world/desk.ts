@@ -1,7 +1,7 @@
 // The worlds that are looked at: forms and commands are about the one that was used last.
 
 import { Desk, deskFor } from '../../../core/desk';
-import type { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import type { Studio } from '../../../core/studio';
 import type { WorldModel } from '../../../core/world/model';
 import { useChanges } from '../../hooks';
@@ -9,7 +9,7 @@ import { useChanges } from '../../hooks';
 export interface ShownWorld {
   model: WorldModel;
   /** The file that is edited; none of a run. */
-  file: JsonDocument | null;
+  file: JsonFile | null;
   /** Brings the keyboard to the picture. */
   focus(): void;
 }

@@ -1,6 +1,6 @@
 // The picture from above, on a plain canvas: from the ground up, from the model, without React.
 
-import { degrees, placed, reachOf, type Point, type Pose } from '../../../core/world/geometry';
+import { placed, reachOf, shownDegrees, type Point, type Pose } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import { isLamp, type Thing } from '../../../core/world/stage';
 import {
@@ -298,7 +298,7 @@ function drawMarks(scene: Scene): void {
   ctx.arc(handle.x, handle.y, kHandlePx, 0, 2 * Math.PI);
   ctx.fill();
   ctx.stroke();
-  if (model.turning) label(scene, handle, `${degrees(pose.angle).toFixed(0)}°`);
+  if (model.turning) label(scene, handle, `${shownDegrees(pose.angle).toFixed(0)}°`);
 }
 
 function outline(

@@ -1,9 +1,9 @@
 import { Menu } from '@mantine/core';
 import { IconArrowBackUp, IconArrowForwardUp, IconPlus } from '@tabler/icons-react';
 import { useEffect, useReducer } from 'react';
-import type { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import { objectKinds, robotTypes } from '../../../core/world/stage';
-import { isObstacle } from '../../commands/world_commands';
+import { isObstacle } from './world_commands';
 import { useDrives, useStudio } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
@@ -50,7 +50,7 @@ export function AddMenu({ edits }: { edits: boolean }) {
 }
 
 /** For the file of a world: undo, redo, snapping. */
-export function EditTools({ file }: { file: JsonDocument }) {
+export function EditTools({ file }: { file: JsonFile }) {
   const studio = useStudio();
   const drives = useDrives();
   const { snap } = useWorldOptions();

@@ -1,4 +1,4 @@
-import type { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import {
   buttonsOf,
   entryOf,
@@ -22,13 +22,13 @@ import { NumberField } from './number_field';
 const words = text.world;
 
 export interface EditedEntry {
-  file: JsonDocument;
+  file: JsonFile;
   id: string;
   off: boolean;
 }
 
 /** An entry of the timeline: when, what, with whom. */
-export function EntryForm(props: { file: JsonDocument; id: string; model: WorldModel }) {
+export function EntryForm(props: { file: JsonFile; id: string; model: WorldModel }) {
   const { file, id, model } = props;
   const off = !useDrives();
   const entry = entryOf(file.value, id);

@@ -42,6 +42,7 @@ export function TextField(props: {
           value={draft.shown}
           placeholder={otherwise ?? ''}
           disabled={disabled}
+          aria-invalid={draft.isRefused}
           onChange={(event) => draft.set(event.target.value)}
           onBlur={draft.done}
           onKeyDown={draft.key}

@@ -1,6 +1,6 @@
 // A hand in the file of a world: what it does are steps, saved when the file is.
 
-import type { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import { moveSteps, newObject, newRobot, removeSteps } from '../../../core/world/file';
 import type { Pose } from '../../../core/world/geometry';
 import type { MoveBy, Placing, WorldActs, WorldModel } from '../../../core/world/model';
@@ -10,7 +10,7 @@ export class FileActs implements WorldActs {
   readonly edits = true;
 
   constructor(
-    private readonly file: JsonDocument,
+    private readonly file: JsonFile,
     private readonly model: WorldModel,
     readonly may: boolean,
     private readonly now: () => number,

@@ -1,6 +1,6 @@
 import { useCallback } from 'react';
 import type { Colour, Json } from '../../../protocol/messages';
-import type { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import {
   colourOf,
   kindSteps,
@@ -23,7 +23,7 @@ const words = text.world;
 const grey: Colour = [0.9, 0.9, 0.9];
 
 /** An object or robot as it stands in the file. */
-export function FileForm({ file, id }: { file: JsonDocument; id: string }) {
+export function FileForm({ file, id }: { file: JsonFile; id: string }) {
   const off = !useDrives();
   const table = tableAt(file.value, id);
   const set = useCallback(

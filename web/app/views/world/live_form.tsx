@@ -1,5 +1,5 @@
 import type { SceneObject } from '../../../protocol/messages';
-import { degrees, radians, type Pose } from '../../../core/world/geometry';
+import { radians, shownDegrees, type Pose } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import { isLamp, type Thing } from '../../../core/world/stage';
 import { useEffect, useState } from 'react';
@@ -45,7 +45,7 @@ export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) 
         label={words.angle}
         unit="°"
         step={1}
-        value={Math.round(degrees(pose.angle) * 10) / 10}
+        value={Math.round(shownDegrees(pose.angle) * 10) / 10}
         disabled={!drives}
         onSet={(angle) => angle !== undefined && move({ angle: radians(angle) })}
       />

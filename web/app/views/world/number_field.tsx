@@ -30,6 +30,7 @@ export function NumberField(props: {
   const draft = useDraft(shown, (typed) => {
     const { isGood, number } = read(typed);
     if (isGood) onSet(number);
+    return isGood;
   });
   const good = draft.typed === null || read(draft.typed).isGood;
   const by = (sign: number) => {

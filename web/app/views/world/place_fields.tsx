@@ -1,4 +1,4 @@
-import { degrees, radians } from '../../../core/world/geometry';
+import { radians, shownDegrees } from '../../../core/world/geometry';
 import { text } from '../../text';
 import { NumberField } from './number_field';
 
@@ -36,7 +36,7 @@ export function PlaceFields(props: {
         unit="°"
         step={1}
         {...(props.angleMayBeOpen ? { otherwise: '–' } : {})}
-        value={angle === undefined ? undefined : Math.round(degrees(angle) * 100) / 100}
+        value={angle === undefined ? undefined : Math.round(shownDegrees(angle) * 100) / 100}
         disabled={off}
         onSet={(to) => onTurn(to === undefined ? undefined : radians(to))}
       />

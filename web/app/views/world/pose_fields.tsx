@@ -1,5 +1,5 @@
 import type { Json } from '../../../protocol/messages';
-import type { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import { moveSteps, numberOf, pairOf, shapeSteps, type Table } from '../../../core/world/file';
 import type { Pose } from '../../../core/world/geometry';
 import { text } from '../../text';
@@ -10,7 +10,7 @@ import { PlaceFields } from './place_fields';
 const words = text.world;
 
 export interface EditedThing {
-  file: JsonDocument;
+  file: JsonFile;
   id: string;
   table: Table;
   off: boolean;

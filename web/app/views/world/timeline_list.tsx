@@ -1,6 +1,6 @@
 import { IconPlus } from '@tabler/icons-react';
 import { useEffect, useReducer } from 'react';
-import type { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import { keyOf, listOf, newEntry, numberOf, tableOf } from '../../../core/world/file';
 import type { WorldModel } from '../../../core/world/model';
 import { useDrives } from '../../hooks';
@@ -13,7 +13,7 @@ import { entryText } from './words';
 const words = text.world;
 
 /** What happens by itself in a world, in the order of time. */
-export function TimelineList({ file, model }: { file: JsonDocument; model: WorldModel }) {
+export function TimelineList({ file, model }: { file: JsonFile; model: WorldModel }) {
   const drives = useDrives();
   const { entry, selected } = useModel(model);
   const [, redraw] = useReducer((count: number) => count + 1, 0);

@@ -1,10 +1,17 @@
 // Where a view's world comes from: the run, or the text of its file.
 
-import { useEffect, useMemo, useRef, useState, type RefObject } from 'react';
+import {
+  useCallback,
+  useEffect,
+  useMemo,
+  useRef,
+  useState,
+  useSyncExternalStore,
+  type RefObject,
+} from 'react';
 import type { Doc, Path } from '../../../protocol/messages';
-import { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import { folderOf, joinPath } from '../../../core/paths';
-import type { Studio } from '../../../core/studio';
 import { stageOfFile } from '../../../core/world/file';
 import { posesThen, readPoses, readRays } from '../../../core/world/frames';
 import { WorldModel } from '../../../core/world/model';
@@ -92,7 +99,7 @@ export function useLive(model: WorldModel, on: boolean): void {
 /** Shows the file as its text says, also while nothing runs. */
 export function useFileStage(
   model: WorldModel,
-  file: JsonDocument | null,
+  file: JsonFile | null,
   doc: Doc,
   edits = true,
 ): void {
@@ -105,65 +112,45 @@ export function useFileStage(
       model.setStage(stage);
       setImage(stage.image);
     };
-    model.acts = new FileActs(file, model, drives, () => performance.now());
+    model.acts = new FileActs(file, model, drives, () => Date.now());
     show();
     return file.changed.on(show);
   }, [model, file, drives]);
   useImage(model, file ? (image ?? undefined) : undefined, doc);
 }
 
-/** The file of a world, open for edits by its members while wanted. */
-export function useJsonDocument(doc: Doc | null): {
-  file: JsonDocument | null;
-  failed: string | null;
-} {
+/** A JSON file, open for edits by its members while wanted. */
+export function useJsonFile(doc: Doc | null): { file: JsonFile | null; failed: string | null } {
   const studio = useStudio();
-  const [file, setFile] = useState<JsonDocument | null>(null);
+  const [file, setFile] = useState<JsonFile | null>(null);
   const [failed, setFailed] = useState<string | null>(null);
   useEffect(() => {
     if (doc === null) return;
     let gone = false;
-    let ends: (() => void)[] = [];
-    openJson(studio, doc).then(
-      (made) => {
+    const held = studio.documents.acquire(doc);
+    held.opened.then(
+      (opened) => {
         if (gone) return;
         setFailed(null);
-        setFile(made);
-        ends = [
-          made.trouble.on((what) => studio.tell(what)),
-          studio.documents.join(() => made.flushed()),
-          studio.connection.watch('doc', { doc }, { value: (value) => made.told(asDoc(value)) }),
-        ];
+        setFile(opened.file());
       },
       (problem: unknown) => setFailed(problem instanceof Error ? problem.message : String(problem)),
     );
     return () => {
       gone = true;
-      ends.forEach((end) => end());
+      held.release();
       setFile(null);
     };
   }, [studio, doc]);
   return { file, failed };
 }
 
-async function openJson(studio: Studio, doc: Doc): Promise<JsonDocument> {
-  // What was typed as text a moment ago is part of it.
-  await studio.documents.flushAll();
-  const open = () => studio.send('doc.open', { doc });
-  return new JsonDocument(
-    {
-      open,
-      patch: (version, steps) => studio.send('doc.patch', { doc, version, steps }),
-      edit: (version, changes) => studio.send('doc.edit', { doc, version, changes }),
-    },
-    await open(),
+/** Why the text of a file is no JSON now. */
+export function useBroken(file: JsonFile | null): string | null {
+  return useSyncExternalStore(
+    useCallback((listener: () => void) => file?.changed.on(listener) ?? (() => {}), [file]),
+    () => file?.broken ?? null,
   );
-}
-
-type DocTopic = Parameters<JsonDocument['told']>[0];
-// The connection has checked it against the topic.
-function asDoc(value: unknown): DocTopic {
-  return value as DocTopic;
 }
 
 /** The picture on the ground; its path counts from the folder of the world. */

@@ -13,9 +13,10 @@ import { ModeSwitch, type WorldMode } from './mode_switch';
 import { useWorldOptions } from './options';
 import { SpeedBar } from './speed_bar';
 import {
+  useBroken,
   useFileStage,
   useHasScene,
-  useJsonDocument,
+  useJsonFile,
   useLive,
   useVisible,
   useWorldModel,
@@ -96,9 +97,10 @@ function LiveWorld(props: { modes: React.ReactNode; runs: boolean; onEdit: () =>
 function EditedWorld(props: { doc: Doc; modes: React.ReactNode; onText: () => void }) {
   const { doc, modes, onText } = props;
   const model = useWorldModel();
-  const { file, failed } = useJsonDocument(doc);
+  const { file, failed } = useJsonFile(doc);
   const { list } = useWorldOptions();
-  useFileStage(model, file, doc);
+  const broken = useBroken(file);
+  useFileStage(model, file, doc, broken === null);
   const world = useMemo<ShownWorld>(() => ({ model, file, focus() {} }), [model, file]);
   return (
     <div className="world" data-world>
@@ -109,10 +111,11 @@ function EditedWorld(props: { doc: Doc; modes: React.ReactNode; onText: () => vo
         <WorldTools />
       </div>
       <DiskNotice doc={doc} />
+      {broken === null ? null : <p className="notice">{text.world.locked}</p>}
       <FindingNotice doc={doc} onShow={(finding) => showFound(model, finding)} />
-      {failed || (file && file.broken !== null) ? (
+      {failed || (file && !file.isKnown) ? (
         <Blank title={failed ? text.world.failed : text.world.broken}>
-          <p>{failed ?? file?.broken}</p>
+          <p>{failed ?? broken}</p>
           <Button onClick={onText}>{text.world.showText}</Button>
         </Blank>
       ) : (

@@ -1,6 +1,6 @@
 import { useCallback } from 'react';
 import type { Colour, Json } from '../../../protocol/messages';
-import type { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import { colourOf, numberOf, pairOf, setSteps, tableOf, textOf } from '../../../core/world/file';
 import { useDrives } from '../../hooks';
 import { text } from '../../text';
@@ -12,7 +12,7 @@ const words = text.world;
 const white: Colour = [1, 1, 1];
 
 /** The world itself: nothing is chosen. */
-export function WorldForm({ file }: { file: JsonDocument }) {
+export function WorldForm({ file }: { file: JsonFile }) {
   const off = !useDrives();
   const world = tableOf(file.value);
   const [width, height] = pairOf(world['size']) ?? [1, 1];

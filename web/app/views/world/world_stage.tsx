@@ -1,6 +1,6 @@
 import { Suspense, useEffect, useRef, useState, type ReactNode } from 'react';
 import { late } from '../../parts/late';
-import type { JsonDocument } from '../../../core/json_document';
+import type { JsonFile } from '../../../core/session/json_file';
 import type { WorldModel } from '../../../core/world/model';
 import { useStudio } from '../../hooks';
 import { usePastTime } from '../../past_hooks';
@@ -25,7 +25,7 @@ export function WorldStage({
   children,
 }: {
   model: WorldModel;
-  file: JsonDocument | null;
+  file: JsonFile | null;
   live: boolean;
   children?: ReactNode;
 }) {
@@ -75,7 +75,7 @@ export function WorldStage({
 function useShown(
   frame: React.RefObject<HTMLDivElement | null>,
   model: WorldModel,
-  file: JsonDocument | null,
+  file: JsonFile | null,
 ): void {
   const studio = useStudio();
   useEffect(() => {

@@ -1,5 +1,5 @@
 import { ViewportPortal } from '@xyflow/react';
-import { memo, useMemo } from 'react';
+import { memo, useId, useMemo } from 'react';
 import type { Arrow } from '../../../../core/plan/arrows';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { roundedPath, straightPath, type Crossing } from '../../../../core/plan/path';
@@ -9,6 +9,7 @@ import { useBoard } from '../plan_desk';
 import { text } from '../../../text';
 import { DataArrows } from './data_layer';
 import { useFar } from './distance';
+import { Heads, HeadsContext, useHead } from './heads';
 import { useLive } from './live_store';
 import { useSeenArrows } from './seen_arrows';
 
@@ -17,13 +18,15 @@ export function ArrowsLayer({ board, allData }: { board: PlanBoard; allData: boo
   const far = useFar();
   return (
     <ViewportPortal>
-      <svg className="parrows" width={1} height={1}>
-        <Heads />
-        <DataArrows board={board} all={allData} />
-        {far ? <Lines board={board} /> : <ActionArrows board={board} />}
-        <TakenArrow board={board} />
-        <Drawn board={board} />
-      </svg>
+      <HeadsContext value={useId()}>
+        <svg className="parrows" width={1} height={1}>
+          <Heads />
+          <DataArrows board={board} all={allData} />
+          {far ? <Lines board={board} /> : <ActionArrows board={board} />}
+          <TakenArrow board={board} />
+          <Drawn board={board} />
+        </svg>
+      </HeadsContext>
     </ViewportPortal>
   );
 }
@@ -70,8 +73,9 @@ const ActionArrow = memo(function ActionArrow(props: {
   near: boolean;
 }) {
   const { board, arrow, route, gaps, near } = props;
-  if (!route) return null;
   const kind = near ? 'near' : 'plain';
+  const head = useHead(kind);
+  if (!route) return null;
   const path = roundedPath(shortened(route));
   return (
     <g
@@ -84,7 +88,7 @@ const ActionArrow = memo(function ActionArrow(props: {
         <path key={`${gap.x} ${gap.y}`} className="parrow__gap" d={gapPath(gap)} />
       ))}
       <path className="parrow__hand" d={path} />
-      <path className="parrow__line" d={path} markerEnd={`url(#plan-head-${kind})`} />
+      <path className="parrow__line" d={path} markerEnd={head} />
     </g>
   );
 });
@@ -93,40 +97,14 @@ const ActionArrow = memo(function ActionArrow(props: {
 function TakenArrow({ board }: { board: PlanBoard }) {
   const taken = useLive((live) => live.taken);
   const number = useLive((live) => live.takenNumber);
+  const head = useHead('taken');
   const route = taken === null ? undefined : board.drawing.routes.get(taken);
   if (!route) return null;
   return (
     // One that is taken again fades again.
     <g key={number} className="parrow parrow--taken" aria-hidden>
-      <path
-        className="parrow__line"
-        d={roundedPath(shortened(route))}
-        markerEnd="url(#plan-head-taken)"
-      />
+      <path className="parrow__line" d={roundedPath(shortened(route))} markerEnd={head} />
     </g>
-  );
-}
-
-function Heads() {
-  return (
-    <defs>
-      {(['plain', 'near', 'taken'] as const).map((kind) => (
-        <marker
-          key={kind}
-          id={`plan-head-${kind}`}
-          className={`parrow__head parrow__head--${kind}`}
-          viewBox="0 0 10 9"
-          refX="1"
-          refY="4.5"
-          markerWidth="11"
-          markerHeight="10"
-          markerUnits="userSpaceOnUse"
-          orient="auto"
-        >
-          <path d="M0 0L10 4.5L0 9z" />
-        </marker>
-      ))}
-    </defs>
   );
 }
 

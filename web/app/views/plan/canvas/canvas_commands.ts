@@ -4,7 +4,6 @@ import { kStart } from '../../../../core/plan/model';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
 import { toast, update } from '../../../../core/window_state';
-import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
 import { withBreaks } from '../break_acts';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
@@ -46,7 +45,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       return plan && run(plan);
     },
   });
-  const edits = () => drives(studio);
+  const edits = () => studio.mayEdit;
   const has = ({ board }: ShownPlan) => edits() && board.selected !== null;
   const named = ({ board }: ShownPlan) =>
     edits() &&

@@ -1,7 +1,8 @@
 // What joins a canvas to its board: nodes, moves, and the desk that palette and forms work on.
 
 import { useReactFlow, useStore, type NodeChange } from '@xyflow/react';
-import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
+import { useCallback, useEffect, useLayoutEffect, useMemo, useRef, useState } from 'react';
+import { Emitter } from '../../../../core/emitter';
 import type { PlanBoard } from '../../../../core/plan/board';
 import type { Box, Point } from '../../../../core/plan/shape';
 import { revealPanel, update } from '../../../../core/window_state';
@@ -10,25 +11,8 @@ import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { canvasCommands } from './canvas_commands';
 import { kLegible } from './distance';
 import { debugCommands } from './debug_commands';
+import { kFit } from './fitted';
 import { FlowNodes, type PlanNode } from './flow_nodes';
-
-/** Room around the boxes for the arrows that go around them. */
-export const kFit = { padding: { x: '48px', y: '24px' }, maxZoom: 1 } as const;
-
-/** The whole plan stays in sight while its panel changes, until a person chooses what is looked at. */
-export function useFitted() {
-  const flow = useReactFlow();
-  const width = useStore((state) => state.width);
-  const height = useStore((state) => state.height);
-  const chosen = useRef(false);
-  useEffect(() => {
-    if (!chosen.current && width > 0 && height > 0) void flow.fitView(kFit);
-  }, [flow, width, height]);
-  return useCallback((event: MouseEvent | TouchEvent | null) => {
-    // Moves by the program have no event.
-    if (event) chosen.current = true;
-  }, []);
-}
 
 export function useNodes(board: PlanBoard, drives: boolean): PlanNode[] {
   const [made] = useState(() => new FlowNodes());
@@ -114,9 +98,15 @@ export function useOnDesk(
 ) {
   const studio = useStudio();
   const flow = useReactFlow();
+  const [zoomed] = useState(() => new Emitter<void>());
+  const zoom = useStore(({ transform }) => transform[2]);
+  useEffect(() => zoomed.emit(), [zoomed, zoom]);
   const shown = useMemo<ShownPlan>(
     () => ({
       board,
+      zoom: () => flow.getZoom(),
+      zoomed,
+      zoomTo: (zoom) => void flow.zoomTo(zoom),
       middle() {
         const { left, top, width, height } =
           frame.current?.getBoundingClientRect() ?? new DOMRect();
@@ -131,9 +121,10 @@ export function useOnDesk(
         );
       },
     }),
-    [board, flow, frame],
+    [board, flow, frame, zoomed],
   );
-  useEffect(() => planDeskOf(studio).add(shown), [studio, shown]);
+  // Before it can have the focus, which says that it is used.
+  useLayoutEffect(() => planDeskOf(studio).add(shown), [studio, shown]);
   useEffect(() => {
     const properties = () => revealPanel(studio.window, 'properties');
     return studio.registry.add([

@@ -1,30 +1,26 @@
-import {
-  Background,
-  BackgroundVariant,
-  MiniMap,
-  ReactFlow,
-  ReactFlowProvider,
-} from '@xyflow/react';
+import { Background, BackgroundVariant, ReactFlow, ReactFlowProvider } from '@xyflow/react';
 import '@xyflow/react/dist/base.css';
 import { useCallback, useRef, useState } from 'react';
 import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { kSnap } from '../../../../core/plan/place';
-import { useDrives, useStudio } from '../../../hooks';
+import { useMayEdit, useStudio } from '../../../hooks';
 import { Blank } from '../../../parts/blank';
 import { text } from '../../../text';
 import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
 import { ActiveLine } from './active_line';
 import { ArrowsLayer } from './arrows_layer';
-import { kFit, useFitted, useKeptFocus, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
+import { useKeptFocus, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { CanvasContexts } from './canvas_contexts';
 import { ConnectMenu } from './connect_menu';
 import { kManyNodes, useAfterwards, useDistance } from './distance';
 import { ElementMenu } from './element_menu';
 import { FindBar } from './find_bar';
+import { kFit, useFitted } from './fitted';
 import type { PlanNode } from './flow_nodes';
 import { nodeTypes } from './nodes';
+import { SmallMap } from './small_map';
 import { useClipboard } from './plan_clipboard';
 import { useDropping } from './use_dropping';
 import { useElementMenu } from './use_element_menu';
@@ -47,8 +43,9 @@ export default function PlanCanvas({ doc }: { doc: Doc }) {
 }
 
 function Canvas({ board }: { board: PlanBoard }) {
-  const drives = useDrives();
   useBoard(board);
+  const { broken, isKnown } = board.file;
+  const drives = useMayEdit() && broken === null;
   const nodes = useNodes(board, drives);
   const distance = useDistance(nodes.length);
   const map = useAfterwards() || nodes.length <= kManyNodes;
@@ -63,19 +60,22 @@ function Canvas({ board }: { board: PlanBoard }) {
   const { menu, closeMenu, onNodeContextMenu } = useElementMenu(board);
   const options = usePlanOptions();
   const onNodesChange = useNodeChanges(board);
-  const onMoveStart = useFitted();
-  if (board.file.broken !== null) return <Blank title={words.broken}>{board.file.broken}</Blank>;
+  const worksOn = useFitted(board, frame);
+  if (!isKnown) return <Blank title={words.broken}>{broken}</Blank>;
   return (
     <CanvasContexts board={board} drives={drives} distance={distance} connect={connect}>
       <div
         className="pcanvas"
         ref={frame}
         data-place="plan"
+        data-autofocus
         data-distance={distance}
         tabIndex={-1}
         role="region"
         aria-label={words.canvas(board.model.name)}
-        onPointerDownCapture={use}
+        onPointerDownCapture={() => (use(), worksOn())}
+        onKeyDownCapture={worksOn}
+        onDropCapture={worksOn}
         onFocusCapture={use}
         onFocus={keep}
         {...dropping}
@@ -86,7 +86,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           edges={kNoEdges}
           nodeTypes={nodeTypes}
           onNodesChange={onNodesChange}
-          onMoveStart={onMoveStart}
+          onMoveStart={(event) => event && worksOn()}
           onNodeContextMenu={onNodeContextMenu}
           onPaneClick={() => {
             board.select(null);
@@ -114,8 +114,9 @@ function Canvas({ board }: { board: PlanBoard }) {
             <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
           )}
           <ArrowsLayer board={board} allData={options.data} />
-          {options.map && map ? <MiniMap pannable zoomable ariaLabel={words.map} /> : null}
+          {options.map && map ? <SmallMap board={board} /> : null}
         </ReactFlow>
+        {broken === null ? null : <p className="pcanvas__locked">{words.locked}</p>}
         {board.model.actors.length === 0 ? <p className="pcanvas__empty">{words.empty}</p> : null}
         {finds ? (
           <FindBar board={board} focus={shown.focus} onClose={() => setFinds(false)} />

@@ -3,19 +3,20 @@
 import { useEffect, useState } from 'react';
 import type { Doc, PlanTemplate } from '../../../../protocol/messages';
 import { PlanBoard } from '../../../../core/plan/board';
+import type { JsonFile } from '../../../../core/session/json_file';
 import { subPlanDoc, subPlanTemplate } from '../../../../core/plan/sub_plans';
 import type { Studio } from '../../../../core/studio';
 import { useStudio, useTopic } from '../../../hooks';
-import { useJsonDocument } from '../../world/use_world';
+import { useJsonFile } from '../../world/use_world';
 
 export function usePlanBoard(doc: Doc): { board: PlanBoard | null; failed: string | null } {
   const studio = useStudio();
-  const { file, failed } = useJsonDocument(doc);
+  const { file, failed } = useJsonFile(doc);
   const toolboxes = useTopic('templates', {})?.toolboxes;
   const [board, setBoard] = useState<PlanBoard | null>(null);
   useEffect(() => {
     if (!file) return;
-    const made = new PlanBoard(doc, file, []);
+    const made = new PlanBoard(doc, file, [], turns);
     setBoard(made);
     const end = file.changed.on(() => made.refresh());
     return () => {
@@ -30,25 +31,28 @@ export function usePlanBoard(doc: Doc): { board: PlanBoard | null; failed: strin
   return { board, failed };
 }
 
+const turns = {
+  now: () => performance.now(),
+  later: (act: () => void) => void setTimeout(act),
+};
+
 /** Keeps what the board knows of its sub-plans as their files are, saved or not. */
 function followSubPlans(studio: Studio, board: PlanBoard): () => void {
   const known = new Map<string, PlanTemplate>();
   const ends = new Map<string, () => void>();
+  const take = (path: string, file: JsonFile) => {
+    // The checker says what is wrong with it.
+    if (file.broken !== null) return;
+    known.set(path, subPlanTemplate(path, file.value));
+    board.refresh(undefined, new Map(known));
+  };
   const look = () => {
-    for (const path of pathsOf(board)) {
-      if (ends.has(path)) continue;
-      const of = { doc: subPlanDoc(board.doc, path) };
-      const take = () => {
-        const text = studio.topics.get('doc', of)?.text;
-        const file = text === undefined ? undefined : parsed(text);
-        if (file === undefined) return;
-        known.set(path, subPlanTemplate(path, file));
-        board.refresh(undefined, new Map(known));
-      };
-      ends.set(path, () => {});
-      ends.set(path, studio.topics.subscribe('doc', of, take));
-      take();
-    }
+    for (const path of pathsOf(board))
+      if (!ends.has(path))
+        ends.set(
+          path,
+          follow(studio, subPlanDoc(board.doc, path), (file) => take(path, file)),
+        );
   };
   const end = board.changed.on(look);
   look();
@@ -58,15 +62,28 @@ function followSubPlans(studio: Studio, board: PlanBoard): () => void {
   };
 }
 
-function pathsOf({ model }: PlanBoard): string[] {
-  return model.actors.flatMap((one) => (one.role === 'subplan' ? one.template : []));
+/** Calls `take` with a file at first and whenever it is another one. */
+function follow(studio: Studio, doc: Doc, take: (file: JsonFile) => void): () => void {
+  let end: (() => void) | null = null;
+  let gone = false;
+  const held = studio.documents.acquire(doc);
+  held.opened.then(
+    (opened) => {
+      if (gone) return;
+      const file = opened.file();
+      end = file.changed.on(() => take(file));
+      take(file);
+    },
+    // The checker says that it is missing.
+    () => {},
+  );
+  return () => {
+    gone = true;
+    end?.();
+    held.release();
+  };
 }
 
-function parsed(text: string) {
-  try {
-    return JSON.parse(text) as Parameters<typeof subPlanTemplate>[1];
-  } catch {
-    // The checker says what is wrong with it.
-    return undefined;
-  }
+function pathsOf({ model }: PlanBoard): string[] {
+  return model.actors.flatMap((one) => (one.role === 'subplan' ? one.template : []));
 }

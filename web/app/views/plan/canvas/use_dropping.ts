@@ -21,6 +21,9 @@ export function useDropping(board: PlanBoard, drives: boolean) {
         const found = foundIn(toolboxes ?? [], event.dataTransfer.getData(kTemplateData));
         if (!drives || !found) return;
         event.preventDefault();
+        // Keys are for the plan that got it.
+        if (event.currentTarget instanceof HTMLElement)
+          event.currentTarget.focus({ preventScroll: true });
         const at = { x: event.clientX, y: event.clientY };
         if (found.template.kind !== 'supervisor') {
           const { x, y } = flow.screenToFlowPosition(at);

@@ -18,7 +18,7 @@ export function usePlanCode(board: PlanBoard): PlanCode | null {
   useEffect(() => {
     let isLate = false;
     const ask = async () => {
-      await board.file.flushed();
+      await studio.documents.sent(board.doc);
       const answer = await studio.send('plan.code', { doc: board.doc });
       if (!isLate) setCode(answer);
     };

@@ -3,6 +3,7 @@ import type { PlanBreakpoint } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { arrowId } from '../../../../core/plan/arrows';
 import { discOf, isAt, placeOf } from '../../../../core/plan/breaks';
+import { mistakeIn } from '../../../../core/condition';
 import { useStudio, useTopic } from '../../../hooks';
 import { text } from '../../../text';
 import { changeBreak, toggleBreak } from '../break_acts';
@@ -62,10 +63,14 @@ function Details({ one, disabled }: { one: PlanBreakpoint; disabled: boolean }) 
   const studio = useStudio();
   const [condition, setCondition] = useState(one.condition);
   const [count, setCount] = useState(String(one.stop_at));
+  const [tried, setTried] = useState('');
+  const wrong = mistakeIn(condition);
+  const told = tried === condition ? wrong : '';
   const good = /^[1-9]\d{0,8}$/.test(count);
   const save = () => {
     const to = { condition: condition.trim(), stop_at: Number(count) };
-    if (good && (to.condition !== one.condition || to.stop_at !== one.stop_at))
+    setTried(condition);
+    if (good && wrong === '' && (to.condition !== one.condition || to.stop_at !== one.stop_at))
       changeBreak(studio, one, to);
   };
   return (
@@ -80,6 +85,7 @@ function Details({ one, disabled }: { one: PlanBreakpoint; disabled: boolean }) 
           className="field field--small"
           placeholder={words.conditionHint}
           value={condition}
+          aria-invalid={told !== ''}
           spellCheck={false}
           disabled={disabled}
           onChange={(event) => setCondition(event.target.value)}
@@ -105,7 +111,7 @@ function Details({ one, disabled }: { one: PlanBreakpoint; disabled: boolean }) 
         />
         {text.editor.enabled}
       </label>
-      {one.why ? <p className="planform__why">{one.why}</p> : null}
+      {told || one.why ? <p className="planform__why">{told || one.why}</p> : null}
       <button type="submit" hidden />
     </form>
   );

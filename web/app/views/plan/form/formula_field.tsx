@@ -60,7 +60,7 @@ export function FormulaField(props: {
                 aria-controls={offers.length > 0 ? list : undefined}
                 aria-activedescendant={offers[chosen] ? offerId(list, chosen) : undefined}
                 aria-describedby={found.length > 0 ? sentence : undefined}
-                aria-invalid={isUnfed || isWrong(found)}
+                aria-invalid={isUnfed || draft.isRefused || isWrong(found)}
                 autoComplete="off"
                 spellCheck={false}
                 value={draft.shown}

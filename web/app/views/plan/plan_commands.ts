@@ -1,11 +1,11 @@
-import type { PlanLevel } from '../../protocol/messages';
-import type { Command } from '../../core/registry';
-import type { Studio } from '../../core/studio';
-import { countsOf } from '../../core/findings';
-import { kindOf } from '../dock/documents';
-import { text } from '../text';
-import { revealElement } from '../views/plan/reveal_element';
-import { drives, projectOf } from './looks';
+import type { PlanLevel } from '../../../protocol/messages';
+import type { Command } from '../../../core/registry';
+import type { Studio } from '../../../core/studio';
+import { countsOf } from '../../../core/findings';
+import { kindOf } from '../../documents';
+import { text } from '../../text';
+import { revealElement } from './reveal_element';
+import { drives, projectOf } from '../../commands/looks';
 
 const titles = text.commands;
 const group = text.groups.run;

@@ -1,9 +1,9 @@
 // Documents of the project as the window shows them: kind, name, what opens with a layout.
 
-import type { Doc, FileEntry } from '../../protocol/messages';
-import type { DocumentKind } from '../../core/layouts';
-import { partOf, shownName } from '../../core/paths';
-import type { Studio } from '../../core/studio';
+import type { Doc, FileEntry } from '../protocol/messages';
+import type { DocumentKind } from '../core/layouts';
+import { partOf, shownName } from '../core/paths';
+import type { Studio } from '../core/studio';
 
 export function kindOf(doc: Doc): DocumentKind {
   const { file, part } = partOf(doc);

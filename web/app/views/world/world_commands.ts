@@ -1,20 +1,20 @@
 // What can be done in the world that is looked at. Keys count while the focus is in its picture.
 
-import type { Command } from '../../core/registry';
-import type { Studio } from '../../core/studio';
-import { revealDoc } from '../../core/window_state';
-import { radians, type Pose } from '../../core/world/geometry';
-import { copySteps } from '../../core/world/file';
-import type { Placing, WorldModel } from '../../core/world/model';
-import { snapAngle, tidy } from '../../core/world/snap';
-import { objectKinds, robotTypes } from '../../core/world/stage';
-import { panned, zoomed } from '../../core/world/view';
-import { text } from '../text';
-import { deskOf, type ShownWorld } from '../views/world/desk';
-import { optionsOf, toggleOption } from '../views/world/options';
-import { putDown } from '../views/world/use_hands';
-import { spokenPlace } from '../views/world/words';
-import { projectOf } from './looks';
+import type { Command } from '../../../core/registry';
+import type { Studio } from '../../../core/studio';
+import { revealDoc } from '../../../core/window_state';
+import { radians, type Pose } from '../../../core/world/geometry';
+import { copySteps } from '../../../core/world/file';
+import type { Placing, WorldModel } from '../../../core/world/model';
+import { snapAngle, tidy } from '../../../core/world/snap';
+import { objectKinds, robotTypes } from '../../../core/world/stage';
+import { panned, zoomed } from '../../../core/world/view';
+import { text } from '../../text';
+import { deskOf, type ShownWorld } from './desk';
+import { optionsOf, toggleOption } from './options';
+import { putDown } from './use_hands';
+import { spokenPlace } from './words';
+import { projectOf } from '../../commands/looks';
 
 const titles = text.commands;
 const group = text.groups.world;
@@ -119,7 +119,7 @@ export function worldCommands(studio: Studio): Command[] {
       make(
         `world.add.${kind}`,
         [],
-        (world) => place(studio, world, { what: 'object', kind, at: placeFor(world, 0.2) }),
+        (world) => place(world, { what: 'object', kind, at: placeFor(world, 0.2) }),
         {
           may: (world) => (world.model.acts?.may ?? false) && (edits(world) || isObstacle(kind)),
         },
@@ -130,7 +130,7 @@ export function worldCommands(studio: Studio): Command[] {
         `world.add.${type}`,
         [],
         (world) =>
-          place(studio, world, {
+          place(world, {
             what: 'robot',
             type,
             at: placeFor(world, type === 'carbot' ? 0.25 : 0.08),
@@ -199,12 +199,9 @@ function zoom(model: WorldModel, factor: number): void {
   model.look(zoomed(model.seen(), model.screen, { x: width / 2, y: height / 2 }, factor));
 }
 
-/** A menu that closes gives the focus back to its button, a moment later; ours comes after that. */
-const kFocusMs = 60;
-
-function place(studio: Studio, world: ShownWorld, placing: Placing): void {
+function place(world: ShownWorld, placing: Placing): void {
   world.model.place(placing);
-  studio.world.later(kFocusMs, () => world.focus());
+  world.focus();
 }
 
 function copy({ model, file }: ShownWorld): void {

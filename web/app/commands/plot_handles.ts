@@ -1,6 +1,6 @@
 // The plot that is shown, so that a command can take a picture of it.
 
-import type { Studio } from '../../../core/studio';
+import type { Studio } from '../../core/studio';
 
 const pictures = new WeakMap<Studio, () => Promise<Blob | null>>();
 

@@ -1,0 +1,33 @@
+// Why a command cannot be done now, in a sentence for the palette and for who pressed its key.
+
+import type { Command } from '../../core/registry';
+import type { Studio } from '../../core/studio';
+import { toast } from '../../core/window_state';
+import { text } from '../text';
+import { projectOf } from './looks';
+
+const words = text.whyNot;
+
+/** Commands for those who only look, too: what they lack is never control. */
+const kLooks =
+  /^(past|timeline|plots|watch|view|listing|problem\.(next|previous)|plan\.show|driver)/;
+/** These give the browser's own meaning away: F5 would load the page again, F12 only opens its tools. */
+const kOwnKeys = /(^|\+)F([1-9]|1[01])$/;
+
+/** '' if it can be done. */
+export function whyNot(studio: Studio, { id, within }: Command): string {
+  if (studio.registry.isEnabled(id)) return '';
+  if (projectOf(studio) === null) return words.noProject;
+  if (!studio.drives && !kLooks.test(id)) return words.viewOnly;
+  if (studio.past.at !== null && /^(run|plan|node)\./.test(id)) return words.looksBack;
+  const own: Partial<Record<string, string>> = words.of;
+  const group = id.slice(0, id.indexOf('.') + 1);
+  return own[id] ?? own[group] ?? (within === undefined ? words.notNow : words.elsewhere);
+}
+
+/** Says why the key of a command does nothing now; false where the key is left to the browser. */
+export function refuse(studio: Studio, command: Command, key: string): boolean {
+  if (!kOwnKeys.test(key) || projectOf(studio) === null) return false;
+  toast(studio.window, 'note', `${command.title}: ${whyNot(studio, command)}`);
+  return true;
+}

@@ -1,0 +1,76 @@
+// Which plan F5 is for, and what runs: one answer for the keys, the top bar and the notices.
+
+import type { Doc, Json, Topics } from '../protocol/messages';
+
+type Robot = Topics['robot']['is'];
+type Plan = Topics['plan']['is'];
+
+/** In .vagus/state.json, by state.put. */
+export const kLastPlan = 'run.plan';
+
+export const isPlan = (doc: Doc): boolean => doc.endsWith('.plan.json');
+
+export interface Choice {
+  /** What is looked at. */
+  doc: Doc | null;
+  /** What state.put kept. */
+  kept: Json | undefined;
+  /** The plan that vagus.json names. */
+  project: Doc | undefined;
+  exists(doc: Doc): boolean;
+}
+
+/** The plan that is looked at; else the one that ran last; else that of vagus.json. */
+export function planMeant({ doc, kept, project, exists }: Choice): Doc | undefined {
+  if (doc !== null && isPlan(doc)) return doc;
+  return keptPlan(kept, exists) ?? project;
+}
+
+function keptPlan(kept: Json | undefined, exists: (doc: Doc) => boolean): Doc | undefined {
+  if (typeof kept !== 'object' || kept === null || Array.isArray(kept)) return undefined;
+  const last = kept[kLastPlan];
+  return typeof last === 'string' && isPlan(last) && exists(last) ? last : undefined;
+}
+
+export interface Order {
+  command: 'run.start' | 'plan.start';
+  /** Of plan.start. */
+  doc?: Doc;
+}
+
+/** What F5 sends. What is paused goes on; another plan than the one that runs is started instead of it. */
+export function runOrder(
+  meant: Doc | undefined,
+  plan: Plan | undefined,
+  held: boolean,
+  project: Doc | undefined,
+): Order {
+  const running = plan?.state === 'running' ? plan.doc : undefined;
+  const goesOn = held || plan?.state === 'paused' || (running !== undefined && running === meant);
+  if (goesOn || meant === undefined) return { command: 'run.start' };
+  if (running === undefined && meant === project) return { command: 'run.start' };
+  return { command: 'plan.start', doc: meant };
+}
+
+/** "WallFollow"; nodes without a plan; '' if only a world passes its time. */
+export function whatRuns(robot: Robot | undefined, plan: Plan | undefined): string {
+  const goes = plan?.state === 'running' || plan?.state === 'paused';
+  if (goes && plan.doc !== undefined) return planName(plan.doc);
+  const own = (robot?.nodes ?? []).filter((node) => node.doc !== undefined);
+  const names = own.filter(({ state }) => state === 'running' || state === 'paused');
+  return names.map((node) => node.name).join(', ');
+}
+
+export function planName(doc: Doc): string {
+  return doc.replace(/^.*\//, '').replace(/\.plan\.json$/, '');
+}
+
+export type Missing = 'target' | 'node' | 'robot';
+
+/** What a run lacks: a world or a robot, a node that answers, a robot in the world. */
+export function missingFor(robot: Robot | undefined, world: Doc | undefined): Missing | null {
+  if (!robot) return null;
+  if (robot.kind === 'none') return world === undefined ? 'target' : null;
+  if (robot.state !== 'connected' || robot.nodes.length > 0) return null;
+  return robot.kind === 'bus' ? 'node' : 'robot';
+}

@@ -1,0 +1,245 @@
+// Whatever a menu or a key offers does something, or says why not: tried with real keys.
+import assert from 'node:assert/strict';
+import { reads, seen, test, until } from './support/studio.mjs';
+
+const example = { words: ['--example', 'follow-wall'] };
+const kinds = ['Script', 'Plan', 'World', 'Toolbox', 'Text', 'Folder'];
+const endings = ['aesl', 'plan.json', 'world.json', 'toolbox.json', 'txt', null];
+// A toolbox brings a script of its name along.
+const file = (index) => [`new${index}`, endings[index]].filter(Boolean).join('.');
+
+/** The field of the name has the focus, and still has it after a menu would have given it back. */
+async function named(page) {
+  const field = page.getByRole('textbox', { name: 'Name of the new file' });
+  await until('the field of the name has the focus', () =>
+    field.evaluate((one) => one === document.activeElement),
+  );
+  await page.evaluate(
+    () => new Promise((done) => setTimeout(() => requestAnimationFrame(() => done()), 60)),
+  );
+  assert.ok(await field.isVisible(), 'the field ended by itself');
+  return field;
+}
+
+/** Ends what it ran in, or draws what cannot be read back from its canvas (3D); other tests do these. */
+const ends = [
+  'World: in 3D or from above',
+  'Close the project',
+  'Disconnect',
+  'Open a folder…',
+  'New project…',
+];
+/** Nothing is seen of these as long as nothing changed. */
+const quiet = [
+  ...[
+    'Save',
+    'Save all',
+    'Revert to the saved file',
+    'Stop the robot',
+    'Export the project as zip',
+  ],
+  ...[
+    'World: clear trails',
+    'World: list of things',
+    'World: zoom out',
+    'Change the theme: system, dark, light',
+  ],
+  ...[
+    'Next panel',
+    'Previous panel',
+    'Simulation back to its start',
+    'Plan: copy the selection',
+    'World: fit into the view',
+    'Plan: fit it into the window',
+  ],
+];
+
+/** What a person could notice: texts, states, where the focus is. */
+const seenNow = (page) =>
+  page.evaluate(() => {
+    const { activeElement: focus } = document;
+    const states = [
+      ...document.querySelectorAll(
+        '[aria-selected="true"], [aria-checked="true"], [aria-pressed="true"], .is-on, .react-flow__viewport, canvas, input',
+      ),
+    ];
+    return [
+      document.body.innerText,
+      document.body.querySelectorAll('*').length,
+      document.documentElement.dataset.theme,
+      focus.tagName + focus.id + focus.className + (focus.getAttribute('aria-label') ?? ''),
+      ...states.map(
+        (one) =>
+          one.className +
+          (one.getAttribute('style') ?? '') +
+          (one.value ?? '') +
+          (one.textContent ?? '').slice(0, 40),
+      ),
+      ...[...document.querySelectorAll('canvas')].map((one) => one.toDataURL()),
+    ].join('\n');
+  });
+
+const inside = (page, tab) =>
+  until(`the focus is in ${tab}`, () =>
+    page.evaluate(
+      (id) => document.activeElement.closest('[data-tab-content]')?.dataset.tabContent === id,
+      tab,
+    ),
+  );
+
+for (const by of ['mouse', 'keyboard'])
+  test(`+ of the project's tree makes every kind of file, by ${by}`, example, async (studio) => {
+    const { page, press, type, button } = studio;
+    await studio.layout('Script');
+    const plus = button('New file or folder');
+    for (const [index, kind] of kinds.entries()) {
+      const item = page.getByRole('menuitem', { name: kind, exact: true });
+      if (by === 'mouse') {
+        await plus.click();
+        await item.click();
+      } else {
+        await plus.focus();
+        await press('Enter');
+        await seen(page.getByRole('menu'));
+        await until('the entry has the focus', async () => {
+          if (await item.evaluate((one) => one === document.activeElement)) return true;
+          await press('ArrowDown');
+        });
+        await press('Enter');
+      }
+      await named(page);
+      await press('Control+a');
+      await type(file(index));
+      await press('Enter');
+      await seen(page.locator(`[role="treeitem"][data-path="${file(index)}"]`));
+      // It is shown, and has the focus, before something else is asked for.
+      if (endings[index]) await inside(page, `doc:${file(index)}`);
+    }
+  });
+
+test(
+  'Ctrl+K over an open menu leaves the keyboard alive',
+  example,
+  async ({ page, press, button, type, layout }) => {
+    await layout('Script');
+    await button('New file or folder').click();
+    await seen(page.getByRole('menu'));
+    await press('ArrowDown', 'Control+k');
+    const field = page.getByRole('combobox', { name: 'Type a command' });
+    await until('the palette has the focus', () =>
+      field.evaluate((one) => one === document.activeElement),
+    );
+    await page.getByRole('menu').waitFor({ state: 'hidden' });
+    await type('Keys');
+    await press('Enter');
+    await seen(page.getByRole('dialog', { name: 'Keys' }));
+    await press('Escape');
+    await press('Control+k');
+    await seen(field);
+    await press('Escape');
+  },
+);
+
+test(
+  'Ctrl+Alt+U in the editor uploads its script',
+  { words: ['--example', 'thymio'] },
+  async (studio) => {
+    const { page, press, button, layout } = studio;
+    await layout('Script');
+    await press('F5');
+    await seen(button(/Running/));
+    await page.getByRole('textbox', { name: /^Script of/ }).click();
+    await press('Control+Alt+u');
+    await seen(page.getByText(/ is on the robot\.$/));
+  },
+);
+
+test('a key that can do nothing now says why', example, async ({ page, press, layout }) => {
+  await layout('Script');
+  await press('F8');
+  await reads(page.getByRole('log', { name: 'Messages' }), /Pause: Nothing is running\./);
+});
+
+for (const layout of ['Draw', 'Script'])
+  test(
+    `every command of the palette does something or says why not, in ${layout}`,
+    example,
+    async (studio) => {
+      const { page, press, layout: show } = studio;
+      const field = page.getByRole('combobox', { name: 'Type a command' });
+      const options = page.locator('.palette__item');
+      const open = async (title = '') => {
+        await press('Control+k');
+        await field.fill(title);
+      };
+      await show(layout);
+      await seen(
+        page
+          .getByRole('treeitem', { name: 'vagus.json' })
+          .or(page.getByRole('region', { name: /drawn$/ })),
+      );
+      await open();
+      await seen(options);
+      const all = await options.evaluateAll((rows) =>
+        rows.map((row) => ({
+          title: row.firstElementChild.textContent,
+          off: row.getAttribute('aria-disabled') === 'true',
+          why: row.querySelector('.palette__why')?.textContent ?? '',
+        })),
+      );
+      await press('Escape');
+      assert.ok(all.length > 120, `${all.length} commands`);
+      for (const { title, off, why } of all) assert.equal(off, why !== '', `${title}: ${why}`);
+      const idle = [];
+      let downloads = 0;
+      page.on('download', () => downloads++);
+      for (const { title, off } of all) {
+        if (off || ends.includes(title) || title.startsWith('Layout ')) continue;
+        const before = await seenNow(page);
+        const saved = downloads;
+        await open(title);
+        const chosen = page.locator('.palette__item[aria-selected="true"]');
+        await chosen.filter({ hasText: title }).waitFor();
+        await press('Enter');
+        // One that cannot be run any more leaves the palette open, and says why.
+        const answer = await until('the palette is closed, or says why not', async () => {
+          if ((await field.count()) === 0) return 'closed';
+          return (
+            (await chosen.getAttribute('aria-disabled', { timeout: 500 })) === 'true' && 'says why'
+          );
+        });
+        if (answer === 'says why') {
+          await press('Escape');
+          continue;
+        }
+        const did = await until(
+          title,
+          async () => (await seenNow(page)) !== before || downloads !== saved,
+          1500,
+        ).catch(() => false);
+        if (!did && !quiet.includes(title)) idle.push(title);
+        await press('Escape', 'Escape');
+      }
+      assert.deepEqual(idle, [], 'these did nothing that is seen');
+    },
+  );
+
+test(
+  'a file is deleted once that is confirmed',
+  example,
+  async ({ page, press, layout, button }) => {
+    await layout('Script');
+    const row = page.locator('[role="treeitem"][data-path="carbot/arena.world.json"]');
+    await row.focus();
+    await press('Delete');
+    await seen(page.getByText('Delete arena.world.json?'));
+    await press('Escape');
+    await seen(row);
+    await row.focus();
+    await press('Delete');
+    await seen(button('Cancel'));
+    await press('Enter');
+    await row.waitFor({ state: 'detached' });
+    await seen(page.getByText('arena.world.json was moved to .vagus/trash.'));
+  },
+);

@@ -1,0 +1,22 @@
+// A condition that is none is refused where it is typed.
+import { seen, test, gone } from './support/studio.mjs';
+
+test(
+  'a condition of a breakpoint that does not parse is refused at its field',
+  { words: ['--example', 'thymio'] },
+  async (studio) => {
+    const { page, press, type, layout } = studio;
+    await layout('Script');
+    await page.getByRole('textbox', { name: /^Script of/ }).click();
+    await press('Control+Home', 'Control+F9');
+    const field = page.getByLabel('Stops if');
+    await seen(field);
+    await type('token >');
+    await press('Enter');
+    await seen(page.getByRole('alert').filter({ hasText: 'expected a value after “>”' }));
+    await type(' 3');
+    await gone(page.getByRole('alert').filter({ hasText: 'expected' }));
+    await press('Enter');
+    await gone(field);
+  },
+);

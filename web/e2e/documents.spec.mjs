@@ -1,0 +1,183 @@
+// Work that is never lost: a server that is started again or does not answer, two pages, files that
+// change on disk or get another name, keyboards of other countries.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { makeProject, twoNodes } from './support/robots.mjs';
+import { startProgram, vagusProgram } from './support/server.mjs';
+import { openWindow, seen, test, until } from './support/studio.mjs';
+
+const scripts = { left: 'var left = 0\n', right: 'var right = 0\n' };
+const two = { prepare: (t) => twoNodes(t, scripts, {}) };
+const textOf = async ({ editor }, node) =>
+  (await editor(node).innerText()).replaceAll('\u200b', '').replaceAll('\n\n', '\n');
+const says = (studio, node, what) =>
+  until(`${node} says ${what}`, async () => (await textOf(studio, node)).includes(what));
+
+async function typeAtEnd(studio, node, what) {
+  await studio.tab(new RegExp(`^${node}`)).click();
+  await studio.editor(node).click();
+  await studio.press('Control+End');
+  await studio.type(what);
+}
+
+const plan = {
+  prepare: (t) =>
+    makeProject(
+      t,
+      { name: 'P', plan: 'p.plan.json' },
+      {
+        'p.plan.json':
+          '{ "format": "vagus-plan/1",\r\n"name": "P", "start": {}, "actors": {} }\r\n',
+      },
+    ),
+};
+
+test('what is typed while the server is started again is there afterwards', two, async (studio) => {
+  const { server, page } = studio;
+  await typeAtEnd(studio, 'left', '# before\n');
+  await seen(page.getByText('Not saved'));
+  const { port } = new URL(server.address);
+  await server.program.stop('SIGKILL');
+  await studio.type('# meanwhile\n');
+  const words = server.program.child.spawnargs.slice(1);
+  const at = words.indexOf('--port');
+  const again = startProgram(studio.t, [vagusProgram, ...words.with(at + 1, port)]);
+  await again.line(/^studio (\S+)$/m);
+  await until('both are there once', async () => {
+    const text = await textOf(studio, 'left');
+    return text.split('# before').length === 2 && text.split('# meanwhile').length === 2;
+  });
+  // Complaints about the connection are its own.
+  studio.complaints.length = 0;
+});
+
+test('a link that is frozen says so, and what was typed goes on', two, async (studio) => {
+  const { child } = studio.server.program;
+  await typeAtEnd(studio, 'left', '# one\n');
+  child.kill('SIGSTOP');
+  try {
+    await studio.type('# two\n');
+    await seen(studio.page.getByText('Not saved'));
+  } finally {
+    child.kill('SIGCONT');
+  }
+  await studio.press('Control+s');
+  await seen(studio.page.getByText('Saved', { exact: true }));
+  const other = await openWindow(studio.t, studio.server);
+  await says(other, 'left', '# two');
+});
+
+test('two pages write one script, and each undoes its own', two, async (studio) => {
+  const other = await openWindow(studio.t, studio.server);
+  await typeAtEnd(studio, 'left', '# mine\n');
+  await says(other, 'left', '# mine');
+  await until('mine is gone', async () => {
+    await studio.press('Control+z');
+    return !(await textOf(studio, 'left')).includes('#');
+  });
+  await until('for both', async () => !(await textOf(other, 'left')).includes('#'));
+});
+
+test(
+  'undo of the drawing survives layouts and letters in the text beside',
+  plan,
+  async (studio) => {
+    const { page, command, press } = studio;
+    const canvas = page.locator('[data-place~="plan"]').first();
+    await canvas.waitFor();
+    await command('Plan: new variable');
+    const said = () => page.locator('.plan__text .cm-content').first();
+    await page.getByRole('switch', { name: 'Text' }).click();
+    await until('it is there', async () => (await said().innerText()).includes('configuration'));
+    await studio.layout('Script');
+    await studio.layout('Draw');
+    await canvas.waitFor();
+    await canvas.focus();
+    await press('Control+z');
+    await until('it is undone', async () => !(await said().innerText()).includes('configuration'));
+  },
+);
+
+test('line ends stay as the file has them', plan, async (studio) => {
+  const path = join(studio.place, 'p.plan.json');
+  await studio.page.locator('[data-place~="plan"]').first().waitFor();
+  await studio.command('Plan: new variable');
+  await seen(studio.page.getByText('Not saved'));
+  await studio.press('Control+s');
+  await seen(studio.page.getByText('Saved', { exact: true }));
+  const text = readFileSync(path, 'utf8');
+  assert.ok(text.startsWith('{ "format": "vagus-plan/1",\r\n"name"'), text);
+  assert.ok(text.endsWith('\r\n'), text);
+});
+
+test('a file that changes on disk is never overwritten', two, async (studio) => {
+  const { page, button, press, place } = studio;
+  const path = join(place, 'two.aesl');
+  await typeAtEnd(studio, 'left', '# mine\n');
+  await seen(page.getByText('Not saved'));
+  writeFileSync(path, readFileSync(path, 'utf8').replace('var left = 0', 'var left = 7'));
+  await press('Control+s');
+  await says(studio, 'left', 'var left');
+  await until('both, or a choice', async () => {
+    const disk = readFileSync(path, 'utf8');
+    return (
+      (disk.includes('# mine') && disk.includes('= 7')) || (await button('Keep mine').isVisible())
+    );
+  });
+  assert.ok(readFileSync(path, 'utf8').includes('= 7'));
+});
+
+test(
+  'a script that is renamed while it is open keeps its tab and its text',
+  two,
+  async (studio) => {
+    const { page, place } = studio;
+    await typeAtEnd(studio, 'left', '# typed\n');
+    await seen(page.getByText('Not saved'));
+    await studio.command('Show Project');
+    await page
+      .getByRole('treeitem', { name: /two\.aesl/ })
+      .first()
+      .focus();
+    await studio.press('F2');
+    await page.getByRole('textbox', { name: 'Rename' }).fill('other.aesl');
+    await studio.press('Enter');
+    await says(studio, 'left', '# typed');
+    await studio.editor('left').click();
+    await studio.press('Control+s');
+    await until('saved under its new name', () =>
+      readFileSync(join(place, 'other.aesl'), 'utf8').includes('# typed'),
+    );
+  },
+);
+
+test('keys of a German, a Swiss and a French keyboard', plan, async (studio) => {
+  const { page, command } = studio;
+  const canvas = page.locator('[data-place~="plan"]').first();
+  await canvas.waitFor();
+  await command('Plan: new variable');
+  await page.getByRole('switch', { name: 'Text' }).click();
+  const said = () => page.locator('.plan__text .cm-content').first().innerText();
+  const has = async () => (await said()).includes('configuration');
+  await until('it is there', has);
+  const key = (init) =>
+    canvas.evaluate(
+      (element, init) =>
+        element.dispatchEvent(
+          new KeyboardEvent('keydown', { bubbles: true, cancelable: true, ...init }),
+        ),
+      init,
+    );
+  // Ctrl+Shift+Z redoes, wherever Z is: nothing is to redo, and nothing is undone.
+  await key({ key: 'Z', code: 'KeyY', ctrlKey: true, shiftKey: true });
+  await key({ key: 'Z', code: 'KeyW', ctrlKey: true, shiftKey: true });
+  await key({ key: 'y', code: 'KeyZ', ctrlKey: true });
+  await key({ key: '€', code: 'KeyE', modifierAltGraph: true });
+  assert.ok(await has());
+  assert.ok(!(await page.evaluate(() => document.activeElement?.matches('input'))));
+  await key({ key: 'z', code: 'KeyY', ctrlKey: true });
+  await until('undone by its letter', async () => !(await has()));
+  await key({ key: 'y', code: 'KeyZ', ctrlKey: true });
+  await until('and redone', has);
+});

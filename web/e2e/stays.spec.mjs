@@ -1,0 +1,130 @@
+// A drawing stays where it is: nothing moves on the screen that was not touched.
+import assert from 'node:assert/strict';
+import { makeProject } from './support/robots.mjs';
+import { seen, test, until } from './support/studio.mjs';
+
+const actor = (to) => ({ template: 'Wait', in: { seconds: 1 }, states: { Done: to } });
+const plan = (name, more = {}) => ({
+  format: 'vagus-plan/1',
+  name,
+  configuration: { x: { type: 'int', initial: 1 } },
+  start: { actor: 'one' },
+  actors: { one: actor('two'), two: actor('@terminate'), ...more },
+});
+const files = {
+  'P.plan.json': JSON.stringify(
+    plan('P', { sub: { plan: 'S.plan.json', states: { OK: '@terminate' } } }),
+  ),
+  'S.plan.json': JSON.stringify(plan('S')),
+};
+const project = { prepare: (t) => makeProject(t, { name: 'P', plan: 'P.plan.json' }, files) };
+
+/** Where each element is on the screen, in whole pixels; nothing of hidden tabs. */
+const places = (page) =>
+  page.evaluate(() =>
+    Object.fromEntries(
+      [...document.querySelectorAll('.react-flow__node')]
+        .filter((node) => node.offsetParent !== null)
+        .map((node) => {
+          const { x, y } = node.getBoundingClientRect();
+          return [node.dataset.id, `${Math.round(x)} ${Math.round(y)}`];
+        }),
+    ),
+  );
+
+async function settled(page) {
+  let last = '';
+  await until('the drawing has come to rest', async () => {
+    const now = JSON.stringify(await places(page));
+    const rests = now === last && now !== '{}';
+    last = now;
+    return rests;
+  });
+  return JSON.parse(last);
+}
+
+test('dropping, a line above it and deleting move nothing else', project, async (studio) => {
+  const { page, press, layout } = studio;
+  await layout('Draw');
+  await seen(page.getByRole('region', { name: 'Plan P, drawn' }));
+  const before = await settled(page);
+  const canvas = await page.locator('.pcanvas').boundingBox();
+  // Far from the others; its state leads nowhere, which is an error and a line above the drawing.
+  await page
+    .getByRole('button', { name: 'Wait, actor' })
+    .dragTo(page.locator('.pcanvas'), { targetPosition: { x: canvas.width - 120, y: 60 } });
+  await seen(page.getByRole('group', { name: /^wait, actor Wait, 2 errors/ }));
+  const { wait, ...others } = await settled(page);
+  assert.ok(wait);
+  assert.deepEqual(others, before);
+  await press('Delete');
+  await page.getByRole('group', { name: /^wait, actor/ }).waitFor({ state: 'detached' });
+  assert.deepEqual(await settled(page), before);
+});
+
+test(
+  'each canvas has its own arrowheads, also the second tab',
+  project,
+  async ({ page, layout }) => {
+    await layout('Draw');
+    await page.getByRole('tab', { name: /^Project/ }).click();
+    await page.locator('[role="treeitem"][data-path="S.plan.json"]').click();
+    await seen(page.getByRole('region', { name: 'Plan S, drawn' }));
+    await page.locator('.parrow__line').last().waitFor({ state: 'attached' });
+    const { ids, foreign } = await page.evaluate(() => ({
+      ids: [...document.querySelectorAll('marker')].map((one) => one.id),
+      foreign: [...document.querySelectorAll('.parrow__line')].filter((line) => {
+        const id = /url\("?#([^")]+)"?\)/.exec(line.getAttribute('marker-end'))?.[1];
+        return !line.closest('svg').contains(document.getElementById(id));
+      }).length,
+    }));
+    assert.equal(new Set(ids).size, ids.length, ids.join(' '));
+    assert.equal(foreign, 0);
+  },
+);
+
+test(
+  'a sub-plan that is opened is the one that forms and keys are for',
+  project,
+  async (studio) => {
+    const { page, press, layout } = studio;
+    await layout('Draw');
+    await page.getByRole('group', { name: /^sub, sub-plan/ }).focus();
+    await press('Space', 'o');
+    await seen(page.getByRole('region', { name: 'Plan S, drawn' }));
+    await until('the drawing has the focus', () =>
+      page.evaluate(() => document.activeElement.getAttribute('aria-label') === 'Plan S, drawn'),
+    );
+    await press('Control+a');
+    await seen(page.getByRole('heading', { name: 'two' }));
+    await page.getByRole('heading', { name: 'sub', exact: true }).waitFor({ state: 'detached' });
+  },
+);
+
+test(
+  'zoom is told in per cent; the map covers no element',
+  { words: ['--example', 'follow-wall'] },
+  async (studio) => {
+    const { page, press, layout, button } = studio;
+    await layout('Draw');
+    await seen(page.getByRole('region', { name: 'Plan WallFollow, drawn' }));
+    await settled(page);
+    await button(/^Zoom: \d+ %$/).click();
+    await seen(button('Zoom: 100 %'));
+    for (const key of ['+', '-', '-', '-']) {
+      await page.locator('.pcanvas').focus();
+      await press(key);
+      await settled(page);
+      const covered = await page.evaluate(() => {
+        const map = document.querySelector('.react-flow__minimap')?.getBoundingClientRect();
+        return [...document.querySelectorAll('.react-flow__node')].filter((node) => {
+          const { left, right, top, bottom } = node.getBoundingClientRect();
+          return (
+            map && left < map.right && right > map.left && top < map.bottom && bottom > map.top
+          );
+        }).length;
+      });
+      assert.equal(covered, 0);
+    }
+  },
+);

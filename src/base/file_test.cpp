@@ -1,5 +1,5 @@
-#include "base/test_folder.hpp"
 #include "base/file.hpp"
+#include "base/test_folder.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

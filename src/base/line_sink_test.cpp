@@ -1,5 +1,5 @@
-#include "base/test_folder.hpp"
 #include "base/line_sink.hpp"
+#include "base/test_folder.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -23,9 +23,7 @@ using When = LineSink::When;
 
 class LineSinkTest : public testing::Test {
 protected:
-    LineSinkTest() {
-        prepare_standard_files();
-    }
+    LineSinkTest() { prepare_standard_files(); }
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
     std::string written() const { return read_file(path("f")).value(); }

@@ -1,5 +1,5 @@
-#include "base/test_folder.hpp"
 #include "base/project_border.hpp"
+#include "base/test_folder.hpp"
 
 #include <gtest/gtest.h>
 

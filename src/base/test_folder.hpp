@@ -1,7 +1,7 @@
 // A folder of one test's own, for the tests of all modules: tests run side by side.
 //
-//     test::Folder folder;                              // empty
-//     write_file((folder / "a.aesl").string(), "");
+//     test::Folder folder;  // empty
+//     const std::string path = folder.write("nodes/a.aesl", "var x\n");
 //
 // It goes with its content. Declare it above what works in it: members end in the other order, and
 // a thread that still writes there has ended by then.
@@ -9,7 +9,9 @@
 
 #include <stdlib.h>
 
+#include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -34,6 +36,13 @@ public:
     std::string string() const { return path_.string(); }
     operator const std::filesystem::path&() const { return path_; }
     std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+    // Its path. Folders on the way are made.
+    std::string write(std::string_view name, std::string_view text) const {
+        const std::filesystem::path file = path_ / name;
+        std::filesystem::create_directories(file.parent_path());
+        std::ofstream(file, std::ios::binary) << text;
+        return file.string();
+    }
 
 private:
     std::filesystem::path path_;  // without links in it

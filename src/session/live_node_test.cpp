@@ -1,5 +1,5 @@
-#include "base/test_folder.hpp"
 #include "session/live_node.hpp"
+#include "base/test_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

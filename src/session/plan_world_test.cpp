@@ -1,5 +1,5 @@
-#include "base/test_folder.hpp"
 #include "session/plan_world.hpp"
+#include "base/test_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -86,7 +86,7 @@ protected:
         return ran;
     }
 
-    Folder folder_;
+    test::Folder folder_;
     run::CodeLibrary library_;
     toolbox::BusNodes nodes_;
 };

@@ -1,5 +1,5 @@
-#include "base/test_folder.hpp"
 #include "session/safe_stop.hpp"
+#include "base/test_folder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <string>
 
-#include "base/test_folder.hpp"
 #include "base/file.hpp"
 #include "base/json.hpp"
+#include "base/test_folder.hpp"
 #include "base/test_places.hpp"
 #include "sim/ground.hpp"
 #include "sim/sd_card.hpp"

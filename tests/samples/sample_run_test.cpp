@@ -1,5 +1,5 @@
-#include "base/test_folder.hpp"
 #include "sample_run.hpp"
+#include "base/test_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/test_folder.hpp"
 #include "base/file.hpp"
+#include "base/test_folder.hpp"
 #include "base/test_places.hpp"
 #include "sample_run.hpp"
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "base/test_folder.hpp"
 #include "base/file.hpp"
+#include "base/test_folder.hpp"
 #include "serve/edit/editing.hpp"
 #include "session/known_nodes.hpp"
 

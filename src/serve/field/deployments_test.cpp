@@ -1,5 +1,5 @@
-#include "base/test_folder.hpp"
 #include "serve/field/deployments.hpp"
+#include "base/test_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -16,9 +16,7 @@ using Result = DeployOutcome::Result;
 // A robot whose runs start, or do not, when the test says so; the disk is real.
 class DeploymentsTest : public testing::Test {
 protected:
-    DeploymentsTest() {
-        EXPECT_TRUE(write_file((project / "vagus.json").string(), "0").ok());
-    }
+    DeploymentsTest() { EXPECT_TRUE(write_file((project / "vagus.json").string(), "0").ok()); }
 
     Deployments::Robot robot() {
         return {.check = [this] { return [this](const fs::path&) { return findings; }; },

@@ -1,5 +1,5 @@
-#include "base/test_folder.hpp"
 #include "serve/field/versions.hpp"
+#include "base/test_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

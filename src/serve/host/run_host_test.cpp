@@ -1,6 +1,6 @@
 // The process of a run, in this process: what it answers to what a server says.
-#include "base/test_folder.hpp"
 #include "serve/host/run_host.hpp"
+#include "base/test_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/socket.h>

@@ -1,6 +1,6 @@
 // The server with real connections on loopback.
-#include "base/test_folder.hpp"
 #include "serve/web/server.hpp"
+#include "base/test_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // What a person opens, and what stands in the user's own folder.
-#include "base/test_folder.hpp"
 #include "serve/workbench/library.hpp"
+#include "base/test_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // Finding targets, from what the system shows of them.
-#include "base/test_folder.hpp"
 #include "serve/workbench/targets.hpp"
+#include "base/test_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

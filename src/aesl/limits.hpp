@@ -16,6 +16,7 @@ constexpr size_t kWarningsMax = 100;          // reported in one run
 constexpr size_t kExpandedMax = 1u << 22;  // scalar operations that all vector operations unroll to
 constexpr int kWordsMax = 1 << 20;         // where sizes of expressions stop counting
 
+constexpr int32_t kInt16Max = 32767;     // of a variable; the lowest is -32768
 constexpr int kAddressableWords = 4096;  // an instruction has 12 bits for an address (section 3.10)
 constexpr int kEventArgumentsMax = 258;  // words; a limit of the protocol (section 3.10)
 constexpr int kProgramWordsMax = 65535;  // addresses in the event table are 16-bit

@@ -136,27 +136,26 @@ Json write_list(const std::vector<Entry>& entries, const Write& write) {
 }
 
 Json with_number(const std::string& name, std::string_view key, int64_t number) {
-    return json_object(
-        {json_member("name", json_string(name)), json_member(key, json_integer(number))});
+    return json_object({json_member("name", name), json_member(key, json_integer(number))});
 }
 
 void add_doc(Json& object, const std::string& doc) {
-    if (!doc.empty()) object.members.push_back(json_member("doc", json_string(doc)));
+    if (!doc.empty()) object.members.push_back(json_member("doc", doc));
 }
 
 Json write_local_event(const LocalEvent& event) {
-    Json json = json_object({json_member("name", json_string(event.name))});
+    Json json = json_object({json_member("name", event.name)});
     add_doc(json, event.doc);
     return json;
 }
 
 Json write_event(const GlobalEvent& event) {
     if (event.size) return with_number(event.name, "size", *event.size);
-    return json_object({json_member("name", json_string(event.name))});
+    return json_object({json_member("name", event.name)});
 }
 
 Json write_native(const NativeFunction& native) {
-    Json json = json_object({json_member("name", json_string(native.name))});
+    Json json = json_object({json_member("name", native.name)});
     add_doc(json, native.doc);
     json.members.push_back(
         json_member("params", write_list(native.parameters, [](const NativeParameter& parameter) {
@@ -184,7 +183,7 @@ std::string format_node_file(const NodeFile& node) {
         return with_number(constant.name, "value", constant.value);
     });
     return format_json(json_object({
-        json_member("name", json_string(target.name)),
+        json_member("name", target.name),
         json_member("protocolVersion", json_integer(target.protocol_version)),
         json_member("bytecodeSize", json_integer(target.bytecode_size)),
         json_member("variablesSize", json_integer(target.variables_size)),

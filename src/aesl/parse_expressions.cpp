@@ -63,8 +63,6 @@ OperatorEntry binary_operator(TokenKind kind) {
     }
 }
 
-constexpr int32_t kInt16Max = 32767;
-
 int32_t limited(int64_t words) {
     return static_cast<int32_t>(std::min<int64_t>(words, kWordsMax));
 }

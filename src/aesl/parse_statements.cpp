@@ -10,7 +10,6 @@ namespace {
 
 using isa::BinaryOperator;
 
-constexpr int32_t kInt16Max = 32767;
 constexpr uint8_t kNoOperator = 0xfe;
 
 // `op` of the Assign node that a token makes, or kNoOperator.

@@ -29,7 +29,7 @@ struct Mistake {
     std::string what;
 };
 
-Place place_of(std::string_view text, size_t offset) {
+vagus::Place place_at(std::string_view text, size_t offset) {
     const std::string_view before = text.substr(0, offset);
     const auto lines = std::count(before.begin(), before.end(), '\n');
     const size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -358,7 +358,7 @@ Result<Project> parse_project(std::string_view xml, std::string_view file) {
         mistake = reader.mistake();
     }
     if (!mistake) return reader.take_project();
-    return Error{Code::BadInput, at_place(file, place_of(text, mistake->offset), mistake->what)};
+    return Error{Code::BadInput, at_place(file, place_at(text, mistake->offset), mistake->what)};
 }
 
 namespace {

@@ -10,7 +10,7 @@
 namespace vagus::aesl {
 namespace {
 
-struct Need {
+struct StackNeed {
     int32_t words = 0;
     int32_t line = 0;  // where the stack is deepest
 };
@@ -43,12 +43,12 @@ public:
         : tree_(tree), code_(code), needs_(tree.subs.size()), is_open_(tree.subs.size(), false) {}
 
     // What a section needs, its subs being known.
-    Need need_of(size_t section) const {
+    StackNeed need_of(size_t section) const {
         const CodeSection& code = code_.sections[section];
-        Need need{code.depth, code.deepest_line};
+        StackNeed need{code.depth, code.deepest_line};
         for (const CodeCall& call : code.calls) {
             const auto sub = static_cast<size_t>(call.sub);
-            const Need inner = needs_[sub].value_or(Need{});
+            const StackNeed inner = needs_[sub].value_or(StackNeed{});
             if (inner.words + 1 <= need.words) continue;
             need = {inner.words + 1, inner.line == 0 ? call.line : inner.line};
         }
@@ -87,7 +87,7 @@ private:
 
     const Tree& tree_;
     const Code& code_;
-    std::vector<std::optional<Need>> needs_;
+    std::vector<std::optional<StackNeed>> needs_;
     std::vector<bool> is_open_;  // on the path to the sub that is being resolved
 };
 
@@ -111,9 +111,9 @@ int32_t check_stack(const Tree& tree, const Code& code, const Target& target,
             {.formal = Position{}});
         return 0;
     }
-    Need deepest;
+    StackNeed deepest;
     for (size_t i = 0; i < code.sections.size(); ++i) {
-        const Need need = check.need_of(i);
+        const StackNeed need = check.need_of(i);
         if (need.words > deepest.words) deepest = need;
     }
     if (deepest.words > target.stack_size) {

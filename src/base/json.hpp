@@ -63,6 +63,8 @@ Json json_string(std::string_view text);
 Json json_integer(int64_t value);
 Json json_array(std::vector<Json> items);
 JsonMember json_member(std::string_view key, Json value);
+JsonMember json_member(std::string_view key, std::string_view text);
+JsonMember json_member(std::string_view key, std::vector<JsonMember> members);
 Json json_object(std::vector<JsonMember> members);
 
 struct JsonError {

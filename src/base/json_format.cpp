@@ -145,6 +145,14 @@ Json json_array(std::vector<Json> items) {
     return json;
 }
 
+JsonMember json_member(std::string_view key, std::string_view text) {
+    return json_member(key, json_string(text));
+}
+
+JsonMember json_member(std::string_view key, std::vector<JsonMember> members) {
+    return json_member(key, json_object(std::move(members)));
+}
+
 JsonMember json_member(std::string_view key, Json value) {
     JsonMember member;
     member.key = key;

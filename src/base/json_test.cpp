@@ -148,7 +148,7 @@ TEST(Json, ALineOf101CharactersIsBroken) {
 
 TEST(Json, FormatsWhatAProgramBuilt) {
     const Json json = json_object({json_member("a \"b\"", json_array({json_integer(-3)})),
-                                   json_member("c", json_string("line\nend\x01é"))});
+                                   json_member("c", "line\nend\x01é")});
     EXPECT_EQ(format_json(json),
               "{\n  \"a \\\"b\\\"\": [-3],\n  \"c\": \"line\\nend\\u0001é\"\n}\n");
     EXPECT_EQ(format_json(parse_json(format_json(json), "f").value()), format_json(json));

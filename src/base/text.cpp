@@ -9,10 +9,6 @@
 namespace vagus {
 namespace {
 
-bool is_continuation(char byte) {
-    return (static_cast<uint8_t>(byte) & 0xc0u) == 0x80u;
-}
-
 // Bytes of the sequence that `lead` begins, 0 if it begins none.
 size_t sequence_length(uint8_t lead) {
     if (lead < 0x80) return 1;
@@ -57,7 +53,7 @@ CodePoint first_code_point(std::string_view text) {
     if (bytes == 1) return {lead, 1};
     char32_t value = lead & (0xffu >> (bytes + 1));
     for (size_t i = 1; i < bytes; ++i) {
-        if (!is_continuation(text[i])) return {};
+        if (!is_utf8_continuation(text[i])) return {};
         value = (value << 6) | (static_cast<uint8_t>(text[i]) & 0x3fu);
     }
     return is_allowed(value, bytes) ? CodePoint{value, bytes} : CodePoint{};
@@ -83,8 +79,8 @@ std::optional<size_t> malformed_utf8_at(std::string_view text) {
 }
 
 size_t count_code_points(std::string_view text) {
-    return static_cast<size_t>(
-        std::count_if(text.begin(), text.end(), [](char byte) { return !is_continuation(byte); }));
+    return static_cast<size_t>(std::count_if(
+        text.begin(), text.end(), [](char byte) { return !is_utf8_continuation(byte); }));
 }
 
 bool is_obeyed(char32_t c) {
@@ -126,6 +122,12 @@ std::optional<uint64_t> decimal_number(std::string_view text) {
     const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
     if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
     return number;
+}
+
+std::string joined_lines(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += (&line == &lines.front() ? "" : "\n") + line;
+    return text;
 }
 
 std::string list_of(const std::vector<std::string_view>& words) {

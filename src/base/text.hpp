@@ -27,6 +27,11 @@ std::string to_utf8(char32_t code_point);
 // Offset of the first byte that is not well-formed UTF-8.
 std::optional<size_t> malformed_utf8_at(std::string_view text);
 
+// A byte inside of a character: behind its first one.
+constexpr bool is_utf8_continuation(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
+}
+
 // Number of code points; every byte of malformed text that is no continuation byte counts as one.
 size_t count_code_points(std::string_view text);
 
@@ -49,6 +54,9 @@ std::string small_letters(std::string_view text);
 
 // The number below 2^64 that the text writes with digits 0 to 9 and nothing else.
 std::optional<uint64_t> decimal_number(std::string_view text);
+
+// Each on a line of its own, without an end behind the last.
+std::string joined_lines(const std::vector<std::string>& lines);
 
 // "a, b and c"
 std::string list_of(const std::vector<std::string_view>& words);

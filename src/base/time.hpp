@@ -10,4 +10,8 @@ using Duration = std::chrono::microseconds;
 using Time = Duration;  // since the start; a point and a length never meet in one formula without a
                         // name saying which
 
+constexpr double seconds_of(Duration time) {
+    return std::chrono::duration<double>(time).count();
+}
+
 }  // namespace vagus

@@ -9,10 +9,6 @@ namespace {
 
 using wire::MessageType;
 
-constexpr uint16_t number(MessageType type) {
-    return static_cast<uint16_t>(type);
-}
-
 uint16_t described_words(const aesl::Target& target) {
     size_t words = 0;
     for (const aesl::NamedVariable& variable : target.variables) words += variable.size;

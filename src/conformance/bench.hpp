@@ -25,6 +25,10 @@
 
 namespace vagus::conformance {
 
+constexpr uint16_t number(wire::MessageType type) {
+    return static_cast<uint16_t>(type);
+}
+
 // An answer that takes longer does not come. Emulated nodes on a busy machine are slow.
 constexpr Duration kAnswerWithin = std::chrono::seconds(5);
 // A program of a check that runs longer hangs: the longest has 20,000 instructions.

@@ -12,10 +12,6 @@ Words endless() {
     return program_of(Instructions().jump(0));
 }
 
-Words adding_one(uint16_t at) {
-    return program_of(Instructions().load(at).push(1).binary(BinaryOperator::Add).store(at).stop());
-}
-
 Status then(Bench& bench, MessageType command, State expected) {
     TRY(bench.command(command));
     return bench.expect_state(expected);
@@ -26,7 +22,7 @@ Status then(Bench& bench, MessageType command, State expected) {
 Status reset_starts_init(Bench& bench) {
     const uint16_t at = TRY(bench.room(1));
     TRY(bench.set(at, {0}));
-    TRY(bench.run_to_end(adding_one(at)));
+    TRY(bench.run_to_end(program_of(adding_one(at))));
     TRY(then(bench, MessageType::Reset, {kInitStart, 3}));
     TRY(bench.expect_values(at, {1}));  // kept, and nothing executed yet
     TRY(then(bench, MessageType::Run, {kInitStart, 1}));
@@ -89,7 +85,7 @@ Status reset_leaves_operands(Bench& bench) {
 Status init_waits_for_run(Bench& bench) {
     const uint16_t at = TRY(bench.room(1));
     TRY(bench.set(at, {0}));
-    TRY(bench.load(adding_one(at)));
+    TRY(bench.load(program_of(adding_one(at))));
     TRY(bench.expect_silence());
     return bench.expect_values(at, {0});
 }

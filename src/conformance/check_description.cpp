@@ -10,10 +10,6 @@ using wire::MessageType;
 constexpr uint16_t kLastBroadcastVersion = 4;  // section 2.1
 constexpr uint16_t kFragmentsSince = 8;
 
-constexpr uint16_t number(MessageType type) {
-    return static_cast<uint16_t>(type);
-}
-
 Status answers_list_nodes(Bench& bench) {
     TRY(bench.send(number(MessageType::ListNodes), {wire::kProtocolVersion}));
     return bench.expect(MessageType::NodePresent, {bench.target().protocol_version});

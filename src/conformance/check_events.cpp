@@ -15,10 +15,6 @@ constexpr uint16_t kHighestEvent = 0x7fff;
 constexpr Duration kTimerWithin = std::chrono::seconds(5);
 constexpr int16_t kTimerPeriod_ms = 20;
 
-Instructions adding_one(uint16_t at) {
-    return Instructions().load(at).push(1).binary(BinaryOperator::Add).store(at).stop();
-}
-
 // Words that the node keeps of an event's arguments.
 Result<uint16_t> capacity(const Bench& bench, uint16_t wanted) {
     const auto& variables = bench.target().variables;

@@ -8,7 +8,6 @@ namespace {
 using isa::BinaryOperator;
 using wire::MessageType;
 
-constexpr uint16_t kStopped = 2;  // flags after every fault
 constexpr uint16_t kDivisionAt = kInitStart + 4;
 
 // The message that must come, and where the node stands afterwards.

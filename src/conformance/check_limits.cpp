@@ -11,7 +11,6 @@ namespace {
 using isa::BinaryOperator;
 using wire::MessageType;
 
-constexpr uint16_t kStopped = 2;
 constexpr uint16_t kFarAway = 0xfff0;
 
 // What it is asked for now shows that it still works.

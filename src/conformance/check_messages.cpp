@@ -8,10 +8,6 @@ namespace {
 
 using wire::MessageType;
 
-constexpr uint16_t number(MessageType type) {
-    return static_cast<uint16_t>(type);
-}
-
 // ---- what it leaves ----
 
 Status leaves_commands_to_others(Bench& bench) {

@@ -7,8 +7,6 @@ namespace {
 
 using wire::MessageType;
 
-constexpr uint16_t kStopped = 2;
-
 // A call that ends in a fault, and what it leaves in its arguments.
 struct Call {
     const char* native;
@@ -20,13 +18,6 @@ struct Fallen {
     Ending ending;
     uint16_t pc = 0;  // of the call
 };
-
-Values flat(const std::vector<Values>& arguments) {
-    Values all;
-    for (const Values& argument : arguments)
-        all.insert(all.end(), argument.begin(), argument.end());
-    return all;
-}
 
 // Runs it. The node must be stopped behind the call, its arguments as they should be.
 Result<Fallen> fall(Bench& bench, const Call& call) {

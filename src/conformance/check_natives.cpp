@@ -244,13 +244,6 @@ Rows deque_end_rows() {
     };
 }
 
-Values flat(const std::vector<Values>& arguments) {
-    Values all;
-    for (const Values& argument : arguments)
-        all.insert(all.end(), argument.begin(), argument.end());
-    return all;
-}
-
 Status gives(Bench& bench, const NativeRow& row, const Case& one) {
     const Values before = flat(one.before);
     const uint16_t at = TRY(bench.room(static_cast<uint16_t>(before.size())));

@@ -20,6 +20,7 @@ namespace vagus::conformance {
 using Words = std::vector<uint16_t>;
 using Values = std::vector<int16_t>;
 
+constexpr uint16_t kStopped = 2;    // flags after every fault
 constexpr uint16_t kInitStart = 3;  // behind a vector of one handler
 
 class Instructions {
@@ -94,6 +95,19 @@ inline Words program_of(const std::vector<Handler>& handlers) {
 
 inline Words program_of(const Instructions& init) {
     return program_of({{isa::kInitEvent, init.all()}});
+}
+
+// Adds one to the word there, and stops.
+inline Instructions adding_one(uint16_t at) {
+    return Instructions().load(at).push(1).binary(isa::BinaryOperator::Add).store(at).stop();
+}
+
+// The words of all of them, one behind the other.
+inline Values flat(const std::vector<Values>& arguments) {
+    Values all;
+    for (const Values& argument : arguments)
+        all.insert(all.end(), argument.begin(), argument.end());
+    return all;
 }
 
 }  // namespace vagus::conformance

@@ -29,13 +29,11 @@ std::string padded(std::string text, size_t width) {
 }
 
 Json row_json(const Row& row) {
-    std::vector<JsonMember> members{json_member("group", json_string(row.check.group)),
-                                    json_member("check", json_string(row.check.name)),
-                                    json_member("section", json_string(row.check.section)),
-                                    json_member("result", json_string(word_of(row.verdict)))};
-    if (!row.found.empty()) members.push_back(json_member("found", json_string(row.found)));
-    if (!row.check.defects.empty())
-        members.push_back(json_member("defects", json_string(row.check.defects)));
+    std::vector<JsonMember> members{
+        json_member("group", row.check.group), json_member("check", row.check.name),
+        json_member("section", row.check.section), json_member("result", word_of(row.verdict))};
+    if (!row.found.empty()) members.push_back(json_member("found", row.found));
+    if (!row.check.defects.empty()) members.push_back(json_member("defects", row.check.defects));
     return json_object(std::move(members));
 }
 
@@ -71,7 +69,7 @@ std::string report_json(const Report& report) {
     for (const Row& row : report.rows) rows.push_back(row_json(row));
     const int64_t foreign = static_cast<int64_t>(report.foreign);
     return format_json(json_object({json_member("node", json_integer(report.node)),
-                                    json_member("name", json_string(report.target.name)),
+                                    json_member("name", report.target.name),
                                     json_member("passed", count_json(report, Verdict::Passed)),
                                     json_member("failed", count_json(report, Verdict::Failed)),
                                     json_member("skipped", count_json(report, Verdict::Skipped)),

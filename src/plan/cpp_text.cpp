@@ -10,7 +10,7 @@ namespace vagus::plan {
 namespace {
 
 // Keywords of C++20, and the macros in lower case that common headers define.
-const std::set<std::string_view>& reserved_words() {
+const std::set<std::string_view>& words_of_cpp() {
     static const std::set<std::string_view> words = {
         "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break",
         "case", "catch", "char", "char8_t", "char16_t", "char32_t", "class", "compl", "concept",
@@ -60,7 +60,7 @@ std::string CppNames::give(std::string_view name) {
     std::string given = tame(name);
     // A `_` behind one would make two.
     const std::string_view joint = given.ends_with('_') ? "x" : "_";
-    if (reserved_words().contains(given) || taken_.contains(given)) given += joint;
+    if (words_of_cpp().contains(given) || taken_.contains(given)) given += joint;
     const std::string stem = given.ends_with('_') ? given : given + "_";
     for (int number = 2; taken_.contains(given); ++number) {
         given = fmt::format("{}{}", stem, number);

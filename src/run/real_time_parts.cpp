@@ -1,5 +1,7 @@
 #include "run/real_time_parts.hpp"
 
+#include "base/time.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,7 +60,7 @@ bool SleepWatch::has_slept() {
     sentence_ = fmt::format(
         "the computer slept for {:.1f} s, and nobody watched the robot meanwhile; the plan has "
         "ended; look at the robot, then start the plan again",
-        std::chrono::duration<double>(more).count());
+        seconds_of(more));
     return true;
 }
 

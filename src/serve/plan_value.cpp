@@ -1,10 +1,10 @@
 #include "serve/plan_value.hpp"
 
+#include "serve/json.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 Json json_of(const plan::Value& value) {
     switch (value.type()) {

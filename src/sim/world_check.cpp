@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "base/time.hpp"
 #include "sim/standing.hpp"
 
 namespace vagus::sim {
@@ -157,7 +158,7 @@ public:
     }
 
     Found check(const TimelineEntry& entry, const std::string& element) {
-        const double seconds = std::chrono::duration<double>(entry.at).count();
+        const double seconds = seconds_of(entry.at);
         if (auto found = check_range(element + ".t", seconds, {0, kTimelineEndMax, "s"},
                                      "times count from the start of the run"))
             return found;

@@ -5,6 +5,7 @@
 
 #include "base/json.hpp"
 #include "base/text.hpp"
+#include "base/time.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -281,7 +282,7 @@ bool has_place(const Told& told) {
 
 std::string seconds(Time at) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.3f", std::chrono::duration<double>(at).count());
+    std::snprintf(text, sizeof text, "%.3f", seconds_of(at));
     return text;
 }
 

@@ -13,6 +13,7 @@
 #include <set>
 #include <vector>
 
+#include "base/time.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "net/network.hpp"
@@ -203,7 +204,7 @@ private:
 }  // namespace
 
 std::string frame_line(Time at, const wire::Frame& frame) {
-    const double seconds = std::chrono::duration<double>(at).count();
+    const double seconds = seconds_of(at);
     std::string line = fmt::format("{:.6f} {} ", seconds, frame.source);
     const bool event = wire::is_user_event(frame.type);
     const char* name = wire::message_name(frame.type);

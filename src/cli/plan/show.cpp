@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/time.hpp"
 #include "cli/live_screen.hpp"
 #include "cli/output.hpp"
 #include "cli/plan/story.hpp"
@@ -219,7 +220,7 @@ public:
     explicit Lines(PlanShown shown) : beside_(shown == PlanShown::LinesOnStderr) {}
 
     void operator()(Time at, const std::string& text) const {
-        const double seconds = std::chrono::duration<double>(at).count();
+        const double seconds = seconds_of(at);
         const std::string line = fmt::format("{:9.3f} s  {}\n", seconds, text);
         if (beside_) {
             say(line);

@@ -126,10 +126,9 @@ Json json_value(const plan::Value& value) {
 }
 
 Json input_json(const plan::Input& input) {
-    std::vector<JsonMember> members = {json_member("name", json_string(input.name)),
-                                       json_member("type", json_string(type_text(input.type))),
-                                       json_member("unit", json_string(input.unit)),
-                                       json_member("help", json_string(input.help))};
+    std::vector<JsonMember> members = {
+        json_member("name", input.name), json_member("type", type_text(input.type)),
+        json_member("unit", input.unit), json_member("help", input.help)};
     if (input.fallback) members.push_back(json_member("default", json_value(*input.fallback)));
     if (input.low && input.high) {
         members.push_back(
@@ -139,15 +138,13 @@ Json input_json(const plan::Input& input) {
 }
 
 Json output_json(const plan::OutputDeclaration& output) {
-    return json_object({json_member("name", json_string(output.name)),
-                        json_member("type", json_string(type_text(output.type))),
-                        json_member("unit", json_string(output.unit)),
-                        json_member("help", json_string(output.help))});
+    return json_object({json_member("name", output.name),
+                        json_member("type", type_text(output.type)),
+                        json_member("unit", output.unit), json_member("help", output.help)});
 }
 
 Json outcome_json(const plan::Outcome& outcome) {
-    return json_object({json_member("name", json_string(outcome.name)),
-                        json_member("help", json_string(outcome.help))});
+    return json_object({json_member("name", outcome.name), json_member("help", outcome.help)});
 }
 
 template <typename List, typename Make>
@@ -159,11 +156,11 @@ Json array_of(const List& list, Make make) {
 
 Json template_json(const Template& of, Detail detail) {
     const bool supervisor = of.kind == Kind::Supervisor;
-    std::vector<JsonMember> members = {json_member("name", json_string(of.name)),
-                                       json_member("kind", json_string(plan::name_of(of.kind))),
-                                       json_member("help", json_string(of.help))};
+    std::vector<JsonMember> members = {json_member("name", of.name),
+                                       json_member("kind", plan::name_of(of.kind)),
+                                       json_member("help", of.help)};
     if (detail == Detail::Names) return json_object(std::move(members));
-    members.push_back(json_member("icon", json_string(of.icon)));
+    members.push_back(json_member("icon", of.icon));
     members.push_back(json_member("in", array_of(of.inputs, input_json)));
     members.push_back(json_member("out", array_of(of.outputs, output_json)));
     members.push_back(
@@ -203,8 +200,7 @@ std::string show_text(const std::vector<ShownToolbox>& shown) {
 std::string toolboxes_json(const std::vector<ShownToolbox>& shown, Detail detail) {
     return format_json(array_of(shown, [detail](const ShownToolbox& one) {
         return json_object(
-            {json_member("name", json_string(one.toolbox->name)),
-             json_member("help", json_string(one.toolbox->help)),
+            {json_member("name", one.toolbox->name), json_member("help", one.toolbox->help),
              json_member("templates", array_of(one.templates, [detail](const Template* of) {
                              return template_json(*of, detail);
                          }))});

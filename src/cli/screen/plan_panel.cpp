@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/time.hpp"
 #include "cli/screen/page.hpp"
 
 namespace vagus::cli {
@@ -93,7 +94,7 @@ private:
         const std::string mark = charset_ == Charset::Ascii ? "> " : "▶ ";
         const std::string indent(static_cast<size_t>(2 * actor.depth), ' ');
         const Ink ink{actor.active ? Colour(kFresh) : Colour(kDim), {}, actor.active};
-        const double seconds = std::chrono::duration<double>(actor.for_so_long).count();
+        const double seconds = seconds_of(actor.for_so_long);
         const std::string time = actor.active ? fixed(seconds, 1) + " s" : "";
         page_.add(indent + (actor.active ? mark : "  "), ink);
         const int room = page_.columns() - page_.column() - text_width(time) - 1;
@@ -167,7 +168,7 @@ private:
     }
 
     void happening(const HappeningView& one) {
-        const double seconds = std::chrono::duration<double>(one.at).count();
+        const double seconds = seconds_of(one.at);
         page_.add(fixed(seconds, 1) + " ", {kDim, {}, false});
         const Ink ink{one.fresh ? Colour(kFresh) : Colour(), {}, one.fresh};
         const std::string text = in_charset(one.text, charset_);

@@ -4,10 +4,9 @@
 
 #include "serve/edit/json_patch.hpp"
 #include "serve/edit/seen.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

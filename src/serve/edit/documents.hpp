@@ -9,6 +9,7 @@
 
 #include "base/time.hpp"
 #include "serve/edit/edited_project.hpp"
+#include "serve/json.hpp"
 #include "serve/project/files.hpp"
 #include "serve/studio/desk.hpp"
 
@@ -18,8 +19,6 @@ constexpr Duration kListEvery = 2s;  // files that come and go outside of the st
 
 class Documents {
 public:
-    using Json = nlohmann::json;
-
     // All borrowed. `epoch`: as hello tells it.
     Documents(Desk& desk, Files& files, const EditListeners& listeners, std::string epoch);
 

@@ -130,7 +130,7 @@ std::u16string units(const std::string& text) {
     std::u16string found;
     for (std::string_view rest = text; !rest.empty();) {
         size_t bytes = 1;
-        while (bytes < rest.size() && (static_cast<unsigned char>(rest[bytes]) & 0xc0) == 0x80) {
+        while (bytes < rest.size() && is_utf8_continuation(rest[bytes])) {
             ++bytes;
         }
         const auto lead = static_cast<unsigned char>(rest[0]);

@@ -27,9 +27,9 @@ struct Instead {
     std::string path = {}, text = {};
 };
 
-class PlanTexts final : public plan::Files {
+class FilesWithOneInstead final : public plan::Files {
 public:
-    PlanTexts(const CheckedTexts& texts, const Instead& instead)
+    FilesWithOneInstead(const CheckedTexts& texts, const Instead& instead)
         : texts_(texts), instead_(instead) {}
     Result<std::string> read(const std::string& path) const override {
         if (path == instead_.path) return instead_.text;
@@ -118,7 +118,7 @@ Checkup checked_plan(Files& files, const std::string& path, const Instead& inste
                      const Toolboxes& toolboxes, const std::optional<session::BusNames>& names) {
     const CheckedTexts again(files);
     CheckedTexts reading(files);
-    const PlanTexts texts(reading, instead);
+    const FilesWithOneInstead texts(reading, instead);
     const plan::Checked checked = plan::check(path, texts, toolboxes.library->templates());
     plan::Findings found = checked.findings;
     if (checked.ok()) add_warnings(checked, names, found);
@@ -128,7 +128,7 @@ Checkup checked_plan(Files& files, const std::string& path, const Instead& inste
     }
     Checkup checkup;
     checkup.read = reading.take_read();
-    const PlanTexts seen(again, instead);
+    const FilesWithOneInstead seen(again, instead);
     checkup.findings =
         plan_findings(found, [&](const std::string& file) { return seen.read(file); });
     return checkup;

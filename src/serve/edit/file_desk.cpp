@@ -88,9 +88,9 @@ Status FileDesk::make_world(const std::string& path) {
     if (file.empty() || !project_.world.empty()) return Status::done();
     const auto text = files_.text(file);
     const auto json = read_json(text.ok() ? text.value() : "");
-    const auto* root = std::get_if<Json>(&json);
+    const auto* root = std::get_if<vagus::Json>(&json);
     if (!root || root->kind != JsonKind::Object) return Status::done();  // its finding says so
-    const Json name = json_string(name_from(file, path));
+    const vagus::Json name = json_string(name_from(file, path));
     return follow({file, {{JsonStep::Do::Set, {"world"}, name}}}, "server");
 }
 
@@ -112,11 +112,11 @@ Status FileDesk::make_toolbox(const std::string& path) {
     const auto text = files_.text(file);
     if (!text.ok()) return Status::done();
     const auto json = read_json(text.value());
-    const auto* root = std::get_if<Json>(&json);
+    const auto* root = std::get_if<vagus::Json>(&json);
     if (!root) return Status::done();  // its finding says so
-    const Json* listed = root->find("toolboxes");
+    const vagus::Json* listed = root->find("toolboxes");
     Follower follower{file, {}};
-    const Json value = json_string(name_from(file, path));
+    const vagus::Json value = json_string(name_from(file, path));
     if (listed && listed->kind == JsonKind::Array) {
         follower.steps.push_back(
             {JsonStep::Do::Insert, {"toolboxes", listed->items.size()}, value});

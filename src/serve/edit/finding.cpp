@@ -4,10 +4,10 @@
 #include <charconv>
 
 #include "serve/edit/text_places.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
 
-using Json = nlohmann::json;
 using aesl::Position;
 
 namespace {

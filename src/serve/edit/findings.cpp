@@ -6,11 +6,10 @@
 #include "serve/edit/named_paths.hpp"
 #include "serve/edit/script_findings.hpp"
 #include "serve/edit/template_list.hpp"
+#include "serve/json.hpp"
 #include "session/project_file.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -14,6 +14,7 @@
 #include "serve/edit/edited_project.hpp"
 #include "serve/edit/file_checks.hpp"
 #include "serve/edit/finding.hpp"
+#include "serve/json.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
 
@@ -25,8 +26,6 @@ constexpr size_t kFindingsMax = 2000;    // that pages get
 
 class Findings {
 public:
-    using Json = nlohmann::json;
-
     // All borrowed. Declares the topics findings and templates.
     Findings(Desk& desk, Files& files, Scripts& scripts, const EditedProject& project);
 

@@ -10,8 +10,8 @@ class Collector {
 public:
     explicit Collector(std::vector<NamedPath>& paths) : paths_(paths) {}
 
-    void member(const Json& object, const char* key) {
-        const Json* json = object.find(key);
+    void member(const vagus::Json& object, const char* key) {
+        const vagus::Json* json = object.find(key);
         if (!json) return;
         at_.emplace_back(key);
         if (json->kind == JsonKind::String && !json->text.empty()) {
@@ -21,8 +21,8 @@ public:
     }
     // Calls `look` with each item or member of a part of the object.
     template <typename Look>
-    void each(const Json& object, const char* key, const Look& look) {
-        const Json* json = object.find(key);
+    void each(const vagus::Json& object, const char* key, const Look& look) {
+        const vagus::Json* json = object.find(key);
         if (!json) return;
         at_.emplace_back(key);
         for (size_t i = 0; i < json->items.size(); ++i) {
@@ -37,15 +37,15 @@ public:
         }
         at_.pop_back();
     }
-    void inside(const Json& object, const char* key, const char* inner) {
-        const Json* json = object.find(key);
+    void inside(const vagus::Json& object, const char* key, const char* inner) {
+        const vagus::Json* json = object.find(key);
         if (!json) return;
         at_.emplace_back(key);
         member(*json, inner);
         at_.pop_back();
     }
-    void list(const Json& object, const char* key) {
-        each(object, key, [this](const Json& item) {
+    void list(const vagus::Json& object, const char* key) {
+        each(object, key, [this](const vagus::Json& item) {
             if (item.kind == JsonKind::String && !item.text.empty()) {
                 paths_.push_back({at_, item.text, {item.at.line, item.at.column}});
             }
@@ -64,16 +64,18 @@ std::vector<NamedPath> named_paths(const std::string& file, std::string_view tex
     const std::string kind = kind_of_file(file);
     if (kind != "project" && kind != "plan" && kind != "world" && kind != "toolbox") return paths;
     const auto read = read_json(text);
-    const Json* json = std::get_if<Json>(&read);
+    const vagus::Json* json = std::get_if<vagus::Json>(&read);
     if (!json) return paths;
     Collector collect(paths);
     if (kind == "project") {
         for (const char* key : {"plan", "world"}) collect.member(*json, key);
         for (const char* key : {"scripts", "toolboxes"}) collect.list(*json, key);
     } else if (kind == "plan") {
-        collect.each(*json, "actors", [&](const Json& actor) { collect.member(actor, "plan"); });
+        collect.each(*json, "actors",
+                     [&](const vagus::Json& actor) { collect.member(actor, "plan"); });
     } else if (kind == "world") {
-        collect.each(*json, "robots", [&](const Json& robot) { collect.member(robot, "script"); });
+        collect.each(*json, "robots",
+                     [&](const vagus::Json& robot) { collect.member(robot, "script"); });
         collect.inside(*json, "ground", "image");
     } else {
         collect.member(*json, "project");

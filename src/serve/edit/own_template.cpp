@@ -9,14 +9,6 @@ namespace vagus::serve {
 
 namespace {
 
-JsonMember text(std::string_view key, std::string_view value) {
-    return json_member(key, json_string(value));
-}
-
-JsonMember object(std::string_view key, std::vector<JsonMember> members) {
-    return json_member(key, json_object(std::move(members)));
-}
-
 // An actor counts signs of life of the plan, ten a second: no node lacks them, and no other handler
 // of the script is in the way.
 constexpr std::string_view kActor = R"(
@@ -102,26 +94,29 @@ std::vector<aesl::GlobalEvent> events_of(const OwnTemplate& of) {
     return events;
 }
 
-Json toolbox_entry(const OwnTemplate& of) {
+vagus::Json toolbox_entry(const OwnTemplate& of) {
     const std::string stem = stem_of(of);
     if (of.is_supervisor) {
         return json_object(
-            {text("kind", "supervisor"), text("help", of.help), text("node", of.node),
-             text("start", stem + ".watch"), text("stop", stem + ".unwatch"),
-             object("events", {object("Raised", {text("event", stem + ".raised")})})});
+            {json_member("kind", "supervisor"), json_member("help", of.help),
+             json_member("node", of.node), json_member("start", stem + ".watch"),
+             json_member("stop", stem + ".unwatch"),
+             json_member("events",
+                         {json_member("Raised", {json_member("event", stem + ".raised")})})});
     }
-    return json_object({text("kind", "actor"), text("help", of.help), text("node", of.node),
-                        text("start", stem + ".start"), text("stop", stem + ".stop"),
-                        text("stopped", stem + ".stopped"), text("alive", stem + ".alive"),
-                        object("states", {object("Done", {text("event", stem + ".done")})})});
+    return json_object(
+        {json_member("kind", "actor"), json_member("help", of.help), json_member("node", of.node),
+         json_member("start", stem + ".start"), json_member("stop", stem + ".stop"),
+         json_member("stopped", stem + ".stopped"), json_member("alive", stem + ".alive"),
+         json_member("states", {json_member("Done", {json_member("event", stem + ".done")})})});
 }
 
 std::string new_toolbox_file(const std::string& toolbox, const std::string& script,
                              const OwnTemplate& of) {
-    return format_json(
-        json_object({text("format", "vagus-toolbox/1"), text("name", toolbox),
-                     text("help", "Templates of this project."), text("project", script),
-                     object("templates", {json_member(of.name, toolbox_entry(of))})}));
+    return format_json(json_object(
+        {json_member("format", "vagus-toolbox/1"), json_member("name", toolbox),
+         json_member("help", "Templates of this project."), json_member("project", script),
+         json_member("templates", {json_member(of.name, toolbox_entry(of))})}));
 }
 
 FilledIn script_with(const std::string& script, const OwnTemplate& of) {

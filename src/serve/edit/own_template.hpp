@@ -23,7 +23,7 @@ std::string stem_of(const OwnTemplate& of);
 // To be declared, in this order.
 std::vector<aesl::GlobalEvent> events_of(const OwnTemplate& of);
 // The value of the member "templates": { "Blink": … } of a toolbox file.
-Json toolbox_entry(const OwnTemplate& of);
+vagus::Json toolbox_entry(const OwnTemplate& of);
 std::string new_toolbox_file(const std::string& toolbox, const std::string& script,
                              const OwnTemplate& of);
 

@@ -1,5 +1,7 @@
 #include "serve/edit/pattern.hpp"
 
+#include "base/text.hpp"
+
 #include <fmt/format.h>
 #include <re2/re2.h>
 
@@ -14,16 +16,11 @@ namespace {
 constexpr size_t kPartsAtOnce = 64;  // of an expression, that cost as much as one character
 constexpr size_t kNowhere = std::string_view::npos;
 
-// A byte of a character behind its first one.
-bool continues(char letter) {
-    return (static_cast<unsigned char>(letter) & 0xc0) == 0x80;
-}
-
 // Letters of other scripts count as parts of words, their typographic signs do not.
 bool is_word_at(std::string_view line, size_t at) {
     if (at >= line.size()) return false;
     size_t begin = at;
-    while (begin > 0 && continues(line[begin])) --begin;
+    while (begin > 0 && is_utf8_continuation(line[begin])) --begin;
     const auto byte = static_cast<unsigned char>(line[begin]);
     if (byte < 0x80) return byte == '_' || std::isalnum(byte) != 0;
     return !line.substr(begin).starts_with("\xe2\x80");  // U+2000 to U+203F: General Punctuation
@@ -78,7 +75,7 @@ std::optional<Pattern::Match> Pattern::find(std::string_view line, size_t from,
             match.to > match.from && (!options_.whole || is_whole(line, match.from, match.to));
         if (good) return match;
         from = match.from + 1;
-        while (from < line.size() && continues(line[from])) ++from;
+        while (from < line.size() && is_utf8_continuation(line[from])) ++from;
     }
     return std::nullopt;
 }

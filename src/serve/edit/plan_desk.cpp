@@ -13,7 +13,7 @@ namespace vagus::serve {
 namespace {
 
 // Of the protocol.
-constexpr size_t kNameMax = 256;
+constexpr size_t kShownNameMax = 256;
 constexpr size_t kCodeMax = 4 * 1024 * 1024;
 constexpr size_t kMarksMax = 20000;
 
@@ -31,9 +31,9 @@ std::optional<DocumentView> plan_of(const Call& call, Files& files) {
     return std::nullopt;
 }
 
-class PlanTexts final : public plan::Files {
+class OpenFiles final : public plan::Files {
 public:
-    explicit PlanTexts(serve::Files& files) : files_(files) {}
+    explicit OpenFiles(serve::Files& files) : files_(files) {}
     Result<std::string> read(const std::string& path) const override { return files_.text(path); }
 
 private:
@@ -97,7 +97,7 @@ void PlanDesk::check(const Call& call) {
 void PlanDesk::code(const Call& call) {
     if (!plan_of(call, files_)) return;
     const std::string doc = call.in["doc"];
-    const PlanTexts texts(files_);
+    const OpenFiles texts(files_);
     const plan::Library& library = findings_.toolboxes().library->templates();
     const plan::Checked checked = plan::check(doc, texts, library);
     if (!checked.ok()) {
@@ -108,7 +108,7 @@ void PlanDesk::code(const Call& call) {
                           {"findings", errors_of(plan_findings(checked.findings, text_of))}});
     }
     const plan::MarkedText code = plan::generate_code(checked, own_toolboxes(library));
-    call.done({{"name", line_of(checked.plans.front().name + ".cpp", kNameMax)},
+    call.done({{"name", line_of(checked.plans.front().name + ".cpp", kShownNameMax)},
                {"text", text_of(code.text(), kCodeMax)},
                {"marks", marks_of(code)},
                {"findings", nlohmann::json::array()}});

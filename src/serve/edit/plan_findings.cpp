@@ -62,7 +62,7 @@ private:
     void read() {
         read_ = true;
         const auto json = read_json(text_);
-        const auto* root = std::get_if<Json>(&json);
+        const auto* root = std::get_if<vagus::Json>(&json);
         if (!root) return;
         walk(*root, {});
         auto way = nlohmann::json::array();
@@ -70,8 +70,8 @@ private:
     }
 
     // A member is found by the place of its key, and by that of its value.
-    void note(const Json& json, nlohmann::json& way) {
-        const auto go = [&](nlohmann::json key, Place at, const Json& value) {
+    void note(const vagus::Json& json, nlohmann::json& way) {
+        const auto go = [&](nlohmann::json key, Place at, const vagus::Json& value) {
             way.push_back(std::move(key));
             keys_.try_emplace({at.line, at.column}, way);
             keys_.try_emplace({value.at.line, value.at.column}, way);
@@ -79,17 +79,17 @@ private:
             way.erase(way.size() - 1);
         };
         size_t index = 0;
-        for (const Json& item : json.items) go(index++, item.at, item);
+        for (const vagus::Json& item : json.items) go(index++, item.at, item);
         for (const JsonMember& member : json.members) go(member.key, member.at, member.value);
     }
 
     // A string is found at its own place, and at that of the key before it.
-    void walk(const Json& json, std::vector<Place> keys) {
+    void walk(const vagus::Json& json, std::vector<Place> keys) {
         if (json.kind == JsonKind::String) {
             keys.push_back(json.at);
             for (const Place& place : keys) add(place, json.at, json.raw, false);
         }
-        for (const Json& item : json.items) walk(item, keys);
+        for (const vagus::Json& item : json.items) walk(item, keys);
         for (const JsonMember& member : json.members) {
             add(member.at, member.at, member.raw_key, true);
             walk(member.value, {member.at});

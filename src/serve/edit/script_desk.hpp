@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "serve/json.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
 
@@ -13,8 +14,6 @@ namespace vagus::serve {
 
 class ScriptDesk {
 public:
-    using Json = nlohmann::json;
-
     // All borrowed.
     ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string epoch);
 

@@ -9,10 +9,9 @@
 #include "serve/edit/finding.hpp"
 #include "serve/edit/seen.hpp"
 #include "serve/edit/text_places.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "serve/edit/pattern.hpp"
+#include "serve/json.hpp"
 #include "serve/project/files.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
@@ -22,8 +23,6 @@ constexpr size_t kSpotsMax = 5000;
 
 class Search {
 public:
-    using Json = nlohmann::json;
-
     // All borrowed.
     Search(Desk& desk, Files& files, Scripts& scripts, std::string epoch);
 

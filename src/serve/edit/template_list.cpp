@@ -5,19 +5,18 @@
 #include "plan/formula_words.hpp"
 #include "plan/value.hpp"
 #include "serve/edit/text_places.hpp"
+#include "serve/json.hpp"
 #include "serve/plan_value.hpp"
 
 namespace vagus::serve {
 
-using Json = nlohmann::json;
-
 namespace {
 
 constexpr size_t kToolboxesMax = 200;
-constexpr size_t kTemplatesMax = 1000;  // of a toolbox
-constexpr size_t kPartsMax = 256;       // inputs, outputs, outcomes of a template
-constexpr size_t kStartsMax = 64;       // events that begin its work on nodes
-constexpr size_t kNameMax = 128;
+constexpr size_t kTemplatesMax = 1000;     // of a toolbox
+constexpr size_t kTemplatePartsMax = 256;  // inputs, outputs, outcomes of a template
+constexpr size_t kStartsMax = 64;          // events that begin its work on nodes
+constexpr size_t kTemplateNameMax = 128;
 constexpr size_t kUnitMax = 32;
 constexpr size_t kHelpMax = 1000;
 constexpr size_t kIconMax = 8192;
@@ -36,7 +35,7 @@ std::string_view type_of(const std::optional<plan::Type>& type) {
 }
 
 Json input_of(const plan::Input& input) {
-    Json json = {{"name", line_of(input.name, kNameMax)},
+    Json json = {{"name", line_of(input.name, kTemplateNameMax)},
                  {"type", type_of(input.type)},
                  {"unit", line_of(input.unit, kUnitMax)},
                  {"help", line_of(input.help, kHelpMax)}};
@@ -47,28 +46,30 @@ Json input_of(const plan::Input& input) {
 }
 
 Json output_of(const plan::OutputDeclaration& output) {
-    return {{"name", line_of(output.name, kNameMax)},
+    return {{"name", line_of(output.name, kTemplateNameMax)},
             {"type", type_of(output.type)},
             {"unit", line_of(output.unit, kUnitMax)},
             {"help", line_of(output.help, kHelpMax)}};
 }
 
 Json outcome_of(const plan::Outcome& outcome) {
-    return {{"name", line_of(outcome.name, kNameMax)}, {"help", line_of(outcome.help, kHelpMax)}};
+    return {{"name", line_of(outcome.name, kTemplateNameMax)},
+            {"help", line_of(outcome.help, kHelpMax)}};
 }
 
 Json template_of(const plan::Template& of) {
-    return {{"name", line_of(of.name, kNameMax)},
+    return {{"name", line_of(of.name, kTemplateNameMax)},
             {"kind", plan::name_of(of.kind)},
             {"help", line_of(of.help, kHelpMax)},
             // One that is too long is none: half a drawing would be a wrong one.
             {"icon", of.icon.size() <= kIconMax ? of.icon : ""},
-            {"inputs", list_of(of.inputs, kPartsMax, input_of)},
-            {"outputs", list_of(of.outputs, kPartsMax, output_of)},
-            {"outcomes", list_of(of.outcomes, kPartsMax, outcome_of)},
+            {"inputs", list_of(of.inputs, kTemplatePartsMax, input_of)},
+            {"outputs", list_of(of.outputs, kTemplatePartsMax, output_of)},
+            {"outcomes", list_of(of.outcomes, kTemplatePartsMax, outcome_of)},
             {"period_ms", of.period_ms},
-            {"starts", list_of(of.bus.starts, kStartsMax,
-                               [](const std::string& event) { return line_of(event, kNameMax); })}};
+            {"starts", list_of(of.bus.starts, kStartsMax, [](const std::string& event) {
+                 return line_of(event, kTemplateNameMax);
+             })}};
 }
 
 Json word_of(std::string_view name, std::string_view is, std::string_view form,
@@ -100,7 +101,7 @@ Json template_list(const plan::Library& of) {
     return {{"toolboxes", list_of(of.toolboxes(), kToolboxesMax,
                                   [](const plan::Toolbox& toolbox) {
                                       return Json{
-                                          {"name", line_of(toolbox.name, kNameMax)},
+                                          {"name", line_of(toolbox.name, kTemplateNameMax)},
                                           {"help", line_of(toolbox.help, kHelpMax)},
                                           {"templates",
                                            list_of(toolbox.templates, kTemplatesMax, template_of)}};

@@ -13,16 +13,8 @@ namespace {
 
 using Members = std::vector<JsonMember>;
 
-JsonMember text(std::string_view key, std::string_view value) {
-    return json_member(key, json_string(value));
-}
-
-JsonMember object(std::string_view key, Members members) {
-    return json_member(key, json_object(std::move(members)));
-}
-
-Json number(std::string_view written) {
-    Json json;
+vagus::Json number(std::string_view written) {
+    vagus::Json json;
     json.kind = JsonKind::Float;
     json.text = written;
     return json;
@@ -66,33 +58,37 @@ std::string new_script(const NewNode& node) {
 }
 
 std::string new_plan(std::string_view name) {
-    const Members wait = {text("template", "Wait"), object("in", {text("seconds", "1")}),
-                          object("states", {text("Done", "@terminate")})};
-    return format_json(json_object({text("format", "vagus-plan/1"), text("name", name),
-                                    object("start", {text("actor", "wait")}),
-                                    object("actors", {object("wait", wait)})}));
+    const Members wait = {json_member("template", "Wait"),
+                          json_member("in", {json_member("seconds", "1")}),
+                          json_member("states", {json_member("Done", "@terminate")})};
+    return format_json(
+        json_object({json_member("format", "vagus-plan/1"), json_member("name", name),
+                     json_member("start", {json_member("actor", "wait")}),
+                     json_member("actors", {json_member("wait", wait)})}));
 }
 
 std::string new_world(std::string_view name) {
-    const Json robot = json_object({text("name", "thymio"), text("type", "thymio2"),
-                                    json_member("at", json_array({number("0.5"), number("0.5")}))});
+    const vagus::Json robot =
+        json_object({json_member("name", "thymio"), json_member("type", "thymio2"),
+                     json_member("at", json_array({number("0.5"), number("0.5")}))});
     return format_json(json_object(
-        {text("format", "vagus-world/1"), text("name", name),
+        {json_member("format", "vagus-world/1"), json_member("name", name),
          json_member("size", json_array({json_integer(2), number("1.5")})),
          json_member("objects", json_array({})), json_member("robots", json_array({robot}))}));
 }
 
 std::string new_toolbox(const std::string& name, const std::string& script, const NewNode& node) {
-    const Members work = {text("kind", "actor"),
-                          text("help", "What it does."),
-                          text("node", node.name),
-                          text("start", name + ".start"),
-                          text("stop", name + ".stop"),
-                          text("stopped", name + ".stopped"),
-                          object("states", {object("Done", {text("event", name + ".done")})})};
-    return format_json(
-        json_object({text("format", "vagus-toolbox/1"), text("name", name), text("project", script),
-                     object("templates", {object("Work", work)})}));
+    const Members work = {
+        json_member("kind", "actor"),
+        json_member("help", "What it does."),
+        json_member("node", node.name),
+        json_member("start", name + ".start"),
+        json_member("stop", name + ".stop"),
+        json_member("stopped", name + ".stopped"),
+        json_member("states", {json_member("Done", {json_member("event", name + ".done")})})};
+    return format_json(json_object({json_member("format", "vagus-toolbox/1"),
+                                    json_member("name", name), json_member("project", script),
+                                    json_member("templates", {json_member("Work", work)})}));
 }
 
 std::string new_toolbox_script(const std::string& name, const NewNode& node) {

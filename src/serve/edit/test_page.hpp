@@ -15,6 +15,7 @@
 #include "base/file.hpp"
 #include "base/test_folder.hpp"
 #include "serve/edit/editing.hpp"
+#include "serve/json.hpp"
 #include "session/known_nodes.hpp"
 
 namespace vagus::serve {
@@ -29,7 +30,6 @@ constexpr std::string_view kTwoNodes =
 
 class EditTest : public testing::Test {
 protected:
-    using Json = nlohmann::json;
     static constexpr const char* kToken = "0123456789abcdef";
     static constexpr const char* kEpoch = "e1";
 

@@ -2,24 +2,17 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "serve/project/utf16.hpp"
 
 namespace vagus::serve {
-
-namespace {
-
-bool continues(char letter) {
-    return (static_cast<unsigned char>(letter) & 0xc0) == 0x80;
-}
-
-}  // namespace
 
 TextPlaces::TextPlaces(std::string_view text) : text_(text) {
     lines_.push_back({});
     size_t unit = 0;
     for (size_t at = 0; at < text.size(); ++at) {
         const auto letter = static_cast<unsigned char>(text[at]);
-        if (!continues(text[at])) unit += letter >= 0xf0 ? 2 : 1;
+        if (!is_utf8_continuation(text[at])) unit += letter >= 0xf0 ? 2 : 1;
         if (text[at] == '\n') lines_.push_back({at + 1, unit});
     }
 }
@@ -41,7 +34,7 @@ size_t TextPlaces::byte_of(aesl::Position at) const {
     size_t byte = 0;
     for (int column = 1; column < at.column && byte < text.size(); ++column) {
         ++byte;
-        while (byte < text.size() && continues(text[byte])) ++byte;
+        while (byte < text.size() && is_utf8_continuation(text[byte])) ++byte;
     }
     return lines_[number - 1].byte + byte;
 }
@@ -63,7 +56,7 @@ aesl::Position TextPlaces::position_of(size_t byte) const {
     const size_t line = line_at(byte);
     int column = 1;
     for (size_t at = lines_[line].byte; at < byte; ++at) {
-        if (!continues(text_[at])) ++column;
+        if (!is_utf8_continuation(text_[at])) ++column;
     }
     return {static_cast<int>(line) + 1, column};
 }
@@ -71,7 +64,7 @@ aesl::Position TextPlaces::position_of(size_t byte) const {
 void PlaceCursor::walk_to(size_t byte) {
     for (; byte_ < byte && byte_ < text_.size(); ++byte_) {
         const char letter = text_[byte_];
-        if (continues(letter)) continue;
+        if (is_utf8_continuation(letter)) continue;
         unit_ += static_cast<unsigned char>(letter) >= 0xf0 ? 2 : 1;
         at_ = letter == '\n' ? aesl::Position{at_.line + 1, 1}
                              : aesl::Position{at_.line, at_.column + 1};
@@ -102,7 +95,7 @@ std::string_view line_at(std::string_view text, size_t line) {
 std::string text_of(std::string_view text, size_t bytes_max) {
     if (text.size() <= bytes_max) return std::string(text);
     size_t size = bytes_max;
-    while (size > 0 && continues(text[size])) --size;
+    while (size > 0 && is_utf8_continuation(text[size])) --size;
     return std::string(text.substr(0, size));
 }
 

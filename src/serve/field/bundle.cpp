@@ -13,6 +13,7 @@
 #include "base/project_border.hpp"
 #include "serve/edit/edited_project.hpp"
 #include "serve/edit/named_paths.hpp"
+#include "serve/json.hpp"
 #include "serve/project/files.hpp"
 #include "serve/project/paths.hpp"
 #include "serve/workbench/opened.hpp"
@@ -20,7 +21,6 @@
 namespace vagus::serve {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace {
 

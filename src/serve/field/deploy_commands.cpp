@@ -3,10 +3,9 @@
 #include <algorithm>
 
 #include "serve/base64.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

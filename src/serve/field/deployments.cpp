@@ -9,7 +9,6 @@
 namespace vagus::serve {
 
 namespace fs = std::filesystem;
-using Result = DeployOutcome::Result;
 
 namespace {
 
@@ -130,11 +129,12 @@ void Deployments::refuse(const std::string& why, std::vector<Finding> findings) 
     ++counts_.refused;
     bundle_.reset();
     versions_.forget_incoming();
-    finish({Result::Refused, versions_.current(), std::move(findings), why});
+    finish({DeployOutcome::Result::Refused, versions_.current(), std::move(findings), why});
 }
 
 void Deployments::commit(Done done) {
-    if (busy() || trying_) return done({Result::Refused, versions_.current(), {}, kBusy});
+    if (busy() || trying_)
+        return done({DeployOutcome::Result::Refused, versions_.current(), {}, kBusy});
     done_ = std::move(done);
     if (!bundle_) return refuse(kNothingBegun);
     if (file_ < bundle_->files.size()) {
@@ -196,7 +196,8 @@ void Deployments::in_force(Trying next, const Status& switched) {
 }
 
 void Deployments::back(Done done) {
-    if (busy() || trying_) return done({Result::Refused, versions_.current(), {}, kBusy});
+    if (busy() || trying_)
+        return done({DeployOutcome::Result::Refused, versions_.current(), {}, kBusy});
     done_ = std::move(done);
     const uint32_t from = versions_.current();
     if (from == 0) return refuse("the folder as it was given is in force; nothing is before it");
@@ -235,7 +236,7 @@ void Deployments::give_up(const std::string& why) {
     if (trying_->if_not == IfNot::GoBack) return roll_back(why);
     const uint32_t version = trying_->version;
     trying_.reset();
-    finish({Result::Waiting, version, {}, why});
+    finish({DeployOutcome::Result::Waiting, version, {}, why});
 }
 
 void Deployments::tried() {
@@ -250,7 +251,7 @@ void Deployments::tried() {
             return Status::done();
         },
         [this, version](const Status&) {
-            finish({Result::Started, version, {}, robot_.plan()});
+            finish({DeployOutcome::Result::Started, version, {}, robot_.plan()});
         });
 }
 
@@ -278,7 +279,7 @@ void Deployments::rolled_back(const Status& back, const std::string& why) {
     } else {
         robot_.log("error", opened.error().what);
     }
-    finish({Result::RolledBack, versions_.current(), {}, why});
+    finish({DeployOutcome::Result::RolledBack, versions_.current(), {}, why});
 }
 
 // A person's Stop counts more than any version: nothing starts by itself after it.
@@ -293,7 +294,10 @@ void Deployments::stopped() {
             return Status::done();
         },
         [this, version](const Status&) {
-            finish({Result::Stopped, version, {}, "somebody pressed Stop before it ran"});
+            finish({DeployOutcome::Result::Stopped,
+                    version,
+                    {},
+                    "somebody pressed Stop before it ran"});
         });
 }
 

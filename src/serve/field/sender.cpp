@@ -7,10 +7,9 @@
 #include "base/file.hpp"
 #include "serve/base64.hpp"
 #include "serve/field/bundle.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

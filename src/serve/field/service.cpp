@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/time.hpp"
 #include "net/service_manager.hpp"
 #include "serve/field/check.hpp"
 #include "serve/field/deploy_commands.hpp"
@@ -28,10 +29,6 @@ constexpr const char* kServesOneProject =
     "this robot serves one project on one target, from its boot on; `vagus deploy` sends it "
     "another "
     "version, `vagus serve` starts it with another project";
-
-double seconds(Duration duration) {
-    return std::chrono::duration<double>(duration).count();
-}
 
 class Service {
 public:
@@ -174,7 +171,7 @@ private:
         const ServiceFigures service{.version = VAGUS_VERSION,
                                      .ready = ready(),
                                      .missing = bench().missing_nodes().size(),
-                                     .late_worst = seconds(server_.take_late_worst()),
+                                     .late_worst = seconds_of(server_.take_late_worst()),
                                      .deployed = versions_.current(),
                                      .deployments = counts.started,
                                      .refused = counts.refused,

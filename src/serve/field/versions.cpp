@@ -8,12 +8,12 @@
 
 #include "base/file.hpp"
 #include "base/folder.hpp"
+#include "serve/json.hpp"
 #include "serve/project/paths.hpp"
 
 namespace vagus::serve {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace {
 

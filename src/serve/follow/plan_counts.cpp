@@ -1,11 +1,12 @@
 #include "serve/follow/plan_counts.hpp"
 
+#include "base/time.hpp"
+#include "serve/json.hpp"
+
 namespace vagus::serve {
 
-using Json = nlohmann::json;
-
 void PlanCounts::see(const plan::TraceEvent& event) {
-    const double t = std::chrono::duration<double>(event.at).count();
+    const double t = seconds_of(event.at);
     Instance& one = instances_[event.plan];
     if (std::holds_alternative<plan::PlanStarted>(event.what)) {
         one.active.clear();

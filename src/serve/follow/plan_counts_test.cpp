@@ -1,12 +1,13 @@
 #include "serve/follow/plan_counts.hpp"
 
+#include "serve/json.hpp"
+
 #include <gtest/gtest.h>
 
 namespace vagus::serve {
 namespace {
 
 using namespace std::chrono_literals;
-using Json = nlohmann::json;
 
 // go for 2 s, touched after 1 s more in its second turn.
 PlanCounts counted() {

@@ -5,22 +5,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.hpp"
+#include "base/time.hpp"
+#include "serve/json.hpp"
 #include "serve/plan_value.hpp"
 
 namespace vagus::serve {
 
-using Json = nlohmann::json;
-
 namespace {
-
-double seconds(Time at) {
-    return std::chrono::duration<double>(at).count();
-}
 
 std::string shortened(std::string_view text) {
     if (text.size() <= kShownTextMax) return std::string(text);
     size_t end = kShownTextMax;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+    while (end > 0 && is_utf8_continuation(text[end])) --end;
     return std::string(text.substr(0, end)) + "…";
 }
 
@@ -82,7 +79,7 @@ void PlanFollower::stand_at(const run::Where& where) {
     for (const run::LevelNow& now : where.levels) {
         Level& level = level_at(now.path);
         if (level.activation == now.activation) continue;
-        enter(level, now.actor, now.activation, seconds(where.at));
+        enter(level, now.actor, now.activation, seconds_of(where.at));
     }
 }
 
@@ -101,7 +98,7 @@ void PlanFollower::change(Plans plans) {
 }
 
 void PlanFollower::see(const plan::TraceEvent& event) {
-    const double t = seconds(event.at);
+    const double t = seconds_of(event.at);
     Level& level = level_at(event.plan);
     counts_.see(event);
     if (const auto* start = std::get_if<plan::ActorStarted>(&event.what)) {

@@ -1,10 +1,10 @@
 #include "serve/history/event_past.hpp"
 
+#include "serve/json.hpp"
+
 #include <algorithm>
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

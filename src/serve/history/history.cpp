@@ -1,11 +1,11 @@
 #include "serve/history/history.hpp"
 
+#include "serve/json.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -19,6 +19,7 @@
 #include "serve/history/event_past.hpp"
 #include "serve/history/plan_past.hpp"
 #include "serve/history/tape.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
 
@@ -30,7 +31,6 @@ constexpr size_t kInstantEvents = 2000;
 
 class History {
 public:
-    using Json = nlohmann::json;
     struct Beginning {
         uint64_t run = 0;                // tells runs apart
         std::string kind = "simulated";  // or "bus", "trace"

@@ -6,11 +6,10 @@
 #include <array>
 
 #include "plan/file.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr const char* kPlan = R"({"format":"vagus-plan/1","name":"Walk",
   "configuration":{"steps":{"type":"int","initial":3}},

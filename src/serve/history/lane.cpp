@@ -1,12 +1,12 @@
 #include "serve/history/lane.hpp"
 
+#include "serve/json.hpp"
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -6,10 +6,9 @@
 #include "embed/loaded_plan.hpp"
 #include "plan/check.hpp"
 #include "plan/file.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 PlanPast::PlanPast(Plans plans, DocOf doc_of, double seconds)
     : plans_(std::make_shared<const Plans>(std::move(plans))),

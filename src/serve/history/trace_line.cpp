@@ -4,11 +4,10 @@
 
 #include <cmath>
 
+#include "serve/json.hpp"
 #include "serve/plan_value.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -2,15 +2,9 @@
 // stands while the plan is held.
 #pragma once
 
-#include <chrono>
-
 #include "base/time.hpp"
 
 namespace vagus::serve {
-
-inline double seconds(Time at) {
-    return std::chrono::duration<double>(at).count();
-}
 
 class BusClock {
 public:
@@ -23,7 +17,7 @@ public:
         if (!held) passed_ += wall - counted_at_;
         counted_at_ = wall;
     }
-    double now() const { return seconds(passed_); }
+    double now() const { return seconds_of(passed_); }
 
 private:
     Duration passed_{};

@@ -1,17 +1,18 @@
 #include "serve/host/plan_held.hpp"
 
+#include "base/time.hpp"
+#include "serve/json.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
 namespace vagus::serve {
 
-using Json = nlohmann::json;
-
 namespace {
 
 Json json_of(const run::HeldEvent& one, double since) {
-    const double after = std::chrono::duration<double>(one.after).count();
+    const double after = seconds_of(one.after);
     return {{"number", one.number},   {"t", since},
             {"after", after},         {"node", one.event.from},
             {"name", one.event.name}, {"args", one.event.arguments}};

@@ -12,6 +12,7 @@
 
 #include "run/held_events.hpp"
 #include "serve/host/plan_talk.hpp"
+#include "serve/json.hpp"
 #include "serve/talk/orders.hpp"
 
 namespace vagus::serve {
@@ -23,8 +24,6 @@ constexpr const char* kPlanDoesNotStand =
 
 class PlanHeld {
 public:
-    using Json = nlohmann::json;
-
     // Asks what waits, once what was asked before is answered.
     void tend(PlanTalk& talk);
     // No plan runs.

@@ -9,13 +9,13 @@
 #include "run/surroundings.hpp"
 #include "run/virtual_time.hpp"
 #include "serve/host/plan_stops.hpp"
+#include "serve/json.hpp"
 #include "toolbox/core.hpp"
 
 namespace vagus::serve {
 namespace {
 
 using namespace std::chrono_literals;
-using Json = nlohmann::json;
 
 // `a` waits for go, then `b` for on.
 constexpr const char* kTwo = R"({

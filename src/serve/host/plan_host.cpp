@@ -4,10 +4,9 @@
 
 #include "plan/trace.hpp"
 #include "serve/host/bus_clock.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

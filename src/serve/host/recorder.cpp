@@ -1,5 +1,7 @@
 #include "serve/host/recorder.hpp"
 
+#include "base/time.hpp"
+
 #include <cmath>
 #include <utility>
 
@@ -21,7 +23,7 @@ void Recorder::look(const sim::World& world) {
     const auto slower = static_cast<Duration::rep>(words_.size() / kRecordedNodes + 1);
     next_ = world.now() + kRecordEvery * slower;
     const bool whole = words_.empty() && things_.empty();
-    writer_.begin(std::chrono::duration<double>(world.now()).count());
+    writer_.begin(seconds_of(world.now()));
     look_at_nodes(world);
     look_at_things(world);
     look_at_loads(world);

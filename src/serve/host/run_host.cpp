@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "base/time.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/prepared_run.hpp"
 #include "serve/host/bus_clock.hpp"
@@ -263,7 +264,7 @@ private:
 
     double run_time() const {
         if (plan_.is_on_bus()) return bus_clock_.now();
-        return session_ ? seconds(session_->now()) : 0;
+        return session_ ? seconds_of(session_->now()) : 0;
     }
 
     // ---- time ----
@@ -334,7 +335,7 @@ private:
     }
 
     void tell_clock() {
-        talk::Clock clock{.t = seconds(session_->now()),
+        talk::Clock clock{.t = seconds_of(session_->now()),
                           .paused = pacer_.held(),
                           .real = pacer_.real(wall_now())};
         if (const auto load = session_->world().bus_load()) {

@@ -3,11 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "serve/json.hpp"
 #include "sim/camera.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

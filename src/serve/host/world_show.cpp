@@ -1,5 +1,6 @@
 #include "serve/host/world_show.hpp"
 
+#include "base/time.hpp"
 #include "serve/host/bus_clock.hpp"
 #include "serve/host/scene.hpp"
 
@@ -8,7 +9,7 @@ namespace vagus::serve {
 void WorldShow::tell_frames(session::SimSession& session, hub::LinkId link) {
     wire::Frame frame;
     while (session.world().bus().take(link, frame)) {
-        teller_.tell(talk::FrameSeen{seconds(session.now()), {frame}});
+        teller_.tell(talk::FrameSeen{seconds_of(session.now()), {frame}});
     }
 }
 
@@ -25,7 +26,7 @@ void WorldShow::tell_records() {
 }
 
 void WorldShow::tell_poses(const session::SimSession& session) {
-    const double t = seconds(session.now());
+    const double t = seconds_of(session.now());
     teller_.tell(talk::Poses{t, {poses_of(session.world())}});
     if (wanted_.rays) teller_.tell(talk::Rays{t, {rays_of(session.world())}});
 }
@@ -42,7 +43,7 @@ void WorldShow::tell_pictures(const session::SimSession& session) {
         const auto robot = session.world().find_robot(name);
         std::string picture = robot ? picture_of(session.world(), *robot) : "";
         if (picture.empty()) continue;
-        teller_.tell(talk::Picture{seconds(session.now()), name, {std::move(picture)}});
+        teller_.tell(talk::Picture{seconds_of(session.now()), name, {std::move(picture)}});
     }
 }
 

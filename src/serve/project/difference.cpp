@@ -1,5 +1,7 @@
 #include "serve/project/difference.hpp"
 
+#include "base/text.hpp"
+
 #include <algorithm>
 
 namespace vagus::serve {
@@ -11,7 +13,7 @@ using Lines = std::vector<std::string_view>;
 constexpr int kLineStepsMax = 400;  // lines put in and taken out that are looked for singly
 
 bool continues(std::string_view text, size_t at) {
-    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
+    return at < text.size() && is_utf8_continuation(text[at]);
 }
 
 // The shortest way from one list of lines to the other (Myers 1986): furthest_[d] holds how far

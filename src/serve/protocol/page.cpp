@@ -38,7 +38,7 @@ std::string text_of(const Type& type) {
             return fmt::format("text, {} bytes at most", type.size_max);
         case Type::Kind::Word:
             return words_text(type.words);
-        case Type::Kind::Json:
+        case Type::Kind::Any:
             return "any JSON";
         case Type::Kind::List:
             return fmt::format("list of {}, {} at most", text_of(*type.item), type.size_max);

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "base/nearest.hpp"
+#include "serve/json.hpp"
 #include "serve/protocol/depth.hpp"
 
 namespace vagus::serve {
@@ -14,7 +15,6 @@ extern const std::string_view kProtocolText;  // protocol_text.cpp, made from pr
 
 namespace {
 
-using Json = nlohmann::json;
 using Ordered = nlohmann::ordered_json;
 
 template <typename T>

@@ -5,11 +5,11 @@
 
 #include "base/file.hpp"
 #include "base/test_places.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
 namespace {
 
-using Json = nlohmann::json;
 using testing::HasSubstr;
 
 std::string refused(const std::string& message) {

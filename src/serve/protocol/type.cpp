@@ -9,12 +9,11 @@
 
 #include "base/nearest.hpp"
 #include "base/text.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
 
 namespace {
-
-using Json = nlohmann::json;
 
 // Reads one type from the front of a text.
 class TypeReader {
@@ -97,7 +96,7 @@ private:
         if (name == "bool") {
             type.kind = Type::Kind::Bool;
         } else if (name == "json") {
-            type.kind = Type::Kind::Json;
+            type.kind = Type::Kind::Any;
         } else if (name == "line" || name == "text") {
             type.kind = name == "line" ? Type::Kind::Line : Type::Kind::Text;
             if (!take('(')) return wrong("expected the most bytes");
@@ -251,7 +250,7 @@ Result<Field> parse_field(std::string_view name, std::string_view text) {
 std::optional<std::string> fault_of(const Json& value, const Type& type, const Types& types,
                                     const std::string& place) {
     switch (type.kind) {
-        case Type::Kind::Json:
+        case Type::Kind::Any:
             return std::nullopt;
         case Type::Kind::Bool:
             if (value.is_boolean()) return std::nullopt;

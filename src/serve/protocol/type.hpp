@@ -24,8 +24,8 @@ constexpr size_t kTypeDepthMax = 32;  // of types inside each other, and of valu
 struct Field;
 
 struct Type {
-    enum class Kind { Bool, Int, Number, Line, Text, Word, Json, List, Map, Fields, Named };
-    Kind kind = Kind::Json;
+    enum class Kind { Bool, Int, Number, Line, Text, Word, Any, List, Map, Fields, Named };
+    Kind kind = Kind::Any;
     double low = 0, high = 0;          // Int, Number
     size_t size_max = 0;               // Line, Text: bytes; List, Map: items
     std::vector<std::string> words;    // Word

@@ -1,5 +1,7 @@
 #include "serve/robot/breakpoints.hpp"
 
+#include "serve/json.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +11,6 @@
 namespace vagus::serve {
 
 static constexpr int kLineMax = 10'000'000;  // as the protocol has it
-
-using Json = nlohmann::json;
 
 ScriptBreakpoint* ScriptBreakpoints::find(const std::string& doc, int line) {
     for (ScriptBreakpoint& one : all_) {

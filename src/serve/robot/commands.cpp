@@ -4,11 +4,10 @@
 #include <algorithm>
 
 #include "debug/condition.hpp"
+#include "serve/json.hpp"
 #include "serve/robot/robot.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -4,12 +4,11 @@
 #include <algorithm>
 
 #include "aesl/mentions.hpp"
+#include "serve/json.hpp"
 #include "serve/robot/known_variables.hpp"
 #include "serve/robot/robot.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

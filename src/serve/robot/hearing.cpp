@@ -5,9 +5,9 @@
 
 #include "serve/robot/robot.hpp"
 
-namespace vagus::serve {
+#include "serve/json.hpp"
 
-using Json = nlohmann::json;
+namespace vagus::serve {
 
 void Robot::happen(const char* kind, uint16_t node, const std::string& name,
                    const std::string& text, const std::vector<int16_t>& args) {

@@ -1,12 +1,13 @@
 #include "serve/robot/robot.hpp"
 
+#include "base/time.hpp"
+#include "serve/json.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 
@@ -460,7 +461,7 @@ Time Robot::next_tick() const {
 
 void Robot::count_rates(Time now) {
     if (now < rates_at_ + kRatesEvery) return;
-    const double seconds = std::chrono::duration<double>(now - rates_at_).count();
+    const double seconds = seconds_of(now - rates_at_);
     events_a_second_ = static_cast<double>(events_ - events_before_) / seconds;
     events_before_ = events_;
     rates_at_ = now;

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "debug/network.hpp"
+#include "serve/json.hpp"
 #include "serve/robot/breakpoints.hpp"
 #include "serve/robot/carrier.hpp"
 #include "serve/robot/dropped_events.hpp"
@@ -91,8 +92,6 @@ std::optional<aesl::Target> target_among(const std::vector<DescribedNode>& nodes
 
 class Robot {
 public:
-    using Json = nlohmann::json;
-
     // All borrowed. Declares its commands and topics at the desk.
     Robot(Desk& desk, Files& files, Scripts& scripts, ScriptBreakpoints& breakpoints);
     ~Robot();

@@ -1,5 +1,7 @@
 #include "serve/robot/stopping.hpp"
 
+#include "serve/json.hpp"
+
 #include <algorithm>
 
 namespace vagus::serve {
@@ -23,7 +25,6 @@ const char* word_of(State state) {
 }
 
 nlohmann::json answer_of(const StopReport& report) {
-    using Json = nlohmann::json;
     Json answer = {{"stood", Json::array()}, {"nodes", Json::array()}};
     for (const StopNode& one : report.nodes) {
         answer["nodes"].push_back(

@@ -14,6 +14,7 @@
 
 #include "base/test_folder.hpp"
 #include "hub/hub.hpp"
+#include "serve/json.hpp"
 #include "serve/robot/robot.hpp"
 #include "session/software_node.hpp"
 
@@ -123,7 +124,6 @@ private:
 
 class RobotTest : public testing::Test {
 protected:
-    using Json = nlohmann::json;
     static constexpr uint16_t kDrive = 1, kBumper = 2;
 
     RobotTest()

@@ -4,9 +4,9 @@
 
 #include "serve/robot/robot.hpp"
 
-namespace vagus::serve {
+#include "serve/json.hpp"
 
-using Json = nlohmann::json;
+namespace vagus::serve {
 
 namespace {
 

@@ -1,12 +1,12 @@
 #include "serve/run/flows.hpp"
 
+#include "serve/json.hpp"
+
 #include <array>
 #include <cstring>
 #include <utility>
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -1,10 +1,10 @@
 #include "serve/run/hand_order.hpp"
 
+#include "serve/json.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 
@@ -19,14 +19,14 @@ HandOrder move_of(const Json& in) {
     return talk::MoveRobot{0, in["robot"], point_of(in["at"]), angle};
 }
 
-talk::ObjectKind kind_of(const std::string& word) {
+talk::ObjectKind object_kind_of(const std::string& word) {
     if (word == "wall") return talk::ObjectKind::Wall;
     return word == "box" ? talk::ObjectKind::Box : talk::ObjectKind::Cylinder;
 }
 
 talk::PutObject put_of(const Json& in) {
     talk::PutObject put;
-    put.kind = kind_of(in["kind"]);
+    put.kind = object_kind_of(in["kind"]);
     put.at = point_of(in["at"]);
     put.angle = in.value("angle", put.angle);
     if (in.contains("size")) put.size = point_of(in["size"]);

@@ -1,18 +1,18 @@
 #include "serve/run/plan_breakpoints.hpp"
 
+#include "serve/json.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace vagus::serve {
 
-using Json = nlohmann::json;
-
 namespace {
 
 constexpr auto& kKinds = talk::Words<talk::BreakpointKind>::kAll;
 
-talk::BreakpointKind kind_of(const std::string& word) {
+talk::BreakpointKind breakpoint_kind_of(const std::string& word) {
     const auto found = std::find(std::begin(kKinds), std::end(kKinds), word);
     return static_cast<talk::BreakpointKind>(found - std::begin(kKinds));
 }
@@ -84,7 +84,7 @@ std::vector<talk::Breakpoint> PlanBreakpoints::orders(
     for (const PlanBreakpoint& one : all_) {
         list.push_back({.number = one.number,
                         .plan = path_of(one.doc),
-                        .kind = kind_of(one.kind),
+                        .kind = breakpoint_kind_of(one.kind),
                         .element = one.element,
                         .outcome = one.outcome,
                         .condition = one.condition,

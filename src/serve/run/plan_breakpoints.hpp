@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "serve/json.hpp"
 #include "serve/talk/news.hpp"
 #include "serve/talk/orders.hpp"
 
@@ -34,8 +35,6 @@ struct PlanBreakpoint {
 
 class PlanBreakpoints {
 public:
-    using Json = nlohmann::json;
-
     const std::vector<PlanBreakpoint>& all() const { return all_; }
     // A new one, or the one there is: by its number, else by place (a condition by its text).
     Result<PlanBreakpoint*> set(const PlanBreakpoint& wanted);

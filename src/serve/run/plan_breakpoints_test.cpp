@@ -1,11 +1,11 @@
 #include "serve/run/plan_breakpoints.hpp"
 
+#include "serve/json.hpp"
+
 #include <gtest/gtest.h>
 
 namespace vagus::serve {
 namespace {
-
-using Json = nlohmann::json;
 
 PlanBreakpoint at_actor(const std::string& actor) {
     PlanBreakpoint one;

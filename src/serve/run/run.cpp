@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "serve/json.hpp"
 #include "serve/plan_value.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "serve/json.hpp"
 #include "serve/process.hpp"
 #include "serve/robot/carrier.hpp"
 #include "serve/run/flows.hpp"
@@ -55,7 +56,6 @@ StartRunProcess start_run_host(std::string program);
 
 class Run final : public Carrier {
 public:
-    using Json = nlohmann::json;
     enum class State { None, Running, Paused, Hanging, Dead };
 
     // Declares the topics clock, plan, held, scene, poses, rays, picture.

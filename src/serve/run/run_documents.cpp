@@ -1,9 +1,9 @@
 // What pages see of a run: its clock, its plan, what stands in its world.
 #include "serve/run/run.hpp"
 
-namespace vagus::serve {
+#include "serve/json.hpp"
 
-using Json = nlohmann::json;
+namespace vagus::serve {
 
 void Run::declare_topics() {
     Board& board = desk_.board();

@@ -4,12 +4,12 @@
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 
+#include "serve/json.hpp"
 #include "serve/talk/codec.hpp"
 
 namespace vagus::serve {
 namespace {
 
-using Json = nlohmann::json;
 using testing::HasSubstr;
 
 // Without a process behind it: the test holds the other end of its pipe.

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "serve/json.hpp"
 #include "serve/studio/merge_patch.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

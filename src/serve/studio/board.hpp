@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "serve/json.hpp"
 #include "serve/protocol/protocol.hpp"
 #include "serve/web/server.hpp"
 
@@ -39,7 +40,6 @@ public:
 
 class Board {
 public:
-    using Json = nlohmann::json;
     using MakeDocument = std::function<Json(const Json& of)>;
     using OpenBinary = std::function<std::unique_ptr<BinaryWatch>(const Json& of)>;
     using Send = std::function<void(ClientId, bool binary, std::string bytes)>;

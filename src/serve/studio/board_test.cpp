@@ -4,13 +4,13 @@
 
 #include <cstring>
 
+#include "serve/json.hpp"
 #include "serve/studio/merge_patch.hpp"
 
 namespace vagus::serve {
 namespace {
 
 using namespace std::chrono_literals;
-using Json = nlohmann::json;
 
 constexpr ClientId kPage{1}, kOther{2};
 

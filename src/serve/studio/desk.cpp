@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "base/time.hpp"
+#include "serve/json.hpp"
 #include "serve/studio/answer_text.hpp"
 #include "serve/thrown.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 
@@ -60,7 +60,7 @@ void Desk::command(const std::string& name, std::function<void(const Call&)> obe
     commands_[name] = std::move(obey);
 }
 
-Desk::Json Desk::people() const {
+Json Desk::people() const {
     const Clients::Member* driver = clients_.driver();
     Json people = {{"version", VAGUS_VERSION},
                    {"driver", driver ? driver->number : 0},
@@ -194,7 +194,7 @@ void Desk::take(ClientId client, Connection& connection, const Message& message,
 }
 
 bool Desk::within_rate(Connection& connection, Time now) const {
-    const double passed = std::chrono::duration<double>(now - connection.allowance_at).count();
+    const double passed = seconds_of(now - connection.allowance_at);
     connection.allowance_at = now;
     connection.allowance =
         std::min(connection.allowance + passed * allowance_max() / kBurstSeconds, allowance_max());

@@ -17,6 +17,7 @@
 
 #include "base/result.hpp"
 #include "serve/access.hpp"
+#include "serve/json.hpp"
 #include "serve/studio/board.hpp"
 #include "serve/studio/calm_log.hpp"
 #include "serve/studio/clients.hpp"
@@ -34,7 +35,6 @@ constexpr double kUntilAheadMax = 1000;  // ms by which a page may take our cloc
 // connection meanwhile.
 class Call {
 public:
-    using Json = nlohmann::json;
     using Outcome = std::variant<Json, Problem>;
     Call(Json its_in, uint32_t its_member, std::function<void(Outcome)> answer)
         : in(std::move(its_in)), member(its_member), answer_(std::move(answer)) {}
@@ -58,7 +58,6 @@ private:
 
 class Desk {
 public:
-    using Json = nlohmann::json;
     struct Outside {
         Board::Send send;
         std::function<void(ClientId, std::string reason)> close;

@@ -1,12 +1,13 @@
 #include "serve/studio/desk.hpp"
 
+#include "serve/json.hpp"
+
 #include <gtest/gtest.h>
 
 namespace vagus::serve {
 namespace {
 
 using namespace std::chrono_literals;
-using Json = nlohmann::json;
 
 constexpr const char* kDrive = "0123456789abcdef";
 constexpr const char* kLook = "fedcba9876543210";

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 
+#include "serve/json.hpp"
 #include "serve/studio/answer_text.hpp"
 #include "serve/studio/desk.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

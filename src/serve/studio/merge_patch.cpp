@@ -1,10 +1,10 @@
 #include "serve/studio/merge_patch.hpp"
 
+#include "serve/json.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 Json merge_patch(const Json& from, const Json& to) {
     Json patch = Json::object();

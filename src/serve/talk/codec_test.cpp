@@ -8,13 +8,13 @@
 #include <limits>
 
 #include "serve/follow/record.hpp"
+#include "serve/json.hpp"
 #include "serve/talk/reader.hpp"
 #include "serve/talk/writer.hpp"
 
 namespace vagus::serve::talk {
 namespace {
 
-using Json = nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 

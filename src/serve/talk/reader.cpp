@@ -7,11 +7,10 @@
 #include <cstring>
 
 #include "base/text.hpp"
+#include "serve/json.hpp"
 #include "serve/talk/frames.hpp"
 
 namespace vagus::serve::talk {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -225,7 +225,7 @@ Result<std::unique_ptr<LiveClient>> LiveClient::connect(const ServerAddress& add
     return std::unique_ptr<LiveClient>(new LiveClient(std::move(insides)));
 }
 
-Result<LiveClient::Json> LiveClient::ask(const std::string& command, Json in) {
+Result<Json> LiveClient::ask(const std::string& command, Json in) {
     return insides_->ask(command, std::move(in));
 }
 void LiveClient::wait(std::chrono::milliseconds so_long) {

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "base/result.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
 
@@ -33,8 +34,6 @@ Result<ServerAddress> parse_address(const std::string& text);
 
 class LiveClient {
 public:
-    using Json = nlohmann::json;
-
     // Connects and says hello. The Error says what was tried and what came of it.
     static Result<std::unique_ptr<LiveClient>> connect(const ServerAddress& address,
                                                        const std::string& name);

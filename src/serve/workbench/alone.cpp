@@ -1,12 +1,11 @@
 // The workbench of a robot that works by itself: what nobody's page asks for.
 #include <algorithm>
 
+#include "serve/json.hpp"
 #include "serve/workbench/workbench.hpp"
 #include "session/known_nodes.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -9,13 +9,13 @@
 
 #include "base/test_folder.hpp"
 #include "net/network.hpp"
+#include "serve/json.hpp"
 #include "serve/workbench/workbench.hpp"
 
 namespace vagus::serve {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr const char* kDrive = "0123456789abcdef";
 constexpr const char* kLook = "fedcba9876543210";
@@ -38,7 +38,7 @@ Json good(const Type& type, const std::string& name) {
                                                       : "x";
         case Type::Kind::Word:
             return type.words.front();
-        case Type::Kind::Json:
+        case Type::Kind::Any:
             return 1;
         case Type::Kind::List:
             return Json::array({good(*type.item, name)});
@@ -82,10 +82,10 @@ std::vector<Json> bad(const Type& named) {
                           (type.kind == Type::Kind::Word && other.is_string()) ||
                           (type.kind == Type::Kind::List && other == Json::array()) ||
                           (type.kind == Type::Kind::Map && other == Json::object()) ||
-                          (real(type.item ? *type.item : type).kind == Type::Kind::Json &&
+                          (real(type.item ? *type.item : type).kind == Type::Kind::Any &&
                            other.is_array() == (type.kind == Type::Kind::List) &&
                            other.is_object() == (type.kind == Type::Kind::Map));
-        if (type.kind == Type::Kind::Json || !fits) values.push_back(other);
+        if (type.kind == Type::Kind::Any || !fits) values.push_back(other);
     }
     switch (type.kind) {
         case Type::Kind::Int:
@@ -184,7 +184,7 @@ TEST_F(Border, EveryFieldOfEveryCommandIsChecked) {
     for (const std::string& name : protocol.command_names()) {
         const CommandType& type = *protocol.command(name);
         for (const Field& field : type.in) {
-            const bool any = real(field.type).kind == Type::Kind::Json;
+            const bool any = real(field.type).kind == Type::Kind::Any;
             for (const uint32_t client : {1u, 2u}) {
                 open();
                 Json in = good(type.in, true);

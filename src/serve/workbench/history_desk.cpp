@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "base/file.hpp"
+#include "serve/json.hpp"
 
 namespace vagus::serve {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace {
 

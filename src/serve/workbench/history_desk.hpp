@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "serve/history/history.hpp"
+#include "serve/json.hpp"
 #include "serve/project/files.hpp"
 #include "serve/studio/desk.hpp"
 #include "serve/worker.hpp"
@@ -50,7 +51,6 @@ Result<std::shared_ptr<OpenTrace>> read_trace(const TraceFile& file);
 
 class HistoryDesk {
 public:
-    using Json = nlohmann::json;
     // Both are borrowed. Declares its topic and commands. Traces that are files are read where
     // `post` puts it.
     HistoryDesk(Desk& desk, Files& files, Worker::Post post = Worker::at_once);

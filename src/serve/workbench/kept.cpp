@@ -5,11 +5,10 @@
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "serve/json.hpp"
 #include "serve/protocol/depth.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 Kept::Kept(std::string file, DiskSync* disk) : file_(std::move(file)), disk_(disk) {
     std::error_code failed;

@@ -8,6 +8,7 @@
 
 #include "base/file.hpp"
 #include "base/project_border.hpp"
+#include "serve/json.hpp"
 #include "serve/project/paths.hpp"
 #include "serve/project/scan.hpp"
 #include "serve/workbench/new_files.hpp"
@@ -16,7 +17,6 @@
 namespace vagus::serve {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "serve/json.hpp"
 #include "serve/workbench/kept.hpp"
 
 namespace vagus::serve {
@@ -31,7 +32,6 @@ std::filesystem::path user_config_folder(const std::string& given);
 
 class Library {
 public:
-    using Json = nlohmann::json;
     explicit Library(LibraryPlaces places);
 
     // ---- examples ----

@@ -4,19 +4,12 @@
 
 #include "serve/workbench/workbench.hpp"
 
+#include "base/text.hpp"
+#include "serve/json.hpp"
+
 namespace vagus::serve {
 
-using Json = nlohmann::json;
-
-namespace {
-
-std::string joined(const std::vector<std::string>& sentences) {
-    std::string text;
-    for (const std::string& one : sentences) text += (text.empty() ? "" : "\n") + one;
-    return text;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 // ---- in ----
 
@@ -127,7 +120,7 @@ void Workbench::perform(const life::ConnectWorld&) {
 void Workbench::perform(const life::LoadNodes& load) {
     if (load.fresh) robot_.place_breakpoints();
     robot_.load_changed(true, [this, start = load.start](const std::vector<std::string>& failed) {
-        if (!failed.empty()) failed_loads_ = joined(failed);
+        if (!failed.empty()) failed_loads_ = joined_lines(failed);
         if (!failed.empty()) say("error", failed_loads_);
         tell_life(life::Loaded{start});
     });
@@ -136,7 +129,7 @@ void Workbench::perform(const life::LoadNodes& load) {
 // A node that does not go is no reason to hold the others.
 void Workbench::perform(const life::LetNodesGo& go) {
     const auto went = [this, start = go.start](const std::vector<std::string>& stayed) {
-        if (!stayed.empty()) say("warning", joined(stayed));
+        if (!stayed.empty()) say("warning", joined_lines(stayed));
         tell_life(life::Went{start});
     };
     go.all ? robot_.run_all(went) : robot_.run_standing(went);
@@ -167,7 +160,7 @@ void Workbench::perform(const life::RestRun&) {
 
 void Workbench::perform(const life::PauseNodes& pause) {
     robot_.pause_all([this, call = pause.call](const std::vector<std::string>& failed) {
-        tell_life(life::NodesPaused{call, joined(failed)});
+        tell_life(life::NodesPaused{call, joined_lines(failed)});
     });
 }
 

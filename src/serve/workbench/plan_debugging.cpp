@@ -5,11 +5,10 @@
 #include <algorithm>
 
 #include "aesl/mentions.hpp"
+#include "serve/json.hpp"
 #include "serve/workbench/workbench.hpp"
 
 namespace vagus::serve {
-
-using Json = nlohmann::json;
 
 namespace {
 

@@ -1,12 +1,14 @@
 // What the history is told, by the run and by the robot, and when it begins anew.
 #include "serve/workbench/workbench.hpp"
 
+#include "base/time.hpp"
+
 namespace vagus::serve {
 
 // Seconds of what is kept: those of a simulation, or since the bus or the plan on it began.
 double Workbench::history_clock() const {
     if (!bus_) return run_.time();
-    return std::chrono::duration<double>(now_ - history_since_).count();
+    return seconds_of(now_ - history_since_);
 }
 
 void Workbench::record_history() {

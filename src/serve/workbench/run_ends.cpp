@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "serve/json.hpp"
 #include "serve/robot/stopping.hpp"
 
 namespace vagus::serve {
 
-using Json = nlohmann::json;
 using life::Why;
 
 namespace {

@@ -5,21 +5,16 @@
 
 #include "serve/workbench/workbench.hpp"
 
-namespace vagus::serve {
+#include "base/text.hpp"
+#include "serve/json.hpp"
 
-using Json = nlohmann::json;
+namespace vagus::serve {
 
 namespace {
 
 constexpr const char* kNoWorld =
     "the project has no world to simulate; name one in vagus.json, or choose a robot";
 constexpr const char* kNoProject = "no project is open; open one first";
-
-std::string joined(const std::vector<std::string>& sentences) {
-    std::string text;
-    for (const std::string& one : sentences) text += (text.empty() ? "" : "\n") + one;
-    return text;
-}
 
 }  // namespace
 
@@ -163,7 +158,7 @@ void Workbench::step(const Call& call) {
     if (bus_ || robot_.stands_inside()) {
         return robot_.step_standing([call](const std::vector<std::string>& failed) {
             if (failed.empty()) return call.done();
-            call.fail("failed", joined(failed));
+            call.fail("failed", joined_lines(failed));
         });
     }
     if (!simulates()) return call.fail("unavailable", "nothing runs; Run starts it");

@@ -6,13 +6,14 @@
 
 #include "aesl/project_text.hpp"
 #include "aesl/target.hpp"
+#include "base/time.hpp"
+#include "serve/json.hpp"
 #include "serve/workbench/new_files.hpp"
 #include "session/known_nodes.hpp"
 
 namespace vagus::serve {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -92,7 +93,7 @@ void Workbench::say(const std::string& kind, const std::string& text) {
 // Seconds: of the simulation, or since a bus was connected.
 double Workbench::clock() const {
     if (!bus_) return run_.time();
-    return std::chrono::duration<double>(now_ - bus_since_).count();
+    return seconds_of(now_ - bus_since_);
 }
 
 // ---- documents ----

@@ -21,6 +21,7 @@
 
 #include "net/network.hpp"
 #include "serve/edit/editing.hpp"
+#include "serve/json.hpp"
 #include "serve/life/life.hpp"
 #include "serve/project/files.hpp"
 #include "serve/robot/breakpoints.hpp"
@@ -67,7 +68,6 @@ struct Figures {
 
 class Workbench {
 public:
-    using Json = nlohmann::json;
     Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& places);
     ~Workbench();
 

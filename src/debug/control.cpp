@@ -455,11 +455,13 @@ std::optional<Time> Control::next_tick() const {
 }
 
 void Control::tell_state() {
-    const bool same_place = view_.at == told_at_ || view_.state == ProgramState::Running;
-    if (view_.state == told_ && same_place) return;
-    told_ = view_.state;
-    told_at_ = view_.at;
-    out_.tell(view_.id, StateChanged{view_.state, view_.at});
+    const bool paused = view_.state == ProgramState::Paused;
+    StateChanged now{view_.state, view_.at, paused && (flags_ & wire::kFlagRunning) != 0};
+    // Wherever it runs it is the same state.
+    if (now.state == ProgramState::Running && now.state == told_.state) now.at = told_.at;
+    if (now == told_) return;
+    told_ = now;
+    out_.tell(view_.id, now);
 }
 
 CodePlace Control::place_of(uint16_t pc) const {

@@ -129,8 +129,7 @@ private:
     std::vector<aesl::Constant> constants_;  // for conditions
     std::optional<Condition> wanted_;
     uint32_t condition_number_ = 0;
-    ProgramState told_ = ProgramState::Unknown;
-    CodePlace told_at_;
+    StateChanged told_;
 };
 
 // STEP clear: running; STEP and ACTIVE: paused; STEP alone: stopped.

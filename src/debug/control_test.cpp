@@ -264,6 +264,20 @@ TEST_F(Program, WhoPausesDuringAConditionKeepsItPaused) {
     EXPECT_EQ(bus.told<StateChanged>().size(), 1u);
 }
 
+// RUNNING is left only by a breakpoint (3.2).
+TEST_F(Program, AStateSaysWhetherABreakpointPausedIt) {
+    load();
+    bus.forget();
+    bus.state(1, 5, 7);
+    bus.state(1, 3, 3);
+    const auto told = bus.told<StateChanged>();
+    ASSERT_EQ(told.size(), 2u);
+    EXPECT_EQ(told[0].state, ProgramState::Paused);
+    EXPECT_TRUE(told[0].at_breakpoint);
+    EXPECT_EQ(told[1].state, ProgramState::Paused);
+    EXPECT_FALSE(told[1].at_breakpoint);
+}
+
 TEST_F(Program, ALineWithoutCodeTakesNoBreakpoint) {
     EXPECT_EQ(bus.network.set_breakpoint(1, 2, "").error().code, Code::NotFound);  // no program
     aesl::Program program = two_lines();

@@ -70,6 +70,10 @@ struct TooManyNodes {};
 struct StateChanged {
     ProgramState state = ProgramState::Unknown;
     CodePlace at;
+    // Paused because it came to a breakpoint, of any host (wire spec, 3.2); otherwise it was
+    // told to pause, was reset, or an event waits for its stopped program.
+    bool at_breakpoint = false;
+    friend bool operator==(const StateChanged&, const StateChanged&) = default;
 };
 using wire::FaultKind;
 // "array_access", "division_by_zero", "killed", "node_specific".

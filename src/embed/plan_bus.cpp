@@ -66,12 +66,14 @@ public:
     std::vector<session::StopNode> leave(How how);
     uint16_t first_token() { return rivals.random_token(); }
     void end_when_stopped() { ends_when_stopped = true; }
+    void hold_nodes(std::set<debug::NodeId> nodes);
 
     session::BusNames names;
     std::thread thread;
 
 private:
     std::vector<run::BusEvent> turn(Time deadline);
+    void look_for_held(run::RealTime& run);
     void look_for_stopped(run::RealTime& run);
     void look_for_rivals(const debug::Event& event);
     void note(const std::vector<net::Event>& happened);
@@ -105,6 +107,7 @@ private:
     How leaving_how = How::Rest;  // before `leaving`
     std::mutex mutex;             // guards what follows
     std::vector<run::BusEvent> unsent;
+    std::optional<std::set<debug::NodeId>> held;  // news
 };
 
 Status PlanBus::Insides::connect() {
@@ -229,6 +232,7 @@ void PlanBus::Insides::work(run::RealTime& run) {
         if (stop_asked && !is_stopping) begin_to_stop(How::Stop);
         const Time due = stop_asked ? Time::max() : stopped_by_others.next();
         for (run::BusEvent& event : turn(due)) run.hear(std::move(event));
+        look_for_held(run);
         look_for_stopped(run);
         if (const auto token = std::exchange(moved_to, std::nullopt)) run.move_tokens(*token);
     }
@@ -236,6 +240,25 @@ void PlanBus::Insides::work(run::RealTime& run) {
     if (!is_stopping) begin_to_stop(stop ? How::Stop : leaving_how);
     left = await_rest();
     farewell();
+}
+
+void PlanBus::Insides::hold_nodes(std::set<debug::NodeId> nodes) {
+    {
+        const std::lock_guard lock(mutex);
+        held = std::move(nodes);
+    }
+    net.wake();
+}
+
+void PlanBus::Insides::look_for_held(run::RealTime& run) {
+    std::optional<std::set<debug::NodeId>> nodes;
+    {
+        const std::lock_guard lock(mutex);
+        nodes = std::exchange(held, std::nullopt);
+    }
+    if (!nodes) return;
+    stopped_by_others.hold(*nodes, net.now());
+    for (run::BusEvent& event : ears.hold(std::move(*nodes))) run.hear(std::move(event));
 }
 
 // A plan must not wait for ever for a node that another host has stopped.
@@ -381,6 +404,10 @@ void PlanBus::join(run::RunOptions& options) {
 
 void PlanBus::end_when_stopped() {
     insides_->end_when_stopped();
+}
+
+void PlanBus::hold_nodes(std::set<debug::NodeId> nodes) {
+    insides_->hold_nodes(std::move(nodes));
 }
 
 void PlanBus::start(run::RealTime& run) {

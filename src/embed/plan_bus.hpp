@@ -61,9 +61,13 @@ public:
     // The run emits on this bus, with tokens from a random place on. Borrowed for the run.
     void join(run::RunOptions& options);
 
-    // Before start(). If another host stops a node on which the plan works, and nobody lets it run
-    // again soon, the run ends with an error. Not for a host that pauses nodes itself.
+    // Before start(). If another host stops, pauses or resets a node on which the plan works, and
+    // nobody lets it run again soon, the run ends with an error. Not for a host that pauses nodes
+    // itself and does not say so by hold_nodes().
     void end_when_stopped();
+    // From any thread: these nodes, and no others, are held by somebody who debugs them. The plan
+    // waits for them as long as that takes.
+    void hold_nodes(std::set<debug::NodeId> nodes);
     // From now on the run hears each event of the bus. A lost connection is tried again, and its
     // nodes are gone meanwhile. Borrowed until leave().
     void start(run::RealTime& run);

@@ -467,6 +467,10 @@ void PreparedRun::end_when_stopped() {
     if (insides_->bus) insides_->bus->end_when_stopped();
 }
 
+void PreparedRun::hold_nodes(std::set<uint16_t> nodes) {
+    if (insides_->bus) insides_->bus->hold_nodes(std::move(nodes));
+}
+
 void PreparedRun::report(std::function<void(const std::string&)> report) {
     insides_->report = std::move(report);
 }

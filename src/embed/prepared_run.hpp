@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,8 +69,12 @@ public:
     // world cannot be opened any more.
     Result<run::Ended> run(run::Debugger* debugger = nullptr);
     // Before run(), on a bus that nobody else looks after, as a debugger would that stops nodes and
-    // lets them run again: a run whose nodes another host stops ends with an error.
+    // lets them run again: a run whose nodes another host stops ends with an error. Whoever pauses
+    // nodes says so.
     void end_when_stopped();
+    // From any thread, on a bus: somebody debugs these nodes, and no others; the plan waits for
+    // them.
+    void hold_nodes(std::set<uint16_t> nodes);
     // Before run(): who is told, in a sentence, what a person should know while it runs, on the
     // deciding thread, and of a bus on its thread; stderr unless this is called. That a trace
     // cannot be written any more, once for each: the run goes on, a robot does not stop for a full

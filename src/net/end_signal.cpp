@@ -86,6 +86,10 @@ std::string end_asked_by() {
     return by == SIGHUP ? "SIGHUP" : "";
 }
 
+int end_descriptor() {
+    return g_asked;
+}
+
 int end_as_asked(int exit_code) {
     if (g_end_signal != 0) die_by(g_end_signal);
     return exit_code;

@@ -218,10 +218,15 @@ Child& Child::operator=(Child&& other) noexcept {
 std::optional<ChildEnd> Child::ended() {
     if (end_ || process_ < 0) return end_;
     int status = 0;
-    if (waitpid(process_, &status, WNOHANG) != process_) return std::nullopt;
+    const pid_t found = waitpid(process_, &status, WNOHANG);
+    // Whoever started this program ignores SIGCHLD, and so do we: then the system keeps no end.
+    const bool unseen = found < 0 && errno == ECHILD;
+    if (found != process_ && !unseen) return std::nullopt;
     process_ = -1;
     ChildEnd end;
-    if (WIFSIGNALED(status)) {
+    if (unseen) {
+        end.what = "ended; the system does not tell how";
+    } else if (WIFSIGNALED(status)) {
         end.signal = WTERMSIG(status);
         end.what = fmt::format("ended by signal {} ({})", end.signal, strsignal(end.signal));
     } else {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include <csignal>
+
 namespace vagus::serve {
 namespace {
 
@@ -110,6 +112,18 @@ TEST(Child, HasNothingOpenButItsDescriptor) {
     }
     EXPECT_EQ(printing.value().text(), "closed\n");
     ::close(kOpen);
+}
+
+// Whoever starts the studio may ignore SIGCHLD: the system then keeps no end, and one that is never
+// told would be waited for.
+TEST(Child, AnEndThatTheSystemDoesNotKeepIsToldAllTheSame) {
+    const auto before = signal(SIGCHLD, SIG_IGN);
+    auto child = Child::start({"/bin/sh", {"-c", "exit 0"}});
+    std::vector<Packet> heard;
+    wait_for(child.value(), heard);
+    EXPECT_EQ(child.value().ended()->what, "ended; the system does not tell how");
+    EXPECT_FALSE(child.value().ended()->good);
+    signal(SIGCHLD, before);
 }
 
 TEST(Child, AProgramThatIsNotThereEndsAtOnce) {

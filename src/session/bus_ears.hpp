@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "debug/event.hpp"
 #include "run/code.hpp"
@@ -32,20 +33,26 @@ public:
 
     // Nothing for what is not for plans: numbers without a name, and all that debuggers hear.
     std::optional<run::BusEvent> hear(const debug::Event& event);
+    // Somebody whom the plan waits for holds these nodes, and no others: while one is held, the
+    // plan does not hear that it was stopped. Gives what it hears now.
+    std::vector<run::BusEvent> hold(std::set<debug::NodeId> nodes);
 
 private:
-    void there(debug::NodeId node);
-    std::optional<run::BusEvent> gone(debug::NodeId node);
-    std::optional<run::BusEvent> hear_state(debug::NodeId node, debug::ProgramState state);
-
     struct Known {
         std::string name;
         bool there = false;
         bool ran = false;
         bool stopped = false;
+        bool told_stopped = false;
     };
+    void there(debug::NodeId node);
+    std::optional<run::BusEvent> gone(debug::NodeId node);
+    std::optional<run::BusEvent> hear_state(debug::NodeId node, const debug::StateChanged& changed);
+    std::optional<run::BusEvent> tell_stopped(debug::NodeId node, Known& known);
+
     toolbox::BusNodes& nodes_;
-    std::set<debug::NodeId> only_;          // empty: all
+    std::set<debug::NodeId> only_;  // empty: all
+    std::set<debug::NodeId> held_;
     std::map<debug::NodeId, Known> known_;  // without a name until they have described themselves
 };
 

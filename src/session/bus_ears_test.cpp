@@ -53,6 +53,42 @@ TEST(BusEars, APlanHearsThatAProgramWasStoppedAndThatItRunsAgain) {
     EXPECT_EQ(runs->name, toolbox::node_runs("drive"));
 }
 
+// After a reset it is paused in front of its first line; at a breakpoint somebody looks for a
+// mistake.
+TEST(BusEars, AResetStopsAProgramAndABreakpointDoesNot) {
+    using State = debug::ProgramState;
+    toolbox::BusNodes nodes;
+    BusEars ears(nodes);
+    (void)ears.hear(event(1, debug::NodeDescribed{"drive"}));
+    (void)ears.hear(event(1, debug::StateChanged{State::Running, {}}));
+    EXPECT_FALSE(ears.hear(event(1, debug::StateChanged{State::Paused, {}, true})).has_value());
+    const auto reset = ears.hear(event(1, debug::StateChanged{State::Paused, {}, false}));
+    ASSERT_TRUE(reset.has_value());
+    EXPECT_EQ(reset->name, toolbox::node_stopped("drive"));
+}
+
+TEST(BusEars, APlanDoesNotHearThatANodeWasStoppedThatSomebodyHolds) {
+    using State = debug::ProgramState;
+    toolbox::BusNodes nodes;
+    BusEars ears(nodes);
+    const auto state = [&](State now) { return ears.hear(event(1, debug::StateChanged{now, {}})); };
+    (void)ears.hear(event(1, debug::NodeDescribed{"drive"}));
+    (void)state(State::Running);
+    EXPECT_TRUE(state(State::Stopped).has_value());
+    // It is told later who did that.
+    const auto held = ears.hold({1});
+    ASSERT_EQ(held.size(), 1u);
+    EXPECT_EQ(held[0].name, toolbox::node_runs("drive"));
+    EXPECT_FALSE(nodes.is_stopped("drive"));
+    EXPECT_FALSE(state(State::Running).has_value());
+    EXPECT_FALSE(state(State::Stopped).has_value());
+    EXPECT_TRUE(ears.hold({1, 2}).empty());
+    const auto left = ears.hold({});
+    ASSERT_EQ(left.size(), 1u);
+    EXPECT_EQ(left[0].name, toolbox::node_stopped("drive"));
+    EXPECT_TRUE(nodes.is_stopped("drive"));
+}
+
 // Whoever begins to work with a node asks how it is: what was told before that is not told again.
 TEST(BusEars, WhoseProgramWasStoppedCanBeAsked) {
     using State = debug::ProgramState;

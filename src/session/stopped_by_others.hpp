@@ -1,6 +1,6 @@
-// Nodes of a running plan that another host has stopped, and that nobody lets run again. A plan
-// whose actor or supervisor works elsewhere at that moment would not notice, and could wait for
-// ever for what such a node is to say.
+// Nodes of a running plan that another host has stopped, paused or reset, and that nobody lets run
+// again. A plan whose actor or supervisor works elsewhere at that moment would not notice, and
+// could wait for ever for what such a node is to say.
 //
 //     StoppedByOthers others;
 //     others.hear(event);                                    // each event of the network
@@ -21,6 +21,9 @@ public:
     explicit StoppedByOthers(Duration within) : within_(within) {}
 
     void hear(const debug::Event& event);
+    // Somebody whom the plan waits for holds these nodes, and no others. Those that are stopped
+    // when they are no longer held count from then on.
+    void hold(std::set<debug::NodeId> nodes, Time now);
     // Each once for each time that it was stopped.
     std::vector<debug::NodeId> take_due(Time now);
     // When one is due next.
@@ -29,6 +32,7 @@ public:
 private:
     Duration within_;
     std::map<debug::NodeId, Time> stopped_;  // since when
+    std::set<debug::NodeId> held_;
     // A node without a program was not stopped by anybody.
     std::set<debug::NodeId> ran_;
 };

@@ -15,6 +15,9 @@ protected:
     void state(Time at, debug::NodeId node, State state) {
         others_.hear({at, node, debug::StateChanged{state, {}}});
     }
+    void breakpoint(Time at, debug::NodeId node) {
+        others_.hear({at, node, debug::StateChanged{State::Paused, {}, true}});
+    }
     std::vector<debug::NodeId> due(Time at) { return others_.take_due(at); }
     StoppedByOthers others_{3s};
 };
@@ -47,11 +50,29 @@ TEST_F(Others, OneThatRunsAgainOrIsAwayIsNotWaitedFor) {
     EXPECT_EQ(due(10s), Nodes{});
 }
 
-TEST_F(Others, OneWithoutAProgramWasNotStoppedAndAPausedOneNeither) {
+// As after a reset: paused in front of its first line.
+TEST_F(Others, OneThatIsPausedInFrontOfAnEventCountsAsStopped) {
+    state(0s, 4, State::Running);
+    state(1s, 4, State::Paused);
+    EXPECT_EQ(due(4s), Nodes{4});
+}
+
+TEST_F(Others, OneWithoutAProgramWasNotStoppedAndOneAtABreakpointNeither) {
     state(0s, 4, State::Stopped);
     state(0s, 5, State::Running);
-    state(1s, 5, State::Paused);
+    breakpoint(1s, 5);
     EXPECT_EQ(due(10s), Nodes{});
+}
+
+TEST_F(Others, OneThatSomebodyHoldsIsWaitedForAndCountsFromWhenItIsNotHeldAnyMore) {
+    state(0s, 4, State::Running);
+    state(1s, 4, State::Stopped);
+    others_.hold({4}, 2s);
+    EXPECT_EQ(others_.next(), Time::max());
+    EXPECT_EQ(due(100s), Nodes{});
+    others_.hold({}, 100s);
+    EXPECT_EQ(others_.next(), Time(103s));
+    EXPECT_EQ(due(103s), Nodes{4});
 }
 
 }  // namespace

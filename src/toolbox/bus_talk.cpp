@@ -19,8 +19,9 @@ constexpr Duration kBeyondGrace = std::chrono::milliseconds(100);
 
 std::string has_ended(const std::vector<std::string>& nodes) {
     return fmt::format(
-        "the node \"{}\" has ended the work by itself: its script was stopped or "
-        "loaded again, another command took its place, or it heard no sign of life for too long; "
+        "the node \"{}\" has ended the work by itself: its script was stopped, "
+        "paused or loaded again, another command took its place, or it heard no sign of life for "
+        "too long; "
         "start the plan again",
         fmt::join(nodes, "\" or \""));
 }
@@ -48,8 +49,9 @@ std::string has_left(std::string_view node) {
 
 std::string was_stopped(std::string_view node) {
     return fmt::format(
-        "the node \"{}\", which does the work, was stopped by somebody else, or by a fault of its "
-        "script, and nobody has let it run again for {} s; find out why, and start the plan again",
+        "the node \"{}\", which does the work, was stopped by somebody else (stop, pause or "
+        "reset), or by a fault of its script, and nobody has let it run again for {} s; find out "
+        "why, and start the plan again",
         node, std::chrono::duration_cast<std::chrono::seconds>(kStoppedMax).count());
 }
 

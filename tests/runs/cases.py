@@ -202,17 +202,21 @@ class TwoPlans(Runs):
         touch = {"touch": {"template": "CheckTouchSensor", "events": {"TouchSensorPressed": "@terminate"}}}
         drives = {"template": "Forward", "in": {"distance": 1000}, "states": {"ForwardSuccessful": "@terminate"}}
         # While it drives; while nothing but a supervisor works there; while an actor waits that works on no node.
-        for supervised, actors, node in (
-                ({}, {"ahead": drives}, "drive"),
-                (touch, {"rest": {"template": "WaitForever"}}, "bumper"),
-                ({}, {"look": {"template": "Receive", "in": {"event": "'touched'"}, "states": {"Received": "ahead"}},
-                      "ahead": drives}, "drive")):
-            with self.subTest(actors):
+        rests = {"rest": {"template": "WaitForever"}}
+        for verb, supervised, actors, node in (
+                ("stop", {}, {"ahead": drives}, "drive"),
+                ("stop", touch, rests, "bumper"),
+                ("stop", {}, {"look": {"template": "Receive", "in": {"event": "'touched'"}, "states": {"Received": "ahead"}},
+                              "ahead": drives}, "drive"),
+                # Paused before the first line, which nobody lets run.
+                ("reset", {}, {"ahead": drives}, "drive"),
+                ("reset", touch, rests, "bumper")):
+            with self.subTest(verb=verb, actors=actors):
                 _, target = self.simulation(self.world)
                 path = self.write("stopped.plan.json", plan(supervised, actors))
                 with vagus("plan", "run", path, "--bus", target, "--project", self.script, "--trace", "-") as program:
                     self.wait_for_start(program)
-                    run_vagus("net", target, "stop", "all")
+                    run_vagus("net", target, verb, "all")
                     self.assertEqual(program.wait_end(), 4, program.lines)
                     self.assertIn(f'the node "{node}", which does the work, was stopped by somebody else',
                                   "\n".join(program.lines))

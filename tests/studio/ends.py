@@ -20,6 +20,12 @@ DRIVE = {"format": "vagus-plan/1", "name": "Far", "toolboxes": ["drive"], "start
 FAIL = {**DRIVE,
         "actors": {"go": {**DRIVE["actors"]["go"], "supervisors": {"soon": {"template": "Timeout", "in": {"seconds": 1}, "events": {"Timeout": "fail"}}}},
                    "fail": {"template": "Fail", "in": {"message": "'it is broken'"}, "states": {}}}}
+# It looks again and again; nothing works but a supervisor.
+LOOK = {**DRIVE, "name": "Look", "toolboxes": ["carbot"], "start": {"actor": "measure"},
+        "actors": {"measure": {"template": "MeasureDistance", "states": {"Measured": "measure"}}}}
+WATCH = {**DRIVE, "name": "Watch",
+         "start": {"actor": "rest", "supervisors": {"touch": {"template": "CheckTouchSensor", "events": {"TouchSensorPressed": "@terminate"}}}},
+         "actors": {"rest": {"template": "WaitForever"}}}
 THYMIO = "motor.left.target = 150\nmotor.right.target = 150\n\nonevent go\n\nonevent timer0\n"
 
 
@@ -131,6 +137,32 @@ class Ends(Case):
         os.kill(run, signal.SIGKILL)
         self.expect_end("died", result="Error")
         self.stands()
+
+    def run_plan(self, plan):
+        self.open(self.carbot(plan))
+        self.wait_all_described()
+        self.page.do("run.start")
+        self.wait(lambda: self.plan.value["state"] == "running" and self.plan.value["levels"], "the plan")
+
+    def test_a_node_that_another_host_resets_ends_the_plan(self):
+        self.run_plan(WATCH)
+        run_vagus("net", self.target, "reset", "bumper")
+        self.wait(lambda: self.plan.value["state"] == "ended", "the end of the plan")
+        self.assertEqual(self.plan.value["result"], "Error")
+        self.assertIn('the node "bumper", which does the work, was stopped by somebody else', self.plan.value["message"])
+
+    def test_a_plan_waits_for_a_node_that_a_page_debugs(self):
+        self.run_plan(LOOK)
+        (node,) = [one["id"] for one in self.robot.value["nodes"] if one["name"] == "range"]
+        self.page.do("node.pause", node=node)
+        self.wait_passed(5)  # longer than one that another host has stopped is waited for
+        self.assertEqual(self.plan.value["state"], "running", self.plan.value)
+        self.page.do("node.run", node=node)
+        self.wait_passed(1)
+        self.assertEqual(self.plan.value["state"], "running", self.plan.value)
+        self.page.do("stop")
+        self.wait(lambda: self.plan.value["state"] == "ended", "the end of the plan")
+        self.assertEqual(self.plan.value["result"], "Interrupted")
 
     def test_carbot_stands_when_its_plan_fails(self):
         self.start(self.carbot(FAIL))

@@ -604,6 +604,8 @@ export const text = {
     disk: 'The file changed on disk.',
     mine: 'Keep mine',
     theirs: 'Use the file',
+    both: 'Keep both',
+    bothHelp: 'Where both changed one line: yours, and the file’s below it',
     compare: 'Show what changed',
     hide: 'Hide what changed',
     gone: 'The file is gone from disk. Saving writes it again.',

@@ -5,7 +5,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject, twoNodes } from './support/robots.mjs';
 import { startProgram, vagusProgram } from './support/server.mjs';
-import { openWindow, seen, test, until } from './support/studio.mjs';
+import { hands, openWindow, seen, test, until } from './support/studio.mjs';
 
 const scripts = { left: 'var left = 0\n', right: 'var right = 0\n' };
 const two = { prepare: (t) => twoNodes(t, scripts, {}) };
@@ -126,6 +126,54 @@ test('a file that changes on disk is never overwritten', two, async (studio) => 
     );
   });
   assert.ok(readFileSync(path, 'utf8').includes('= 7'));
+});
+
+test('both are kept by one click where the file changed the same line', two, async (studio) => {
+  const { page, button, press, place } = studio;
+  const path = join(place, 'two.aesl');
+  await studio.tab(/^left/).click();
+  await studio.editor('left').click();
+  await press('Control+Home');
+  await press('End');
+  await studio.type(' # mine');
+  await seen(page.getByText('Not saved'));
+  writeFileSync(path, readFileSync(path, 'utf8').replace('var left = 0', 'var left = 7'));
+  await press('Control+s');
+  await seen(page.getByText('The file changed on disk.'));
+  await button('Show what changed').click();
+  await seen(page.getByRole('textbox', { name: 'Use the file' }).getByText('var left = 7'));
+  await seen(page.getByRole('textbox', { name: 'Keep mine' }).getByText('# mine'));
+  await button('Keep both').click();
+  await says(studio, 'left', 'var left = 0 # mine\nvar left = 7');
+  await page.getByText('The file changed on disk.').waitFor({ state: 'detached' });
+  await studio.editor('left').click();
+  await press('Control+s');
+  await until('both are on disk', () =>
+    readFileSync(path, 'utf8').includes('var left = 0 # mine\nvar left = 7\n'),
+  );
+});
+
+test('a tab that was duplicated stays connected beside the other', two, async (studio) => {
+  const { page, context, server } = studio;
+  await typeAtEnd(studio, 'left', '# first\n');
+  // What a page opens begins with its session storage, as a duplicated tab does.
+  const opened = context.waitForEvent('page');
+  await page.evaluate(() => void window.open(location.href));
+  const twin = { page: await opened, server, ...hands(await opened) };
+  await says(twin, 'left', '# first');
+  const name = (one) => one.page.evaluate(() => sessionStorage.getItem('vagus.client'));
+  await until('it has a name of its own', async () => (await name(twin)) !== (await name(studio)));
+  const connections = [];
+  for (const one of [page, twin.page])
+    one.on('websocket', (socket) => connections.push(socket.url()));
+  await typeAtEnd(studio, 'left', '# second\n');
+  await says(twin, 'left', '# second');
+  await twin.button('Request control').click();
+  await studio.button('Release control').click();
+  await twin.button('Request control').waitFor({ state: 'detached' });
+  await typeAtEnd(twin, 'left', '# third\n');
+  await says(studio, 'left', '# third');
+  assert.deepEqual(connections, [], 'nobody was disconnected');
 });
 
 test(

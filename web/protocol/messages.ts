@@ -952,10 +952,10 @@ export interface Commands {
   }; out: {
     version: number;
   } };
-  /** The file changed on disk where its text has unsaved changes: keeps the text (mine), which can be saved then, or takes the file (disk). */
+  /** The file changed on disk where its text has unsaved changes: keeps the text (mine), which can be saved then, takes the file (disk), or keeps both, mine in front of the file's where both changed one line. */
   'doc.keep': { in: {
     doc: Doc;
-    which: 'mine' | 'disk';
+    which: 'mine' | 'disk' | 'both';
     seen?: DocVersion[];
   }; out: {
     version: number;

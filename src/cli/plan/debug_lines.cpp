@@ -1,11 +1,13 @@
 #include "cli/plan/debug_lines.hpp"
 
 #include <editline/readline.h>
+#include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -18,9 +20,22 @@ namespace {
 // libedit calls back without a place for what is ours: set by the one PromptLines there is.
 PromptWords g_words;
 volatile sig_atomic_t g_interrupted = 0;
+volatile sig_atomic_t g_wake = -1;  // the writing end of a pipe that is never closed
+int g_woken = -1;      // its reading end: a byte stays in it until the interrupt is taken
+std::string g_unread;  // of stdin, behind the line that was taken last
 
 void note_interrupt(int) {
+    const int before = errno;
     g_interrupted = 1;
+    [[maybe_unused]] const auto written = ::write(g_wake, "!", 1);
+    errno = before;
+}
+
+void open_wake() {
+    int ends[2];
+    if (g_woken >= 0 || ::pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) return;
+    g_woken = ends[0];
+    g_wake = ends[1];
 }
 
 // libedit asks until nullptr: 0 begins a new round. What it gets is freed by it.
@@ -45,19 +60,45 @@ char** complete(const char* begun, int start, int) {
     return rl_completion_matches(begun, start == 0 ? next_first : next_word);
 }
 
+enum class Came { Input, EndOfInput, Interrupt, End };
+
+// Signals are waited for by descriptors as well: one that comes just before the wait would not
+// interrupt it.
+Came wait_for_input() {
+    for (;;) {
+        pollfd ready[3] = {
+            {STDIN_FILENO, POLLIN, 0}, {g_woken, POLLIN, 0}, {net::end_descriptor(), POLLIN, 0}};
+        (void)::poll(ready, 3, -1);
+        if (net::end_asked()) return Came::End;
+        if (g_interrupted != 0) return Came::Interrupt;
+        if (ready[0].revents == 0) continue;
+        char bytes[4096];
+        const ssize_t count = ::read(STDIN_FILENO, bytes, sizeof bytes);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return Came::EndOfInput;
+        g_unread.append(bytes, static_cast<size_t>(count));
+        return Came::Input;
+    }
+}
+
 std::optional<std::string> plain_line() {
     std::string line;
     for (;;) {
-        const int c = std::getc(stdin);
-        if (c == EOF && std::ferror(stdin) != 0 && errno == EINTR) {  // a signal came
-            std::clearerr(stdin);
-            if (net::end_asked()) return std::nullopt;
-            if (g_interrupted != 0) return std::string();
-            continue;
+        const size_t size = std::min(g_unread.find('\n'), g_unread.size());
+        line.append(g_unread, 0, std::min(size, kPromptLineMax - line.size()));
+        const bool whole = size < g_unread.size();
+        g_unread.erase(0, whole ? size + 1 : size);
+        if (whole) return line;
+        switch (wait_for_input()) {
+            case Came::Input:
+                break;
+            case Came::EndOfInput:
+                return line.empty() ? std::nullopt : std::optional(line);
+            case Came::Interrupt:
+                return std::string();
+            case Came::End:
+                return std::nullopt;
         }
-        if (c == EOF && line.empty()) return std::nullopt;
-        if (c == EOF || c == '\n') return line;
-        if (line.size() < kPromptLineMax) line.push_back(static_cast<char>(c));
     }
 }
 
@@ -65,6 +106,7 @@ std::optional<std::string> plain_line() {
 
 PromptLines::PromptLines(PromptWords words)
     : at_terminal_(::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {
+    open_wake();
     struct sigaction action = {};
     action.sa_handler = note_interrupt;
     ::sigaction(SIGINT, &action, nullptr);
@@ -95,6 +137,9 @@ std::optional<std::string> PromptLines::next(const std::string& prompt) {
 
 bool PromptLines::take_interrupt() {
     const bool interrupted = g_interrupted != 0;
+    char bytes[64];
+    while (::read(g_woken, bytes, sizeof bytes) > 0) {
+    }
     g_interrupted = 0;
     return interrupted;
 }

@@ -58,9 +58,10 @@ void Documents::declare_commands() {
     desk_.command("doc.keep", [this](const Call& call) {
         if (!seen_all(call, files_, epoch_)) return;
         const std::string doc = call.in["doc"];
-        const bool mine = call.in["which"] == "mine";
-        answer_version(call,
-                       mine ? files_.keep_mine(doc) : files_.revert(doc, made_for(call.member)));
+        const std::string which = call.in["which"];
+        if (which == "mine") return answer_version(call, files_.keep_mine(doc));
+        const std::string by = made_for(call.member);
+        answer_version(call, which == "both" ? files_.keep_both(doc, by) : files_.revert(doc, by));
     });
 }
 

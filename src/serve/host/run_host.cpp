@@ -71,7 +71,10 @@ private:
         quit_ = true;
     }
 
-    void obey(const talk::Open& order) { order_ = order; }
+    void obey(const talk::Open& order) {
+        order_ = order;
+        held_nodes_.clear();
+    }
     void obey(const talk::SetPace& pace) {
         pacer_.set(pace.paused, pace.speed, wall_now());
         plan_.pace();
@@ -84,6 +87,10 @@ private:
     void obey(const talk::StopPlan&) {
         stop_plan();
         pacer_.set(false, pacer_.speed(), wall_now());
+    }
+    void obey(const talk::HoldNodes& order) {
+        held_nodes_ = {order.nodes.begin(), order.nodes.end()};
+        if (prepared_) prepared_->hold_nodes(held_nodes_);
     }
     void obey(const talk::SetBreakpoints& order) {
         plan_.want(order.list);
@@ -190,6 +197,8 @@ private:
         teller_.tell(talk::Opened{.order = number_, .hears = heard_, .stops = stops});
         plan_.tell_version();
         if (pacer_.held()) plan_.hold();
+        prepared_->end_when_stopped();
+        prepared_->hold_nodes(held_nodes_);
         bus_clock_.start(wall_now());
         {
             BusRun running(*prepared_, plan_.debugger());
@@ -359,6 +368,7 @@ private:
     session::SimSession* session_ = nullptr;  // of one of the two
     hub::LinkId link_;
     std::set<std::string> heard_;  // events, by the plan
+    std::set<uint16_t> held_nodes_;
     BusClock bus_clock_;
     int holds_ = 0;
     uint64_t instants_ = 0;

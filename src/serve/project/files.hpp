@@ -111,6 +111,9 @@ public:
     Status revert(const std::string& doc, const std::string& by);
     // What is on disk may be replaced by the next save.
     Status keep_mine(const std::string& doc);
+    // The text has what is on disk as well, which is mine in front of theirs where both touch one
+    // line; it can be saved then.
+    Status keep_both(const std::string& doc, const std::string& by);
     // What is on disk, while there is a conflict.
     Result<std::string> disk_text(const std::string& doc);
     bool is_unsaved(const std::string& doc) const;

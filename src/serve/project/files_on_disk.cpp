@@ -117,6 +117,26 @@ Status Files::keep_mine(const std::string& doc) {
     return Status::done();
 }
 
+Status Files::keep_both(const std::string& doc, const std::string& by) {
+    const Place place = TRY(place_of(doc));
+    File* file = TRY(load(place.path));
+    look_at_disk(place.path, *file, Look::Closely);
+    if (!file->conflict) return Status::done();
+    if (!file->conflict->why_no_text.empty()) {
+        return Error{Code::BadInput, place.path + ": " + file->conflict->why_no_text};
+    }
+    const std::string both = with_both(file->saved, file->text.bytes(), file->conflict->bytes);
+    if (both.size() > kTextBytesMax) {
+        return Error{Code::Limit, place.path +
+                                      ": both together are too long to be edited; compare "
+                                      "them, and keep one"};
+    }
+    file->saved = std::exchange(file->conflict, std::nullopt)->bytes;
+    file->text.take(both, by);
+    changed(place.path, *file);
+    return Status::done();
+}
+
 Result<std::string> Files::disk_text(const std::string& doc) {
     const Opened found = TRY(opened(doc));
     if (!found.file->conflict) {

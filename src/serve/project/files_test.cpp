@@ -140,6 +140,20 @@ TEST_F(FilesTest, AfterACrashAChangedFileIsShownBesideTheText) {
     EXPECT_EQ(files.open("note.txt").value().text, "theirs\n");
 }
 
+TEST_F(FilesTest, BothCanBeKeptAndSaved) {
+    {
+        Files files(root);
+        edit(files, "note.txt", {{0, 5, "mine"}});
+    }
+    write("note.txt", "theirs\n");
+    Files files(root);
+    EXPECT_TRUE(files.keep_both("note.txt", "me").ok());
+    EXPECT_FALSE(files.has_conflict("note.txt"));
+    EXPECT_EQ(files.open("note.txt").value().text, "mine\ntheirs\n");
+    ASSERT_TRUE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "mine\ntheirs\n");
+}
+
 TEST_F(FilesTest, AChangeOnDiskIsTakenOverByACleanTextAndShownBesideAnUnsavedOne) {
     Files files(root);
     ASSERT_TRUE(files.open("note.txt").ok());
@@ -205,8 +219,8 @@ TEST_F(FilesTest, WithoutAProjectEverythingIsRefused) {
          {files.open("a").error(), files.edit("a", 1, {}, "me").error(),
           files.replace("a", "", "me").error(), files.save("a").error(),
           files.save_all(saved).error(), files.revert("a", "me").error(),
-          files.keep_mine("a").error(), files.text("a").error(), files.bytes("a").error(),
-          files.make("a", "").error(), files.make_folder("a").error(),
+          files.keep_mine("a").error(), files.keep_both("a", "me").error(), files.text("a").error(),
+          files.bytes("a").error(), files.make("a", "").error(), files.make_folder("a").error(),
           files.rename("a", "b").error(), files.remove("a").error()}) {
         EXPECT_EQ(error.code, expected.code);
         EXPECT_EQ(error.what, expected.what);

@@ -141,6 +141,19 @@ TEST(Merge, OneLineThatBothTouchIsAConflict) {
     EXPECT_EQ(merged("a\nb\nc\n", "a\nc\n", "a\nb2\nc\n"), std::nullopt);
 }
 
+TEST(Merge, BothStayWhereSomebodyHasChosenThat) {
+    EXPECT_EQ(with_both("speed = 100\n", "speed = 150\n", "speed = 200\n"),
+              "speed = 150\nspeed = 200\n");
+    EXPECT_EQ(with_both("a\n", "a\nmine\n", "a\ntheirs\n"), "a\nmine\ntheirs\n");
+    EXPECT_EQ(with_both("a\nb\nc\n", "a\nc\n", "a\nb2\nc\n"), "a\nb2\nc\n");
+    // Beside it what only one of them changed.
+    EXPECT_EQ(with_both("a\nb\nc\n", "a1\nb1\nc\n", "a\nb2\nc2\n"), "a1\nb1\nc\na\nb2\nc2\n");
+    EXPECT_EQ(with_both("a\nb\nc\n", "a1\nb\nc1\n", "a\nb\nc2\n"), "a1\nb\nc1\nc2\n");
+    // A last line that does not end.
+    EXPECT_EQ(with_both("a", "mine", "theirs"), "mine\ntheirs");
+    EXPECT_EQ(with_both("a\n", "a1\n", "a\n"), "a1\n");
+}
+
 // Mine and theirs as changes of other lines: none is lost, whoever comes first.
 TEST(Merge, RandomChangesOfOtherLinesAreAllThere) {
     const unsigned seed = 99;

@@ -31,12 +31,14 @@ bool alike(const LineDifference& one, const Lines& its, const LineDifference& ot
                       others.begin() + static_cast<long>(other.end));
 }
 
+enum class SamePlace { Refuse, KeepBoth };
+
 class Merge {
 public:
     Merge(std::string_view base, std::string_view mine, std::string_view theirs)
         : base_(lines_of(base)), mine_(lines_of(mine)), theirs_(lines_of(theirs)) {}
 
-    std::optional<std::string> run() {
+    std::optional<std::string> run(SamePlace in_same_place) {
         const auto my = line_differences(base_, mine_);
         const auto their = line_differences(base_, theirs_);
         size_t i = 0;
@@ -47,7 +49,11 @@ public:
                 ++j;
                 continue;
             }
-            if (both && same_place(my[i], their[j])) return std::nullopt;
+            if (both && same_place(my[i], their[j])) {
+                if (in_same_place == SamePlace::Refuse) return std::nullopt;
+                take_both({my, i}, {their, j});
+                continue;
+            }
             const bool take_mine = j >= their.size() || (both && comes_first(my[i], their[j]));
             if (take_mine) {
                 take(my[i++], mine_);
@@ -62,6 +68,38 @@ public:
 private:
     static bool comes_first(const LineDifference& one, const LineDifference& other) {
         return std::pair(one.from, one.to) < std::pair(other.from, other.to);
+    }
+    struct Side {
+        const std::vector<LineDifference>& all;
+        size_t& next;
+    };
+    // The lines of the base that the next differences of both touch, with those that lie in them:
+    // first as one side has them, then as the other.
+    void take_both(Side my, Side their) {
+        const LineDifference& first = my.all[my.next];
+        const LineDifference& other = their.all[their.next];
+        const size_t from = std::min(first.from, other.from);
+        size_t to = std::max(first.to, other.to);
+        size_t my_end = my.next + 1;
+        size_t their_end = their.next + 1;
+        for (bool grows = true; grows;) {
+            grows = grow(my.all, my_end, to);
+            grows = grow(their.all, their_end, to) || grows;
+        }
+        copy_base(from);
+        take_lines(my, my_end, to, mine_);
+        at_ = from;
+        take_lines(their, their_end, to, theirs_);
+    }
+    static bool grow(const std::vector<LineDifference>& all, size_t& end, size_t& to) {
+        if (end >= all.size() || all[end].from >= to) return false;
+        to = std::max(to, all[end++].to);
+        return true;
+    }
+    void take_lines(Side side, size_t end, size_t to, const Lines& lines) {
+        if (!result_.empty() && result_.back() != '\n') result_ += '\n';
+        while (side.next < end) take(side.all[side.next++], lines);
+        copy_base(to);
     }
     void copy_base(size_t to) {
         for (; at_ < to; ++at_) result_ += base_[at_];
@@ -83,7 +121,11 @@ std::optional<std::string> merged(std::string_view base, std::string_view mine,
                                   std::string_view theirs) {
     if (mine == base) return std::string(theirs);
     if (theirs == base || theirs == mine) return std::string(mine);
-    return Merge(base, mine, theirs).run();
+    return Merge(base, mine, theirs).run(SamePlace::Refuse);
+}
+
+std::string with_both(std::string_view base, std::string_view mine, std::string_view theirs) {
+    return *Merge(base, mine, theirs).run(SamePlace::KeepBoth);
 }
 
 }  // namespace vagus::serve

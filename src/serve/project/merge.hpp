@@ -13,4 +13,7 @@ namespace vagus::serve {
 std::optional<std::string> merged(std::string_view base, std::string_view mine,
                                   std::string_view theirs);
 
+// Where both touch one line both stay, mine in front of theirs: somebody has chosen that.
+std::string with_both(std::string_view base, std::string_view mine, std::string_view theirs);
+
 }  // namespace vagus::serve

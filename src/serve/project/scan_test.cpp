@@ -77,6 +77,7 @@ TEST_F(ScanTest, AFolderThatMayNotBeReadDoesNotCutTheListShort) {
 
 // Without the rights of root, in a process of its own; anybody else has none anyway.
 TEST_F(ScanTest, AFolderThatMayNotBeEnteredOnTheDisk) {
+    fs::permissions(root, fs::perms::all);
     fs::permissions(root / "inner", fs::perms::none);
     EXPECT_EXIT(
         {

@@ -65,6 +65,7 @@ void Robot::brake_one(uint16_t node) {
 // its script would write over it.
 Result<debug::RequestId> Robot::pause(uint16_t node) {
     in_charge_ = true;
+    known_[node].held = true;
     const bool now = live() && moves(node);
     const auto at_once = now ? network_->pause_now(node) : std::nullopt;
     auto asked = at_once ? Result<debug::RequestId>(*at_once) : network_->pause(node);
@@ -74,6 +75,7 @@ Result<debug::RequestId> Robot::pause(uint16_t node) {
 
 Result<debug::RequestId> Robot::reset(uint16_t node) {
     in_charge_ = true;
+    known_[node].held = true;
     if (live() && moves(node)) (void)network_->stop_now(node);
     auto asked = network_->reset(node);
     brake(node);
@@ -91,6 +93,32 @@ void Robot::release_all() {
         if (network_) (void)network_->run(node).ok();
     }
     desk_.board().touch("robot");
+}
+
+// ---- who debugs: a plan waits for that ----
+
+// One that said that it runs just before it was paused is not let go by that.
+void Robot::note_held(uint16_t node, const debug::StateChanged& state) {
+    Known& known = known_[node];
+    const bool is_told_to_stand = known.busy == "pausing" || known.busy == "restarting";
+    if (state.at_breakpoint) known.held = true;
+    if (state.state == debug::ProgramState::Running && !is_told_to_stand) known.held = false;
+}
+
+bool Robot::is_held(uint16_t node) const {
+    const auto known = known_.find(node);
+    if (known == known_.end()) return false;
+    return known->second.held || known->second.busy == "loading";
+}
+
+std::vector<uint16_t> Robot::held_nodes() const {
+    const bool braked = std::any_of(brake_causes_.begin(), brake_causes_.end(),
+                                    [this](uint16_t cause) { return is_held(cause); });
+    std::vector<uint16_t> held;
+    for (const auto& [node, known] : known_) {
+        if (is_held(node) || (braked && braked_.contains(node))) held.push_back(node);
+    }
+    return held;
 }
 
 }  // namespace vagus::serve

@@ -150,6 +150,51 @@ TEST_F(BrakeTest, AWorldWhoseClockStopsTooIsLeftAsItIs) {
     EXPECT_EQ(bus.word(kDrive, "wheel.target"), 100);
 }
 
+// ---- a plan waits for nodes that somebody debugs ----
+
+using Nodes = std::vector<uint16_t>;
+
+TEST_F(BrakeTest, NodesAreHeldWhileSomebodyDebugsOne) {
+    run();
+    EXPECT_EQ(robot.held_nodes(), Nodes{});
+    break_at_bumper("");
+    EXPECT_EQ(robot.held_nodes(), (Nodes{kDrive, kBumper}));
+    ask("node.step", {{"node", kBumper}});
+    pass(100ms);
+    EXPECT_EQ(robot.held_nodes(), (Nodes{kDrive, kBumper}));
+    ask("break.clear", Json::object());
+    ask("node.run", {{"node", kBumper}});
+    pass(200ms);
+    EXPECT_EQ(robot.held_nodes(), Nodes{});
+}
+
+TEST_F(BrakeTest, PauseAndResetHoldNodesAndStopDoesNot) {
+    for (const char* command : {"node.pause", "node.reset", "node.stop"}) {
+        if (robot.connected()) robot.disconnect();
+        run();
+        ask(command, {{"node", kBumper}});
+        pass(100ms);
+        const bool stops = command == std::string("node.stop");
+        EXPECT_EQ(robot.held_nodes(), stops ? Nodes{} : (Nodes{kDrive, kBumper})) << command;
+        robot.stop_all([](const auto&) {});
+        pass(100ms);
+        EXPECT_EQ(robot.held_nodes(), Nodes{}) << command;
+    }
+}
+
+TEST_F(BrakeTest, WhatAnotherProgramResetsIsNotHeld) {
+    run();
+    wire::Reset reset{};
+    reset.dest = kBumper;
+    wire::Frame frame;
+    ASSERT_EQ(wire::encode_message(reset, wire::kHostId, frame), wire::Error::None);
+    bus.others_say(frame);
+    pass(100ms);
+    EXPECT_FALSE(runs(kBumper));
+    expect_braked();
+    EXPECT_EQ(robot.held_nodes(), Nodes{});
+}
+
 // ---- scripts that run on behind a plan ----
 
 // A handler that was under way when the plan ended writes over what made the node safe.

@@ -43,6 +43,7 @@ void Robot::hear(const debug::Event& event, const debug::NodeDescribed& describe
 void Robot::hear(const debug::Event& event, const debug::StateChanged& state) {
     Known& known = known_[event.node];
     note_state(event.node, state.state);
+    note_held(event.node, state);
     if (state.state == debug::ProgramState::Running) {
         known.why.clear();
         known.stopped = false;
@@ -70,6 +71,7 @@ void Robot::hear(const debug::Event& event, const debug::Fault& fault) {
     known.fault = fault.text;
     known.fault_line = fault.at.line;
     known.why = "fault";
+    known.held = false;
     const std::string place = fault.at.line > 0 ? fmt::format(" at line {}", fault.at.line) : "";
     happen("fault", event.node, debug::name_of(fault.kind), fault.text + place);
     say_("error", fmt::format("{}{}: {}", name_of(event.node), place, fault.text));

@@ -21,7 +21,7 @@ void Robot::restore(uint16_t node) {
 // knows from now on what the node does.
 void Robot::went_away(uint16_t node) {
     Known& known = known_[node];
-    known.runs = false;
+    known.runs = known.held = false;
     if (!live()) return;
     known.away = true;
     network_->forget_program(node);

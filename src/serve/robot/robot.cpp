@@ -343,6 +343,7 @@ Result<debug::RequestId> Robot::step(uint16_t node) {
     end_rest();
     stopping_.forget(node);
     known_[node].why = "step";
+    known_[node].held = true;
     return network_->step(node);
 }
 
@@ -372,6 +373,7 @@ void Robot::stop_all(std::function<void(const StopReport&)> done) {
     for (const debug::NodeId node : network_->nodes()) {
         known_[node].why = "asked";
         known_[node].stopped = true;
+        known_[node].held = false;
         known_[node].lost_program = false;
     }
     std::vector<uint16_t> heard;
@@ -394,6 +396,7 @@ Result<debug::RequestId> Robot::stop(uint16_t node) {
     if (!network_->node(node)) return network_->stop(node);  // there is none: says so
     known_[node].why = "asked";
     known_[node].stopped = true;
+    known_[node].held = false;
     const auto asked = network_->stop_now(node);
     brake(node);
     return *asked;

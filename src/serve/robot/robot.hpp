@@ -150,6 +150,9 @@ public:
     bool stands_inside() const;
     // Empty if it is not there or has not told what it is.
     std::string described_name(uint16_t node) const;
+    // Nodes that somebody debugs: paused, reset, stepped or loaded from here, at a breakpoint of
+    // whoever, or paused because of such a one. In ascending order.
+    std::vector<uint16_t> held_nodes() const;
     // Nodes that the project has no script for.
     std::vector<uint16_t> without_script() const;
     // So many nodes are there and have told what they are.
@@ -184,6 +187,7 @@ private:
         bool in_doubt = false;                    // it is back, and has not told what it runs
         bool stopped = false;                     // its next run starts from the beginning
         bool runs = false;                        // it said so last
+        bool held = false;                        // somebody debugs it
         std::optional<debug::RequestId> braking;  // it is being paused for another
         uint64_t events = 0;
     };
@@ -236,6 +240,8 @@ private:
     void release(uint16_t cause);
     void release_all();
     void brake_one(uint16_t node);
+    void note_held(uint16_t node, const debug::StateChanged& state);
+    bool is_held(uint16_t node) const;
 
     // ---- direct driving (lease.cpp) ----
     void note_lease(uint32_t member, uint16_t node, const std::string& variable);

@@ -75,6 +75,7 @@ void Run::forget_run() {
     late_checks_ = 0;
     frames_.clear();
     shown_.reset();
+    held_nodes_.clear();
 }
 
 talk::Open Run::open_order(const RunOrder& order) {
@@ -223,6 +224,12 @@ void Run::step_plan() {
 
 void Run::stop_plan() {
     tell(talk::StopPlan{});
+}
+
+void Run::hold_nodes(std::vector<uint16_t> nodes) {
+    if (!plan_runs() || nodes == held_nodes_) return;
+    held_nodes_ = std::move(nodes);
+    tell(talk::HoldNodes{held_nodes_});
 }
 
 void Run::set_breakpoints(const std::vector<talk::Breakpoint>& list) {

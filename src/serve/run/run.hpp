@@ -144,6 +144,9 @@ public:
     // A hand from above: `done` gets the number of an object that was put, or why it was not done.
     using HandDone = std::function<void(std::optional<uint32_t> number, const std::string& why)>;
     void lend_hand(HandOrder order, HandDone done);
+    // Somebody debugs these nodes, and no others: the plan on a bus waits for them. It is told what
+    // is news.
+    void hold_nodes(std::vector<uint16_t> nodes);
     // Writes a variable of the plan; `done` gets why not, or nothing.
     using SetDone = std::function<void(const std::string& why)>;
     void set_variable(int level, const std::string& name, const Json& value, SetDone done);
@@ -245,6 +248,7 @@ private:
     std::map<uint16_t, std::string> programs_;
     std::set<std::string> hears_;  // events, by the plan
     std::set<std::string> stops_work_;
+    std::vector<uint16_t> held_nodes_;  // as it was told
     uint64_t generation_ = 0;
     uint64_t orders_ = 0;
     bool opening_ = false;  // what the host tells is still of the order before

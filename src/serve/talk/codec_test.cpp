@@ -51,6 +51,7 @@ std::vector<Order> orders() {
         Show{true, {"alice", "bob"}},
         StepPlan{},
         StopPlan{},
+        HoldNodes{{1, 4}},
         SetBreakpoints{{breakpoint()}},
         SetVariable{1, 2, "n", plan::Value(int64_t{-7})},
         RaiseEvent{2, "s", "e", {{"a", plan::Value(true)}, {"b", plan::Value(1.5)}}},

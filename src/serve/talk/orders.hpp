@@ -128,6 +128,15 @@ struct StopPlan {
     bool operator==(const StopPlan&) const = default;
 };
 
+// Nodes of the bus that somebody pauses or debugs: the plan waits for them. The whole list, each
+// time it changes.
+struct HoldNodes {
+    std::vector<uint16_t> nodes = {};
+    static constexpr std::string_view kName = "plan.hold_nodes";
+    static void layout(auto& each, auto& it) { each("nodes", it.nodes); }
+    bool operator==(const HoldNodes&) const = default;
+};
+
 // The whole list, each time it changes.
 struct SetBreakpoints {
     std::vector<Breakpoint> list = {};
@@ -329,8 +338,8 @@ struct SendFrame {
 
 // All of them. Which one a packet holds is its place in this list.
 using Order =
-    std::variant<Open, SetPace, LetTimePass, Show, StepPlan, StopPlan, SetBreakpoints, SetVariable,
-                 RaiseEvent, HandleHeld, ChangePlan, CheckPlan, MoveRobot, MoveObject, PutObject,
-                 TakeObject, SwitchLight, PressButton, TapRobot, SendFrame>;
+    std::variant<Open, SetPace, LetTimePass, Show, StepPlan, StopPlan, HoldNodes, SetBreakpoints,
+                 SetVariable, RaiseEvent, HandleHeld, ChangePlan, CheckPlan, MoveRobot, MoveObject,
+                 PutObject, TakeObject, SwitchLight, PressButton, TapRobot, SendFrame>;
 
 }  // namespace vagus::serve::talk

@@ -379,6 +379,7 @@ void Workbench::tick(Time now) {
     live();
     watch_run();
     robot_.tick(now);
+    if (bus_) run_.hold_nodes(robot_.held_nodes());
     if (run_.is_open() || bus_) history_.tick(history_clock());
     add_missing_scripts();
     tick_life();

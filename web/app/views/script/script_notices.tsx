@@ -10,6 +10,8 @@ import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 
 const words = text.editor;
+// Lines below each other are no JSON any more.
+const kTexts: readonly string[] = ['aesl', 'aesl-file', 'text'];
 const Compare = late(() => import('./compare'));
 
 /** Lines above a text: what runs is another one, the node has stopped, the file has changed. */
@@ -51,7 +53,7 @@ export function DiskNotice({ doc }: { doc: Doc }) {
   const state = useTopic('doc', { doc });
   if (state?.gone) return <Line>{words.gone}</Line>;
   if (!state?.disk) return null;
-  const keep = (which: 'mine' | 'disk') => () => studio.order('doc.keep', { doc, which });
+  const keep = (which: 'mine' | 'disk' | 'both') => () => studio.order('doc.keep', { doc, which });
   const end = (
     <>
       <Button small kind="plain" aria-expanded={compare} onClick={() => setCompare(!compare)}>
@@ -63,6 +65,11 @@ export function DiskNotice({ doc }: { doc: Doc }) {
       <Button small disabled={!drives} onClick={keep('disk')}>
         {words.theirs}
       </Button>
+      {kTexts.includes(state.language) ? (
+        <Button small disabled={!drives} tip={words.bothHelp} onClick={keep('both')}>
+          {words.both}
+        </Button>
+      ) : null}
     </>
   );
   return (

@@ -542,6 +542,8 @@ export const text = {
     copyPath: 'Copy the path',
     exportZip: 'Export as zip',
     exported: (count: number) => `${s(count, 'file', 'files')} exported.`,
+    leftOut: (paths: readonly string[]) =>
+      `Left out, because larger than 4 MiB or not readable: ${paths.slice(0, 5).join(', ')}${paths.length > 5 ? ` and ${paths.length - 5} more` : ''}. Copy them from the folder of the project.`,
     collapse: 'Close all folders',
     more: 'More files than can be shown.',
     kinds: {
@@ -675,7 +677,9 @@ export const text = {
     badValues: (most: number) => `Whole numbers with spaces between, ${most} at most.`,
     add: 'Add',
     watchName: 'node.variable',
-    noSuch: 'No node has a variable of this name.',
+    noSuch: 'Neither a node nor the running plan has a variable of this name.',
+    ofPlan: 'Plan',
+    noPlan: 'no running plan has it',
     form: (form: string) => `Numbers: ${form}`,
     forms: { decimal: 'decimal', hex: 'hexadecimal', binary: 'binary' },
     shortForms: { decimal: '123', hex: '0x', binary: '0b' },
@@ -1090,6 +1094,8 @@ export const text = {
           `An event of ${names} ends the plan as interrupted, which a sub-plan cannot do for its caller. Leave that supervisor out.`,
       },
     },
+    tidyTooLong:
+      'Placing so many elements takes too long. Choose fewer of them, or none to place all in columns.',
     tidy: 'Tidy',
     zoom: (percent: number) => `Zoom: ${percent} %`,
     zoomTo: 'Zoom to 100 %',

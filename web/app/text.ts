@@ -575,7 +575,8 @@ export const text = {
     up: (name: string) => `${name} further up (Alt+Up)`,
     down: (name: string) => `${name} further down (Alt+Down)`,
     save: 'Change',
-    renamed: (places: number) => `Changed in ${s(places, 'place', 'places')}.`,
+    renamed: (places: number, others: readonly string[]) =>
+      `Changed in ${s(places, 'place', 'places')}${others.length > 0 ? `, also of ${others.join(', ')}` : ''}.`,
     init: 'at the start',
     none: {
       event: 'None yet. + adds one that all nodes share.',
@@ -623,7 +624,7 @@ export const text = {
     off: 'off',
     renameTo: 'New name',
     renamed: (places: number, docs: number) =>
-      `${s(places, 'place', 'places')} in ${s(docs, 'script', 'scripts')} renamed.`,
+      `${s(places, 'place', 'places')} in ${s(docs, 'text', 'texts')} renamed.`,
     noDefinition: 'Nothing is declared under this name.',
     references: (name: string) => `Where “${name}” is used`,
     address: 'Address',

@@ -995,7 +995,7 @@ export interface Commands {
     name: string;
     spots: Spot[];
   } };
-  /** Renames a variable, constant, event, sub in all scripts that share it. */
+  /** Renames a variable, constant, event, sub in all scripts that share it; an event also in the project's plans and toolboxes. */
   'script.rename': { in: {
     doc: Doc;
     at: Place;
@@ -1095,7 +1095,7 @@ export interface Commands {
     value: number;
     seen?: DocVersion[];
   }; out: Record<never, never> };
-  /** Changes its value or name; scripts follow the name. */
+  /** Changes its value or name; scripts, plans and toolboxes of the project follow the name. */
   'define.change': { in: {
     file: Path;
     kind: 'event' | 'constant';
@@ -1105,6 +1105,8 @@ export interface Commands {
     seen?: DocVersion[];
   }; out: {
     places: number;
+    /** plans and toolboxes that were changed, too */
+    others: Path[];
   } };
   /** Removes it. */
   'define.remove': { in: {
@@ -1762,7 +1764,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'plan.code': { may: 'look', kind: 'look', out: { name: 'line(256)', text: 'text(4194304)', marks: '[CodeMark; 20000]', findings: '[Finding; 2000]' } },
   'template.new': { may: 'driver', kind: 'edit', out: { toolbox: 'line(256)', at: 'Place' } },
   'define.add': { may: 'driver', kind: 'edit', out: {} },
-  'define.change': { may: 'driver', kind: 'edit', out: { places: 'int(0..100000)' } },
+  'define.change': { may: 'driver', kind: 'edit', out: { places: 'int(0..100000)', others: '[Path; 2000]' } },
   'define.remove': { may: 'driver', kind: 'edit', out: {} },
   'define.move': { may: 'driver', kind: 'edit', out: {} },
   'target.choose': { may: 'driver', kind: 'act', out: {} },

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "serve/edit/event_names.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
 
@@ -15,8 +17,10 @@ class ScriptDesk {
 public:
     using Json = nlohmann::json;
 
+    using FilesOfProject = std::function<std::set<std::string>()>;
     // All borrowed.
-    ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string epoch);
+    ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string epoch,
+               FilesOfProject files_of_project);
 
     void text_changed(const std::string& path);
     void project_changed();
@@ -37,6 +41,10 @@ private:
     void listing(const Call& call);
     void format_name(const Call& call);
     void change(const Call& call);
+    std::vector<std::string> rename_elsewhere(const std::string& file, const EventName& name,
+                                              const std::string& by, size_t& places);
+    bool is_declared_elsewhere(const std::string& file, const std::string& event,
+                               const std::set<std::string>& project);
     Json spots_of(const std::vector<Spot>& spots, size_t most);
     Json script_document(const Json& of);
     Json scripts_document();
@@ -45,6 +53,7 @@ private:
     Files& files_;
     Scripts& scripts_;
     const std::string epoch_;
+    const FilesOfProject files_of_project_;
     uint64_t targets_ = 0;
 };
 

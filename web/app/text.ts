@@ -728,6 +728,7 @@ export const text = {
     nothing: 'Nothing matches the filter.',
     shown: (shown: string, all: string) => (shown === all ? all : `${shown} of ${all}`),
     happened: 'happened',
+    timesHelp: 'Seconds since the run began; on a bus without a run, since it was connected.',
     aSecond: '/s',
     held: 'paused',
     heldMore: (count: number) => `${s(count, 'newer one', 'newer ones')} not shown`,

@@ -298,12 +298,15 @@ describe('happenings', () => {
     expect(passesAll).toHaveBeenCalledTimes(3);
     expect(shown.map((item) => item.number)).toEqual([2, 3]);
   });
-  test('TheTableHasAColumnForEachArgument', () => {
-    const csv = happeningsCsv([happening(1, { args: [5, -6] }), happening(2, { args: [] })]);
+  test('EachRowOfTheTableHasTheSameColumnsAndItsRun', () => {
+    const csv = happeningsCsv([
+      happening(1, { run: 3, args: [5, -6] }),
+      happening(2, { run: 4, args: [] }),
+    ]);
     expect(csv.split('\r\n')).toEqual([
-      'time,wall,kind,node,source,name,text,args[0],args[1]',
-      '0.1,1970-01-01T00:00:01.001Z,event,1,drive,steer,,5,-6',
-      '0.2,1970-01-01T00:00:01.002Z,event,1,drive,steer,',
+      'run,time,wall,kind,node,source,name,text,args',
+      '3,0.1,1970-01-01T00:00:01.001Z,event,1,drive,steer,,5 -6',
+      '4,0.2,1970-01-01T00:00:01.002Z,event,1,drive,steer,,',
       '',
     ]);
   });

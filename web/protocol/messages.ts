@@ -344,6 +344,9 @@ export interface LocalEvent {
 export interface Happening {
   /** counts up */
   number: number;
+  /** the one of the topic history; missing in what history.at gives */
+  run?: number;
+  /** seconds since the run began; on a bus without one, since it was connected */
   t: number;
   wall: number;
   kind: 'event' | 'state' | 'fault' | 'appeared' | 'gone' | 'loaded' | 'plan' | 'lost';
@@ -1676,7 +1679,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Native: { name: 'Name', help: 'line(400)', parameters: '[Parameter; 32]' },
   Parameter: { name: 'Name', size: 'int(-65535..65535)' },
   LocalEvent: { name: 'Name', help: 'line(400)' },
-  Happening: { number: 'number', t: 'number', wall: 'number', kind: 'word(event|state|fault|appeared|gone|loaded|plan|lost)', node: 'int(0..65534)', source: 'line(128)', name: 'line(200)', args: 'Words', text: 'text(1000)' },
+  Happening: { number: 'number', run: 'number?', t: 'number', wall: 'number', kind: 'word(event|state|fault|appeared|gone|loaded|plan|lost)', node: 'int(0..65534)', source: 'line(128)', name: 'line(200)', args: 'Words', text: 'text(1000)' },
   HistoryBar: { from: 'number', to: 'number?', name: 'line(200)?', end: 'line(200)?', count: 'number?' },
   HistoryMark: { t: 'number', name: 'line(200)?', to: 'line(200)?', count: 'number?' },
   HistoryLane: { kind: 'word(actors|supervisor|events)', path: 'line(4096)', name: 'line(200)', bars: '[HistoryBar; 20000]', marks: '[HistoryMark; 20000]' },

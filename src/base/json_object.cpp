@@ -44,6 +44,15 @@ Error first_complaint(const Complaints& complaints, std::string_view file) {
     return {Code::BadInput, at_place(file, first.at, first.what)};
 }
 
+std::vector<Error> errors_of(Complaints complaints, std::string_view file) {
+    std::stable_sort(complaints.begin(), complaints.end(), is_before);
+    std::vector<Error> errors;
+    for (const Complaint& one : complaints) {
+        errors.push_back({Code::BadInput, at_place(file, one.at, one.what)});
+    }
+    return errors;
+}
+
 JsonObject::JsonObject(const Json& json, std::string name, Complaints& complaints)
     : json_(json),
       name_(std::move(name)),

@@ -31,6 +31,9 @@ using Complaints = std::vector<Complaint>;
 // is not empty.
 Error first_complaint(const Complaints& complaints, std::string_view file);
 
+// Each of them as such an Error, in the order of the file; for editors, which show all at once.
+std::vector<Error> errors_of(Complaints complaints, std::string_view file);
+
 enum class Need { Optional, Required };
 
 struct IntegerRange {

@@ -23,6 +23,13 @@ TEST(Nearest, NoGuessIsBetterThanAWrongOne) {
     EXPECT_EQ(nearest("", kVerbs), "");
 }
 
+TEST(Nearest, ASentenceSaysWhatThereIs) {
+    const std::vector<std::string> known = {"say", "wait"};
+    EXPECT_EQ(known_instead("sey", known), "did you mean say?");
+    EXPECT_EQ(known_instead("count", known), "there are: say, wait");
+    EXPECT_EQ(known_instead("count", {}), "there is none");
+}
+
 TEST(Nearest, WordsBeyondTheLimitAreNotCompared) {
     EXPECT_EQ(nearest(std::string(64, 'a'), std::vector{std::string(64, 'a')}),
               std::string(64, 'a'));

@@ -13,15 +13,8 @@ namespace {
 // "the plan A has no actor "x"; did you mean y?"
 Error no_such(std::string_view whose, std::string_view what, std::string_view name,
               const std::vector<std::string>& known) {
-    const std::string near = nearest(name, known);
-    std::string fix = fmt::format("did you mean {}?", near);
-    if (near.empty()) fix = known.empty() ? "there is none" : "there are: ";
-    if (near.empty()) {
-        for (size_t i = 0; i < std::min<size_t>(known.size(), 10); ++i) {
-            fix += (i == 0 ? "" : ", ") + known[i];
-        }
-    }
-    return {Code::NotFound, fmt::format("{} has no {} \"{}\"; {}", whose, what, name, fix)};
+    return {Code::NotFound,
+            fmt::format("{} has no {} \"{}\"; {}", whose, what, name, known_instead(name, known))};
 }
 
 std::vector<const plan::GraphSupervisor*> supervisors_of(const plan::GraphPlan& plan) {

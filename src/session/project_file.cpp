@@ -134,12 +134,16 @@ void read_start(Reading& reading, JsonObject& in) {
     }
 }
 
-Result<Reading> read_all(std::string_view text, const std::string& file) {
+Result<Json> parse(std::string_view text, const std::string& file) {
     if (text.size() > kProjectBytesMax) {
         return Error{Code::Limit, fmt::format("{}: has {} bytes; {} are the most that is read",
                                               file, text.size(), kProjectBytesMax)};
     }
-    const Json json = TRY(parse_format(text, file, FileFormat::Project));
+    return parse_format(text, file, FileFormat::Project);
+}
+
+// Its complaints are left in it.
+Reading read_members(const Json& json, const std::string& file) {
     Reading reading;
     reading.project.file = file;
     JsonObject in(json, "the project", reading.complaints);
@@ -156,6 +160,12 @@ Result<Reading> read_all(std::string_view text, const std::string& file) {
     reading.project.stops_alone =
         in.word("when_alone", {"run", "stop"}, Need::Optional, "run") == "stop";
     in.finish();
+    return reading;
+}
+
+Result<Reading> read_all(std::string_view text, const std::string& file) {
+    const Json json = TRY(parse(text, file));
+    Reading reading = read_members(json, file);
     if (!reading.complaints.empty()) return first_complaint(reading.complaints, file);
     return reading;
 }
@@ -180,6 +190,12 @@ std::string ProjectFile::path_of(const std::string& named) const {
 
 Result<ProjectFile> read_project_file(std::string_view text, const std::string& file) {
     return TRY(read_all(text, file)).project;
+}
+
+std::vector<Error> mistakes_of_project(std::string_view text, const std::string& file) {
+    const Result<Json> json = parse(text, file);
+    if (!json.ok()) return {json.error()};
+    return errors_of(read_members(json.value(), file).complaints, file);
 }
 
 Result<ProjectFile> open_project(const std::string& folder_or_file) {

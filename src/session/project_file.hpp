@@ -44,6 +44,10 @@ struct ProjectFile {
 // Text in, values out, or the Error that stands first in the file. Paths are not looked at.
 Result<ProjectFile> read_project_file(std::string_view text, const std::string& file);
 
+// Everything that keeps the text from being read, in the order of the file: the first is the Error
+// of read_project_file(). Empty: it can be read.
+std::vector<Error> mistakes_of_project(std::string_view text, const std::string& file);
+
 // Reads the project of a folder (or of the path of a vagus.json) and checks that each file that it
 // names exists within the border (base/project_border.hpp).
 Result<ProjectFile> open_project(const std::string& folder_or_file);

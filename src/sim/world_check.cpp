@@ -14,6 +14,13 @@ namespace {
 
 using Found = std::optional<Problem>;
 
+struct Problems {
+    std::vector<Problem> list = {};
+    void add(Found found) {
+        if (found && list.size() < kProblemsMax) list.push_back(std::move(*found));
+    }
+};
+
 constexpr double kFullTurn = 2 * std::numbers::pi;
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -215,20 +222,27 @@ private:
     const std::string* element_ = nullptr;
 };
 
-Found check_objects(const WorldDefinition& world) {
-    if (auto found = check_count("objects", world.objects.size(), kObjectsMax)) return found;
-    std::set<std::string> ids;
-    for (size_t i = 0; i < world.objects.size(); ++i) {
-        const ObjectDefinition& object = world.objects[i];
-        const std::string element = "objects[" + std::to_string(i) + "]";
-        if (auto found = find_problem(object, element)) return found;
-        if (auto found = check_inside(object.at, element + ".at", world)) return found;
-        if (!object.id.empty() && !ids.insert(object.id).second) {
-            return Problem{element + ".id",
-                           "\"" + object.id + "\" is the id of an earlier object; choose another"};
-        }
+Found check_object(const ObjectDefinition& object, const std::string& element,
+                   const WorldDefinition& world, std::set<std::string>& ids) {
+    if (auto found = find_problem(object, element)) return found;
+    if (auto found = check_inside(object.at, element + ".at", world)) return found;
+    if (!object.id.empty() && !ids.insert(object.id).second) {
+        return Problem{element + ".id",
+                       "\"" + object.id + "\" is the id of an earlier object; choose another"};
     }
     return std::nullopt;
+}
+
+std::string numbered(const char* list, size_t i) {
+    return std::string(list) + "[" + std::to_string(i) + "]";
+}
+
+void check_objects(const WorldDefinition& world, Problems& problems) {
+    problems.add(check_count("objects", world.objects.size(), kObjectsMax));
+    std::set<std::string> ids;
+    for (size_t i = 0; i < world.objects.size(); ++i) {
+        problems.add(check_object(world.objects[i], numbered("objects", i), world, ids));
+    }
 }
 
 Found check_robot(const RobotDefinition& robot, const std::string& element,
@@ -259,47 +273,59 @@ std::string reach_text(const RobotDefinition& robot) {
            std::to_string(last) + ")";
 }
 
-Found check_robots(const WorldDefinition& world) {
-    if (auto found = check_count("robots", world.robots.size(), kRobotsMax)) return found;
-    std::set<std::string> names;
-    std::set<uint16_t> nodes;
-    std::set<uint16_t> ports;
-    for (size_t i = 0; i < world.robots.size(); ++i) {
-        const RobotDefinition& robot = world.robots[i];
-        const std::string element = "robots[" + std::to_string(i) + "]";
-        if (auto found = check_robot(robot, element, world)) return found;
-        if (const auto solid = stands_in(robot, world)) {
-            return Problem{element + ".at", "robot " + robot.name + " would stand in " + *solid};
-        }
-        if (!names.insert(robot.name).second)
-            return Problem{element + ".name", "\"" + robot.name + "\" is taken; choose another"};
-        for (uint32_t node = robot.node; node < robot.node + nodes_of(robot.type); ++node) {
-            if (nodes.insert(static_cast<uint16_t>(node)).second) continue;
-            return Problem{element + ".node",
-                           std::to_string(node) + " is a node of an earlier robot" +
-                               reach_text(robot) + "; all robots are on one bus, choose another"};
-        }
-        if (robot.port.value_or(0) != 0 && !ports.insert(*robot.port).second)
-            return Problem{element + ".port", std::to_string(*robot.port) +
-                                                  " is the port of an "
-                                                  "earlier robot; choose "
-                                                  "another"};
+// What only one robot of a world can have.
+struct Taken {
+    std::set<std::string> names = {};
+    std::set<uint16_t> nodes = {};
+    std::set<uint16_t> ports = {};
+};
+
+Found check_nodes(const RobotDefinition& robot, const std::string& element, Taken& taken) {
+    Found found;
+    for (uint32_t node = robot.node; node < robot.node + nodes_of(robot.type); ++node) {
+        if (taken.nodes.insert(static_cast<uint16_t>(node)).second || found) continue;
+        found = Problem{element + ".node", std::to_string(node) + " is a node of an earlier robot" +
+                                               reach_text(robot) +
+                                               "; all robots are on one bus, choose another"};
     }
+    return found;
+}
+
+Found check_among_others(const RobotDefinition& robot, const std::string& element,
+                         const WorldDefinition& world, Taken& taken) {
+    if (auto found = check_robot(robot, element, world)) return found;
+    if (const auto solid = stands_in(robot, world)) {
+        return Problem{element + ".at", "robot " + robot.name + " would stand in " + *solid};
+    }
+    if (!taken.names.insert(robot.name).second)
+        return Problem{element + ".name", "\"" + robot.name + "\" is taken; choose another"};
+    if (auto found = check_nodes(robot, element, taken)) return found;
+    if (robot.port.value_or(0) != 0 && !taken.ports.insert(*robot.port).second)
+        return Problem{element + ".port", std::to_string(*robot.port) +
+                                              " is the port of an earlier robot; choose another"};
     return std::nullopt;
 }
 
-Found check_timeline(const WorldDefinition& world) {
-    if (auto found = check_count("timeline", world.timeline.size(), kTimelineMax)) return found;
+void check_robots(const WorldDefinition& world, Problems& problems) {
+    problems.add(check_count("robots", world.robots.size(), kRobotsMax));
+    Taken taken;
+    for (size_t i = 0; i < world.robots.size(); ++i) {
+        problems.add(check_among_others(world.robots[i], numbered("robots", i), world, taken));
+    }
+}
+
+void check_timeline(const WorldDefinition& world, Problems& problems) {
+    problems.add(check_count("timeline", world.timeline.size(), kTimelineMax));
     Timeline timeline(world);
     for (size_t i = 0; i < world.timeline.size(); ++i) {
-        const std::string element = "timeline[" + std::to_string(i) + "]";
-        if (auto found = timeline.check(world.timeline[i], element)) return found;
-        if (i > 0 && world.timeline[i].at < world.timeline[i - 1].at) {
-            return Problem{element + ".t",
-                           "is before the entry above it; put the entries in the order of time"};
+        const std::string element = numbered("timeline", i);
+        Found found = timeline.check(world.timeline[i], element);
+        if (!found && i > 0 && world.timeline[i].at < world.timeline[i - 1].at) {
+            found = Problem{element + ".t",
+                            "is before the entry above it; put the entries in the order of time"};
         }
+        problems.add(std::move(found));
     }
-    return std::nullopt;
 }
 
 }  // namespace
@@ -323,9 +349,6 @@ std::vector<Problem> find_hints(const WorldDefinition& world) {
         const Found hint = hint_of_angle(element + ".angle", angle);
         if (hint && hints.size() < kHintsMax) hints.push_back(*hint);
     };
-    const auto numbered = [](const char* list, size_t i) {
-        return std::string(list) + "[" + std::to_string(i) + "]";
-    };
     for (size_t i = 0; i < world.objects.size(); ++i) {
         look(numbered("objects", i), world.objects[i].angle);
     }
@@ -343,16 +366,23 @@ std::vector<Problem> find_hints(const WorldDefinition& world) {
     return hints;
 }
 
-std::optional<Problem> find_problem(const WorldDefinition& world) {
+std::vector<Problem> find_problems(const WorldDefinition& world) {
+    Problems problems;
     for (const double side : {world.width, world.height}) {
-        if (auto found = check_range("size", side, {kWorldSizeMin, kWorldSizeMax, "m"},
-                                     "sizes are in metres"))
-            return found;
+        if (problems.list.empty())
+            problems.add(check_range("size", side, {kWorldSizeMin, kWorldSizeMax, "m"},
+                                     "sizes are in metres"));
     }
-    if (auto found = check_colour("ground.colour", world.ground)) return found;
-    if (auto found = check_objects(world)) return found;
-    if (auto found = check_robots(world)) return found;
-    return check_timeline(world);
+    problems.add(check_colour("ground.colour", world.ground));
+    check_objects(world, problems);
+    check_robots(world, problems);
+    check_timeline(world, problems);
+    return std::move(problems.list);
+}
+
+std::optional<Problem> find_problem(const WorldDefinition& world) {
+    const std::vector<Problem> problems = find_problems(world);
+    return problems.empty() ? std::nullopt : std::optional(problems.front());
 }
 
 }  // namespace vagus::sim

@@ -214,20 +214,32 @@ Place place_of(const Json& top, std::string_view name) {
     return at->at;
 }
 
+// What the whole must keep to is looked at once each part is right.
+WorldDefinition read_checked(const Json& json, Complaints& complaints) {
+    WorldDefinition world = read_all(json, complaints);
+    if (!complaints.empty()) return world;
+    for (const Problem& one : find_problems(world)) {
+        complaints.push_back({place_of(json, one.element), one.element + ": " + one.what});
+    }
+    return world;
+}
+
 }  // namespace
 
 Result<WorldDefinition> read_world(std::string_view text, std::string_view file) {
     const Json json = TRY(parse_format(text, file, FileFormat::World));
     Complaints complaints;
-    WorldDefinition world = read_all(json, complaints);
-    if (complaints.empty()) {
-        if (const auto problem = find_problem(world)) {
-            complaints.push_back(
-                {place_of(json, problem->element), problem->element + ": " + problem->what});
-        }
-    }
+    WorldDefinition world = read_checked(json, complaints);
     if (!complaints.empty()) return first_complaint(complaints, file);
     return world;
+}
+
+std::vector<Error> mistakes_of_world(std::string_view text, std::string_view file) {
+    const Result<Json> json = parse_format(text, file, FileFormat::World);
+    if (!json.ok()) return {json.error()};
+    Complaints complaints;
+    read_checked(json.value(), complaints);
+    return errors_of(std::move(complaints), file);
 }
 
 std::vector<std::string> hints_of_world(std::string_view text, std::string_view file) {

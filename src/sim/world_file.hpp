@@ -17,6 +17,10 @@ namespace vagus::sim {
 // `file` is for the sentences of errors.
 Result<WorldDefinition> read_world(std::string_view text, std::string_view file);
 
+// Everything that keeps the text from being read, in the order of the file: the first is the Error
+// of read_world(). Empty: it can be read.
+std::vector<Error> mistakes_of_world(std::string_view text, std::string_view file);
+
 // What is allowed, but looks like a slip (an angle in degrees): "FILE:LINE:COL: warning: sentence".
 // `text` was read without an error.
 std::vector<std::string> hints_of_world(std::string_view text, std::string_view file);

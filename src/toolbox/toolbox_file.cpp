@@ -447,19 +447,32 @@ ToolboxFile read_all(Reading& reading, const Json& json, const std::string& path
     return file;
 }
 
-}  // namespace
-
-Result<ToolboxFile> read_toolbox(std::string_view text, const std::string& file,
-                                 const ReadProject& read_project) {
+Result<Json> parse(std::string_view text, const std::string& file) {
     if (text.size() > kToolboxBytesMax) {
         return Error{Code::Limit, fmt::format("{} has {} bytes; a toolbox file has at most {}",
                                               file, text.size(), kToolboxBytesMax)};
     }
-    const Json json = TRY(parse_format(text, file, FileFormat::Toolbox));
+    return parse_format(text, file, FileFormat::Toolbox);
+}
+
+}  // namespace
+
+Result<ToolboxFile> read_toolbox(std::string_view text, const std::string& file,
+                                 const ReadProject& read_project) {
+    const Json json = TRY(parse(text, file));
     Reading reading;
     ToolboxFile read = read_all(reading, json, file, read_project);
     if (!reading.complaints.empty()) return first_complaint(reading.complaints, file);
     return read;
+}
+
+std::vector<Error> mistakes_of_toolbox(std::string_view text, const std::string& file,
+                                       const ReadProject& read_project) {
+    const Result<Json> json = parse(text, file);
+    if (!json.ok()) return {json.error()};
+    Reading reading;
+    read_all(reading, json.value(), file, read_project);
+    return errors_of(std::move(reading.complaints), file);
 }
 
 }  // namespace vagus::toolbox

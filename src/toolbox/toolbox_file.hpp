@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/result.hpp"
 #include "toolbox/bus_template.hpp"
@@ -33,5 +34,10 @@ using ReadProject = std::function<Result<ProjectEvents>(const std::string& path)
 // `read_project` nobody looks whether the project knows the events.
 Result<ToolboxFile> read_toolbox(std::string_view text, const std::string& file,
                                  const ReadProject& read_project);
+
+// Everything that keeps the text from being read, in the order of the file: the first is the Error
+// of read_toolbox(). Empty: it can be read.
+std::vector<Error> mistakes_of_toolbox(std::string_view text, const std::string& file,
+                                       const ReadProject& read_project);
 
 }  // namespace vagus::toolbox

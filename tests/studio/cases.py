@@ -450,8 +450,20 @@ class Plans(Case):
         page.do("run.start")
         self.wait(lambda: self.plan.value.get("stands_at"), "the condition")
         self.assertEqual(self.rounds(), 3)
-        page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="sey")
-        self.wait(lambda: any("did you mean say?" in one.get("why", "") for one in self.breakpoints.value["plans"]), "why it is not set")
+        # Set newly, it must be there; one that was set before stays, and says why it does not fit.
+        why = self.refused("not_found", "plan.break.set", doc="rounds.plan.json", kind="actor", element="sey")
+        self.assertIn("did you mean say?", why)
+        self.refused("not_found", "plan.break.set", doc="none.plan.json", kind="actor", element="say")
+        page.do("plan.break.set", doc="rounds.plan.json", kind="actor", element="wait")
+        page.do("stop")
+        pause = PLAN["actors"]["wait"]
+        page.do("doc.patch", doc="rounds.plan.json", version=page.do("doc.open", doc="rounds.plan.json")["version"], steps=[
+            {"do": "set", "at": ["actors", "pause"], "value": pause},
+            {"do": "set", "at": ["actors", "say", "states", "Done"], "value": "pause"},
+            {"do": "remove", "at": ["actors", "wait"]}])
+        page.do("doc.save", doc="rounds.plan.json")
+        page.do("run.start")
+        self.wait(lambda: any('has no actor "wait"' in one.get("why", "") for one in self.breakpoints.value["plans"]), "why it is not set")
 
     def test_an_event_is_raised_by_hand(self):
         def make(folder):

@@ -79,6 +79,16 @@ class Held(Case):
         self.wait(lambda: "stands_at" in self.plan.value and self.held.value["stands"], "a plan that stands")
         self.wait_clock("paused")
 
+    def test_events_of_a_bus_have_the_clock_of_the_run(self):
+        page = self.open_bus()
+        self.stand_at_b(page)
+        heard = lambda kind: [one for one in self.happenings.items if one["kind"] == kind]
+        self.wait(lambda: heard("event"), "the event")
+        event, appeared = heard("event")[-1], heard("appeared")[0]
+        # Their second 0 is the beginning of the run, not that of the connection.
+        self.assertGreater(event["wall"] - 1000 * event["t"], appeared["wall"])
+        self.assertNotEqual(event["run"], appeared["run"])
+
     def names(self):
         return [one["name"] for one in self.held.value["events"]]
 

@@ -542,6 +542,8 @@ export const text = {
     copyPath: 'Copy the path',
     exportZip: 'Export as zip',
     exported: (count: number) => `${s(count, 'file', 'files')} exported.`,
+    leftOut: (paths: readonly string[]) =>
+      `Left out, because larger than 4 MiB or not readable: ${paths.slice(0, 5).join(', ')}${paths.length > 5 ? ` and ${paths.length - 5} more` : ''}. Copy them from the folder of the project.`,
     collapse: 'Close all folders',
     more: 'More files than can be shown.',
     kinds: {
@@ -573,7 +575,8 @@ export const text = {
     up: (name: string) => `${name} further up (Alt+Up)`,
     down: (name: string) => `${name} further down (Alt+Down)`,
     save: 'Change',
-    renamed: (places: number) => `Changed in ${s(places, 'place', 'places')}.`,
+    renamed: (places: number, others: readonly string[]) =>
+      `Changed in ${s(places, 'place', 'places')}${others.length > 0 ? `, also of ${others.join(', ')}` : ''}.`,
     init: 'at the start',
     none: {
       event: 'None yet. + adds one that all nodes share.',
@@ -623,7 +626,7 @@ export const text = {
     off: 'off',
     renameTo: 'New name',
     renamed: (places: number, docs: number) =>
-      `${s(places, 'place', 'places')} in ${s(docs, 'script', 'scripts')} renamed.`,
+      `${s(places, 'place', 'places')} in ${s(docs, 'text', 'texts')} renamed.`,
     noDefinition: 'Nothing is declared under this name.',
     references: (name: string) => `Where “${name}” is used`,
     address: 'Address',
@@ -677,7 +680,9 @@ export const text = {
     badValues: (most: number) => `Whole numbers with spaces between, ${most} at most.`,
     add: 'Add',
     watchName: 'node.variable',
-    noSuch: 'No node has a variable of this name.',
+    noSuch: 'Neither a node nor the running plan has a variable of this name.',
+    ofPlan: 'Plan',
+    noPlan: 'no running plan has it',
     form: (form: string) => `Numbers: ${form}`,
     forms: { decimal: 'decimal', hex: 'hexadecimal', binary: 'binary' },
     shortForms: { decimal: '123', hex: '0x', binary: '0b' },
@@ -725,6 +730,7 @@ export const text = {
     nothing: 'Nothing matches the filter.',
     shown: (shown: string, all: string) => (shown === all ? all : `${shown} of ${all}`),
     happened: 'happened',
+    timesHelp: 'Seconds since the run began; on a bus without a run, since it was connected.',
     aSecond: '/s',
     held: 'paused',
     heldMore: (count: number) => `${s(count, 'newer one', 'newer ones')} not shown`,
@@ -1092,6 +1098,8 @@ export const text = {
           `An event of ${names} ends the plan as interrupted, which a sub-plan cannot do for its caller. Leave that supervisor out.`,
       },
     },
+    tidyTooLong:
+      'Placing so many elements takes too long. Choose fewer of them, or none to place all in columns.',
     tidy: 'Tidy',
     zoom: (percent: number) => `Zoom: ${percent} %`,
     zoomTo: 'Zoom to 100 %',

@@ -191,13 +191,12 @@ export class Filtered {
   }
 }
 
-/** Happenings as a table for other programs: one column for each argument. */
+/** Happenings as a table for other programs: always these columns; arguments share one. */
 export function happeningsCsv(items: readonly Happening[]): string {
-  const most = items.reduce((size, { args }) => Math.max(size, args.length), 0);
-  const head = ['time', 'wall', 'kind', 'node', 'source', 'name', 'text'];
   return csvOf([
-    [...head, ...Array.from({ length: most }, (_, index) => `args[${index}]`)],
-    ...items.map(({ t, wall, kind, node, source, name, text, args }) => [
+    ['run', 'time', 'wall', 'kind', 'node', 'source', 'name', 'text', 'args'],
+    ...items.map(({ run, t, wall, kind, node, source, name, text, args }) => [
+      run,
       t,
       new Date(wall).toISOString(),
       kind,
@@ -205,7 +204,7 @@ export function happeningsCsv(items: readonly Happening[]): string {
       source,
       name,
       text,
-      ...args,
+      args.join(' '),
     ]),
   ]);
 }

@@ -11,6 +11,11 @@ export interface Pick {
   index?: number;
 }
 
+/** Stands for the plan where a pick names its node: its variables are seen beside those of nodes. */
+export const kPlanNode = -1;
+/** What the plan is called in front of a name: "plan.distance". */
+export const kPlanName = 'plan';
+
 export const kPicksMax = 200;
 
 export function pickKey({ node, name, index }: Pick): string {
@@ -57,7 +62,7 @@ export function placeOf(
     : { variable, first: variable.address + pick.index, count: 1 };
 }
 
-/** "name", "name[3]", "node.name[3]": a pick as it is typed; node is the one that is meant without. */
+/** "name", "name[3]", "node.name[3]", "plan.name": a pick as it is typed; node is the one that is meant without. */
 export function readPick(
   text: string,
   nodes: readonly { id: NodeId; name: string }[],
@@ -65,7 +70,9 @@ export function readPick(
 ): Pick | null {
   const typed = text.trim();
   // The name of a node may hold what that of a variable may not: thymio-II.
-  const own = nodes.find((one) => typed.startsWith(`${one.name}.`));
+  const own = [...nodes, { id: kPlanNode, name: kPlanName }].find((one) =>
+    typed.startsWith(`${one.name}.`),
+  );
   const rest = own ? typed.slice(own.name.length + 1) : typed;
   const [, name, index] = /^([A-Za-z_][\w.]*)(?:\[(\d+)\])?$/.exec(rest) ?? [];
   const id = own?.id ?? node;

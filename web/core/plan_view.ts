@@ -10,6 +10,20 @@ export function shownLevel(levels: readonly PlanLevel[], doc: Doc, chosen: strin
   return ofDoc >= 0 ? ofDoc : levels.length - 1;
 }
 
+/** The variable of that name, as the outermost plan has it that has one. */
+export function variableNamed(
+  levels: readonly PlanLevel[],
+  name: string,
+): PlanVariable | undefined {
+  return levels.flatMap((level) => level.variables).find((one) => one.name === name);
+}
+
+/** As a curve shows it; undefined: it is neither a number nor true or false. */
+export function numberOf(value: Json): number | undefined {
+  if (typeof value === 'boolean') return value ? 1 : 0;
+  return typeof value === 'number' ? value : undefined;
+}
+
 export function valueOf(value: Json): string {
   return typeof value === 'string' ? value : JSON.stringify(value);
 }

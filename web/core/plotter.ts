@@ -5,7 +5,8 @@ import type { Connection } from './connection';
 import { csvOf, type Cell } from './csv';
 import { Emitter } from './emitter';
 import type { Happenings } from './happenings';
-import { placeOf } from './picks';
+import { kPlanName, kPlanNode, placeOf } from './picks';
+import { numberOf, variableNamed } from './plan_view';
 import { noPlot, sourceKey, sourceName, type Curve, type PlotState, type Source } from './plot';
 import { align, Ring, type Aligned, type Span } from './ring';
 import type { TopicCache } from './topics';
@@ -59,6 +60,7 @@ export class Plotter {
     const keys = new Set(state.curves.map((curve) => sourceKey(curve.source)));
     for (const key of [...this.rings.keys()]) if (!keys.has(key)) this.rings.delete(key);
     this.ask();
+    if (this.following) this.seePlan();
     this.changed.emit();
   }
 
@@ -116,7 +118,8 @@ export class Plotter {
 
   nameOf(source: Source): string {
     if (source.is === 'argument') return sourceName(source);
-    const node = this.nodeNames().get(source.pick.node) ?? String(source.pick.node);
+    const names = this.nodeNames().set(kPlanNode, kPlanName);
+    const node = names.get(source.pick.node) ?? String(source.pick.node);
     return `${node}.${sourceName(source)}`;
   }
 
@@ -160,6 +163,7 @@ export class Plotter {
       this.happenings.follow((items) => this.heard(items)),
       this.topics.subscribe('clock', {}, () => this.told()),
       this.topics.subscribe('robot', {}, () => {}),
+      this.topics.subscribe('plan', {}, () => this.seePlan()),
     ];
     this.heard(this.happenings.items);
     this.told();
@@ -176,7 +180,9 @@ export class Plotter {
   /** Follows the descriptions of the nodes, and asks for the words that the names stand for now. */
   private ask(): void {
     const picks = this.following
-      ? this.state.curves.flatMap(({ source }) => (source.is === 'word' ? [source] : []))
+      ? this.state.curves.flatMap(({ source }) =>
+          source.is === 'word' && source.pick.node !== kPlanNode ? [source] : [],
+        )
       : [];
     const wanted = new Set(picks.map(({ pick }) => pick.node));
     for (const [node, end] of this.nodes)
@@ -226,6 +232,19 @@ export class Plotter {
       for (const { kind, name, t, args } of items)
         if (kind === 'event' && name === source.event && source.index < args.length)
           this.sample(this.ring(curve), t, args[source.index] ?? 0);
+    }
+  }
+
+  /** Variables of the plan, as often as the page is told of them. */
+  private seePlan(): void {
+    const plan = this.topics.get('plan', {});
+    if (!plan) return;
+    for (const curve of this.state.curves) {
+      const { source } = curve;
+      if (source.is !== 'word' || source.pick.node !== kPlanNode) continue;
+      const variable = variableNamed(plan.levels, source.pick.name);
+      const value = variable && numberOf(variable.value);
+      if (value !== undefined) this.sample(this.ring(curve), plan.t, value);
     }
   }
 

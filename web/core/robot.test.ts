@@ -12,7 +12,7 @@ import {
   passes,
 } from './happenings';
 import { readWord, readWords, shortCount, shownRate, shownWord } from './numbers';
-import { added, asPick, moved, pickKey, placeOf, readPick, readPicks } from './picks';
+import { added, asPick, kPlanNode, moved, pickKey, placeOf, readPick, readPicks } from './picks';
 import { kCurvesMax, noPlot, plotJson, readPlot, sourcesOf, withAxis, withCurve } from './plot';
 import { summaryOf } from './plotter';
 import { align, Ring } from './ring';
@@ -185,6 +185,7 @@ describe('picked variables', () => {
   test('APickIsTypedWithOrWithoutItsNode', () => {
     const nodes = [{ id: 7, name: 'drive' }];
     expect(readPick('drive.wheel.speed', nodes, 3)).toEqual({ node: 7, name: 'wheel.speed' });
+    expect(readPick('plan.rounds', nodes, 3)).toEqual({ node: kPlanNode, name: 'rounds' });
     expect(readPick(' args[2] ', nodes, 3)).toEqual({ node: 3, name: 'args', index: 2 });
     expect(readPick('thymio-II.prox[1]', [{ id: 5, name: 'thymio-II' }], null)).toEqual({
       node: 5,
@@ -297,12 +298,15 @@ describe('happenings', () => {
     expect(passesAll).toHaveBeenCalledTimes(3);
     expect(shown.map((item) => item.number)).toEqual([2, 3]);
   });
-  test('TheTableHasAColumnForEachArgument', () => {
-    const csv = happeningsCsv([happening(1, { args: [5, -6] }), happening(2, { args: [] })]);
+  test('EachRowOfTheTableHasTheSameColumnsAndItsRun', () => {
+    const csv = happeningsCsv([
+      happening(1, { run: 3, args: [5, -6] }),
+      happening(2, { run: 4, args: [] }),
+    ]);
     expect(csv.split('\r\n')).toEqual([
-      'time,wall,kind,node,source,name,text,args[0],args[1]',
-      '0.1,1970-01-01T00:00:01.001Z,event,1,drive,steer,,5,-6',
-      '0.2,1970-01-01T00:00:01.002Z,event,1,drive,steer,',
+      'run,time,wall,kind,node,source,name,text,args',
+      '3,0.1,1970-01-01T00:00:01.001Z,event,1,drive,steer,,5 -6',
+      '4,0.2,1970-01-01T00:00:01.002Z,event,1,drive,steer,,',
       '',
     ]);
   });
@@ -487,6 +491,24 @@ describe('plots follow the server', () => {
     return { world, studio, whole, clock, samples, later };
   };
   const source = { is: 'word', pick: { node: 1, name: 'b' } } as const;
+  test('VariablesOfThePlanAreCurvesToo', () => {
+    const { world, studio, whole, clock } = setUp();
+    const rounds = { is: 'word', pick: { node: kPlanNode, name: 'rounds' } } as const;
+    studio.plotter.set(withCurve(noPlot, rounds));
+    studio.plotter.follow();
+    clock(2);
+    const level = { path: 'P', doc: 'P.plan.json', actor: 'a', template: 'Wait' };
+    const told = (t: number, value: number | boolean) => {
+      const variables = [{ name: 'rounds', type: 'int', value, unit: '' }];
+      const rest = { activation: 1, since: 0, inputs: {}, variables, supervisors: [], counts: [] };
+      whole('plan', { state: 'running', t, levels: [{ ...level, ...rest }], story: [] });
+    };
+    told(1, 3);
+    told(2, true);
+    expect(studio.plotter.csv()).toBe('time,plan.rounds\r\n1,3\r\n2,1\r\n');
+    // No node is asked for it.
+    expect(world.last.sent.some((one) => one.in['topic'] === 'node')).toBe(false);
+  });
   test('NamesAreAskedAsAddressesAndSamplesLandInTheirCurve', () => {
     const { world, studio, whole, clock, samples } = setUp();
     studio.plotter.set(withCurve(noPlot, source));

@@ -344,6 +344,9 @@ export interface LocalEvent {
 export interface Happening {
   /** counts up */
   number: number;
+  /** the one of the topic history; missing in what history.at gives */
+  run?: number;
+  /** seconds since the run began; on a bus without one, since it was connected */
   t: number;
   wall: number;
   kind: 'event' | 'state' | 'fault' | 'appeared' | 'gone' | 'loaded' | 'plan' | 'lost';
@@ -995,7 +998,7 @@ export interface Commands {
     name: string;
     spots: Spot[];
   } };
-  /** Renames a variable, constant, event, sub in all scripts that share it. */
+  /** Renames a variable, constant, event, sub in all scripts that share it; an event also in the project's plans and toolboxes. */
   'script.rename': { in: {
     doc: Doc;
     at: Place;
@@ -1095,7 +1098,7 @@ export interface Commands {
     value: number;
     seen?: DocVersion[];
   }; out: Record<never, never> };
-  /** Changes its value or name; scripts follow the name. */
+  /** Changes its value or name; scripts, plans and toolboxes of the project follow the name. */
   'define.change': { in: {
     file: Path;
     kind: 'event' | 'constant';
@@ -1105,6 +1108,8 @@ export interface Commands {
     seen?: DocVersion[];
   }; out: {
     places: number;
+    /** plans and toolboxes that were changed, too */
+    others: Path[];
   } };
   /** Removes it. */
   'define.remove': { in: {
@@ -1674,7 +1679,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Native: { name: 'Name', help: 'line(400)', parameters: '[Parameter; 32]' },
   Parameter: { name: 'Name', size: 'int(-65535..65535)' },
   LocalEvent: { name: 'Name', help: 'line(400)' },
-  Happening: { number: 'number', t: 'number', wall: 'number', kind: 'word(event|state|fault|appeared|gone|loaded|plan|lost)', node: 'int(0..65534)', source: 'line(128)', name: 'line(200)', args: 'Words', text: 'text(1000)' },
+  Happening: { number: 'number', run: 'number?', t: 'number', wall: 'number', kind: 'word(event|state|fault|appeared|gone|loaded|plan|lost)', node: 'int(0..65534)', source: 'line(128)', name: 'line(200)', args: 'Words', text: 'text(1000)' },
   HistoryBar: { from: 'number', to: 'number?', name: 'line(200)?', end: 'line(200)?', count: 'number?' },
   HistoryMark: { t: 'number', name: 'line(200)?', to: 'line(200)?', count: 'number?' },
   HistoryLane: { kind: 'word(actors|supervisor|events)', path: 'line(4096)', name: 'line(200)', bars: '[HistoryBar; 20000]', marks: '[HistoryMark; 20000]' },
@@ -1762,7 +1767,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'plan.code': { may: 'look', kind: 'look', out: { name: 'line(256)', text: 'text(4194304)', marks: '[CodeMark; 20000]', findings: '[Finding; 2000]' } },
   'template.new': { may: 'driver', kind: 'edit', out: { toolbox: 'line(256)', at: 'Place' } },
   'define.add': { may: 'driver', kind: 'edit', out: {} },
-  'define.change': { may: 'driver', kind: 'edit', out: { places: 'int(0..100000)' } },
+  'define.change': { may: 'driver', kind: 'edit', out: { places: 'int(0..100000)', others: '[Path; 2000]' } },
   'define.remove': { may: 'driver', kind: 'edit', out: {} },
   'define.move': { may: 'driver', kind: 'edit', out: {} },
   'target.choose': { may: 'driver', kind: 'act', out: {} },

@@ -53,6 +53,9 @@ public:
     // Everything that is wrong now; checks first what was not checked since the last change.
     std::vector<Finding> findings() { return findings_.all(); }
 
+    // What the plans of the project can be made of, as of now.
+    const plan::Library& templates() { return findings_.toolboxes().library->templates(); }
+
     // Files are told the time here, too.
     void tick(Time now);
     Time next_tick() const;

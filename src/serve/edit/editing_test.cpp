@@ -14,6 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 TEST_F(EditTest, WithoutAProjectEveryCommandSaysSo) {
@@ -229,6 +230,52 @@ TEST_F(EditTest, NewFilesWorkAtOnce) {
     EXPECT_THAT(findings(), IsEmpty());
     put("go to.plan.json", "\"Work\"", "\"Wok\"");
     EXPECT_THAT(finding("P2").what, HasSubstr("did you mean \"Work\"?"));
+}
+
+// A second script for node 1 would be one that is never loaded.
+TEST_F(EditTest, ANewScriptIsForANodeThatHasNone) {
+    write("vagus.json",
+          "{\n  \"format\": \"vagus-project/1\",\n  \"scripts\": [\"a.aesl\"],\n"
+          "  \"world\": \"w.world.json\"\n}\n");
+    write("a.aesl", "<network><node nodeId=\"1\" name=\"thymio-II\"></node></network>");
+    write("w.world.json",
+          "{\n  \"format\": \"vagus-world/1\",\n  \"size\": [1, 1],\n  \"robots\": [\n"
+          "    { \"name\": \"one\", \"type\": \"thymio2\", \"at\": [0.3, 0.5], "
+          "\"script\": \"a.aesl\" },\n"
+          "    { \"name\": \"two\", \"type\": \"thymio2\", \"at\": [0.7, 0.5] }\n  ]\n}\n");
+    enter({.world = "w.world.json", .project_file = "vagus.json"});
+    ask("file.new", {{"path", "b.aesl"}, {"kind", "script"}});
+    EXPECT_THAT(on_disk("b.aesl"), HasSubstr("nodeId=\"2\" name=\"thymio-II\""));
+    EXPECT_THAT(on_disk("vagus.json"), HasSubstr("\"scripts\": [\"a.aesl\", \"b.aesl\"]"));
+    EXPECT_THAT(on_disk("w.world.json"), HasSubstr("\"script\": \"b.aesl\""));
+    EXPECT_THAT(findings(), IsEmpty());
+    // Each node has a script now: the next one is for none of them.
+    ask("file.new", {{"path", "c.aesl"}, {"kind", "script"}});
+    EXPECT_THAT(on_disk("c.aesl"), HasSubstr("nodeId=\"3\" name=\"thymio-II\""));
+    EXPECT_THAT(on_disk("vagus.json"), Not(HasSubstr("c.aesl")));
+    EXPECT_THAT(on_disk("w.world.json"), Not(HasSubstr("c.aesl")));
+}
+
+// A script that vagus.json does not name stands behind those that it does.
+TEST_F(EditTest, ANewScriptTakesNoNodeFromAnother) {
+    write("vagus.json", "{ \"format\": \"vagus-project/1\", \"world\": \"w.world.json\" }\n");
+    write("a.aesl", "<network><node nodeId=\"1\" name=\"drive\"></node></network>");
+    write("w.world.json",
+          "{ \"format\": \"vagus-world/1\", \"size\": [3, 3], \"robots\": [{ \"name\": \"c\", "
+          "\"type\": \"carbot\", \"at\": [1, 1] }, { \"name\": \"d\", \"type\": \"carbot\", "
+          "\"at\": [2, 2] }] }\n");
+    enter({.world = "w.world.json", .project_file = "vagus.json"});
+    ask("file.new", {{"path", "b.aesl"}, {"kind", "script"}});
+    EXPECT_THAT(on_disk("b.aesl"), HasSubstr("nodeId=\"2\" name=\"bumper\""));
+    EXPECT_THAT(on_disk("vagus.json"), HasSubstr("b.aesl"));
+    for (const char* path : {"c.aesl", "d.aesl", "e.aesl"}) {
+        ask("file.new", {{"path", path}, {"kind", "script"}});
+    }
+    // The drive of the second Carbot: node 1 would get it, too, if vagus.json named it.
+    EXPECT_THAT(on_disk("e.aesl"), HasSubstr("nodeId=\"5\" name=\"drive\""));
+    EXPECT_THAT(on_disk("vagus.json"), Not(HasSubstr("e.aesl")));
+    EXPECT_EQ(scripts.for_node("drive", 1)->file, "a.aesl");
+    EXPECT_EQ(scripts.for_node("drive", 5)->file, "e.aesl");
 }
 
 TEST_F(EditTest, NewFilesNeedTheirEndingAndAFreeName) {

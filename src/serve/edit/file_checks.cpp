@@ -13,6 +13,7 @@
 #include "sim/world_file.hpp"
 #include "toolbox/builtin.hpp"
 #include "toolbox/load.hpp"
+#include "toolbox/toolbox_file.hpp"
 
 namespace vagus::serve {
 
@@ -72,6 +73,9 @@ struct Subject {
     void say(const Error& error, const std::string& code) const {
         checkup.findings.push_back(finding_of_sentence(
             path, text, Severity::Error, code, without_root(error.what, files.root().string())));
+    }
+    void say_all(const std::vector<Error>& errors, const std::string& code) const {
+        for (const Error& one : errors) say(one, code);
     }
 };
 
@@ -165,7 +169,10 @@ Toolboxes load_toolboxes(Files& files, const std::vector<std::string>& paths) {
                 *loaded.library, subject.text, subject.on_disk(), kNoParts, reader_of(texts));
             if (added.ok()) return;
             loaded.incomplete = true;  // what it declares is not known
-            subject.say(added.error(), "toolbox");
+            const auto mistakes =
+                toolbox::mistakes_of_toolbox(subject.text, subject.on_disk(), reader_of(texts));
+            subject.say_all(mistakes, "toolbox");
+            if (mistakes.empty()) subject.say(added.error(), "toolbox");
         });
         loaded.checkup.read.merge(one.read);
         std::move(one.findings.begin(), one.findings.end(),
@@ -186,8 +193,8 @@ Checkup check_plan_as(Files& files, const std::string& path, const std::string& 
 
 Checkup check_world_file(Files& files, const std::string& path) {
     return checkup_of(files, path, [&](const Subject& subject, const auto&) {
-        const auto world = sim::read_world(subject.text, path);
-        if (!world.ok()) return subject.say(world.error(), "world");
+        const auto mistakes = sim::mistakes_of_world(subject.text, path);
+        if (!mistakes.empty()) return subject.say_all(mistakes, "world");
         for (const std::string& hint : sim::hints_of_world(subject.text, path)) {
             subject.checkup.findings.push_back(
                 finding_of_sentence(path, subject.text, Severity::Warning, "world", hint));
@@ -198,15 +205,16 @@ Checkup check_world_file(Files& files, const std::string& path) {
 
 Checkup check_toolbox_file(Files& files, const std::string& path) {
     return checkup_of(files, path, [&](const Subject& subject, const CheckedTexts& texts) {
-        const auto read = toolbox::read_toolbox(subject.text, subject.on_disk(), reader_of(texts));
-        if (!read.ok()) subject.say(read.error(), "toolbox");
+        subject.say_all(
+            toolbox::mistakes_of_toolbox(subject.text, subject.on_disk(), reader_of(texts)),
+            "toolbox");
     });
 }
 
 Checkup check_project_file(Files& files, const std::string& path) {
     return checkup_of(files, path, [&](const Subject& subject, const auto&) {
-        const auto project = session::read_project_file(subject.text, path);
-        if (!project.ok()) return subject.say(project.error(), "project");
+        const auto mistakes = session::mistakes_of_project(subject.text, path);
+        if (!mistakes.empty()) return subject.say_all(mistakes, "project");
         check_named(subject);
     });
 }

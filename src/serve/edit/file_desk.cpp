@@ -1,11 +1,12 @@
 #include "serve/edit/file_desk.hpp"
 
 #include <fmt/format.h>
-#include "serve/base64.hpp"
 
 #include <algorithm>
 #include <map>
+#include <set>
 
+#include "serve/base64.hpp"
 #include "serve/edit/named_paths.hpp"
 #include "serve/edit/seen.hpp"
 #include "serve/project/paths.hpp"
@@ -30,27 +31,15 @@ std::string moved(const std::string& path, const std::string& from, const std::s
     return is_below(from, path) ? to + path.substr(from.size()) : path;
 }
 
-std::string args_of(sim::RobotType type) {
-    return type == sim::RobotType::Epuck ? "args" : "event.args";
-}
-
-std::string node_name_of(sim::RobotType type) {
-    switch (type) {
-        case sim::RobotType::Thymio2:
-            return "thymio-II";
-        case sim::RobotType::Epuck:
-            return "e-puck";
-        case sim::RobotType::Carbot:
-            return "drive";
-    }
-    return "thymio-II";
-}
-
 }  // namespace
 
-FileDesk::FileDesk(Desk& desk, Files& files, const EditedProject& project,
+FileDesk::FileDesk(Desk& desk, Files& files, const Scripts& scripts, const EditedProject& project,
                    const EditListeners& listeners, std::string epoch)
-    : files_(files), project_(project), listeners_(listeners), epoch_(std::move(epoch)) {
+    : files_(files),
+      scripts_(scripts),
+      project_(project),
+      listeners_(listeners),
+      epoch_(std::move(epoch)) {
     desk.command("file.new", [this](const Call& call) { make(call); });
     desk.command("file.rename", [this](const Call& call) { rename(call); });
     desk.command("file.delete", [this](const Call& call) { remove(call); });
@@ -74,11 +63,50 @@ Status FileDesk::make_file(const std::string& path, const std::string& kind) {
                      fmt::format("{}: the name of a {} must end in {}", path, kind, ending)};
     }
     const std::string name = name_of_file(path);
-    if (kind == "script") return files_.make(path, new_script(node_of_project()));
+    if (kind == "script") return make_script(path);
     if (kind == "plan") return files_.make(path, new_plan(name));
     if (kind == "world") return make_world(path);
     if (kind == "toolbox") return make_toolbox(path);
     return files_.make(path, "");
+}
+
+// For a node that has no script yet, and loaded into it; else for a number that is free.
+Status FileDesk::make_script(const std::string& path) {
+    const std::vector<WorldNode> nodes = nodes_of_project();
+    const WorldNode* const bare = node_without_script(nodes, scripts_);
+    NewNode node = bare ? bare->node : nodes.empty() ? NewNode() : nodes.front().node;
+    if (!bare) node.id = unused_number(nodes, scripts_);
+    const bool named = bare && can_be_named(node);
+    TRY(files_.make(path, new_script(node)));
+    if (!bare) return Status::done();
+    if (named) TRY(list_in_project("scripts", path));
+    return give_to_robot(bare->robot, path);
+}
+
+// Scripts that vagus.json names come before all others: one that it names alone would be loaded
+// into each node of that name.
+bool FileDesk::can_be_named(const NewNode& node) const {
+    const auto text = files_.text(project_.project_file);
+    if (project_.project_file.empty() || !text.ok()) return false;
+    std::set<std::string> named;
+    for (const NamedPath& one : named_paths(project_.project_file, text.value())) {
+        named.insert(path_from(project_.project_file, one.text));
+    }
+    return std::none_of(
+        scripts_.parts().begin(), scripts_.parts().end(), [&](const ScriptPart& part) {
+            return (part.node == node.name || part.node.empty()) && !named.contains(part.file);
+        });
+}
+
+// A robot that has a script keeps it: the file says which nodes it is for.
+Status FileDesk::give_to_robot(size_t robot, const std::string& path) {
+    const auto text = files_.text(project_.world);
+    const auto world = text.ok() ? sim::read_world(text.value(), project_.world)
+                                 : Result<sim::WorldDefinition>(text.error());
+    if (!world.ok() || !world.value().robots[robot].script.empty()) return Status::done();
+    const Json name = json_string(name_from(project_.world, path));
+    return follow({project_.world, {{JsonStep::Do::Set, {"robots", robot, "script"}, name}}},
+                  "server");
 }
 
 // The first one is that of the project: else nothing would run in it.
@@ -104,9 +132,15 @@ Status FileDesk::make_toolbox(const std::string& path) {
             return Error{Code::Refused, one + ": there is such a file already; take another name"};
         }
     }
-    const NewNode node = node_of_project();
+    const std::vector<WorldNode> nodes = nodes_of_project();
+    const NewNode node = nodes.empty() ? NewNode() : nodes.front().node;
     TRY(files_.make(script, new_toolbox_script(name, node)));
     TRY(files_.make(path, new_toolbox(name, name_from(path, script), node)));
+    return list_in_project("toolboxes", path);
+}
+
+// Adds a file to a list of vagus.json.
+Status FileDesk::list_in_project(const std::string& key, const std::string& path) {
     const std::string& file = project_.project_file;
     if (file.empty()) return Status::done();
     const auto text = files_.text(file);
@@ -114,26 +148,22 @@ Status FileDesk::make_toolbox(const std::string& path) {
     const auto json = read_json(text.value());
     const auto* root = std::get_if<vagus::Json>(&json);
     if (!root) return Status::done();  // its finding says so
-    const vagus::Json* listed = root->find("toolboxes");
+    const vagus::Json* listed = root->find(key);
     Follower follower{file, {}};
     const vagus::Json value = json_string(name_from(file, path));
     if (listed && listed->kind == JsonKind::Array) {
-        follower.steps.push_back(
-            {JsonStep::Do::Insert, {"toolboxes", listed->items.size()}, value});
+        follower.steps.push_back({JsonStep::Do::Insert, {key, listed->items.size()}, value});
     } else {
-        follower.steps.push_back({JsonStep::Do::Set, {"toolboxes"}, json_array({value})});
+        follower.steps.push_back({JsonStep::Do::Set, {key}, json_array({value})});
     }
     return follow(follower, "server");
 }
 
-// The first node of the first robot of the project's world.
-NewNode FileDesk::node_of_project() const {
+std::vector<WorldNode> FileDesk::nodes_of_project() const {
     const auto text = files_.text(project_.world);
     if (project_.world.empty() || !text.ok()) return {};
     const auto world = sim::read_world(text.value(), project_.world);
-    if (!world.ok() || world.value().robots.empty()) return {};
-    const sim::RobotDefinition& robot = world.value().robots.front();
-    return {node_name_of(robot.type), robot.node, args_of(robot.type)};
+    return world.ok() ? nodes_of_world(world.value()) : std::vector<WorldNode>();
 }
 
 // ---- other names ----

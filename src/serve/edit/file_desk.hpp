@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "serve/edit/edited_project.hpp"
+#include "serve/edit/free_node.hpp"
 #include "serve/edit/json_patch.hpp"
 #include "serve/edit/templates.hpp"
 #include "serve/project/files.hpp"
@@ -18,8 +19,8 @@ constexpr size_t kBytesMax = 4u << 20;  // of file.bytes: less than a page may l
 class FileDesk {
 public:
     // All borrowed.
-    FileDesk(Desk& desk, Files& files, const EditedProject& project, const EditListeners& listeners,
-             std::string epoch);
+    FileDesk(Desk& desk, Files& files, const Scripts& scripts, const EditedProject& project,
+             const EditListeners& listeners, std::string epoch);
 
 private:
     // A file that names others, with what it must be told.
@@ -30,9 +31,13 @@ private:
 
     void make(const Call& call);
     Status make_file(const std::string& path, const std::string& kind);
+    Status make_script(const std::string& path);
+    bool can_be_named(const NewNode& node) const;
+    Status give_to_robot(size_t robot, const std::string& path);
     Status make_world(const std::string& path);
     Status make_toolbox(const std::string& path);
-    NewNode node_of_project() const;
+    Status list_in_project(const std::string& key, const std::string& path);
+    std::vector<WorldNode> nodes_of_project() const;
     void rename(const Call& call);
     std::vector<Follower> followers(const std::string& from, const std::string& to);
     Status follow(const Follower& follower, const std::string& by);
@@ -40,6 +45,7 @@ private:
     void bytes(const Call& call);
 
     Files& files_;
+    const Scripts& scripts_;
     const EditedProject& project_;
     const EditListeners& listeners_;
     const std::string epoch_;

@@ -130,6 +130,11 @@ void Findings::find_scope() {
     scope_.insert(project_.toolboxes.begin(), project_.toolboxes.end());
 }
 
+const std::set<std::string>& Findings::files_of_project() {
+    find_scope();
+    return scope_;
+}
+
 // What somebody looks at is checked wherever it stands.
 std::set<std::string> Findings::wanted() const {
     std::set<std::string> paths = scope_;

@@ -36,6 +36,8 @@ public:
     // What plans can be made of, and what the nodes of the project declare, both as of now.
     const Toolboxes& toolboxes();
     std::optional<session::BusNames> bus_names();
+    // The files of the project, and those that it names elsewhere.
+    const std::set<std::string>& files_of_project();
 
     void tick(Time now);
     Time next_tick() const;

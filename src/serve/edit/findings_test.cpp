@@ -243,6 +243,30 @@ TEST_F(EditTest, PlansKnowTheToolboxesOfTheProjectAsTheyAreEdited) {
     EXPECT_THAT(findings(), IsEmpty());
 }
 
+TEST_F(EditTest, EveryMistakeOfAFileIsShownAtOnce) {
+    write("vagus.json",
+          "{ \"format\": \"vagus-project/1\",\n  \"name\": 3,\n  \"wrold\": \"w\" }\n");
+    write("shape.world.json",
+          "{ \"format\": \"vagus-world/1\", \"size\": [1, 1],\n  \"seed\": \"x\",\n"
+          "  \"objects\": [{ \"kind\": \"bxo\" }] }\n");
+    write("sense.world.json",
+          "{ \"format\": \"vagus-world/1\", \"size\": [1, 1], \"objects\": [\n"
+          "  { \"kind\": \"box\", \"at\": [0.5, 0.5], \"size\": [0.1, 0.1], \"mass\": -1 },\n"
+          "  { \"kind\": \"cylinder\", \"at\": [0.2, 0.2] }],\n"
+          "  \"timeline\": [{ \"t\": 1, \"do\": \"remove\", \"id\": \"post\" }] }\n");
+    write("arm.toolbox.json",
+          "{ \"format\": \"vagus-toolbox/1\",\n  \"name\": 1,\n  \"project\": 2,\n"
+          "  \"templates\": {} }\n");
+    enter({.project_file = "vagus.json", .toolboxes = {"arm.toolbox.json"}});
+    EXPECT_THAT(findings(),
+                testing::UnorderedElementsAre(
+                    "error project vagus.json:2:11", "error project vagus.json:3:3",
+                    "error world shape.world.json:2:11", "error world shape.world.json:3:15",
+                    "error world shape.world.json:3:25", "error world sense.world.json:2:66",
+                    "error world sense.world.json:3:3", "error world sense.world.json:4:48",
+                    "error toolbox arm.toolbox.json:2:11", "error toolbox arm.toolbox.json:3:14"));
+}
+
 TEST_F(EditTest, PagesAreToldWhatPlansCanBeMadeOfAsToolboxesAreEdited) {
     write("arm.toolbox.json", kToolbox);
     write("arm.aesl", project("motor.left.target = 1\n", arm_events()));

@@ -96,8 +96,13 @@ std::string stem_of(const std::string& path) {
 
 }  // namespace
 
-ScriptDesk::ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string epoch)
-    : desk_(desk), files_(files), scripts_(scripts), epoch_(std::move(epoch)) {
+ScriptDesk::ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string epoch,
+                       FilesOfProject files_of_project)
+    : desk_(desk),
+      files_(files),
+      scripts_(scripts),
+      epoch_(std::move(epoch)),
+      files_of_project_(std::move(files_of_project)) {
     desk_.board().document("script", [this](const Json& of) { return script_document(of); });
     desk_.board().document("scripts", [this](const Json&) { return scripts_document(); });
     declare_questions();
@@ -251,27 +256,82 @@ void ScriptDesk::rename(const Call& call) {
     if (!script_of(call)) return;
     const std::string doc = call.in["doc"];
     const auto at = position_of(call.in["at"]);
+    const std::string by = made_for(call.member);
     std::set<std::string> docs;
+    std::optional<EventName> event;  // of the project
+    const std::string file = doc.substr(0, doc.rfind('#'));
     if (const auto found = scripts_.references(doc, at)) {
         for (const Spot& spot : found->spots) docs.insert(spot.doc);
-        const std::string file = doc.substr(0, doc.rfind('#'));
-        if (found->owner == Owner::Project && file != doc) docs.insert(file);
+        const bool shared = found->owner == Owner::Project;
+        if (shared && file != doc) docs.insert(file);
+        if (shared && found->kind == aesl::MentionKind::Event) event = {found->name, call.in["to"]};
     }
-    const auto renamed = scripts_.rename(doc, at, call.in["to"], made_for(call.member));
+    const auto renamed = scripts_.rename(doc, at, call.in["to"], by);
     if (!renamed.ok()) return call.fail(renamed.error());
+    size_t places = renamed.value();
+    if (event) {
+        for (const std::string& one : rename_elsewhere(file, *event, by, places)) docs.insert(one);
+    }
     Json changed = Json::array();
     for (const std::string& one : docs) {
         if (changed.size() < kChangedMax) changed.push_back(one);
     }
-    call.done({{"changed", std::move(changed)}, {"places", renamed.value()}});
+    call.done({{"changed", std::move(changed)}, {"places", places}});
+}
+
+// Plans and toolboxes name events, too. Gives the files that were changed.
+std::vector<std::string> ScriptDesk::rename_elsewhere(const std::string& file,
+                                                      const EventName& name, const std::string& by,
+                                                      size_t& places) {
+    const std::set<std::string> project = files_of_project_();
+    const bool still_there = is_declared_elsewhere(file, name.from, project);
+    std::vector<std::string> changed;
+    for (const std::string& path : project) {
+        const std::string kind = kind_of_file(path);
+        if (kind != "plan" && kind != "toolbox") continue;
+        const auto text = files_.text(path);
+        if (!text.ok()) continue;
+        const bool meant = kind == "plan" ? !still_there : is_toolbox_of(path, text.value(), file);
+        const auto steps = renamed_event(text.value(), kind, name);
+        if (!meant || steps.empty()) continue;
+        auto after = patched(text.value(), {kind, path}, steps);
+        if (!after.ok() || !files_.replace(path, std::move(after.value()), by).ok()) continue;
+        places += steps.size();
+        changed.push_back(path);
+    }
+    return changed;
+}
+
+// Plans that name it may mean the event of those other scripts.
+bool ScriptDesk::is_declared_elsewhere(const std::string& file, const std::string& event,
+                                       const std::set<std::string>& project) {
+    for (const ScriptPart& part : scripts_.parts()) {
+        if (part.file == file || !project.contains(part.file)) continue;
+        const CompiledScript* script = scripts_.compiled(part.doc);
+        if (!script) continue;
+        const auto& events = script->common.events;
+        const bool declared = std::any_of(events.begin(), events.end(),
+                                          [&](const auto& one) { return one.name == event; });
+        if (declared) return true;
+    }
+    return false;
 }
 
 void ScriptDesk::change(const Call& call) {
     if (is_too_long(call)) return;
-    const auto changed = scripts_.change(call.in["file"], call.in["kind"], call.in["name"],
-                                         call.in["to"], call.in["value"], made_for(call.member));
+    const std::string file = call.in["file"];
+    const EventName name = {call.in["name"], call.in["to"]};
+    const std::string by = made_for(call.member);
+    const auto changed =
+        scripts_.change(file, call.in["kind"], name.from, name.to, call.in["value"], by);
     if (!changed.ok()) return call.fail(changed.error());
-    call.done({{"places", changed.value()}});
+    size_t places = changed.value();
+    std::vector<std::string> others;
+    if (call.in["kind"] == "event" && name.from != name.to) {
+        others = rename_elsewhere(file, name, by, places);
+    }
+    if (others.size() > kChangedMax) others.resize(kChangedMax);
+    call.done({{"places", places}, {"others", others}});
 }
 
 // ---- topics ----

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "serve/edit/event_names.hpp"
 #include "serve/json.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
@@ -14,8 +16,10 @@ namespace vagus::serve {
 
 class ScriptDesk {
 public:
+    using FilesOfProject = std::function<std::set<std::string>()>;
     // All borrowed.
-    ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string epoch);
+    ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string epoch,
+               FilesOfProject files_of_project);
 
     void text_changed(const std::string& path);
     void project_changed();
@@ -36,6 +40,10 @@ private:
     void listing(const Call& call);
     void format_name(const Call& call);
     void change(const Call& call);
+    std::vector<std::string> rename_elsewhere(const std::string& file, const EventName& name,
+                                              const std::string& by, size_t& places);
+    bool is_declared_elsewhere(const std::string& file, const std::string& event,
+                               const std::set<std::string>& project);
     Json spots_of(const std::vector<Spot>& spots, size_t most);
     Json script_document(const Json& of);
     Json scripts_document();
@@ -44,6 +52,7 @@ private:
     Files& files_;
     Scripts& scripts_;
     const std::string epoch_;
+    const FilesOfProject files_of_project_;
     uint64_t targets_ = 0;
 };
 

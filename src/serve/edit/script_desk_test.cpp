@@ -108,6 +108,62 @@ TEST_F(EditTest, NamesChangeInAllScriptsThatShareThem) {
     EXPECT_EQ(document("scripts")["files"][0]["events"][0]["name"], "pong");
 }
 
+constexpr std::string_view kPingPlan =
+    "{\n  \"format\": \"vagus-plan/1\",\n  \"name\": \"P\",\n  \"start\": { \"actor\": \"a\", "
+    "\"supervisors\": { \"s\": { \"template\": \"OnEvent\", \"in\": { \"event\": \"'ping'\" } } } "
+    "},\n"
+    "  \"actors\": {\n    \"a\": { \"template\": \"Send\", \"in\": { \"event\": \"'ping'\", "
+    "\"args\": "
+    "\"'ping'\" } },\n    \"ping\": { \"template\": \"Log\", \"in\": { \"text\": \"'ping'\" } }\n  "
+    "}\n}\n";
+
+std::string arm_toolbox(const std::string& event) {
+    return "{\n  \"format\": \"vagus-toolbox/1\",\n  \"name\": \"arm\",\n  \"project\": "
+           "\"a.aesl\",\n  \"templates\": { \"T\": { \"kind\": \"actor\", \"node\": \"ping\", "
+           "\"start\": \"" +
+           event + "\", \"states\": { \"ping\": { \"event\": \"" + event + "\" } } } }\n}\n";
+}
+
+TEST_F(EditTest, PlansAndToolboxesFollowTheNameOfAnEvent) {
+    write("vagus.json", "{ \"format\": \"vagus-project/1\" }\n");
+    write("a.aesl", kTwoNodes);
+    write("P.plan.json", kPingPlan);
+    write("arm.toolbox.json", arm_toolbox("ping"));
+    write("other/vagus.json", "{ \"format\": \"vagus-project/1\" }\n");
+    write("other/Q.plan.json", kPingPlan);
+    enter({.project_file = "vagus.json"});
+    const Json event =
+        ask("script.rename", {{"doc", "a.aesl#2"}, {"at", at(2, 10)}, {"to", "pong"}});
+    EXPECT_EQ(event["changed"],
+              Json({"P.plan.json", "a.aesl", "a.aesl#1", "a.aesl#2", "arm.toolbox.json"}));
+    EXPECT_EQ(event["places"], 8);
+    // Two of the four: what is no event keeps its name.
+    std::string plan(kPingPlan);
+    for (const char* before :
+         {"OnEvent\", \"in\": { \"event\": \"'p", "Send\", \"in\": { \"event\": \"'p"}) {
+        plan[plan.find(before) + std::string(before).size()] = 'o';
+    }
+    EXPECT_EQ(text("P.plan.json"), plan);
+    EXPECT_EQ(text("other/Q.plan.json"), kPingPlan);
+    const std::string toolbox = text("arm.toolbox.json");
+    EXPECT_THAT(toolbox, HasSubstr("\"node\": \"ping\", \"start\": \"pong\""));
+    EXPECT_THAT(toolbox, HasSubstr("\"ping\": { \"event\": \"pong\" }"));
+    // The same from the list of events.
+    const Json back = ask(
+        "define.change",
+        {{"file", "a.aesl"}, {"kind", "event"}, {"name", "pong"}, {"to", "ping"}, {"value", 1}});
+    EXPECT_EQ(back["others"], Json({"P.plan.json", "arm.toolbox.json"}));
+    EXPECT_EQ(text("P.plan.json"), kPingPlan);
+    EXPECT_EQ(text("arm.toolbox.json"), arm_toolbox("ping"));
+    // A plan may mean the event of another script.
+    ask("file.new", {{"path", "c.aesl"}, {"kind", "script"}});
+    ask("define.add", {{"file", "c.aesl"}, {"kind", "event"}, {"name", "ping"}, {"value", 1}});
+    const Json mine = ask(
+        "define.change",
+        {{"file", "a.aesl"}, {"kind", "event"}, {"name", "ping"}, {"to", "pong"}, {"value", 1}});
+    EXPECT_EQ(mine["others"], Json({"arm.toolbox.json"}));
+}
+
 TEST_F(EditTest, EventsAndConstantsAreDeclaredChangedMovedAndRemoved) {
     write("a.aesl", kTwoNodes);
     write("plain.aesl", "var x\n");

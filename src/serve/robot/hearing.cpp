@@ -11,14 +11,10 @@ namespace vagus::serve {
 
 void Robot::happen(const char* kind, uint16_t node, const std::string& name,
                    const std::string& text, const std::vector<int16_t>& args) {
-    const Json happening = {{"t", time()},
-                            {"wall", desk_.wall_ms()},
-                            {"kind", kind},
-                            {"node", node},
-                            {"source", node == 0 ? "main" : name_of(node)},
-                            {"name", name},
-                            {"args", args},
-                            {"text", text}};
+    const Json happening = {
+        {"run", told_.run()}, {"t", time()},  {"wall", desk_.wall_ms()},
+        {"kind", kind},       {"node", node}, {"source", node == 0 ? "main" : name_of(node)},
+        {"name", name},       {"args", args}, {"text", text}};
     told_.happening(happening);
     desk_.board().add("happenings", happening);
 }

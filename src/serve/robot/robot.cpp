@@ -72,6 +72,8 @@ void Robot::disconnect() {
     values_.clear();
     watched_.clear();
     traffic_.clear();
+    events_ = events_before_ = 0;
+    events_a_second_ = 0;
     dropped_.forget();
     for (auto& batch : std::exchange(batches_, {})) {
         for (const auto& [request, node] : batch->waiting) {

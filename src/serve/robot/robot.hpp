@@ -73,6 +73,8 @@ struct RobotCounts {
 struct RobotTold {
     using Words = std::span<const int16_t>;
     std::function<void(const nlohmann::json& happening)> happening = [](auto&) {};
+    // The number of the run that it belongs to.
+    std::function<uint64_t()> run = [] { return uint64_t{0}; };
     std::function<void(double t, uint16_t node, const std::string& state, int line)> stands =
         [](double, uint16_t, auto&, int) {};
     std::function<void(double t, uint16_t node, uint16_t address, Words values)> words =

@@ -36,6 +36,11 @@ PlanBreakpoint* PlanBreakpoints::find(const PlanBreakpoint& wanted) {
     return nullptr;
 }
 
+bool PlanBreakpoints::stands_at(const PlanBreakpoint& place) const {
+    return std::any_of(all_.begin(), all_.end(),
+                       [&](const PlanBreakpoint& one) { return same_place(one, place); });
+}
+
 Result<PlanBreakpoint*> PlanBreakpoints::set(const PlanBreakpoint& wanted) {
     const bool lacks_condition = wanted.kind == "condition" && wanted.condition.empty();
     if (lacks_condition) {

@@ -104,6 +104,8 @@ void Run::close() {
     has_world_ = false;
     programs_.clear();
     state_ = State::None;
+    t_ = 0;
+    load_.reset();
     scene_.reset();
     plan_.reset();
     flows_.forget();

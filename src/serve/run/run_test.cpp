@@ -235,6 +235,19 @@ TEST_F(RunTest, WhatIsToldCountsFromTheAnswerOnWhicheverItIs) {
     }
 }
 
+// Its bus and its clock would be shown for the next project.
+TEST_F(RunTest, WhatWasClosedLeavesNeitherTimeNorLoad) {
+    open();
+    say(opened_answer(number));
+    talk::Clock told = clock(5);
+    told.load = 0.5;
+    say(told);
+    EXPECT_EQ(run.load(), 0.5);
+    run.close();
+    EXPECT_EQ(run.load(), std::nullopt);
+    EXPECT_EQ(run.time(), 0);
+}
+
 TEST_F(RunTest, AnOrderBehindAnotherStartsNoProcessAndForgetsWhatWasAsked) {
     open();
     say(opened_answer(number));

@@ -55,6 +55,15 @@ void Board::add(const std::string& topic, Json item) {
     ++stream.first;
 }
 
+void Board::forget(const std::string& topic) {
+    Stream& stream = streams_[topic];
+    stream.first += stream.items.size();
+    stream.items.clear();
+    for (auto& [place, watch] : watches_) {
+        if (watch.topic == topic) watch.next = std::max(watch.next, stream.first);
+    }
+}
+
 bool Board::is_served(const std::string& topic) const {
     return documents_.contains(topic) || streams_.contains(topic) || binaries_.contains(topic);
 }

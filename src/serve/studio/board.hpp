@@ -53,6 +53,8 @@ public:
     void touch(const std::string& topic);
     // Appends to a stream; the item gets its number.
     void add(const std::string& topic, Json item);
+    // Drops what is kept of a stream; the next item gets the next number all the same.
+    void forget(const std::string& topic);
 
     // ---- who watches ----
     std::optional<Problem> watch(ClientId client, const Json& in, Time now);

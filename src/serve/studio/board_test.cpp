@@ -140,6 +140,20 @@ TEST(Board, AStreamTellsWhatItLeftOut) {
     EXPECT_TRUE(f.sent.empty());
 }
 
+TEST(Board, AStreamThatWasForgottenGoesOnCounting) {
+    Fixture f;
+    f.watch(kPage, {{"watch", 1}, {"topic", "console"}});
+    for (int i = 0; i < 3; ++i) f.board.add("console", {{"kind", "note"}, {"text", i}});
+    f.board.forget("console");
+    f.board.add("console", {{"kind", "note"}, {"text", 3}});
+    f.flush(0s);
+    ASSERT_EQ(f.sent.size(), 1u);
+    const Json message = f.sent[0].json();
+    EXPECT_EQ(message["left_out"], 0);
+    ASSERT_EQ(message["items"].size(), 1u);
+    EXPECT_EQ(message["items"][0]["number"], 3);
+}
+
 TEST(Board, AStreamBeginsWithTheLastOnesAskedFor) {
     Fixture f;
     for (int i = 0; i < 3; ++i) f.board.add("console", {{"kind", "note"}, {"text", i}});

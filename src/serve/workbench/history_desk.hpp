@@ -64,6 +64,9 @@ public:
     // Another project or target: nothing is kept.
     void forget();
 
+    // The number of what was begun last.
+    uint64_t run() const { return run_; }
+
     // ---- what is told ----
     // What runs from the next line of the trace on, by its number.
     void plan(uint64_t version, const PlanOutlines& plans);

@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "aesl/mentions.hpp"
+#include "plan/file.hpp"
 #include "serve/json.hpp"
+#include "serve/run/break_place.hpp"
 #include "serve/workbench/workbench.hpp"
 
 namespace vagus::serve {
@@ -50,6 +52,17 @@ void Workbench::plan_breakpoints_changed() {
     run_.set_breakpoints(plan_breakpoint_orders());
 }
 
+// One that stands there stays, whatever became of its element: its row says why it does not fit. A
+// file that is not a plan right now is one that somebody is typing in.
+Status Workbench::is_in_plan(const PlanBreakpoint& wanted) {
+    if (plan_breakpoints_.stands_at(wanted)) return Status::done();
+    const auto text = files_.text(wanted.doc);
+    if (!text.ok()) return text.error();
+    const plan::PlanFile file = plan::parse_plan(text.value(), wanted.doc);
+    return file.readable ? check_break_place(wanted, file.plan, editing_.templates())
+                         : Status::done();
+}
+
 void Workbench::set_plan_breakpoint(const Call& call) {
     if (!project_) return call.fail("unavailable", "no project is open; open one first");
     PlanBreakpoint wanted;
@@ -61,6 +74,8 @@ void Workbench::set_plan_breakpoint(const Call& call) {
     wanted.condition = call.in.value("condition", "");
     wanted.stop_at = call.in.value("stop_at", uint64_t{1});
     wanted.enabled = call.in.value("enabled", true);
+    const Status there = is_in_plan(wanted);
+    if (!there.ok()) return call.fail(there.error());
     const auto set = plan_breakpoints_.set(wanted);
     if (!set.ok()) return call.fail(set.error());
     const uint64_t number = set.value()->number;

@@ -23,6 +23,7 @@ void Workbench::record_history() {
     const auto at = [this](double t) { return bus_ ? history_clock() : t; };
     robot_.on_told({
         .happening = [this, at](const Json& one) { history_.happening(one, at(one["t"])); },
+        .run = [this] { return history_.run(); },
         .stands = [this, at](double t, uint16_t node, const std::string& state,
                              int line) { history_.stands(at(t), node, state, line); },
         // Of a simulation the records tell all words.

@@ -90,7 +90,7 @@ void Workbench::say(const std::string& kind, const std::string& text) {
     line_(kind, text);
 }
 
-// Seconds: of the simulation, or since a bus was connected.
+// Seconds since the run began; on a bus without one, since it was connected.
 double Workbench::clock() const {
     if (!bus_) return run_.time();
     return seconds_of(now_ - bus_since_);
@@ -262,6 +262,7 @@ void Workbench::close() {
 
 void Workbench::forget_project() {
     history_.forget();
+    desk_.board().forget("happenings");
     files_.leave();
     scripts_.reread();
     breakpoints_ = {};

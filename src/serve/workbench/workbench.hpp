@@ -137,6 +137,7 @@ private:
     // ---- plan_debugging.cpp: breakpoints of plans, events by hand ----
     void declare_debug_commands();
     void declare_held_commands();
+    Status is_in_plan(const PlanBreakpoint& wanted);
     void set_plan_breakpoint(const Call& call);
     void plan_breakpoints_changed();
     std::vector<talk::Breakpoint> plan_breakpoint_orders() const;

@@ -1,35 +1,16 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import type { Json, PlanTemplate, PlanToolbox } from '../../protocol/messages';
+import type { Json } from '../../protocol/messages';
 import { drawingOf, goOn, type Drawing } from './arrows';
 import { dataArrows, namesIn } from './data';
 import { planModel, supervisorsOf } from './model';
-import { crossings, eachStretch, roundedPath, stretchBox } from './path';
+import { crossings, eachStretch, roundedPath } from './path';
 import { freePlace, sceneOf, type Scene } from './place';
 import { seeded } from '../test_seeded';
 import { kApart } from './route';
-import { overlaps, type Box, type Point } from './shape';
+import type { Point } from './shape';
+import { covered, faultsOfArrows, randomPlan, toolboxes } from './test_plans';
 import { findTemplate, hiddenBy, matching } from './templates';
-
-function template(name: string, kind: PlanTemplate['kind'], outcomes: string[]): PlanTemplate {
-  const named = outcomes.map((one) => ({ name: one, help: '' }));
-  const bare = { help: '', icon: '', inputs: [], outputs: [], period_ms: 10, starts: [] };
-  return { name, kind, outcomes: named, ...bare };
-}
-
-const toolboxes: PlanToolbox[] = [
-  {
-    name: 'core',
-    help: '',
-    templates: [
-      template('Wait', 'actor', ['Done']),
-      template('For', 'computation', ['Loop', 'Done']),
-      template('Timeout', 'supervisor', ['Timeout']),
-      template('Watch', 'supervisor', ['True']),
-    ],
-  },
-  { name: 'drive', help: 'Wheels.', templates: [template('Forward', 'actor', ['There'])] },
-];
 
 function files(): { name: string; value: Json }[] {
   const root = new URL('../../../', import.meta.url).pathname;
@@ -245,60 +226,21 @@ describe('ways', () => {
   });
 });
 
-/** Up to 24 actors with supervisors, some of them placed, none on another one. */
-function randomPlan(random: (below: number) => number): Json {
-  const count = 1 + random(24);
-  const target = () => (random(8) === 0 ? '@terminate' : `a${random(count)}`);
-  const actors: Record<string, Json> = {};
-  const layout: Record<string, Json> = {};
-  const isPlaced = random(2) === 0;
-  for (let at = 0; at < count; at++) {
-    const supervisors: Record<string, Json> = {};
-    for (let more = random(3); more > 0; more--)
-      supervisors[`s${at}_${more}`] = { template: 'Timeout', events: { Timeout: target() } };
-    const states: Record<string, Json> = random(2)
-      ? { Done: target() }
-      : { Loop: target(), Done: target() };
-    actors[`a${at}`] = { template: 'Loop' in states ? 'For' : 'Wait', states, supervisors };
-    // Each in a field of its own: 168 wide, 92 and two supervisors of 44 high at most.
-    const jitter = [random(9) * 8, random(6) * 8];
-    if (isPlaced)
-      layout[`a${at}`] = [
-        (at % 5) * 320 + (jitter[0] ?? 0),
-        Math.floor(at / 5) * 300 + (jitter[1] ?? 0),
-      ];
-  }
-  const configuration = Object.fromEntries(
-    Array.from({ length: random(6) }, (_one, at) => [`v${at}`, { type: 'int', initial: at }]),
-  );
-  return {
-    format: 'vagus-plan/1',
-    name: 'R',
-    start: { actor: 'a0' },
-    configuration,
-    actors,
-    layout,
-  };
-}
-
 const at = (x: number, y: number): Point => ({ x, y });
 
 function expectApart(scene: Scene): void {
-  const boxes = [scene.start, ...scene.actors].map((block) => block.whole);
-  boxes.forEach((box, index) => {
-    for (const other of boxes.slice(index + 1)) expect(overlaps(box, other)).toBe(false);
-  });
+  expect(covered(scene)).toEqual([]);
 }
 
-function boxesOf(scene: Scene, drawing: Drawing): Box[] {
-  return [
-    ...[scene.start, ...scene.actors].flatMap((block) => [
-      block.box,
-      ...block.supervisors.map(({ box }) => box),
-    ]),
-    ...scene.pills.map(({ box }) => box),
-    ...drawing.tags.map(({ box }) => box),
-  ];
+function expectRound(name: string, scene: Scene, drawing: Drawing) {
+  const routes = drawing.arrows.map((arrow) => ({
+    aim: arrow.target.startsWith('@') ? arrow.id : arrow.target,
+    id: arrow.id,
+    points: drawing.routes.get(arrow.id)?.points ?? [],
+  }));
+  expect(new Set(routes.map(({ id }) => id)).size, name).toBe(routes.length);
+  expect(faultsOfArrows(scene, drawing), name).toEqual([]);
+  return routes;
 }
 
 /** Every arrow is there, has right angles, runs through no box, and beside no other one's. */
@@ -309,29 +251,6 @@ function expectDrawn(name: string, scene: Scene, drawing: Drawing): void {
       if (one.aim !== other.aim)
         expect(besides(one.points, other.points), `${name} ${one.id} ${other.id}`).toBe(false);
   });
-}
-
-/** Every arrow is there, has right angles and runs through no box: labels stand in boxes only. */
-function expectRound(name: string, scene: Scene, drawing: Drawing) {
-  const boxes = boxesOf(scene, drawing);
-  const routes = drawing.arrows.map((arrow) => ({
-    aim: arrow.target.startsWith('@') ? arrow.id : arrow.target,
-    id: arrow.id,
-    points: drawing.routes.get(arrow.id)?.points ?? [],
-  }));
-  expect(new Set(routes.map(({ id }) => id)).size, name).toBe(routes.length);
-  for (const { id, points } of routes) {
-    expect(points.length, `${name} ${id}`).toBeGreaterThanOrEqual(2);
-    eachStretch(points, (from, to) => {
-      expect(from.x === to.x || from.y === to.y, `${name} ${id} is upright`).toBe(true);
-      for (const box of boxes)
-        expect(
-          overlaps(box, stretchBox(from, to)),
-          `${name} ${id} ${JSON.stringify([from, to, box])}`,
-        ).toBe(false);
-    });
-  }
-  return routes;
 }
 
 /** Two stretches run side by side, nearer than they may. */

@@ -1,9 +1,9 @@
 // Which elements are to be placed anew, and the graph of them for a layout: each actor with its
 // supervisors is one box, arrows lead from left to right.
 
-import { kStart, type PlanModel } from './model';
-import { snapped, type Scene } from './place';
-import type { Block, Point } from './shape';
+import { kConfiguration, kStart, type PlanModel } from './model';
+import { sceneOf, snapped, type Scene } from './place';
+import { overlaps, type Block, type Point } from './shape';
 
 export interface LayoutGraph {
   boxes: { id: string; width: number; height: number }[];
@@ -50,6 +50,32 @@ function edgesOf(model: PlanModel): { from: string; to: string }[] {
   ];
 }
 
+/** How ELK lays it out. */
+const kElkOptions = {
+  'elk.algorithm': 'layered',
+  'elk.direction': 'RIGHT',
+  'elk.edgeRouting': 'ORTHOGONAL',
+  // Between columns and rows: room for the lanes of arrows.
+  'elk.layered.spacing.nodeNodeBetweenLayers': '88',
+  'elk.spacing.nodeNode': '56',
+  'elk.spacing.componentComponent': '64',
+  'elk.layered.considerModelOrder.strategy': 'NODES_AND_EDGES',
+};
+
+/** The graph as ELK takes it. */
+export function elkGraph({ boxes, edges }: LayoutGraph) {
+  return {
+    id: 'plan',
+    layoutOptions: kElkOptions,
+    children: boxes.map((one) => ({ ...one })),
+    edges: edges.map(({ from, to }, index) => ({
+      id: String(index),
+      sources: [from],
+      targets: [to],
+    })),
+  };
+}
+
 const kGap = 48;
 
 /** Where the first of them stand; below all others if those are in the way. */
@@ -60,6 +86,33 @@ function cornerOf(blocks: readonly Block[], moved: readonly Block[]): Point {
   if (kept.length === 0) return { x, y };
   const below = Math.max(...kept.map(({ whole }) => whole.y + whole.height)) + kGap;
   return { x, y: snapped(below) };
+}
+
+/**
+ * Where they stand if nobody has placed any: in columns, by how many arrows lead to them from the start. For plans of
+ * which a layout would take minutes.
+ */
+export function inColumns(model: PlanModel): [string, Point][] {
+  const { start, actors } = sceneOf({ ...model, places: new Map() });
+  return [start, ...actors].map(({ name, box: { x, y } }) => [name, { x, y }]);
+}
+
+/** With a place above all for the variables, if elements would stand on them or close to them. */
+export function besideVariables(
+  model: PlanModel,
+  places: readonly [string, Point][],
+): [string, Point][] {
+  const after = new Map(model.places);
+  for (const [name, { x, y }] of places) after.set(name, [x, y]);
+  const { start, actors, pills } = sceneOf({ ...model, places: after });
+  const isFree = [start, ...actors].every(({ whole }) =>
+    pills.every(({ box }) => !overlaps(whole, box, kGap / 2)),
+  );
+  if (isFree) return [...places];
+  after.delete(kConfiguration);
+  const above = sceneOf({ ...model, places: after }).configuration;
+  const on = { x: snapped(above.x), y: snapped(above.y) };
+  return [...places, [kConfiguration, on]];
 }
 
 /** Places on the grid, as a layout gave them. */

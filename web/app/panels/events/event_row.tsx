@@ -10,7 +10,9 @@ export const EventRow = memo(function EventRow({ item }: { item: Happening }) {
   const { kind, t, source, name, args } = item;
   return (
     <div className={`event event--${kind}`}>
-      <time className="num">{shownTime(t)}</time>
+      <time className="num" title={text.events.timesHelp}>
+        {shownTime(t)}
+      </time>
       <span className="event__source ellipsis">{source}</span>
       {kind === 'event' ? (
         <code className="event__name ellipsis" title={`${name} [${args.join(', ')}]`}>

@@ -53,7 +53,7 @@ function EventList() {
         </VirtualRows>
       )}
       <footer className="events__foot num">
-        <span>
+        <span title={words.timesHelp}>
           {words.shown(shortCount(items.length), shortCount(happenings.items.length))}{' '}
           {words.happened}
         </span>

@@ -29,14 +29,14 @@ export function DefinitionForm({
     if (!good || name === '') return;
     if (!definition) await studio.send('define.add', { file, kind, name, value: Number(value) });
     else {
-      const { places } = await studio.send('define.change', {
+      const { places, others } = await studio.send('define.change', {
         file,
         kind,
         name: definition.name,
         to: name,
         value: Number(value),
       });
-      if (name !== definition.name) toast(studio.window, 'ok', words.renamed(places));
+      if (name !== definition.name) toast(studio.window, 'ok', words.renamed(places, others));
     }
     onEnd();
   };

@@ -2,7 +2,7 @@
 
 import { useEffect, useMemo, useState, useSyncExternalStore } from 'react';
 import { LanesFeed } from '../../../core/lanes';
-import { placeOf, pickName } from '../../../core/picks';
+import { kPlanNode, placeOf, pickName } from '../../../core/picks';
 import type { Span } from '../../../core/ring';
 import { newestSpan } from '../../../core/timeline';
 import { useChanges, useStudio, useTopic } from '../../hooks';
@@ -56,7 +56,7 @@ function useCurves(): readonly CurveName[] {
   const { plotter } = useStudio();
   useChanges(plotter.changed);
   const picks = plotter.state.curves.flatMap(({ source }) =>
-    source.is === 'word' ? [source.pick] : [],
+    source.is === 'word' && source.pick.node !== kPlanNode ? [source.pick] : [],
   );
   const nodes = [...new Set(picks.map(({ node }) => node))];
   const described = useVariablesOf(nodes);

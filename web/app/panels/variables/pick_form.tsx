@@ -1,6 +1,7 @@
 import { IconPlus } from '@tabler/icons-react';
 import { useId, useState } from 'react';
-import { placeOf, readPick, type Pick } from '../../../core/picks';
+import { kPlanName, kPlanNode, placeOf, readPick, type Pick } from '../../../core/picks';
+import { variableNamed } from '../../../core/plan_view';
 import type { Studio } from '../../../core/studio';
 import type { NodeId, Variable } from '../../../protocol/messages';
 import { shownNode } from '../../commands/looks';
@@ -25,6 +26,21 @@ async function variablesOf(studio: Studio, node: NodeId): Promise<readonly Varia
   return known?.variables ?? [];
 }
 
+async function pickOfNode(studio: Studio, pick: Pick | null) {
+  if (!pick || pick.node === kPlanNode) return null;
+  const place = placeOf(pick, await variablesOf(studio, pick.node));
+  return place ? { pick, size: place.count } : null;
+}
+
+/** With "plan." in front also before the plan runs; the bare name if it runs and has it. */
+function pickOfPlan(studio: Studio, pick: Pick | null, typed: string) {
+  const isMeant = pick?.node === kPlanNode && pick.index === undefined;
+  const name = isMeant ? pick.name : typed;
+  const levels = studio.topics.get('plan', {})?.levels ?? [];
+  if (!isMeant && !variableNamed(levels, name)) return null;
+  return { pick: { node: kPlanNode, name }, size: 1 };
+}
+
 /** "drive.token" or "token" of the script that is looked at: typed, with what there is to choose. */
 export function PickForm({
   label,
@@ -37,6 +53,7 @@ export function PickForm({
 }) {
   const studio = useStudio();
   const nodes = useTopic('robot', {})?.nodes ?? [];
+  const levels = useTopic('plan', {})?.levels ?? [];
   const [typed, setTyped] = useState('');
   const [wrong, setWrong] = useState(false);
   const [asked, setAsked] = useState(false);
@@ -45,9 +62,9 @@ export function PickForm({
   const described = useVariablesOf(asked ? nodes.map((node) => node.id) : []);
   const add = async () => {
     const pick = readPick(typed, nodes, (shownNode(studio) ?? nodes[0])?.id ?? null);
-    const place = pick && placeOf(pick, await variablesOf(studio, pick.node));
-    if (!place) return setWrong(true);
-    onPick(pick, place.count);
+    const found = (await pickOfNode(studio, pick)) ?? pickOfPlan(studio, pick, typed.trim());
+    if (!found) return setWrong(true);
+    onPick(found.pick, found.size);
     setTyped('');
   };
   return (
@@ -72,6 +89,11 @@ export function PickForm({
         onChange={(event) => (setTyped(event.target.value), setWrong(false))}
       />
       <datalist id={list}>
+        {levels.flatMap((level) =>
+          level.variables.map(({ name }) => (
+            <option key={`${level.path} ${name}`} value={`${kPlanName}.${name}`} />
+          )),
+        )}
         {nodes.flatMap((node) =>
           (described.get(node.id) ?? []).map((variable) => (
             <option key={`${node.id} ${variable.name}`} value={`${node.name}.${variable.name}`} />

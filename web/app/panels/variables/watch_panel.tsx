@@ -1,16 +1,25 @@
 import { useRef, useState, type DragEvent } from 'react';
 import type { Json, Node } from '../../../protocol/messages';
 import type { NumberForm } from '../../../core/numbers';
-import { asPick, moved, pickKey, pickName, placeOf, type Pick } from '../../../core/picks';
+import {
+  asPick,
+  kPlanNode,
+  moved,
+  pickKey,
+  pickName,
+  placeOf,
+  type Pick,
+} from '../../../core/picks';
 import { useStudio, useTopic } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { VirtualRows } from '../../parts/virtual_rows';
 import { usePicks, useShown, useVariablesOf } from '../../robot_hooks';
 import { text } from '../../text';
 import { FormButton } from './form_button';
-import { PickButtons } from './pick_buttons';
+import { Missing } from './missing_line';
 import { kDragType, VariableLine } from './variable_line';
 import { PickForm } from './pick_form';
+import { PlanLine } from './plan_line';
 import '../../look/robot.css';
 
 const words = text.variables;
@@ -60,7 +69,8 @@ export default function WatchPanel() {
 
 function Rows({ rows, form }: { rows: readonly Row[]; form: NumberForm }) {
   const studio = useStudio();
-  const ids = [...new Set(rows.flatMap((row) => (row.is === 'pick' ? [row.pick.node] : [])))];
+  const picked = new Set(rows.flatMap((row) => (row.is === 'pick' ? [row.pick.node] : [])));
+  const ids = [...picked].filter((id) => id !== kPlanNode);
   const described = useVariablesOf(ids);
   return (
     <VirtualRows
@@ -78,6 +88,7 @@ function Rows({ rows, form }: { rows: readonly Row[]; form: NumberForm }) {
     >
       {(row) => {
         if (row.is === 'node') return <NodeHead row={row} />;
+        if (row.pick.node === kPlanNode) return <PlanLine pick={row.pick} />;
         const place = placeOf(row.pick, described.get(row.pick.node) ?? []);
         if (!place) return <Missing pick={row.pick} known={described.has(row.pick.node)} />;
         return (
@@ -95,24 +106,12 @@ function Rows({ rows, form }: { rows: readonly Row[]; form: NumberForm }) {
 }
 
 function NodeHead({ row }: { row: Extract<Row, { is: 'node' }> }) {
+  if (row.id === kPlanNode) return <div className="variables__node">{words.ofPlan}</div>;
   return (
     <div className="variables__node">
       <span className="ellipsis">{row.node?.name ?? row.id}</span>
       <span className="grow" />
       <span className="variables__state">{text.target.nodeState[row.node?.state ?? 'gone']}</span>
-    </div>
-  );
-}
-
-/** The node has no such variable now; it is kept, for it may come back with the next script. */
-function Missing({ pick, known }: { pick: Pick; known: boolean }) {
-  return (
-    <div className="variable variable--missing">
-      <span className="variable__dot" aria-hidden />
-      <code className="ellipsis">{pickName(pick)}</code>
-      <span className="muted ellipsis">{known ? words.missing : words.waits}</span>
-      <span />
-      <PickButtons pick={pick} size={1} inWatch />
     </div>
   );
 }

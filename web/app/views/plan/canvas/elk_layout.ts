@@ -2,28 +2,20 @@
 
 import ELK from 'elkjs/lib/elk-api.js';
 import workerUrl from 'elkjs/lib/elk-worker.min.js?url';
-import type { LayoutGraph } from '../../../../core/plan/tidy';
+import { elkGraph, type LayoutGraph } from '../../../../core/plan/tidy';
+import { text } from '../../../text';
 import type { Point } from '../../../../core/plan/shape';
 
 /** A layout that takes longer is given up. */
 export const kLayoutMs = 10_000;
 
-const options = {
-  'elk.algorithm': 'layered',
-  'elk.direction': 'RIGHT',
-  'elk.edgeRouting': 'ORTHOGONAL',
-  // Between columns and rows: room for the lanes of arrows.
-  'elk.layered.spacing.nodeNodeBetweenLayers': '88',
-  'elk.spacing.nodeNode': '56',
-  'elk.spacing.componentComponent': '64',
-  'elk.layered.considerModelOrder.strategy': 'NODES_AND_EDGES',
-};
+export class TooLong extends Error {}
 
 /** Upper left corners, counted from the corner of all. Rejects when it takes too long. */
 export async function elkLayout(graph: LayoutGraph): Promise<Map<string, Point>> {
   const elk = new ELK({ workerUrl });
   const late = new Promise<never>((_done, reject) =>
-    setTimeout(() => reject(new Error('the layout takes too long')), kLayoutMs),
+    setTimeout(() => reject(new TooLong(text.draw.tidyTooLong)), kLayoutMs),
   );
   try {
     const laid = await Promise.race([elk.layout(elkGraph(graph)), late]);
@@ -31,17 +23,4 @@ export async function elkLayout(graph: LayoutGraph): Promise<Map<string, Point>>
   } finally {
     elk.terminateWorker();
   }
-}
-
-function elkGraph({ boxes, edges }: LayoutGraph) {
-  return {
-    id: 'plan',
-    layoutOptions: options,
-    children: boxes.map((one) => ({ ...one })),
-    edges: edges.map(({ from, to }, index) => ({
-      id: String(index),
-      sources: [from],
-      targets: [to],
-    })),
-  };
 }

@@ -1,0 +1,15 @@
+// Whether a plan has what a breakpoint is set on: a name with a slip in it would never be met.
+#pragma once
+
+#include "plan/model.hpp"
+#include "plan/template.hpp"
+#include "serve/run/plan_breakpoints.hpp"
+
+namespace vagus::serve {
+
+// NotFound with what there is. States and events are those that the element has rules for, and
+// those of its template, if the library knows that.
+Status check_break_place(const PlanBreakpoint& wanted, const plan::Plan& plan,
+                         const plan::Library& library);
+
+}  // namespace vagus::serve

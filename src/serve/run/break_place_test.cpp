@@ -1,0 +1,66 @@
+#include "serve/run/break_place.hpp"
+
+#include <gtest/gtest.h>
+
+#include "plan/file.hpp"
+
+namespace vagus::serve {
+namespace {
+
+constexpr std::string_view kPlan = R"({
+  "format": "vagus-plan/1",
+  "name": "Rounds",
+  "start": {
+    "actor": "say",
+    "supervisors": { "late": { "template": "Timeout", "in": { "seconds": 9 }, "events": {} } }
+  },
+  "actors": {
+    "say": { "template": "Unknown", "states": { "Done": "wait" } },
+    "wait": { "template": "Wait", "in": { "seconds": 1 }, "states": {} }
+  }
+})";
+
+// "" if it can be set.
+std::string refusal(const std::string& kind, const std::string& element,
+                    const std::string& outcome = "") {
+    plan::Library library;
+    library.add(
+        {.name = "core",
+         .templates = {
+             {.name = "Wait", .outcomes = {{"Done"}}},
+             {.name = "Timeout", .kind = plan::Kind::Supervisor, .outcomes = {{"Timeout"}}}}});
+    PlanBreakpoint wanted;
+    wanted.kind = kind;
+    wanted.element = element;
+    wanted.outcome = outcome;
+    const plan::PlanFile file = plan::parse_plan(kPlan, "rounds.plan.json");
+    EXPECT_TRUE(file.readable);
+    const Status there = check_break_place(wanted, file.plan, library);
+    if (there.ok()) return "";
+    EXPECT_EQ(there.error().code, Code::NotFound);
+    return there.error().what;
+}
+
+TEST(BreakPlace, WhatThePlanHasCanHaveOne) {
+    EXPECT_EQ(refusal("actor", "say"), "");
+    EXPECT_EQ(refusal("state", "say"), "");
+    EXPECT_EQ(refusal("event", "late", "Timeout"), "");
+    EXPECT_EQ(refusal("condition", ""), "");
+    // A state that leads nowhere yet, and one of a template that nobody knows.
+    EXPECT_EQ(refusal("state", "wait", "Done"), "");
+    EXPECT_EQ(refusal("state", "say", "Failed"), "");
+}
+
+TEST(BreakPlace, WhatItHasNotIsRefusedWithWhatThereIs) {
+    EXPECT_EQ(refusal("actor", "sey"), "the plan Rounds has no actor “sey”; did you mean say?");
+    EXPECT_EQ(refusal("actor", "late"),
+              "the plan Rounds has no actor “late”; there are: say, wait");
+    EXPECT_EQ(refusal("state", "wait", "Failed"),
+              "the actor wait has no state “Failed”; there are: Done");
+    EXPECT_EQ(refusal("event", "say"), "the plan Rounds has no supervisor “say”; there are: late");
+    EXPECT_EQ(refusal("event", "late", "Timeuot"),
+              "the supervisor late has no event “Timeuot”; did you mean Timeout?");
+}
+
+}  // namespace
+}  // namespace vagus::serve

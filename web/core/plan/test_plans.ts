@@ -1,0 +1,103 @@
+// Random plans and what holds of every drawing, for tests.
+
+import type { Json, PlanTemplate, PlanToolbox } from '../../protocol/messages';
+import type { Drawing } from './arrows';
+import { eachStretch, stretchBox } from './path';
+import type { Scene } from './place';
+import { overlaps, type Box } from './shape';
+
+export function template(
+  name: string,
+  kind: PlanTemplate['kind'],
+  outcomes: string[],
+): PlanTemplate {
+  const named = outcomes.map((one) => ({ name: one, help: '' }));
+  const bare = { help: '', icon: '', inputs: [], outputs: [], period_ms: 10, starts: [] };
+  return { name, kind, outcomes: named, ...bare };
+}
+
+export const toolboxes: PlanToolbox[] = [
+  {
+    name: 'core',
+    help: '',
+    templates: [
+      template('Wait', 'actor', ['Done']),
+      template('For', 'computation', ['Loop', 'Done']),
+      template('Timeout', 'supervisor', ['Timeout']),
+      template('Watch', 'supervisor', ['True']),
+    ],
+  },
+  { name: 'drive', help: 'Wheels.', templates: [template('Forward', 'actor', ['There'])] },
+];
+
+/** Actors, at most 24 if nobody says how many, with supervisors, some of them placed, none on another one. */
+export function randomPlan(random: (below: number) => number, count = 1 + random(24)): Json {
+  const target = () => (random(8) === 0 ? '@terminate' : `a${random(count)}`);
+  const actors: Record<string, Json> = {};
+  const layout: Record<string, Json> = {};
+  const isPlaced = random(2) === 0;
+  for (let at = 0; at < count; at++) {
+    const supervisors: Record<string, Json> = {};
+    for (let more = random(3); more > 0; more--)
+      supervisors[`s${at}_${more}`] = { template: 'Timeout', events: { Timeout: target() } };
+    const states: Record<string, Json> = random(2)
+      ? { Done: target() }
+      : { Loop: target(), Done: target() };
+    actors[`a${at}`] = { template: 'Loop' in states ? 'For' : 'Wait', states, supervisors };
+    // Each in a field of its own: 168 wide, 92 and two supervisors of 44 high at most.
+    const jitter = [random(9) * 8, random(6) * 8];
+    if (isPlaced)
+      layout[`a${at}`] = [
+        (at % 5) * 320 + (jitter[0] ?? 0),
+        Math.floor(at / 5) * 300 + (jitter[1] ?? 0),
+      ];
+  }
+  const configuration = Object.fromEntries(
+    Array.from({ length: random(6) }, (_one, at) => [`v${at}`, { type: 'int', initial: at }]),
+  );
+  return {
+    format: 'vagus-plan/1',
+    name: 'R',
+    start: { actor: 'a0' },
+    configuration,
+    actors,
+    layout,
+  };
+}
+
+/** Blocks of which one stands on another. */
+export function covered(scene: Scene): [Box, Box][] {
+  const boxes = [scene.start, ...scene.actors].map((block) => block.whole);
+  return boxes.flatMap((box, index) =>
+    boxes
+      .slice(index + 1)
+      .flatMap((other): [Box, Box][] => (overlaps(box, other) ? [[box, other]] : [])),
+  );
+}
+
+/** What is wrong with the arrows: each is there, has right angles and runs through no box. */
+export function faultsOfArrows(scene: Scene, drawing: Drawing): string[] {
+  const boxes = boxesOf(scene, drawing);
+  return drawing.arrows.flatMap(({ id }) => {
+    const points = drawing.routes.get(id)?.points ?? [];
+    const faults = points.length < 2 ? [`${id} is not there`] : [];
+    eachStretch(points, (from, to) => {
+      if (from.x !== to.x && from.y !== to.y) faults.push(`${id} is not upright`);
+      for (const box of boxes)
+        if (overlaps(box, stretchBox(from, to)))
+          faults.push(`${id} ${JSON.stringify([from, to, box])}`);
+    });
+    return faults;
+  });
+}
+
+function boxesOf(scene: Scene, drawing: Drawing): Box[] {
+  return [
+    ...[scene.start, ...scene.actors].flatMap((block) => [
+      block.box,
+      ...block.supervisors.map(({ box }) => box),
+    ]),
+    ...scene.pills.map(({ box }) => box),
+    ...drawing.tags.map(({ box }) => box),
+  ];
+}

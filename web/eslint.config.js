@@ -1,6 +1,11 @@
 import hooks from 'eslint-plugin-react-hooks';
 import tseslint from 'typescript-eslint';
 
+/** All that its makers recommend; what they only warn of is an error here. */
+const hookRules = Object.fromEntries(
+  Object.keys(hooks.configs.flat['recommended-latest'].rules).map((rule) => [rule, 'error']),
+);
+
 export default tseslint.config(
   {
     ignores: [
@@ -20,8 +25,7 @@ export default tseslint.config(
     },
     plugins: { 'react-hooks': hooks },
     rules: {
-      'react-hooks/rules-of-hooks': 'error',
-      'react-hooks/exhaustive-deps': 'error',
+      ...hookRules,
       '@typescript-eslint/no-explicit-any': 'error',
       '@typescript-eslint/switch-exhaustiveness-check': [
         'error',

@@ -23,6 +23,8 @@ export type Reveal =
 
 export interface WindowState {
   layout: LayoutName;
+  /** On this page, since the project was opened. */
+  isLayoutChosen: boolean;
   /** Chosen on this page; what is set for the user counts where this is null. */
   theme: Theme | null;
   layoutNonce: number;
@@ -61,6 +63,7 @@ export type WindowStore = ReturnType<typeof createWindowStore>;
 export function createWindowStore() {
   return createStore<WindowState>()(() => ({
     layout: 'Script',
+    isLayoutChosen: false,
     theme: null,
     layoutNonce: 0,
     doc: null,

@@ -11,7 +11,13 @@ import type { Eye } from './use_hands';
 const kSlack = 0.008;
 
 /** Turns around the world, and tells what the pointer meets. */
-export function SolidCamera({ model, eye }: { model: WorldModel; eye: RefObject<Eye | null> }) {
+export function SolidCamera({
+  model,
+  eyeRef,
+}: {
+  model: WorldModel;
+  eyeRef: RefObject<Eye | null>;
+}) {
   const camera = useThree((three) => three.camera);
   const element = useThree((three) => three.gl.domElement);
   const invalidate = useThree((three) => three.invalidate);
@@ -28,12 +34,12 @@ export function SolidCamera({ model, eye }: { model: WorldModel; eye: RefObject<
     ];
     const redraw = () => invalidate();
     controls.addEventListener('change', redraw);
-    eye.current = eyeOf(model, camera, controls, element);
+    eyeRef.current = eyeOf(model, camera, controls, element);
     return () => {
-      eye.current = null;
+      eyeRef.current = null;
       ends.forEach((end) => end());
     };
-  }, [camera, element, invalidate, model, eye]);
+  }, [camera, element, invalidate, model, eyeRef]);
   return null;
 }
 

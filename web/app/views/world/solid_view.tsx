@@ -9,10 +9,10 @@ import type { Eye } from './use_hands';
 /** The world in 3D: drawn when something has changed; no shadows, and coarse under tests. */
 export default function SolidView({
   model,
-  eye,
+  eyeRef,
 }: {
   model: WorldModel;
-  eye: RefObject<Eye | null>;
+  eyeRef: RefObject<Eye | null>;
 }) {
   const colours = useColours();
   const ratio = navigator.webdriver ? 0.75 : Math.min(window.devicePixelRatio || 1, 2);
@@ -28,7 +28,7 @@ export default function SolidView({
         <color attach="background" args={[colours.sky]} />
         <ambientLight intensity={1.5} />
         <directionalLight position={[-2, -4, 8]} intensity={1.9} />
-        <SolidCamera model={model} eye={eye} />
+        <SolidCamera model={model} eyeRef={eyeRef} />
         <SolidScene model={model} colours={colours} />
       </Canvas>
     </div>

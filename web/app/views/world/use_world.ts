@@ -62,7 +62,7 @@ export function useLive(model: WorldModel, on: boolean): void {
     model.setStage(stageOfScene(scene));
   }, [model, on, scene]);
   useEffect(() => {
-    if (on) model.acts = new LiveActs(studio, model, drives);
+    if (on) model.allow(new LiveActs(studio, model, drives));
   }, [studio, model, on, drives]);
   useEffect(() => {
     if (!on) return;
@@ -112,7 +112,7 @@ export function useFileStage(
       model.setStage(stage);
       setImage(stage.image);
     };
-    model.acts = new FileActs(file, model, drives, () => Date.now());
+    model.allow(new FileActs(file, model, drives, () => Date.now()));
     show();
     return file.changed.on(show);
   }, [model, file, drives]);
@@ -160,18 +160,13 @@ function useImage(model: WorldModel, image: string | undefined, world: Path | un
   useEffect(() => {
     const path = image && world ? resolved(folderOf(world), image) : null;
     shown.current = path;
-    if (model.image) {
-      model.image = null;
-      model.drawn.emit();
-    }
+    if (model.image) model.cover(null);
     if (path === null) return;
     connection
       .send('file.bytes', { path })
       .then(({ base64 }) => bitmapOf(base64))
       .then((bitmap) => {
-        if (shown.current !== path) return;
-        model.image = bitmap;
-        model.drawn.emit();
+        if (shown.current === path) model.cover(bitmap);
       })
       // Without it the ground has its colour; the checker says that the file is missing.
       .catch(() => {});

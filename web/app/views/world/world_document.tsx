@@ -1,4 +1,4 @@
-import { Suspense, useEffect, useMemo, useRef, useState } from 'react';
+import { Suspense, useMemo, useRef, useState } from 'react';
 import { late } from '../../parts/late';
 import type { Doc, Finding } from '../../../protocol/messages';
 import { useTopic, useWindow, usePart } from '../../hooks';
@@ -40,10 +40,12 @@ export default function WorldDocument({ doc }: { doc: Doc }) {
     isOurs && (state === 'running' || state === 'paused') ? 'live' : 'edit',
   );
   const reveal = useWindow((window) => window.reveal);
-  // A place in the text is asked for: a finding, something searched.
-  useEffect(() => {
+  const [asked, setAsked] = useState<typeof reveal>(null);
+  if (reveal !== asked) {
+    setAsked(reveal);
+    // A place in the text is asked for: a finding, something searched.
     if (reveal?.what === 'doc' && reveal.doc === doc && reveal.at) choose('text');
-  }, [reveal, doc]);
+  }
   const mode = chosen ?? first;
   const modes = <ModeSwitch mode={mode} onChange={choose} />;
   if (mode === 'text')

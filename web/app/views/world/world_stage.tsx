@@ -37,7 +37,7 @@ export function WorldStage({
   useShown(frame, model, file);
   useHands(frame, model, eye, options.snap);
   const solid = options.solid && canSolid() && !failed;
-  const flat = <FlatView model={model} eye={eye} />;
+  const flat = <FlatView model={model} eyeRef={eye} />;
   return (
     <div
       className="world__stage"
@@ -53,7 +53,7 @@ export function WorldStage({
       {solid ? (
         <SolidGuard onFail={() => setFailed(true)}>
           <Suspense fallback={flat}>
-            <SolidView model={model} eye={eye} />
+            <SolidView model={model} eyeRef={eye} />
           </Suspense>
         </SolidGuard>
       ) : (

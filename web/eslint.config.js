@@ -14,12 +14,13 @@ export default tseslint.config(
       'aesl/parser.ts',
       'aesl/parser.terms.ts',
       'protocol/messages.ts',
-      '**/*.mjs',
-      '**/*.js',
+      'scripts',
+      '*.js',
     ],
   },
   ...tseslint.configs.recommendedTypeChecked,
   {
+    linterOptions: { reportUnusedDisableDirectives: 'error' },
     languageOptions: {
       parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname },
     },
@@ -44,6 +45,17 @@ export default tseslint.config(
         'error',
         { checksVoidReturn: { attributes: false } },
       ],
+    },
+  },
+  {
+    files: ['e2e/**'],
+    rules: {
+      // Files and messages are read as they are: JSON without a type.
+      '@typescript-eslint/no-unsafe-argument': 'off',
+      '@typescript-eslint/no-unsafe-assignment': 'off',
+      '@typescript-eslint/no-unsafe-call': 'off',
+      '@typescript-eslint/no-unsafe-member-access': 'off',
+      '@typescript-eslint/no-unsafe-return': 'off',
     },
   },
 );

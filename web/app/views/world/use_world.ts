@@ -1,14 +1,6 @@
 // Where a view's world comes from: the run, or the text of its file.
 
-import {
-  useCallback,
-  useEffect,
-  useMemo,
-  useRef,
-  useState,
-  useSyncExternalStore,
-  type RefObject,
-} from 'react';
+import { useCallback, useEffect, useRef, useState, useSyncExternalStore } from 'react';
 import type { Doc, Path } from '../../../protocol/messages';
 import type { JsonFile } from '../../../core/session/json_file';
 import { folderOf, joinPath } from '../../../core/paths';
@@ -26,21 +18,7 @@ import { useWorldOptions } from './options';
 const kPosesRate = 30;
 
 export function useWorldModel(): WorldModel {
-  return useMemo(() => new WorldModel(), []);
-}
-
-/** True while the element is on the screen. */
-export function useVisible(frame: RefObject<HTMLElement | null>): boolean {
-  const [visible, setVisible] = useState(false);
-  useEffect(() => {
-    if (!frame.current) return;
-    const observer = new IntersectionObserver(([entry]) =>
-      setVisible(entry?.isIntersecting ?? false),
-    );
-    observer.observe(frame.current);
-    return () => observer.disconnect();
-  }, [frame]);
-  return visible;
+  return useState(() => new WorldModel())[0];
 }
 
 /** Whether a world runs, or stands at its start. */

@@ -5,6 +5,7 @@ import { useTopic, useWindow, usePart } from '../../hooks';
 import { Blank } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
+import { useShown } from '../../robot_hooks';
 import { FindingNotice } from '../finding_notice';
 import { DiskNotice } from '../script/script_notices';
 import type { ShownWorld } from './desk';
@@ -18,7 +19,6 @@ import {
   useHasScene,
   useJsonFile,
   useLive,
-  useVisible,
   useWorldModel,
 } from './use_world';
 import { keyMeant } from '../../../core/world/file';
@@ -68,7 +68,7 @@ function LiveWorld(props: { modes: React.ReactNode; runs: boolean; onEdit: () =>
   const { modes, runs, onEdit } = props;
   const frame = useRef<HTMLDivElement>(null);
   const model = useWorldModel();
-  const visible = useVisible(frame);
+  const visible = useShown(frame);
   const { list } = useWorldOptions();
   useLive(model, visible);
   const world = useMemo<ShownWorld>(() => ({ model, file: null, focus() {} }), [model]);

@@ -34,13 +34,26 @@ async function swipe(page, way) {
   await session.detach();
 }
 
+const drawn = {
+  ...tablet,
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(t, { name: 'T', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
+};
+
+test('a tap on a port lists what it may lead to, and the list stays', drawn, async (studio) => {
+  const { page, layout } = studio;
+  await layout('Draw');
+  const wait = page.getByRole('group', { name: /^wait, actor Wait/ });
+  await wait.getByRole('button', { name: /^Done leads nowhere/ }).tap();
+  await page.getByRole('menuitem', { name: 'log', exact: true }).tap();
+  await page
+    .getByRole('img', { name: 'wait Done leads to log', exact: true })
+    .waitFor({ state: 'attached' });
+});
+
 test(
   'a finger draws an arrow from a port to its target; the canvas stays where it is',
-  {
-    ...tablet,
-    prepare: (/** @type {TestContext} */ t) =>
-      makeProject(t, { name: 'T', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
-  },
+  drawn,
   async ({ page, layout }) => {
     await layout('Draw');
     const wait = page.getByRole('group', { name: /^wait, actor Wait/ });

@@ -81,6 +81,9 @@ export function useConnecting(board: PlanBoard, drives: boolean) {
         const key = (one: KeyboardEvent) => {
           if (one.key === 'Escape') stop();
         };
+        // After a tap the browser plays a mouse, which would take the focus from the list.
+        if (event.pointerType === 'touch')
+          port.addEventListener('touchend', (one) => one.preventDefault(), { once: true });
         window.addEventListener('pointermove', move, { signal });
         window.addEventListener('pointerup', up, { signal });
         window.addEventListener('pointercancel', stop, { signal });

@@ -10,8 +10,8 @@ import { kPatience, until } from './until.mjs';
 
 export { until };
 
-/** What drawing by software and a library say of themselves. */
-const kNoise = /GL Driver Message|THREE\.Clock: This module has been deprecated/;
+/** What drawing by software says of itself. */
+const kNoise = /GL Driver Message/;
 const kTestMs = 150_000;
 const kPictures = join(root, 'build/e2e');
 

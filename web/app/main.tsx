@@ -12,6 +12,7 @@ import './look/base.css';
 import './look/controls.css';
 import './look/frame.css';
 import './look/dock.css';
+import { StrictMode } from 'react';
 import { createRoot } from 'react-dom/client';
 import { identityOf, tokenIn } from '../core/identity';
 import { browserWorld } from '../core/socket';
@@ -66,11 +67,13 @@ function start(): void {
   const root = document.getElementById('root');
   if (root)
     createRoot(root).render(
-      <StudioContext value={studio}>
-        <PageGuard studio={studio}>
-          <App />
-        </PageGuard>
-      </StudioContext>,
+      <StrictMode>
+        <StudioContext value={studio}>
+          <PageGuard studio={studio}>
+            <App />
+          </PageGuard>
+        </StudioContext>
+      </StrictMode>,
     );
 }
 

@@ -1,8 +1,9 @@
 // What lives as long as the window: theme, keys, the layout that was chosen last.
 
-import { useEffect, useRef, useState } from 'react';
+import { useEffect, useEffectEvent, useRef, useState } from 'react';
 import { isLayoutName } from '../core/layouts';
 import type { Theme } from '../core/settings';
+import type { Studio } from '../core/studio';
 import { revealPanel, toast, update } from '../core/window_state';
 import { countsOf } from '../core/findings';
 import { text } from './text';
@@ -68,24 +69,31 @@ export function WindowLife(): null {
   const studio = useStudio();
   useAskForWheel();
   useUnsentWork();
+  useFirstLayout(studio);
+  useLayoutName();
+  useProblemsOpen();
+  return null;
+}
+
+/** When a project is opened: the layout that was kept, unless a person was quicker and has chosen one. */
+function useFirstLayout(studio: Studio): void {
   const values = useTopic('state', {})?.values;
   const folder = useTopic('studio', {})?.project?.folder;
   const hasPlan = useTopic('studio', {})?.project?.plan !== undefined;
   const known = values !== undefined;
-  useLayoutName();
-  useEffect(() => {
-    if (!known || folder === undefined) return;
+  // Afterwards the window is ahead of what is kept.
+  const open = useEffectEvent(() => {
     const layout =
       typeof values === 'object' && values !== null && !Array.isArray(values)
         ? values['layout']
         : undefined;
     const first = isLayoutName(layout) ? layout : hasPlan ? 'Draw' : null;
-    if (first !== null) update(studio.window, (draft) => void (draft.layout = first));
-    // Only when a project is opened: afterwards the window is ahead of what is kept.
-    // eslint-disable-next-line react-hooks/exhaustive-deps
-  }, [studio, known, folder]);
-  useProblemsOpen();
-  return null;
+    if (first === null || studio.window.getState().isLayoutChosen) return;
+    update(studio.window, (draft) => void (draft.layout = first));
+  });
+  useEffect(() => {
+    if (known && folder !== undefined) open();
+  }, [known, folder]);
 }
 
 /** What is not with the server is asked for before the page is left; what was refused is told. */
@@ -138,10 +146,10 @@ function useAskForWheel(): void {
 function useProblemsOpen(): void {
   const studio = useStudio();
   const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
-  const [opened, setOpened] = useState(false);
+  const opened = useRef(false);
   useEffect(() => {
-    if (errors === 0 || opened) return;
-    setOpened(true);
+    if (errors === 0 || opened.current) return;
+    opened.current = true;
     revealPanel(studio.window, 'problems', false);
-  }, [studio, errors, opened]);
+  }, [studio, errors]);
 }

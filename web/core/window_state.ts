@@ -1,7 +1,6 @@
 // What the window shows that is nobody else's business: layout, what is looked at, toasts. Changed
 // by the functions below only.
 
-import { produce } from 'immer';
 import { createStore } from 'zustand/vanilla';
 import type { Doc, NodeId, Place, Spot } from '../protocol/messages';
 import { allEvents, type EventFilter } from './happenings';
@@ -23,12 +22,14 @@ export type Reveal =
 
 export interface WindowState {
   layout: LayoutName;
+  /** On this page, since the project was opened. */
+  isLayoutChosen: boolean;
   /** Chosen on this page; what is set for the user counts where this is null. */
   theme: Theme | null;
   layoutNonce: number;
   doc: Doc | null;
   node: NodeId | null;
-  cursor: { doc: Doc; line: number; column: number } | null;
+  cursor: Readonly<{ doc: Doc; line: number; column: number }> | null;
   overlay: 'palette' | 'keys' | 'folder' | 'project' | 'runFrom' | 'newTemplate' | null;
   /** A new file is being named in the tree, or a file renamed. */
   naming:
@@ -36,24 +37,29 @@ export interface WindowState {
     | { rename: string }
     | null;
   reveal: Reveal | null;
-  toasts: Toast[];
+  toasts: readonly Toast[];
   problem: number;
-  listing: Record<Doc, boolean>;
+  listing: Readonly<Record<Doc, boolean>>;
   /** The plan from which a sub-plan was opened. */
-  callers: Record<Doc, Doc>;
+  callers: Readonly<Record<Doc, Doc>>;
   /** A small form at a line of a script. */
-  form: { doc: Doc; is: 'rename' | 'breakpoint'; line: number } | null;
-  references: { name: string; spots: Spot[] } | null;
+  form: Readonly<{ doc: Doc; is: 'rename' | 'breakpoint'; line: number }> | null;
+  references: Readonly<{ name: string; spots: readonly Spot[] }> | null;
   /** How the list of events is looked at. */
-  events: { filter: EventFilter; paused: boolean; counts: boolean; send: boolean };
+  events: Readonly<{
+    filter: Readonly<EventFilter>;
+    paused: boolean;
+    counts: boolean;
+    send: boolean;
+  }>;
   /** The plot in numbers. */
   plotTable: boolean;
   /** What F5 could not run, said in the document where it was pressed. */
-  runNote: { doc: Doc | null; text: string } | null;
+  runNote: Readonly<{ doc: Doc | null; text: string }> | null;
   /** The menu of targets is open. */
   targets: boolean;
   /** Nodes that the buttons of the network are for; none: all. */
-  chosenNodes: NodeId[];
+  chosenNodes: readonly NodeId[];
 }
 
 export type WindowStore = ReturnType<typeof createWindowStore>;
@@ -61,6 +67,7 @@ export type WindowStore = ReturnType<typeof createWindowStore>;
 export function createWindowStore() {
   return createStore<WindowState>()(() => ({
     layout: 'Script',
+    isLayoutChosen: false,
     theme: null,
     layoutNonce: 0,
     doc: null,
@@ -91,8 +98,17 @@ export function forgetProject(store: WindowStore): void {
 
 let count = 0;
 
+/** The draft is a copy whose members are replaced, never changed; listeners are told if one of them was. */
 export function update(store: WindowStore, recipe: (draft: WindowState) => void): void {
-  store.setState(produce(store.getState(), recipe), true);
+  const before = store.getState();
+  const draft = { ...before };
+  recipe(draft);
+  const names = Object.keys(draft) as (keyof WindowState)[];
+  if (names.some((name) => !Object.is(draft[name], before[name]))) store.setState(draft, true);
+}
+
+export function updateEvents(store: WindowStore, part: Partial<WindowState['events']>): void {
+  update(store, (draft) => void (draft.events = { ...draft.events, ...part }));
 }
 
 export function revealDoc(
@@ -117,9 +133,8 @@ export function revealPanel(store: WindowStore, panel: string, focus = true): vo
 /** One that says the same as one that stands there is not added again. */
 export function toast(store: WindowStore, kind: Toast['kind'], text: string): void {
   update(store, (draft) => {
-    draft.toasts = draft.toasts.filter((one) => one.text !== text);
-    draft.toasts.push({ id: ++count, kind, text });
-    if (draft.toasts.length > kToastsMax) draft.toasts.shift();
+    const others = draft.toasts.filter((one) => one.text !== text);
+    draft.toasts = [...others, { id: ++count, kind, text }].slice(-kToastsMax);
   });
 }
 

@@ -2,7 +2,7 @@
 import { look } from './support/axe.mjs';
 import { seen, test, until } from './support/studio.mjs';
 
-for (const theme of ['dark', 'light']) {
+for (const theme of /** @type {const} */ (['dark', 'light'])) {
   test(`the start screen, ${theme}`, { theme }, async (studio) => {
     const { page, press } = studio;
     await seen(page.getByRole('button', { name: /^Follow a wall/ }));

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { makeProject } from './support/robots.mjs';
 import { gone, reads, seen, test } from './support/studio.mjs';
+/** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 const kLate = {
   late: { template: 'Timeout', in: { seconds: 100000 }, events: { Timeout: 'say' } },
@@ -35,7 +36,7 @@ const room = {
   robots: [{ name: 'alice', type: 'thymio2', at: [0.5, 0.5], node: 1 }],
 };
 const project = {
-  prepare: (t) =>
+  prepare: (/** @type {TestContext} */ t) =>
     makeProject(
       t,
       { name: 'Change', plan: 'P.plan.json', world: 'room.world.json', target: 'sim' },
@@ -45,9 +46,10 @@ const project = {
       },
     ),
 };
-const element = (page, name) => page.getByRole('group', { name, exact: false });
+const element = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('group', { name, exact: false });
 
-async function runs(studio) {
+async function runs(/** @type {Studio} */ studio) {
   const { page, layout } = studio;
   await layout('Draw');
   await page.getByRole('switch', { name: 'What it does' }).click();
@@ -58,7 +60,7 @@ async function runs(studio) {
   return live;
 }
 
-async function choose(studio, name) {
+async function choose(/** @type {Studio} */ studio, /** @type {string} */ name) {
   await element(studio.page, name).focus();
   await studio.press('Enter');
   return studio.page.getByRole('region', { name: 'Properties' });

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { makeProject } from './support/robots.mjs';
 import { gone, reads, seen, test, until } from './support/studio.mjs';
+/** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 const kPlan = `{
   "format": "vagus-plan/1",
@@ -17,12 +18,15 @@ const kPlan = `{
 }
 `;
 const plan = {
-  prepare: (t) => makeProject(t, { name: 'C', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(t, { name: 'C', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
 };
-const element = (page, name) => page.getByRole('group', { name, exact: false });
-const heading = (page, name) => page.getByRole('heading', { name, exact: true });
+const element = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('group', { name, exact: false });
+const heading = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('heading', { name, exact: true });
 
-async function codeOf({ page, layout }) {
+async function codeOf(/** @type {Studio} */ { page, layout }) {
   await layout('Draw');
   await seen(element(page, 'wait, actor Wait'));
   await page.getByRole('switch', { name: 'Code', exact: true }).click();
@@ -30,8 +34,10 @@ async function codeOf({ page, layout }) {
   await reads(code, /core::Wait wait\("wait", \{\.seconds = "1"\}\);/);
   return code;
 }
-const marked = async (page) =>
-  (await page.locator('.cm-ofElement').allInnerTexts()).map((line) => line.trim());
+const marked = async (/** @type {Page} */ page) =>
+  (await page.locator('.cm-ofElement').allInnerTexts()).map((/** @type {any} */ line) =>
+    line.trim(),
+  );
 
 test('an element marks its lines, a line chooses its element', plan, async (studio) => {
   const { page, press } = studio;

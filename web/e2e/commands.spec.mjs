@@ -1,21 +1,23 @@
 // Whatever a menu or a key offers does something, or says why not: tried with real keys.
 import assert from 'node:assert/strict';
 import { reads, seen, test, until } from './support/studio.mjs';
+/** @import { Page } from './support/studio.mjs' */
 
 const example = { words: ['--example', 'follow-wall'] };
 const kinds = ['Script', 'Plan', 'World', 'Toolbox', 'Text', 'Folder'];
 const endings = ['aesl', 'plan.json', 'world.json', 'toolbox.json', 'txt', null];
 // A toolbox brings a script of its name along.
-const file = (index) => [`new${index}`, endings[index]].filter(Boolean).join('.');
+const file = (/** @type {number} */ index) =>
+  [`new${index}`, endings[index]].filter(Boolean).join('.');
 
 /** The field of the name has the focus, and still has it after a menu would have given it back. */
-async function named(page) {
+async function named(/** @type {Page} */ page) {
   const field = page.getByRole('textbox', { name: 'Name of the new file' });
   await until('the field of the name has the focus', () =>
-    field.evaluate((one) => one === document.activeElement),
+    field.evaluate((/** @type {any} */ one) => one === document.activeElement),
   );
   await page.evaluate(
-    () => new Promise((done) => setTimeout(() => requestAnimationFrame(() => done()), 60)),
+    () => new Promise((done) => setTimeout(() => requestAnimationFrame(done), 60)),
   );
   assert.ok(await field.isVisible(), 'the field ended by itself');
   return field;
@@ -55,7 +57,7 @@ const quiet = [
 ];
 
 /** What a person could notice: texts, states, where the focus is. */
-const seenNow = (page) =>
+const seenNow = (/** @type {Page} */ page) =>
   page.evaluate(() => {
     const { activeElement: focus } = document;
     const states = [
@@ -67,22 +69,25 @@ const seenNow = (page) =>
       document.body.innerText,
       document.body.querySelectorAll('*').length,
       document.documentElement.dataset.theme,
-      focus.tagName + focus.id + focus.className + (focus.getAttribute('aria-label') ?? ''),
+      focus &&
+        focus.tagName + focus.id + focus.className + (focus.getAttribute('aria-label') ?? ''),
       ...states.map(
         (one) =>
           one.className +
           (one.getAttribute('style') ?? '') +
-          (one.value ?? '') +
+          (one instanceof HTMLInputElement ? one.value : '') +
           (one.textContent ?? '').slice(0, 40),
       ),
       ...[...document.querySelectorAll('canvas')].map((one) => one.toDataURL()),
     ].join('\n');
   });
 
-const inside = (page, tab) =>
+const inside = (/** @type {Page} */ page, /** @type {string} */ tab) =>
   until(`the focus is in ${tab}`, () =>
     page.evaluate(
-      (id) => document.activeElement.closest('[data-tab-content]')?.dataset.tabContent === id,
+      (/** @type {string} */ id) =>
+        document.activeElement?.closest('[data-tab-content]')?.getAttribute('data-tab-content') ===
+        id,
       tab,
     ),
   );
@@ -182,7 +187,7 @@ for (const layout of ['Draw', 'Script'])
       await seen(options);
       const all = await options.evaluateAll((rows) =>
         rows.map((row) => ({
-          title: row.firstElementChild.textContent,
+          title: row.firstElementChild?.textContent ?? '',
           off: row.getAttribute('aria-disabled') === 'true',
           why: row.querySelector('.palette__why')?.textContent ?? '',
         })),

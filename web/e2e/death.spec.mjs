@@ -8,6 +8,7 @@ import { atEnd, startServer } from './support/server.mjs';
 import { browserOptions } from './support/browser.mjs';
 import { hands } from './support/studio.mjs';
 import { until } from './support/until.mjs';
+/** @import { Page, TestContext } from './support/studio.mjs' */
 
 const kKills = Number(process.env.VAGUS_KILLS ?? 10);
 const kTestMs = 60_000 + kKills * 20_000;
@@ -15,14 +16,14 @@ const kSecond = 1000;
 const kLettersMax = 80;
 
 /** A browser of its own, which can be killed. */
-async function launch(t) {
+async function launch(/** @type {TestContext} */ t) {
   const server = await chromium.launchServer(browserOptions);
   atEnd(t, () => server.kill());
   const browser = await chromium.connect(server.wsEndpoint());
   return { page: await browser.newPage(), kill: () => server.kill() };
 }
 
-async function open(t, address) {
+async function open(/** @type {TestContext} */ t, /** @type {string} */ address) {
   const { page, kill } = await launch(t);
   await page.goto(address);
   const editor = hands(page).editor('left');
@@ -32,7 +33,7 @@ async function open(t, address) {
   return { page, kill, editor, text };
 }
 
-test('a browser is killed while someone types', { timeout: kTestMs }, async (t) => {
+void test('a browser is killed while someone types', { timeout: kTestMs }, async (t) => {
   const node = await startNode(t, 'left', 1);
   const project = makeProject(
     t,
@@ -43,6 +44,7 @@ test('a browser is killed while someone types', { timeout: kTestMs }, async (t) 
     },
   );
   const { address } = await startServer(t, project.words, project.folder);
+  /** @type {any[]} */
   let typed = [];
   let killed = 0;
   for (let turn = 0; ; turn++) {
@@ -69,14 +71,15 @@ test('a browser is killed while someone types', { timeout: kTestMs }, async (t) 
   }
 });
 
-const wordOf = (typed) => typed.map((one) => one.letter).join('');
+const wordOf = (/** @type {string[]} */ typed) =>
+  typed.map((/** @type {any} */ one) => one.letter).join('');
 
 /** A person types what they see: the next key comes when this one is drawn, and the page has had a moment. */
-const drawn = (page) =>
+const drawn = (/** @type {Page} */ page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done))));
 
 /** Whoever comes within ten seconds of a death asks for the wheel. */
-async function drive(page) {
+async function drive(/** @type {Page} */ page) {
   const wheel = page.getByRole('button', { name: 'Request control' });
   await wheel
     .or(page.getByRole('button', { name: 'Upload' }))

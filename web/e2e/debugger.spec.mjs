@@ -1,7 +1,8 @@
 // The debugger over several nodes: run, break, step, faults, and nodes that come and go.
 import assert from 'node:assert/strict';
 import { startNode, twoNodes } from './support/robots.mjs';
-import { gone, reads, seen, test, until } from './support/studio.mjs';
+import { reads, seen, test } from './support/studio.mjs';
+/** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 const scripts = {
   left: `var n = 0
@@ -16,16 +17,23 @@ last = args[0]
 sum = sum + last
 `,
 };
-const two = { prepare: (t) => twoNodes(t, scripts, { events: { tick: 1 } }) };
+const two = {
+  prepare: (/** @type {TestContext} */ t) => twoNodes(t, scripts, { events: { tick: 1 } }),
+};
 
-const row = (page, name) => page.getByRole('row', { name: new RegExp(`^(Choose )?${name}`) });
+const row = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('row', { name: new RegExp(`^(Choose )?${name}`) });
 /** What the tab of a node's script says with its three signs. */
-const mark = (studio, node, words) =>
-  studio.tab(new RegExp(`^${node} \\d`)).getByRole('img', { name: words });
-const stateOf = (page, name) => row(page, name).getByRole('cell').nth(1);
+const mark = (
+  /** @type {Studio} */ studio,
+  /** @type {string} */ node,
+  /** @type {string | RegExp} */ words,
+) => studio.tab(new RegExp(`^${node} \\d`)).getByRole('img', { name: words });
+const stateOf = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  row(page, name).getByRole('cell').nth(1);
 
 test('each node runs, stands, steps and stops by itself, and all together', two, async (studio) => {
-  const { page, press, button, command, tab } = studio;
+  const { page, press, button, command } = studio;
   await seen(studio.editor('left'));
   await command('Show Network');
   await seen(page.getByRole('group', { name: 'The bus with 2 nodes' }));
@@ -56,7 +64,7 @@ test(
   'a breakpoint with a condition stops one node; it is kept and given back',
   two,
   async (studio) => {
-    const { page, press, editor, tab, button, server, left, right } = studio;
+    const { page, press, editor, tab, button, right } = studio;
     await seen(editor('left'));
     await press('F5');
     await seen(mark(studio, 'right', /, running$/));
@@ -92,7 +100,7 @@ test(
 );
 
 const faulty = {
-  prepare: (t) =>
+  prepare: (/** @type {TestContext} */ t) =>
     twoNodes(
       t,
       { left: 'var zero = 0\nvar x\nonevent go\nx = 1\nx = 5 / zero\n', right: '' },
@@ -102,7 +110,7 @@ const faulty = {
     ),
 };
 test('a fault is shown at the line that caused it', faulty, async (studio) => {
-  const { page, press, editor, command, button } = studio;
+  const { page, press, editor, command } = studio;
   await seen(editor('left'));
   await press('F5');
   await seen(mark(studio, 'left', /, running$/));

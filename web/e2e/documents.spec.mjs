@@ -6,15 +6,23 @@ import { join } from 'node:path';
 import { makeProject, twoNodes } from './support/robots.mjs';
 import { startProgram, vagusProgram } from './support/server.mjs';
 import { hands, openWindow, seen, test, until } from './support/studio.mjs';
+/** @import { Studio, TestContext } from './support/studio.mjs' */
 
 const scripts = { left: 'var left = 0\n', right: 'var right = 0\n' };
-const two = { prepare: (t) => twoNodes(t, scripts, {}) };
-const textOf = async ({ editor }, node) =>
+const two = { prepare: (/** @type {TestContext} */ t) => twoNodes(t, scripts, {}) };
+const textOf = async (/** @type {Studio} */ { editor }, /** @type {string} */ node) =>
   (await editor(node).innerText()).replaceAll('\u200b', '').replaceAll('\n\n', '\n');
-const says = (studio, node, what) =>
-  until(`${node} says ${what}`, async () => (await textOf(studio, node)).includes(what));
+const says = (
+  /** @type {Studio} */ studio,
+  /** @type {string} */ node,
+  /** @type {string} */ what,
+) => until(`${node} says ${what}`, async () => (await textOf(studio, node)).includes(what));
 
-async function typeAtEnd(studio, node, what) {
+async function typeAtEnd(
+  /** @type {Studio} */ studio,
+  /** @type {string} */ node,
+  /** @type {string} */ what,
+) {
   await studio.tab(new RegExp(`^${node}`)).click();
   await studio.editor(node).click();
   await studio.press('Control+End');
@@ -22,7 +30,7 @@ async function typeAtEnd(studio, node, what) {
 }
 
 const plan = {
-  prepare: (t) =>
+  prepare: (/** @type {TestContext} */ t) =>
     makeProject(
       t,
       { name: 'P', plan: 'p.plan.json' },
@@ -209,7 +217,7 @@ test('keys of a German, a Swiss and a French keyboard', plan, async (studio) => 
   const said = () => page.locator('.plan__text .cm-content').first().innerText();
   const has = async () => (await said()).includes('configuration');
   await until('it is there', has);
-  const key = (init) =>
+  const key = (/** @type {any} */ init) =>
     canvas.evaluate(
       (element, init) =>
         element.dispatchEvent(

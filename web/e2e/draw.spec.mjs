@@ -3,7 +3,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
-import { gone, reads, seen, test, until } from './support/studio.mjs';
+import { boxOf, gone, reads, seen, test, until } from './support/studio.mjs';
+/** @import { Page, TestContext } from './support/studio.mjs' */
 
 const wall = { words: ['--example', 'follow-wall'] };
 const kEmpty = `{
@@ -13,10 +14,13 @@ const kEmpty = `{
 }
 `;
 const empty = {
-  prepare: (t) => makeProject(t, { name: 'Empty', plan: 'P.plan.json' }, { 'P.plan.json': kEmpty }),
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(t, { name: 'Empty', plan: 'P.plan.json' }, { 'P.plan.json': kEmpty }),
 };
-const element = (page, name) => page.getByRole('group', { name, exact: false });
-const arrow = (page, name) => page.getByRole('img', { name, exact: true });
+const element = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('group', { name, exact: false });
+const arrow = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('img', { name, exact: true });
 
 test(
   'a plan is drawn with its roles and arrows; what is not changed is not saved',
@@ -175,7 +179,7 @@ test(
     const log = element(page, 'log, actor Log');
     await seen(log);
     const port = element(page, 'wait, actor').getByRole('button', { name: /^Done leads nowhere/ });
-    const [from, to] = [await port.boundingBox(), await log.boundingBox()];
+    const [from, to] = [await boxOf(port), await boxOf(log)];
     await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
     await page.mouse.down();
     await page.mouse.move(to.x + 40, to.y + 20, { steps: 4 });

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { twoNodes } from './support/robots.mjs';
 import { gone, reads, seen, test, until } from './support/studio.mjs';
+/** @import { Studio, TestContext } from './support/studio.mjs' */
 
 const scripts = {
   left: `var speed = 0
@@ -18,14 +19,14 @@ end
 `,
 };
 const shared = { events: { go: 0, done: 1 }, constants: { LIMIT: 100 } };
-const two = { prepare: (t) => twoNodes(t, scripts, shared) };
+const two = { prepare: (/** @type {TestContext} */ t) => twoNodes(t, scripts, shared) };
 
-async function open(studio, node = 'left') {
+async function open(/** @type {Studio} */ studio, node = 'left') {
   await seen(studio.editor('left'));
   await studio.tab(new RegExp(`^${node}`)).click();
   await studio.editor(node).click();
 }
-const textOf = async (studio, node) =>
+const textOf = async (/** @type {Studio} */ studio, /** @type {string} */ node) =>
   (await studio.editor(node).innerText()).replaceAll('\u200b', '');
 
 test('what can stand here is offered, with help and signature', two, async (studio) => {
@@ -98,7 +99,7 @@ test('problems of all files are one list, F4 goes to the next', two, async (stud
 });
 
 test('names: definition, references, renaming in all scripts', two, async (studio) => {
-  const { page, press, type } = studio;
+  const { page, press } = studio;
   await open(studio);
   await press('Control+Home', 'ArrowDown', 'ArrowDown', 'F12');
   await seen(page.getByText('Ln 1, Col 5'));
@@ -119,7 +120,7 @@ test('names: definition, references, renaming in all scripts', two, async (studi
 });
 
 test('search and replace over all files', two, async (studio) => {
-  const { page, press, type, button } = studio;
+  const { page, press, button } = studio;
   await open(studio);
   await press('Control+Shift+F');
   await page.getByLabel('Find', { exact: true }).fill('LIMIT');
@@ -156,7 +157,8 @@ test('memory, bytecode, two scripts side by side, undo', two, async (studio) => 
 
 test('constants and events: added, renamed, removed, sent', two, async (studio) => {
   const { page, press, button } = studio;
-  const row = (name) => page.getByRole('listitem').filter({ has: button(`Change ${name}`) });
+  const row = (/** @type {string} */ name) =>
+    page.getByRole('listitem').filter({ has: button(`Change ${name}`) });
   await open(studio);
   await button('Add a constant').click();
   await page.getByLabel('Name', { exact: true }).fill('FAR');

@@ -9,6 +9,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { runnerImport } from 'vite';
 import { atEnd, root, startServer, vagusProgram } from './support/server.mjs';
+/** @import { TestContext } from './support/studio.mjs' */
 
 const kEdits = 1000;
 const kEditsOfOne = 50;
@@ -20,12 +21,12 @@ const plans = [
   'obstacle/AroundObstacle.plan.json',
 ];
 
-const core = async (name) =>
+const core = async (/** @type {string} */ name) =>
   (await runnerImport(new URL(`../core/${name}.ts`, import.meta.url).pathname)).module;
 
 /** A page without a window: commands and their answers, and the first of a topic. */
 class Client {
-  static async open(t, address) {
+  static async open(/** @type {TestContext} */ t, /** @type {string} */ address) {
     const { origin, hash } = new URL(address);
     const socket = new WebSocket(`${origin.replace('http', 'ws')}/live`, 'vagus-1');
     atEnd(t, () => socket.close());
@@ -40,12 +41,12 @@ class Client {
     return client;
   }
 
-  constructor(socket) {
+  constructor(/** @type {any} */ socket) {
     this.socket = socket;
     this.number = 0;
     this.asked = new Map();
     this.watched = new Map();
-    socket.onmessage = ({ data }) => {
+    socket.onmessage = (/** @type {MessageEvent} */ { data }) => {
       const told = JSON.parse(data);
       if (told.watch !== undefined) return this.watched.get(told.watch)?.(told.whole);
       const { done, failed } = this.asked.get(told.id) ?? {};
@@ -55,7 +56,7 @@ class Client {
     };
   }
 
-  do(name, words) {
+  do(/** @type {string} */ name, /** @type {object} */ words) {
     const id = ++this.number;
     return new Promise((done, failed) => {
       this.asked.set(id, { done, failed });
@@ -63,15 +64,15 @@ class Client {
     });
   }
 
-  first(topic) {
+  first(/** @type {string} */ topic) {
     return new Promise((done) => {
-      this.watched.set(1, (whole) => whole && done(whole));
+      this.watched.set(1, (/** @type {any} */ whole) => whole && done(whole));
       void this.do('watch', { watch: 1, topic });
     });
   }
 }
 
-test('what is undone is the file as it was', { timeout: kTestMs }, async (t) => {
+void test('what is undone is the file as it was', { timeout: kTestMs }, async (t) => {
   const seed = Number(process.env.VAGUS_SEED ?? randomInt(2 ** 31));
   console.log(`seed ${seed}`);
   const { seeded } = await core('test_seeded');
@@ -91,18 +92,23 @@ test('what is undone is the file as it was', { timeout: kTestMs }, async (t) => 
     const { toolboxes } = await client.first('templates');
     const opened = await client.do('doc.open', { doc });
     const link = {
-      edit: (order) => client.do('doc.edit', { doc, ...order }),
-      pull: (from) => client.do('doc.pull', { doc, ...from }),
+      edit: (/** @type {any} */ order) => client.do('doc.edit', { doc, ...order }),
+      pull: (/** @type {any} */ from) => client.do('doc.pull', { doc, ...from }),
     };
     let edits = 0;
     // A step each two seconds: none is one with the one before.
     const made = openDocument(opened, { link, name: () => `e${++edits}`, now: () => edits * 2000 });
-    made.session.refused.on((why) => assert.fail(`seed ${seed}: ${JSON.stringify(why)}`));
+    made.session.refused.on((/** @type {string} */ why) =>
+      assert.fail(`seed ${seed}: ${JSON.stringify(why)}`),
+    );
     const file = made.file();
     const flushed = async () => assert.equal((await made.sync.flushed()).is, 'sent');
     // Ways of arrows are not looked at here: each look at the clock is a second later.
     let seconds = 0;
-    const turns = { now: () => ++seconds * 1000, later: (act) => void setTimeout(act) };
+    const turns = {
+      now: () => ++seconds * 1000,
+      later: (/** @type {() => unknown} */ act) => void setTimeout(act),
+    };
     const board = new PlanBoard(doc, file, toolboxes, turns);
     file.changed.on(() => board.refresh());
     for (let edit = 0; edit < kEditsOfOne; edit++) {
@@ -139,8 +145,12 @@ test('what is undone is the file as it was', { timeout: kTestMs }, async (t) => 
 });
 
 /** One of the edits that hands, forms and commands make. */
-function change(board, toolboxes, random) {
-  const any = (list) => list[random(Math.max(1, list.length))];
+function change(
+  /** @type {any} */ board,
+  /** @type {any} */ toolboxes,
+  /** @type {(below: number) => number} */ random,
+) {
+  const any = (/** @type {any} */ list) => list[random(Math.max(1, list.length))];
   const { actors, variables } = board.model;
   const actor = any(actors)?.name;
   const other = any(actors)?.name;

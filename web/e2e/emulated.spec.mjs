@@ -2,6 +2,7 @@
 import { aesl, makeProject } from './support/robots.mjs';
 import { startProgram, vagusProgram } from './support/server.mjs';
 import { reads, seen, test, until } from './support/studio.mjs';
+/** @import { Studio, TestContext } from './support/studio.mjs' */
 
 const script = `var n = 0
 timer.period = 100
@@ -11,7 +12,7 @@ leds = n
 `;
 
 /** `vagus emulate`; gives its port once it listens. */
-async function startBoards(t, ...boards) {
+async function startBoards(/** @type {TestContext} */ t, /** @type {string[]} */ ...boards) {
   const program = startProgram(t, [
     vagusProgram,
     'emulate',
@@ -23,7 +24,7 @@ async function startBoards(t, ...boards) {
 }
 
 const boards = {
-  prepare: async (t) =>
+  prepare: async (/** @type {TestContext} */ t) =>
     makeProject(
       t,
       {
@@ -35,9 +36,10 @@ const boards = {
     ),
 };
 
-async function breakAndStep(studio, name) {
+async function breakAndStep(/** @type {Studio} */ studio, /** @type {string} */ name) {
   const { page, press, editor, tab } = studio;
-  const mark = (words) => tab(new RegExp(`^${name}`)).getByRole('img', { name: words });
+  const mark = (/** @type {string | RegExp} */ words) =>
+    tab(new RegExp(`^${name}`)).getByRole('img', { name: words });
   await tab(new RegExp(`^${name}`)).click();
   await seen(mark(/on the robot, running/));
   await until('it counts', async () => Number(await page.getByTitle('Change n').innerText()) > 3);

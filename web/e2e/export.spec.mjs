@@ -4,33 +4,33 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './support/server.mjs';
 import { seen, test } from './support/studio.mjs';
+/** @import { Page, Studio } from './support/studio.mjs' */
 
 const wall = { words: ['--example', 'follow-wall'] };
 const plan = JSON.parse(
   readFileSync(join(root, 'examples/follow-wall/WallFollow.plan.json'), 'utf8'),
 );
 
-async function drawn({ page, layout }) {
+async function drawn(/** @type {Studio} */ { page, layout }) {
   await layout('Draw');
   await seen(page.getByRole('group', { name: 'followWall, actor WallForward', exact: false }));
 }
 
-async function downloaded(page, act) {
+async function downloaded(/** @type {Page} */ page, /** @type {() => unknown} */ act) {
   const [file] = await Promise.all([page.waitForEvent('download'), act()]);
   return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
 }
 
 /** What a browser sees in it. */
-const parsed = (page, svg) =>
-  page.evaluate((text) => {
+const parsed = (/** @type {Page} */ page, /** @type {string} */ svg) =>
+  page.evaluate((/** @type {string} */ text) => {
     const all = new DOMParser().parseFromString(text, 'image/svg+xml');
-    const { width, height } = all.documentElement.attributes;
     return {
       isBroken: all.querySelector('parsererror') !== null,
       texts: [...all.querySelectorAll('text')].map((one) => one.textContent),
-      width: Number(width.value),
-      height: Number(height.value),
-      frame: all.querySelector('rect').getAttribute('fill'),
+      width: Number(all.documentElement.getAttribute('width')),
+      height: Number(all.documentElement.getAttribute('height')),
+      frame: all.querySelector('rect')?.getAttribute('fill'),
     };
   }, svg);
 
@@ -67,6 +67,7 @@ test('a PNG decodes and has twice the size of the SVG', wall, async (studio) => 
     const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
     const canvas = new OffscreenCanvas(image.width, image.height);
     const to = canvas.getContext('2d');
+    if (!to) throw new Error('nothing to draw on');
     to.drawImage(image, 0, 0);
     const { data } = to.getImageData(0, 0, image.width, image.height);
     const colours = new Set();

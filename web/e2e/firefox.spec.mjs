@@ -5,7 +5,7 @@ import WebSocket from 'ws';
 import { startProgram, startServer, temporaryFolder } from './support/server.mjs';
 import { until } from './support/until.mjs';
 
-test('Firefox shows the studio and reaches its server', { timeout: 240_000 }, async (t) => {
+void test('Firefox shows the studio and reaches its server', { timeout: 240_000 }, async (t) => {
   const server = await startServer(t, ['--example', 'thymio']);
   const home = temporaryFolder(t);
   const firefox = startProgram(
@@ -20,7 +20,7 @@ test('Firefox shows the studio and reaches its server', { timeout: 240_000 }, as
   const { contexts } = await bidi.ask('browsingContext.getTree', {});
   const { context } = contexts[0];
   await bidi.ask('browsingContext.navigate', { context, url: server.address, wait: 'complete' });
-  const evaluate = async (expression) =>
+  const evaluate = async (/** @type {string} */ expression) =>
     (
       await bidi.ask('script.evaluate', {
         expression,
@@ -41,7 +41,7 @@ test('Firefox shows the studio and reaches its server', { timeout: 240_000 }, as
 });
 
 /** A session of BiDi: ask(method, params) gives its result. */
-async function connect(address) {
+async function connect(/** @type {string} */ address) {
   const socket = new WebSocket(address);
   await new Promise((done, fail) => socket.on('open', done).on('error', fail));
   const waiting = new Map();
@@ -53,7 +53,7 @@ async function connect(address) {
     if (message.type === 'error') answer?.fail(new Error(`${message.error}: ${message.message}`));
     else answer?.done(message.result);
   });
-  const ask = (method, params) =>
+  const ask = (/** @type {string} */ method, /** @type {any} */ params) =>
     new Promise((done, fail) => {
       waiting.set(++last, { done, fail });
       socket.send(JSON.stringify({ id: last, method, params }));

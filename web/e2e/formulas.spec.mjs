@@ -5,6 +5,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
 import { gone, reads, seen, test, until } from './support/studio.mjs';
+/** @import { Studio, TestContext } from './support/studio.mjs' */
 
 const kPlan = `{
   "format": "vagus-plan/1",
@@ -20,11 +21,12 @@ const kPlan = `{
 }
 `;
 const plan = {
-  prepare: (t) => makeProject(t, { name: 'F', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(t, { name: 'F', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
 };
 
 const slip = {
-  prepare: (t) =>
+  prepare: (/** @type {TestContext} */ t) =>
     makeProject(
       t,
       { name: 'F', plan: 'P.plan.json' },
@@ -32,7 +34,7 @@ const slip = {
     ),
 };
 
-async function form(studio) {
+async function form(/** @type {Studio} */ studio) {
   const { page, layout, press } = studio;
   await layout('Draw');
   const wait = page.getByRole('group', { name: 'wait, actor Wait', exact: false });
@@ -40,7 +42,7 @@ async function form(studio) {
   await press('Enter');
   return page.getByRole('region', { name: 'Properties' });
 }
-const seconds = async (place) =>
+const seconds = (/** @type {string} */ place) =>
   JSON.parse(readFileSync(join(place, 'P.plan.json'), 'utf8')).actors.wait.in.seconds;
 
 test('a formula is completed by the keyboard', plan, async (studio) => {
@@ -66,7 +68,7 @@ test('a formula is completed by the keyboard', plan, async (studio) => {
   await gone(list);
   assert.equal(await field.inputValue(), 'sqrt(speed)');
   await press('Enter', 'Control+s');
-  await until('it is saved', async () => (await seconds(place)) === 'sqrt(speed)');
+  await until('it is saved', () => seconds(place) === 'sqrt(speed)');
 });
 
 test('what is wrong with a formula is said while it is typed', plan, async (studio) => {
@@ -90,7 +92,7 @@ test('what is wrong with a formula is said while it is typed', plan, async (stud
   await properties.getByRole('button', { name: 'Write "speed"' }).click();
   await gone(properties.getByText('does not exist'));
   await press('Control+s');
-  await until('it is mended', async () => (await seconds(place)) === 'speed * 2');
+  await until('it is mended', () => seconds(place) === 'speed * 2');
 });
 
 test('what is wrong with a state stands at its row, with its mend', slip, async (studio) => {

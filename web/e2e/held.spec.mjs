@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';
 import { gone, reads, seen, test } from './support/studio.mjs';
+/** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 // Waits for go, then for on, then for end.
 const kThree = JSON.stringify({
@@ -34,7 +35,7 @@ const kWorld = JSON.stringify({
   robots: [{ name: 'alice', type: 'thymio2', at: [0.5, 0.5], node: 1, script: 'robot.aesl' }],
 });
 const three = {
-  prepare: (t) =>
+  prepare: (/** @type {TestContext} */ t) =>
     makeProject(
       t,
       {
@@ -47,11 +48,13 @@ const three = {
       { 'Three.plan.json': kThree, 'room.world.json': kWorld, 'robot.aesl': kScript },
     ),
 };
-const element = (page, name) => page.getByRole('group', { name, exact: false });
-const held = (page) => page.getByRole('list', { name: 'Held events' }).getByRole('listitem');
+const element = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('group', { name, exact: false });
+const held = (/** @type {Page} */ page) =>
+  page.getByRole('list', { name: 'Held events' }).getByRole('listitem');
 
 /** Sends events by the panel, and shows those that wait again. */
-async function send({ page, command }, ...names) {
+async function send(/** @type {Studio} */ { page, command }, /** @type {string[]} */ ...names) {
   await command('Send an event…');
   const form = page.getByRole('form', { name: 'Send an event' });
   for (const name of names) {
@@ -64,7 +67,7 @@ async function send({ page, command }, ...names) {
 }
 
 /** The plan has heard go, and stands before its second actor; the held events are shown. */
-async function standAtSecond(studio) {
+async function standAtSecond(/** @type {Studio} */ studio) {
   const { page, press, layout } = studio;
   await layout('Draw');
   await element(page, 'second, actor Receive').focus();

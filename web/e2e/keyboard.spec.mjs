@@ -1,6 +1,6 @@
 // Write a script, run, break, step, change a value, see it in the world: by keyboard alone.
-import assert from 'node:assert/strict';
 import { reads, seen, test, until } from './support/studio.mjs';
+/** @import { Page, Studio } from './support/studio.mjs' */
 
 const script = `var count = 0
 motor.left.target = 100
@@ -84,14 +84,14 @@ test('a robot is programmed without a mouse', {}, async (studio) => {
   await seen(page.getByRole('button', { name: /Stopped/ }));
 });
 
-async function focusEditor({ press, editor }) {
+async function focusEditor(/** @type {Studio} */ { press, editor }) {
   await until('the editor has the focus', async () => {
     await press('F6');
-    return editor('thymio-II').evaluate((one) => one === document.activeElement);
+    return editor('thymio-II').evaluate((/** @type {any} */ one) => one === document.activeElement);
   });
 }
 
-async function angleOf(page, name) {
+async function angleOf(/** @type {Page} */ page, /** @type {string} */ name) {
   const row = page.getByRole('table', { name: 'Things' }).getByRole('row', { name });
   return Number(
     (await row.getByRole('cell').last().innerText()).replace('−', '-').replace('°', ''),

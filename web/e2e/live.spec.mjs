@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { makeProject } from './support/robots.mjs';
 import { gone, reads, seen, test } from './support/studio.mjs';
+/** @import { Page, TestContext } from './support/studio.mjs' */
 
 const kRounds = `{
   "format": "vagus-plan/1",
@@ -32,15 +33,17 @@ const kWorld = JSON.stringify({
   robots: [{ name: 'alice', type: 'thymio2', at: [0.5, 0.5], node: 1 }],
 });
 const rounds = {
-  prepare: (t) =>
+  prepare: (/** @type {TestContext} */ t) =>
     makeProject(
       t,
       { name: 'Rounds', plan: 'Rounds.plan.json', world: 'room.world.json', target: 'sim' },
       { 'Rounds.plan.json': kRounds, 'room.world.json': kWorld },
     ),
 };
-const element = (page, name) => page.getByRole('group', { name, exact: false });
-const shows = (page) => page.getByRole('list', { name: 'Breakpoints' }).getByRole('listitem');
+const element = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('group', { name, exact: false });
+const shows = (/** @type {Page} */ page) =>
+  page.getByRole('list', { name: 'Breakpoints' }).getByRole('listitem');
 
 test('a breakpoint by the keyboard stops the plan, which says so', rounds, async (studio) => {
   const { page, press, layout, command } = studio;
@@ -66,7 +69,7 @@ test('a breakpoint by the keyboard stops the plan, which says so', rounds, async
 });
 
 test('a state stops at its Nth hit; it is set by the menu and its form', rounds, async (studio) => {
-  const { page, press, layout, button } = studio;
+  const { page, press, layout } = studio;
   await layout('Draw');
   const count = element(page, 'count, computation For');
   await count.getByTitle('Loop').first().click({ button: 'right' });

@@ -3,7 +3,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
-import { gone, seen, test, until } from './support/studio.mjs';
+import { boxOf, gone, seen, test, until } from './support/studio.mjs';
+/** @import { Page, TestContext } from './support/studio.mjs' */
 
 const kPlan = `{
   "format": "vagus-plan/1",
@@ -16,11 +17,13 @@ const kPlan = `{
 }
 `;
 const plan = {
-  prepare: (t) => makeProject(t, { name: 'N', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(t, { name: 'N', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
 };
-const card = (page, text) => page.getByRole('group', { name: `Note: ${text}`, exact: true });
-const file = (place) => readFileSync(join(place, 'P.plan.json'), 'utf8');
-const notes = (place) => JSON.parse(file(place)).x?.notes ?? [];
+const card = (/** @type {Page} */ page, /** @type {string} */ text) =>
+  page.getByRole('group', { name: `Note: ${text}`, exact: true });
+const file = (/** @type {string} */ place) => readFileSync(join(place, 'P.plan.json'), 'utf8');
+const notes = (/** @type {string} */ place) => JSON.parse(file(place)).x?.notes ?? [];
 
 test('a note is written, moved, resized and removed by the keyboard', plan, async (studio) => {
   const { page, layout, press, place } = studio;
@@ -75,7 +78,7 @@ test('a note is written and enlarged by the mouse', plan, async (studio) => {
   const after = card(page, 'first and last');
   await seen(after);
   await after.click();
-  const corner = await after.locator('.pnote__corner').boundingBox();
+  const corner = await boxOf(after.locator('.pnote__corner'));
   await page.mouse.move(corner.x + 6, corner.y + 6);
   await page.mouse.down();
   await page.mouse.move(corner.x + 60, corner.y + 60, { steps: 4 });

@@ -1,7 +1,8 @@
 // The page on a telephone: good enough to watch, to stop and to start.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { gone, reads, seen, test, until } from './support/studio.mjs';
+import { boxOf, gone, reads, seen, test, until } from './support/studio.mjs';
+/** @import { Page, Studio } from './support/studio.mjs' */
 
 const source = readFileSync(
   new URL('../node_modules/axe-core/axe.min.js', import.meta.url),
@@ -10,7 +11,7 @@ const source = readFileSync(
 const phone = { width: 390, height: 844, touch: true, words: ['--example', 'follow-wall'] };
 const kThumb = 44;
 
-async function serious(page) {
+async function serious(/** @type {Page} */ page) {
   return page.evaluate(
     `${source}; axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) =>
       violations.filter(({ impact }) => impact === 'serious' || impact === 'critical')
@@ -18,10 +19,10 @@ async function serious(page) {
   );
 }
 
-const controls = (page) => page.getByRole('group', { name: 'Run controls' });
+const controls = (/** @type {Page} */ page) => page.getByRole('group', { name: 'Run controls' });
 
 /** Nothing is wider than the screen, and Stop is on it, as large as a thumb. */
-async function fits({ page }, view) {
+async function fits(/** @type {Studio} */ { page }, /** @type {string} */ view) {
   const bar = controls(page);
   const [wide, screen] = await page.evaluate(() => [
     Math.max(document.documentElement.scrollWidth, document.body.scrollWidth),
@@ -29,18 +30,19 @@ async function fits({ page }, view) {
   ]);
   assert.ok(wide <= screen, `${view}: ${wide} px wide on a screen of ${screen}`);
   for (const name of [/^Stop$/, /^(Run|Running|Continue)$/, /^Pause$/]) {
-    const box = await bar.getByRole('button', { name }).boundingBox();
+    const box = await boxOf(bar.getByRole('button', { name }));
     assert.ok(box.height >= kThumb && box.width >= kThumb, `${view}: ${name} is ${box.height} px`);
     assert.ok(box.x >= 0 && box.x + box.width <= screen && box.y >= 0 && box.y < 844, view);
   }
   for (const tab of await page.getByRole('tab').all())
-    assert.ok((await tab.boundingBox()).height >= kThumb, view);
+    assert.ok((await boxOf(tab)).height >= kThumb, view);
 }
 
-for (const theme of ['dark', 'light'])
+for (const theme of /** @type {const} */ (['dark', 'light']))
   test(`watch, start, pause and stop by touch, ${theme}`, { ...phone, theme }, async (studio) => {
     const { page, tab } = studio;
-    const button = (name) => controls(page).getByRole('button', { name, exact: true });
+    const button = (/** @type {string} */ name) =>
+      controls(page).getByRole('button', { name, exact: true });
     await seen(tab('Plan'));
     await fits(studio, 'before the run');
     await button('Run').tap();
@@ -50,10 +52,10 @@ for (const theme of ['dark', 'light'])
     await fits(studio, 'plan');
     assert.deepEqual(await serious(page), [], 'plan');
     await keep(page, `plan-${theme}`);
-    for (const [name, shown] of [
-      ['World', page.locator('[data-world]')],
-      ['Variables', page.getByRole('searchbox', { name: 'Find in all nodes' })],
-      ['Console', page.getByRole('tabpanel', { name: 'Console' })],
+    for (const { name, shown } of [
+      { name: 'World', shown: page.locator('[data-world]') },
+      { name: 'Variables', shown: page.getByRole('searchbox', { name: 'Find in all nodes' }) },
+      { name: 'Console', shown: page.getByRole('tabpanel', { name: 'Console' }) },
     ]) {
       await tab(name).tap();
       await seen(shown);
@@ -97,7 +99,7 @@ test('a wide window is the studio, a narrow one a telephone', phone, async ({ pa
 });
 
 /** For who wants to look: VAGUS_LOOK names a folder. */
-async function keep(page, name) {
+async function keep(/** @type {Page} */ page, /** @type {string} */ name) {
   if (process.env.VAGUS_LOOK)
     await page.screenshot({ path: `${process.env.VAGUS_LOOK}/${name}.png` });
 }

@@ -1,5 +1,5 @@
 // A plan: its text with findings, and what it does.
-import { reads, seen, test, until } from './support/studio.mjs';
+import { reads, seen, test } from './support/studio.mjs';
 
 const wall = { words: ['--example', 'follow-wall'] };
 
@@ -7,7 +7,7 @@ test(
   'a plan runs, is paused, steps and is stopped; beside it what it does',
   wall,
   async (studio) => {
-    const { page, press, button, layout } = studio;
+    const { page, press, layout } = studio;
     await layout('Draw');
     await page.getByRole('switch', { name: 'What it does' }).click();
     const live = page.getByRole('complementary', { name: 'What the plan does' });
@@ -26,7 +26,7 @@ test(
 );
 
 test('mistakes in a plan are told at their place', wall, async (studio) => {
-  const { page, press, type, layout, button } = studio;
+  const { page, press, type, layout } = studio;
   await layout('Draw');
   await page.getByRole('switch', { name: 'Text' }).click();
   const text = page.getByRole('textbox', { name: /Text of/ }).first();

@@ -17,7 +17,10 @@ test(
       const { width, height } = await createImageBitmap(await item.getType('image/png'));
       return { width, height };
     });
-    const plot = await drawn.evaluate(({ width, height }) => ({ width, height }));
+    const plot = await drawn.evaluate((one) => {
+      const { width, height } = /** @type {HTMLCanvasElement} */ (one);
+      return { width, height };
+    });
     assert.equal(picture.width, plot.width);
     // One line of 20 pixels with the name of the curve, and 12 around it.
     assert.equal(picture.height, plot.height + 32);

@@ -10,13 +10,10 @@ test(
     await seen(page.getByRole('region', { name: 'Plan WallFollow, drawn' }));
     const measured = () =>
       page.evaluate(() => {
-        const canvas = document.querySelector('.pcanvas').getBoundingClientRect();
-        const zoom = new DOMMatrix(
-          getComputedStyle(document.querySelector('.react-flow__viewport')).transform,
-        ).a;
-        const rects = [...document.querySelectorAll('.react-flow__node')].map((one) =>
-          one.getBoundingClientRect(),
-        );
+        const all = (/** @type {string} */ selector) => [...document.querySelectorAll(selector)];
+        const canvas = all('.pcanvas')[0].getBoundingClientRect();
+        const zoom = new DOMMatrix(getComputedStyle(all('.react-flow__viewport')[0]).transform).a;
+        const rects = all('.react-flow__node').map((one) => one.getBoundingClientRect());
         const left = Math.min(...rects.map((one) => one.left));
         const right = Math.max(...rects.map((one) => one.right));
         const top = Math.min(...rects.map((one) => one.top));
@@ -55,7 +52,7 @@ test(
     await seen(page.getByRole('button', { name: /^Target/ }));
     const cut = await page.evaluate(() =>
       [...document.querySelectorAll('.topbar button')]
-        .filter((one) => one.offsetParent !== null)
+        .filter((one) => one.checkVisibility())
         .filter((one) => {
           const { left, right, bottom } = one.getBoundingClientRect();
           return left < 0 || right > innerWidth || bottom > innerHeight;

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { twoNodes } from './support/robots.mjs';
 import { gone, reads, seen, test, until } from './support/studio.mjs';
+/** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 const scripts = {
   left: `var n = 0
@@ -18,25 +19,29 @@ onevent tick
 heard = args[0]
 `,
 };
-const two = { prepare: (t) => twoNodes(t, scripts, { events: { tick: 2, quiet: 0 } }) };
+const two = {
+  prepare: (/** @type {TestContext} */ t) =>
+    twoNodes(t, scripts, { events: { tick: 2, quiet: 0 } }),
+};
 
-async function run(studio) {
+async function run(/** @type {Studio} */ studio) {
   await seen(studio.editor('left'));
   await studio.press('F5');
   await seen(
     studio.page.getByText(/left: running the script of/).or(studio.page.getByText('tick')),
   );
 }
-const variable = (page, name) =>
+const variable = (/** @type {Page} */ page, /** @type {string} */ name) =>
   page
     .getByRole('list', { name: 'Variables' })
     .getByRole('listitem')
     .filter({ has: page.getByText(name, { exact: true }) });
-const happened = (page) => page.getByRole('list', { name: /What happened/ });
-const number = (text) => Number(/-?\d+/.exec(text.replaceAll('\n', ' '))?.[0]);
+const happened = (/** @type {Page} */ page) => page.getByRole('list', { name: /What happened/ });
+const number = (/** @type {string} */ text) =>
+  Number(/-?\d+/.exec(text.replaceAll('\n', ' '))?.[0]);
 
 test('variables are live, found, changed in place, watched', two, async (studio) => {
-  const { page, press, type, button } = studio;
+  const { page, press, button } = studio;
   await run(studio);
   const value = () => variable(page, 'n').getByRole('button').first().innerText();
   const before = await until('it has a value', async () => number(await value()));
@@ -68,7 +73,7 @@ test('variables are live, found, changed in place, watched', two, async (studio)
 });
 
 test('events are listed, filtered, held, counted, saved, sent', two, async (studio) => {
-  const { page, press, button } = studio;
+  const { page, button } = studio;
   await run(studio);
   await seen(happened(page).getByText('tick'));
   await reads(

@@ -3,13 +3,17 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
 import { gone, seen, test, until } from './support/studio.mjs';
+/** @import { Page, TestContext } from './support/studio.mjs' */
 
 const world = JSON.stringify({
   format: 'vagus-world/1',
   size: [2, 2],
   robots: [{ name: 'thymio', type: 'thymio2', at: [1, 1] }],
 });
-const plan = (name, states = { Done: '@terminate' }) =>
+const plan = (
+  /** @type {string} */ name,
+  /** @type {Record<string, string>} */ states = { Done: '@terminate' },
+) =>
   JSON.stringify({
     format: 'vagus-plan/1',
     name,
@@ -24,9 +28,14 @@ const files = {
   'Second.plan.json': plan('Second'),
   'Broken.plan.json': plan('Broken', {}),
 };
-const none = { prepare: (t) => makeProject(t, { name: 'None', world: 'w.world.json' }, files) };
-const open = (page, name) => page.locator(`[role="treeitem"][data-path="${name}"]`).click();
-const shows = (page, name) => seen(page.getByRole('region', { name: `Plan ${name}, drawn` }));
+const none = {
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(t, { name: 'None', world: 'w.world.json' }, files),
+};
+const open = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.locator(`[role="treeitem"][data-path="${name}"]`).click();
+const shows = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  seen(page.getByRole('region', { name: `Plan ${name}, drawn` }));
 
 test('F5 in a plan runs that plan, and the last one from anywhere else', none, async (studio) => {
   const { page, press, layout, button, place } = studio;

@@ -6,6 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { atEnd, root, vagusProgram } from './support/server.mjs';
 import { seen, test, until } from './support/studio.mjs';
+/** @import { Studio, TestContext } from './support/studio.mjs' */
 
 /** The plan of a shared library needs that library built: its templates are tested elsewhere. */
 const samples = [
@@ -25,12 +26,13 @@ const samples = [
 /** So much of each run is compared, in its own time. */
 const kSeconds = 20;
 
-const readJson = (path) => JSON.parse(readFileSync(path, 'utf8'));
-const writeJson = (path, value) => writeFileSync(path, `${JSON.stringify(value, null, 2)}\n`);
+const readJson = (/** @type {string} */ path) => JSON.parse(readFileSync(path, 'utf8'));
+const writeJson = (/** @type {string} */ path, /** @type {any} */ value) =>
+  writeFileSync(path, `${JSON.stringify(value, null, 2)}\n`);
 
 /** A copy of the examples in which that plan is empty. */
-function emptied(folder, name) {
-  return (t) => {
+function emptied(/** @type {string} */ folder, /** @type {string} */ name) {
+  return (/** @type {TestContext} */ t) => {
     const place = mkdtempSync(join(tmpdir(), 'vagus-samples-'));
     atEnd(t, () => rmSync(place, { recursive: true }));
     cpSync(join(root, 'examples'), place, { recursive: true });
@@ -43,7 +45,7 @@ function emptied(folder, name) {
   };
 }
 
-function traceOf(here, file) {
+function traceOf(/** @type {string} */ here, /** @type {string} */ file) {
   const { world } = readJson(join(here, 'vagus.json'));
   const words = ['plan', 'run', file, '--clock', 'virtual', '--seed', '1', '--trace', '-'];
   if (world) words.push('--world', join(here, world));
@@ -55,22 +57,25 @@ function traceOf(here, file) {
       encoding: 'utf8',
       stdio: ['ignore', 'pipe', 'pipe'],
     });
-  } catch (ended) {
+  } catch (problem) {
+    const ended = /** @type {{ stdout: string, stderr: string }} */ (problem);
     // A run that is cut has an exit status of its own.
     return ended.stdout || ended.stderr;
   }
 }
 
 /** The first line in which two traces differ. */
-function firstOther(trace, wanted) {
+function firstOther(/** @type {string} */ trace, /** @type {string} */ wanted) {
   const [ours, theirs] = [trace.split('\n'), wanted.split('\n')];
-  const at = theirs.findIndex((line, index) => line !== ours[index]);
+  const at = theirs.findIndex(
+    (/** @type {any} */ line, /** @type {number} */ index) => line !== ours[index],
+  );
   return at < 0 && ours.length === theirs.length ? '' : `${ours[at]}\ninstead of\n${theirs[at]}`;
 }
 
 /** What a person does to draw a plan, in the order of its file. */
 class Drawing {
-  constructor({ page, press }, plan) {
+  constructor(/** @type {Studio} */ { page, press }, /** @type {any} */ plan) {
     this.page = page;
     this.press = press;
     this.plan = plan;
@@ -106,7 +111,7 @@ class Drawing {
   }
 
   /** The element of that name, wherever it stands. */
-  async choose(name) {
+  async choose(/** @type {string} */ name) {
     await this.page.locator('.pcanvas').click({ position: { x: 300, y: 4 } });
     await this.press('Control+f');
     if (name === 'Start') {
@@ -120,20 +125,23 @@ class Drawing {
     await seen(this.form.getByRole('heading', { name, exact: true }));
   }
 
-  async rename(to) {
+  async rename(/** @type {string} */ to) {
     await this.form.getByRole('button', { name: 'Rename' }).click();
     await this.form.getByRole('textbox', { name: 'Name' }).fill(to);
     await this.press('Enter');
     await seen(this.form.getByRole('heading', { name: to, exact: true }));
   }
 
-  async fill(label, text, within = this.form) {
+  async fill(/** @type {string} */ label, /** @type {string} */ text, within = this.form) {
     const field = within.getByLabel(label, { exact: true });
     await field.fill(text);
     await this.press('Enter');
   }
 
-  async variable(name, { type, initial, unit, access }) {
+  async variable(
+    /** @type {string} */ name,
+    /** @type {Record<string, string>} */ { type, initial, unit, access },
+  ) {
     await this.page.getByRole('button', { name: 'New variable' }).click();
     await this.rename(name);
     await this.form.getByLabel('Type').selectOption(type);
@@ -142,7 +150,7 @@ class Drawing {
     if (access !== undefined) await this.form.getByLabel('For callers').selectOption(access);
   }
 
-  async tool(name, kinds) {
+  async tool(/** @type {string} */ name, /** @type {any} */ kinds) {
     const search = this.page.getByRole('searchbox', { name: /Search \d+ templates/ });
     await search.fill(name);
     const group = this.toolboxOf(name, kinds);
@@ -154,17 +162,17 @@ class Drawing {
   }
 
   /** The one that the plan lists, if it has the template; else core. */
-  toolboxOf(name, kinds) {
-    const listed = (this.plan.toolboxes ?? []).filter((one) => one !== 'core');
+  toolboxOf(/** @type {string} */ name, /** @type {any} */ kinds) {
+    const listed = (this.plan.toolboxes ?? []).filter((/** @type {any} */ one) => one !== 'core');
     return kinds !== 'sub-plan' && !kCore.has(name) && listed[0] !== undefined ? listed[0] : 'core';
   }
 
-  async addActor({ template, plan }) {
+  async addActor(/** @type {{ template?: string, plan?: string }} */ { template, plan }) {
     if (template !== undefined) return this.tool(template, 'actor|computation');
     await this.page.getByRole('button', { name: `${plan}, sub-plan` }).click();
   }
 
-  async element(name, element, add) {
+  async element(/** @type {string} */ name, /** @type {any} */ element, /** @type {any} */ add) {
     await add();
     await this.rename(name);
     const inputs = this.form.getByRole('region', { name: 'Inputs' });
@@ -179,12 +187,16 @@ class Drawing {
       await outputs.getByRole('combobox', { name: output, exact: true }).selectOption(variable);
   }
 
-  async supervisor(owner, name, supervisor) {
+  async supervisor(
+    /** @type {any} */ owner,
+    /** @type {string} */ name,
+    /** @type {any} */ supervisor,
+  ) {
     await this.choose(owner);
     await this.element(name, supervisor, () => this.tool(supervisor.template, 'supervisor'));
   }
 
-  async leads(targets) {
+  async leads(/** @type {Record<string, any>} */ targets) {
     for (const [outcome, target] of Object.entries(targets))
       await this.form
         .getByRole('region', { name: /^(States|Events|Begins with)$/ })
@@ -219,7 +231,7 @@ for (const [folder, name] of samples) {
     await press('Control+s');
     const drawn = await until('all of it is saved', () => {
       const now = readJson(file);
-      const count = (one) => Object.keys(one.actors).length;
+      const count = (/** @type {any} */ one) => Object.keys(one.actors).length;
       return count(now) === count(plan) && now.start?.actor === plan.start.actor && now;
     });
     assert.deepEqual(Object.keys(drawn.actors), Object.keys(plan.actors));

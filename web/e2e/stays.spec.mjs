@@ -1,10 +1,15 @@
 // A drawing stays where it is: nothing moves on the screen that was not touched.
 import assert from 'node:assert/strict';
 import { makeProject } from './support/robots.mjs';
-import { seen, test, until } from './support/studio.mjs';
+import { boxOf, seen, test, until } from './support/studio.mjs';
+/** @import { Page, TestContext } from './support/studio.mjs' */
 
-const actor = (to) => ({ template: 'Wait', in: { seconds: 1 }, states: { Done: to } });
-const plan = (name, more = {}) => ({
+const actor = (/** @type {string} */ to) => ({
+  template: 'Wait',
+  in: { seconds: 1 },
+  states: { Done: to },
+});
+const plan = (/** @type {string} */ name, more = {}) => ({
   format: 'vagus-plan/1',
   name,
   configuration: { x: { type: 'int', initial: 1 } },
@@ -17,22 +22,25 @@ const files = {
   ),
   'S.plan.json': JSON.stringify(plan('S')),
 };
-const project = { prepare: (t) => makeProject(t, { name: 'P', plan: 'P.plan.json' }, files) };
+const project = {
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(t, { name: 'P', plan: 'P.plan.json' }, files),
+};
 
 /** Where each element is on the screen, in whole pixels; nothing of hidden tabs. */
-const places = (page) =>
+const places = (/** @type {Page} */ page) =>
   page.evaluate(() =>
     Object.fromEntries(
       [...document.querySelectorAll('.react-flow__node')]
-        .filter((node) => node.offsetParent !== null)
+        .filter((node) => node.checkVisibility())
         .map((node) => {
           const { x, y } = node.getBoundingClientRect();
-          return [node.dataset.id, `${Math.round(x)} ${Math.round(y)}`];
+          return [node.getAttribute('data-id'), `${Math.round(x)} ${Math.round(y)}`];
         }),
     ),
   );
 
-async function settled(page) {
+async function settled(/** @type {Page} */ page) {
   let last = '';
   await until('the drawing has come to rest', async () => {
     const now = JSON.stringify(await places(page));
@@ -48,7 +56,7 @@ test('dropping, a line above it and deleting move nothing else', project, async 
   await layout('Draw');
   await seen(page.getByRole('region', { name: 'Plan P, drawn' }));
   const before = await settled(page);
-  const canvas = await page.locator('.pcanvas').boundingBox();
+  const canvas = await boxOf(page.locator('.pcanvas'));
   // Far from the others; its state leads nowhere, which is an error and a line above the drawing.
   await page
     .getByRole('button', { name: 'Wait, actor' })
@@ -74,8 +82,8 @@ test(
     const { ids, foreign } = await page.evaluate(() => ({
       ids: [...document.querySelectorAll('marker')].map((one) => one.id),
       foreign: [...document.querySelectorAll('.parrow__line')].filter((line) => {
-        const id = /url\("?#([^")]+)"?\)/.exec(line.getAttribute('marker-end'))?.[1];
-        return !line.closest('svg').contains(document.getElementById(id));
+        const id = /url\("?#([^")]+)"?\)/.exec(line.getAttribute('marker-end') ?? '')?.[1];
+        return !line.closest('svg')?.contains(document.getElementById(id ?? ''));
       }).length,
     }));
     assert.equal(new Set(ids).size, ids.length, ids.join(' '));
@@ -93,7 +101,7 @@ test(
     await press('Space', 'o');
     await seen(page.getByRole('region', { name: 'Plan S, drawn' }));
     await until('the drawing has the focus', () =>
-      page.evaluate(() => document.activeElement.getAttribute('aria-label') === 'Plan S, drawn'),
+      page.evaluate(() => document.activeElement?.getAttribute('aria-label') === 'Plan S, drawn'),
     );
     await press('Control+a');
     await seen(page.getByRole('heading', { name: 'two' }));

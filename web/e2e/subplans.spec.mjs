@@ -4,8 +4,9 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
 import { gone, seen, test, until } from './support/studio.mjs';
+/** @import { Page, TestContext } from './support/studio.mjs' */
 
-const json = (value) => `${JSON.stringify(value, null, 2)}\n`;
+const json = (/** @type {any} */ value) => `${JSON.stringify(value, null, 2)}\n`;
 const inner = {
   format: 'vagus-plan/1',
   name: 'Nap',
@@ -28,15 +29,17 @@ const outer = {
   },
 };
 const project = {
-  prepare: (t) =>
+  prepare: (/** @type {TestContext} */ t) =>
     makeProject(
       t,
       { name: 'Days', plan: 'Day.plan.json' },
       { 'Day.plan.json': json(outer), 'Nap.plan.json': json(inner) },
     ),
 };
-const element = (page, name) => page.getByRole('group', { name, exact: false });
-const saved = (place, name) => JSON.parse(readFileSync(join(place, name), 'utf8'));
+const element = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('group', { name, exact: false });
+const saved = (/** @type {string} */ place, /** @type {string} */ name) =>
+  JSON.parse(readFileSync(join(place, name), 'utf8'));
 
 test('a sub-plan is added, fed, opened, and left again', project, async (studio) => {
   const { page, layout, press, place } = studio;

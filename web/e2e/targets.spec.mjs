@@ -4,9 +4,10 @@ import { existsSync, writeFileSync } from 'node:fs';
 import { startProgram, temporaryFolder } from './support/server.mjs';
 import { aesl, freePort, listening, makeProject, startNode } from './support/robots.mjs';
 import { reads, seen, test, until } from './support/studio.mjs';
+/** @import { Studio, TestContext } from './support/studio.mjs' */
 
 /** asebaplayground with one Thymio II; gives its port. */
-async function startPlayground(t) {
+async function startPlayground(/** @type {TestContext} */ t) {
   const home = temporaryFolder(t);
   const screen = startProgram(t, [
     'Xvfb',
@@ -40,7 +41,7 @@ async function startPlayground(t) {
   return port;
 }
 
-async function startForeignSwitch(t, ...ports) {
+async function startForeignSwitch(/** @type {TestContext} */ t, /** @type {number[]} */ ...ports) {
   const port = await freePort();
   startProgram(t, ['asebaswitch', '-p', port, ...ports.map((one) => `tcp:127.0.0.1;${one}`)]);
   await listening(port);
@@ -52,14 +53,14 @@ onevent prox
 n = n + 1
 motor.left.target = 100
 `;
-const project = (t, port) =>
+const project = (/** @type {TestContext} */ t, /** @type {number} */ port) =>
   makeProject(
     t,
     { name: 'Peer', scripts: ['peer.aesl'], target: `tcp:127.0.0.1:${port}` },
     { 'peer.aesl': aesl({ 'thymio-II': script }) },
   );
 
-async function drive(studio) {
+async function drive(/** @type {Studio} */ studio) {
   const { page, press, editor, tab } = studio;
   // Described: its own variables and its own natives.
   await seen(editor('thymio-II'));
@@ -99,7 +100,7 @@ test(
 );
 
 const flash = {
-  async prepare(t) {
+  async prepare(/** @type {TestContext} */ t) {
     const file = join(temporaryFolder(t), 'kept.abo');
     const node = await startNode(t, 'rover', 3, 0, ['--flash', file]);
     const made = makeProject(
@@ -111,7 +112,7 @@ const flash = {
   },
 };
 test('a target is chosen by its address; the node keeps its program', flash, async (studio) => {
-  const { page, button, file, node, tab } = studio;
+  const { page, button, file, node } = studio;
   await seen(page.getByRole('button', { name: /Target/ }));
   await page.getByRole('button', { name: /^Target/ }).click();
   await page.getByLabel('Address').fill(`tcp:127.0.0.1:${node.port}`);

@@ -3,10 +3,12 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { gone, reads, seen, test, until } from './support/studio.mjs';
+/** @import { Page, Studio } from './support/studio.mjs' */
 
-const element = (page, name) => page.getByRole('group', { name, exact: false });
+const element = (/** @type {Page} */ page, /** @type {string} */ name) =>
+  page.getByRole('group', { name, exact: false });
 
-async function asked({ page, layout, button, press }) {
+async function asked(/** @type {Studio} */ { page, layout, button, press }) {
   await layout('Draw');
   await seen(page.getByRole('button', { name: 'Wait, actor' }));
   await button('New template…').focus();
@@ -83,8 +85,8 @@ test(
     await until('the line to fill in is in sight', () =>
       place.evaluate((line) => {
         const { top, bottom } = line.getBoundingClientRect();
-        const frame = line.closest('.cm-scroller').getBoundingClientRect();
-        return top >= frame.top && bottom <= frame.bottom;
+        const frame = line.closest('.cm-scroller')?.getBoundingClientRect();
+        return frame && top >= frame.top && bottom <= frame.bottom;
       }),
     );
   },

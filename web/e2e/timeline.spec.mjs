@@ -3,19 +3,23 @@ import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { look } from './support/axe.mjs';
-import { gone, openWindow, reads, seen, test, until } from './support/studio.mjs';
+import { boxOf, gone, openWindow, reads, seen, test, until } from './support/studio.mjs';
+/** @import { Locator, Page, Studio } from './support/studio.mjs' */
 
 const wall = { words: ['--example', 'follow-wall'] };
 /** Where examples/follow-wall/hall.world.json puts its robot: -1.1 rad are -63.0°. */
 const kStart = '0.80 1.90 -63°';
 
-const slider = (page) => page.getByRole('slider', { name: 'Instant that is shown' });
-const bar = (page) => page.getByRole('region', { name: 'Looking back' });
-const time = async (page) => Number(await slider(page).getAttribute('aria-valuenow'));
-const clock = async (page) => parseFloat(await page.locator('.clock__time').innerText());
+const slider = (/** @type {Page} */ page) =>
+  page.getByRole('slider', { name: 'Instant that is shown' });
+const bar = (/** @type {Page} */ page) => page.getByRole('region', { name: 'Looking back' });
+const time = async (/** @type {Page} */ page) =>
+  Number(await slider(page).getAttribute('aria-valuenow'));
+const clock = async (/** @type {Page} */ page) =>
+  parseFloat(await page.locator('.clock__time').innerText());
 
 /** The plan runs in the layout Debug, with the timeline in front. */
-async function run({ page, press, layout }, seconds) {
+async function run(/** @type {Studio} */ { page, press, layout }, /** @type {number} */ seconds) {
   await layout('Debug');
   await page.getByRole('tab', { name: 'Timeline' }).click();
   await press('F5');
@@ -25,29 +29,42 @@ async function run({ page, press, layout }, seconds) {
 }
 
 /** As the timeline is drawn: a click on its lanes, at a part of their width. */
-async function click(page, part) {
-  const box = await slider(page).boundingBox();
+async function click(/** @type {Page} */ page, /** @type {number} */ part) {
+  const box = await boxOf(slider(page));
   await page.mouse.click(box.x + box.width * part, box.y + 8);
   await seen(bar(page));
   return time(page);
 }
 
-async function savedTrace({ page, server }) {
+async function savedTrace(/** @type {Studio} */ { page, server }) {
   await page.getByRole('button', { name: 'Save the trace as a file of the project' }).click();
   const name = 'WallFollow-1.trace.jsonl';
   const path = await until('the trace is a file', () =>
-    readdirSync(server.folder, { recursive: true }).find((one) => one.endsWith(name)),
+    readdirSync(server.folder, { recursive: true, encoding: 'utf8' }).find((one) =>
+      one.endsWith(name),
+    ),
   );
   const text = readFileSync(join(server.folder, path), 'utf8');
-  return text.trim().split('\n').map(JSON.parse);
+  return text
+    .trim()
+    .split('\n')
+    .map((line) => JSON.parse(line));
 }
 
-const focused = (locator) => locator.evaluate((element) => element === document.activeElement);
+const focused = (/** @type {Locator} */ locator) =>
+  locator.evaluate((/** @type {any} */ element) => element === document.activeElement);
 
 /** The actor of an instant, by the lines until then. */
-const actorAt = (trace, t) => trace.findLast((line) => line.kind === 'actor-start' && line.t <= t);
-const variableAt = (trace, name, t) =>
-  trace.findLast((line) => line.kind === 'write' && line.variable === name && line.t <= t).value;
+const actorAt = (/** @type {any[]} */ trace, /** @type {number} */ t) =>
+  trace.findLast((/** @type {any} */ line) => line.kind === 'actor-start' && line.t <= t);
+const variableAt = (
+  /** @type {any[]} */ trace,
+  /** @type {string} */ name,
+  /** @type {number} */ t,
+) =>
+  trace.findLast(
+    (/** @type {any} */ line) => line.kind === 'write' && line.variable === name && line.t <= t,
+  ).value;
 
 test(
   'ten seconds ago every panel shows that instant, and the robot drives on',
@@ -225,7 +242,7 @@ test('a trace that was saved is opened without a run', wall, async (studio) => {
   await gone(bar(page));
 });
 
-for (const theme of ['dark', 'light'])
+for (const theme of /** @type {const} */ (['dark', 'light']))
   test(
     `axe finds nothing while a person looks back, ${theme}`,
     { ...wall, theme },

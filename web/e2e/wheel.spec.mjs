@@ -1,5 +1,6 @@
 // Who drives, when pages come and go.
 import { openWindow, seen, test, until } from './support/studio.mjs';
+/** @import { Studio } from './support/studio.mjs' */
 
 test(
   'a page that opens after the only other one was closed drives at once',
@@ -8,7 +9,7 @@ test(
     await seen(studio.editor('thymio-II'));
     await studio.context.close();
     const second = await openWindow(t, studio.server);
-    const upload = (window) => window.button('Upload');
+    const upload = (/** @type {Studio} */ window) => window.button('Upload');
     await until('it may change the robot', () => upload(second).isEnabled());
     // While a page drives, one more only looks.
     const third = await openWindow(t, studio.server);

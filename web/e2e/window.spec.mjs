@@ -1,6 +1,5 @@
 // The window: start screen, panels and layouts, files, palette, keys, problems.
-import assert from 'node:assert/strict';
-import { gone, reads, seen, test, until } from './support/studio.mjs';
+import { seen, test, until } from './support/studio.mjs';
 
 test(
   'an example of the start screen opens as a copy, with picture and robot',

@@ -2,20 +2,21 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { reads, seen, test, until } from './support/studio.mjs';
+import { seen, test, until } from './support/studio.mjs';
+/** @import { Page } from './support/studio.mjs' */
 
 const thymio = { words: ['--example', 'thymio'] };
-const number = (text) => Number(text.replace('−', '-').replace('°', ''));
+const number = (/** @type {string} */ text) => Number(text.replace('−', '-').replace('°', ''));
 
 /** Place and angle of a thing, once they are known. */
-async function pose(page, name) {
+async function pose(/** @type {Page} */ page, /** @type {string} */ name) {
   return until(`the place of ${name}`, async () => {
     const found = await placeIn(page, name);
     return found.length === 3 && found.every(Number.isFinite) && found;
   });
 }
 
-async function placeIn(page, name) {
+async function placeIn(/** @type {Page} */ page, /** @type {string} */ name) {
   const row = page.getByRole('table', { name: 'Things' }).first().getByRole('row', { name });
   return (await row.getByRole('cell').allInnerTexts()).map(number);
 }
@@ -62,7 +63,7 @@ test('a robot drives in it; hands move, press, put down', thymio, async (studio)
 });
 
 test('the mouse drags the robot, its form presses its buttons', thymio, async (studio) => {
-  const { page, button, layout, press } = studio;
+  const { page, layout, press } = studio;
   await seen(studio.editor('thymio-II'));
   await layout('Present');
   await press('F5');
@@ -82,7 +83,7 @@ test('in 3D', thymio, async (studio) => {
     page
       .locator('canvas')
       .first()
-      .evaluate((one) => one.width > 100 && one.height > 100),
+      .evaluate((one) => one.clientWidth > 100 && one.clientHeight > 100),
   );
 });
 

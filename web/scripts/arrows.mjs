@@ -13,7 +13,7 @@ const may = {
 };
 const packages = {
   protocol: /^$/,
-  core: /^(immer|zustand\/vanilla|@codemirror\/(collab|commands|merge|state))$/,
+  core: /^(zustand\/vanilla|@codemirror\/(collab|commands|merge|state))$/,
   aesl: /^(@lezer\/|@codemirror\/(language|state)$)/,
 };
 

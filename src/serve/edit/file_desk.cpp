@@ -104,7 +104,7 @@ Status FileDesk::give_to_robot(size_t robot, const std::string& path) {
     const auto world = text.ok() ? sim::read_world(text.value(), project_.world)
                                  : Result<sim::WorldDefinition>(text.error());
     if (!world.ok() || !world.value().robots[robot].script.empty()) return Status::done();
-    const Json name = json_string(name_from(project_.world, path));
+    const vagus::Json name = json_string(name_from(project_.world, path));
     return follow({project_.world, {{JsonStep::Do::Set, {"robots", robot, "script"}, name}}},
                   "server");
 }

@@ -46,7 +46,8 @@ export function editCommands(studio: Studio): Command[] {
       enabled: isScript,
       run: () =>
         update(studio.window, (draft) => {
-          if (draft.doc !== null) draft.listing[draft.doc] = !(draft.listing[draft.doc] ?? false);
+          const { doc, listing } = draft;
+          if (doc !== null) draft.listing = { ...listing, [doc]: !(listing[doc] ?? false) };
         }),
     },
   ];

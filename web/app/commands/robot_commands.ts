@@ -5,7 +5,7 @@ import { pickKey, type Pick } from '../../core/picks';
 import { sourceKey, sourcesOf, withCurve, withoutCurve, type Source } from '../../core/plot';
 import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
-import { revealPanel, toast, update } from '../../core/window_state';
+import { revealPanel, toast, updateEvents } from '../../core/window_state';
 import { takeFocus } from '../parts/take_focus';
 import { text } from '../text';
 import { plotPicture } from './plot_handles';
@@ -97,11 +97,11 @@ function focusFind(panel: string): void {
 }
 
 function pauseEvents(studio: Studio): void {
-  update(studio.window, (draft) => void (draft.events.paused = !draft.events.paused));
+  updateEvents(studio.window, { paused: !studio.window.getState().events.paused });
 }
 
 function openSend(studio: Studio): void {
-  update(studio.window, (draft) => void (draft.events.send = true));
+  updateEvents(studio.window, { send: true });
   revealPanel(studio.window, 'events', false);
 }
 

@@ -104,7 +104,10 @@ export function viewCommands(studio: Studio, panels: readonly Panel[]): Command[
 }
 
 export function chooseLayout(studio: Studio, layout: LayoutName): void {
-  update(studio.window, (draft) => void (draft.layout = layout));
+  update(studio.window, (draft) => {
+    draft.layout = layout;
+    draft.isLayoutChosen = true;
+  });
   keepState(studio, 'layout', layout);
 }
 

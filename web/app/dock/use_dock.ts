@@ -34,7 +34,7 @@ import { documentExists, documentsOf, kindOf, tabNameOf } from '../documents';
 /** What was dragged is kept so long after the last change. */
 const kKeepMs = 800;
 
-export function useDock(frame: RefObject<HTMLDivElement | null>): {
+export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
   model: Model | null;
   changed: (model: Model, action: Action) => void;
 } {
@@ -49,13 +49,13 @@ export function useDock(frame: RefObject<HTMLDivElement | null>): {
   const extent = useRef<Extent>({ width: 0, height: 0 });
 
   useLayoutEffect(() => {
-    if (!ready || !frame.current) return;
-    const { clientWidth: width, clientHeight: height } = frame.current;
+    if (!ready || !frameRef.current) return;
+    const { clientWidth: width, clientHeight: height } = frameRef.current;
     extent.current = { width, height };
     setModel(openLayout(studio, layout, nonce > 0, { width, height }));
-  }, [studio, layout, nonce, ready, frame]);
+  }, [studio, layout, nonce, ready, frameRef]);
 
-  useFit(frame, model, extent);
+  useFit(frameRef, model, extent);
   useReveal(studio, model);
   useNames(studio, model);
   return { model, changed: useKeep(studio, layout) };

@@ -4,13 +4,13 @@ import type { Doc } from '../../protocol/messages';
 import { useTopic } from '../hooks';
 import { Blank } from '../parts/blank';
 import { kStroke } from '../parts/icons';
+import { useShown } from '../robot_hooks';
 import { text } from '../text';
 import {
   useFileStage,
   useHasScene,
   useJsonFile,
   useLive,
-  useVisible,
   useWorldModel,
 } from '../views/world/use_world';
 import { SpeedBar } from '../views/world/speed_bar';
@@ -37,7 +37,7 @@ export default function WorldPanel() {
 function Running() {
   const frame = useRef<HTMLDivElement>(null);
   const model = useWorldModel();
-  useLive(model, useVisible(frame));
+  useLive(model, useShown(frame));
   return (
     <div className="world world--panel" ref={frame} data-world>
       <WorldStage model={model} file={null} live>

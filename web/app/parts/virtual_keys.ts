@@ -49,7 +49,7 @@ export function useAnchor<Row>(
     before.current = key;
     if (!place || !rows || old === null || old === key || place.scrollTop < height) return;
     const came = rows.findIndex((row) => keyOf(row) === old);
-    if (came > 0) place.scrollTop += came * height;
+    if (came > 0) place.scrollBy(0, came * height);
   });
 }
 

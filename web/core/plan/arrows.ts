@@ -155,6 +155,11 @@ function rowsOf(model: PlanModel, scene: Scene): Row[] {
 }
 
 /** Apart from actors, which may have the same name. */
+/** An interruption by a supervisor, not a state in which an actor ends. No name has a slash. */
+export function isEvent(source: string): boolean {
+  return source.includes('/');
+}
+
 export function supervisorKey(supervisor: Supervisor): string {
   return `${supervisor.owner}/${supervisor.name}`;
 }

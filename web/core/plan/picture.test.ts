@@ -96,6 +96,26 @@ test('arrows have a head each; data arrows are there if they are asked for', () 
   expect(thin(picture(small, true).svg)).toBe(2);
 });
 
+test('arrows of events are dashed, those of states are not', () => {
+  const file = {
+    format: 'vagus-plan/1',
+    start: { actor: 'a', supervisors: { w: { template: 'W', events: { True: 'b' } } } },
+    actors: {
+      a: { template: 'T', states: { Done: 'b' } },
+      b: { template: 'T', states: { Done: '@terminate' } },
+    },
+    layout: { '@start': [0, 0], a: [0, 100], b: [400, 100] },
+  };
+  const lines = parsed(picture(file).svg).filter(([, all]) => all['marker-end']);
+  // Start to a, a to b, b to terminate; and the event of w.
+  expect(lines.map(([, all]) => all['stroke-dasharray'] ?? 'whole').sort()).toEqual([
+    '9 5',
+    'whole',
+    'whole',
+    'whole',
+  ]);
+});
+
 test('a note is broken between words, a long word where it must be', () => {
   expect(wrapped('the lamp is slow', 8)).toEqual(['the lamp', 'is slow']);
   expect(wrapped('abcdefgh', 3)).toEqual(['abc', 'def', 'gh']);

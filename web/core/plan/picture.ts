@@ -1,6 +1,6 @@
 // A plan as one SVG file: everything that the canvas draws, whole, whatever is in sight.
 
-import { arrowId, supervisorKey, type Drawing } from './arrows';
+import { arrowId, isEvent, supervisorKey, type Drawing } from './arrows';
 import { dataArrows } from './data';
 import { kStart, type Actor, type Note, type PlanModel, type Supervisor } from './model';
 import { roundedPath } from './path';
@@ -18,7 +18,7 @@ import {
 import type { Scene } from './place';
 import type { Port } from './route';
 import { around, type Box } from './shape';
-import { dataPath, gapPath, gapsOf, shortened } from './strokes';
+import { dataPath, gapPath, gapsOf, kEventDash, shortened } from './strokes';
 import { escaped, tag } from './svg';
 
 export interface Pictured {
@@ -104,6 +104,7 @@ function arrowLines({ drawing }: Pictured, look: PictureLook): string[] {
     const line = tag('path', {
       d: roundedPath(shortened(route)),
       ...pen,
+      ...(isEvent(source) && { 'stroke-dasharray': kEventDash }),
       'marker-end': 'url(#head)',
     });
     const around = (gaps.get(id) ?? []).map((gap) =>

@@ -7,6 +7,9 @@ import { crossings, type Crossing } from './path';
 import type { Routed } from './route';
 import type { Box, Point } from './shape';
 
+/** Events interrupt: their arrows are dashed; look/draw.css says the same. */
+export const kEventDash = '9 5';
+
 const kHead = 9;
 
 /** The line ends where the head begins. */
@@ -17,6 +20,20 @@ export function shortened({ points }: Routed): readonly Point[] {
   const x = last.x - Math.sign(last.x - before.x) * kHead;
   const y = last.y - Math.sign(last.y - before.y) * kHead;
   return [...points.slice(0, -1), { x, y }];
+}
+
+/** Where the name of an arrow stands: in the middle of its longest stretch. */
+export function nameSpot({ points }: Routed): Point | null {
+  let spot: Point | null = null;
+  let longest = 0;
+  points.forEach((to, index) => {
+    const from = points[index - 1];
+    const length = from ? Math.hypot(to.x - from.x, to.y - from.y) : 0;
+    if (!from || length <= longest) return;
+    longest = length;
+    spot = { x: (from.x + to.x) / 2, y: (from.y + to.y) / 2 };
+  });
+  return spot;
 }
 
 export function gapsOf(drawing: Drawing): Map<string, Crossing[]> {

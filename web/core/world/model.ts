@@ -89,6 +89,17 @@ export class WorldModel {
     this.tell();
   }
 
+  /** What a hand may do from now on. */
+  allow(acts: WorldActs): void {
+    this.acts = acts;
+  }
+
+  /** The picture that lies on the ground; null: it has its colour. */
+  cover(image: CanvasImageSource | null): void {
+    this.image = image;
+    this.drawn.emit();
+  }
+
   /** Another world: nothing of the one before is left over. */
   clear(): void {
     this.poses.clear();

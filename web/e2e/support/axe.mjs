@@ -7,6 +7,10 @@ const source = readFileSync(
   'utf8',
 );
 
+/**
+ * @param {{ page: import('playwright-core').Page }} studio
+ * @param {string} view
+ */
 export async function look({ page }, view) {
   // The page's policy lets no script in from elsewhere: it is put there by the browser's own hand.
   const found = await page.evaluate(

@@ -7,19 +7,27 @@ import { startProgram, temporaryFolder, vagusProgram } from './server.mjs';
 
 const kListening = /^listening tcp:127\.0\.0\.1:(\d+)$/m;
 
-/** A port that nobody listens on now. */
+/** @typedef {import('./server.mjs').Test} Test */
+
+/**
+ * A port that nobody listens on now.
+ * @returns {Promise<number>}
+ */
 export function freePort() {
   return new Promise((done, fail) => {
     const probe = createServer();
     probe.on('error', fail);
     probe.listen(0, '127.0.0.1', () => {
-      const { port } = probe.address();
+      const { port } = /** @type {import('node:net').AddressInfo} */ (probe.address());
       probe.close(() => done(port));
     });
   });
 }
 
-/** Until somebody listens there, who has then seen a client come and go: asebaplayground dies of one too early. */
+/**
+ * Until somebody listens there, who has then seen a client come and go: asebaplayground dies of one too early.
+ * @param {number} port
+ */
 export function listening(port) {
   return until(
     `somebody listens on port ${port}`,
@@ -34,7 +42,11 @@ export function listening(port) {
   );
 }
 
-/** `vagus switch` before these ports; gives its own. */
+/**
+ * `vagus switch` before these ports; gives its own.
+ * @param {Test} t
+ * @param {...number} ports
+ */
 export async function startSwitch(t, ...ports) {
   const targets = ports.map((port) => `tcp:127.0.0.1:${port}`);
   const program = startProgram(t, [
@@ -47,7 +59,13 @@ export async function startSwitch(t, ...ports) {
   return Number((await program.line(kListening))[1]);
 }
 
-/** `vagus node`; ended by its stop(). */
+/**
+ * `vagus node`; ended by its stop().
+ * @param {Test} t
+ * @param {string} name
+ * @param {number} id
+ * @param {readonly (string | number)[]} words
+ */
 export async function startNode(t, name, id, port = 0, words = []) {
   const listen = `tcp:127.0.0.1:${port}`;
   const program = startProgram(t, [
@@ -58,7 +76,12 @@ export async function startNode(t, name, id, port = 0, words = []) {
   return { program, port: Number((await program.line(kListening))[1]) };
 }
 
-/** A folder with these files, as a project. */
+/**
+ * A folder with these files, as a project.
+ * @param {Test} t
+ * @param {object} project
+ * @param {Record<string, string>} files
+ */
 export function makeProject(t, project, files) {
   const folder = temporaryFolder(t);
   const place = join(folder, 'project');
@@ -69,8 +92,18 @@ export function makeProject(t, project, files) {
   return { folder, place, words: [place] };
 }
 
-/** An .aesl file: scripts by the names of their nodes, which are numbered from 1. */
+/**
+ * An .aesl file: scripts by the names of their nodes, which are numbered from 1.
+ * @typedef {{ events?: Record<string, number>, constants?: Record<string, number> }} Shared
+ * @param {Record<string, string>} scripts
+ * @param {Shared} shared
+ */
 export function aesl(scripts, { events = {}, constants = {} } = {}) {
+  /**
+   * @param {string} kind
+   * @param {string} attribute
+   * @param {Record<string, number>} from
+   */
   const list = (kind, attribute, from) =>
     Object.entries(from).map(
       ([name, value]) => `<${kind} ${attribute}="${value}" name="${name}"/>`,
@@ -89,7 +122,12 @@ export function aesl(scripts, { events = {}, constants = {} } = {}) {
   ].join('\n');
 }
 
-/** Two nodes, left and right, behind a switch, and a project for them that connects to it. */
+/**
+ * Two nodes, left and right, behind a switch, and a project for them that connects to it.
+ * @param {Test} t
+ * @param {Record<string, string>} scripts
+ * @param {Shared} [shared]
+ */
 export async function twoNodes(t, scripts, shared) {
   const left = await startNode(t, 'left', 1);
   const right = await startNode(t, 'right', 2);

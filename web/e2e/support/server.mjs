@@ -7,40 +7,68 @@ import { join } from 'node:path';
 export const root = new URL('../../../', import.meta.url).pathname;
 export const vagusProgram = process.env.VAGUS_BIN ?? join(root, 'build/release/bin/vagus');
 
+/**
+ * A test, as far as it is needed here.
+ * @typedef {Pick<import('node:test').TestContext, 'after'>} Test
+ * @typedef {ReturnType<typeof startProgram>} Program
+ * @typedef {Awaited<ReturnType<typeof startServer>>} Server
+ */
+
+/** @type {WeakMap<Test, (() => unknown)[]>} */
 const endings = new WeakMap();
 
-/** Done at the end of the test, the last one first: programs end before their folders go. */
+/**
+ * Done at the end of the test, the last one first: programs end before their folders go.
+ * @param {Test} test
+ * @param {() => unknown} act
+ */
 export function atEnd(test, act) {
-  if (!endings.has(test)) {
-    const acts = [];
-    endings.set(test, acts);
-    test.after(async () => {
-      for (const one of acts.reverse()) await one();
-    });
-  }
-  endings.get(test).push(act);
+  const known = endings.get(test);
+  if (known) return void known.push(act);
+  const acts = [act];
+  endings.set(test, acts);
+  test.after(async () => {
+    for (const one of acts.reverse()) await one();
+  });
 }
 
-/** A folder that is removed at the end of the test. */
+/**
+ * A folder that is removed at the end of the test.
+ * @param {Test} test
+ */
 export function temporaryFolder(test) {
   const folder = mkdtempSync(join(tmpdir(), 'vagus-e2e-'));
   atEnd(test, () => rmSync(folder, { recursive: true, force: true }));
   return folder;
 }
 
-/** Starts a program; it is ended at the end of the test. */
+/**
+ * Starts a program; it is ended at the end of the test. `pass`: what it gets behind its output.
+ * @param {Test} test
+ * @param {readonly (string | number)[]} command
+ * @param {{ env?: NodeJS.ProcessEnv, pass?: import('node:child_process').StdioPipe[] }} [options]
+ */
 export function startProgram(test, command, { env = {}, pass = [] } = {}) {
-  const child = spawn(command[0], command.slice(1).map(String), {
+  const [path = '', ...words] = command.map(String);
+  const child = spawn(path, words, {
     stdio: ['ignore', 'pipe', 'pipe', ...pass],
     env: { ...process.env, ...env },
   });
-  const program = { child, said: '', ended: undefined, stop, line };
+  const program = {
+    child,
+    said: '',
+    /** @type {number | NodeJS.Signals | null | undefined} */
+    ended: undefined,
+    stop,
+    line,
+  };
   const ended = new Promise((done) =>
     child.on('exit', (status, signal) => done((program.ended = signal ?? status))),
   );
+  /** @type {Set<() => void>} */
   const listeners = new Set();
   for (const stream of [child.stdout, child.stderr])
-    stream.on('data', (words) => {
+    stream?.on('data', (words) => {
       program.said += words;
       for (const listener of listeners) listener();
     });
@@ -48,6 +76,7 @@ export function startProgram(test, command, { env = {}, pass = [] } = {}) {
   atEnd(test, () => stop());
   return program;
 
+  /** @param {NodeJS.Signals} signal */
   async function stop(signal = 'SIGTERM') {
     if (program.ended === undefined) child.kill(signal);
     // One that does not end by itself is killed; the timer is no wait, it is taken back.
@@ -56,7 +85,11 @@ export function startProgram(test, command, { env = {}, pass = [] } = {}) {
     clearTimeout(timer);
   }
 
-  /** What the pattern finds in what the program prints, now or later. */
+  /**
+   * What the pattern finds in what the program prints, now or later.
+   * @param {RegExp} pattern
+   * @returns {Promise<RegExpExecArray>}
+   */
   function line(pattern, within = 60_000) {
     return new Promise((done, fail) => {
       const look = () => {
@@ -76,17 +109,22 @@ export function startProgram(test, command, { env = {}, pass = [] } = {}) {
   }
 }
 
-/** `vagus studio`; gives the address that it prints, and the folders that it was given. */
+/**
+ * `vagus studio`; gives the address that it prints, and the folders that it was given.
+ * @param {Test} test
+ * @param {readonly string[]} words
+ */
 export async function startServer(test, words = [], folder = temporaryFolder(test)) {
   const data = join(folder, 'data');
   const program = startProgram(
     test,
-    [vagusProgram, 'studio', ...words, '--port', 0, '--no-browser']
-      .concat(['--data', data])
-      .concat(['--config', join(folder, 'config')]),
+    [
+      ...[vagusProgram, 'studio', ...words, '--port', 0, '--no-browser'],
+      ...['--data', data, '--config', join(folder, 'config')],
+    ],
     // Folders that are listed begin there.
     { env: { HOME: folder } },
   );
-  const [, address] = await program.line(/^studio (\S+)$/m);
+  const [, address = ''] = await program.line(/^studio (\S+)$/m);
   return { program, address, data, folder };
 }

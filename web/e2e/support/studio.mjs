@@ -10,11 +10,36 @@ import { kPatience, until } from './until.mjs';
 
 export { until };
 
-/** What drawing by software and a library say of themselves. */
-const kNoise = /GL Driver Message|THREE\.Clock: This module has been deprecated/;
+/** What drawing by software says of itself. */
+const kNoise = /GL Driver Message/;
 const kTestMs = 150_000;
 const kPictures = join(root, 'build/e2e');
 
+/**
+ * @typedef {import('playwright-core').Page} Page
+ * @typedef {import('playwright-core').Locator} Locator
+ * @typedef {import('node:test').TestContext} TestContext
+ * @typedef {import('./server.mjs').Server} Server
+ *
+ * How a window looks.
+ * @typedef {{ width?: number, height?: number, theme?: 'dark' | 'light', touch?: boolean }} Looks
+ *
+ * What a test's own files say to the server: words of the command line, the folder that it keeps its data in.
+ * @typedef {{ words?: readonly string[], folder?: string }} Prepared
+ *
+ * @typedef {Awaited<ReturnType<typeof openWindow>>} Window
+ */
+/**
+ * @template {Prepared} More
+ * @typedef {Looks & { words?: readonly string[], prepare?: (t: TestContext) => More | Promise<More> }} Options
+ */
+/**
+ * What a test gets: a window, its server, and what `prepare` gave.
+ * @template [More={}]
+ * @typedef {{ t?: TestContext } & Window & More} Studio
+ */
+
+/** @type {import('playwright-core').Browser | undefined} */
 let browser;
 after(async () => {
   await browser?.close();
@@ -25,14 +50,21 @@ async function theBrowser() {
   return browser;
 }
 
-/** A test of one promise; give it what openStudio takes and what is done there. */
+/**
+ * A test of one promise; give it what openStudio takes and what is done there.
+ * @template {Prepared} [More={}]
+ * @param {string} name
+ * @param {Options<More>} options
+ * @param {(studio: Studio<More> & { t: TestContext }, t: TestContext) => unknown} act
+ */
 export function test(name, options, act) {
-  nodeTest(name, { timeout: kTestMs }, async (t) => {
+  void nodeTest(name, { timeout: kTestMs }, async (t) => {
     const studio = { t, ...(await openStudio(t, options)) };
     try {
       await act(studio, t);
       assert.deepEqual(studio.complaints, [], 'the browser complained');
-    } catch (error) {
+    } catch (problem) {
+      const error = problem instanceof Error ? problem : new Error(String(problem));
       await keepPicture(studio, name);
       error.message += `\n--- fetched in vain: ${[...studio.fetching].join(' ') || 'nothing'}; complaints: ${studio.complaints.join(' ') || 'none'}`;
       error.message += `\n--- the server said ---\n${studio.server.program.said.slice(-2000)}`;
@@ -41,6 +73,10 @@ export function test(name, options, act) {
   });
 }
 
+/**
+ * @param {{ page: Page }} studio
+ * @param {string} name
+ */
 async function keepPicture({ page }, name) {
   mkdirSync(kPictures, { recursive: true });
   const path = join(kPictures, `${name.replaceAll(/[^A-Za-z0-9]+/g, '-')}.png`);
@@ -53,14 +89,24 @@ async function keepPicture({ page }, name) {
   console.error(`what was seen: ${path}`);
 }
 
-/** A server and a window that looks at it. */
+/**
+ * A server and a window that looks at it.
+ * @template {Prepared} [More={}]
+ * @param {TestContext} t
+ * @param {Options<More>} options
+ */
 export async function openStudio(t, { words = [], prepare, ...looks } = {}) {
-  const more = (await prepare?.(t)) ?? {};
+  const more = /** @type {More} */ ((await prepare?.(t)) ?? {});
   const server = await startServer(t, [...words, ...(more.words ?? [])], more.folder);
   return { ...(await openWindow(t, server, looks)), server, ...more };
 }
 
-/** One more window of that server. */
+/**
+ * One more window of that server.
+ * @param {TestContext} t
+ * @param {Server} server
+ * @param {Looks} looks
+ */
 export async function openWindow(
   t,
   server,
@@ -80,31 +126,42 @@ export async function openWindow(
   context.setDefaultTimeout(kPatience);
   atEnd(t, () => context.close());
   const page = await context.newPage();
+  /** @type {string[]} */
   const complaints = [];
   page.on('console', (message) => {
     if (['error', 'warning'].includes(message.type()) && !kNoise.test(message.text()))
       complaints.push(message.text());
   });
   page.on('pageerror', (error) => complaints.push(String(error)));
+  /** @type {Set<string>} */
   const fetching = new Set();
   page.on('request', (request) => fetching.add(request.url()));
-  for (const over of ['requestfinished', 'requestfailed'])
-    page.on(over, (request) => fetching.delete(request.url()));
+  page.on('requestfinished', (request) => fetching.delete(request.url()));
+  page.on('requestfailed', (request) => fetching.delete(request.url()));
   await page.goto(server.address);
   return { page, complaints, fetching, context, server, ...hands(page) };
 }
 
-/** What tests say often. */
+/** @typedef {string | RegExp} Name */
+
+/**
+ * What tests say often.
+ * @param {Page} page
+ */
 export function hands(page) {
+  /** @param {...string} keys */
   const press = async (...keys) => {
     for (const key of keys) await page.keyboard.press(key);
   };
   return {
     press,
-    type: (text) => page.keyboard.type(text),
-    button: (name) => page.getByRole('button', { name }),
-    tab: (name) => page.getByRole('tab', { name }),
-    /** A command by the palette, as its title names it. */
+    type: (/** @type {string} */ text) => page.keyboard.type(text),
+    button: (/** @type {Name} */ name) => page.getByRole('button', { name }),
+    tab: (/** @type {Name} */ name) => page.getByRole('tab', { name }),
+    /**
+     * A command by the palette, as its title names it.
+     * @param {string} title
+     */
     async command(title) {
       await page.keyboard.press('Control+k');
       const field = page.getByRole('combobox', { name: 'Type a command' });
@@ -114,17 +171,23 @@ export function hands(page) {
       await field.press('Enter');
       await field.waitFor({ state: 'detached' });
     },
-    layout: (name) => page.getByRole('radio', { name }).click(),
+    layout: (/** @type {Name} */ name) => page.getByRole('radio', { name }).click(),
     /** The editor of a node's script. */
-    editor: (node) => page.getByRole('textbox', { name: `Script of ${node}` }),
+    editor: (/** @type {string} */ node) =>
+      page.getByRole('textbox', { name: `Script of ${node}` }),
   };
 }
 
-/** What is seen there becomes that text, or matches. */
+/**
+ * What is seen there becomes that text, or matches.
+ * @param {Locator} locator
+ * @param {string | RegExp} expected
+ * @returns {Promise<string>}
+ */
 export async function reads(locator, expected) {
-  const good = (text) =>
+  const good = (/** @type {string} */ text) =>
     expected instanceof RegExp ? expected.test(text) : text.trim() === expected;
-  let last;
+  let last = '';
   await until(`it reads ${expected}`, async () => {
     last = await locator.innerText();
     return good(last);
@@ -135,5 +198,17 @@ export async function reads(locator, expected) {
   return last;
 }
 
+/**
+ * Where it is on the screen.
+ * @param {Locator} locator
+ */
+export async function boxOf(locator) {
+  const box = await locator.boundingBox();
+  assert.ok(box, `${locator} is not on the screen`);
+  return box;
+}
+
+/** @param {Locator} locator */
 export const seen = (locator) => locator.first().waitFor();
+/** @param {Locator} locator */
 export const gone = (locator) => locator.first().waitFor({ state: 'hidden' });

@@ -3,14 +3,21 @@ import assert from 'node:assert/strict';
 
 /** So long something may take until it is seen, on a machine that does much else. */
 export const kPatience = Number(process.env.VAGUS_PATIENCE ?? 30_000);
-/** Asks until the answer is true (or any value that counts as true), which it gives. */
+/**
+ * Asks until the answer is true (or any value that counts as true), which it gives.
+ * @template T
+ * @param {string} what
+ * @param {() => T | Promise<T>} ask
+ * @returns {Promise<Exclude<T, false | 0 | '' | null | undefined>>}
+ */
 export async function until(what, ask, within = kPatience) {
   const end = performance.now() + within;
+  /** @type {unknown} */
   let last;
   for (;;) {
     try {
       const answer = await ask();
-      if (answer) return answer;
+      if (answer) return /** @type {Exclude<T, false | 0 | '' | null | undefined>} */ (answer);
       last = undefined;
     } catch (error) {
       last = error;

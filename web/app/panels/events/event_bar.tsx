@@ -8,7 +8,7 @@ import {
   IconPlayerPlay,
 } from '@tabler/icons-react';
 import { allEvents, happeningKinds, type EventFilter } from '../../../core/happenings';
-import { update } from '../../../core/window_state';
+import { updateEvents } from '../../../core/window_state';
 import { useStudio, useTopic, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
 import { FilterField } from '../../parts/filter_field';
@@ -24,7 +24,7 @@ export function EventBar() {
   const { window: store, registry } = useStudio();
   const { filter, paused, counts } = useWindow((state) => state.events);
   const change = (part: Partial<EventFilter>) =>
-    update(store, (draft) => void Object.assign(draft.events.filter, part));
+    updateEvents(store, { filter: { ...filter, ...part } });
   return (
     <div className="strip-bar">
       <FilterField
@@ -50,7 +50,7 @@ export function EventBar() {
         className={counts ? 'is-on' : ''}
         aria-pressed={counts}
         icon={<IconListNumbers {...icon} />}
-        onClick={() => update(store, (draft) => void (draft.events.counts = !counts))}
+        onClick={() => updateEvents(store, { counts: !counts })}
       />
       <Button
         kind="plain"

@@ -84,11 +84,10 @@ function useShownItems(): { items: readonly Happening[]; held: number } {
   const [filtered] = useState(() => new Filtered());
   const test = useMemo(() => passes(filter), [filter]);
   const then = usePastEvents();
-  const last = useRef<number>(Infinity);
-  if (!paused) last.current = Infinity;
-  else if (last.current === Infinity) last.current = happenings.items.at(-1)?.number ?? -1;
+  const [limit, setLimit] = useState(Infinity);
+  if (paused !== (limit !== Infinity))
+    setLimit(paused ? (happenings.items.at(-1)?.number ?? -1) : Infinity);
   const all = filtered.of(happenings.items, test);
-  const limit = last.current;
   return useMemo(() => {
     if (then) return { items: then.filter(test).toReversed(), held: 0 };
     const seen = limit === Infinity ? all : all.filter((item) => item.number <= limit);

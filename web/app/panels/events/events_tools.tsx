@@ -1,5 +1,5 @@
 import { IconSend2 } from '@tabler/icons-react';
-import { update } from '../../../core/window_state';
+import { updateEvents } from '../../../core/window_state';
 import { useStudio, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
@@ -16,7 +16,7 @@ export default function EventsTools() {
       aria-expanded={open}
       className={open ? 'is-on' : ''}
       icon={<IconSend2 size={14} stroke={kStroke} />}
-      onClick={() => update(store, (draft) => void (draft.events.send = !open))}
+      onClick={() => updateEvents(store, { send: !open })}
     >
       {text.events.sendMore}
     </Button>

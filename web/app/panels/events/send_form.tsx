@@ -1,7 +1,7 @@
 import { useState } from 'react';
 import type { Definition } from '../../../protocol/messages';
 import { readWords } from '../../../core/numbers';
-import { toast, update } from '../../../core/window_state';
+import { toast, updateEvents } from '../../../core/window_state';
 import { useStudio, useTopic } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
 import { Quiet } from '../../parts/blank';
@@ -19,7 +19,7 @@ export function SendForm() {
   const [name, setName] = useState('');
   const [typed, setTyped] = useState<Record<string, string[]>>({});
   const event = events.find((one) => one.name === name) ?? events[0];
-  const close = () => update(studio.window, (draft) => void (draft.events.send = false));
+  const close = () => updateEvents(studio.window, { send: false });
   if (!event) return <Quiet>{words.none}</Quiet>;
   const fields = typed[event.name] ?? [];
   const args = argumentsOf(event, fields);

@@ -12,6 +12,11 @@ import type { NetworkState } from './use_network';
 
 const words = text.network;
 
+/** Laid out again only for other nodes or another room; `ids` are their numbers. */
+function usePicture(ids: string, area: { width: number; height: number }): Picture {
+  return useMemo(() => pictureOf(ids.split(' ').map(Number), area), [ids, area]);
+}
+
 /** The bus in the middle, the nodes around it, arrows for who talks to whom. */
 export function NetworkPicture({
   network,
@@ -23,19 +28,17 @@ export function NetworkPicture({
   const { window: store } = useStudio();
   const chosen = useWindow((state) => state.chosenNodes);
   const ids = partners(network.nodes, network.traffic);
-  const key = ids.join(' ');
-  const picture = useMemo(() => pictureOf(key.split(' ').map(Number), area), [key, area]);
+  const picture = usePicture(ids.join(' '), area);
   const choose = (id: NodeId) =>
     update(store, (draft) => {
       draft.chosenNodes = draft.chosenNodes.length === 1 && draft.chosenNodes[0] === id ? [] : [id];
     });
-  const { width, height } = picture;
   return (
     <svg
       className={chosen.length > 0 ? 'net is-chosen' : 'net'}
-      width={width}
-      height={height}
-      viewBox={`0 0 ${width} ${height}`}
+      width={picture.width}
+      height={picture.height}
+      viewBox={`0 0 ${picture.width} ${picture.height}`}
       role="group"
       aria-label={words.picture(network.nodes.length)}
     >

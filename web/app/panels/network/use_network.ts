@@ -1,9 +1,9 @@
 // What the views of the network share: nodes, traffic with its rates, flows.
 
-import { useMemo, useState } from 'react';
-import type { Link, Node, NodeId, Traffic } from '../../../protocol/messages';
+import { useCallback, useMemo, useState, useSyncExternalStore } from 'react';
+import type { Link, Node, NodeId, Topics, Traffic } from '../../../protocol/messages';
 import { flowsOf, kHost, kNobody, Rates, talkOf, type Flow } from '../../../core/traffic';
-import { useTopic } from '../../hooks';
+import { useStudio, useTopic } from '../../hooks';
 import { text } from '../../text';
 
 export interface NetworkState {
@@ -18,11 +18,10 @@ export interface NetworkState {
 
 export function useNetwork(shown: boolean): NetworkState {
   const nodes = useTopic('robot', {})?.nodes;
-  const network = useTopic('network', shown ? {} : null);
   const [rates] = useState(() => new Rates());
+  const network = useCounted(shown, rates);
   return useMemo(() => {
     const traffic = network?.traffic ?? [];
-    if (network) rates.take(traffic, performance.now());
     const rateOf = (one: Traffic) => rates.rateOf(one);
     const names = new Map((nodes ?? []).map((node) => [node.id, node.name]));
     return {
@@ -40,4 +39,21 @@ export function useNetwork(shown: boolean): NetworkState {
             : (names.get(node) ?? String(node)),
     };
   }, [nodes, network, rates]);
+}
+
+/** The traffic; each report is counted when it comes, however often the panel is drawn. */
+function useCounted(shown: boolean, rates: Rates): Topics['network']['is'] | undefined {
+  const { topics } = useStudio();
+  const subscribe = useCallback(
+    (listener: () => void) => {
+      if (!shown) return () => {};
+      return topics.subscribe('network', {}, () => {
+        const told = topics.get('network', {});
+        if (told) rates.take(told.traffic, performance.now());
+        listener();
+      });
+    },
+    [topics, shown, rates],
+  );
+  return useSyncExternalStore(subscribe, () => (shown ? topics.get('network', {}) : undefined));
 }

@@ -1,5 +1,5 @@
 import { IconChevronDown, IconChevronRight } from '@tabler/icons-react';
-import { useEffect, useState, type ReactNode } from 'react';
+import { useState, type ReactNode } from 'react';
 import type { Doc, Handler } from '../../../protocol/messages';
 import { partOf } from '../../../core/paths';
 import { revealDoc } from '../../../core/window_state';
@@ -42,9 +42,11 @@ export function Group({
   children: ReactNode;
 }) {
   const [shown, setShown] = useState(open);
-  useEffect(() => {
+  const [wasWanted, setWasWanted] = useState(false);
+  if (wanted !== wasWanted) {
+    setWasWanted(wanted);
     if (wanted) setShown(true);
-  }, [wanted]);
+  }
   const Icon = shown ? IconChevronDown : IconChevronRight;
   return (
     <section>

@@ -1,4 +1,4 @@
-import { useEffect, useRef, type PointerEvent } from 'react';
+import { useEffect, useEffectEvent, useRef, type PointerEvent } from 'react';
 import { shownTime } from '../../../core/numbers';
 import { movedSpan, placeIn, timeAt } from '../../../core/timeline';
 import { useStudio } from '../../hooks';
@@ -80,23 +80,23 @@ function Line({ view, t, kind }: { view: LaneView; t: number; kind: 'now' | 'pas
 /** The wheel zooms around the pointer; with Shift, or sideways, it moves. Plus, minus, Home. */
 function useWheel(frame: React.RefObject<HTMLDivElement | null>, view: LaneView): void {
   const studio = useStudio();
-  const latest = useRef(view);
-  latest.current = view;
+  const turn = useEffectEvent((event: WheelEvent, left: number) => {
+    const { span, width } = view;
+    const sideways = event.shiftKey ? event.deltaY : event.deltaX;
+    if (sideways !== 0) {
+      const by = (sideways / width) * (span.to - span.from);
+      viewOf(studio).setState({ span: movedSpan(span, by), held: false });
+      return;
+    }
+    const factor = Math.exp(Math.max(-1, Math.min(1, event.deltaY / 200)));
+    zoomBy(studio, factor, timeAt(span, left, width));
+  });
   useEffect(() => {
     const place = frame.current;
     if (!place) return;
     const turned = (event: WheelEvent) => {
-      const { span, width } = latest.current;
-      const sideways = event.shiftKey ? event.deltaY : event.deltaX;
       event.preventDefault();
-      if (sideways !== 0) {
-        const by = (sideways / width) * (span.to - span.from);
-        viewOf(studio).setState({ span: movedSpan(span, by), held: false });
-        return;
-      }
-      const left = event.clientX - place.getBoundingClientRect().left;
-      const factor = Math.exp(Math.max(-1, Math.min(1, event.deltaY / 200)));
-      zoomBy(studio, factor, timeAt(span, left, width));
+      turn(event, event.clientX - place.getBoundingClientRect().left);
     };
     const pressed = (event: KeyboardEvent) => {
       if (event.ctrlKey || event.altKey || event.metaKey) return;

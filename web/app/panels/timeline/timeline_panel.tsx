@@ -7,7 +7,7 @@ import { useShown } from '../../robot_hooks';
 import { text } from '../../text';
 import { Lanes } from './lanes';
 import { LaneTable } from './lane_table';
-import { rowsOf, type Row } from './rows';
+import { rowsOf, type CurveName, type Row } from './rows';
 import { Ruler } from './ruler';
 import { useLanes } from './use_lanes';
 import '../../look/timeline.css';
@@ -21,18 +21,16 @@ export default function TimelinePanel() {
   const shown = useShown(frame);
   const width = Math.max(useWidth(frame) - kLabels, 1);
   const { known, lanes, answered, span, curves } = useLanes(shown, width);
-  const nodes = useTopic('robot', {})?.nodes ?? [];
+  const nodes = useTopic('robot', {})?.nodes;
   const at = usePastTime();
   const end = useEnd();
-  const nameOf = (id: number) =>
-    id === 0 ? words.main : (nodes.find((node) => node.id === id)?.name ?? String(id));
-  const names = JSON.stringify([curves, nodes.map(({ id, name }) => [id, name])]);
-  const rows = useMemo(
-    () => (lanes ? rowsOf(lanes, curves, nameOf) : []),
-    // What is named, by its text: lists of the same are made anew all the time.
-    // eslint-disable-next-line react-hooks/exhaustive-deps
-    [lanes, names],
-  );
+  // What is named, by its text: lists of the same are made again all the time.
+  const named = JSON.stringify([curves, (nodes ?? []).map(({ id, name }) => [id, name])]);
+  const rows = useMemo(() => {
+    const [curves, names] = JSON.parse(named) as [CurveName[], [number, string][]];
+    const nameOf = (id: number) => (id === 0 ? words.main : (new Map(names).get(id) ?? String(id)));
+    return lanes ? rowsOf(lanes, curves, nameOf) : [];
+  }, [lanes, named]);
   const view = { span, answered, width, at: at ?? end, end };
   return (
     <div className="tl" ref={frame}>

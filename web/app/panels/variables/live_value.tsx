@@ -1,4 +1,4 @@
-import { useEffect, useRef, type RefObject } from 'react';
+import { useEffect, useEffectEvent, useRef, type RefObject } from 'react';
 import type { NodeId, Variable } from '../../../protocol/messages';
 import { shownWord, type NumberForm } from '../../../core/numbers';
 import { barsOf } from '../../../core/variable_rows';
@@ -22,10 +22,9 @@ function useWords(place: Place, show: (seen: Seen) => void): void {
   const { words } = useStudio();
   const { node, first, count } = place;
   const { address, size } = place.variable;
-  const latest = useRef(show);
-  latest.current = show;
+  const told = useEffectEvent(show);
   useEffect(
-    () => words.look({ node, address, size, first, count }, (seen) => latest.current(seen)),
+    () => words.look({ node, address, size, first, count }, (seen) => told(seen)),
     [words, node, address, size, first, count],
   );
 }
@@ -57,11 +56,11 @@ export function LiveValue({
     bars.current?.setAttribute('d', barsPath(seen.values));
   };
   useWords(place, show);
-  useEffect(() => {
+  const showAgain = useEffectEvent(() => {
     if (last.current) show(last.current);
-    // Only when the form changes: new words come by themselves.
-    // eslint-disable-next-line react-hooks/exhaustive-deps
-  }, [form]);
+  });
+  // New words come by themselves.
+  useEffect(() => showAgain(), [form]);
   return (
     <>
       {isLong ? (

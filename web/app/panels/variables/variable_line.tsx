@@ -1,5 +1,5 @@
 import { IconChevronDown, IconChevronRight } from '@tabler/icons-react';
-import { useEffect, useRef, useState } from 'react';
+import { useEffect, useEffectEvent, useRef, useState } from 'react';
 import type { NumberForm } from '../../../core/numbers';
 import { pickName, type Pick } from '../../../core/picks';
 import { useMayAct } from '../../past_hooks';
@@ -110,15 +110,14 @@ function useEditKey(
   may: boolean,
   edit: () => void,
 ): void {
-  const latest = useRef(edit);
-  latest.current = edit;
+  const begin = useEffectEvent(edit);
   useEffect(() => {
     const item = row.current?.closest<HTMLElement>('[data-row]');
     if (!item || !may) return;
     const pressed = (event: globalThis.KeyboardEvent) => {
       if (event.key !== 'Enter' || event.target !== item) return;
       event.preventDefault();
-      latest.current();
+      begin();
     };
     item.addEventListener('keydown', pressed);
     return () => item.removeEventListener('keydown', pressed);

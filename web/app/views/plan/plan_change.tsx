@@ -1,5 +1,5 @@
 import { IconAlertTriangle, IconArrowsExchange } from '@tabler/icons-react';
-import { useEffect, useMemo, useState, type ReactNode } from 'react';
+import { useEffect, useRef, useState, type ReactNode } from 'react';
 import type { Doc, Topics } from '../../../protocol/messages';
 import { ChangeQuestion, type ChangeAnswer } from '../../../core/plan/change';
 import { partOf } from '../../../core/paths';
@@ -93,22 +93,21 @@ function useAnswer(
   const version = usePart('doc', asks ? { doc } : null, (is) => is?.version);
   const active = plan?.levels.map((level) => `${level.path} ${level.activation}`).join(' ');
   const [answer, setAnswer] = useState<ChangeAnswer | null>(null);
-  const question = useMemo(
-    () =>
-      asks
-        ? new ChangeQuestion(
-            () => studio.send('plan.check_change', { doc }),
-            (ms, act) => studio.world.later(ms, act),
-          )
-        : null,
-    [studio, doc, asks],
-  );
+  const question = useRef<ChangeQuestion | null>(null);
   useEffect(() => {
-    setAnswer(null);
-    if (!question) return;
-    const end = question.changed.on(() => setAnswer(question.answer));
-    return () => (end(), question.end());
-  }, [question]);
-  useEffect(() => question?.look(), [question, version, active]);
+    if (!asks) return;
+    const made = new ChangeQuestion(
+      () => studio.send('plan.check_change', { doc }),
+      (ms, act) => studio.world.later(ms, act),
+    );
+    question.current = made;
+    made.changed.on(() => setAnswer(made.answer));
+    return () => {
+      made.end();
+      question.current = null;
+      setAnswer(null);
+    };
+  }, [studio, doc, asks]);
+  useEffect(() => question.current?.look(), [studio, doc, asks, version, active]);
   return answer;
 }

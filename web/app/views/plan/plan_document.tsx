@@ -1,6 +1,6 @@
-import { Suspense, useEffect } from 'react';
+import { Suspense, useEffect, useEffectEvent } from 'react';
 import { late } from '../../parts/late';
-import type { Doc } from '../../../protocol/messages';
+import type { Doc, Place } from '../../../protocol/messages';
 import { useStudio, useTopic, useWindow } from '../../hooks';
 import { FindingNotice } from '../finding_notice';
 import { DiskNotice } from '../script/script_notices';
@@ -77,15 +77,15 @@ function useRevealed(doc: Doc): void {
   const studio = useStudio();
   const reveal = useWindow((window) => window.reveal);
   const findings = useTopic('findings', {})?.findings;
-  useEffect(() => {
-    if (reveal?.what !== 'doc' || reveal.doc !== doc || !reveal.at) return;
-    const { line, column } = reveal.at;
+  // Findings that come later are no reason to show this one again.
+  const show = useEffectEvent(({ line, column }: Place) => {
     const meant = findings?.find(
       (one) => one.doc === doc && one.at.line === line && one.at.column === column,
     );
     if (!selectOnBoard(planDeskOf(studio), doc, meant?.element))
       togglePlanOption(studio, 'text', true);
-    // Findings that come later are no reason to show this one again.
-    // eslint-disable-next-line react-hooks/exhaustive-deps
-  }, [studio, doc, reveal]);
+  });
+  useEffect(() => {
+    if (reveal?.what === 'doc' && reveal.doc === doc && reveal.at) show(reveal.at);
+  }, [doc, reveal]);
 }

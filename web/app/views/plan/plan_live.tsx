@@ -1,4 +1,4 @@
-import { useEffect, useState } from 'react';
+import { useState } from 'react';
 import type { Doc, PlanLevel } from '../../../protocol/messages';
 import { shownLevel } from '../../../core/plan_view';
 import { shownName } from '../../../core/paths';
@@ -18,9 +18,11 @@ export function PlanLive({ doc }: { doc: Doc }) {
   const plan = useShownPlan();
   const [chosen, choose] = useState<string | null>(null);
   const state = plan?.state ?? 'none';
-  useEffect(() => {
+  const [before, setBefore] = useState(state);
+  if (state !== before) {
+    setBefore(state);
     if (state === 'none' || state === 'ended') choose(null);
-  }, [state]);
+  }
   const levels = plan?.levels ?? [];
   const shown = shownLevel(levels, doc, chosen);
   const level = levels[shown];

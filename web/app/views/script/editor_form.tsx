@@ -1,5 +1,5 @@
 import type { EditorView } from '@codemirror/view';
-import { useEffect, useState, type ReactNode } from 'react';
+import { useLayoutEffect, useRef, type ReactNode } from 'react';
 import type { Doc } from '../../../protocol/messages';
 import { update } from '../../../core/window_state';
 import { useStudio, useWindow } from '../../hooks';
@@ -48,20 +48,21 @@ function Frame({
   onEnd(): void;
   children: ReactNode;
 }) {
-  const [top, setTop] = useState(40);
-  useEffect(() => {
+  const form = useRef<HTMLDivElement>(null);
+  useLayoutEffect(() => {
     const at = view.state.doc.line(Math.min(line, view.state.doc.lines)).from;
     const place = view.coordsAtPos(at);
     const frame = view.dom.getBoundingClientRect();
-    if (place)
-      setTop(Math.min(Math.max(place.bottom - frame.top + 4, 8), Math.max(frame.height - 150, 8)));
+    const below = place ? place.bottom - frame.top + 4 : 40;
+    const top = Math.min(Math.max(below, 8), Math.max(frame.height - 150, 8));
+    if (form.current) form.current.style.top = `${top}px`;
   }, [view, line]);
   return (
     <div
       className="lineform menu"
+      ref={form}
       role="dialog"
       aria-label={label}
-      style={{ top }}
       onKeyDown={(event) => event.key === 'Escape' && (event.stopPropagation(), onEnd())}
       onBlur={(event) => event.currentTarget.contains(event.relatedTarget) || onEnd()}
     >

@@ -99,7 +99,7 @@ const breakMarkers = StateField.define<RangeSet<GutterMarker>>({
   },
 });
 
-/** toggle: a click beside a line; edit: with the other button. */
+/** toggle: a click or tap beside a line; edit: with the other button, or a long touch. */
 export function lineMarks(act: {
   toggle(line: number): void;
   edit(line: number): void;
@@ -118,8 +118,10 @@ export function lineMarks(act: {
           else act.edit(lineAt(view, block.from));
           return true;
         },
-        contextmenu(_view, _block, event) {
+        contextmenu(view, block, event) {
           event.preventDefault();
+          // A mouse has said so with its button; a finger that stays says it here alone.
+          if ((event as PointerEvent).pointerType === 'touch') act.edit(lineAt(view, block.from));
           return true;
         },
       },

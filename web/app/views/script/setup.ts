@@ -92,7 +92,10 @@ export function makeState(options: {
   });
 }
 
-export function settingsOf(settings: Settings, dark: boolean): Extension {
+export function settingsOf(
+  settings: Pick<Settings, 'codeSize' | 'spaces' | 'wrap'>,
+  dark: boolean,
+): Extension {
   const height = Math.round(settings.codeSize * 1.66);
   return [
     EditorView.theme(

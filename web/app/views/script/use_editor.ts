@@ -155,15 +155,9 @@ function tellCursor(studio: Studio, doc: Doc, change: ViewUpdate): void {
   });
 }
 
-/** Tells the editor something whenever it changes. */
-export function useEffectIn(
-  view: EditorView | null,
-  make: () => StateEffect<unknown>,
-  deps: readonly unknown[],
-): void {
+/** Tells the editor what `make` makes, now and whenever `make` is another function. */
+export function useEffectIn(view: EditorView | null, make: () => StateEffect<unknown>): void {
   useEffect(() => {
     view?.dispatch({ effects: make() });
-    // The caller names what the effect is made of.
-    // eslint-disable-next-line react-hooks/exhaustive-deps
-  }, [view, ...deps]);
+  }, [view, make]);
 }

@@ -4,14 +4,16 @@ import type { EditorView } from '@codemirror/view';
 import { toggleComment } from '@codemirror/commands';
 import { startCompletion } from '@codemirror/autocomplete';
 import { openSearchPanel } from '@codemirror/search';
-import { useEffect, useMemo, useState } from 'react';
-import type { Breakpoint, Doc, Node } from '../../../protocol/messages';
+import { useCallback, useEffect, useMemo, useState } from 'react';
+import type { Breakpoint, Doc, Handler, Node } from '../../../protocol/messages';
 import { mentionedIn, readWords, valueText } from '../../../core/values';
 import { standsAt } from '../../../core/run_state';
+import type { Settings } from '../../../core/settings';
 import { update } from '../../../core/window_state';
 import { addEditor } from '../../commands/editor_handles';
 import { pressFix } from '../../commands/problem_commands';
 import { useMayEdit, useSettings, useStudio, useTopic, useWindow } from '../../hooks';
+import { useShownTheme } from '../../robot_hooks';
 import { text } from '../../text';
 import {
   findReferences,
@@ -35,45 +37,53 @@ export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | nu
   const all = useTopic('findings', {})?.findings;
   const findings = useMemo(() => all?.filter((one) => one.doc === doc) ?? [], [all, doc]);
   const breakpoints = useTopic('breakpoints', {})?.breakpoints;
-  const theme = `${useWindow((state) => state.theme)} ${settings.theme}`;
+  const handlers = script?.handlers;
+  const { showWords } = settings;
   useEffectIn(
     view,
-    () =>
-      setFindings.of({
-        findings,
-        onFix: (finding, fix) => pressFix(studio, finding, fix),
-      }),
-    [findings],
+    useCallback(
+      () => setFindings.of({ findings, onFix: (finding, fix) => pressFix(studio, finding, fix) }),
+      [studio, findings],
+    ),
   );
   useEffectIn(
     view,
-    () =>
-      setChips.of(
-        settings.showWords
-          ? (script?.handlers ?? [])
-              .filter((one) => one.kind !== 'init')
-              .map(({ line, words }) => ({ line, text: text.editor.words(words) }))
-          : [],
-      ),
-    [script?.handlers, settings.showWords],
+    useCallback(() => setChips.of(showWords ? chipsOf(handlers ?? []) : []), [handlers, showWords]),
   );
   useEffectIn(
     view,
-    () => setBreaks.of((breakpoints ?? []).filter((one) => one.doc === doc).map(markOf)),
-    [breakpoints, doc],
+    useCallback(
+      () => setBreaks.of((breakpoints ?? []).filter((one) => one.doc === doc).map(markOf)),
+      [breakpoints, doc],
+    ),
   );
-  useEffectIn(view, () => readOnlyPart.reconfigure(readOnlyOf(!mayEdit)), [mayEdit]);
   useEffectIn(
     view,
-    () =>
-      settingsPart.reconfigure(
-        settingsOf(settings, document.documentElement.dataset['theme'] !== 'light'),
-      ),
-    [settings.codeSize, settings.spaces, settings.wrap, theme],
+    useCallback(() => readOnlyPart.reconfigure(readOnlyOf(!mayEdit)), [mayEdit]),
   );
+  useLooks(view, settings);
   useStandingIn(doc, isScript, view);
   useRevealIn(doc, view);
   useHandle(doc, view);
+}
+
+/** Letters and colours, as they are set. */
+function useLooks(view: EditorView | null, settings: Settings): void {
+  const { codeSize, spaces, wrap } = settings;
+  const isDark = useShownTheme() !== 'light';
+  useEffectIn(
+    view,
+    useCallback(
+      () => settingsPart.reconfigure(settingsOf({ codeSize, spaces, wrap }, isDark)),
+      [codeSize, spaces, wrap, isDark],
+    ),
+  );
+}
+
+function chipsOf(handlers: readonly Handler[]) {
+  return handlers
+    .filter((one) => one.kind !== 'init')
+    .map(({ line, words }) => ({ line, text: text.editor.words(words) }));
 }
 
 function markOf(one: Breakpoint): BreakMark {
@@ -104,10 +114,10 @@ function useStandingIn(doc: Doc, isScript: boolean, view: EditorView | null): vo
       ? view.state.doc.line(line).text
       : '';
   const values = useLineValues(line === undefined ? undefined : node, code);
-  useEffectIn(view, () => setStanding.of(line === undefined ? null : { line, values }), [
-    line,
-    values,
-  ]);
+  useEffectIn(
+    view,
+    useCallback(() => setStanding.of(line === undefined ? null : { line, values }), [line, values]),
+  );
   useEffect(() => {
     if (view && line !== undefined)
       goTo(view, offsetOf(view.state.doc, { line, column: 1 }), false);
@@ -121,11 +131,10 @@ function useLineValues(node: Node | undefined, code: string): string {
   const [shown, setShown] = useState('');
   const id = node?.id;
   useEffect(() => {
-    setShown('');
     if (id === undefined || mentioned.length === 0) return;
     const words = new Map<number, number>();
     const ranges = mentioned.map(({ address, count }) => [address, count]);
-    return studio.connection.watch(
+    const end = studio.connection.watch(
       'variables',
       { node: id, ranges },
       {
@@ -140,6 +149,10 @@ function useLineValues(node: Node | undefined, code: string): string {
         },
       },
     );
+    return () => {
+      end();
+      setShown('');
+    };
   }, [studio, id, mentioned]);
   return shown;
 }

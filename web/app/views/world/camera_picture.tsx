@@ -19,9 +19,8 @@ export function CameraPicture({ model }: { model: WorldModel }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [seen, setSeen] = useState(false);
   useEffect(() => {
-    setSeen(false);
     if (name === undefined) return;
-    return connection.watch(
+    const end = connection.watch(
       'picture',
       { robot: name },
       {
@@ -37,6 +36,10 @@ export function CameraPicture({ model }: { model: WorldModel }) {
       },
       kRate,
     );
+    return () => {
+      end();
+      setSeen(false);
+    };
   }, [connection, name]);
   if (name === undefined) return null;
   return (

@@ -13,20 +13,20 @@ import type { Eye } from './use_hands';
 const kSlackPx = 6;
 
 /** The world from above, drawn when something has changed, at most once a frame. */
-export function FlatView({ model, eye }: { model: WorldModel; eye: RefObject<Eye | null> }) {
+export function FlatView({ model, eyeRef }: { model: WorldModel; eyeRef: RefObject<Eye | null> }) {
   const studio = useStudio();
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     if (!canvas.current) return;
-    eye.current = eyeOf(model);
+    eyeRef.current = eyeOf(model);
     const end = drawOn(canvas.current, model, () => optionsOf(studio).getState());
     const off = optionsOf(studio).subscribe(() => model.drawn.emit());
     return () => {
-      eye.current = null;
+      eyeRef.current = null;
       off();
       end();
     };
-  }, [studio, model, eye]);
+  }, [studio, model, eyeRef]);
   return <canvas className="world__canvas" ref={canvas} aria-hidden />;
 }
 

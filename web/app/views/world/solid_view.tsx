@@ -1,38 +1,80 @@
-import { Canvas } from '@react-three/fiber';
-import { useEffect, useState, type RefObject } from 'react';
+import { useEffect, useRef, useState, type RefObject } from 'react';
 import type { WorldModel } from '../../../core/world/model';
+import type { Studio } from '../../../core/studio';
+import { useStudio } from '../../hooks';
 import { readColours, type Colours } from './colours';
+import { optionsOf } from './options';
 import { SolidCamera } from './solid_camera';
-import { SolidScene } from './solid_scene';
+import { SolidDrawer } from './solid_drawer';
+import { SolidStage } from './solid_stage';
 import type { Eye } from './use_hands';
 
-/** The world in 3D: drawn when something has changed; no shadows, and coarse under tests. */
+/** The world in 3D: drawn when something has changed. */
 export default function SolidView({
   model,
-  eye,
+  eyeRef,
 }: {
   model: WorldModel;
-  eye: RefObject<Eye | null>;
+  eyeRef: RefObject<Eye | null>;
 }) {
+  const studio = useStudio();
+  const place = useRef<HTMLDivElement>(null);
+  const stage = useRef<SolidStage | null>(null);
   const colours = useColours();
-  const ratio = navigator.webdriver ? 0.75 : Math.min(window.devicePixelRatio || 1, 2);
-  return (
-    <div className="world__solid" aria-hidden>
-      <Canvas
-        frameloop="demand"
-        flat
-        dpr={ratio}
-        gl={{ antialias: !navigator.webdriver, powerPreference: 'low-power' }}
-        camera={{ up: [0, 0, 1], fov: 40, near: 0.01, far: 500 }}
-      >
-        <color attach="background" args={[colours.sky]} />
-        <ambientLight intensity={1.5} />
-        <directionalLight position={[-2, -4, 8]} intensity={1.9} />
-        <SolidCamera model={model} eye={eye} />
-        <SolidScene model={model} colours={colours} />
-      </Canvas>
-    </div>
+  useEffect(() => {
+    if (!place.current) return;
+    const made = new SolidStage(place.current, () => model.drawn.emit());
+    const camera = new SolidCamera(model, made);
+    stage.current = made;
+    eyeRef.current = camera.eye;
+    return () => {
+      eyeRef.current = null;
+      stage.current = null;
+      camera.end();
+      made.end();
+    };
+  }, [model, eyeRef]);
+  useEffect(
+    () => (stage.current ? drawIn(stage.current, studio, model, colours) : undefined),
+    [studio, model, colours],
   );
+  return <div className="world__solid" ref={place} aria-hidden />;
+}
+
+/** What stands in the world, moved past React: once a frame, from the model. */
+function drawIn(
+  stage: SolidStage,
+  studio: Studio,
+  model: WorldModel,
+  colours: Colours,
+): () => void {
+  const drawer = new SolidDrawer(model, colours);
+  let built: unknown = null;
+  let asked = 0;
+  const draw = () => {
+    asked = 0;
+    drawer.move(optionsOf(studio).getState());
+    stage.draw();
+  };
+  const ask = () => {
+    if (asked === 0) asked = requestAnimationFrame(draw);
+  };
+  const build = () => {
+    if (built === model.stage) return;
+    built = model.stage;
+    drawer.build();
+    model.drawn.emit();
+  };
+  stage.setSky(colours.sky);
+  stage.scene.add(drawer.root);
+  const ends = [model.drawn.on(ask), model.changed.on(build), optionsOf(studio).subscribe(ask)];
+  build();
+  return () => {
+    ends.forEach((end) => end());
+    cancelAnimationFrame(asked);
+    stage.scene.remove(drawer.root);
+    drawer.dispose();
+  };
 }
 
 function useColours(): Colours {

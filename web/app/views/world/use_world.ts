@@ -1,14 +1,6 @@
 // Where a view's world comes from: the run, or the text of its file.
 
-import {
-  useCallback,
-  useEffect,
-  useMemo,
-  useRef,
-  useState,
-  useSyncExternalStore,
-  type RefObject,
-} from 'react';
+import { useCallback, useEffect, useRef, useState, useSyncExternalStore } from 'react';
 import type { Doc, Path } from '../../../protocol/messages';
 import type { JsonFile } from '../../../core/session/json_file';
 import { folderOf, joinPath } from '../../../core/paths';
@@ -26,21 +18,7 @@ import { useWorldOptions } from './options';
 const kPosesRate = 30;
 
 export function useWorldModel(): WorldModel {
-  return useMemo(() => new WorldModel(), []);
-}
-
-/** True while the element is on the screen. */
-export function useVisible(frame: RefObject<HTMLElement | null>): boolean {
-  const [visible, setVisible] = useState(false);
-  useEffect(() => {
-    if (!frame.current) return;
-    const observer = new IntersectionObserver(([entry]) =>
-      setVisible(entry?.isIntersecting ?? false),
-    );
-    observer.observe(frame.current);
-    return () => observer.disconnect();
-  }, [frame]);
-  return visible;
+  return useState(() => new WorldModel())[0];
 }
 
 /** Whether a world runs, or stands at its start. */
@@ -62,7 +40,7 @@ export function useLive(model: WorldModel, on: boolean): void {
     model.setStage(stageOfScene(scene));
   }, [model, on, scene]);
   useEffect(() => {
-    if (on) model.acts = new LiveActs(studio, model, drives);
+    if (on) model.allow(new LiveActs(studio, model, drives));
   }, [studio, model, on, drives]);
   useEffect(() => {
     if (!on) return;
@@ -112,7 +90,7 @@ export function useFileStage(
       model.setStage(stage);
       setImage(stage.image);
     };
-    model.acts = new FileActs(file, model, drives, () => Date.now());
+    model.allow(new FileActs(file, model, drives, () => Date.now()));
     show();
     return file.changed.on(show);
   }, [model, file, drives]);
@@ -160,18 +138,13 @@ function useImage(model: WorldModel, image: string | undefined, world: Path | un
   useEffect(() => {
     const path = image && world ? resolved(folderOf(world), image) : null;
     shown.current = path;
-    if (model.image) {
-      model.image = null;
-      model.drawn.emit();
-    }
+    if (model.image) model.cover(null);
     if (path === null) return;
     connection
       .send('file.bytes', { path })
       .then(({ base64 }) => bitmapOf(base64))
       .then((bitmap) => {
-        if (shown.current !== path) return;
-        model.image = bitmap;
-        model.drawn.emit();
+        if (shown.current === path) model.cover(bitmap);
       })
       // Without it the ground has its colour; the checker says that the file is missing.
       .catch(() => {});

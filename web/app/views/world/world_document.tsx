@@ -1,10 +1,11 @@
-import { Suspense, useEffect, useMemo, useRef, useState } from 'react';
+import { Suspense, useMemo, useRef, useState } from 'react';
 import { late } from '../../parts/late';
 import type { Doc, Finding } from '../../../protocol/messages';
 import { useTopic, useWindow, usePart } from '../../hooks';
 import { Blank } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
+import { useShown } from '../../robot_hooks';
 import { FindingNotice } from '../finding_notice';
 import { DiskNotice } from '../script/script_notices';
 import type { ShownWorld } from './desk';
@@ -18,7 +19,6 @@ import {
   useHasScene,
   useJsonFile,
   useLive,
-  useVisible,
   useWorldModel,
 } from './use_world';
 import { keyMeant } from '../../../core/world/file';
@@ -40,10 +40,12 @@ export default function WorldDocument({ doc }: { doc: Doc }) {
     isOurs && (state === 'running' || state === 'paused') ? 'live' : 'edit',
   );
   const reveal = useWindow((window) => window.reveal);
-  // A place in the text is asked for: a finding, something searched.
-  useEffect(() => {
+  const [asked, setAsked] = useState<typeof reveal>(null);
+  if (reveal !== asked) {
+    setAsked(reveal);
+    // A place in the text is asked for: a finding, something searched.
     if (reveal?.what === 'doc' && reveal.doc === doc && reveal.at) choose('text');
-  }, [reveal, doc]);
+  }
   const mode = chosen ?? first;
   const modes = <ModeSwitch mode={mode} onChange={choose} />;
   if (mode === 'text')
@@ -66,7 +68,7 @@ function LiveWorld(props: { modes: React.ReactNode; runs: boolean; onEdit: () =>
   const { modes, runs, onEdit } = props;
   const frame = useRef<HTMLDivElement>(null);
   const model = useWorldModel();
-  const visible = useVisible(frame);
+  const visible = useShown(frame);
   const { list } = useWorldOptions();
   useLive(model, visible);
   const world = useMemo<ShownWorld>(() => ({ model, file: null, focus() {} }), [model]);

@@ -34,10 +34,10 @@ export function WorldStage({
   const options = useWorldOptions();
   const looksBack = usePastTime() !== null;
   const [failed, setFailed] = useState(false);
-  useShown(frame, model, file);
+  useOnDesk(frame, model, file);
   useHands(frame, model, eye, options.snap);
   const solid = options.solid && canSolid() && !failed;
-  const flat = <FlatView model={model} eye={eye} />;
+  const flat = <FlatView model={model} eyeRef={eye} />;
   return (
     <div
       className="world__stage"
@@ -53,7 +53,7 @@ export function WorldStage({
       {solid ? (
         <SolidGuard onFail={() => setFailed(true)}>
           <Suspense fallback={flat}>
-            <SolidView model={model} eye={eye} />
+            <SolidView model={model} eyeRef={eye} />
           </Suspense>
         </SolidGuard>
       ) : (
@@ -72,7 +72,7 @@ export function WorldStage({
 }
 
 /** Tells that this world is the one that is looked at, once it is used. */
-function useShown(
+function useOnDesk(
   frame: React.RefObject<HTMLDivElement | null>,
   model: WorldModel,
   file: JsonFile | null,

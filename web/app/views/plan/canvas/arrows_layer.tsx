@@ -1,12 +1,13 @@
 import { ViewportPortal } from '@xyflow/react';
 import { memo, useId, useMemo } from 'react';
-import type { Arrow } from '../../../../core/plan/arrows';
+import { isEvent, type Arrow } from '../../../../core/plan/arrows';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { roundedPath, straightPath, type Crossing } from '../../../../core/plan/path';
 import type { Routed } from '../../../../core/plan/route';
 import { gapPath, gapsOf, shortened } from '../../../../core/plan/strokes';
 import { useBoard } from '../plan_desk';
 import { text } from '../../../text';
+import { ArrowNames } from './arrow_names';
 import { DataArrows } from './data_layer';
 import { useFar } from './distance';
 import { Heads, HeadsContext, useHead } from './heads';
@@ -17,17 +18,20 @@ import { useSeenArrows } from './seen_arrows';
 export function ArrowsLayer({ board, allData }: { board: PlanBoard; allData: boolean }) {
   const far = useFar();
   return (
-    <ViewportPortal>
-      <HeadsContext value={useId()}>
-        <svg className="parrows" width={1} height={1}>
-          <Heads />
-          <DataArrows board={board} all={allData} />
-          {far ? <Lines board={board} /> : <ActionArrows board={board} />}
-          <TakenArrow board={board} />
-          <Drawn board={board} />
-        </svg>
-      </HeadsContext>
-    </ViewportPortal>
+    <>
+      <ViewportPortal>
+        <HeadsContext value={useId()}>
+          <svg className="parrows" width={1} height={1}>
+            <Heads />
+            <DataArrows board={board} all={allData} />
+            {far ? <Lines board={board} /> : <ActionArrows board={board} />}
+            <TakenArrow board={board} />
+            <Drawn board={board} />
+          </svg>
+        </HeadsContext>
+      </ViewportPortal>
+      <ArrowNames board={board} />
+    </>
   );
 }
 
@@ -65,6 +69,10 @@ function Lines({ board }: { board: PlanBoard }) {
   return <path className="parrow-far" d={path} aria-hidden />;
 }
 
+function classOf(kind: 'plain' | 'near' | 'taken', source: string | undefined): string {
+  return `parrow parrow--${kind}${source && isEvent(source) ? ' parrow--event' : ''}`;
+}
+
 const ActionArrow = memo(function ActionArrow(props: {
   board: PlanBoard;
   arrow: Arrow;
@@ -79,7 +87,7 @@ const ActionArrow = memo(function ActionArrow(props: {
   const path = roundedPath(shortened(route));
   return (
     <g
-      className={`parrow parrow--${kind}`}
+      className={classOf(kind, arrow.source)}
       role="img"
       aria-label={text.draw.arrow(arrow.source, arrow.outcome, arrow.target)}
       onClick={() => board.select(arrow.id)}
@@ -102,7 +110,7 @@ function TakenArrow({ board }: { board: PlanBoard }) {
   if (!route) return null;
   return (
     // One that is taken again fades again.
-    <g key={number} className="parrow parrow--taken" aria-hidden>
+    <g key={number} className={classOf('taken', board.arrow(taken)?.source)} aria-hidden>
       <path className="parrow__line" d={roundedPath(shortened(route))} markerEnd={head} />
     </g>
   );

@@ -1,4 +1,4 @@
-import { createContext, useContext, useMemo, useRef } from 'react';
+import { createContext, useContext, useMemo } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { discOf, keyOfBreak, type Disc } from '../../../../core/plan/breaks';
 import { useTopic } from '../../../hooks';
@@ -19,17 +19,15 @@ export const DotsContext = createContext<ReadonlyMap<string, Dot>>(new Map());
 export function useDots(board: PlanBoard): ReadonlyMap<string, Dot> {
   const all = useTopic('breakpoints', {})?.plans;
   const { model } = useBoard(board);
-  const before = useRef<{ told: string; dots: ReadonlyMap<string, Dot> }>(undefined);
-  return useMemo(() => {
+  const told = useMemo(() => {
     const dots = (all ?? []).flatMap((one): [string, Dot][] => {
       const key = one.doc === board.doc ? keyOfBreak(model, one) : null;
       if (key === null) return [];
       return [[key, { number: one.number, disc: discOf(one), label: text.draw.break.dot(one) }]];
     });
-    const told = JSON.stringify(dots);
-    if (before.current?.told !== told) before.current = { told, dots: new Map(dots) };
-    return before.current.dots;
+    return JSON.stringify(dots);
   }, [all, model, board]);
+  return useMemo(() => new Map(JSON.parse(told) as [string, Dot][]), [told]);
 }
 
 /** A red disc at an actor, a row or a supervisor that has a breakpoint. */

@@ -21,7 +21,7 @@ export function openSubPlan(studio: Studio, plan: ShownPlan): void {
   const doc = chosenSubPlan(plan);
   if (doc === null) return;
   const from = plan.board.doc;
-  update(studio.window, (draft) => void (draft.callers[doc] = from));
+  update(studio.window, (draft) => void (draft.callers = { ...draft.callers, [doc]: from }));
   revealDoc(studio.window, doc, null);
 }
 

@@ -1,6 +1,6 @@
 // The board of a document: its file open for edits, followed by what the server says.
 
-import { useEffect, useState } from 'react';
+import { useEffect, useMemo } from 'react';
 import type { Doc, PlanTemplate } from '../../../../protocol/messages';
 import { PlanBoard } from '../../../../core/plan/board';
 import type { JsonFile } from '../../../../core/session/json_file';
@@ -13,17 +13,18 @@ export function usePlanBoard(doc: Doc): { board: PlanBoard | null; failed: strin
   const studio = useStudio();
   const { file, failed } = useJsonFile(doc);
   const toolboxes = useTopic('templates', {})?.toolboxes;
-  const [board, setBoard] = useState<PlanBoard | null>(null);
+  const made = useMemo(
+    () => file && { board: new PlanBoard(doc, file, [], turns), changes: file.changed.count },
+    [doc, file],
+  );
+  const board = made?.board ?? null;
   useEffect(() => {
-    if (!file) return;
-    const made = new PlanBoard(doc, file, [], turns);
-    setBoard(made);
-    const end = file.changed.on(() => made.refresh());
-    return () => {
-      end();
-      setBoard(null);
-    };
-  }, [doc, file]);
+    if (!made) return;
+    const { board, changes } = made;
+    // Between drawing and now somebody may have typed.
+    if (board.file.changed.count !== changes) board.refresh();
+    return board.file.changed.on(() => board.refresh());
+  }, [made]);
   useEffect(() => {
     if (toolboxes) board?.refresh(toolboxes);
   }, [board, toolboxes]);

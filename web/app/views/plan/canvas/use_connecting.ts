@@ -48,10 +48,11 @@ export function useConnecting(board: PlanBoard, drives: boolean) {
         open(origin, right, bottom, beside);
       },
       begin(event, origin) {
-        if (event.button !== 0) return;
+        if (event.button !== 0 || !event.isPrimary) return;
         event.stopPropagation();
         const port = event.currentTarget;
         const start = { x: event.clientX, y: event.clientY };
+        const { pointerId } = event;
         const end = new AbortController();
         const { signal } = end;
         const isFar = (one: PointerEvent) =>
@@ -61,11 +62,13 @@ export function useConnecting(board: PlanBoard, drives: boolean) {
           board.draw(null);
         };
         const move = (one: PointerEvent) => {
+          if (one.pointerId !== pointerId) return;
           if (board.drawn === null && !isFar(one)) return;
           const at = flow.screenToFlowPosition({ x: one.clientX, y: one.clientY });
           board.draw({ id: origin.id, at });
         };
         const up = (one: PointerEvent) => {
+          if (one.pointerId !== pointerId) return;
           const drawn = board.drawn !== null;
           stop();
           const target = drawn ? targetAt(board, origin, one.clientX, one.clientY) : null;
@@ -78,6 +81,9 @@ export function useConnecting(board: PlanBoard, drives: boolean) {
         const key = (one: KeyboardEvent) => {
           if (one.key === 'Escape') stop();
         };
+        // After a tap the browser plays a mouse, which would take the focus from the list.
+        if (event.pointerType === 'touch')
+          port.addEventListener('touchend', (one) => one.preventDefault(), { once: true });
         window.addEventListener('pointermove', move, { signal });
         window.addEventListener('pointerup', up, { signal });
         window.addEventListener('pointercancel', stop, { signal });

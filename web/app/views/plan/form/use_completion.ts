@@ -27,7 +27,7 @@ export function useCompletion(
 ): Completion {
   const [offers, offer] = useState<readonly Offer[]>([]);
   const [chosen, choose] = useState(-1);
-  const caret = useCaret(field);
+  const caretRef = useCaret(field);
   const show = (text: string, at: number, isAsked: boolean) => {
     const word = wordAt(text, at);
     const typed = word === null ? '' : text.slice(word.from, at);
@@ -43,7 +43,7 @@ export function useCompletion(
     if (!input || !word) return;
     const after = completed(input.value, word, one);
     write(after.text);
-    caret.current = after.caret;
+    caretRef.current = after.caret;
     close();
   };
   const key = (event: KeyboardEvent<HTMLInputElement>): boolean => {

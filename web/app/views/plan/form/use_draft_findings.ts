@@ -15,8 +15,9 @@ export function useDraftFindings(doc: Doc, keys: Keys, steps: JsonStep[] | null)
   const [found, setFound] = useState<Finding[] | null>(null);
   const asked = steps && JSON.stringify(steps);
   const way = keys.join('\n');
+  if (asked === null && found !== null) setFound(null);
   useEffect(() => {
-    if (asked === null) return setFound(null);
+    if (asked === null) return;
     let isLate = false;
     const cancel = studio.world.later(kPauseMs, () => {
       studio.send('plan.check', { doc, steps: JSON.parse(asked) as JsonStep[] }).then(

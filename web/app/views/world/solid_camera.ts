@@ -1,40 +1,38 @@
-import { useThree } from '@react-three/fiber';
-import { useEffect, type RefObject } from 'react';
+// Turns around the world in 3D, and tells what the pointer meets.
+
 import { PerspectiveCamera, Raycaster, Vector2, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { distance, reachOf } from '../../../core/world/geometry';
 import { thingOnRay } from '../../../core/world/hit';
 import type { WorldModel } from '../../../core/world/model';
+import type { SolidStage } from './solid_stage';
 import type { Eye } from './use_hands';
 
 /** Metres beside a thing that still mean it, for each metre of distance. */
 const kSlack = 0.008;
 
-/** Turns around the world, and tells what the pointer meets. */
-export function SolidCamera({ model, eye }: { model: WorldModel; eye: RefObject<Eye | null> }) {
-  const camera = useThree((three) => three.camera);
-  const element = useThree((three) => three.gl.domElement);
-  const invalidate = useThree((three) => three.invalidate);
-  useEffect(() => {
-    if (!(camera instanceof PerspectiveCamera)) return;
+export class SolidCamera {
+  readonly eye: Eye;
+  private readonly controls: OrbitControls;
+  private readonly endFollowing: () => void;
+
+  constructor(model: WorldModel, stage: SolidStage) {
+    const { camera, element } = stage;
     const controls = new OrbitControls(camera, element);
+    this.controls = controls;
     // The keys are the world's own.
     controls.enableDamping = false;
     controls.maxPolarAngle = Math.PI / 2 - 0.03;
     controls.minDistance = 0.1;
-    const ends = [
-      followModel(model, camera, controls, () => invalidate()),
-      () => controls.dispose(),
-    ];
-    const redraw = () => invalidate();
-    controls.addEventListener('change', redraw);
-    eye.current = eyeOf(model, camera, controls, element);
-    return () => {
-      eye.current = null;
-      ends.forEach((end) => end());
-    };
-  }, [camera, element, invalidate, model, eye]);
-  return null;
+    controls.addEventListener('change', () => stage.ask());
+    this.endFollowing = followModel(model, camera, controls);
+    this.eye = eyeOf(model, camera, controls, element);
+  }
+
+  end(): void {
+    this.endFollowing();
+    this.controls.dispose();
+  }
 }
 
 /** Fits the world when asked, and goes with the robot that is followed. */
@@ -42,13 +40,13 @@ function followModel(
   model: WorldModel,
   camera: PerspectiveCamera,
   controls: OrbitControls,
-  draw: () => void,
 ): () => void {
-  let fitted = '';
+  // At first it has to look somewhere, also where a hand has moved the view from above.
+  let fitted: string | null = null;
   const update = () => {
     const { width, height } = model.stage;
     const wanted = `${width} ${height} ${camera.aspect}`;
-    if (model.fits && fitted !== wanted) fit(camera, controls, width, height);
+    if (fitted === null || (model.fits && fitted !== wanted)) fit(camera, controls, width, height);
     fitted = model.fits ? wanted : '';
     const followed = model.thing(model.follows);
     const pose = followed && model.poseOf(followed);
@@ -58,7 +56,6 @@ function followModel(
       controls.target.add(by);
       controls.update();
     }
-    draw();
   };
   const byHand = () => {
     model.fits = false;

@@ -1,0 +1,35 @@
+import { EdgeLabelRenderer, useStore } from '@xyflow/react';
+import type { PlanBoard } from '../../../../core/plan/board';
+import { nameSpot } from '../../../../core/plan/strokes';
+import { useBoard } from '../plan_desk';
+import { useLive } from './live_store';
+
+/** The names of the arrow that is chosen and of the one that was taken last, above everything. */
+export function ArrowNames({ board }: { board: PlanBoard }) {
+  const { selected } = useBoard(board);
+  const taken = useLive((live) => live.taken);
+  return (
+    <EdgeLabelRenderer>
+      {selected === null ? null : <ArrowName board={board} id={selected} is="near" />}
+      {taken === null || taken === selected ? null : (
+        <ArrowName board={board} id={taken} is="taken" />
+      )}
+    </EdgeLabelRenderer>
+  );
+}
+
+/** However small the drawing is, its letters are not smaller than those of a form. */
+function ArrowName(props: { board: PlanBoard; id: string; is: 'near' | 'taken' }) {
+  const { board, id, is } = props;
+  const scale = useStore(({ transform: [, , zoom] }) => Math.max(1, 1 / zoom));
+  const route = board.drawing.routes.get(id);
+  const name = board.arrow(id)?.outcome ?? '';
+  const spot = route && nameSpot(route);
+  if (!spot || name === '') return null;
+  const transform = `translate(${spot.x}px, ${spot.y}px) scale(${scale}) translate(-50%, -50%)`;
+  return (
+    <span className={`parrow-name parrow-name--${is}`} style={{ transform }} aria-hidden>
+      {name}
+    </span>
+  );
+}

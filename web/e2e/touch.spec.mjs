@@ -1,0 +1,103 @@
+// A tablet: what a finger does where a mouse would do it.
+import assert from 'node:assert/strict';
+import { makeProject, twoNodes } from './support/robots.mjs';
+import { boxOf, gone, seen, test, until } from './support/studio.mjs';
+/** @import { Page, TestContext } from './support/studio.mjs' */
+
+const tablet = { width: 1180, height: 820, touch: true };
+const kPlan = JSON.stringify({
+  format: 'vagus-plan/1',
+  name: 'P',
+  start: { actor: 'wait' },
+  actors: {
+    wait: { template: 'Wait', in: { seconds: 1 }, states: {} },
+    log: { template: 'Log', in: { text: "'here'" }, states: { Done: '@terminate' } },
+  },
+  layout: { wait: [80, 96], log: [400, 200] },
+});
+
+/**
+ * A finger that goes down, along and up; the browser decides what it means, as with a real one.
+ * @param {Page} page
+ * @param {readonly { x: number, y: number }[]} way
+ */
+async function swipe(page, way) {
+  const session = await page.context().newCDPSession(page);
+  const touch = (/** @type {any} */ type, /** @type {readonly object[]} */ touchPoints) =>
+    session.send('Input.dispatchTouchEvent', {
+      type,
+      touchPoints: /** @type {any} */ (touchPoints),
+    });
+  await touch('touchStart', way.slice(0, 1));
+  for (const point of way.slice(1)) await touch('touchMove', [point]);
+  await touch('touchEnd', []);
+  await session.detach();
+}
+
+const drawn = {
+  ...tablet,
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(t, { name: 'T', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
+};
+
+test('a tap on a port lists what it may lead to, and the list stays', drawn, async (studio) => {
+  const { page, layout } = studio;
+  await layout('Draw');
+  const wait = page.getByRole('group', { name: /^wait, actor Wait/ });
+  await wait.getByRole('button', { name: /^Done leads nowhere/ }).tap();
+  await page.getByRole('menuitem', { name: 'log', exact: true }).tap();
+  await page
+    .getByRole('img', { name: 'wait Done leads to log', exact: true })
+    .waitFor({ state: 'attached' });
+});
+
+test(
+  'a finger draws an arrow from a port to its target; the canvas stays where it is',
+  drawn,
+  async ({ page, layout }) => {
+    await layout('Draw');
+    const wait = page.getByRole('group', { name: /^wait, actor Wait/ });
+    const log = page.getByRole('group', { name: /^log, actor Log/ });
+    const port = await boxOf(wait.getByRole('button', { name: /^Done leads nowhere/ }));
+    const [before, to] = [await boxOf(wait), await boxOf(log)];
+    const from = { x: port.x + port.width / 2, y: port.y + port.height / 2 };
+    const end = { x: to.x + 40, y: to.y + 20 };
+    const between = [1, 2, 3].map((step) => ({
+      x: from.x + ((end.x - from.x) * step) / 4,
+      y: from.y + ((end.y - from.y) * step) / 4,
+    }));
+    await swipe(page, [from, ...between, end]);
+    await page
+      .getByRole('img', { name: 'wait Done leads to log', exact: true })
+      .waitFor({ state: 'attached' });
+    const after = await boxOf(wait);
+    assert.deepEqual([after.x, after.y], [before.x, before.y]);
+  },
+);
+
+test(
+  'a tap beside a line sets its breakpoint, another one takes it away',
+  {
+    ...tablet,
+    prepare: (/** @type {TestContext} */ t) =>
+      twoNodes(t, { left: 'var a = 0\na = 1\na = 2\n', right: 'var b = 0\n' }, {}),
+  },
+  async ({ page, layout, editor }) => {
+    await layout('Script');
+    await seen(editor('left'));
+    const gutter = page.locator('.cm-breaks').first();
+    const second = page.locator('.cm-lineNumbers .cm-gutterElement').filter({ hasText: /^2$/ });
+    const [beside, line] = [await boxOf(gutter), await boxOf(second.first())];
+    assert.ok(beside.width >= 32, `a finger is wider than ${beside.width} px`);
+    const at = /** @type {const} */ ([beside.x + beside.width / 2, line.y + line.height / 2]);
+    const disc = page.locator('.cm-breaks .disc[title^="Breakpoint on line 2"]');
+    await page.touchscreen.tap(...at);
+    await seen(disc);
+    await until('it is the second line', async () => {
+      const { y, height } = await boxOf(disc);
+      return y >= line.y && y + height <= line.y + line.height;
+    });
+    await page.touchscreen.tap(...at);
+    await gone(disc);
+  },
+);

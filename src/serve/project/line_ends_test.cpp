@@ -146,8 +146,10 @@ TEST(Merge, BothStayWhereSomebodyHasChosenThat) {
               "speed = 150\nspeed = 200\n");
     EXPECT_EQ(with_both("a\n", "a\nmine\n", "a\ntheirs\n"), "a\nmine\ntheirs\n");
     EXPECT_EQ(with_both("a\nb\nc\n", "a\nc\n", "a\nb2\nc\n"), "a\nb2\nc\n");
-    // Beside it what only one of them changed.
-    EXPECT_EQ(with_both("a\nb\nc\n", "a1\nb1\nc\n", "a\nb2\nc2\n"), "a1\nb1\nc\na\nb2\nc2\n");
+    // Line by line: beside it what only one of them changed.
+    EXPECT_EQ(with_both("a\nb\nc\n", "a1\nb1\nc\n", "a\nb2\nc2\n"), "a1\nb1\nb2\nc2\n");
+    // Two lines that one deleted and the other changed.
+    EXPECT_EQ(with_both("a\nb\nc\nd\n", "a\nd\n", "a\nb2\nc2\nd\n"), "a\nb2\nc2\nd\n");
     EXPECT_EQ(with_both("a\nb\nc\n", "a1\nb\nc1\n", "a\nb\nc2\n"), "a1\nb\nc1\nc2\n");
     // A last line that does not end.
     EXPECT_EQ(with_both("a", "mine", "theirs"), "mine\ntheirs");

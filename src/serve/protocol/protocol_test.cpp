@@ -52,7 +52,7 @@ TEST(Protocol, EachMistakeIsNamedWithItsPlace) {
     EXPECT_THAT(refused(R"({"id":1,"do":"event.send","in":{"name":"x","args":[0,40000]}})"),
                 HasSubstr("in.args[1]: 40000 is out of range"));
     EXPECT_THAT(refused(R"({"id":1,"do":"doc.keep","in":{"doc":"a","which":"yours"}})"),
-                HasSubstr("expected mine and disk"));
+                HasSubstr("expected mine, disk and both"));
     EXPECT_THAT(refused(R"({"id":1,"do":"doc.open","in":{"doc":"a\u0000b"}})"),
                 HasSubstr("a control character"));
 }

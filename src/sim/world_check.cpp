@@ -233,10 +233,6 @@ Found check_object(const ObjectDefinition& object, const std::string& element,
     return std::nullopt;
 }
 
-std::string numbered(const char* list, size_t i) {
-    return std::string(list) + "[" + std::to_string(i) + "]";
-}
-
 void check_objects(const WorldDefinition& world, Problems& problems) {
     problems.add(check_count("objects", world.objects.size(), kObjectsMax));
     std::set<std::string> ids;
@@ -329,6 +325,10 @@ void check_timeline(const WorldDefinition& world, Problems& problems) {
 }
 
 }  // namespace
+
+std::string numbered(std::string_view list, size_t index) {
+    return std::string(list) + "[" + std::to_string(index) + "]";
+}
 
 std::optional<Problem> find_problem(const ObjectDefinition& object, const std::string& element) {
     if (auto found = check_point(element + ".at", object.at, -kWorldSizeMax, 2 * kWorldSizeMax))

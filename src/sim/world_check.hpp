@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/definitions.hpp"
@@ -11,6 +12,9 @@ namespace vagus::sim {
 
 constexpr size_t kHintsMax = 10;
 constexpr size_t kProblemsMax = 1000;
+
+// "objects[3]"
+std::string numbered(std::string_view list, size_t index);
 
 // What is wrong, and with which element: "objects[3].mass", for a sentence or to look its place up.
 struct Problem {

@@ -13,10 +13,6 @@
 namespace vagus::sim {
 namespace {
 
-std::string numbered(std::string_view list, size_t index) {
-    return std::string(list) + "[" + std::to_string(index) + "]";
-}
-
 // ---- Values that JsonObject does not know. Each leaves its complaint and gives a harmless value.
 // ----
 

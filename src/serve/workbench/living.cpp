@@ -135,9 +135,7 @@ void Workbench::perform(const life::LetNodesGo& go) {
     go.all ? robot_.run_all(went) : robot_.run_standing(went);
 }
 
-// From here on the events of a bus have the clock of the plan, in the list as in its story.
 void Workbench::perform(const life::BeginRun&) {
-    if (bus_) bus_since_ = now_;
     robot_.end_rest();
     run_.begin();
 }
@@ -166,7 +164,9 @@ void Workbench::perform(const life::PauseNodes& pause) {
     });
 }
 
+// From here on the events of a bus have the clock of the plan, in the list as in its story.
 void Workbench::perform(const life::CountStart&) {
+    if (bus_) bus_since_ = now_;
     ++runs_;
 }
 

@@ -12,8 +12,8 @@ constexpr int kThinThing = 2;  // samples of the 8 in a quadrant that make it so
 constexpr double kEdgeContrast = 60;  // below this a cell counts as plain, and dots may stand on it
 
 // The block for each set of quadrants, bit 0 the upper left.
-constexpr std::array<char32_t, 16> kBlocks = {U' ', U'▘', U'▝', U'▀', U'▖', U'▌', U'▞', U'▛',
-                                              U'▗', U'▚', U'▐', U'▜', U'▄', U'▙', U'▟', U'█'};
+constexpr std::array<char32_t, 16> kQuarterBlocks = {
+    U' ', U'▘', U'▝', U'▀', U'▖', U'▌', U'▞', U'▛', U'▗', U'▚', U'▐', U'▜', U'▄', U'▙', U'▟', U'█'};
 
 struct Mix {
     double r = 0;
@@ -109,7 +109,7 @@ Cell coloured_block(const Quarters& quarters) {
     if (empty == 15u) return {};
     if (empty != 0) {
         const unsigned set = 15u & ~empty;
-        return {kBlocks[set], {sum(quarters, set).colour(), std::nullopt, false}};
+        return {kQuarterBlocks[set], {sum(quarters, set).colour(), std::nullopt, false}};
     }
     unsigned best = 0;
     for (unsigned set = 1; set < 8; set++) {
@@ -121,7 +121,7 @@ Cell coloured_block(const Quarters& quarters) {
         return {U' ', {std::nullopt, sum(quarters, 15u).colour(), false}};
     }
     if (things_in(quarters, best) < things_in(quarters, 15u & ~best)) best = 15u & ~best;
-    return {kBlocks[best],
+    return {kQuarterBlocks[best],
             {sum(quarters, best).colour(), sum(quarters, 15u & ~best).colour(), false}};
 }
 
@@ -132,7 +132,7 @@ Cell plain_block(const Quarters& quarters) {
         if (quarters.things[i] >= kThinThing) set |= 1u << i;
     }
     if (set == 0 && quarters.marks * 2 > quarters.seen) return {U'░', {}};
-    return {kBlocks[set], {}};
+    return {kQuarterBlocks[set], {}};
 }
 
 Cell letter(const Quarters& quarters, bool coloured) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kFindingsTold = 2000;  // as the protocol has it
 
-const char* word_of(DeployOutcome::Result result) {
+const char* word_of_result(DeployOutcome::Result result) {
     switch (result) {
         case DeployOutcome::Result::Started:
             return "started";
@@ -32,7 +32,7 @@ Json json_of(const DeployOutcome& outcome) {
     for (const Finding& finding : outcome.findings) {
         if (findings.size() < kFindingsTold) findings.push_back(serve::json_of(finding));
     }
-    Json json = {{"result", word_of(outcome.result)},
+    Json json = {{"result", word_of_result(outcome.result)},
                  {"version", outcome.version},
                  {"findings", std::move(findings)}};
     if (!outcome.why.empty()) json["why"] = outcome.why;

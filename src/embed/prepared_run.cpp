@@ -334,10 +334,10 @@ Result<run::Ended> PreparedRun::Insides::run_beside_world() {
 
 // Real nodes may have joined the bus of the world. In virtual time nobody can.
 void PreparedRun::Insides::stop_guests(const run::Ended& ended) {
-    using How = session::Stopping::How;
     const bool well = ended.result != plan::PlanResult::Error && ended_by().empty();
+    const auto ending = well ? session::Stopping::How::Rest : session::Stopping::How::Stop;
     session::SimSession& session = world->session();
-    if (listening.empty() || !session.stop_guests(well ? How::Rest : How::Stop)) return;
+    if (listening.empty() || !session.stop_guests(ending)) return;
     const Time latest = hosts->now() + kRestWithin;
     while (!session.guests_rest() && hosts->now() < latest) {
         (void)hosts->poll(hosts->now() + sim::kNodeStep);

@@ -23,11 +23,17 @@ const kPlan = JSON.stringify({
   layout: { one: [80, 96], two: [480, 240] },
 });
 
+const kRoom = JSON.stringify({ format: 'vagus-world/1', size: [2, 2] });
+
 test(
   'events are dashed; a chosen arrow and the one just taken show their names at any zoom',
   {
     prepare: (/** @type {TestContext} */ t) =>
-      makeProject(t, { name: 'A', plan: 'P.plan.json' }, { 'P.plan.json': kPlan }),
+      makeProject(
+        t,
+        { name: 'A', plan: 'P.plan.json', world: 'room.world.json', target: 'sim' },
+        { 'P.plan.json': kPlan, 'room.world.json': kRoom },
+      ),
   },
   async ({ page, layout, press }) => {
     await layout('Draw');

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { makeProject, twoNodes } from './support/robots.mjs';
 import { startProgram, vagusProgram } from './support/server.mjs';
 import { hands, openWindow, seen, test, until } from './support/studio.mjs';
-/** @import { Studio, TestContext } from './support/studio.mjs' */
+/** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 const scripts = { left: 'var left = 0\n', right: 'var right = 0\n' };
 const two = { prepare: (/** @type {TestContext} */ t) => twoNodes(t, scripts, {}) };
@@ -167,10 +167,12 @@ test('a tab that was duplicated stays connected beside the other', two, async (s
   // What a page opens begins with its session storage, as a duplicated tab does.
   const opened = context.waitForEvent('page');
   await page.evaluate(() => void window.open(location.href));
-  const twin = { page: await opened, server, ...hands(await opened) };
+  const twin = /** @type {Studio} */ ({ page: await opened, server, ...hands(await opened) });
   await says(twin, 'left', '# first');
-  const name = (one) => one.page.evaluate(() => sessionStorage.getItem('vagus.client'));
+  const name = (/** @type {{ page: Page }} */ one) =>
+    one.page.evaluate(() => sessionStorage.getItem('vagus.client'));
   await until('it has a name of its own', async () => (await name(twin)) !== (await name(studio)));
+  /** @type {string[]} */
   const connections = [];
   for (const one of [page, twin.page])
     one.on('websocket', (socket) => connections.push(socket.url()));

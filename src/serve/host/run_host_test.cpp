@@ -203,7 +203,7 @@ TEST_F(RunHostTest, AServerThatSpeaksNonsenseIsLeft) {
     wait_end();
     EXPECT_EQ(leave(), kExitNonsense);
     EXPECT_EQ(ended.why,
-              "the studio sent a message: expected one of the numbers 1 to 20, found 74; this run "
+              "the studio sent a message: expected one of the numbers 1 to 21, found 74; this run "
               "is ended");
 }
 

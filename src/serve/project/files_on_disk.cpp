@@ -21,6 +21,24 @@ Error conflict_of(const std::string& path) {
                 "keep one of them, then save"};
 }
 
+// Line by line. The first line of a script stands behind the tag of its node, in one line of the
+// file: so scripts are put together by themselves, then what stands around them.
+std::string both_texts(const std::string& path, std::string_view saved, std::string_view mine,
+                       std::string_view disk) {
+    OpenText base(path, saved, 1);
+    OpenText my(path, mine, 1);
+    OpenText its(path, disk, 1);
+    const size_t scripts = base.scripts();
+    if (my.scripts() != scripts || its.scripts() != scripts) return with_both(saved, mine, disk);
+    for (int part = 1; part <= static_cast<int>(scripts); ++part) {
+        const std::string both = with_both(base.text(part), my.text(part), its.text(part));
+        for (OpenText* one : {&base, &my, &its}) {
+            if (!one->replace(part, both, "").ok()) return with_both(saved, mine, disk);
+        }
+    }
+    return with_both(base.bytes(), my.bytes(), its.bytes());
+}
+
 }  // namespace
 
 Status Files::save(const std::string& doc) {
@@ -125,7 +143,8 @@ Status Files::keep_both(const std::string& doc, const std::string& by) {
     if (!file->conflict->why_no_text.empty()) {
         return Error{Code::BadInput, place.path + ": " + file->conflict->why_no_text};
     }
-    const std::string both = with_both(file->saved, file->text.bytes(), file->conflict->bytes);
+    const std::string both =
+        both_texts(place.path, file->saved, file->text.bytes(), file->conflict->bytes);
     if (both.size() > kTextBytesMax) {
         return Error{Code::Limit, place.path +
                                       ": both together are too long to be edited; compare "

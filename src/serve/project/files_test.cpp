@@ -154,6 +154,23 @@ TEST_F(FilesTest, BothCanBeKeptAndSaved) {
     EXPECT_EQ(on_disk("note.txt"), "mine\ntheirs\n");
 }
 
+TEST_F(FilesTest, BothLinesOfAScriptAreKeptWithoutTheTagBeforeThem) {
+    const auto file = [](const std::string& left) {
+        return "<network>\n<node nodeId=\"1\" name=\"left\">" + left +
+               "</node>\n<node nodeId=\"2\" name=\"right\">var r\n</node>\n</network>\n";
+    };
+    write("two.aesl", file("var a = 0"));
+    Files files(root);
+    ASSERT_EQ(files.open("two.aesl#1").value().text, "var a = 0");
+    edit(files, "two.aesl#1", {{8, 9, "1"}});
+    write("two.aesl", file("var a = 2"));
+    EXPECT_FALSE(files.save("two.aesl").ok());
+    EXPECT_TRUE(files.keep_both("two.aesl#1", "me").ok());
+    EXPECT_EQ(files.open("two.aesl#1").value().text, "var a = 1\nvar a = 2");
+    ASSERT_TRUE(files.save("two.aesl").ok());
+    EXPECT_EQ(on_disk("two.aesl"), file("var a = 1\nvar a = 2"));
+}
+
 TEST_F(FilesTest, AChangeOnDiskIsTakenOverByACleanTextAndShownBesideAnUnsavedOne) {
     Files files(root);
     ASSERT_TRUE(files.open("note.txt").ok());

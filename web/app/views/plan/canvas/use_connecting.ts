@@ -83,7 +83,9 @@ export function useConnecting(board: PlanBoard, drives: boolean) {
         };
         // After a tap the browser plays a mouse, which would take the focus from the list.
         if (event.pointerType === 'touch')
-          port.addEventListener('touchend', (one) => one.preventDefault(), { once: true });
+          port.addEventListener('touchend', (one) => one.cancelable && one.preventDefault(), {
+            once: true,
+          });
         window.addEventListener('pointermove', move, { signal });
         window.addEventListener('pointerup', up, { signal });
         window.addEventListener('pointercancel', stop, { signal });

@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "isa/operate.hpp"
+
 namespace vagus::aesl {
 namespace {
 
@@ -9,54 +11,6 @@ using isa::BinaryOperator;
 using isa::UnaryOperator;
 
 constexpr int32_t kInt16Min = -32768;
-
-// 32-bit two's complement without the undefined behaviour of signed overflow.
-int32_t wrap(int64_t value) {
-    return static_cast<int32_t>(static_cast<uint32_t>(value));
-}
-
-int32_t calculate(BinaryOperator op, int32_t a, int32_t b) {
-    const uint32_t count = static_cast<uint32_t>(b) & 31u;
-    switch (op) {
-        case BinaryOperator::ShiftLeft:
-            return static_cast<int32_t>(static_cast<uint32_t>(a) << count);
-        case BinaryOperator::ShiftRight:
-            return a >> count;
-        case BinaryOperator::Add:
-            return wrap(int64_t{a} + b);
-        case BinaryOperator::Subtract:
-            return wrap(int64_t{a} - b);
-        case BinaryOperator::Multiply:
-            return wrap(int64_t{a} * b);
-        case BinaryOperator::Divide:
-            return wrap(int64_t{a} / b);
-        case BinaryOperator::Modulo:
-            return wrap(int64_t{a} % b);
-        case BinaryOperator::BitOr:
-            return a | b;
-        case BinaryOperator::BitXor:
-            return a ^ b;
-        case BinaryOperator::BitAnd:
-            return a & b;
-        case BinaryOperator::Equal:
-            return a == b;
-        case BinaryOperator::NotEqual:
-            return a != b;
-        case BinaryOperator::Bigger:
-            return a > b;
-        case BinaryOperator::BiggerEqual:
-            return a >= b;
-        case BinaryOperator::Smaller:
-            return a < b;
-        case BinaryOperator::SmallerEqual:
-            return a <= b;
-        case BinaryOperator::Or:
-            return a != 0 || b != 0;
-        case BinaryOperator::And:
-            return a != 0 && b != 0;
-    }
-    return 0;
-}
 
 BinaryOperator opposite_of(BinaryOperator op) {
     switch (op) {
@@ -128,10 +82,6 @@ bool is_neutral_left(BinaryOperator op, int32_t operand) {
     return is_symmetric && is_neutral_right(op, operand);
 }
 
-bool is_division(BinaryOperator op) {
-    return op == BinaryOperator::Divide || op == BinaryOperator::Modulo;
-}
-
 bool is_power_of_two(int32_t value) {
     return value > 1 && std::has_single_bit(static_cast<uint32_t>(value));
 }
@@ -178,16 +128,8 @@ ScalarId Folder::unary(UnaryOperator op, ScalarId operand, OperatorPlace at) {
                     .left = operand});
     }
     const int32_t value = scalars_[operand].value;
-    switch (op) {
-        case UnaryOperator::Negate:
-            return number(wrap(-int64_t{value}), at.line);
-        case UnaryOperator::BitNot:
-            return number(~value, at.line);
-        case UnaryOperator::Abs:
-            break;
-    }
-    if (value == kInt16Min) return fail(Diag::AbsOfMinimum, at.token);
-    return number(value < 0 ? wrap(-int64_t{value}) : value, at.line);
+    if (op == UnaryOperator::Abs && value == kInt16Min) return fail(Diag::AbsOfMinimum, at.token);
+    return number(isa::operate(op, value), at.line);
 }
 
 ScalarId Folder::binary(BinaryOperator op, ScalarId left, ScalarId right, OperatorPlace at) {
@@ -204,8 +146,8 @@ ScalarId Folder::binary(BinaryOperator op, ScalarId left, ScalarId right, Operat
 // Both operands are numbers (rules 1 to 3).
 ScalarId Folder::compute(BinaryOperator op, const Scalar& left, const Scalar& right,
                          OperatorPlace at) {
-    if (is_division(op) && right.value == 0) return fail(Diag::DivisionByZero, at.token);
-    return number(calculate(op, left.value, right.value), at.line);
+    if (isa::divides(op) && right.value == 0) return fail(Diag::DivisionByZero, at.token);
+    return number(isa::operate(op, left.value, right.value), at.line);
 }
 
 // One operand is a number at most: rules 5 and 6.

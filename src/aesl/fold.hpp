@@ -3,8 +3,8 @@
 // rules for constant expressions.
 //
 //     Folder folder;
-//     const ScalarId sum = folder.binary(op_add, folder.number(2, 1), folder.number(3, 1), token);
-//     folder[sum]  →  the Number 5
+//     const ScalarId a = folder.number(2, 1), b = folder.number(3, 1);
+//     use(folder[folder.binary(isa::BinaryOperator::Add, a, b, at)]);  // the Number 5
 #pragma once
 
 #include <cstdint>

@@ -3,12 +3,12 @@
 // by this class, or by the machine, which says so by Notice::Reset.
 //
 //     Bytecode bytecode(1500);
-//     const vm::Config config = {.bytecode = bytecode.memory(), …};
+//     vm::Config config = …;
+//     config.bytecode = bytecode.memory();
 //
-//     void notify(vm::Vm&, vm::Notice notice) { bytecode.notice(notice); }  // of the vm::Host
-//
-//     vm::receive(vm, …);         // SetBytecode among others
-//     run(vm, bytecode, 1000);    // run.hpp; decodes anew if there is something new
+//     bytecode.notice(notice);              // in notify() of the vm::Host
+//     vm::receive(vm, type, words, count);  // SetBytecode among others
+//     run(vm, bytecode, 1000);              // run.hpp; decodes again if there is something new
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "fastvm/operate.hpp"
+#include "isa/operate.hpp"
 
 namespace vagus::fastvm {
 
@@ -48,8 +48,8 @@ void calculate(const Cell* cell, int16_t* top, int16_t* variables, int left, Con
     constexpr int kPops = pops_of(left_from) + pops_of(right_from);
     const int16_t b = value<right_from>(cell->b, top, variables);
     const int16_t a = value<left_from>(cell->a, top - pops_of(right_from), variables);
-    if (divides(op) && b == 0) return leave_paid(cell, top, left, context);
-    const int16_t result = operate<op>(a, b);
+    if (isa::divides(op) && b == 0) return leave_paid(cell, top, left, context);
+    const auto result = static_cast<int16_t>(isa::operate(op, a, b));
     if constexpr (to == To::Branch) {
         return branch<kOperands + 2>(cell, top - kPops, variables, left, context, result);
     } else if constexpr (to == To::Variable) {
@@ -63,7 +63,7 @@ void calculate(const Cell* cell, int16_t* top, int16_t* variables, int left, Con
 
 template <UnaryOperator op>
 void change(const Cell* cell, int16_t* top, int16_t* variables, int left, Context& context) {
-    top[-1] = operate<op>(top[-1]);
+    top[-1] = static_cast<int16_t>(isa::operate(op, top[-1]));
     return go(cell + 1, top, variables, left, context);
 }
 

@@ -1,5 +1,5 @@
 // What is known of an expression before the program runs (aesl-language.md, section 3.6), asked
-// anew each time and answered from the tree alone. For tests only.
+// again each time and answered from the tree alone. For tests only.
 #pragma once
 
 #include <cstdint>

@@ -20,36 +20,36 @@ bool is_zero(const Words& words) {
 }
 
 // The golden files are ours: what does not fit counts as absent and fails the comparison.
-int64_t integer_in(const Json& json, std::string_view key) {
-    const Json* value = json.find(key);
+int64_t integer_in(const JsonValue& json, std::string_view key) {
+    const JsonValue* value = json.find(key);
     return value == nullptr ? 0 : value->integer;
 }
 
-std::string text_in(const Json& json, std::string_view key) {
-    const Json* value = json.find(key);
+std::string text_in(const JsonValue& json, std::string_view key) {
+    const JsonValue* value = json.find(key);
     return value == nullptr ? "" : value->text;
 }
 
-Words words_of(const Json& json) {
+Words words_of(const JsonValue& json) {
     Words words;
-    for (const Json& item : json.items) words.push_back(static_cast<int16_t>(item.integer));
+    for (const JsonValue& item : json.items) words.push_back(static_cast<int16_t>(item.integer));
     return words;
 }
 
-std::map<std::string, Words> words_by_name(const Json* json) {
+std::map<std::string, Words> words_by_name(const JsonValue* json) {
     std::map<std::string, Words> named;
     if (json == nullptr) return named;
     for (const JsonMember& member : json->members) named[member.key] = words_of(member.value);
     return named;
 }
 
-Emission emission_of(const Json& json) {
+Emission emission_of(const JsonValue& json) {
     Emission emission{static_cast<size_t>(integer_in(json, "during")), text_in(json, "event"), {}};
-    if (const Json* arguments = json.find("args")) emission.arguments = words_of(*arguments);
+    if (const JsonValue* arguments = json.find("args")) emission.arguments = words_of(*arguments);
     return emission;
 }
 
-Fault fault_of(const Json& json) {
+Fault fault_of(const JsonValue& json) {
     const auto* kind = std::find(kFaultNames.begin(), kFaultNames.end(), text_in(json, "kind"));
     return {static_cast<FaultKind>(kind - kFaultNames.begin()),
             static_cast<size_t>(integer_in(json, "during")),
@@ -82,18 +82,20 @@ std::string without_guess(std::string_view code) {
 }
 
 Result<Golden> parse_golden(std::string source, std::string_view expected, std::string_view file) {
-    const Json json = TRY(parse_json(expected, file));
+    const JsonValue json = TRY(parse_json(expected, file));
     Golden golden{{std::move(source), {}}, {}};
-    if (const Json* error = json.find("error")) {
+    if (const JsonValue* error = json.find("error")) {
         golden.outcome.error = CompileError{without_guess(text_in(*error, "code")),
                                             static_cast<int>(integer_in(*error, "line"))};
         return golden;
     }
     golden.program.stimuli = TRY(parse_stimuli(expected, file));
     golden.outcome.memory = words_by_name(json.find("memory"));
-    if (const Json* emitted = json.find("events_emitted"))
-        for (const Json& item : emitted->items) golden.outcome.emitted.push_back(emission_of(item));
-    if (const Json* fault = json.find("runtime_error")) golden.outcome.fault = fault_of(*fault);
+    if (const JsonValue* emitted = json.find("events_emitted"))
+        for (const JsonValue& item : emitted->items)
+            golden.outcome.emitted.push_back(emission_of(item));
+    if (const JsonValue* fault = json.find("runtime_error"))
+        golden.outcome.fault = fault_of(*fault);
     return golden;
 }
 

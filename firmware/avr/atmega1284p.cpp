@@ -132,7 +132,7 @@ uint16_t first_id() {
     return eeprom_read_word(reinterpret_cast<const uint16_t*>(kIdOfMaker));
 }
 
-// To where power-on leads: begin() sets up anew all that it needs.
+// To where power-on leads: begin() sets up again all that it needs.
 void restart() {
     cli();
     asm volatile("jmp 0");

@@ -88,7 +88,7 @@ void begin_uart() {
     register_at(kStartSending) = 1;
 }
 
-// 16 MHz / 2^4 is a tick each microsecond; the timer begins anew at 1,000.
+// 16 MHz / 2^4 is a tick each microsecond; the timer begins again at 1,000.
 void begin_clock() {
     register_at(kTimerPrescaler) = 4;
     register_at(kTimerCompare) = 1000;

@@ -21,7 +21,7 @@ void board_begin() {
     place(kReload) = kMost;
     place(kControl) = 5;
 }
-// Counts down, and begins anew: differences of less than 650,000 instructions are right.
+// Counts down, and begins again: differences of less than 650,000 instructions are right.
 uint32_t board_now() {
     static uint32_t last = kMost, ticks = 0;
     const uint32_t now = place(kCurrent);

@@ -1,10 +1,13 @@
 #include "chip.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 extern "C" {
 #include <simavr/avr_eeprom.h>
+#include <simavr/avr_extint.h>
 #include <simavr/avr_ioport.h>
+#include <simavr/avr_timer.h>
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
@@ -25,6 +28,28 @@ constexpr uint16_t kJumpToItself = 0xcfff;
 
 avr_eeprom_desc_t whole(Eeprom& eeprom) {
     return {eeprom.data(), 0, static_cast<uint32_t>(eeprom.size())};
+}
+
+// simavr does not know the phase-correct mode of the timers of eight bits, and counts to 0 in it:
+// an event at each tick of timer 2, which drives the motors.
+void teach_phase_correct_pwm(avr_t* avr) {
+    for (avr_io_t* io = avr->io_port; io != nullptr; io = io->next) {
+        if (std::strcmp(io->kind, "timer") != 0) continue;
+        auto* const timer = reinterpret_cast<avr_timer_t*>(io);
+        avr_timer_wgm_t& mode = timer->wgm_op[1];
+        if (mode.kind == avr_timer_wgm_none) {
+            mode = {.top = 0, .bottom = 0, .size = 8, .kind = avr_timer_wgm_fc_pwm};
+        }
+    }
+}
+
+// simavr asks in each cycle whether a pin that could interrupt is low still: a lamp that is off is
+// such a pin, and no board here has interrupts of pins.
+void ignore_low_pins(avr_t* avr) {
+    constexpr uint8_t kPinsThatInterrupt = 3;
+    for (uint8_t pin = 0; pin < kPinsThatInterrupt; ++pin) {
+        avr_extint_set_strict_lvl_trig(avr, pin, 0);
+    }
 }
 
 }  // namespace
@@ -57,6 +82,9 @@ void Chip::load(const std::string& image) {
     avr_load_firmware(avr_, &firmware);
     avr_->sleep = [](avr_t*, avr_cycle_count_t) {};  // the caller keeps the pace
     avr_->log = LOG_ERROR;
+    // Without these an idle chip costs as much as a busy one.
+    teach_phase_correct_pwm(avr_);
+    ignore_low_pins(avr_);
 }
 
 void Chip::join_serial_line() {
@@ -94,6 +122,7 @@ void Chip::receive(uint8_t byte) {
 void Chip::run_until(uint64_t cycle) {
     while (avr_->cycle < cycle) {
         const int state = avr_run(avr_);
+        ++turns_;
         deepest_ = std::min(deepest_, stack_pointer());
         if (state == cpu_Done || state == cpu_Crashed) {
             throw ChipError("the program crashed, or slept with interrupts off");

@@ -58,6 +58,8 @@ public:
     int deepest_stack() const;
 
     // ---- for tests ----
+    // How often simavr was asked to go on, by an instruction or over a time of sleep.
+    uint64_t turns() const { return turns_; }
     // One instruction.
     void step();
     // The address of the byte of RAM that the next instruction loads; 0 if it loads none.
@@ -81,6 +83,7 @@ private:
     avr_t* avr_ = nullptr;  // of simavr, which frees it with the process
     avr_irq_t* input_ = nullptr;
     bool takes_bytes_ = true;
+    uint64_t turns_ = 0;
     int deepest_;
 };
 

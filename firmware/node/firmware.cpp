@@ -61,7 +61,7 @@ void end(node::Node& node) {
     board::start_sending();
 }
 
-// Who writes another number into `_id` and saves, names the node anew from its next start on.
+// Another number that is written into `_id` and saved renames the node at its next start.
 void save(Firmware& firmware) {
     const uint16_t wanted = static_cast<uint16_t>(variable(kIdAt));
     begin_save(firmware.store, is_id(wanted) ? wanted : firmware.node.vm.id,

@@ -64,7 +64,7 @@ void patch(const Wire& in) {
     if (!steps.ok()) return;
     for (const char* language : {"plan", "json"}) {
         const auto done = serve::patched(kJson, {language, "f.json"}, steps.value());
-        if (done.ok() && !std::holds_alternative<Json>(read_json(done.value()))) std::abort();
+        if (done.ok() && !std::holds_alternative<JsonValue>(read_json(done.value()))) std::abort();
         if (!done.ok() && done.error().what.empty()) std::abort();
     }
 }

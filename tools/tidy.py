@@ -33,7 +33,7 @@ MAY_INCLUDE = {
     "serve": ["embed", "session"] + BELOW_SESSION,
     "cli": ["conformance", "serve", "embed", "session"] + BELOW_SESSION,
 }
-# Inside a module, too, an arrow points down: a file may include what stands in its own room or in one before it. Rooms
+# Inside a module, too, an arrow points down: a file may include what is in its own room or in one before it. Rooms
 # from the ground up; a name is that of a file without its ending, a name with / at its end that of a folder. Tests may
 # include everything.
 ROOMS = {
@@ -72,17 +72,17 @@ ROOMS = {
         ("files", "project/"),
         ("scripts", "script/"),
         ("editing", "edit/"),
-        ("robot", "robot/"),
+        ("target", "target/"),
         ("what a run tells", "follow/ talk/"),
-        ("a run", "host/ history/ run/"),
+        ("a run", "runner/ history/ run/"),
         ("the life of a run", "life/"),
         ("the whole", "workbench/"),
         ("on a robot", "field/"),
     ],
 }
 
-# Folders of one room that know nothing of each other: what they share stands in a room below.
-APART = {"serve": ["host/ history/ run/"]}
+# Folders of one room that know nothing of each other: what they share is in a room below.
+APART = {"serve": ["runner/ history/ run/"]}
 
 # Modules that compile for a microcontroller: these headers and no others.
 FREESTANDING = ["isa", "vm", "wire", "node"]
@@ -103,7 +103,7 @@ ONE_DOOR = [
     (re.compile(r"^iostream$"), ("src/cli/",), "libraries give values; only cli prints"),
 ]
 CLOCKS = re.compile(r"\b(steady_clock|system_clock|high_resolution_clock|gettimeofday|clock_gettime)\b")
-MAY_TELL_TIME = ("src/net/", "src/cli/", "src/run/real_time_parts.hpp", "src/serve/host/run_host.cpp", "src/serve/workbench/door.cpp")
+MAY_TELL_TIME = ("src/net/", "src/cli/", "src/run/real_time_parts.hpp", "src/serve/runner/runner.cpp", "src/serve/workbench/door.cpp")
 
 LINES_MAX = 600
 COLUMNS_MAX = 100
@@ -298,8 +298,8 @@ EXAMPLES = [  # path, text, what must be said of it
     ("src/aesl/scan.cpp", '#include "aesl/parse.hpp"\n', "an arrow upwards inside aesl"),
     ("src/aesl/nowhere.cpp", '#include "aesl/scan.hpp"\n', "no room of aesl"),
     ("src/sim/arena.cpp", '#include "sim/world.hpp"\n', "an arrow upwards inside sim"),
-    ("src/serve/host/a.cpp", '#include "serve/history/tape.hpp"\n', "serve/host/ may not include serve/history/"),
-    ("src/serve/talk/a.cpp", '#include "serve/host/hand.hpp"\n', "an arrow upwards inside serve"),
+    ("src/serve/runner/a.cpp", '#include "serve/history/tape.hpp"\n', "serve/runner/ may not include serve/history/"),
+    ("src/serve/talk/a.cpp", '#include "serve/runner/hand.hpp"\n', "an arrow upwards inside serve"),
     ("src/hub/a.hpp", "    std::string\n        name;  // a comment\n", "split by its comment"),
     ("src/hub/a.hpp", "//     first(a); Vm vm; init(vm);\n", "lost its line ends"),
     ("src/hub/a.hpp", "// A header.\n", "#pragma once"),

@@ -1,5 +1,5 @@
 // JSON as pages get and send it: in this module `Json` is the library's value. The one with places,
-// which reads files that people write, is vagus::Json (base/json.hpp).
+// which reads files that people write, is JsonValue (base/json.hpp).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

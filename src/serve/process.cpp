@@ -219,7 +219,7 @@ std::optional<ChildEnd> Child::ended() {
     if (end_ || process_ < 0) return end_;
     int status = 0;
     const pid_t found = waitpid(process_, &status, WNOHANG);
-    // Whoever started this program ignores SIGCHLD, and so do we: then the system keeps no end.
+    // Our parent ignores SIGCHLD, and so do we: then the system keeps no end.
     const bool unseen = found < 0 && errno == ECHILD;
     if (found != process_ && !unseen) return std::nullopt;
     process_ = -1;

@@ -114,7 +114,7 @@ TEST(Child, HasNothingOpenButItsDescriptor) {
     ::close(kOpen);
 }
 
-// Whoever starts the studio may ignore SIGCHLD: the system then keeps no end, and one that is never
+// The parent of the studio may ignore SIGCHLD: the system then keeps no end, and one that is never
 // told would be waited for.
 TEST(Child, AnEndThatTheSystemDoesNotKeepIsToldAllTheSame) {
     const auto before = signal(SIGCHLD, SIG_IGN);

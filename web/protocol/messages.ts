@@ -1228,7 +1228,7 @@ export interface Commands {
   }; out: Record<never, never> };
   /** The simulation as at its start, time 0. */
   'run.reset': { in: Record<never, never>; out: Record<never, never> };
-  /** Ends a run host that hangs. */
+  /** Ends a runner that hangs. */
   'run.end': { in: Record<never, never>; out: Record<never, never> };
   /** Speed of a simulation against the wall clock; 0: as fast as it goes. */
   'clock.speed': { in: {

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/output.hpp"
-#include "serve/host/run_host.hpp"
+#include "serve/runner/runner.hpp"
 
 namespace vagus::cli {
 
@@ -12,7 +12,7 @@ void add_run_host(CLI::App& app, int& exit_code) {
     verb->group("");
     verb->footer("Example:\n  vagus run-host 3<>socket");
     verb->callback([&exit_code] {
-        const serve::HostEnd end = serve::run_host(serve::Pipe(serve::kTalkDescriptor));
+        const serve::RunnerEnd end = serve::run_runner(serve::Pipe(serve::kTalkDescriptor));
         exit_code = end.why.empty() ? end.status : complain(end.why, end.status);
     });
 }

@@ -28,7 +28,7 @@ std::string made_for(uint32_t member);
 
 // "a/b" of "a/b/vagus.json"; empty for a file in the root.
 std::string folder_of_path(const std::string& path);
-// A path that stands in a file, as a document; it may lead out ("../x").
+// A path that is in a file, as a document; it may lead out ("../x").
 std::string path_from(const std::string& file, const std::string& named);
 // The way back: how `file` names that document.
 std::string name_from(const std::string& file, const std::string& path);

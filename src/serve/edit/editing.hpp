@@ -3,7 +3,7 @@
 // project is open and when time passes.
 //
 //     Editing editing(desk, files, scripts, epoch);
-//     editing.on_text_changed([&](const std::string& path) { breakpoints.follow(path); });
+//     editing.on_text_changed([&](const std::string& path) { target.script_changed(path); });
 //     files.enter(folder);
 //     editing.set_project({.plan = "WallFollow.plan.json", .project_file = "vagus.json"});
 //     editing.tick(now);

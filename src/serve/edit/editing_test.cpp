@@ -316,7 +316,7 @@ TEST_F(EditTest, WhatNamesAFileFollowsItsRenaming) {
     EXPECT_EQ(folder["followed"], Json({"vagus.json"}));
     EXPECT_THAT(on_disk("vagus.json"), HasSubstr("\"plan\":\"all/plans/P.plan.json\""));
     EXPECT_THAT(on_disk("all/plans/P.plan.json"), HasSubstr("\"sub/Q.plan.json\""));
-    // A file that moves names others anew; one with unsaved changes is not saved behind one's back.
+    // A moved file gets new relative paths; one with unsaved changes is not saved by that.
     edit("all/plans/P.plan.json", 1, 1, " ");
     const Json plan =
         ask("file.rename", {{"path", "all/plans/P.plan.json"}, {"to", "P.plan.json"}});

@@ -20,13 +20,13 @@ Path below(Path path, JsonStep::Key key) {
     return path;
 }
 
-const std::vector<JsonMember>& members_of(const vagus::Json& json, std::string_view key) {
+const std::vector<JsonMember>& members_of(const JsonValue& json, std::string_view key) {
     static const std::vector<JsonMember> kNone;
-    const vagus::Json* found = json.find(key);
+    const JsonValue* found = json.find(key);
     return found && found->kind == JsonKind::Object ? found->members : kNone;
 }
 
-bool is_text(const vagus::Json* json, std::string_view text) {
+bool is_text(const JsonValue* json, std::string_view text) {
     return json && json->kind == JsonKind::String && json->text == text;
 }
 
@@ -34,15 +34,15 @@ class Renaming {
 public:
     explicit Renaming(const EventName& name) : name_(name) {}
 
-    void plan(const vagus::Json& json) {
-        if (const vagus::Json* start = json.find("start")) supervisors(*start, {"start"});
+    void plan(const JsonValue& json) {
+        if (const JsonValue* start = json.find("start")) supervisors(*start, {"start"});
         for (const JsonMember& actor : members_of(json, "actors")) {
             const Path path = {"actors", actor.key};
             element(actor.value, path);
             supervisors(actor.value, path);
         }
     }
-    void toolbox(const vagus::Json& json) {
+    void toolbox(const JsonValue& json) {
         for (const JsonMember& one : members_of(json, "templates")) {
             const Path path = {"templates", one.key};
             for (const std::string_view key : kWorkEvents) {
@@ -58,15 +58,15 @@ public:
     std::vector<JsonStep> take() { return std::move(steps_); }
 
 private:
-    void supervisors(const vagus::Json& owner, const Path& path) {
+    void supervisors(const JsonValue& owner, const Path& path) {
         for (const JsonMember& one : members_of(owner, "supervisors")) {
             element(one.value, below(below(path, "supervisors"), one.key));
         }
     }
     // A formula: its text stands in quotes of either kind.
-    void element(const vagus::Json& json, const Path& path) {
-        const vagus::Json* of = json.find("template");
-        const vagus::Json* in = json.find("in");
+    void element(const JsonValue& json, const Path& path) {
+        const JsonValue* of = json.find("template");
+        const JsonValue* in = json.find("in");
         const bool bus = std::any_of(kBusTemplates.begin(), kBusTemplates.end(),
                                      [&](std::string_view one) { return is_text(of, one); });
         if (!bus || !in) return;
@@ -76,7 +76,7 @@ private:
             }
         }
     }
-    void name_at(const vagus::Json& json, const std::string& key, const Path& path) {
+    void name_at(const JsonValue& json, const std::string& key, const Path& path) {
         if (is_text(json.find(key), name_.from)) set(below(path, key), name_.to);
     }
     void set(Path path, const std::string& text) {
@@ -92,7 +92,7 @@ private:
 std::vector<JsonStep> renamed_event(std::string_view text, std::string_view kind,
                                     const EventName& name) {
     const auto read = read_json(text);
-    const vagus::Json* json = std::get_if<vagus::Json>(&read);
+    const JsonValue* json = std::get_if<JsonValue>(&read);
     if (!json) return {};
     Renaming renaming(name);
     if (kind == "plan") renaming.plan(*json);
@@ -102,8 +102,8 @@ std::vector<JsonStep> renamed_event(std::string_view text, std::string_view kind
 
 bool is_toolbox_of(const std::string& toolbox, std::string_view text, const std::string& script) {
     const auto read = read_json(text);
-    const vagus::Json* json = std::get_if<vagus::Json>(&read);
-    const vagus::Json* project = json ? json->find("project") : nullptr;
+    const JsonValue* json = std::get_if<JsonValue>(&read);
+    const JsonValue* project = json ? json->find("project") : nullptr;
     return project && project->kind == JsonKind::String &&
            path_from(toolbox, project->text) == script;
 }

@@ -104,7 +104,7 @@ Status FileDesk::give_to_robot(size_t robot, const std::string& path) {
     const auto world = text.ok() ? sim::read_world(text.value(), project_.world)
                                  : Result<sim::WorldDefinition>(text.error());
     if (!world.ok() || !world.value().robots[robot].script.empty()) return Status::done();
-    const vagus::Json name = json_string(name_from(project_.world, path));
+    const JsonValue name = json_string(name_from(project_.world, path));
     return follow({project_.world, {{JsonStep::Do::Set, {"robots", robot, "script"}, name}}},
                   "server");
 }
@@ -116,9 +116,9 @@ Status FileDesk::make_world(const std::string& path) {
     if (file.empty() || !project_.world.empty()) return Status::done();
     const auto text = files_.text(file);
     const auto json = read_json(text.ok() ? text.value() : "");
-    const auto* root = std::get_if<vagus::Json>(&json);
+    const auto* root = std::get_if<JsonValue>(&json);
     if (!root || root->kind != JsonKind::Object) return Status::done();  // its finding says so
-    const vagus::Json name = json_string(name_from(file, path));
+    const JsonValue name = json_string(name_from(file, path));
     return follow({file, {{JsonStep::Do::Set, {"world"}, name}}}, "server");
 }
 
@@ -146,11 +146,11 @@ Status FileDesk::list_in_project(const std::string& key, const std::string& path
     const auto text = files_.text(file);
     if (!text.ok()) return Status::done();
     const auto json = read_json(text.value());
-    const auto* root = std::get_if<vagus::Json>(&json);
+    const auto* root = std::get_if<JsonValue>(&json);
     if (!root) return Status::done();  // its finding says so
-    const vagus::Json* listed = root->find(key);
+    const JsonValue* listed = root->find(key);
     Follower follower{file, {}};
-    const vagus::Json value = json_string(name_from(file, path));
+    const JsonValue value = json_string(name_from(file, path));
     if (listed && listed->kind == JsonKind::Array) {
         follower.steps.push_back({JsonStep::Do::Insert, {key, listed->items.size()}, value});
     } else {
@@ -189,7 +189,7 @@ void FileDesk::rename(const Call& call) {
     call.done({{"followed", std::move(followed)}});
 }
 
-// Paths in a file count from its folder, so a file that moves names others anew, too.
+// Paths in a file are relative to its folder, so a file that moves gets new ones, too.
 std::vector<FileDesk::Follower> FileDesk::followers(const std::string& from,
                                                     const std::string& to) {
     std::vector<Follower> found;

@@ -1,4 +1,4 @@
-// A mistake or a remark of any checker, as pages get it: where, what, and how a click mends it.
+// A mistake or a remark of any checker, as pages get it: where, what, and how a click fixes it.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -16,15 +16,15 @@ namespace {
 using Wire = nlohmann::json;
 using Do = JsonStep::Do;
 
-vagus::Json number_of(const Wire& wire) {
-    vagus::Json json;
+JsonValue number_of(const Wire& wire) {
+    JsonValue json;
     json.kind = wire.is_number_integer() ? JsonKind::Int : JsonKind::Float;
     json.text = wire.dump();
     return json;
 }
 
-vagus::Json json_of(const Wire& wire) {
-    vagus::Json json;
+JsonValue json_of(const Wire& wire) {
+    JsonValue json;
     if (wire.is_number()) return number_of(wire);
     if (wire.is_string()) return json_string(wire.get_ref<const std::string&>());
     if (wire.is_boolean()) {
@@ -47,7 +47,7 @@ size_t rank_of(KeyOrder order, std::string_view key) {
 }
 
 // What came over the wire has lost the order of its keys: the format's is given back.
-void put_in_order(vagus::Json& json, std::string_view language, std::vector<std::string>& path) {
+void put_in_order(JsonValue& json, std::string_view language, std::vector<std::string>& path) {
     if (const KeyOrder order = key_order(language, path); !order.empty()) {
         std::stable_sort(json.members.begin(), json.members.end(),
                          [&](const JsonMember& a, const JsonMember& b) {
@@ -59,14 +59,14 @@ void put_in_order(vagus::Json& json, std::string_view language, std::vector<std:
         put_in_order(member.value, language, path);
         path.pop_back();
     }
-    for (vagus::Json& item : json.items) {
+    for (JsonValue& item : json.items) {
         path.emplace_back("[]");
         put_in_order(item, language, path);
         path.pop_back();
     }
 }
 
-Result<vagus::Json> value_of(const Wire& wire, size_t number) {
+Result<JsonValue> value_of(const Wire& wire, size_t number) {
     if (wire.contains("text")) {
         return parse_json(wire["text"].get_ref<const std::string&>(),
                           fmt::format("steps[{}].text", number));
@@ -106,7 +106,7 @@ private:
         if (step.what != Do::Set) {
             return Error{Code::BadInput, "the whole file can only be set; name a member in “at”"};
         }
-        vagus::Json value = step.value;
+        JsonValue value = step.value;
         put_in_order(value, language_, path_);
         root_ = JsonText::read(format_json(value));
         return Status::done();
@@ -149,7 +149,7 @@ private:
 
     // The text of a new value as it stands in that holder, with its key.
     JsonText value_text(const JsonText& holder, const JsonStep& step) {
-        vagus::Json value = step.value;
+        JsonValue value = step.value;
         path_.push_back(std::holds_alternative<std::string>(step.at.back())
                             ? std::get<std::string>(step.at.back())
                             : "[]");
@@ -268,7 +268,7 @@ std::string with_rim(std::string_view before, std::string text) {
 }
 
 // As its writer saves it.
-std::string saved_form(std::string_view text, const vagus::Json& json, const PatchedFile& file) {
+std::string saved_form(std::string_view text, const JsonValue& json, const PatchedFile& file) {
     if (file.language == "plan") {
         if (auto saved = plan::format_plan(text, file.path); saved.ok()) return saved.value();
     }
@@ -310,7 +310,7 @@ Result<std::vector<JsonStep>> read_steps(const Wire& steps) {
 
 Result<std::string> patched(std::string_view text, const PatchedFile& file,
                             const std::vector<JsonStep>& steps) {
-    const vagus::Json before = TRY(parse_json(text, file.path));
+    const JsonValue before = TRY(parse_json(text, file.path));
     const bool saved = saved_form(text, before, file) == text;
     const bool plain = format_json(before) == text;
     JsonText tree = JsonText::read(text);
@@ -323,7 +323,7 @@ Result<std::string> patched(std::string_view text, const PatchedFile& file,
     }
     std::string after = with_rim(text, tree.text());
     // What is too deep, too long or no text is found here.
-    const vagus::Json json = TRY(parse_json(after, file.path));
+    const JsonValue json = TRY(parse_json(after, file.path));
     if (saved) return saved_form(after, json, file);
     return plain ? format_json(json) : after;
 }

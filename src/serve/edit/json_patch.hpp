@@ -21,9 +21,9 @@ struct JsonStep {
     enum class Do { Set, Remove, Insert, Move };
     using Key = std::variant<std::string, size_t>;
     Do what = Do::Set;
-    std::vector<Key> at;     // the last one is meant; empty: the whole
-    vagus::Json value = {};  // Set, Insert
-    size_t to = 0;           // Move
+    std::vector<Key> at;   // the last one is meant; empty: the whole
+    JsonValue value = {};  // Set, Insert
+    size_t to = 0;         // Move
 };
 
 struct PatchedFile {

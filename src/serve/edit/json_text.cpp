@@ -68,7 +68,7 @@ private:
         if (object) {
             part.raw_key = string();
             const auto key = read_json(part.raw_key);
-            if (const auto* json = std::get_if<vagus::Json>(&key)) part.key = json->text;
+            if (const auto* json = std::get_if<JsonValue>(&key)) part.key = json->text;
             const size_t colon = text_.find(':', at_);
             const size_t end = text_.find_first_not_of(kBlanks, colon + 1);
             part.between = take(std::min(end, text_.size()));

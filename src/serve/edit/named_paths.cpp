@@ -10,8 +10,8 @@ class Collector {
 public:
     explicit Collector(std::vector<NamedPath>& paths) : paths_(paths) {}
 
-    void member(const vagus::Json& object, const char* key) {
-        const vagus::Json* json = object.find(key);
+    void member(const JsonValue& object, const char* key) {
+        const JsonValue* json = object.find(key);
         if (!json) return;
         at_.emplace_back(key);
         if (json->kind == JsonKind::String && !json->text.empty()) {
@@ -21,8 +21,8 @@ public:
     }
     // Calls `look` with each item or member of a part of the object.
     template <typename Look>
-    void each(const vagus::Json& object, const char* key, const Look& look) {
-        const vagus::Json* json = object.find(key);
+    void each(const JsonValue& object, const char* key, const Look& look) {
+        const JsonValue* json = object.find(key);
         if (!json) return;
         at_.emplace_back(key);
         for (size_t i = 0; i < json->items.size(); ++i) {
@@ -37,15 +37,15 @@ public:
         }
         at_.pop_back();
     }
-    void inside(const vagus::Json& object, const char* key, const char* inner) {
-        const vagus::Json* json = object.find(key);
+    void inside(const JsonValue& object, const char* key, const char* inner) {
+        const JsonValue* json = object.find(key);
         if (!json) return;
         at_.emplace_back(key);
         member(*json, inner);
         at_.pop_back();
     }
-    void list(const vagus::Json& object, const char* key) {
-        each(object, key, [this](const vagus::Json& item) {
+    void list(const JsonValue& object, const char* key) {
+        each(object, key, [this](const JsonValue& item) {
             if (item.kind == JsonKind::String && !item.text.empty()) {
                 paths_.push_back({at_, item.text, {item.at.line, item.at.column}});
             }
@@ -64,7 +64,7 @@ std::vector<NamedPath> named_paths(const std::string& file, std::string_view tex
     const std::string kind = kind_of_file(file);
     if (kind != "project" && kind != "plan" && kind != "world" && kind != "toolbox") return paths;
     const auto read = read_json(text);
-    const vagus::Json* json = std::get_if<vagus::Json>(&read);
+    const JsonValue* json = std::get_if<JsonValue>(&read);
     if (!json) return paths;
     Collector collect(paths);
     if (kind == "project") {
@@ -72,10 +72,10 @@ std::vector<NamedPath> named_paths(const std::string& file, std::string_view tex
         for (const char* key : {"scripts", "toolboxes"}) collect.list(*json, key);
     } else if (kind == "plan") {
         collect.each(*json, "actors",
-                     [&](const vagus::Json& actor) { collect.member(actor, "plan"); });
+                     [&](const JsonValue& actor) { collect.member(actor, "plan"); });
     } else if (kind == "world") {
         collect.each(*json, "robots",
-                     [&](const vagus::Json& robot) { collect.member(robot, "script"); });
+                     [&](const JsonValue& robot) { collect.member(robot, "script"); });
         collect.inside(*json, "ground", "image");
     } else {
         collect.member(*json, "project");

@@ -94,7 +94,7 @@ std::vector<aesl::GlobalEvent> events_of(const OwnTemplate& of) {
     return events;
 }
 
-vagus::Json toolbox_entry(const OwnTemplate& of) {
+JsonValue toolbox_entry(const OwnTemplate& of) {
     const std::string stem = stem_of(of);
     if (of.is_supervisor) {
         return json_object(

@@ -1,4 +1,4 @@
-// A template of one's own, to be filled in: what stands in the toolbox file, which events it needs,
+// A template of one's own, to be filled in: what is in the toolbox file, which events it needs,
 // and what the script of the node gets. Unchanged it works, and does something harmless.
 #pragma once
 
@@ -23,7 +23,7 @@ std::string stem_of(const OwnTemplate& of);
 // To be declared, in this order.
 std::vector<aesl::GlobalEvent> events_of(const OwnTemplate& of);
 // The value of the member "templates": { "Blink": … } of a toolbox file.
-vagus::Json toolbox_entry(const OwnTemplate& of);
+JsonValue toolbox_entry(const OwnTemplate& of);
 std::string new_toolbox_file(const std::string& toolbox, const std::string& script,
                              const OwnTemplate& of);
 

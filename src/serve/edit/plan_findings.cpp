@@ -27,7 +27,7 @@ size_t find_word(std::string_view text, std::string_view name, size_t from) {
     return text.npos;
 }
 
-// One file with its strings by their places, for mends, and the keys that lead to each place.
+// One file with its strings by their places, for fixes, and the keys that lead to each place.
 class PlanText {
 public:
     explicit PlanText(std::string text) : text_(std::move(text)), places_(text_) {}
@@ -62,7 +62,7 @@ private:
     void read() {
         read_ = true;
         const auto json = read_json(text_);
-        const auto* root = std::get_if<vagus::Json>(&json);
+        const auto* root = std::get_if<JsonValue>(&json);
         if (!root) return;
         walk(*root, {});
         auto way = nlohmann::json::array();
@@ -70,8 +70,8 @@ private:
     }
 
     // A member is found by the place of its key, and by that of its value.
-    void note(const vagus::Json& json, nlohmann::json& way) {
-        const auto go = [&](nlohmann::json key, Place at, const vagus::Json& value) {
+    void note(const JsonValue& json, nlohmann::json& way) {
+        const auto go = [&](nlohmann::json key, Place at, const JsonValue& value) {
             way.push_back(std::move(key));
             keys_.try_emplace({at.line, at.column}, way);
             keys_.try_emplace({value.at.line, value.at.column}, way);
@@ -79,17 +79,17 @@ private:
             way.erase(way.size() - 1);
         };
         size_t index = 0;
-        for (const vagus::Json& item : json.items) go(index++, item.at, item);
+        for (const JsonValue& item : json.items) go(index++, item.at, item);
         for (const JsonMember& member : json.members) go(member.key, member.at, member.value);
     }
 
     // A string is found at its own place, and at that of the key before it.
-    void walk(const vagus::Json& json, std::vector<Place> keys) {
+    void walk(const JsonValue& json, std::vector<Place> keys) {
         if (json.kind == JsonKind::String) {
             keys.push_back(json.at);
             for (const Place& place : keys) add(place, json.at, json.raw, false);
         }
-        for (const vagus::Json& item : json.items) walk(item, keys);
+        for (const JsonValue& item : json.items) walk(item, keys);
         for (const JsonMember& member : json.members) {
             add(member.at, member.at, member.raw_key, true);
             walk(member.value, {member.at});
@@ -100,7 +100,7 @@ private:
                          Found{places_.byte_of({stands.line, stands.column}), raw, is_key});
     }
 
-    // The whole string, or the name wherever it stands in a formula.
+    // The whole string, or the name wherever it is in a formula.
     std::vector<TextEdit> edits_in(const std::string& doc, const Found& found,
                                    const plan::Meant& meant) const {
         std::vector<TextEdit> edits;

@@ -29,7 +29,7 @@ TEST_F(EditTest, WhatIsKnownOfAScriptIsShown) {
     EXPECT_EQ(script["bytecode"]["of"], 512);  // of the software node (docs/formats.md)
     EXPECT_EQ(script["code_lines"], Json({1, 3, 4}));
     ASSERT_EQ(script["handlers"].size(), 2u);
-    // Code stands in the order of the event table, which is sorted by number: ping is 0, the
+    // Code is in the order of the event table, which is sorted by number: ping is 0, the
     // initialisation 0xffff. Load, SmallImm, Binary, Store; Emit of 3 words, straight from x; Stop.
     EXPECT_EQ(script["handlers"][0],
               (Json{{"kind", "event"}, {"name", "ping"}, {"line", 2}, {"words", 8}}));

@@ -27,8 +27,8 @@ Error refused(std::string what) {
 // A member of a JSON text that is a string; empty if there is none.
 std::string text_at(const std::string& text, std::string_view key) {
     const auto json = read_json(text);
-    const auto* root = std::get_if<vagus::Json>(&json);
-    const vagus::Json* found = root ? root->find(key) : nullptr;
+    const auto* root = std::get_if<JsonValue>(&json);
+    const JsonValue* found = root ? root->find(key) : nullptr;
     return found && found->kind == JsonKind::String ? found->text : "";
 }
 
@@ -200,11 +200,11 @@ Status TemplateDesk::list_toolbox(Change& change) {
     const std::string& file = project_.project_file;
     const std::string text = TRY(files_.text(file));
     const auto json = read_json(text);
-    const auto* root = std::get_if<vagus::Json>(&json);
+    const auto* root = std::get_if<JsonValue>(&json);
     if (!root) return refused(fmt::format("{} is not JSON; fix it first", file));
-    const vagus::Json* listed = root->find("toolboxes");
+    const JsonValue* listed = root->find("toolboxes");
     const bool is_list = listed && listed->kind == JsonKind::Array;
-    const vagus::Json value = json_string(name_from(file, change.new_file));
+    const JsonValue value = json_string(name_from(file, change.new_file));
     const JsonStep step =
         is_list ? JsonStep{JsonStep::Do::Insert,
                            {std::string("toolboxes"), listed->items.size()},

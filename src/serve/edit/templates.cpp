@@ -13,8 +13,8 @@ namespace {
 
 using Members = std::vector<JsonMember>;
 
-vagus::Json number(std::string_view written) {
-    vagus::Json json;
+JsonValue number(std::string_view written) {
+    JsonValue json;
     json.kind = JsonKind::Float;
     json.text = written;
     return json;
@@ -68,7 +68,7 @@ std::string new_plan(std::string_view name) {
 }
 
 std::string new_world(std::string_view name) {
-    const vagus::Json robot =
+    const JsonValue robot =
         json_object({json_member("name", "thymio"), json_member("type", "thymio2"),
                      json_member("at", json_array({number("0.5"), number("0.5")}))});
     return format_json(json_object(

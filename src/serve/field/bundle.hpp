@@ -1,5 +1,5 @@
 // A project as it travels to a robot: its files and those that they name, each with its hash. The
-// list also stands beside the files on the robot, as deployed.json (docs/formats.md).
+// list also is beside the files on the robot, as deployed.json (docs/formats.md).
 #pragma once
 
 #include <filesystem>

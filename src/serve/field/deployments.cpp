@@ -38,9 +38,9 @@ Status Deployments::boot(bool start, Time now) {
     versions_.tidy_up();
     auto trial = versions_.trial();
     if (trial && ++trial->tries > kTrialBootsMax) {
-        robot_.log("error", fmt::format("version {} did not start at {} boots; version {} is in "
-                                        "force again",
-                                        trial->version, kTrialBootsMax, trial->back));
+        call_.log("error", fmt::format("version {} did not start at {} boots; version {} is in "
+                                       "force again",
+                                       trial->version, kTrialBootsMax, trial->back));
         TRY(versions_.put_in_force(trial->back));
         versions_.end_trial();
         versions_.remove(trial->version);
@@ -48,13 +48,13 @@ Status Deployments::boot(bool start, Time now) {
     }
     const uint32_t version = versions_.current();
     if (version == 0 && is_empty_place(versions_.folder(0))) {
-        robot_.log("note", "there is no project yet; `vagus deploy` sends the first");
+        call_.log("note", "there is no project yet; `vagus deploy` sends the first");
         return Status::done();
     }
     if (trial) TRY(versions_.write_trial(*trial));
-    const Status opened = robot_.open(versions_.folder(version));
+    const Status opened = call_.open(versions_.folder(version));
     if (!opened.ok() && !trial) return opened;
-    if (version > 0) robot_.log("note", fmt::format("version {} is in force", version));
+    if (version > 0) call_.log("note", fmt::format("version {} is in force", version));
     if (trial) trying_ = Trying{trial->version, trial->back, now + kStartWithin};
     if (!opened.ok()) {
         roll_back(opened.error().what);
@@ -73,7 +73,7 @@ Status Deployments::begin(Bundle bundle) {
     TRY(check_bundle(bundle));
     TRY(versions_.begin());
     bundle_ = std::move(bundle);
-    bundle_->when_wall = robot_.wall_ms();
+    bundle_->when_wall = call_.wall_ms();
     file_ = 0;
     content_.clear();
     return Status::done();
@@ -82,7 +82,7 @@ Status Deployments::begin(Bundle bundle) {
 template <typename Outcome>
 void Deployments::work(std::function<Outcome()> act, std::function<void(Outcome)> then) {
     ++working_;
-    worked<Outcome>(robot_.work, std::move(act), [this, then = std::move(then)](Outcome outcome) {
+    worked<Outcome>(call_.work, std::move(act), [this, then = std::move(then)](Outcome outcome) {
         --working_;
         then(std::move(outcome));
     });
@@ -141,7 +141,7 @@ void Deployments::commit(Done done) {
         return refuse(bundle_->files[file_].path + ": it was not fully received");
     }
     using Found = vagus::Result<std::vector<Finding>>;
-    work<Found>([check = robot_.check(),
+    work<Found>([check = call_.check(),
                  folder = versions_.incoming(*bundle_)]() -> Found { return check(folder); },
                 [this](const Found& found) { checked(found); });
 }
@@ -160,7 +160,7 @@ void Deployments::received(const vagus::Result<uint32_t>& number) {
     if (!number.ok()) return refuse(number.error().what);
     const uint32_t back = versions_.current();
     bundle_.reset();
-    robot_.log("note", fmt::format("version {} was received and checked", number.value()));
+    call_.log("note", fmt::format("version {} was received and checked", number.value()));
     stop_for({.version = number.value(), .back = back});
 }
 
@@ -169,7 +169,7 @@ void Deployments::stop_for(Trying next) {
     starter_.give_up();
     stop_pressed_ = stands_ = false;
     next_ = next;
-    robot_.stop([this] { stands_ = true; });
+    call_.stop([this] { stands_ = true; });
 }
 
 void Deployments::put_in_force(Trying next) {
@@ -189,7 +189,7 @@ void Deployments::in_force(Trying next, const Status& switched) {
     if (!switched.ok()) return refuse(switched.error().what + "; the robot is stopped");
     next.until = now_ + kStartWithin;
     trying_ = next;
-    const Status opened = robot_.open(versions_.folder(next.version));
+    const Status opened = call_.open(versions_.folder(next.version));
     if (!opened.ok()) return give_up(opened.error().what);
     if (stop_pressed_) return stopped();
     starter_.begin(now_);
@@ -216,7 +216,7 @@ void Deployments::tick(Time now) {
         return give_up("it does not start: " + starter_.why());
     if (starter_.state() == Starter::State::Started) {
         if (!trying_->started) trying_->started = now;
-        const bool has_plan = !robot_.plan().empty();
+        const bool has_plan = !call_.plan().empty();
         if (!has_plan || now >= *trying_->started + kProvesWithin) tried();
         return;
     }
@@ -243,7 +243,7 @@ void Deployments::tried() {
     const uint32_t version = trying_->version;
     trying_.reset();
     ++counts_.started;
-    robot_.log("note", fmt::format("version {} runs", version));
+    call_.log("note", fmt::format("version {} runs", version));
     work<Status>(
         [&versions = versions_] {
             versions.end_trial();
@@ -251,7 +251,7 @@ void Deployments::tried() {
             return Status::done();
         },
         [this, version](const Status&) {
-            finish({DeployOutcome::Result::Started, version, {}, robot_.plan()});
+            finish({DeployOutcome::Result::Started, version, {}, call_.plan()});
         });
 }
 
@@ -260,8 +260,8 @@ void Deployments::roll_back(const std::string& why) {
     const Trying tried = *trying_;
     trying_.reset();
     ++counts_.rolled_back;
-    robot_.log("error", fmt::format("version {}: {}; version {} is in force again", tried.version,
-                                    why, tried.back));
+    call_.log("error", fmt::format("version {}: {}; version {} is in force again", tried.version,
+                                   why, tried.back));
     work<Status>(
         [&versions = versions_, tried]() -> Status {
             TRY(versions.put_in_force(tried.back));
@@ -273,11 +273,11 @@ void Deployments::roll_back(const std::string& why) {
 }
 
 void Deployments::rolled_back(const Status& back, const std::string& why) {
-    const Status opened = back.ok() ? robot_.open(versions_.folder(versions_.current())) : back;
+    const Status opened = back.ok() ? call_.open(versions_.folder(versions_.current())) : back;
     if (opened.ok()) {
         starter_.begin(now_);
     } else {
-        robot_.log("error", opened.error().what);
+        call_.log("error", opened.error().what);
     }
     finish({DeployOutcome::Result::RolledBack, versions_.current(), {}, why});
 }

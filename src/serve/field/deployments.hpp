@@ -1,10 +1,10 @@
 // How another version of the project comes into force (docs/field.md): received beside the one that
-// runs, checked, put in force when the robot stands, started, and taken back if it does not start.
-// Told the time; the robot is handed in, so that all of it runs in a test with a scripted clock.
-// The disk and the checks are the work of another thread.
+// runs, checked, put in force when the robot is at rest, started, and taken back if it does not
+// start. Told the time; the robot is handed in, so that all of it runs in a test with a scripted
+// clock. The disk and the checks are the work of another thread.
 //
-//     Deployments deployments(versions, starter, {.check = …, .stop = …, .open = …, …});
-//     deployments.boot(now);
+//     Deployments deployments(versions, starter, {.check = …, .stop = …, .open = …, .log = …});
+//     deployments.boot(start, now);
 //     deployments.begin(bundle);                      // deploy.begin, deploy.part, deploy.commit
 //     deployments.part("a.aesl", 0, bytes, [](const Status& taken) { … });
 //     deployments.commit([](DeployOutcome outcome) { … });
@@ -42,11 +42,11 @@ struct DeployCounts {
 
 class Deployments {
 public:
-    struct Robot {
+    struct Callbacks {
         // What finds, on another thread, what is wrong with the project in a folder.
         using Check = std::function<std::vector<Finding>(const std::filesystem::path&)>;
         std::function<Check()> check;
-        // The robot stands when `done` is called.
+        // The robot is at rest when `done` is called.
         std::function<void(std::function<void()> done)> stop;
         std::function<Status(const std::filesystem::path&)> open;
         std::function<void(const std::string& kind, const std::string& text)> log;
@@ -59,8 +59,8 @@ public:
     using Taken = std::function<void(const Status&)>;
 
     // The first two are borrowed.
-    Deployments(Versions& versions, Starter& starter, Robot robot)
-        : versions_(versions), starter_(starter), robot_(std::move(robot)) {}
+    Deployments(Versions& versions, Starter& starter, Callbacks calls)
+        : versions_(versions), starter_(starter), call_(std::move(calls)) {}
 
     // Decides what is in force, opens it, and starts it if the robot is to run by itself.
     Status boot(bool start, Time now);
@@ -108,12 +108,12 @@ private:
 
     Versions& versions_;
     Starter& starter_;
-    Robot robot_;
+    Callbacks call_;
     std::optional<Bundle> bundle_;  // on its way here
     size_t file_ = 0;               // of it, that is being received
     std::string content_;           // of that file, so far
     std::optional<Trying> trying_;
-    std::optional<Trying> next_;  // in force as soon as the robot stands
+    std::optional<Trying> next_;  // in force as soon as the robot is at rest
     bool stands_ = false;         // it does
     bool stop_pressed_ = false;   // since the commit
     Done done_;

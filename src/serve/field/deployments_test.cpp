@@ -18,7 +18,7 @@ class DeploymentsTest : public testing::Test {
 protected:
     DeploymentsTest() { EXPECT_TRUE(write_file((project / "vagus.json").string(), "0").ok()); }
 
-    Deployments::Robot robot() {
+    Deployments::Callbacks callbacks() {
         return {.check = [this] { return [this](const fs::path&) { return findings; }; },
                 .stop = [this](auto done) { stops.push_back(std::move(done)); },
                 .open =
@@ -80,7 +80,7 @@ protected:
     Starter starter{{.missing = [this] { return missing; },
                      .start = [this](auto done) { starts.push_back(std::move(done)); },
                      .log = [](auto&, auto&) {}}};
-    Deployments deployments{versions, starter, robot()};
+    Deployments deployments{versions, starter, callbacks()};
 };
 
 TEST_F(DeploymentsTest, WhatStartsStays) {
@@ -148,7 +148,7 @@ TEST_F(DeploymentsTest, APlanThatFailsAtOnceHasNotStarted) {
     EXPECT_EQ(starts.size(), before + 1) << "the version before is started";
 }
 
-// A run that dies and starts again has to prove itself anew.
+// A run that dies and starts again has to prove itself again.
 TEST_F(DeploymentsTest, ARunThatDiesWhileItProvesItselfBeginsAnew) {
     ASSERT_TRUE(deployments.boot(true, 0s).ok());
     try_out("one", 5s);
@@ -276,11 +276,11 @@ TEST_F(DeploymentsTest, AVersionThatNeverStartedIsGivenUpAfterThreeBoots) {
     ASSERT_TRUE(deployments.boot(true, 0s).ok());
     try_out("one", 1s);
     for (uint32_t boot = 1; boot <= kTrialBootsMax; ++boot) {
-        Deployments after(versions, starter, robot());
+        Deployments after(versions, starter, callbacks());
         ASSERT_TRUE(after.boot(true, 0s).ok());
         EXPECT_EQ(opened, "one");
     }
-    Deployments after(versions, starter, robot());
+    Deployments after(versions, starter, callbacks());
     ASSERT_TRUE(after.boot(true, 0s).ok());
     EXPECT_EQ(opened, "0");
     EXPECT_EQ(versions.current(), 0u);

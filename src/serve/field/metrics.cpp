@@ -50,14 +50,14 @@ void add_runs(Text& text, const Figures& figures) {
 }
 
 void add_bus(Text& text, const Figures& figures) {
-    const RobotCounts& robot = figures.robot;
+    const TargetCounts& target = figures.target;
     text.one("vagus_events_total", "counter", "Events of nodes, since the target was connected.",
-             robot.events);
+             target.events);
     text.one("vagus_lost_frames_total", "counter",
-             "Frames that were dropped, since the target was connected.", robot.lost);
+             "Frames that were dropped, since the target was connected.", target.lost);
     text.family("vagus_nodes", "gauge", "Nodes that are there, by what they do.");
-    text.sample("vagus_nodes{state=\"running\"}", robot.running);
-    text.sample("vagus_nodes{state=\"standing\"}", robot.nodes - robot.running);
+    text.sample("vagus_nodes{state=\"running\"}", target.running);
+    text.sample("vagus_nodes{state=\"standing\"}", target.nodes - target.running);
     if (!figures.bus_load) return;
     text.one("vagus_bus_load_ratio", "gauge", "Load of the bus in the last second, 0 to 1.",
              *figures.bus_load);

@@ -14,7 +14,7 @@ TEST(Metrics, EachFigureHasItsHelpItsTypeAndItsValue) {
                           .plan_runs = true,
                           .seconds = 1.5,
                           .late_checks = 7,
-                          .robot = {.events = 12, .lost = 2, .nodes = 4, .running = 3},
+                          .target = {.events = 12, .lost = 2, .nodes = 4, .running = 3},
                           .bus_load = 0.25,
                           .clients = 2,
                           .ends = {{"error", 2}, {"stop", 0}},

@@ -13,7 +13,7 @@ namespace vagus::serve {
 
 namespace {
 
-// Another version is the driver's to send. Who drives is asked, as pages ask.
+// Only the driver may send another version; control is requested as by a page.
 Status take_wheel(LiveClient& robot) {
     const auto attempts = kAskForWheelWithin / kAskAgainEvery;
     for (long i = 0; i < attempts; ++i) {

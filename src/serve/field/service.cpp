@@ -40,7 +40,7 @@ public:
                     .start = [this](auto done) { bench().start_run(std::move(done)); },
                     .log = talk.log}),
           versions_(fs::absolute(options.project)),
-          deployments_(versions_, starter_, robot()) {}
+          deployments_(versions_, starter_, callbacks()) {}
 
     Status run() {
         TRY(begin());
@@ -82,7 +82,7 @@ private:
                                          "or an empty one for the first `vagus deploy`"};
     }
 
-    Deployments::Robot robot() {
+    Deployments::Callbacks callbacks() {
         return {.check =
                     [this] {
                         return [targets = bench().targets_now()](const fs::path& folder) {

@@ -12,7 +12,7 @@ namespace vagus::serve {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kFiguresEvery = 1s;  // /metrics is made anew
+constexpr Duration kFiguresEvery = 1s;  // /metrics is made again
 
 struct ServiceOptions {
     std::string project = {};  // a path

@@ -41,7 +41,7 @@ void Starter::died(Time now) {
     state_ = State::Idle;
     why_ = fmt::format("its run died {} times within {} s; it is stopped until somebody starts it",
                        kDeathsMax, kDeathsWithin / 1s);
-    robot_.log("error", why_);
+    call_.log("error", why_);
 }
 
 void Starter::failed(const std::string& why) {
@@ -56,16 +56,16 @@ void Starter::wait(const std::string& kind, const std::string& why, Time until) 
     next_ = until;
     if (why == told_) return;
     told_ = why;
-    robot_.log(kind, why);
+    call_.log(kind, why);
 }
 
 void Starter::tick(Time now) {
     now_ = now;
     if (state_ != State::Waiting || now < next_) return;
-    const std::vector<std::string> missing = robot_.missing();
+    const std::vector<std::string> missing = call_.missing();
     if (!missing.empty()) return wait("note", waits_for(missing), now + kLookForNodesEvery);
     state_ = State::Starting;
-    robot_.start([this, attempt = ++attempt_](const std::string& why) {
+    call_.start([this, attempt = ++attempt_](const std::string& why) {
         if (attempt != attempt_) return;
         if (!why.empty()) {
             return wait("error", "it does not start: " + why, now_ + kStartAgainAfter);

@@ -26,7 +26,7 @@ constexpr Duration kDeathsWithin = 60s;
 
 class Starter {
 public:
-    struct Robot {
+    struct Callbacks {
         // Names of nodes that must be there and are not yet.
         std::function<std::vector<std::string>()> missing;
         // Lets everything run; `done` gets why it does not, or nothing.
@@ -36,7 +36,7 @@ public:
     };
     enum class State { Idle, Waiting, Starting, Started, Failed };
 
-    explicit Starter(Robot robot) : robot_(std::move(robot)) {}
+    explicit Starter(Callbacks calls) : call_(std::move(calls)) {}
 
     void begin(Time now);
     // Somebody wants it to stand.
@@ -56,7 +56,7 @@ public:
 private:
     void wait(const std::string& kind, const std::string& why, Time until);
 
-    Robot robot_;
+    Callbacks call_;
     State state_ = State::Idle;
     std::string why_;
     std::string told_;

@@ -9,8 +9,8 @@
 #include "debug/network.hpp"
 #include "net/network.hpp"
 #include "serve/field/versions.hpp"
-#include "serve/robot/bus_carrier.hpp"
-#include "serve/robot/stopping.hpp"
+#include "serve/target/bus_carrier.hpp"
+#include "serve/target/stopping.hpp"
 #include "serve/workbench/opened.hpp"
 
 namespace vagus::serve {

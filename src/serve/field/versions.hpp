@@ -1,5 +1,5 @@
 // The versions of a project on a robot (docs/decisions/0120). The folder as it was given is version
-// 0 and is never changed; what was deployed stands below it, and a link says which one is in force:
+// 0 and is never changed; what was deployed is below it, and a link says which one is in force:
 //
 //     PROJECT/.vagus/versions/incoming/   on its way here
 //                             4/deployed.json, 4/files/…

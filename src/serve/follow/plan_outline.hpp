@@ -2,7 +2,7 @@
 // the process of a run to the server with each version of the plan, so that nobody reads a file
 // again that may say something else by now.
 //
-//     PlanFollower follower(outlines_of(loaded.plans()), doc_of);
+//     PlanFollower follower(std::make_shared<PlanOutlines>(outlines_of(loaded.plans())), doc_of);
 #pragma once
 
 #include <memory>

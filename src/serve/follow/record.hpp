@@ -1,5 +1,5 @@
 // What changed in a world between two instants, as bytes: words of nodes, and where things stand.
-// The host of a run writes them, the history keeps them as they are.
+// The runner writes them, the history keeps them as they are.
 //
 //     RecordWriter writer;
 //     writer.begin(12.34);
@@ -17,7 +17,7 @@
 
 namespace vagus::serve {
 
-// Who stands somewhere: a robot by its index in the scene, an object by its number.
+// What has a pose: a robot by its index in the scene, an object by its number.
 constexpr uint32_t kRobotKey = 0x8000'0000;
 // How busy the bus is stands among the words of nodes: those of this number, which no node has, by
 // node, in hundredths of a percent.

@@ -4,7 +4,7 @@
 //
 //     History history;
 //     history.begin({.kind = "simulated", .name = "WallFollow"});
-//     history.plan(1, plans);                    // of the run host
+//     history.plan(1, plans);                    // of the runner
 //     history.trace(line);
 //     reply(history.at({.t = 86.8, .events = 100}));
 #pragma once

@@ -2,7 +2,7 @@
 // was then, and the lanes of a timeline. The lines are kept in blocks, each of which begins with
 // what a follower knew; the oldest blocks are dropped.
 //
-//     PlanPast past(plans, doc_of);
+//     PlanPast past(plans, doc_of, 3600);
 //     past.add(line);
 //     show(past.at(86.8));
 #pragma once

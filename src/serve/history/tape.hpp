@@ -3,7 +3,7 @@
 // ones are thinned out, the oldest dropped: by age, and by bytes.
 //
 //     Tape tape;
-//     tape.record(bytes);                        // of the run host, or of RecordWriter
+//     tape.record(bytes);                        // of the runner, or of RecordWriter
 //     const TapeState then = tape.at(86.8);
 //     if (const auto word = then.word(3, 40)) show(*word);
 #pragma once

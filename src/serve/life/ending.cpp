@@ -37,7 +37,7 @@ void Life::on(const Stop& stop) {
 void Life::begin_stop(const Cause& cause, std::string result, std::string message) {
     give_up(kStopped);
     tell_end();
-    const bool plan = plan_ != Plan::None || (target_ == Target::Bus && host_opens_);
+    const bool plan = plan_ != Plan::None || (target_ == Target::Bus && runner_opens_);
     if (plan) act(EndPlan{});
     if (plan_ != Plan::None) plan_ = Plan::Ending;
     if (target_ == Target::None || (target_ == Target::World && !world_open_)) return;
@@ -134,8 +134,8 @@ void Life::on(const PlanEnded& ended) {
 
 void Life::on(const Died& died) {
     const bool plan = plan_ != Plan::None;
-    const bool lived = plan || host_opens_ || (target_ == Target::World && is_live());
-    host_opens_.reset();
+    const bool lived = plan || runner_opens_ || (target_ == Target::World && is_live());
+    runner_opens_.reset();
     plan_ = Plan::None;
     world_open_ = false;
     if (stopping_) {
@@ -194,7 +194,7 @@ void Life::leave_now() {
     plan_ = Plan::None;
     world_open_ = known_ = false;
     last_stop_ = 0;
-    host_opens_.reset();
+    runner_opens_.reset();
     for (const Leave& leave : leaves) act(GoOnLeaving{leave.call});
 }
 

@@ -95,12 +95,12 @@ void Life::begin(What what, Phase phase, bool go, CallNumber call) {
     halted_ = false;
 }
 
-void Life::open_host(OpenHost::What what) {
-    host_opens_ = what;
+void Life::open_runner(OpenRunner::What what) {
+    runner_opens_ = what;
     plan_ = Plan::None;  // what ran there is replaced
     world_open_ = false;
     const bool waited_for = starting_ && !starting_->calls.empty();
-    act(OpenHost{what, waited_for ? starting_->calls.front() : 0});
+    act(OpenRunner{what, waited_for ? starting_->calls.front() : 0});
 }
 
 void Life::on(const Joined&) {
@@ -121,13 +121,13 @@ void Life::open_world(CallNumber call, bool go) {
     tell_end();
     target_ = Target::World;
     begin(What::World, Phase::Opening, go, call);
-    open_host(OpenHost::What::World);
+    open_runner(OpenRunner::What::World);
 }
 
 // The world alone, with its robots where they stand. Nobody waits for it.
 void Life::reopen_world() {
     begin(What::World, Phase::Opening, false, 0);
-    open_host(OpenHost::What::WorldAgain);
+    open_runner(OpenRunner::What::WorldAgain);
 }
 
 void Life::on(const Start& start) {
@@ -178,7 +178,7 @@ void Life::start_now(const Start& start) {
         tell_end();
         target_ = Target::World;
         begin(What::Plan, Phase::Opening, start.go, start.call);
-        return open_host(OpenHost::What::Plan);
+        return open_runner(OpenRunner::What::Plan);
     }
     if (target_ != Target::Bus && start.world_anew) return open_world(start.call, true);
     begin(What::Scripts, Phase::Loading, true, start.call);
@@ -186,13 +186,13 @@ void Life::start_now(const Start& start) {
 }
 
 void Life::on(const Opened&) {
-    const auto opened = std::exchange(host_opens_, std::nullopt);
+    const auto opened = std::exchange(runner_opens_, std::nullopt);
     if (!opened) return;
     if (target_ == Target::Bus) return opened_on_bus();
     // Stopped while its world opened: the plan is given up, the world stays.
-    if (*opened == OpenHost::What::Plan && !starting_) return reopen_world();
+    if (*opened == OpenRunner::What::Plan && !starting_) return reopen_world();
     if (!starting_) begin(What::World, Phase::Opening, false, 0);
-    if (*opened == OpenHost::What::Plan) plan_ = Plan::Stands;
+    if (*opened == OpenRunner::What::Plan) plan_ = Plan::Stands;
     world_open_ = true;
     act(ConnectWorld{});
     starting_->phase = Phase::Describing;
@@ -213,7 +213,7 @@ void Life::opened_on_bus() {
 }
 
 void Life::on(const Failed& failed) {
-    const auto opened = std::exchange(host_opens_, std::nullopt);
+    const auto opened = std::exchange(runner_opens_, std::nullopt);
     if (!opened) return;
     const bool wanted = starting_.has_value();
     give_up(failed.why);
@@ -225,7 +225,7 @@ void Life::on(const Failed& failed) {
     }
     state_ = State::None;
     // A plan that cannot run leaves the world as it was.
-    if (*opened == OpenHost::What::Plan) reopen_world();
+    if (*opened == OpenRunner::What::Plan) reopen_world();
 }
 
 void Life::on(const Described&) {
@@ -247,7 +247,7 @@ void Life::nodes_have_scripts() {
     if (target_ == Target::Bus && starting_->what == What::Plan) {
         starting_->phase = Phase::Opening;
         state_ = State::Opening;
-        return open_host(OpenHost::What::Plan);
+        return open_runner(OpenRunner::What::Plan);
     }
     if (starting_->what == What::World || starting_->what == What::Plan) return world_is_ready();
     if (starting_->what == What::Scripts) act(CountStart{});

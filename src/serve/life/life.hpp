@@ -113,7 +113,7 @@ private:
     void refuse(life::CallNumber call, const char* code, const std::string& why);
 
     void begin(What what, Phase phase, bool go, life::CallNumber call);
-    void open_host(life::OpenHost::What what);
+    void open_runner(life::OpenRunner::What what);
     void open_world(life::CallNumber call, bool go);
     void reopen_world();
     void start_now(const life::Start& start);
@@ -147,7 +147,7 @@ private:
     bool known_ = false;        // what the nodes of a bus do: we stopped them, or let them run
     bool halted_ = false;       // a node came to a breakpoint while nodes were let go
     std::string plan_stop_by_;  // who told the plan alone to end
-    std::optional<life::OpenHost::What> host_opens_;
+    std::optional<life::OpenRunner::What> runner_opens_;
     std::optional<Starting> starting_;
     std::optional<Stopping> stopping_;
     std::optional<Untold> untold_;

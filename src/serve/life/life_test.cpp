@@ -20,13 +20,13 @@ using State = Life::State;
 
 std::string word(const Action& action) {
     static constexpr const char* kWords[] = {
-        "open-host",  "connect", "load",        "let-go", "begin",    "continue",   "step",
-        "pause",      "rest",    "pause-nodes", "count",  "end-plan", "stop-nodes", "make-safe",
-        "disconnect", "leaving", "answer",      "stood",  "tell"};
+        "open-runner", "connect", "load",        "let-go", "begin",    "continue",   "step",
+        "pause",       "rest",    "pause-nodes", "count",  "end-plan", "stop-nodes", "make-safe",
+        "disconnect",  "leaving", "answer",      "stood",  "tell"};
     return kWords[action.index()];
 }
 
-// A life with everything around it scripted: hosts open and nodes answer when they are told to.
+// A life with everything around it scripted: runners open and nodes answer when they are told to.
 struct Bench {
     Life life;
     Time now{};
@@ -35,7 +35,7 @@ struct Bench {
     std::map<CallNumber, Answer> said;
     std::vector<End> ends;
     uint64_t load = 0, go = 0, stop = 0;  // what was asked for last
-    bool host = false;
+    bool runner = false;
     bool asked = true;  // somebody wants that something runs
     std::string did;    // words of what was done since the last look
 
@@ -85,8 +85,8 @@ struct Bench {
         if (const auto* loads = std::get_if<LoadNodes>(&action)) load = loads->start;
         if (const auto* goes = std::get_if<LetNodesGo>(&action)) go = goes->start;
         if (const auto* stops = std::get_if<StopNodes>(&action)) stop = stops->number;
-        if (std::holds_alternative<OpenHost>(action)) host = true;
-        if (std::holds_alternative<Disconnect>(action)) host = false;
+        if (std::holds_alternative<OpenRunner>(action)) runner = true;
+        if (std::holds_alternative<Disconnect>(action)) runner = false;
         return word(action) + " ";
     }
 };
@@ -100,7 +100,7 @@ StopReport stood() {
 TEST(Life, AWorldIsOpenedLoadedAndRuns) {
     Bench bench;
     const CallNumber call = bench.call();
-    EXPECT_EQ(bench.take(Start{call, false, true}), "open-host ");
+    EXPECT_EQ(bench.take(Start{call, false, true}), "open-runner ");
     EXPECT_EQ(bench.life.state(), State::Opening);
     EXPECT_EQ(bench.take(Opened{}), "connect ");
     EXPECT_EQ(bench.take(Described{}), "load ");
@@ -123,7 +123,7 @@ TEST(Life, AStartThatIsOverIsNotUnderWay) {
     bench.run_world();
     EXPECT_FALSE(bench.life.is_starting());
     const CallNumber again = bench.call();
-    EXPECT_EQ(bench.take(Start{again, false, true}), "open-host ");
+    EXPECT_EQ(bench.take(Start{again, false, true}), "open-runner ");
     bench.take(Opened{});
     bench.take(Described{});
     bench.take(Loaded{bench.load});
@@ -146,7 +146,7 @@ TEST(Life, ASecondStartOfAPlanIsRefusedWhileTheFirstIsUnderWay) {
     EXPECT_EQ(bench.take(Went{bench.go}), "continue answer ");
 }
 
-// Two breakpoints of one moment: time stands at the second, too.
+// Two breakpoints of one moment: time is stopped at the second, too.
 TEST(Life, TimeStaysWhereItIsIfANodeHaltsWhileNodesAreLetGo) {
     Bench bench;
     bench.run_world();
@@ -165,7 +165,7 @@ TEST(Life, APlanOnABusBeginsWithARobotThatIsKnownToBeAtRest) {
     const CallNumber call = bench.call();
     EXPECT_EQ(bench.take(Start{call, true}), "stop-nodes ");
     EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "load ");
-    EXPECT_EQ(bench.take(Loaded{bench.load}), "open-host ");
+    EXPECT_EQ(bench.take(Loaded{bench.load}), "open-runner ");
     EXPECT_EQ(bench.take(Opened{}), "let-go ");
     EXPECT_EQ(bench.take(Went{bench.go}), "continue count answer ");
     EXPECT_TRUE(bench.ends.empty());  // nothing has ended
@@ -208,7 +208,7 @@ TEST(Life, InAWorldThePlanEndsFirstButHasNoMoreThanAMoment) {
         EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), ends ? "stood tell " : "stood ");
         EXPECT_EQ(bench.life.state(), State::ComingToRest);
         // One that did not end is given up, with its world.
-        EXPECT_EQ(bench.pass(kRollOut), ends ? "rest " : "tell open-host ");
+        EXPECT_EQ(bench.pass(kRollOut), ends ? "rest " : "tell open-runner ");
     }
 }
 
@@ -254,7 +254,7 @@ TEST(Life, APlanThatFailsStopsTheRobot) {
     EXPECT_EQ(bench.ends[0].message, "go: it is broken");
 }
 
-// Whoever waits for the start hears why, not that it was stopped.
+// A caller that waits for the start is told why, not that it was stopped.
 TEST(Life, APlanThatFailsWhileItIsBeingStartedSaysWhy) {
     Bench bench;
     const CallNumber call = bench.call();
@@ -300,7 +300,7 @@ TEST(Life, StopWhileAWorldOpensLeavesTheWorldAlone) {
     bench.take(Start{start, true, true});
     EXPECT_EQ(bench.take(Stop{bench.call(), {"Ann"}}), "answer stood ");
     EXPECT_EQ(bench.said[start].why, "it was stopped");
-    EXPECT_EQ(bench.take(Opened{}), "open-host ");  // again, without the plan
+    EXPECT_EQ(bench.take(Opened{}), "open-runner ");  // again, without the plan
     EXPECT_EQ(bench.take(Opened{}), "connect ");
     bench.take(Described{});
     EXPECT_EQ(bench.take(Loaded{bench.load}), "");
@@ -360,7 +360,7 @@ TEST(Life, AStepIntoAScriptIsVoidAfterStop) {
 
 // ---- the rules, over everything that can happen ----
 
-// One input of each kind. Answers of nodes and hosts are to what was asked last.
+// One input of each kind. Answers of nodes and runners are to what was asked last.
 using Make = std::function<Input(Bench&)>;
 const std::vector<Make>& inputs() {
     static const std::vector<Make> kInputs = {
@@ -449,7 +449,7 @@ void feed(Bench& bench, const Make& make, const std::string& where) {
     for (const auto& [call, times] : bench.answers) EXPECT_LE(times, 1) << where << call;
 }
 
-// Whoever still waits is answered by the end of everything: the nodes are silent, the pause is
+// Callers that still wait are answered by the end of everything: the nodes are silent, the pause is
 // answered by the nodes or by leaving.
 void finish(Bench& bench, const std::string& where) {
     bench.take(Leave{bench.call(), {"Ann", Why::Project}, true});
@@ -458,7 +458,7 @@ void finish(Bench& bench, const std::string& where) {
     for (const auto& [call, times] : bench.answers) {
         EXPECT_EQ(times, 1) << where << "command " << call;
     }
-    EXPECT_FALSE(bench.host) << where;
+    EXPECT_FALSE(bench.runner) << where;
     EXPECT_EQ(bench.life.state(), State::None) << where;
     EXPECT_EQ(bench.life.next_tick(), Time::max()) << where;
 }

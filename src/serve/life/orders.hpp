@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "serve/robot/stop_report.hpp"
+#include "serve/target/stop_report.hpp"
 
 namespace vagus::serve::life {
 
@@ -51,7 +51,7 @@ struct Start {
     CallNumber call = 0;
     bool plan = false;        // there is one to run
     bool world_anew = false;  // the world does not stand there, or is another by now
-    bool go = true;           // otherwise the plan stands before its first actor
+    bool go = true;           // otherwise the plan is paused before its first actor
     bool anew = false;        // also if it runs
 };
 // The process of the run has opened what it was told to open, or cannot.
@@ -123,7 +123,7 @@ using Input = std::variant<Joined, Open, Start, Opened, Failed, Described, Loade
 
 // The process of the run is to open the world alone, again with its robots where they stand, or
 // the plan (in its world, or on the bus).
-struct OpenHost {
+struct OpenRunner {
     enum class What { World, WorldAgain, Plan };
     What what = What::World;
     CallNumber call = 0;  // whose plan
@@ -179,7 +179,7 @@ struct Tell {
     bool again = false;  // only its nodes are others than when it was told first
 };
 
-using Action = std::variant<OpenHost, ConnectWorld, LoadNodes, LetNodesGo, BeginRun, ContinueRun,
+using Action = std::variant<OpenRunner, ConnectWorld, LoadNodes, LetNodesGo, BeginRun, ContinueRun,
                             StepPlan, PauseRun, RestRun, PauseNodes, CountStart, EndPlan, StopNodes,
                             MakeSafe, Disconnect, GoOnLeaving, Answer, AnswerStop, Tell>;
 using Actions = std::vector<Action>;

@@ -137,7 +137,7 @@ public:
 
     void tick(Time now);
     Time next_tick() const { return next_tick_; }
-    // What stands between now and a file on disk, or an empty text: for the console.
+    // What is between now and a file on disk, or an empty text: for the console.
     std::optional<std::string> take_trouble();
 
 private:

@@ -205,7 +205,7 @@ Message Protocol::read(std::string_view message) const {
     return request;
 }
 
-// What stands beside `in`.
+// What is beside `in`.
 std::optional<Refusal> Protocol::read_members(const Json& json, Request& request) const {
     for (const auto& [key, value] : json.items()) {
         if (key != "id" && key != "do" && key != "in" && key != "until") {

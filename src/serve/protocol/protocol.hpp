@@ -2,7 +2,7 @@
 // pages' TypeScript types and docs/protocol.md are made.
 //
 //     const Protocol& protocol = Protocol::get();
-//     Result<Request> request = protocol.read(text);      // a command of a client, checked
+//     const Message message = protocol.read(text);  // a Request, checked, or why it is none
 #pragma once
 
 #include <cstdint>

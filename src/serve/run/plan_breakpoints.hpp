@@ -45,7 +45,7 @@ public:
     // A file has another name.
     void rename(const std::string& from, const std::string& to);
 
-    // What the run host is told; `path_of` gives the file of a document.
+    // What the runner is told; `path_of` gives the file of a document.
     std::vector<talk::Breakpoint> orders(
         const std::function<std::string(const std::string& doc)>& path_of) const;
     // What it told; those that are not in the list are not set any more, and keep their hits. True

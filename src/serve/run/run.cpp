@@ -30,7 +30,7 @@ private:
 
 }  // namespace
 
-StartRunProcess start_run_host(std::string program) {
+StartRunProcess start_runner(std::string program) {
     return [program = std::move(program)]() -> Result<std::unique_ptr<RunProcess>> {
         return std::unique_ptr<RunProcess>(
             std::make_unique<RunChild>(TRY(Child::start({program, {"run-host"}, "vagus"}))));

@@ -1,9 +1,9 @@
-// The run host as the server holds it: starts it, speaks with it, carries the frames of its bus,
+// The runner as the server holds it: starts it, speaks with it, carries the frames of its bus,
 // keeps what it told last for pages, and says what happened when it dies or hangs.
 //
-//     Run run(desk, tell);
+//     Run run(desk, start_runner("/usr/bin/vagus"));
 //     run.open({.world = "hall.world.json", .plan = "WallFollow.plan.json"}, now);
-//     robot.connect(run, "sim", …);
+//     robot.connect(run, "sim", "Simulator", "simulator", now);
 //     run.tick(now);
 #pragma once
 
@@ -18,16 +18,17 @@
 
 #include "serve/json.hpp"
 #include "serve/process.hpp"
-#include "serve/robot/carrier.hpp"
 #include "serve/run/flows.hpp"
 #include "serve/run/hand_order.hpp"
 #include "serve/studio/desk.hpp"
 #include "serve/talk/codec.hpp"
+#include "serve/target/carrier.hpp"
 
 namespace vagus::serve {
 
 constexpr Duration kHangingAfter = 2s;  // without a word: shown, with a button that ends it
 constexpr Duration kSilentAfter = 300ms;
+constexpr Duration kClockAgainAfter = 1s;  // of a clock that says nothing new
 
 struct RunOrder {
     std::string world;  // paths of this computer
@@ -38,7 +39,7 @@ struct RunOrder {
     std::vector<talk::Breakpoint> breakpoints;  // as PlanBreakpoints::orders()
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
-    bool keep_poses = false;   // robots stand where they stood before
+    bool keep_poses = false;   // robots are at rest where they stood before
     bool paused = true;        // at first
 };
 
@@ -52,7 +53,7 @@ public:
 };
 using StartRunProcess = std::function<Result<std::unique_ptr<RunProcess>>()>;
 // A child that runs `program`.
-StartRunProcess start_run_host(std::string program);
+StartRunProcess start_runner(std::string program);
 
 class Run final : public Carrier {
 public:
@@ -108,7 +109,7 @@ public:
     // A simulated world stands and can be talked to.
     bool has_world() const { return has_world_ && is_open(); }
     State state() const { return state_; }
-    // To be watched for reading; -1 without a host. Another host may have the same number:
+    // To be watched for reading; -1 without a runner. Another runner may have the same number:
     // generation() tells them apart.
     int descriptor();
     uint64_t generation() const { return generation_; }
@@ -159,7 +160,7 @@ public:
     // Plan files have been saved: what the plan that runs is made of is to take over (P31). What
     // came of it is in the document of the plan, and is said.
     void change_plan(const std::vector<std::string>& files);
-    // Whether it could take over now, if files had these texts: `done` gets what stands in its way,
+    // Whether it could take over now, if files had these texts: `done` gets what is in its way,
     // or nothing if the plan that runs is not made of them.
     using Reasons = std::optional<std::vector<std::string>>;
     void check_change(const std::map<std::string, std::string>& texts,
@@ -168,7 +169,7 @@ public:
     double time() const { return t_; }
     std::optional<double> load() const { return load_; }
     double measured_speed() const { return real_; }
-    uint64_t deaths() const { return deaths_; }  // of run hosts
+    uint64_t deaths() const { return deaths_; }  // of runners
     // Checks of supervisors that began late, in this run.
     uint64_t late_checks() const { return late_checks_; }
     std::string robot_of(uint16_t node) const;
@@ -244,14 +245,14 @@ private:
     std::function<void(const BreakpointsNow&)> breakpoints_told_ = [](const auto&) {};
     Told told_;
     uint64_t asked_ = 0;
-    std::map<uint64_t, Answered> answers_;  // of the host, by number of what was asked
+    std::map<uint64_t, Answered> answers_;  // of the runner, by number of what was asked
     std::map<uint16_t, std::string> programs_;
     std::set<std::string> hears_;  // events, by the plan
     std::set<std::string> stops_work_;
     std::vector<uint16_t> held_nodes_;  // as it was told
     uint64_t generation_ = 0;
     uint64_t orders_ = 0;
-    bool opening_ = false;  // what the host tells is still of the order before
+    bool opening_ = false;  // what the runner tells is still of the order before
     bool rests_ = true;
     uint64_t deaths_ = 0, late_checks_ = 0;
 
@@ -272,6 +273,7 @@ private:
     std::optional<double> load_;
     Time heard_{};
     Time now_{};
+    Time clock_told_{};
     std::optional<talk::Show> shown_;  // none: it was not told yet
     Flows flows_;
 };

@@ -1,4 +1,4 @@
-// What pages see of a run: its clock, its plan, what stands in its world.
+// What pages see of a run: its clock, its plan, what is in its world.
 #include "serve/run/run.hpp"
 
 #include "serve/json.hpp"

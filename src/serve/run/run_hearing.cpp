@@ -2,6 +2,8 @@
 // passed on. A process that sends what nobody understands is ended, and the server goes on.
 #include <fmt/format.h>
 
+#include <tuple>
+
 #include "serve/run/run.hpp"
 #include "serve/thrown.hpp"
 
@@ -108,12 +110,18 @@ void Run::hear(const talk::Line& line) {
 
 // ---- the world ----
 
+// A paused run tells its clock ten times a second, too; pages hear of it when something is new, and
+// once a second that the run is there.
 void Run::hear(const talk::Clock& clock) {
+    const auto told = [this] { return std::tuple(t_, paused_, real_, state_); };
+    const auto before = told();
     t_ = clock.t;
     paused_ = clock.paused;
     real_ = clock.real;
     if (clock.load) load_ = clock.load;
     if (state_ != State::Dead) state_ = paused_ ? State::Paused : State::Running;
+    if (told() == before && now_ < clock_told_ + kClockAgainAfter) return;
+    clock_told_ = now_;
     desk_.board().touch("clock");
 }
 

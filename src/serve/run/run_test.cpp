@@ -36,7 +36,7 @@ protected:
     Result<std::unique_ptr<RunProcess>> start() {
         int pair[2];
         EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
-        host.emplace(pair[1]);
+        runner.emplace(pair[1]);
         end.reset();
         return std::unique_ptr<RunProcess>(std::make_unique<Scripted>(pair[0], killed, end));
     }
@@ -44,7 +44,7 @@ protected:
     template <typename Order>
     std::vector<Order> orders() {
         std::vector<Order> found;
-        for (const Packet& packet : host->receive()) {
+        for (const Packet& packet : runner->receive()) {
             const auto order = talk::decode_order(packet);
             EXPECT_TRUE(order.ok()) << (order.ok() ? "" : order.error().what);
             const auto* one = order.ok() ? std::get_if<Order>(&order.value()) : nullptr;
@@ -54,7 +54,7 @@ protected:
     }
     void say(const talk::News& news) { say(talk::encode(news)); }
     void say(const Packet& packet) {
-        ASSERT_TRUE(host->send(packet));
+        ASSERT_TRUE(runner->send(packet));
         run.tick(now += 1ms);
     }
     void open() {
@@ -75,9 +75,9 @@ protected:
     static talk::Clock clock(double t) { return {.t = t, .paused = false, .real = 1, .load = {}}; }
 
     // What pages that watch are sent.
-    void flush() {
+    void flush(int times = 10) {
         frames.clear();
-        for (int i = 0; i < 10; ++i) {
+        for (int i = 0; i < times; ++i) {
             desk.board().flush(
                 now += 100ms, [](ClientId) { return true; },
                 [this](ClientId, bool, const std::string& bytes) { frames.push_back(bytes); });
@@ -85,14 +85,15 @@ protected:
     }
 
     Time now = 1s;
+    double wall = 1e12;
     Desk desk{Access("0123456789abcdef", "fedcba9876543210"),
               {.send = [this](ClientId, bool binary,
                               std::string bytes) { (binary ? frames : texts).push_back(bytes); },
                .close = [](ClientId, auto) {},
                .log = [](auto&) {},
-               .wall_ms = [] { return 1e12; }}};
+               .wall_ms = [this] { return wall; }}};
     serve::Run run{desk, [this] { return start(); }};
-    std::optional<Pipe> host;
+    std::optional<Pipe> runner;
     bool killed = false;
     std::optional<ChildEnd> end;
     uint64_t number = 0;
@@ -325,6 +326,29 @@ TEST_F(RunTest, ThePlanOfPagesHasTheirDocuments) {
     EXPECT_EQ(shown["levels"][0], Json({{"path", "A/b"}, {"doc", "doc of b"}}));
     EXPECT_EQ(shown["stands_at"], Json::array({4}));
     EXPECT_EQ(shown["state"], "running");
+}
+
+// A paused run tells its clock ten times a second: the time of the wall alone is nothing new.
+TEST_F(RunTest, AClockThatSaysNothingNewIsNotSentAgain) {
+    open();
+    say(opened_answer(number));
+    const Json watch = {{"watch", 1}, {"topic", "clock"}};
+    ASSERT_FALSE(desk.board().watch(ClientId{1}, watch, now).has_value());
+    talk::Clock told = clock(3);
+    told.paused = true;
+    const auto tell = [&] {
+        wall += 100;
+        say(told);
+        flush(1);
+        return frames.size();
+    };
+    EXPECT_EQ(tell(), 1u);
+    EXPECT_EQ(tell(), 0u);
+    told.t = 4;
+    EXPECT_EQ(tell(), 1u);
+    EXPECT_EQ(tell(), 0u);
+    now += kClockAgainAfter;
+    EXPECT_EQ(tell(), 1u);
 }
 
 // A camera costs time: the picture that a page has is not sent to it again.

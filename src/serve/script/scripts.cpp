@@ -295,7 +295,7 @@ Result<size_t> Scripts::change(const std::string& file, const std::string& eleme
     const MentionKind kind = element == "event" ? MentionKind::Event : MentionKind::Constant;
     size_t places = 0;
     if (to != name) {
-        const std::vector<ScriptPart> parts = parts_;  // each edit reads the files anew
+        const std::vector<ScriptPart> parts = parts_;  // each edit reads the files again
         for (const ScriptPart& part : parts) {
             if (part.file == file) TRY(replace_mentions(part.doc, name, kind, to, by, places));
         }

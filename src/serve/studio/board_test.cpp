@@ -76,7 +76,7 @@ TEST(Board, ADocumentComesWholeThenInPatches) {
     EXPECT_EQ(f.sent[0].json(), (Json{{"watch", 5}, {"patch", {{"t", 1.5}}}}));
     f.board.touch("clock");
     f.flush(2s);
-    EXPECT_TRUE(f.sent.empty());  // made anew, and the same
+    EXPECT_TRUE(f.sent.empty());  // made again, and the same
 }
 
 TEST(Board, NoFasterThanAskedAndNothingThatNobodyWatches) {

@@ -37,7 +37,7 @@ void Clients::leave(ClientId connection, Time now) {
     member->connection.reset();
     member->gone_since = now;
     connections_.erase(connection);
-    // Who waits for an answer of this page would wait in vain.
+    // No answer of this page will come; end what waits for it.
     if (asked_ && drives(*member)) answer(true);
 }
 

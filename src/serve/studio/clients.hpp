@@ -1,4 +1,4 @@
-// Who is connected, what each may do, and who holds the wheel (serve.md, who may do what). A client
+// Who is connected, what each may do, and who has control (serve.md, who may do what). A client
 // is known by the key that its page made, so that it may lose its connection and come back: its
 // wheel and the answers that it missed wait for it.
 #pragma once
@@ -50,12 +50,12 @@ public:
     };
 
     // A page with a good token. A connection that the same client had before is given back, to be
-    // closed. The first who may drive holds the wheel.
+    // closed. The first who may drive has control.
     Member& enter(ClientId connection, const std::string& key, const std::string& name, Role role,
                   Time now, std::optional<ClientId>& replaced);
     void leave(ClientId connection, Time now);
 
-    // Who connects with this key and role now, if a page does.
+    // The page that connects with this key and role now, if any.
     const Member* connected_with(const std::string& key, Role role) const;
     Member* find(ClientId connection);
     Member* find(uint32_t number);

@@ -267,7 +267,7 @@ void Desk::obey(Clients::Member& member, ClientId client, const Request& request
 }
 
 void Desk::obey_new(Clients::Member& member, ClientId client, const Request& request, Time now) {
-    // What only concerns this connection begins anew with each.
+    // What only concerns this connection begins again with each.
     if (request.name == "watch" || request.name == "unwatch") {
         return obey_here(member, client, request, now);
     }

@@ -1,7 +1,7 @@
 // Where pages and the parts of the studio meet: who they are, what they may do, their commands to
 // the part that obeys them, and what they watch. One thread; told the time.
 //
-//     Desk desk(access, send, log);
+//     Desk desk(access, {.send = …, .close = …, .log = …, .wall_ms = …});
 //     desk.command("node.run", [&](const Call& call) { call.done(run(call.in)); });
 //     desk.board().document("robot", [&](const Json&) { return robot_document(); });
 //     desk.hear(event, now);                       // of the web server

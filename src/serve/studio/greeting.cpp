@@ -1,4 +1,4 @@
-// Who comes to the desk and who stays: hello, tokens, two pages of one name, pings.
+// Clients that connect and stay: hello, tokens, two pages of one name, pings.
 #include <fmt/format.h>
 
 #include <algorithm>

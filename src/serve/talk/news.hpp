@@ -45,7 +45,7 @@ struct SceneRobot {
     bool operator==(const SceneRobot&) const = default;
 };
 
-// What stands in the world.
+// What is in the world.
 struct Scene {
     std::vector<SceneRobot> robots = {};  // in the order of the document
     Document document = {};               // the topic scene

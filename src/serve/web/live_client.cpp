@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <boost/asio/ssl.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/use_future.hpp>
 #include <charconv>
 #include <limits>
@@ -17,8 +17,7 @@ namespace vagus::serve {
 
 namespace {
 
-using Plain = websocket::stream<beast::tcp_stream>;
-using Secure = websocket::stream<beast::ssl_stream<beast::tcp_stream>>;
+using Socket = websocket::stream<Stream>;
 
 constexpr uint16_t kUsualPort = 8910;
 constexpr size_t kAnswerBytesMax = 64u << 20;
@@ -34,8 +33,7 @@ std::string authority(const ServerAddress& address) {
     return fmt::format("{}:{}", v6 ? "[" + address.host + "]" : address.host, address.port);
 }
 
-template <typename Stream>
-void prepare(Stream& socket) {
+void prepare(Socket& socket) {
     socket.read_message_max(kAnswerBytesMax);
     socket.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
         request.set(http::field::sec_websocket_protocol, kLiveProtocol);
@@ -57,9 +55,8 @@ struct ServerTime {
     }
 };
 
-template <typename Stream>
-awaitable<std::string> exchange(Stream& socket, uint64_t id, std::string text, ServerTime& time) {
-    beast::get_lowest_layer(socket).expires_after(kAnswerWithin);
+awaitable<std::string> exchange(Socket& socket, uint64_t id, std::string text, ServerTime& time) {
+    socket.next_layer().expires_after(kAnswerWithin);
     co_await socket.async_write(asio::buffer(text), use_awaitable);
     for (;;) {
         beast::flat_buffer buffer;
@@ -149,8 +146,7 @@ public:
         if (type && type->kind == CommandKind::Act) message["until"] = time_.deadline();
         try {
             const std::string text = message.dump();
-            const std::string came = secure_ ? run(exchange(*secure_, id, text, time_))
-                                             : run(exchange(*plain_, id, text, time_));
+            const std::string came = run(exchange(*socket_, id, text, time_));
             const Json answer = Json::parse(came);
             if (answer.contains("ok")) return answer["ok"];
             return Error{code_of(answer.at("error").at("code")), answer.at("error").at("what")};
@@ -182,35 +178,28 @@ private:
         Tcp::resolver resolver(io_);
         const auto found = co_await resolver.async_resolve(
             address.host, std::to_string(address.port), use_awaitable);
-        beast::tcp_stream stream(io_);
-        stream.expires_after(kMeetWithin);
-        co_await stream.async_connect(found, use_awaitable);
+        beast::tcp_stream tcp(io_);
+        tcp.expires_after(kMeetWithin);
+        co_await tcp.async_connect(found, use_awaitable);
+        Stream stream(std::move(tcp));
         if (address.secure) {
-            co_await meet_secure(std::move(stream), address);
-        } else {
-            plain_.emplace(std::move(stream));
-            prepare(*plain_);
-            co_await plain_->async_handshake(authority(address), "/live", use_awaitable);
+            verify(address);
+            co_await stream.connect_tls(tls_, address.host);
         }
+        socket_.emplace(std::move(stream));
+        prepare(*socket_);
+        co_await socket_->async_handshake(authority(address), "/live", use_awaitable);
     }
 
-    awaitable<void> meet_secure(beast::tcp_stream stream, ServerAddress address) {
+    void verify(const ServerAddress& address) {
         tls_.set_default_verify_paths();
         if (!address.certificate.empty()) tls_.load_verify_file(address.certificate);
         tls_.set_verify_mode(asio::ssl::verify_peer);
-        secure_.emplace(std::move(stream), tls_);
-        auto& layer = secure_->next_layer();
-        layer.set_verify_callback(asio::ssl::host_name_verification(address.host));
-        SSL_set_tlsext_host_name(layer.native_handle(), address.host.c_str());
-        co_await layer.async_handshake(asio::ssl::stream_base::client, use_awaitable);
-        prepare(*secure_);
-        co_await secure_->async_handshake(authority(address), "/live", use_awaitable);
     }
 
     asio::io_context io_{1};
     asio::ssl::context tls_{asio::ssl::context::tls_client};
-    std::optional<Plain> plain_;  // exactly one of these, once connected
-    std::optional<Secure> secure_;
+    std::optional<Socket> socket_;  // once connected
     uint64_t last_ = 0;
     ServerTime time_;
 };

@@ -29,7 +29,6 @@ namespace vagus::serve {
 
 namespace {
 
-using SystemError = boost::system::error_code;
 using asio::as_tuple;
 using std::chrono::seconds;
 
@@ -77,22 +76,10 @@ struct Place {
     const Strangers::Place number;
 };
 
-// A WebSocket, whatever carries it.
-class Live {
+// The WebSocket of a page.
+class Live : public std::enable_shared_from_this<Live> {
 public:
-    virtual ~Live() = default;
-    virtual void send(Outgoing message) = 0;
-    virtual void close(std::string reason) = 0;
-    virtual void resume() = 0;  // what it said was taken
-    virtual void know() = 0;    // it has shown its token
-};
-// Owners: the table below, and the coroutines of each connection, which may outlive the entry.
-using Lives = std::map<ClientId, std::shared_ptr<Live>>;
-
-template <typename Stream>
-class LiveOver final : public Live, public std::enable_shared_from_this<LiveOver<Stream>> {
-public:
-    LiveOver(Stream stream, ClientId id, Shared& shared, const Place& place)
+    Live(Stream stream, ClientId id, Shared& shared, const Place& place)
         : socket_(std::move(stream)),
           id_(id),
           shared_(shared),
@@ -104,13 +91,13 @@ public:
         taken_.expires_at(asio::steady_timer::time_point::max());
     }
 
-    void send(Outgoing message) override {
+    void send(Outgoing message) {
         if (closing_) return;
         queue_.push_back(std::move(message));
         ready_.cancel();
     }
-    // Who does not take the goodbye is cut off.
-    void close(std::string reason) override {
+    // A client that does not answer the close frame is cut off.
+    void close(std::string reason) {
         if (closing_) return;
         closing_ = true;
         reason_ = std::move(reason);
@@ -120,13 +107,15 @@ public:
             socket_.get_executor(), [self = this->shared_from_this()] { return self->cut_off(); },
             asio::detached);
     }
-    void know() override {
+    // It has shown its token.
+    void know() {
         known_ = true;
         shared_.strangers.remove(place_);
         socket_.read_message_max(shared_.options.message_bytes_max);
         taken_.cancel();
     }
-    void resume() override {
+    // What it said was taken.
+    void resume() {
         waiting_ = waiting_bytes_ = 0;
         taken_.cancel();
     }
@@ -175,9 +164,9 @@ private:
             Message message = Protocol::get().read(text);
             shared_.inbox.put(ClientText{id_, std::move(text), std::move(message)});
             shared_.strangers.heard(place_);
-            // Who it is must be known before it says more.
+            // The client must be known before it may say more.
             while (!known_ && !closing_) co_await taken_.async_wait(as_tuple(use_awaitable));
-            // Who sends faster than it is heard is not read further.
+            // Back-pressure: stop reading a client that sends faster than it is answered.
             waiting_bytes_ += size;
             if (++waiting_ < kClientTextsMax &&
                 waiting_bytes_ < shared_.options.message_bytes_max) {
@@ -222,7 +211,7 @@ private:
     awaitable<void> cut_off() {
         goodbye_.expires_after(kGoodbyeWithin);
         co_await goodbye_.async_wait(as_tuple(use_awaitable));
-        if (!over_) beast::get_lowest_layer(socket_).close();
+        if (!over_) socket_.next_layer().close();
     }
 
     websocket::stream<Stream> socket_;
@@ -236,6 +225,8 @@ private:
     bool known_ = false, closing_ = false, over_ = false;
     std::string reason_;
 };
+// Owners: this table, and the coroutines of each connection, which may outlive the entry.
+using Lives = std::map<ClientId, std::shared_ptr<Live>>;
 
 Asked who_asks(const Asking& asked, const Tcp::endpoint& local, bool secure_stream) {
     Asked who;
@@ -372,38 +363,22 @@ private:
         const Place place(strangers_, remote.address().to_string(),
                           ender_of(socket.native_handle()));
         const Ends ends{local, remote, place};
-        beast::tcp_stream stream(std::move(socket));
+        Stream stream{beast::tcp_stream(std::move(socket))};
         stream.expires_after(options_.request_within);
-        if (tls_) {
-            co_await secured(std::move(stream), ends);
-        } else {
-            co_await talk(std::move(stream), ends);
-        }
-    }
-
-    // Who speaks plain HTTP here has typed http:// or nothing, and hears what to type.
-    awaitable<void> secured(beast::tcp_stream stream, const Ends& ends) {
-        beast::flat_buffer begun;
-        const auto [lost, is_tls] =
-            co_await beast::async_detect_ssl(stream, begun, as_tuple(use_awaitable));
-        if (lost) co_return;
-        if (!is_tls) {
+        const TlsBegins begins = tls_ ? co_await stream.accept_tls(*tls_) : TlsBegins::Yes;
+        if (begins == TlsBegins::Yes) co_await talk(std::move(stream), ends);
+        // It has typed http:// or nothing, and hears what to type.
+        if (begins == TlsBegins::Plain) {
             co_await tell(stream, http::status::bad_request,
                           "this port speaks HTTPS; open the address with https://");
-            co_return;
         }
-        beast::ssl_stream<beast::tcp_stream> secure(std::move(stream), *tls_);
-        const auto [refused, used] = co_await secure.async_handshake(
-            asio::ssl::stream_base::server, begun.data(), as_tuple(use_awaitable));
-        if (!refused) co_await talk(std::move(secure), ends);
     }
 
-    template <typename Stream>
     awaitable<void> talk(Stream stream, const Ends& ends) {
         beast::flat_buffer buffer;
         for (bool first = true;; first = false) {
             if (!first && !co_await begins(stream, buffer)) break;
-            beast::get_lowest_layer(stream).expires_after(options_.request_within);
+            stream.expires_after(options_.request_within);
             http::request_parser<http::string_body> parser;
             parser.header_limit(kHeaderBytesMax);
             parser.body_limit(kBodyBytesMax);
@@ -430,7 +405,7 @@ private:
             Answer answer = refusal ? plain(asked, http::status::forbidden, *refusal)
                                     : answer_for(asked, shown(address));
             if (answer.result() == http::status::unauthorized) {
-                beast::get_lowest_layer(stream).expires_after(options_.request_within);
+                stream.expires_after(options_.request_within);
                 co_await wait_for_wrong(address);
             }
             const bool more = answer.keep_alive();
@@ -439,8 +414,7 @@ private:
                 break;
             }
         }
-        SystemError ignored;
-        beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_send, ignored);
+        stream.shut_down_sending();
     }
 
     Shown shown(const std::string& address) {
@@ -463,17 +437,15 @@ private:
 
     // Waits for the first bytes of the next request: a browser keeps its connections for the parts
     // of the pages that are fetched later.
-    template <typename Stream>
     awaitable<bool> begins(Stream& stream, beast::flat_buffer& buffer) {
         if (buffer.size() > 0) co_return true;
-        beast::get_lowest_layer(stream).expires_after(options_.idle_within);
+        stream.expires_after(options_.idle_within);
         const auto [failed, size] = co_await stream.async_read_some(buffer.prepare(kFirstBytesMax),
                                                                     as_tuple(use_awaitable));
         buffer.commit(size);
         co_return !failed;
     }
 
-    template <typename Stream>
     awaitable<bool> write(Stream& stream, Answer answer, bool head) {
         // The browser asks for nothing here without TLS any more.
         if (tls_) answer.set("Strict-Transport-Security", "max-age=31536000");
@@ -489,8 +461,7 @@ private:
         co_return !failed;
     }
 
-    // Whoever speaks HTTP badly hears why; who says nothing or leaves does not.
-    template <typename Stream>
+    // A malformed request is told what is wrong; a client that left or said nothing is not.
     awaitable<void> tell_malformed(Stream& stream, SystemError failed) {
         if (failed == http::error::end_of_stream || failed == beast::error::timeout ||
             failed.category() != http::make_error_code(http::error::bad_method).category()) {
@@ -504,22 +475,18 @@ private:
     }
 
     // The last word on a connection.
-    template <typename Stream>
     awaitable<void> tell(Stream& stream, http::status status, const char* sentence) {
         Asking nothing;
         nothing.version(11);
         nothing.keep_alive(false);
         co_await write(stream, plain(nothing, status, sentence), false);
-        SystemError ignored;
-        beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_send, ignored);
+        stream.shut_down_sending();
     }
 
-    template <typename Stream>
     awaitable<void> live(Stream stream, Asking asked, const Ends& ends) {
         const ClientId id{++last_client_};
-        beast::get_lowest_layer(stream).expires_never();  // the WebSocket has limits of its own
-        const auto live =
-            std::make_shared<LiveOver<Stream>>(std::move(stream), id, shared_, ends.place);
+        stream.expires_never();  // the WebSocket has limits of its own
+        const auto live = std::make_shared<Live>(std::move(stream), id, shared_, ends.place);
         lives_.emplace(id, live);
         inbox_.put(ClientOpened{id, ends.remote.address().to_string()});
         co_await live->run(std::move(asked));

@@ -46,7 +46,7 @@ struct WebOptions {
     uint16_t port = 0;                    // 0: a free one
     std::string pages = {};               // folder of the built pages
     std::vector<std::string> hosts = {};  // further names of this machine that Host may have
-    // Who may read /metrics, and stop; asked on the thread of the server.
+    // Whether the token may read /metrics, and stop; asked on the thread of the server.
     std::function<bool(std::string_view token)> may_look = [](std::string_view) { return false; };
     std::string tls_cert = {}, tls_key = {};  // PEM files; empty: HTTP
     size_t strangers_max = 128;

@@ -24,7 +24,7 @@ public:
     using Place = uint64_t;
     explicit Strangers(StrangerLimits limits) : limits_(limits) {}
 
-    // Whoever had to go for it is cut off before this returns.
+    // The connection that had to make room is cut off before this returns.
     Place add(const std::string& address, std::function<void()> cut_off);
     void heard(Place place);
     void remove(Place place) { all_.erase(place); }

@@ -14,12 +14,12 @@ constexpr uint32_t kNobody = 0;  // in the place of a client: the server itself
 }  // namespace
 
 aesl::Target Workbench::target_of(const std::string& name, uint16_t id) const {
-    const auto live = robot_.target_of(name, id);
+    const auto live = target_.target_of(name, id);
     return live ? *live : session::known_node(name);
 }
 
 Scripts::TargetOf Workbench::targets_now() const {
-    return [nodes = robot_.described()](const std::string& name, uint16_t id) {
+    return [nodes = target_.described()](const std::string& name, uint16_t id) {
         const auto live = target_among(nodes, name, id);
         return live ? *live : session::known_node(name);
     };
@@ -31,9 +31,9 @@ std::vector<std::string> Workbench::missing_nodes() const {
     const std::vector<std::string>& files = project_->scripts;
     for (const ScriptPart& part : scripts_.parts()) {
         if (std::find(files.begin(), files.end(), part.file) == files.end()) continue;
-        if (!robot_.target_of(part.node, part.node_id)) missing.push_back(part.node);
+        if (!target_.target_of(part.node, part.node_id)) missing.push_back(part.node);
     }
-    if (missing.empty() && !robot_.all_described(1)) missing.push_back("any node");
+    if (missing.empty() && !target_.all_described(1)) missing.push_back("any node");
     return missing;
 }
 
@@ -64,7 +64,7 @@ Figures Workbench::figures() const {
                     .seconds = clock(),
                     .speed = run_.measured_speed(),
                     .late_checks = run_.late_checks(),
-                    .robot = robot_.counts(),
+                    .target = target_.counts(),
                     .clients = desk_.clients().connected(),
                     .ends = ends_.counts(),
                     .results = ends_.results(),

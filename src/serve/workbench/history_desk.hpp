@@ -5,7 +5,7 @@
 //     HistoryDesk histories(desk, files);
 //     histories.begin({.kind = "simulated", .name = "Hall"});
 //     histories.trace(line);
-//     histories.tick(clock);
+//     histories.tick(12.34);  // what the clock of the run shows
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // Small things that outlive the server, in one JSON file: settings of a user, breakpoints and
 // layouts of a project. Written atomically at each change.
 //
-//     Kept kept("/home/me/.config/vagus/settings.json", 1 << 20);
+//     Kept kept("/home/me/.config/vagus/settings.json");
 //     kept.put("theme", "dark");
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a person opens, and what stands in the user's own folder.
+// What a person opens, and what is in the user's own folder.
 #include "serve/workbench/library.hpp"
 #include "base/test_folder.hpp"
 

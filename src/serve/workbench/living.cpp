@@ -38,12 +38,12 @@ void Workbench::live() {
     }
     lives_ = false;
     // What nodes were told is on its way at once.
-    if (std::exchange(send_at_once_, false)) robot_.tick(now_);
+    if (std::exchange(send_at_once_, false)) target_.tick(now_);
 }
 
 void Workbench::tick_life() {
     if (life_.waits_for_nodes()) {
-        if (run_.has_world() && robot_.all_described(run_.node_count())) {
+        if (run_.has_world() && target_.all_described(run_.node_count())) {
             tell_life(life::Described{});
         }
         if (!breakpoints_.waits_for_once()) tell_life(life::BreakpointsSet{});
@@ -59,7 +59,7 @@ void Workbench::tick_life() {
 // Nodes that were silent, or moved, when the end was told are asked on.
 void Workbench::watch_stop() {
     if (!ends_.open()) return;
-    const StopReport now = robot_.stop_report();
+    const StopReport now = target_.stop_report();
     if (!now.nodes.empty() && ends_.differs(now)) tell_life(life::Stopped{stop_number_, now});
 }
 
@@ -82,12 +82,12 @@ void Workbench::perform(const life::Action& action) {
     std::visit([this](const auto& one) { perform(one); }, action);
 }
 
-void Workbench::perform(const life::OpenHost& open) {
+void Workbench::perform(const life::OpenRunner& open) {
     const auto order = orders_.find(open.call);
-    const bool plan = open.what == life::OpenHost::What::Plan && order != orders_.end();
+    const bool plan = open.what == life::OpenRunner::What::Plan && order != orders_.end();
     const Status opened = plan ? open_plan(order->second)
                                : open_world(order_of("", Json::object()),
-                                            open.what == life::OpenHost::What::WorldAgain);
+                                            open.what == life::OpenRunner::What::WorldAgain);
     if (opened.ok()) return;
     say("error", opened.error().what);
     tell_life(life::Failed{opened.error().what});
@@ -113,13 +113,13 @@ Status Workbench::open_world(RunOrder order, bool keep_poses) {
 
 void Workbench::perform(const life::ConnectWorld&) {
     loaded_by_world_ = run_.programs();
-    robot_.connect(run_, "sim", "Simulator", "simulator", now_);
+    target_.connect(run_, "sim", "Simulator", "simulator", now_);
     desk_.board().touch("robot");
 }
 
 void Workbench::perform(const life::LoadNodes& load) {
-    if (load.fresh) robot_.place_breakpoints();
-    robot_.load_changed(true, [this, start = load.start](const std::vector<std::string>& failed) {
+    if (load.fresh) target_.place_breakpoints();
+    target_.load_changed(true, [this, start = load.start](const std::vector<std::string>& failed) {
         if (!failed.empty()) failed_loads_ = joined_lines(failed);
         if (!failed.empty()) say("error", failed_loads_);
         tell_life(life::Loaded{start});
@@ -132,21 +132,21 @@ void Workbench::perform(const life::LetNodesGo& go) {
         if (!stayed.empty()) say("warning", joined_lines(stayed));
         tell_life(life::Went{start});
     };
-    go.all ? robot_.run_all(went) : robot_.run_standing(went);
+    go.all ? target_.run_all(went) : target_.run_standing(went);
 }
 
 void Workbench::perform(const life::BeginRun&) {
-    robot_.end_rest();
+    target_.end_rest();
     run_.begin();
 }
 
 void Workbench::perform(const life::ContinueRun&) {
-    robot_.end_rest();
+    target_.end_rest();
     run_.go_on();
 }
 
 void Workbench::perform(const life::StepPlan&) {
-    robot_.end_rest();
+    target_.end_rest();
     run_.step_plan();
 }
 
@@ -159,7 +159,7 @@ void Workbench::perform(const life::RestRun&) {
 }
 
 void Workbench::perform(const life::PauseNodes& pause) {
-    robot_.pause_all([this, call = pause.call](const std::vector<std::string>& failed) {
+    target_.pause_all([this, call = pause.call](const std::vector<std::string>& failed) {
         tell_life(life::NodesPaused{call, joined_lines(failed)});
     });
 }
@@ -192,18 +192,18 @@ std::set<uint16_t> Workbench::stop_events() const {
 void Workbench::perform(const life::StopNodes& stop) {
     send_at_once_ = true;
     stop_number_ = stop.number;
-    robot_.stop_all([this, number = stop.number](const StopReport& report) {
+    target_.stop_all([this, number = stop.number](const StopReport& report) {
         if (bus_) bus_->forget_moves();
         tell_life(life::Stopped{number, report});
     });
 }
 
 void Workbench::perform(const life::MakeSafe&) {
-    robot_.make_safe();
+    target_.make_safe();
 }
 
 void Workbench::perform(const life::Disconnect&) {
-    robot_.disconnect();
+    target_.disconnect();
     run_.close();
     bus_.reset();
     loaded_by_world_.clear();

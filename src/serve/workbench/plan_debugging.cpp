@@ -1,5 +1,6 @@
 // What pages ask of the debugger of a plan: breakpoints, which the project keeps whether a plan
-// runs or not, events that a person raises, and events of the bus that wait while the plan stands.
+// runs or not, events that a person raises, and events of the bus that wait while the plan is
+// paused.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,7 +53,7 @@ void Workbench::plan_breakpoints_changed() {
     run_.set_breakpoints(plan_breakpoint_orders());
 }
 
-// One that stands there stays, whatever became of its element: its row says why it does not fit. A
+// One that is there stays, whatever became of its element: its row says why it does not fit. A
 // file that is not a plan right now is one that somebody is typing in.
 Status Workbench::is_in_plan(const PlanBreakpoint& wanted) {
     if (plan_breakpoints_.stands_at(wanted)) return Status::done();
@@ -119,14 +120,14 @@ void Workbench::step_into_script(const Call& call) {
                          "no script of the project handles the events by which this works on a "
                          "node; write onevent with one of their names");
     }
-    robot_.place_breakpoints();
+    target_.place_breakpoints();
     const life::CallNumber number = keep(call);
     results_[number] = {{"spots", spots}};
     tell_life(life::StepInto{number});
     live();
 }
 
-// The three acts on events that wait while the plan stands.
+// The three acts on events that wait while the plan is paused.
 void Workbench::declare_held_commands() {
     for (const auto& [name, act] : {std::pair("plan.held.go", talk::HeldAct::Go),
                                     {"plan.held.step", talk::HeldAct::Step},

@@ -1,4 +1,4 @@
-// What the history is told, by the run and by the robot, and when it begins anew.
+// What the history is told, by the run and by the robot, and when it begins again.
 #include "serve/workbench/workbench.hpp"
 
 #include "base/time.hpp"
@@ -21,7 +21,7 @@ void Workbench::record_history() {
     });
     // A simulation stamps what it tells; on a bus the time is that of hearing it.
     const auto at = [this](double t) { return bus_ ? history_clock() : t; };
-    robot_.on_told({
+    target_.on_told({
         .happening = [this, at](const Json& one) { history_.happening(one, at(one["t"])); },
         .run = [this] { return history_.run(); },
         .stands = [this, at](double t, uint16_t node, const std::string& state,

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "serve/json.hpp"
-#include "serve/robot/stopping.hpp"
+#include "serve/target/stopping.hpp"
 
 namespace vagus::serve {
 

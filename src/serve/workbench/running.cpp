@@ -42,7 +42,7 @@ Status Workbench::join_target(const std::string& target) {
     bus_ = std::move(connected.value());
     bus_since_ = now_;
     record_bus();
-    robot_.connect(*bus_, target, target, "bus", now_);
+    target_.connect(*bus_, target, target, "bus", now_);
     tell_life(life::Joined{});
     live();
     return Status::done();
@@ -136,7 +136,7 @@ void Workbench::start_with(const Call& call, const std::string& plan, life::Star
     if (!plan.empty() && !bus_ && project_->world.empty()) {
         return call.fail("unavailable", kNoWorld);
     }
-    if (bus_ && !robot_.all_described(1)) {
+    if (bus_ && !target_.all_described(1)) {
         const std::string why = bus_->why();
         return call.fail("unavailable", why.empty() ? "no node is there yet" : why);
     }
@@ -155,8 +155,8 @@ void Workbench::start_with(const Call& call, const std::string& plan, life::Star
 }
 
 void Workbench::step(const Call& call) {
-    if (bus_ || robot_.stands_inside()) {
-        return robot_.step_standing([call](const std::vector<std::string>& failed) {
+    if (bus_ || target_.stands_inside()) {
+        return target_.step_standing([call](const std::vector<std::string>& failed) {
             if (failed.empty()) return call.done();
             call.fail("failed", joined_lines(failed));
         });
@@ -195,7 +195,7 @@ void Workbench::declare_run_commands() {
         if (!ends_.acknowledge(static_cast<uint64_t>(call.in["number"]))) {
             return call.fail("not_found", "another end was told since");
         }
-        robot_.acknowledge_stop();
+        target_.acknowledge_stop();
         desk_.board().touch("end");
         call.done();
     });

@@ -32,7 +32,7 @@ void ServerLoop::run(const Beside& beside) {
         const Time woken = network_.now();
         for (const net::Event& event : events) hear(event);
         turn(beside);
-        // Who came right behind the others waited for all of this.
+        // The last to come waited for all of this.
         late_worst_ = std::max({late_worst_, network_.now() - woken, woken - due});
     }
     beside.before_end();

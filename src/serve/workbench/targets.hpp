@@ -1,7 +1,7 @@
 // Targets that can be offered: what is plugged in, what listens on this computer, and what
 // announces itself in the network (RFC 6763: `_aseba._tcp`), where a daemon for that runs.
 //
-//     Targets targets(log);
+//     Targets targets;
 //     targets.look(now);              // from time to time, while somebody watches
 //     show(targets.found());
 #pragma once

@@ -30,8 +30,8 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
       scripts_(files_,
                [this](const std::string& name, uint16_t id) { return target_of(name, id); }),
       editing_(desk, files_, scripts_, desk.epoch()),
-      robot_(desk, files_, scripts_, breakpoints_),
-      run_(desk, start_run_host(places.program)),
+      target_(desk, files_, scripts_, breakpoints_),
+      run_(desk, start_runner(places.program)),
       worker_([&network] { network.wake(); }),
       history_(desk, files_, worker_.poster()) {
     files_.on_wake([&network] { network.wake(); });
@@ -39,10 +39,10 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
         say(kind, with_short_paths(text));
     };
     editing_.on_say(tell);
-    robot_.on_say(tell);
+    target_.on_say(tell);
     run_.on_say(tell);
     editing_.on_text_changed([this](const std::string& path) {
-        robot_.script_changed(path);
+        target_.script_changed(path);
         if (project_ && path == project_->project_file) project_file_changed();
     });
     editing_.on_saved([this](const std::string& path) { file_saved(path); });
@@ -51,8 +51,8 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
         plan_breakpoints_.rename(from, to);
         keep_breakpoints();
     });
-    robot_.on_breakpoints_changed([this] { keep_breakpoints(); });
-    robot_.set_hints({
+    target_.on_breakpoints_changed([this] { keep_breakpoints(); });
+    target_.set_hints({
         .robot_of = [this](uint16_t node) { return run_.robot_of(node); },
         .plan_hears = [this](const std::string& event) { return run_.plan_hears(event); },
         .load = [this] { return run_.load(); },
@@ -109,7 +109,7 @@ void Workbench::declare_topics() {
         return Json{{"values", state_.object("window")}};
     });
     board.document("breakpoints", [this](const Json&) {
-        return Json{{"breakpoints", robot_.breakpoints_list()},
+        return Json{{"breakpoints", target_.breakpoints_list()},
                     {"plans", plan_breakpoints_.list()}};
     });
     board.document("end", [this](const Json&) { return ends_.document(); });
@@ -230,7 +230,7 @@ void Workbench::enter(OpenedProject project) {
     scripts_.reread();
     state_ = Kept((project_->root / ".vagus" / "state.json").string(), &kept_on_disk_);
     breakpoints_.from_json(state_.get("breakpoints"));
-    robot_.follow_breakpoints();
+    target_.follow_breakpoints();
     plan_breakpoints_.from_json(state_.get("plan_breakpoints"));
     editing_.set_project(edited_project());
     take_safe_stop();
@@ -281,7 +281,7 @@ void Workbench::take_safe_stop() {
     for (const std::string& one : project_->toolboxes) toolboxes.push_back(project_->real(one));
     auto safe = session::safe_stop_of(toolboxes, project_->safe_stop);
     if (!safe.ok()) safe = session::safe_stop_of({}, project_->safe_stop);
-    if (safe.ok()) robot_.set_safe_stop(std::move(safe.value()));
+    if (safe.ok()) target_.set_safe_stop(std::move(safe.value()));
 }
 
 // Its plan, world and scripts may be others now; the target stays until someone chooses another.
@@ -300,7 +300,7 @@ void Workbench::project_file_changed() {
 // ---- scripts for nodes that have none ----
 
 Result<std::string> Workbench::add_script(uint16_t node) {
-    const std::string name = robot_.described_name(node);
+    const std::string name = target_.described_name(node);
     if (name.empty()) {
         return Error{Code::NotFound,
                      fmt::format("there is no node {} that has told what it is", node)};
@@ -323,7 +323,7 @@ Result<std::string> Workbench::add_script(uint16_t node) {
 // A project that was made for a robot grows with the nodes that come.
 void Workbench::add_missing_scripts() {
     if (!bus_ || !project_ || !library_.is_robot_project(project_->folder)) return;
-    for (const uint16_t node : robot_.without_script()) {
+    for (const uint16_t node : target_.without_script()) {
         const auto added = add_script(node);
         if (!added.ok()) return say("warning", added.error().what);
     }
@@ -379,8 +379,8 @@ void Workbench::tick(Time now) {
     run_.tick(now);
     live();
     watch_run();
-    robot_.tick(now);
-    if (bus_) run_.hold_nodes(robot_.held_nodes());
+    target_.tick(now);
+    if (bus_) run_.hold_nodes(target_.held_nodes());
     if (run_.is_open() || bus_) history_.tick(history_clock());
     add_missing_scripts();
     tick_life();
@@ -400,7 +400,7 @@ void Workbench::watch_run() {
 }
 
 Time Workbench::next_tick(Time now) const {
-    Time next = std::min({run_.next_tick(), robot_.next_tick(), editing_.next_tick()});
+    Time next = std::min({run_.next_tick(), target_.next_tick(), editing_.next_tick()});
     if (desk_.board().watched("targets")) next = std::min(next, now + kLookEvery);
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;

@@ -24,13 +24,13 @@
 #include "serve/json.hpp"
 #include "serve/life/life.hpp"
 #include "serve/project/files.hpp"
-#include "serve/robot/breakpoints.hpp"
-#include "serve/robot/bus_carrier.hpp"
-#include "serve/robot/robot.hpp"
 #include "serve/run/plan_breakpoints.hpp"
 #include "serve/run/run.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/target/breakpoints.hpp"
+#include "serve/target/bus_carrier.hpp"
+#include "serve/target/target.hpp"
 #include "serve/workbench/history_desk.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
@@ -46,7 +46,7 @@ constexpr int kStepMs = 10;  // of run.step, unless it says otherwise
 struct WorkbenchPlaces {
     LibraryPlaces library;
     std::string settings;     // file
-    std::string program;      // vagus, for run hosts
+    std::string program;      // vagus, for runners
     std::string home;         // where choosing a folder begins
     std::string target = {};  // of every project that is opened; empty: its own
     bool serves = false;      // one project on one target; pages offer no other
@@ -59,7 +59,7 @@ struct Figures {
     double seconds = 0;        // the run's clock
     double speed = 0;          // of a simulation against the wall clock, measured
     uint64_t late_checks = 0;  // of supervisors, in this run
-    RobotCounts robot = {};
+    TargetCounts target = {};
     std::optional<double> bus_load = {};  // 0 to 1
     size_t clients = 0;
     std::map<std::string, uint64_t> ends = {}, results = {};  // of runs: why; of their plans
@@ -184,7 +184,7 @@ private:
     Status open_world(RunOrder order, bool keep_poses);
     std::set<uint16_t> stop_events() const;
     void perform(const life::Action& action);
-    void perform(const life::OpenHost& open);
+    void perform(const life::OpenRunner& open);
     void perform(const life::ConnectWorld&);
     void perform(const life::LoadNodes& load);
     void perform(const life::LetNodesGo& go);
@@ -217,7 +217,7 @@ private:
     ScriptBreakpoints breakpoints_;
     PlanBreakpoints plan_breakpoints_;
     Editing editing_;
-    Robot robot_;
+    Target target_;
     Run run_;
     Worker worker_;
     HistoryDesk history_;
@@ -249,7 +249,7 @@ private:
     uint64_t stop_number_ = 0;  // of the latest
     size_t people_ = 0;
     std::vector<std::string> saved_plans_;             // the run is not told of them yet
-    std::string opened_world_;                         // text of the world that stands there
+    std::string opened_world_;                         // text of the world that is there
     std::map<uint16_t, std::string> loaded_by_world_;  // source by node
 };
 

@@ -1,0 +1,93 @@
+#include "serve/runner/plan_talk.hpp"
+
+#include <utility>
+
+namespace vagus::serve {
+
+// What a debugger does not take has no effect, and what it refuses was so already.
+void PlanTalk::hold() {
+    stepping_ = false;
+    (void)debugger_.post(run::Pause{}).ok();
+}
+
+void PlanTalk::go_on() {
+    if (stepping_) hold();  // a debugger ends a step by a pause only
+    stands_ = false;
+    (void)debugger_.post(run::Continue{}).ok();
+}
+
+void PlanTalk::step() {
+    hold();  // a debugger steps from a pause
+    (void)debugger_.post(run::Step{}).ok();
+    stepping_ = true;
+    stands_ = false;
+}
+
+void PlanTalk::step_event(std::optional<uint64_t> number, Answered answered) {
+    ask(run::StepEvent{number},
+        [this, answered = std::move(answered)](const Result<run::Reply>& reply) {
+            if (reply.ok()) {
+                stepping_ = true;
+                stands_ = false;
+            }
+            answered(reply);
+        });
+}
+
+void PlanTalk::give_up_step() {
+    if (stepping_) go_on();
+}
+
+void PlanTalk::abort() {
+    stands_ = false;
+    (void)debugger_.post(run::Abort{}).ok();
+}
+
+void PlanTalk::ask(run::Request request, Answered answered) {
+    const auto posted = debugger_.post(std::move(request));
+    if (!posted.ok()) return answered(posted.error());
+    asked_[posted.value()] = std::move(answered);
+}
+
+void PlanTalk::ask_held(run::Request request, Answered answered, Then then) {
+    const bool steps = stepping_;
+    if (!stands_) hold();
+    ask(std::move(request), std::move(answered));
+    if (stands_ || then == Then::Hold) return;
+    if (steps) return step();
+    // It may have come to a breakpoint meanwhile: then it stays there.
+    (void)debugger_.post(run::Continue{.from_met = false}).ok();
+}
+
+PlanTalk::Heard PlanTalk::hear() {
+    Heard heard;
+    while (const auto report = debugger_.wait_report(Duration{})) {
+        if (const auto* stopped = std::get_if<run::Stopped>(&*report)) {
+            if (stopped->why == run::Stopped::Why::Step && std::exchange(stepping_, false)) {
+                heard.stepped = stopped->where;
+                stands_ = true;
+            } else if (stopped->why == run::Stopped::Why::Breakpoint) {
+                heard.broken = *stopped;
+                stepping_ = false;
+                stands_ = true;
+            }
+            continue;
+        }
+        const auto* answer = std::get_if<run::Answer>(&*report);
+        const auto asked = answer ? asked_.find(answer->request) : asked_.end();
+        if (asked == asked_.end()) continue;
+        const Answered answered = std::move(asked->second);
+        asked_.erase(asked);
+        answered(answer->reply);
+    }
+    return heard;
+}
+
+void PlanTalk::forget() {
+    (void)hear();
+    for (const auto& [number, answered] : std::exchange(asked_, {})) {
+        answered(Error{Code::Unavailable, "the plan has ended"});
+    }
+}
+
+}  // namespace vagus::serve

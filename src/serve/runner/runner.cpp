@@ -1,0 +1,384 @@
+#include "serve/runner/runner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "base/time.hpp"
+#include "embed/loaded_plan.hpp"
+#include "embed/prepared_run.hpp"
+#include "serve/runner/bus_clock.hpp"
+#include "serve/runner/bus_run.hpp"
+#include "serve/runner/hand.hpp"
+#include "serve/runner/pacer.hpp"
+#include "serve/runner/plan_runner.hpp"
+#include "serve/runner/scene.hpp"
+#include "serve/runner/world_show.hpp"
+#include "session/bus_names.hpp"
+#include "session/plan_world.hpp"
+#include "session/toolboxes.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+constexpr Duration kTellEvery = 100ms;  // the clock, and what is slow: documents, pictures
+constexpr Duration kPosesEvery = 33ms;  // where things are
+constexpr int kPausedWaitMs = 20;       // while paused nothing moves but messages
+constexpr int kAtOnceMs = 4;            // instants that are run together
+constexpr int kHoldsAfterFrames = 20;   // instants in which nodes answer although time is stopped
+
+Time wall_now() {
+    return std::chrono::duration_cast<Time>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
+class Runner {
+public:
+    explicit Runner(Pipe pipe) : pipe_(std::move(pipe)) {}
+
+    RunnerEnd run() {
+        while (!quits()) {
+            if (!order_) pipe_.wait(1000);
+            take_packets();
+            teller_.tell(talk::Alive{});
+            if (order_) serve();
+        }
+        return end_;
+    }
+
+private:
+    // ---- orders ----
+    bool quits() const { return quit_ || teller_.is_lost(); }
+    // What runs has to end: another order waits, or nobody is there.
+    bool has_to_end() const { return order_ || quits(); }
+
+    void take_packets() {
+        for (const Packet& packet : pipe_.receive()) {
+            if (!quit_) take(packet);  // behind what is no order nothing is one
+        }
+        if (pipe_.closed()) quit_ = true;
+        if (quit_) stop_plan();
+    }
+
+    void take(const Packet& packet) {
+        const auto order = talk::decode_order(packet);
+        if (order.ok()) return std::visit([this](const auto& one) { obey(one); }, order.value());
+        const std::string& fault = order.error().what;
+        end_ = {kExitNonsense, fmt::format("the studio sent {}; this run is ended", fault)};
+        quit_ = true;
+    }
+
+    void obey(const talk::Open& order) {
+        order_ = order;
+        held_nodes_.clear();
+    }
+    void obey(const talk::SetPace& pace) {
+        pacer_.set(pace.paused, pace.speed, wall_now());
+        plan_.pace();
+    }
+    void obey(const talk::LetTimePass& order) {
+        pacer_.step(std::chrono::milliseconds(order.milliseconds));
+    }
+    void obey(const talk::Show& show) { show_.want(show); }
+    void obey(const talk::StepPlan&) { plan_.step(); }
+    void obey(const talk::StopPlan&) {
+        stop_plan();
+        pacer_.set(false, pacer_.speed(), wall_now());
+    }
+    void obey(const talk::HoldNodes& order) {
+        held_nodes_ = {order.nodes.begin(), order.nodes.end()};
+        if (prepared_) prepared_->hold_nodes(held_nodes_);
+    }
+    void obey(const talk::SetBreakpoints& order) {
+        plan_.want(order.list);
+        plan_.tend_stops();
+    }
+    void obey(const talk::SetVariable& order) { plan_.obey(order); }
+    void obey(const talk::RaiseEvent& order) { plan_.obey(order); }
+    void obey(const talk::HandleHeld& order) { plan_.obey(order); }
+    void obey(const talk::ChangePlan& order) { plan_.obey(order); }
+    void obey(const talk::CheckPlan& order) { plan_.obey(order); }
+    void obey(const talk::SendFrame& order) {
+        if (!session_) return;
+        session_->world().bus().receive(link_, order.frame.frame);
+        holds_ = kHoldsAfterFrames;
+    }
+    // A hand from above.
+    template <typename Hand>
+    void obey(const Hand& order) {
+        if (!session_) {
+            const Error none{Code::Unavailable, "the world is just being opened; try again"};
+            return teller_.answer(order.request, Status(none));
+        }
+        teller_.answer(order.request, hand(session_->world(), order));
+        next_poses_ = Time{};
+    }
+
+    void stop_plan() {
+        // A plan that is held hears nothing but its debugger.
+        if (plan_.is_on_bus() || plan_.stands()) plan_.abort();
+        if (prepared_ && !plan_.is_on_bus()) prepared_->abort();
+    }
+
+    // ---- opening ----
+    // Serves one order to its end: a plan in its world, then the world alone.
+    void serve() {
+        const talk::Open order = std::move(*order_);
+        order_.reset();
+        number_ = order.order;
+        teller_.tell(talk::Opening{number_});
+        order.plan.empty() ? run_world(order) : run_plan(order);
+        session_ = nullptr;
+    }
+
+    void fail(const std::string& why) { teller_.tell(talk::OpenFailed{number_, why}); }
+
+    void run_world(const talk::Open& order) {
+        auto opened = session::open_sim(order.world, {});
+        if (!opened.ok()) return fail(opened.error().what);
+        own_ = std::make_unique<session::SimSession>(std::move(opened.value()));
+        (void)own_->settle();
+        begin_session(*own_, order);
+        live();
+        own_.reset();
+    }
+
+    void run_plan(const talk::Open& order) {
+        toolbox::Parts parts;
+        run::CodeLibrary library;
+        const Status added = session::add_toolboxes(library, parts, order.toolboxes);
+        if (!added.ok()) return fail(added.error().what);
+        const auto plan = embed::LoadedPlan::from_file(order.plan, library);
+        if (!plan.ok()) return fail(plan.report());
+        auto prepared = embed::PreparedRun::prepare(plan, words_of(order), parts);
+        if (!prepared.ok()) return fail(prepared.error().what);
+        prepared_ = std::move(prepared.value());
+        heard_ = session::events_heard(plan.plans(), library.templates());
+        plan_.want(order.breakpoints);
+        const bool in_world = prepared_->world() != nullptr;
+        plan_.begin(plan, order.plan, in_world ? PlanRunner::On::World : PlanRunner::On::Bus);
+        in_world ? run_in_world(order) : run_on_bus(session::stop_events(library.templates()));
+        plan_.forget();
+        heard_.clear();
+        session_ = nullptr;
+        prepared_.reset();
+    }
+
+    static embed::RunWords words_of(const talk::Open& order) {
+        embed::RunWords words;
+        words.world = order.world;
+        words.bus = order.bus;
+        words.project = order.project;
+        words.robot = order.robot;
+        words.from = order.from;
+        words.max_time = "1e13";  // the person at the studio ends it
+        for (const auto& [name, value] : order.set) words.set.push_back(name + "=" + value);
+        return words;
+    }
+
+    void run_in_world(const talk::Open& order) {
+        prepared_->listen([this](const plan::TraceEvent& event) { plan_.see(event); });
+        prepared_->pace([this](Time) { instant(); });
+        plan_.debugger().while_paused([this] { stand(); });
+        begin_session(prepared_->world()->session(), order);
+        plan_.tell_version();
+        const auto ended = prepared_->run(&plan_.debugger());
+        if (!ended.ok()) teller_.line(talk::LineKind::Error, ended.error().what);
+        tell_plan();
+        plan_.end_talk();
+        live();
+    }
+
+    // The plan alone, on a bus that the studio holds open.
+    void run_on_bus(const std::set<std::string>& stops) {
+        teller_.tell(talk::Opened{.order = number_, .hears = heard_, .stops = stops});
+        plan_.tell_version();
+        if (pacer_.held()) plan_.hold();
+        prepared_->end_when_stopped();
+        prepared_->hold_nodes(held_nodes_);
+        bus_clock_.start(wall_now());
+        {
+            BusRun running(*prepared_, plan_.debugger());
+            for (bool over = false; !over;) {
+                pipe_.wait(kPausedWaitMs);
+                take_packets();
+                if (has_to_end()) plan_.abort();
+                over = running.over();
+                for (const BusRun::Line& line : running.take_lines()) {
+                    teller_.line(line.kind, line.text);
+                }
+                for (const plan::TraceEvent& event : running.take()) plan_.see(event);
+                hear_plan();  // where it stands, after what led there
+                tell_bus_clock();
+            }
+        }
+        plan_.tell();
+        plan_.end_talk();
+        teller_.tell(talk::PlanOver{});
+    }
+
+    void tell_bus_clock() {
+        const Time wall = wall_now();
+        bus_clock_.count(wall, pacer_.held());
+        if (wall < next_tell_) return;
+        next_tell_ = wall + kTellEvery;
+        teller_.tell(talk::Clock{.t = bus_clock_.now(), .paused = pacer_.held(), .real = 1});
+        plan_.tell();
+    }
+
+    void begin_session(session::SimSession& session, const talk::Open& order) {
+        session_ = &session;
+        session.world().stops_with_nodes();  // the server sees to that
+        show_.begin();
+        const auto link = session.world().bus().add({.name = "studio"});
+        if (!link.ok()) return fail(link.error().what);
+        link_ = link.value();
+        put_robots(session.world(), order.poses);
+        for (const Diagnostic& mistake : session.mistakes()) {
+            teller_.line(talk::LineKind::Error, text_of(mistake));
+        }
+        talk::Opened opened{.order = number_, .hears = heard_};
+        opened.scene = scene_of(session.world());
+        for (const auto& [node, source] : session.running_scripts()) {
+            opened.programs.push_back({node, source});
+        }
+        teller_.tell(std::move(opened));
+        tell_clock();
+    }
+
+    // ---- the plan ----
+    void hear_plan() {
+        plan_.hear();
+        if (plan_.take_haste()) next_tell_ = Time{};
+    }
+
+    void tell_plan() {
+        hear_plan();
+        plan_.tell();
+    }
+
+    // In a world the plan has no thread of its own: while it is paused the runner hears and tells
+    // from here, and the nodes answer.
+    void stand() {
+        hear_plan();
+        const Time wall = wall_now();
+        if (wall >= next_tell_ || wall >= next_poses_) look_around(wall);
+        if (has_to_end()) return plan_.abort();
+        if (!pacer_.paused()) return plan_.go_on();
+        wait_paused();
+    }
+
+    double run_time() const {
+        if (plan_.is_on_bus()) return bus_clock_.now();
+        return session_ ? seconds_of(session_->now()) : 0;
+    }
+
+    // ---- time ----
+    // The world alone, until another order or the end.
+    void live() {
+        while (!has_to_end()) {
+            instant();
+            if (has_to_end()) return;
+            session_->begin_instant();
+            session_->end_instant();
+            (void)session_->take_notes();
+        }
+    }
+
+    // Before each millisecond of simulated time: waits until it is due, hears and tells.
+    void instant() {
+        show_.tell_frames(*session_, link_);
+        show_.record(*session_);
+        for (;;) {
+            const Time wall = wall_now();
+            if (wall >= next_tell_ || wall >= next_poses_) look_around(wall);
+            if (has_to_end()) {
+                if (prepared_) prepared_->abort();
+                return;
+            }
+            if (pacer_.paused()) {
+                wait_paused();
+                continue;
+            }
+            const Time due = pacer_.due(sim::kNodeStep, wall);
+            if (due <= wall) {
+                pacer_.passed(sim::kNodeStep, due);
+                break;
+            }
+            // Not for each millisecond by itself: a few at a time cost far less. However slow time
+            // is, the server hears from us.
+            const Duration wait = std::min(due - wall, kTellEvery);
+            pipe_.wait(std::max(kAtOnceMs, static_cast<int>(wait / 1ms)));
+            take_packets();
+        }
+        if (++instants_ % 8 == 0) take_packets();
+    }
+
+    // Time stands, and the nodes still answer.
+    void wait_paused() {
+        pipe_.wait(holds_ > 0 ? 1 : kPausedWaitMs);
+        take_packets();
+        if (holds_ <= 0) return;
+        --holds_;
+        session_->world().hold_instant();
+        show_.tell_frames(*session_, link_);
+    }
+
+    void look_around(Time wall) {
+        take_packets();
+        pipe_.flush();
+        show_.tell_records();
+        if (wall >= next_poses_) {
+            next_poses_ = wall + kPosesEvery;
+            show_.tell_poses(*session_);
+        }
+        if (wall < next_tell_) return;
+        next_tell_ = wall + kTellEvery;
+        tell_clock();
+        show_.tell_scene(*session_);
+        tell_plan();
+        show_.tell_pictures(*session_);
+    }
+
+    void tell_clock() {
+        talk::Clock clock{.t = seconds_of(session_->now()),
+                          .paused = pacer_.held(),
+                          .real = pacer_.real(wall_now())};
+        if (const auto load = session_->world().bus_load()) {
+            clock.load = 100 * load->all.share_of_last_second;
+        }
+        teller_.tell(clock);
+    }
+
+    Pipe pipe_;
+    Teller teller_{pipe_};
+    RunnerEnd end_;
+    bool quit_ = false;
+    std::optional<talk::Open> order_;  // that waits
+    uint64_t number_ = 0;              // of the order that is served
+
+    Pacer pacer_;
+    WorldShow show_{teller_};
+    PlanRunner plan_{teller_, pacer_, {.wall = wall_now, .run = [this] { return run_time(); }}};
+    std::unique_ptr<session::SimSession> own_;
+    std::unique_ptr<embed::PreparedRun> prepared_;
+    session::SimSession* session_ = nullptr;  // of one of the two
+    hub::LinkId link_;
+    std::set<std::string> heard_;  // events, by the plan
+    std::set<uint16_t> held_nodes_;
+    BusClock bus_clock_;
+    int holds_ = 0;
+    uint64_t instants_ = 0;
+    Time next_tell_{}, next_poses_{};
+};
+
+}  // namespace
+
+RunnerEnd run_runner(Pipe pipe) {
+    return Runner(std::move(pipe)).run();
+}
+
+}  // namespace vagus::serve

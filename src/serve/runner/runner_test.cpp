@@ -1,0 +1,333 @@
+// The process of a run, in this process: what it answers to what a server says.
+#include "serve/runner/runner.hpp"
+#include "base/test_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "base/file.hpp"
+#include "serve/talk/codec.hpp"
+
+namespace vagus::serve {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr int kLooksMax = 200'000;  // a process that talks much is read in small pieces
+
+class RunHostTest : public testing::Test {
+protected:
+    RunHostTest() {
+        int pair[2];
+        EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
+        server.emplace(pair[0]);
+        thread = std::thread([this, end = pair[1]] { ended = run_runner(Pipe(end)); });
+    }
+    ~RunHostTest() override { leave(); }
+    int leave() {
+        server.reset();
+        if (thread.joinable()) thread.join();
+        return ended.status;
+    }
+    void say(const talk::Order& order) { ASSERT_TRUE(server->send(talk::encode(order))); }
+    // The next thing that it says of that kind and that is so.
+    template <typename One>
+    One wait(const std::function<bool(const One&)>& is_so = [](const One&) { return true; }) {
+        One found;
+        const bool said = wait_all([&](const talk::News& news) {
+            const One* one = std::get_if<One>(&news);
+            if (!one || !is_so(*one)) return false;
+            found = *one;
+            return true;
+        });
+        EXPECT_TRUE(said) << "it never said " << One::kName;
+        return found;
+    }
+    // Everything that it says until that was it; false: that never came.
+    bool wait_all(const std::function<bool(const talk::News&)>& is_it) {
+        for (int look = 0; look < kLooksMax && !server->closed(); ++look) {
+            server->flush();
+            for (const Packet& packet : server->receive()) {
+                auto news = talk::decode_news(packet);
+                EXPECT_TRUE(news.ok()) << (news.ok() ? "" : news.error().what);
+                if (news.ok()) heard.push_back(std::move(news.value()));
+            }
+            while (!heard.empty()) {
+                const talk::News news = std::move(heard.front());
+                heard.pop_front();
+                if (is_it(news)) return true;
+            }
+            server->wait(100);
+        }
+        return false;
+    }
+    // Until it has closed its end.
+    void wait_end() {
+        for (int look = 0; look < kLooksMax && !server->closed(); ++look) {
+            server->wait(100);
+            (void)server->receive();
+        }
+        EXPECT_TRUE(server->closed());
+    }
+    std::string write(const std::string& name, const std::string& text) {
+        const std::string path = (folder / name).string();
+        EXPECT_TRUE(write_file(path, text).ok());
+        return path;
+    }
+    std::string world() {
+        return write("room.world.json",
+                     R"({"format": "vagus-world/1", "name": "Room", "size": [2, 2], "robots":
+                         [{"name": "alice", "type": "thymio2", "at": [1, 1]}]})");
+    }
+    static talk::Open order(uint64_t number, const std::string& world,
+                            const std::string& plan = "") {
+        talk::Open open;
+        open.order = number;
+        open.world = world;
+        open.plan = plan;
+        return open;
+    }
+    // Waits until an event that never comes.
+    std::string waiting_plan(const std::string& help = "") {
+        return write("wait.plan.json", R"({"format": "vagus-plan/1", "name": "P", "help": ")" +
+                                           help + R"(", "start": {"actor": "a"}, "actors": {
+            "a": {"template": "WaitForever", "states": {}}}})");
+    }
+
+    test::Folder folder;
+    std::optional<Pipe> server;
+    std::thread thread;
+    RunnerEnd ended{-1, {}};
+    std::deque<talk::News> heard;
+};
+
+TEST_F(RunHostTest, AWorldIsOpenedStandsAndGoes) {
+    say(talk::SetPace{true, 1});
+    say(order(7, world()));
+    EXPECT_EQ(wait<talk::Opening>().order, 7u);
+    const auto opened = wait<talk::Opened>();
+    EXPECT_EQ(opened.order, 7u);
+    ASSERT_TRUE(opened.scene.has_value());
+    EXPECT_EQ(opened.scene->robots.at(0).name, "alice");
+    EXPECT_EQ(opened.scene->document.json["robots"][0]["name"], "alice");
+    const auto stands = wait<talk::Clock>();
+    EXPECT_EQ(stands.t, 0);
+    EXPECT_TRUE(stands.paused);
+    say(talk::SetPace{false, 0});
+    (void)wait<talk::Clock>([](const talk::Clock& clock) { return clock.t > 1; });
+    EXPECT_EQ(leave(), 0);
+    EXPECT_EQ(ended.why, "");
+}
+
+TEST_F(RunHostTest, WhatCannotBeOpenedIsToldAndAnotherOrderIsServed) {
+    say(order(1, (folder / "nowhere.world.json").string()));
+    const auto failed = wait<talk::OpenFailed>();
+    EXPECT_EQ(failed.order, 1u);
+    EXPECT_THAT(failed.why, HasSubstr("nowhere.world.json"));
+    say(order(2, world(), write("bad.plan.json", R"({"format": "vagus-plan/1"})")));
+    EXPECT_EQ(wait<talk::OpenFailed>().order, 2u);
+    say(order(3, world()));
+    EXPECT_EQ(wait<talk::Opened>().order, 3u);
+}
+
+TEST_F(RunHostTest, APlanRunsToItsEndAndSaysHowItEnded) {
+    const std::string plan = write("fail.plan.json", R"({
+        "format": "vagus-plan/1", "name": "P", "start": {"actor": "a"}, "actors": {
+        "a": {"template": "Fail", "in": {"message": "'it is broken'"}, "states": {}}}})");
+    say(talk::SetPace{false, 0});
+    say(order(1, world(), plan));
+    (void)wait<talk::Opened>();
+    const auto over = wait<talk::PlanNow>(
+        [](const talk::PlanNow& told) { return told.state == talk::PlanState::Ended; });
+    EXPECT_EQ(over.result, "Error");
+    EXPECT_THAT(over.message, HasSubstr("it is broken"));
+}
+
+TEST_F(RunHostTest, EachRequestIsAnsweredWhateverRuns) {
+    say(talk::SetPace{true, 1});
+    say(order(1, world()));
+    (void)wait<talk::Opened>();
+    const talk::Order requests[] = {
+        talk::SetVariable{1, 0, "n", plan::Value(int64_t{1})},
+        talk::ChangePlan{2, {}},
+        talk::HandleHeld{3, talk::HeldAct::Go, {}},
+        talk::MoveRobot{4, "nobody", {1, 1}, {}},
+        talk::TakeObject{5, 99},
+        talk::CheckPlan{6, {}},
+        talk::RaiseEvent{7, "s", "e", {}},
+        talk::MoveObject{8, 99, {1, 1}, {}},
+        talk::PutObject{.request = 9, .at = {5, 5}},
+        talk::SwitchLight{10, 99, true},
+        talk::PressButton{11, "nobody", "centre", true},
+        talk::TapRobot{12, "nobody"},
+    };
+    uint64_t number = 0;
+    for (const talk::Order& request : requests) {
+        say(request);
+        const auto answer = wait<talk::Answer>();
+        EXPECT_EQ(answer.request, ++number);
+        EXPECT_NE(answer.why, "") << number;
+    }
+}
+
+TEST_F(RunHostTest, AHandPutsMovesAndTakesAnObject) {
+    say(talk::SetPace{true, 1});
+    say(order(1, world()));
+    (void)wait<talk::Opened>();
+    say(talk::PutObject{.request = 1, .kind = talk::ObjectKind::Cylinder, .at = {0.5, 0.5}});
+    const auto put = wait<talk::Answer>();
+    EXPECT_EQ(put.why, "");
+    ASSERT_TRUE(put.number.has_value());
+    const auto scene = wait<talk::SceneNow>(
+        [](const talk::SceneNow& now) { return !now.scene.document.json["objects"].empty(); });
+    EXPECT_EQ(scene.scene.document.json["objects"][0]["radius"], 0.05);
+    say(talk::MoveObject{2, *put.number, {1, 0.5}, {}});
+    EXPECT_EQ(wait<talk::Answer>().why, "");
+    say(talk::TakeObject{3, *put.number});
+    EXPECT_EQ(wait<talk::Answer>().why, "");
+    say(talk::MoveRobot{4, "alice", {0.5, 0.5}, 1.5});
+    EXPECT_EQ(wait<talk::Answer>().why, "");
+}
+
+// ---- what is no order ----
+
+TEST_F(RunHostTest, AServerThatSpeaksNonsenseIsLeft) {
+    ASSERT_TRUE(server->send('J', "not JSON"));
+    wait_end();
+    EXPECT_EQ(leave(), kExitNonsense);
+    EXPECT_EQ(ended.why,
+              "the studio sent a message: expected one of the numbers 1 to 21, found 74; this run "
+              "is ended");
+}
+
+TEST_F(RunHostTest, AMalformedOrderEndsAPlanThatRuns) {
+    say(talk::SetPace{false, 1});
+    say(order(1, world(), waiting_plan()));
+    (void)wait<talk::Traced>();
+    Packet pace = talk::encode(talk::Order(talk::SetPace{}));
+    pace.bytes.pop_back();
+    ASSERT_TRUE(server->send(pace));
+    wait_end();
+    EXPECT_EQ(leave(), kExitNonsense);
+    EXPECT_EQ(ended.why,
+              "the studio sent pace.speed: expected 8 bytes more, found its end; this run is "
+              "ended");
+}
+
+// ---- two orders, one behind the other ----
+
+TEST_F(RunHostTest, OfTwoOrdersOneBehindTheOtherTheSecondIsServed) {
+    say(talk::SetPace{false, 0});
+    say(order(1, world(), waiting_plan()));
+    say(talk::SetVariable{1, 0, "n", plan::Value(true)});
+    say(order(2, world()));
+    EXPECT_EQ(wait<talk::Answer>().request, 1u);
+    (void)wait<talk::Opened>([](const talk::Opened& opened) { return opened.order == 2; });
+    (void)wait<talk::Clock>([](const talk::Clock& clock) { return clock.t > 0.5; });
+    say(talk::SetVariable{2, 0, "n", plan::Value(true)});
+    EXPECT_EQ(wait<talk::Answer>().why, "no plan runs");
+    EXPECT_EQ(leave(), 0);
+}
+
+TEST_F(RunHostTest, AnOrderEndsThePlanThatRuns) {
+    say(talk::SetPace{false, 0});
+    say(order(1, world(), waiting_plan()));
+    (void)wait<talk::Traced>();
+    say(order(2, world(), waiting_plan()));
+    const auto ends = [](const talk::Traced& one) {
+        return one.line.find("plan-end") != std::string::npos;
+    };
+    EXPECT_THAT(wait<talk::Traced>(ends).line, HasSubstr(R"("result":"Interrupted")"));
+    EXPECT_EQ(wait<talk::Opened>().order, 2u);
+    EXPECT_EQ(wait<talk::PlanVersion>().number, 1u);
+    EXPECT_EQ(
+        wait<talk::Traced>([](const talk::Traced& one) { return one.actor.has_value(); }).actor,
+        "a");
+}
+
+// ---- the plan changes ----
+
+TEST_F(RunHostTest, AVersionThatTakesOverIsToldOnceAfterItsLineWithItsNumber) {
+    say(talk::SetPace{false, 1});
+    const std::string plan = waiting_plan();
+    say(order(1, world(), plan));
+    const auto first = wait<talk::PlanVersion>();
+    EXPECT_EQ(first.number, 1u);
+    ASSERT_EQ(first.plans.size(), 1u);
+    EXPECT_EQ(first.plans[0].file, plan);
+    EXPECT_EQ(first.plans[0].actors.at(0).template_name, "WaitForever");
+    (void)wait<talk::Traced>([](const talk::Traced& one) { return one.actor.has_value(); });
+    write("wait.plan.json", R"({"format": "vagus-plan/1", "name": "P", "start": {"actor": "a"},
+        "actors": {"a": {"template": "WaitForever", "states": {}},
+                   "b": {"template": "WaitForever", "states": {}}}})");
+    say(talk::ChangePlan{1, {plan}});
+    // Its line, then what it is made of.
+    (void)wait<talk::Traced>([](const talk::Traced& one) {
+        return one.line.find(R"("kind":"change")") != std::string::npos;
+    });
+    const auto second = wait<talk::PlanVersion>();
+    EXPECT_EQ(second.number, 2u);
+    EXPECT_EQ(second.plans.at(0).actors.size(), 2u);
+}
+
+// Two plans of the run change at one instant: two lines, one version.
+TEST_F(RunHostTest, AVersionOfTwoFilesIsToldOnce) {
+    const auto outer = [this](const std::string& help) {
+        return write("outer.plan.json", R"({"format": "vagus-plan/1", "name": "Outer",
+            "help": ")" + help + R"(", "start": {"actor": "a"}, "actors": {
+            "a": {"plan": "wait.plan.json", "states": {"OK": "@terminate",
+                  "Interrupted": "@terminate", "Error": "@terminate"}}}})");
+    };
+    say(talk::SetPace{false, 1});
+    const std::string inner = waiting_plan();
+    const std::string plan = outer("first");
+    say(order(1, world(), plan));
+    EXPECT_EQ(wait<talk::PlanVersion>().plans.size(), 2u);
+    (void)wait<talk::Traced>([](const talk::Traced& one) {
+        return one.line.find("WaitForever") == std::string::npos &&
+               one.line.find(R"("plan":"Outer/a","kind":"actor-start")") != std::string::npos;
+    });
+    outer("second");
+    waiting_plan("second");
+    say(talk::ChangePlan{1, {plan, inner}});
+    std::vector<uint64_t> versions;
+    size_t lines = 0;
+    (void)wait_all([&](const talk::News& news) {
+        if (const auto* one = std::get_if<talk::PlanVersion>(&news))
+            versions.push_back(one->number);
+        const auto* traced = std::get_if<talk::Traced>(&news);
+        if (traced && traced->line.find(R"("kind":"change")") != std::string::npos) ++lines;
+        const auto* answer = std::get_if<talk::Answer>(&news);
+        return answer && answer->request == 1;
+    });
+    EXPECT_EQ(lines, 2u);
+    EXPECT_EQ(versions, std::vector<uint64_t>{2});
+}
+
+// The plan has ended and its world goes on: nothing of it is left that could be asked.
+TEST_F(RunHostTest, AVersionForAPlanThatHasEndedIsRefused) {
+    say(talk::SetPace{false, 1});
+    const std::string plan = waiting_plan();
+    say(order(1, world(), plan));
+    (void)wait<talk::Traced>();
+    say(talk::StopPlan{});
+    (void)wait<talk::PlanNow>(
+        [](const talk::PlanNow& now) { return now.state == talk::PlanState::Ended; });
+    for (uint64_t number = 1; number < 20; number += 2) {
+        say(talk::ChangePlan{number, {plan}});
+        say(talk::CheckPlan{number + 1, {{plan, ""}}});
+        EXPECT_NE(wait<talk::Answer>().why, "");
+        EXPECT_NE(wait<talk::Answer>().why, "");
+    }
+    EXPECT_EQ(leave(), 0);
+}
+
+}  // namespace
+}  // namespace vagus::serve

@@ -1,0 +1,124 @@
+// A live robot brakes as a whole: where one node is paused, is lost or gets another program, a
+// reflex is missing. The nodes that move are paused and made safe; those that only sense go on, so
+// that one can look at them. What they did before is not taken up by itself: Run lets exactly those
+// run that were paused here.
+//
+// A world whose clock stops with a breakpoint needs none of this.
+#include <algorithm>
+
+#include "serve/target/target.hpp"
+
+namespace vagus::serve {
+
+// The safe stop names it.
+bool Target::moves(uint16_t node) const {
+    return safe_stop_.contains(described_name(node));
+}
+
+void Target::make_safe(uint16_t node) {
+    const auto found = safe_stop_.find(described_name(node));
+    if (found == safe_stop_.end()) return;
+    for (const auto& [name, values] : found->second.set) {
+        const auto range = network_->variable(node, name);
+        if (range.ok()) (void)network_->write(node, range.value(), values).ok();
+    }
+}
+
+void Target::make_safe() {
+    if (!network_) return;
+    resting_.begin(*network_, safe_stop_, session::Stopping::How::Rest, now_);
+    rest_until_ = now_ + kRestWithin;
+}
+
+// A host that has only looked so far does not interfere.
+void Target::brake(uint16_t cause) {
+    if (!live() || !in_charge_) return;
+    braked_.erase(cause);
+    brake_causes_.insert(cause);
+    for (const uint16_t node : live_nodes()) {
+        if (!moves(node)) continue;
+        if (node != cause) brake_one(node);
+        make_safe(node);
+    }
+    desk_.board().touch("robot");
+}
+
+// One that is being loaded is paused behind that: half a program helps nobody.
+void Target::brake_one(uint16_t node) {
+    if (brake_causes_.contains(node) || braked_.contains(node)) return;
+    Known& known = known_[node];
+    const bool starting = known.busy == "starting";
+    const bool loading = known.busy == "loading";
+    const bool running = network_->node(node)->state == debug::ProgramState::Running;
+    if (!starting && !loading && !running) return;
+    braked_.insert(node);
+    known.why = "robot";
+    if (loading) {
+        const auto asked = network_->pause(node);
+        if (asked.ok()) known.braking = asked.value();
+    } else {
+        known.braking = network_->pause_now(node);
+    }
+}
+
+// A node that moves gets its pause before everything else: what makes it safe is behind that, for
+// its script would write over it.
+Result<debug::RequestId> Target::pause(uint16_t node) {
+    in_charge_ = true;
+    known_[node].held = true;
+    const bool now = live() && moves(node);
+    const auto at_once = now ? network_->pause_now(node) : std::nullopt;
+    auto asked = at_once ? Result<debug::RequestId>(*at_once) : network_->pause(node);
+    brake(node);
+    return asked;
+}
+
+Result<debug::RequestId> Target::reset(uint16_t node) {
+    in_charge_ = true;
+    known_[node].held = true;
+    if (live() && moves(node)) (void)network_->stop_now(node);
+    auto asked = network_->reset(node);
+    brake(node);
+    return asked;
+}
+
+void Target::release(uint16_t cause) {
+    if (brake_causes_.erase(cause) == 0 || !brake_causes_.empty()) return;
+    release_all();
+}
+
+void Target::release_all() {
+    brake_causes_.clear();
+    for (const uint16_t node : std::exchange(braked_, {})) {
+        if (network_) (void)network_->run(node).ok();
+    }
+    desk_.board().touch("robot");
+}
+
+// ---- who debugs: a plan waits for that ----
+
+// One that said that it runs just before it was paused is not let go by that.
+void Target::note_held(uint16_t node, const debug::StateChanged& state) {
+    Known& known = known_[node];
+    const bool is_told_to_stand = known.busy == "pausing" || known.busy == "restarting";
+    if (state.at_breakpoint) known.held = true;
+    if (state.state == debug::ProgramState::Running && !is_told_to_stand) known.held = false;
+}
+
+bool Target::is_held(uint16_t node) const {
+    const auto known = known_.find(node);
+    if (known == known_.end()) return false;
+    return known->second.held || known->second.busy == "loading";
+}
+
+std::vector<uint16_t> Target::held_nodes() const {
+    const bool braked = std::any_of(brake_causes_.begin(), brake_causes_.end(),
+                                    [this](uint16_t cause) { return is_held(cause); });
+    std::vector<uint16_t> held;
+    for (const auto& [node, known] : known_) {
+        if (is_held(node) || (braked && braked_.contains(node))) held.push_back(node);
+    }
+    return held;
+}
+
+}  // namespace vagus::serve

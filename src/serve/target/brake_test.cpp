@@ -1,0 +1,252 @@
+// A live robot brakes as a whole; direct driving is a lease.
+#include <gmock/gmock.h>
+
+#include "serve/target/test_target.hpp"
+
+namespace vagus::serve {
+namespace {
+
+using Type = wire::MessageType;
+
+struct BrakeTest : RobotTest {
+    static constexpr const char* kBumperScript = "robot.aesl#2";
+
+    void break_at_bumper(const std::string& condition, int ignore = 0) {
+        answer = ask(
+            "break.set",
+            {{"doc", kBumperScript}, {"line", 3}, {"condition", condition}, {"ignore", ignore}});
+        pass(300ms);
+    }
+    void expect_braked() {
+        EXPECT_FALSE(runs(kDrive));
+        EXPECT_EQ(node_document(kDrive)["why"], "robot");
+        EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
+        // Behind the pause, for the script would write over it.
+        const auto types = sent_to(kDrive);
+        const auto pause = std::find(types.begin(), types.end(), Type::Pause);
+        EXPECT_NE(std::find(pause, types.end(), Type::SetVariables), types.end());
+    }
+    Json answer;
+};
+
+TEST_F(BrakeTest, ABreakpointOfASensorStopsTheWheelsAndRunLetsExactlyThemGo) {
+    run();
+    break_at_bumper("");
+    EXPECT_EQ(node_document(kBumper)["why"], "breakpoint");
+    expect_braked();
+    EXPECT_FALSE(answer.contains("note"));
+    ask("break.clear", Json::object());
+    ask("node.run", {{"node", kBumper}});
+    pass(200ms);
+    EXPECT_TRUE(runs(kBumper));
+    EXPECT_TRUE(runs(kDrive));
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 100);  // of its script, which runs again
+}
+
+TEST_F(BrakeTest, ANodeThatAPersonPausedIsNotLetGoWithTheOthers) {
+    run();
+    ask("node.pause", {{"node", kDrive}});
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
+    break_at_bumper("");
+    ask("break.clear", Json::object());
+    ask("node.run", {{"node", kBumper}});
+    pass(200ms);
+    EXPECT_TRUE(runs(kBumper));
+    EXPECT_FALSE(runs(kDrive));
+}
+
+// Whether it counts is known only here, and until then there is no reflex.
+TEST_F(BrakeTest, AHitThatDoesNotCountBrakesTooAndIsSaid) {
+    run();
+    break_at_bumper("n < 0");
+    EXPECT_THAT(answer.value("note", ""), testing::HasSubstr("brakes at every hit"));
+    EXPECT_GE(count_sent(kDrive, Type::Pause), 1u);
+    EXPECT_GE(count_sent(kDrive, Type::SetVariables), 1u);
+    ask("break.clear", Json::object());
+    pass(300ms);
+    EXPECT_TRUE(runs(kBumper));
+    EXPECT_TRUE(runs(kDrive));
+}
+
+TEST_F(BrakeTest, SoDoesOneOfThoseThatAreLetPass) {
+    run();
+    break_at_bumper("", 1000);
+    EXPECT_TRUE(answer.contains("note"));
+    EXPECT_GE(count_sent(kDrive, Type::Pause), 1u);
+}
+
+TEST_F(BrakeTest, PauseStopAndResetOfANodeStopTheWheels) {
+    for (const char* command : {"node.pause", "node.stop", "node.reset"}) {
+        if (target.connected()) target.disconnect();
+        run();
+        ask(command, {{"node", kBumper}});
+        pass(100ms);
+        SCOPED_TRACE(command);
+        expect_braked();
+    }
+}
+
+TEST_F(BrakeTest, AFaultOfANodeStopsTheWheels) {
+    run();
+    wire::DivisionByZero fault{};
+    fault.pc = 5;
+    wire::Frame frame;
+    ASSERT_EQ(wire::encode_message(fault, kBumper, frame), wire::Error::None);
+    bus.others_say(frame);
+    pass(100ms);
+    expect_braked();
+}
+
+TEST_F(BrakeTest, TheLossOfANodeStopsTheWheelsUntilRun) {
+    run();
+    bus.mute(kBumper);
+    pass(5s);
+    expect_braked();
+    bus.mute(kBumper, false);
+    pass(3s);
+    EXPECT_FALSE(runs(kDrive));
+    target.run_all([](auto) {});
+    pass(300ms);
+    EXPECT_TRUE(runs(kDrive));
+    EXPECT_TRUE(runs(kBumper));
+}
+
+// As `vagus net pause` does it from elsewhere.
+TEST_F(BrakeTest, APauseThatAnotherProgramSendsStopsTheWheels) {
+    run();
+    wire::Pause pause{};
+    pause.dest = kBumper;
+    wire::Frame frame;
+    ASSERT_EQ(wire::encode_message(pause, wire::kHostId, frame), wire::Error::None);
+    bus.others_say(frame);
+    pass(100ms);
+    expect_braked();
+}
+
+TEST_F(BrakeTest, WhatAStepWritesDoesNotDrive) {
+    run();
+    break_at_bumper("");
+    for (int i = 0; i < 5; ++i) {
+        ask("node.step", {{"node", kDrive}});
+        pass(50ms);
+        EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0) << i;
+    }
+}
+
+TEST_F(BrakeTest, WhoOnlyLooksDoesNotInterfere) {
+    connect();
+    bus.sent.clear();
+    bus.mute(kBumper);
+    pass(5s);
+    EXPECT_EQ(count_sent(kDrive, Type::Pause), 0u);
+    EXPECT_EQ(count_sent(kDrive, Type::SetVariables), 0u);
+}
+
+TEST_F(BrakeTest, AWorldWhoseClockStopsTooIsLeftAsItIs) {
+    run("simulator");
+    ask("node.pause", {{"node", kBumper}});
+    pass(100ms);
+    EXPECT_TRUE(runs(kDrive));
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 100);
+}
+
+// ---- a plan waits for nodes that somebody debugs ----
+
+using Nodes = std::vector<uint16_t>;
+
+TEST_F(BrakeTest, NodesAreHeldWhileSomebodyDebugsOne) {
+    run();
+    EXPECT_EQ(target.held_nodes(), Nodes{});
+    break_at_bumper("");
+    EXPECT_EQ(target.held_nodes(), (Nodes{kDrive, kBumper}));
+    ask("node.step", {{"node", kBumper}});
+    pass(100ms);
+    EXPECT_EQ(target.held_nodes(), (Nodes{kDrive, kBumper}));
+    ask("break.clear", Json::object());
+    ask("node.run", {{"node", kBumper}});
+    pass(200ms);
+    EXPECT_EQ(target.held_nodes(), Nodes{});
+}
+
+TEST_F(BrakeTest, PauseAndResetHoldNodesAndStopDoesNot) {
+    for (const char* command : {"node.pause", "node.reset", "node.stop"}) {
+        if (target.connected()) target.disconnect();
+        run();
+        ask(command, {{"node", kBumper}});
+        pass(100ms);
+        const bool stops = command == std::string("node.stop");
+        EXPECT_EQ(target.held_nodes(), stops ? Nodes{} : (Nodes{kDrive, kBumper})) << command;
+        target.stop_all([](const auto&) {});
+        pass(100ms);
+        EXPECT_EQ(target.held_nodes(), Nodes{}) << command;
+    }
+}
+
+TEST_F(BrakeTest, WhatAnotherProgramResetsIsNotHeld) {
+    run();
+    wire::Reset reset{};
+    reset.dest = kBumper;
+    wire::Frame frame;
+    ASSERT_EQ(wire::encode_message(reset, wire::kHostId, frame), wire::Error::None);
+    bus.others_say(frame);
+    pass(100ms);
+    EXPECT_FALSE(runs(kBumper));
+    expect_braked();
+    EXPECT_EQ(target.held_nodes(), Nodes{});
+}
+
+// ---- scripts that run on behind a plan ----
+
+// A handler that was under way when the plan ended writes over what made the node safe.
+TEST_F(BrakeTest, WhatAHandlerUnderWayWritesBehindThePlanIsTakenBack) {
+    connect();
+    target.make_safe();
+    pass(30ms);
+    bus.word(kDrive, "wheel.target") = 70;
+    pass(400ms);
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
+}
+
+TEST_F(BrakeTest, AScriptThatDrivesByItselfLaterDoesSo) {
+    connect();
+    target.make_safe();
+    pass(kRestWithin + 20ms);
+    bus.word(kDrive, "wheel.target") = 70;
+    pass(3s);
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 70);
+}
+
+TEST_F(BrakeTest, WhatBeginsNextIsNotTakenBack) {
+    connect();
+    target.make_safe();
+    pass(30ms);
+    target.end_rest();
+    bus.word(kDrive, "wheel.target") = 70;
+    pass(1s);
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 70);
+}
+
+// ---- direct driving ----
+
+TEST_F(BrakeTest, WhoDrivesByHandAndLosesTheConnectionDrivesNoMore) {
+    connect();
+    ask("variable.set",
+        {{"node", kDrive}, {"name", "wheel.target"}, {"first", 0}, {"values", {70}}});
+    pass(5s);
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 70);
+    close_page();
+    pass(50ms);
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
+}
+
+TEST_F(BrakeTest, OtherVariablesDriveNothing) {
+    connect();
+    ask("variable.set", {{"node", kDrive}, {"name", "args"}, {"first", 0}, {"values", {7}}});
+    bus.sent.clear();
+    close_page();
+    pass(50ms);
+    EXPECT_EQ(count_sent(kDrive, Type::SetVariables), 0u);
+}
+
+}  // namespace
+}  // namespace vagus::serve

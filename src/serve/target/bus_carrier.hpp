@@ -1,0 +1,55 @@
+// A target of the command line as a carrier: TCP, serial line, CAN. A lost connection is tried
+// again for ever, without asking anybody.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "hub/hub.hpp"
+#include "net/network.hpp"
+#include "serve/target/carrier.hpp"
+
+namespace vagus::serve {
+
+class BusCarrier final : public Carrier {
+public:
+    // The network is borrowed; its events go to hear().
+    static Result<std::unique_ptr<BusCarrier>> connect(net::Network& network,
+                                                       const std::string& target);
+    ~BusCarrier() override;
+
+    void hear(const net::Event& event);
+    // Where another process of this computer can join the bus: "tcp:127.0.0.1:40123". Only one at a
+    // time is there.
+    Result<std::string> open_door();
+    // From now on the bus gets only these events of who came by the door. It still hears all.
+    void close_door_but_for(std::set<uint16_t> events);
+
+    void send(const wire::Frame& frame) override;
+    // Something was sent that can move a node, since the beginning or since it was forgotten.
+    bool moved() const { return moved_; }
+    void forget_moves() { moved_ = false; }
+    std::vector<Carried> take() override;
+    Connection connection() const override { return connection_; }
+    std::string why() const override { return why_; }
+    std::vector<LinkView> links() const override;
+
+private:
+    explicit BusCarrier(net::Network& network) : network_(network) {}
+    void hear_door(const net::Event& event);
+
+    net::Network& network_;
+    hub::Hub hub_;
+    hub::LinkId own_;
+    net::PlaceId place_;
+    std::optional<net::Listening> door_;
+    std::optional<hub::LinkId> guest_;               // who came by the door
+    std::optional<std::set<uint16_t>> guest_sends_;  // events; without: all that it likes
+    Connection connection_ = Connection::Connecting;
+    std::string why_;
+    bool moved_ = false;
+};
+
+}  // namespace vagus::serve

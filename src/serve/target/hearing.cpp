@@ -1,0 +1,167 @@
+// What the nodes tell: for the log of happenings, for the people, for what comes back by itself.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "serve/target/target.hpp"
+
+#include "serve/json.hpp"
+
+namespace vagus::serve {
+
+void Target::happen(const char* kind, uint16_t node, const std::string& name,
+                    const std::string& text, const std::vector<int16_t>& args) {
+    const Json happening = {
+        {"run", told_.run()}, {"t", time()},  {"wall", desk_.wall_ms()},
+        {"kind", kind},       {"node", node}, {"source", node == 0 ? "main" : name_of(node)},
+        {"name", name},       {"args", args}, {"text", text}};
+    told_.happening(happening);
+    desk_.board().add("happenings", happening);
+}
+
+void Target::hear(const debug::Event& event, const debug::NodeDescribed& described) {
+    scripts_.targets_changed();
+    desk_.board().touch("scripts");
+    desk_.board().touch("script");
+    desk_.board().touch("findings");
+    desk_.board().touch("node");
+    happen("appeared", event.node, described.name, "");
+    Known& known = known_[event.node];
+    const auto loaded = hints_.loaded_already(event.node);
+    if (loaded && !known.has_program) {
+        known.loaded = *loaded;
+        known.has_program = true;
+        return restore(event.node);
+    }
+    came_back(event.node);
+}
+
+void Target::hear(const debug::Event& event, const debug::StateChanged& state) {
+    Known& known = known_[event.node];
+    note_state(event.node, state.state);
+    note_held(event.node, state);
+    if (state.state == debug::ProgramState::Running) {
+        known.why.clear();
+        known.stopped = false;
+        known.fault.clear();
+    } else if (known.why.empty()) {
+        known.why = "asked";
+    }
+    const bool stands = state.state != debug::ProgramState::Running && state.at.line > 0;
+    dropped_.state(event.node, state.state);
+    told_.stands(time(), event.node, debug::name_of(state.state), stands ? state.at.line : 0);
+    happen("state", event.node, debug::name_of(state.state),
+           stands ? fmt::format("line {}", state.at.line) : "");
+}
+
+// Another program on the bus may have paused it, too.
+void Target::note_state(uint16_t node, debug::ProgramState state) {
+    Known& known = known_[node];
+    const bool ran = std::exchange(known.runs, state == debug::ProgramState::Running);
+    if (ran && !known.runs && !known.stopped && !known.braking) brake(node);
+}
+
+void Target::hear(const debug::Event& event, const debug::Fault& fault) {
+    Known& known = known_[event.node];
+    if (fault.kind != debug::FaultKind::Killed) brake(event.node);
+    known.fault = fault.text;
+    known.fault_line = fault.at.line;
+    known.why = "fault";
+    known.held = false;
+    const std::string place = fault.at.line > 0 ? fmt::format(" at line {}", fault.at.line) : "";
+    happen("fault", event.node, debug::name_of(fault.kind), fault.text + place);
+    say_("error", fmt::format("{}{}: {}", name_of(event.node), place, fault.text));
+}
+
+void Target::hear(const debug::Event& event, const debug::BreakpointHit& hit) {
+    ScriptBreakpoint* breakpoint = breakpoint_of(event.node, hit.at.line);
+    if (breakpoint) breakpoint->hits = hit.hits;
+    desk_.board().touch("breakpoints");
+    if (breakpoint && hit.hits <= breakpoint->ignore) {
+        (void)network_->run(event.node).ok();
+        return release(event.node);
+    }
+    known_[event.node].why = "breakpoint";
+    hints_.stopped_at_breakpoint();
+    if (breakpoint && breakpoint->once && breakpoints_.clear_once()) place_breakpoints();
+    say_("note", fmt::format("{} is paused at line {}", name_of(event.node), hit.at.line));
+}
+
+void Target::hear_place(const debug::Event& event, const debug::BreakpointResult& result) {
+    ScriptBreakpoint* breakpoint = breakpoint_of(event.node, result.at.line);
+    desk_.board().touch("breakpoints");
+    if (!breakpoint) return;
+    breakpoint->set = result.success;
+    breakpoint->why = result.success ? "" : "the node refused it: its table of breakpoints is full";
+}
+
+void Target::hear(const debug::Event& event, const debug::UserEvent& sent) {
+    ++events_;
+    const std::string name = sent.name.empty() ? fmt::format("event {}", sent.number) : sent.name;
+    if (traffic_.size() < kTrafficMax || traffic_.contains({event.node, name})) {
+        ++traffic_[{event.node, name}];
+    }
+    happen("event", event.node, name, "", sent.arguments);
+    count_dropped(event.node, sent.number);
+}
+
+// All nodes that stand take the event for nothing; the one that emitted it does not hear it.
+void Target::count_dropped(uint16_t from, uint16_t event) {
+    for (const uint16_t id : live_nodes()) {
+        if (id == from || !dropped_.stands(id)) continue;
+        const auto& program = network_->node(id)->program;
+        dropped_.came(id, program ? std::optional(handles(*program, event)) : std::nullopt);
+        desk_.board().touch("robot");
+    }
+}
+
+void Target::hear(const debug::Event& event) {
+    desk_.board().touch("robot");
+    // A node that was just being started may have said meanwhile that it runs.
+    if (const auto stopped = stopping_.hear(event)) known_[*stopped].stopped = true;
+    (void)resting_.hear(event);
+    const auto* what = &event.what;
+    if (const auto* done = std::get_if<debug::RequestDone>(what)) {
+        if (known_[event.node].braking == done->request) known_[event.node].braking.reset();
+        hear(*done);
+    } else if (const auto* described = std::get_if<debug::NodeDescribed>(what)) {
+        hear(event, *described);
+    } else if (const auto* state = std::get_if<debug::StateChanged>(what)) {
+        hear(event, *state);
+    } else if (const auto* fault = std::get_if<debug::Fault>(what)) {
+        hear(event, *fault);
+    } else if (const auto* hit = std::get_if<debug::BreakpointHit>(what)) {
+        hear(event, *hit);
+    } else if (std::get_if<debug::BreakpointReached>(what)) {
+        brake(event.node);
+    } else if (std::get_if<debug::BreakpointPassed>(what)) {
+        release(event.node);
+    } else if (const auto* placed = std::get_if<debug::BreakpointResult>(what)) {
+        hear_place(event, *placed);
+    } else if (const auto* sent = std::get_if<debug::UserEvent>(what)) {
+        hear(event, *sent);
+    } else if (const auto* changed = std::get_if<debug::VariableChanged>(what)) {
+        hear(event, *changed);
+    } else if (const auto* condition = std::get_if<debug::ConditionFailed>(what)) {
+        say_("warning", fmt::format("{}: the condition at line {} cannot be evaluated: {}",
+                                    name_of(event.node), condition->at.line, condition->why));
+        hints_.stopped_at_breakpoint();
+    } else if (std::get_if<debug::ProgramReplaced>(what)) {
+        Known& known = known_[event.node];
+        known.lost_program = known.has_program;
+        known.has_program = false;
+    } else if (const auto* gone = std::get_if<debug::NodeDisconnected>(what)) {
+        dropped_.state(event.node, debug::ProgramState::Unknown);
+        happen("gone", event.node, name_of(event.node), gone->forgotten ? "it said so" : "");
+        went_away(event.node);
+    } else if (std::get_if<debug::NodeReconnected>(what)) {
+        happen("appeared", event.node, name_of(event.node), "");
+        place_breakpoints();
+    } else if (const auto* told = std::get_if<debug::ProgramTold>(what)) {
+        told_program(event.node, told->mark);
+    } else if (std::get_if<debug::NodeConfirmed>(what)) {
+        came_back(event.node);
+    }
+}
+
+}  // namespace vagus::serve

@@ -23,6 +23,8 @@ export type DocumentArea = Size & {
   is: 'documents';
   takes: readonly DocumentKind[];
   opens: readonly DocumentKind[];
+  /** Behind the documents. */
+  panels?: readonly string[];
 };
 /** Areas side by side or one under the other; the two alternate from level to level. */
 export type Split = Size & { is: 'row' | 'column'; parts: readonly Box[] };
@@ -140,6 +142,48 @@ export const layoutPlans: Record<LayoutName, Split> = {
     ],
   },
 };
+
+/** In a window too small for panels on all sides: documents, and one column of panels beside them. */
+export const smallPlans: Record<LayoutName, Split> = {
+  Draw: smallPlan(['palette', 'project', 'properties', 'world'], ['plan', 'world'], dock),
+  Script: smallPlan(
+    ['variables', 'project', 'watch', 'world', 'events'],
+    ['script'],
+    ['problems', 'search', 'plots', 'console'],
+  ),
+  Debug: smallPlan(
+    ['world', 'watch', 'variables', 'breakpoints', 'network'],
+    ['plan', 'script'],
+    ['events', 'problems', 'timeline', 'plots', 'console'],
+  ),
+  Present: {
+    is: 'row',
+    parts: [
+      { is: 'documents', takes: ['plan'], opens: ['plan'] },
+      { is: 'panels', panels: ['world'], size: 280 },
+    ],
+  },
+};
+
+function smallPlan(
+  side: readonly string[],
+  opens: readonly DocumentKind[],
+  behind: readonly string[],
+): Split {
+  return {
+    is: 'row',
+    parts: [
+      { is: 'panels', panels: side, size: 248 },
+      { is: 'documents', takes: all, opens, panels: behind },
+    ],
+  };
+}
+
+/** The kinds of documents that a layout opens by itself. */
+export function kindsOpened(box: Box): readonly DocumentKind[] {
+  if (box.is === 'panels') return [];
+  return box.is === 'documents' ? box.opens : box.parts.flatMap(kindsOpened);
+}
 
 /** The pixels of the parts of a split that is so wide (or high) in a window of that width. */
 export function sizesOf(parts: readonly Size[], total: number, windowWidth: number): number[] {

@@ -8,7 +8,9 @@ import {
   type ITabSetRenderValues,
 } from 'flexlayout-react';
 import { IconChevronDown, IconX } from '@tabler/icons-react';
-import { Suspense, useRef } from 'react';
+import { Suspense, useCallback, useRef } from 'react';
+import type { Studio } from '../../core/studio';
+import { StudioContext, useStudio } from '../hooks';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
 import { DocumentView } from '../views/document_view';
@@ -37,14 +39,19 @@ const icons: IIcons = {
 /** The docked panels of the chosen layout. */
 export function Dock() {
   const frame = useRef<HTMLDivElement>(null);
+  const studio = useStudio();
   const { model, changed } = useDock(frame);
+  const titleOf = useCallback(
+    (node: TabNode, values: ITabRenderValues) => renderTab(studio, node, values),
+    [studio],
+  );
   return (
     <div className="dock" ref={frame}>
       {model ? (
         <Layout
           model={model}
           factory={contentOf}
-          onRenderTab={renderTab}
+          onRenderTab={titleOf}
           onRenderTabSet={renderTabSet}
           onTabSetPlaceHolder={placeHolder}
           onModelChange={changed}
@@ -74,10 +81,12 @@ function contentOf(node: TabNode) {
   );
 }
 
-function renderTab(node: TabNode, values: ITabRenderValues) {
+/** The list of tabs without room draws titles in a React root of its own: the studio is given to each. */
+function renderTab(studio: Studio, node: TabNode, values: ITabRenderValues) {
   const { doc, panel } = node.getConfig() as { doc?: string; panel?: string };
-  if (doc !== undefined) values.content = <DocumentTitle doc={doc} />;
-  else if (panel) values.content = <PanelTitle id={panel} />;
+  if (doc === undefined && !panel) return;
+  const title = doc === undefined ? <PanelTitle id={panel ?? ''} /> : <DocumentTitle doc={doc} />;
+  values.content = <StudioContext value={studio}>{title}</StudioContext>;
 }
 
 function renderTabSet(node: TabSetNode | BorderNode, values: ITabSetRenderValues) {

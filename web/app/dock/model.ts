@@ -190,7 +190,7 @@ function hasUse(box: Box, docs: (kind: DocumentKind) => NamedDoc[]): boolean {
   return box.is !== 'documents' || box.takes.length > 1 || box.takes.flatMap(docs).length > 0;
 }
 
-/** The world stands beside other panels only where there is one. */
+/** The world is beside other panels only where there is one. */
 function shownPanels(
   panels: readonly string[],
   docs: (kind: DocumentKind) => NamedDoc[],
@@ -220,7 +220,10 @@ function boxOf(
     }
     case 'documents': {
       const config: AreaConfig = { rest, takes: box.takes };
-      const children = box.opens.flatMap(docs).map(({ doc, name }) => documentTab(doc, name));
+      const children = [
+        ...box.opens.flatMap(docs).map(({ doc, name }) => documentTab(doc, name)),
+        ...(box.panels ?? []).map(panelTab),
+      ];
       return {
         type: 'tabset',
         weight,

@@ -8,16 +8,25 @@ import {
   TabSetNode,
   type Action,
   type Model,
+  type Node,
 } from 'flexlayout-react';
 import { useCallback, useEffect, useLayoutEffect, useRef, useState, type RefObject } from 'react';
-import type { Json } from '../../protocol/messages';
-import { layoutPlans, type DocumentKind, type LayoutName } from '../../core/layouts';
+import type { Doc, Json } from '../../protocol/messages';
+import {
+  layoutPlans,
+  smallPlans,
+  type DocumentKind,
+  type LayoutName,
+  type Split,
+} from '../../core/layouts';
 import type { Studio } from '../../core/studio';
 import { update, type Reveal } from '../../core/window_state';
 import { keepState } from '../commands/looks';
 import { usePart, useStudio, useWindow } from '../hooks';
 import { takeFocus } from '../parts/take_focus';
 import { panelOf } from './panels';
+import { carryDocuments, type Opened } from './carry';
+import { useSmall } from './use_small';
 import {
   areaFor,
   areaForPanel,
@@ -45,36 +54,71 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
   const state = usePart('state', {}, hasCome);
   const files = usePart('files', {}, hasCome);
   const ready = scripts && state && files;
+  const small = useSmall();
   const [model, setModel] = useState<Model | null>(null);
   const extent = useRef<Extent>({ width: 0, height: 0 });
+  const before = useRef<Opened | null>(null);
+  const closed = useRef(new Set<Doc>());
 
   useLayoutEffect(() => {
     if (!ready || !frameRef.current) return;
     const { clientWidth: width, clientHeight: height } = frameRef.current;
     extent.current = { width, height };
-    setModel(openLayout(studio, layout, nonce > 0, { width, height }));
-  }, [studio, layout, nonce, ready, frameRef]);
+    const plan = (small ? smallPlans : layoutPlans)[layout];
+    const next = openLayout(studio, { plan, key: keyOf(layout, small) }, nonce > 0, extent.current);
+    const opened = { model: next, plan };
+    if (before.current) carryDocuments(studio, before.current, opened, closed.current);
+    before.current = opened;
+    setModel(next);
+  }, [studio, layout, small, nonce, ready, frameRef]);
 
   useFit(frameRef, model, extent);
   useReveal(studio, model);
   useNames(studio, model);
-  return { model, changed: useKeep(studio, layout) };
+  const keep = useKeep(studio, keyOf(layout, small));
+  const changed = useCallback(
+    (changedModel: Model, action: Action) => {
+      noteClosed(closed.current, action);
+      keep(changedModel, action);
+    },
+    [keep],
+  );
+  return { model, changed };
+}
+
+/** What a layout is kept under; that of a small window beside the other one. */
+function keyOf(layout: LayoutName, small: boolean): string {
+  return small ? `layout.small.${layout}` : `layout.${layout}`;
+}
+
+function noteClosed(closed: Set<Doc>, { type, data }: Action): void {
+  if (type === Actions.DELETE_TAB) closed.add(docOf(data['node']));
+  if (type === Actions.ADD_TAB) closed.delete(docOf((data['json'] as { id?: unknown }).id));
+}
+
+function docOf(tab: unknown): Doc {
+  return String(tab).replace(/^doc:/, '');
 }
 
 function hasCome(value: unknown): boolean {
   return value !== undefined;
 }
 
-function openLayout(studio: Studio, layout: LayoutName, fresh: boolean, extent: Extent): Model {
+function openLayout(
+  studio: Studio,
+  { plan, key }: { plan: Split; key: string },
+  fresh: boolean,
+  extent: Extent,
+): Model {
   const values = studio.topics.get('state', {})?.values;
-  const kept = isTable(values) ? values[`layout.${layout}`] : undefined;
+  const kept = isTable(values) ? values[key] : undefined;
   const known =
     !fresh && isTable(kept) ? keptModel(kept['model'], (doc) => documentExists(studio, doc)) : null;
   if (known && isTable(kept)) {
     fitModel(known, { width: Number(kept['width']), height: Number(kept['height']) }, extent);
     return known;
   }
-  return makeModel(layoutPlans[layout], extent, (kind: DocumentKind) =>
+  return makeModel(plan, extent, (kind: DocumentKind) =>
     documentsOf(studio, kind).map((doc) => ({ doc, name: tabNameOf(studio, doc) })),
   );
 }
@@ -100,7 +144,7 @@ function useFit(
 }
 
 /** Tells which document is looked at, and keeps the layout a moment after the last change. */
-function useKeep(studio: Studio, layout: LayoutName): (model: Model, action: Action) => void {
+function useKeep(studio: Studio, key: string): (model: Model, action: Action) => void {
   const cancel = useRef<(() => void) | null>(null);
   return useCallback(
     (model, action) => {
@@ -114,10 +158,10 @@ function useKeep(studio: Studio, layout: LayoutName): (model: Model, action: Act
           width: rect?.width ?? 0,
           height: rect?.height ?? 0,
         };
-        keepState(studio, `layout.${layout}`, value);
+        keepState(studio, key, value);
       });
     },
-    [studio, layout],
+    [studio, key],
   );
 }
 
@@ -167,6 +211,7 @@ function useNames(studio: Studio, model: Model | null): void {
 function show(studio: Studio, model: Model, reveal: Reveal): void {
   const id = reveal.what === 'panel' ? `panel:${reveal.panel}` : `doc:${reveal.doc}`;
   const there = model.getNodeById(id);
+  if (reveal.what === 'panel' && !reveal.focus && hidesDocument(there)) return;
   if (there instanceof TabNode && !(reveal.what === 'doc' && reveal.beside))
     model.doAction(Actions.selectTab(id));
   else if (reveal.what === 'panel') addPanel(model, reveal.panel);
@@ -183,6 +228,12 @@ function show(studio: Studio, model: Model, reveal: Reveal): void {
     growArea(model, id, panelOf(reveal.panel)?.least ?? 0);
   if (reveal.focus && (reveal.what === 'panel' || reveal.at === null)) focusTab(id);
   noteShown(studio, model);
+}
+
+/** A panel that shares its area with documents: one that shows itself must not cover what is worked on. */
+function hidesDocument(tab: Node | undefined): boolean {
+  const area = tab?.getParent();
+  return area instanceof TabSetNode && area.getSelectedNode()?.getId().startsWith('doc:') === true;
 }
 
 function add(

@@ -25,7 +25,6 @@ export function StatusBar() {
   return (
     <footer className="status" data-region="status" aria-label={text.regions.status}>
       {project ? <Left /> : <span className="status__part">{text.status.ready}</span>}
-      <span className="grow" />
       <Hints started={!!project} />
     </footer>
   );
@@ -95,7 +94,7 @@ function Runs() {
   );
 }
 
-/** From the line where a node stands back to the drawing. */
+/** From the line where a node is paused back to the drawing. */
 function ActiveActor() {
   const { registry } = useStudio();
   const actor = usePart('plan', {}, (is) =>
@@ -135,9 +134,13 @@ function Hints({ started }: { started: boolean }) {
     if (layout === 'Draw' || !doc?.includes('#'))
       hints.push(['Ctrl+K', words.commands], ['?', words.keys]);
   }
-  return hints.map(([keys, word]) => (
-    <span key={keys} className="status__part">
-      <Kbd keys={keys} /> {word}
+  return (
+    <span className="status__hints">
+      {hints.map(([keys, word]) => (
+        <span key={keys} className="status__part">
+          <Kbd keys={keys} /> {word}
+        </span>
+      ))}
     </span>
-  ));
+  );
 }

@@ -1,4 +1,4 @@
-// A component that is loaded when it is first shown. If that fails, because the server was started anew
+// A component that is loaded when it is first shown. If that fails, because the server was started again
 // or the connection is cut, it is tried a few times more; then a panel says so and offers to try again.
 
 import { IconPlugConnectedX, IconRefresh } from '@tabler/icons-react';
@@ -12,7 +12,7 @@ import { kStroke } from './icons';
 const words = text.late;
 
 type Load<P> = () => Promise<{ default: ComponentType<P> }>;
-/** What stands in the place of a component that did not come: where there is little room, a button. */
+/** What is in the place of a component that did not come: where there is little room, a button. */
 type Instead = 'panel' | 'button';
 
 class LoadError extends Error {}

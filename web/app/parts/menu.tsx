@@ -2,7 +2,7 @@ import { Menu, type MenuProps } from '@mantine/core';
 import type { ReactNode } from 'react';
 import { useStudio } from '../hooks';
 import { Kbd } from './kbd';
-import { useOpened } from './use_opened';
+import { kStaysInWindow, useOpened } from './use_opened';
 
 /** A menu in the look of the studio. */
 export function StudioMenu({
@@ -17,6 +17,7 @@ export function StudioMenu({
     <Menu
       position="bottom-start"
       offset={4}
+      middlewares={kStaysInWindow}
       transitionProps={{ duration: 0 }}
       classNames={{
         dropdown: 'menu',

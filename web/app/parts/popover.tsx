@@ -1,6 +1,6 @@
 import { Popover, type PopoverProps } from '@mantine/core';
 import type { ReactNode } from 'react';
-import { useOpened } from './use_opened';
+import { kStaysInWindow, useOpened } from './use_opened';
 
 /** What opens below a button and is more than a menu: lists with forms. */
 export function StudioPopover({
@@ -15,6 +15,7 @@ export function StudioPopover({
   return (
     <Popover
       offset={4}
+      middlewares={kStaysInWindow}
       transitionProps={{ duration: 0 }}
       classNames={{ dropdown: 'menu' }}
       trapFocus

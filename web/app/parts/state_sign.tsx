@@ -8,7 +8,7 @@ const shapes: Record<Node['state'], string> = {
   gone: 'M2.5 2.5l7 7M9.5 2.5l-7 7',
 };
 
-/** The state of a node by shape and colour; its word stands beside it or in a label. */
+/** The state of a node by shape and colour; its word is beside it or in a label. */
 export function StateSign({ state }: { state: Node['state'] }) {
   return (
     <svg className={`sign sign--${state}`} viewBox="0 0 12 12" aria-hidden>

@@ -1,7 +1,7 @@
 const kTries = 120;
 
 /**
- * Gives something the keyboard: `focus` tries it and tells whether it has it. What stands in a tab
+ * Gives something the keyboard: `focus` tries it and tells whether it has it. What is in a tab
  * that comes to the front just now can have it only once it is shown; then `late` is called. Whoever
  * goes elsewhere in the meantime, by the pointer or a key that types nothing, stays there; nothing is
  * taken from the palette or a form that lies over the window. What is replaced meanwhile by something

@@ -2,6 +2,9 @@
 
 import { useLayoutEffect, useRef, useState, type KeyboardEvent } from 'react';
 
+/** Where there is room neither below nor above the button, it lies over the button. */
+export const kStaysInWindow = { flip: true, shift: { padding: 4, crossAxis: true } };
+
 export interface Opened {
   opened: boolean;
   onChange(opened: boolean): void;

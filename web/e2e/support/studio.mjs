@@ -21,8 +21,8 @@ const kPictures = join(root, 'build/e2e');
  * @typedef {import('node:test').TestContext} TestContext
  * @typedef {import('./server.mjs').Server} Server
  *
- * How a window looks.
- * @typedef {{ width?: number, height?: number, theme?: 'dark' | 'light', touch?: boolean }} Looks
+ * How a window looks; scale: pixels of the screen for each of the page.
+ * @typedef {{ width?: number, height?: number, scale?: number, theme?: 'dark' | 'light', touch?: boolean }} Looks
  *
  * What a test's own files say to the server: words of the command line, the folder that it keeps its data in.
  * @typedef {{ words?: readonly string[], folder?: string }} Prepared
@@ -110,12 +110,13 @@ export async function openStudio(t, { words = [], prepare, ...looks } = {}) {
 export async function openWindow(
   t,
   server,
-  { width = 1440, height = 900, theme = 'dark', touch = false } = {},
+  { width = 1440, height = 900, scale = 1, theme = 'dark', touch = false } = {},
 ) {
   const context = await (
     await theBrowser()
   ).newContext({
     viewport: { width, height },
+    deviceScaleFactor: scale,
     hasTouch: touch,
     isMobile: touch,
     colorScheme: theme,

@@ -83,7 +83,7 @@ test(
     await gone(line);
     await reads(live, /P: the new version runs/);
     await seen(page.getByRole('img', { name: 'saved, on the robot, running' }));
-    // Drawn anew while it runs: an actor that the new version brings is live.
+    // Drawn again while it runs: an actor that the new version brings is live.
     await reads(live, /stay/);
   },
 );

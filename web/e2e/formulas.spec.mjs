@@ -95,6 +95,28 @@ test('what is wrong with a formula is said while it is typed', plan, async (stud
   await until('it is mended', () => seconds(place) === 'speed * 2');
 });
 
+test('the place of a mistake is marked in its field and in the text', plan, async (studio) => {
+  const { page, press } = studio;
+  const field = (await form(studio)).getByRole('combobox', { name: 'seconds' });
+  await field.focus();
+  await press('Control+a');
+  await field.pressSequentially('2 * sped');
+  const marked = () =>
+    field.evaluate((/** @type {any} */ one) => {
+      const style = getComputedStyle(one);
+      const [from, to] = ['--from', '--to'].map((name) => Number(style.getPropertyValue(name)));
+      return style.backgroundImage === 'none' ? '' : one.value.slice(from, to);
+    });
+  await until('the name is marked', async () => (await marked()) === 'sped');
+  await press('Enter');
+  await page.getByRole('switch', { name: 'Text' }).click();
+  await reads(page.locator('.cm-finding--error'), /^sped$/);
+  await field.focus();
+  await press('Control+a');
+  await field.pressSequentially('2 * speed');
+  await until('nothing is marked', async () => (await marked()) === '');
+});
+
 test('what is wrong with a state stands at its row, with its mend', slip, async (studio) => {
   const states = (await form(studio)).getByRole('region', { name: 'States' });
   await reads(states, /leads to "@termnate", which does not exist/);

@@ -1,4 +1,4 @@
-// Events of the bus that wait while a plan stands, by the keyboard; and those that a standing node drops.
+// Events of the bus that wait while a plan is paused, by the keyboard; and those that a paused node drops.
 import assert from 'node:assert/strict';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';

@@ -1,4 +1,4 @@
-// Each sample plan is drawn anew through the interface, from an empty canvas, and does the same.
+// Each sample plan is drawn again through the interface, from an empty canvas, and does the same.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';

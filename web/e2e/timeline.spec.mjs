@@ -253,3 +253,26 @@ for (const theme of /** @type {const} */ (['dark', 'light']))
       await look(studio, 'looking back');
     },
   );
+
+test(
+  'the script shows the line of then, and none while its node was running',
+  { words: ['--example', 'thymio'] },
+  async (studio) => {
+    const { page, press, layout, command, editor } = studio;
+    await layout('Script');
+    await editor('thymio-II').click();
+    await command('Find in this text');
+    await page.keyboard.type('onevent prox');
+    await press('Enter', 'Escape', 'ArrowDown', 'F9', 'F5');
+    const standing = page.locator('.cm-standing');
+    await seen(standing);
+    await command('20 ms back');
+    await seen(bar(page));
+    await gone(standing);
+    await command('20 ms on');
+    await seen(standing);
+    await press('Escape');
+    await gone(bar(page));
+    await seen(standing);
+  },
+);

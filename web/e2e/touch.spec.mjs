@@ -101,3 +101,32 @@ test(
     await gone(disc);
   },
 );
+
+test(
+  'a newcomer opens an example, draws an actor, connects it and presses Run',
+  { width: 1024, height: 768, touch: true },
+  async ({ page, button, press }) => {
+    await button(/^Follow a wall/).tap();
+    await seen(page.getByRole('region', { name: 'Plan WallFollow, drawn' }));
+    await page.getByRole('radio', { name: 'Draw' }).tap();
+    // Nothing is wider than the screen: the page is not shrunk to show it.
+    assert.equal(await page.evaluate(() => innerWidth), 1024);
+    await button('Wait, actor').tap();
+    const wait = page.getByRole('group', { name: /^wait, actor Wait/ });
+    await seen(wait);
+    const seconds = page.getByRole('region', { name: 'Properties' }).getByLabel('seconds');
+    await seconds.tap();
+    await seconds.pressSequentially('1');
+    await press('Enter');
+    await wait.getByRole('button', { name: /^Done leads nowhere/ }).tap();
+    await page.getByRole('menuitem', { name: 'searchFirstWall', exact: true }).tap();
+    await page
+      .getByRole('img', { name: 'wait Done leads to searchFirstWall', exact: true })
+      .waitFor({ state: 'attached' });
+    // Nothing leads to it yet: that is no mistake.
+    await seen(button('1 warning'));
+    await button('Run').first().tap();
+    await seen(button(/Running/));
+    await seen(page.locator('.pactive').getByText('searchFirstWall'));
+  },
+);

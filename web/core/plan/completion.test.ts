@@ -42,7 +42,7 @@ test('what begins with the word comes before what contains it', () => {
     detail: 'float, cm/s',
     help: '',
   });
-  // What stands there already needs no offer; signs are typed.
+  // What is there already needs no offer; signs are typed.
   expect(offersFor(variables, words, 'speed').map((one) => one.name)).toEqual(['maxSpeed']);
   expect(offersFor(variables, words, 'speed', true)[0]?.name).toBe('speed');
   expect(offersFor(variables, words, '').map((one) => one.name)).not.toContain('<=');

@@ -18,7 +18,7 @@ export interface WordAt {
   to: number;
 }
 
-/** null: the caret stands in a text in quotes, or in a number. */
+/** null: the caret is in a text in quotes, or in a number. */
 export function wordAt(text: string, caret: number): WordAt | null {
   if (isQuoted(text.slice(0, caret))) return null;
   const before = /[A-Za-z0-9_]*$/.exec(text.slice(0, caret))?.[0] ?? '';

@@ -1,4 +1,4 @@
-// What stands on a canvas, found by where it stands, so that a search looks only at what is near.
+// What is on a canvas, found by where it stands, so that a search looks only at what is near.
 
 import { Cells } from './cells';
 import { Grid } from './grid';
@@ -10,7 +10,7 @@ const kLarge = 4e6;
 const kRim = 96;
 
 export class Field {
-  /** All that stands there, with free room around it. */
+  /** All that is there, with free room around it. */
   readonly whole: Box;
   private readonly boxes = new Cells<Box>();
   private readonly stubs = new Cells<Point>();

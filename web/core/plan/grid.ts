@@ -1,4 +1,4 @@
-// The lines that an arrow may run on, with what stands in its way, and the memory of its search.
+// The lines that an arrow may run on, with what is in its way, and the memory of its search.
 
 import type { Box, Point } from './shape';
 

@@ -1,4 +1,4 @@
-// Which elements are to be placed anew, and the graph of them for a layout: each actor with its
+// Which elements are to be placed again, and the graph of them for a layout: each actor with its
 // supervisors is one box, arrows lead from left to right.
 
 import { kConfiguration, kStart, type PlanModel } from './model';

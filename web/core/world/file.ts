@@ -74,7 +74,7 @@ export function keyMeant(element: string): string | null {
   return match ? keyOf({ list: match[1] as ListName, index: Number(match[2]) }) : null;
 }
 
-/** Where the object or robot of a key stands in the file: an entry "add" holds its object. */
+/** Where the object or robot of a key is in the file: an entry "add" holds its object. */
 export function pathOf(file: Json, key: string): (string | number)[] | null {
   const part = partOfKey(key);
   if (!part || listOf(tableOf(file), part.list)[part.index] === undefined) return null;
@@ -103,7 +103,7 @@ export function listOf(world: Table, list: ListName): Json[] {
 
 // ---- edits ----
 
-/** Puts something somewhere else; the angle is written only if it is not the one that stands there. */
+/** Puts something somewhere else; the angle is written only if it is not the one that is there. */
 export function moveSteps(file: Json, key: string, pose: Pose): JsonStep[] {
   const path = pathOf(file, key);
   if (!path) return [];
@@ -134,7 +134,7 @@ export function setSteps(
     : [{ do: 'set', at: [...path, name], value }];
 }
 
-/** A rectangle becomes a disc, or the other way round: one of size and radius stands in the file. */
+/** A rectangle becomes a disc, or the other way round: one of size and radius is in the file. */
 export function shapeSteps(file: Json, key: string, round: boolean): JsonStep[] {
   const table = tableAt(file, key);
   const radius = numberOf(table['radius'], 0);

@@ -1,4 +1,4 @@
-// What stands in a world, as views draw it: of a run (topic scene) or of a world file.
+// What is in a world, as views draw it: of a run (topic scene) or of a world file.
 
 import type { Colour, Robot, SceneObject, Topics } from '../../protocol/messages';
 import { disc, rectangle, type Pose, type Shape } from './geometry';

@@ -20,7 +20,7 @@ export class Trails {
   /** Metres that are kept; Infinity: all. */
   constructor(public limit = 20) {}
 
-  /** The time of a frame; going back begins anew. */
+  /** The time of a frame; going back begins again. */
   at(t: number): void {
     if (t < this.last - 1e-6) this.clear();
     this.last = t;

@@ -1,6 +1,10 @@
 import type { PlanLevel, Topics } from '../../../protocol/messages';
+import { aheadText, inputsAhead } from '../../../core/plan/ahead';
+import { shownValue } from '../../../core/plan/live';
 import { valueOf } from '../../../core/plan_view';
+import { useStudio } from '../../hooks';
 import { text } from '../../text';
+import { usePlanDesk } from './plan_desk';
 
 const words = text.plan;
 
@@ -32,7 +36,19 @@ export function ActiveActor(props: {
         <p className="active__inputs">
           {inputs.map(([name, value]) => `${name} ${valueOf(value)}`).join(' · ')}
         </p>
-      ) : null}
+      ) : (
+        <Ahead level={level} />
+      )}
     </section>
   );
+}
+
+/** Paused before it begins, it has taken nothing yet: its formulas, if its plan is drawn. */
+function Ahead({ level }: { level: PlanLevel }) {
+  const { shown } = usePlanDesk(useStudio());
+  const model = shown?.board.doc === level.doc ? shown.board.model : undefined;
+  const ahead = inputsAhead(model?.actors.find((one) => one.name === level.actor));
+  if (ahead.length === 0) return null;
+  const values = new Map(level.variables.map(({ name, value }) => [name, shownValue(value)]));
+  return <p className="active__inputs">{aheadText(ahead, values)}</p>;
 }

@@ -86,7 +86,7 @@ async function complete(
     .catch(() => null);
   if (!answer || context.aborted || answer.items.length === 0) return null;
   const keywords = new Set(answer.items.filter(isKeyword).map((one) => one.label));
-  // Nothing is left to complete of a keyword that stands there in full: the list goes.
+  // Nothing is left to complete of a keyword that is there in full: the list goes.
   const isWhole = (typed: string) => !context.explicit && keywords.has(typed);
   if (isWhole(word?.text ?? '')) return null;
   return {

@@ -1,4 +1,4 @@
-// Findings in the text: what is meant is underlined, and an error's sentence stands in a block below
+// Findings in the text: what is meant is underlined, and an error's sentence is in a block below
 // its line, with its fix as a button: once the caret has left the line, or has typed nothing for half a second.
 
 import {
@@ -20,6 +20,7 @@ import {
   type ViewUpdate,
 } from '@codemirror/view';
 import type { Finding, Fix } from '../../../protocol/messages';
+import { mistakeInLine } from '../../../core/plan/formula_place';
 import { offsetOf } from './places';
 
 export interface FindingsShown {
@@ -163,6 +164,9 @@ function shown(
 /** At least one character, so that there is something to see: the one behind, else the one before. */
 function rangeOf(finding: Finding, doc: Text): [number, number] {
   const from = offsetOf(doc, finding.at);
+  const line = doc.lineAt(from);
+  const inside = finding.keys && mistakeInLine(line.text, from - line.from, finding.what);
+  if (inside) return [line.from + inside.from, line.from + inside.to];
   const to = Math.max(offsetOf(doc, finding.end), from);
   if (to > from) return [from, to];
   return from < doc.lineAt(from).to ? [from, from + 1] : [Math.max(0, from - 1), from];

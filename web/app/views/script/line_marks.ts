@@ -133,7 +133,7 @@ export function lineMarks(act: {
   ];
 }
 
-/** A field of decorations that are made anew by an effect, and move with the text meanwhile. */
+/** A field of decorations that are made again by an effect, and move with the text meanwhile. */
 function decorations<T>(
   set: ReturnType<typeof StateEffect.define<T>>,
   make: (value: T, doc: Text) => Range<Decoration>[],
@@ -153,7 +153,7 @@ function chip(text: string, at: number): Range<Decoration> {
   return Decoration.widget({ widget: new Words(text, 'span', 'chip'), side: 1 }).range(at);
 }
 
-/** Words that stand in the text and are none of it. */
+/** Words that are in the text and are none of it. */
 class Words extends WidgetType {
   constructor(
     private readonly text: string,

@@ -24,7 +24,7 @@ export function Listing({ doc }: { doc: Doc }) {
   );
 }
 
-/** Asked anew with each version that compiles. */
+/** Asked again with each version that compiles. */
 function useListing(doc: Doc): ListingLine[] {
   const studio = useStudio();
   const script = useTopic('script', { doc });

@@ -28,7 +28,7 @@ function reveal(view: EditorView): void {
 /** A notice that comes above the text pushes the caret's line out of sight by so much. */
 const kPushedMaxPx = 64;
 
-/** How much of the caret's line, with what stands below it, is out of sight; 0 if the caret is far away. */
+/** How much of the caret's line, with what is below it, is out of sight; 0 if the caret is far away. */
 function hiddenBelow(view: EditorView): number {
   const { scrollTop, clientHeight } = view.scrollDOM;
   const line = view.lineBlockAt(view.state.selection.main.head);

@@ -5,7 +5,7 @@ import { toggleComment } from '@codemirror/commands';
 import { startCompletion } from '@codemirror/autocomplete';
 import { openSearchPanel } from '@codemirror/search';
 import { useCallback, useEffect, useMemo, useState } from 'react';
-import type { Breakpoint, Doc, Handler, Node } from '../../../protocol/messages';
+import type { Breakpoint, Doc, Handler, HistoryNode, Node } from '../../../protocol/messages';
 import { mentionedIn, readWords, valueText } from '../../../core/values';
 import { standsAt } from '../../../core/run_state';
 import type { Settings } from '../../../core/settings';
@@ -13,6 +13,7 @@ import { update } from '../../../core/window_state';
 import { addEditor } from '../../commands/editor_handles';
 import { pressFix } from '../../commands/problem_commands';
 import { useMayEdit, useSettings, useStudio, useTopic, useWindow } from '../../hooks';
+import { useNodeThen } from '../../past_hooks';
 import { useShownTheme } from '../../robot_hooks';
 import { text } from '../../text';
 import {
@@ -104,16 +105,18 @@ function markOf(one: Breakpoint): BreakMark {
   };
 }
 
-/** Where the node stands, and what the line's variables are. */
+/** Where the node is paused, and what the line's variables are. */
 function useStandingIn(doc: Doc, isScript: boolean, view: EditorView | null): void {
   const robot = useTopic('robot', {});
   const node = isScript ? robot?.nodes.find((one) => one.doc === doc) : undefined;
-  const line = standsAt(node);
+  const then = useNodeThen(node?.id);
+  const line = then ? lineThen(then) : standsAt(node);
   const code =
     line !== undefined && view && line <= view.state.doc.lines
       ? view.state.doc.line(line).text
       : '';
-  const values = useLineValues(line === undefined ? undefined : node, code);
+  // Values of now are none of then.
+  const values = useLineValues(line === undefined || then ? undefined : node, code);
   useEffectIn(
     view,
     useCallback(() => setStanding.of(line === undefined ? null : { line, values }), [line, values]),
@@ -122,6 +125,10 @@ function useStandingIn(doc: Doc, isScript: boolean, view: EditorView | null): vo
     if (view && line !== undefined)
       goTo(view, offsetOf(view.state.doc, { line, column: 1 }), false);
   }, [view, line]);
+}
+
+function lineThen({ state, line }: Partial<HistoryNode>): number | undefined {
+  return state === 'running' ? undefined : line;
 }
 
 function useLineValues(node: Node | undefined, code: string): string {

@@ -1,6 +1,7 @@
 // The picture from above, on a plain canvas: from the ground up, from the model, without React.
 
 import { placed, reachOf, shownDegrees, type Point, type Pose } from '../../../core/world/geometry';
+import { litLamps } from '../../../core/world/lamps';
 import type { WorldModel } from '../../../core/world/model';
 import { isLamp, type Thing } from '../../../core/world/stage';
 import {
@@ -244,17 +245,12 @@ export function reachAhead(thing: Thing): number {
 }
 
 function drawLamps({ ctx, model, view }: Scene): void {
-  for (const { robot, at, colour } of model.lamps) {
-    const brightest = Math.max(...colour);
-    const thing = model.robotAt(robot);
-    if (!thing || brightest < 0.02) continue;
-    const pose = model.poseOf(thing);
-    const place = placed(at, pose);
-    const radius = Math.max(reachOf(thing.shape) * 0.14, 2 / view.scale);
-    ctx.fillStyle = css(colour, 0.35);
-    circle(ctx, place, radius * 2.2);
-    ctx.fillStyle = css(colour.map((part) => part / Math.max(brightest, 0.35)));
-    circle(ctx, place, radius);
+  for (const lamp of litLamps(model)) {
+    const radius = Math.max(lamp.radius, 2 / view.scale);
+    ctx.fillStyle = css(lamp.colour, 0.35);
+    circle(ctx, lamp.at, radius * 2.2);
+    ctx.fillStyle = css(lamp.core);
+    circle(ctx, lamp.at, radius);
   }
 }
 

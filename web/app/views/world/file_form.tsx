@@ -22,7 +22,7 @@ import { RobotFields } from './robot_fields';
 const words = text.world;
 const grey: Colour = [0.9, 0.9, 0.9];
 
-/** An object or robot as it stands in the file. */
+/** An object or robot as it is in the file. */
 export function FileForm({ file, id }: { file: JsonFile; id: string }) {
   const off = !useDrives();
   const table = tableAt(file.value, id);

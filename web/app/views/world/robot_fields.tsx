@@ -11,7 +11,7 @@ import { PoseFields, type EditedThing } from './pose_fields';
 const words = text.world;
 const white: Colour = [0.95, 0.95, 0.95];
 
-/** A robot as it stands in the file. */
+/** A robot as it is in the file. */
 export function RobotFields(edited: EditedThing) {
   const { table, off, set } = edited;
   const setPaint = useCallback((value: Colour) => set('paint', value), [set]);

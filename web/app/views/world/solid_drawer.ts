@@ -23,12 +23,14 @@ import {
 } from 'three';
 import type { Colour } from '../../../protocol/messages';
 import { dashesAround, reachOf, type Shape } from '../../../core/world/geometry';
+import { litLamps } from '../../../core/world/lamps';
 import type { WorldModel } from '../../../core/world/model';
 import { isLamp, type Thing } from '../../../core/world/stage';
 import { gridStep, kWall } from '../../../core/world/view';
 import { css, shown, type Colours } from './colours';
 import { kConeHalf, reachAhead } from './draw';
 import type { WorldOptions } from './options';
+import { Lamps } from './solid_lamps';
 import { shapeOfPlacing } from './placing';
 
 const kWallHeight = 0.22;
@@ -46,6 +48,7 @@ export class SolidDrawer {
   private readonly rays: Lines;
   private readonly mark: Mesh;
   private readonly placed = new Group();
+  private readonly lamps = new Lamps();
   private placing: unknown = null;
   private image: CanvasImageSource | null = null;
 
@@ -62,7 +65,7 @@ export class SolidDrawer {
     );
     this.mark.renderOrder = 2;
     this.root.add(this.ground, this.things, this.trails.object, this.rays.object, this.mark);
-    this.root.add(this.placed, this.robotsNow.object);
+    this.root.add(this.placed, this.robotsNow.object, this.lamps.object);
   }
 
   /** The stage is another one. */
@@ -90,6 +93,7 @@ export class SolidDrawer {
     }
     this.drawTrails(options);
     this.drawRays(options);
+    this.lamps.show(litLamps(model));
     this.drawMark();
     this.drawNow();
     this.drawPlacing();
@@ -100,6 +104,7 @@ export class SolidDrawer {
     this.trails.dispose();
     this.robotsNow.dispose();
     this.rays.dispose();
+    this.lamps.dispose();
     this.mark.geometry.dispose();
   }
 
@@ -296,7 +301,7 @@ export class SolidDrawer {
   }
 }
 
-/** Lines that are made anew each frame in one buffer that only grows. */
+/** Lines that are made again each frame in one buffer that only grows. */
 class Lines {
   readonly object: LineSegments;
   private points = new Float32Array(3 * 256);

@@ -41,7 +41,7 @@ export default function SolidView({
   return <div className="world__solid" ref={place} aria-hidden />;
 }
 
-/** What stands in the world, moved past React: once a frame, from the model. */
+/** What is in the world, moved past React: once a frame, from the model. */
 function drawIn(
   stage: SolidStage,
   studio: Studio,

@@ -11,7 +11,7 @@ const kEveryMs = 400;
 const words = text.world;
 
 /**
- * All that stands in the world: name, place, angle. What the picture shows, for those who do not see
+ * All that is in the world: name, place, angle. What the picture shows, for those who do not see
  * it; hidden: for them alone, where a panel has no room.
  */
 export function ThingList({ model, hidden = false }: { model: WorldModel; hidden?: boolean }) {

@@ -12,7 +12,6 @@ import { useDrives, useStudio, useTopic } from '../../hooks';
 import { useMayAct, usePastTime } from '../../past_hooks';
 import { FileActs } from './file_acts';
 import { LiveActs } from './live_acts';
-import { useWorldOptions } from './options';
 
 /** Frames a second that are asked for; a slow page gets fewer. */
 const kPosesRate = 30;
@@ -32,7 +31,6 @@ export function useLive(model: WorldModel, on: boolean): void {
   const drives = useMayAct();
   const scene = useTopic('scene', on ? {} : null);
   const world = useTopic('studio', {})?.project?.world;
-  const { rays } = useWorldOptions();
   // Nobody kept what a sensor looked at: the past is shown without.
   const looksBack = usePastTime() !== null;
   useEffect(() => {
@@ -59,7 +57,7 @@ export function useLive(model: WorldModel, on: boolean): void {
     return () => ends.forEach((end) => end());
   }, [studio, model, on]);
   useEffect(() => {
-    if (!on || !rays || looksBack) return;
+    if (!on || looksBack) return;
     const end = studio.connection.watch(
       'rays',
       {},
@@ -70,7 +68,7 @@ export function useLive(model: WorldModel, on: boolean): void {
       end();
       model.setRays({ looks: [], lamps: [] });
     };
-  }, [studio, model, on, rays, looksBack]);
+  }, [studio, model, on, looksBack]);
   useImage(model, on ? scene?.image : undefined, world);
 }
 

@@ -5,7 +5,7 @@ import { ThingForm } from './thing_form';
 import { ThingList } from './thing_list';
 import { TimelineList } from './timeline_list';
 
-/** Beside the picture: all that stands there, and the form of what is chosen if no panel has it. */
+/** Beside the picture: all that is there, and the form of what is chosen if no panel has it. */
 export function WorldSide({ world }: { world: ShownWorld }) {
   const desk = useDesk(useStudio());
   const { model, file } = world;

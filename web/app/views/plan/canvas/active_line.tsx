@@ -1,3 +1,4 @@
+import { aheadText, inputsAhead } from '../../../../core/plan/ahead';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { useBoard } from '../plan_desk';
 import { text } from '../../../text';
@@ -10,9 +11,11 @@ export function ActiveLine({ board, onShow }: { board: PlanBoard; onShow: (key: 
   const actor = useLive((live) => live.actor);
   const activation = useLive((live) => live.activation);
   const inputs = useLive((live) => live.inputs);
+  const values = useLive((live) => live.values);
   const { model } = useBoard(board);
   if (actor === '') return null;
-  const known = model.actors.find((one) => one.name === actor)?.known?.inputs ?? [];
+  const element = model.actors.find((one) => one.name === actor);
+  const known = element?.known?.inputs ?? [];
   const unitOf = (name: string) => known.find((one) => one.name === name)?.unit ?? '';
   return (
     <footer className="pactive" aria-label={words.label}>
@@ -26,7 +29,11 @@ export function ActiveLine({ board, onShow }: { board: PlanBoard; onShow: (key: 
       </button>
       <span className="muted">{words.activation(activation)}</span>
       <span className="pactive__inputs ellipsis">
-        {[...inputs].map(([name, value]) => `${name} ${value} ${unitOf(name)}`.trim()).join(' · ')}
+        {inputs.size > 0
+          ? [...inputs]
+              .map(([name, value]) => `${name} ${value} ${unitOf(name)}`.trim())
+              .join(' · ')
+          : aheadText(inputsAhead(element), values)}
       </span>
     </footer>
   );

@@ -15,7 +15,7 @@ export interface Dot {
 /** Breakpoints by the key of what they stand at. */
 export const DotsContext = createContext<ReadonlyMap<string, Dot>>(new Map());
 
-/** The same map as long as nothing is drawn otherwise: hits do not draw the plan anew. */
+/** The same map as long as nothing is drawn otherwise: hits do not draw the plan again. */
 export function useDots(board: PlanBoard): ReadonlyMap<string, Dot> {
   const all = useTopic('breakpoints', {})?.plans;
   const { model } = useBoard(board);

@@ -1,5 +1,5 @@
 // The elements of a board as nodes of the canvas. A node that did not change stays the same object,
-// so that only what changed is drawn anew.
+// so that only what changed is drawn again.
 
 import type { Node } from '@xyflow/react';
 import type { Finding } from '../../../../protocol/messages';

@@ -1,5 +1,5 @@
 // The running state apart from the drawing: each element looks at its own part only, so that a
-// highlight draws two of them anew, whatever the size of the plan.
+// highlight draws two of them again, whatever the size of the plan.
 
 import { createContext, useContext, useEffect, useState } from 'react';
 import { useStore } from 'zustand';

@@ -134,5 +134,5 @@ function Canvas({ board }: { board: PlanBoard }) {
 const kNoEdges: never[] = [];
 const kGrid: [number, number] = [kSnap, kSnap];
 const kAlso = ['Control', 'Meta', 'Shift'];
-/** The name of the library stands in the licences. */
+/** The name of the library is in the licences. */
 const kNoName = { hideAttribution: true };

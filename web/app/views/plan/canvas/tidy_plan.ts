@@ -7,7 +7,7 @@ import {
 } from '../../../../core/plan/tidy';
 import type { ShownPlan } from '../plan_desk';
 
-/** Places elements anew; what the user has placed stays unless it is chosen or all are meant. */
+/** Places elements again; what the user has placed stays unless it is chosen or all are meant. */
 export async function tidy({ board }: ShownPlan): Promise<void> {
   const { model, scene } = board;
   if (model.actors.length === 0) return;

@@ -1,7 +1,8 @@
-import { useId, useRef } from 'react';
-import type { PlanInput } from '../../../../protocol/messages';
+import { useId, useRef, type CSSProperties, type UIEvent } from 'react';
+import type { Finding, PlanInput } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { feedSteps, shownFormula } from '../../../../core/plan/edit';
+import { mistakeIn, type Span } from '../../../../core/plan/formula_place';
 import type { Actor, Supervisor } from '../../../../core/plan/model';
 import { useTopic } from '../../../hooks';
 import { useDraft } from '../../../parts/use_draft';
@@ -38,6 +39,7 @@ export function FormulaField(props: {
     draft.done();
   };
   const { offers, chosen } = completion;
+  const mistake = mistakeOf(draft.shown, found);
   const isUnfed = value === '' && input.default === undefined && draft.typed === null;
   return (
     <>
@@ -52,7 +54,9 @@ export function FormulaField(props: {
               <input
                 ref={field}
                 id={id}
-                className={value === '' ? 'field field--small is-default' : 'field field--small'}
+                className={classOf(value, mistake)}
+                style={styleOf(mistake)}
+                onScroll={followText}
                 title={input.help}
                 role="combobox"
                 aria-autocomplete="list"
@@ -84,4 +88,26 @@ export function FormulaField(props: {
       <Findings id={sentence} findings={found} />
     </>
   );
+}
+
+/** The first mistake whose place is told. */
+function mistakeOf(formula: string, found: readonly Finding[]): Span | null {
+  for (const { what } of found) {
+    const span = mistakeIn(formula, what);
+    if (span) return span;
+  }
+  return null;
+}
+
+function classOf(value: string, mistake: Span | null): string {
+  return `field field--small${value === '' ? ' is-default' : ''}${mistake ? ' is-marked' : ''}`;
+}
+
+function styleOf(mistake: Span | null): CSSProperties | undefined {
+  return mistake ? ({ '--from': mistake.from, '--to': mistake.to } as CSSProperties) : undefined;
+}
+
+/** The line under the mistake moves with a text that is longer than its field. */
+function followText({ currentTarget }: UIEvent<HTMLInputElement>): void {
+  currentTarget.style.setProperty('--scrolled', `${currentTarget.scrollLeft}px`);
 }

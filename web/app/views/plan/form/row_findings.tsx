@@ -24,7 +24,7 @@ export function ElementFindings({ doc, keys }: { doc: Doc; keys: Keys }) {
   return <Findings findings={findingsOfElement(all, keys)} />;
 }
 
-/** The sentences of the checker, each with the button that mends it. */
+/** The sentences of the checker, each with the button that fixes it. */
 export function Findings({ findings, id }: { findings: readonly Finding[]; id?: string }) {
   const studio = useStudio();
   const drives = useDrives();

@@ -1,6 +1,6 @@
 // The simulator: beside its peer, with 500 scripted robots, and how many of them keep up with time.
-// The robots stand half a metre apart in a walled square; each drives, turns away from what its
-// sensors see, and bends its way by a timer.
+// The robots are at rest half a metre apart in a walled square; each drives, turns away from what
+// its sensors see, and bends its way by a timer.
 //
 //     build/release/bin/bench_sim
 #include <algorithm>

@@ -23,7 +23,7 @@ install(DIRECTORY ${CMAKE_BINARY_DIR}/generated/templates ${CMAKE_BINARY_DIR}/ge
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vagus)
 install(TARGETS vagus COMPONENT program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-# What the program reads at run time stands in share/vagus, seen from its own folder, also where it is built: the
+# What the program reads at run time is in share/vagus, seen from its own folder, also where it is built: the
 # examples, and the studio's pages once they are built.
 # Examples as they are in the sources: without what trying them has left there.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/ DESTINATION share/vagus/examples COMPONENT program

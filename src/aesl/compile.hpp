@@ -16,7 +16,7 @@
 
 namespace vagus::aesl {
 
-// With errors the program is empty. Errors stand in the order of the text, never two for one
+// With errors the program is empty. Errors are in the order of the text, never two for one
 // mistake; warnings too.
 struct Compilation {
     Program program;

@@ -12,7 +12,7 @@ namespace vagus::aesl {
 constexpr std::string_view kOntimer = "ontimer";
 
 // With Dialect::Auto a look at the tokens of the whole text decides: a colon behind a header, or an
-// `ontimer` header. It has to come before the parser, because what it switches on stands above the
+// `ontimer` header. It has to come before the parser, because what it switches on is above the
 // headers.
 bool is_year_2007(const Tree& tree, const Target& target, const CommonDefinitions& common,
                   Dialect dialect);

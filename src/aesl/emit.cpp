@@ -356,7 +356,7 @@ private:
 
     void emit_statement(const Node& node) {
         const int32_t line = tree_.tokens[node.token].line;
-        Place place;
+        MemoryRange place;
         if (node.first != kNoNode) {
             const auto in_place = expander_.place(node.first);
             if (!report_problem()) return;
@@ -383,7 +383,7 @@ private:
         int32_t line;
     };
 
-    bool fill_temporary(NodeId expression, Place place, Pushing at) {
+    bool fill_temporary(NodeId expression, MemoryRange place, Pushing at) {
         for (int32_t k = 0; k < place.size && !is_over_limit(); ++k) {
             folder_.clear();
             const ScalarId value = expander_.element(expression, k);
@@ -396,7 +396,7 @@ private:
 
     struct Argument {
         NodeId node = kNoNode;
-        Place place = {};
+        MemoryRange place = {};
         enum { InPlace, Computed, Temporary } kind = InPlace;
     };
 

@@ -78,7 +78,7 @@ std::optional<int32_t> Expander::constant_index(NodeId element_node) {
     return folder_[folded].value;
 }
 
-std::optional<Place> Expander::place(NodeId expression) {
+std::optional<MemoryRange> Expander::place(NodeId expression) {
     const Node& node = tree_[expression];
     const bool is_reference = node.kind == NodeKind::Variable || node.kind == NodeKind::Slice ||
                               node.kind == NodeKind::Element;
@@ -92,7 +92,7 @@ std::optional<Place> Expander::place(NodeId expression) {
         start = *index;
     }
     if (start < 0 || node.size > variable.size - start) return std::nullopt;
-    return Place{variable.address + start, node.size};
+    return MemoryRange{variable.address + start, node.size};
 }
 
 ConstantValue constant_value(const Tree& tree, NodeId expression) {

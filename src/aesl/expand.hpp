@@ -13,7 +13,7 @@
 namespace vagus::aesl {
 
 // Words that lie side by side in memory.
-struct Place {
+struct MemoryRange {
     int32_t address = 0;
     int32_t size = 0;
 };
@@ -27,7 +27,7 @@ public:
 
     // Where a variable, a slice, or an element with constant index lies; nothing for all other
     // expressions and for those out of bounds.
-    std::optional<Place> place(NodeId expression);
+    std::optional<MemoryRange> place(NodeId expression);
 
     // The number that the index of an Element folds to.
     std::optional<int32_t> constant_index(NodeId element_node);

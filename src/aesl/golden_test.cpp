@@ -20,7 +20,7 @@ const std::string kFolder = test::testdata("golden/aesl/");
 struct Case {
     std::string name;
     std::string source;
-    Json expected;
+    JsonValue expected;
 };
 
 NodeFile golden_node() {
@@ -55,9 +55,9 @@ std::string category(std::string code) {
     return code;
 }
 
-std::vector<uint16_t> words_of_json(const Json& list) {
+std::vector<uint16_t> words_of_json(const JsonValue& list) {
     std::vector<uint16_t> words;
-    for (const Json& item : list.items) words.push_back(static_cast<uint16_t>(item.integer));
+    for (const JsonValue& item : list.items) words.push_back(static_cast<uint16_t>(item.integer));
     return words;
 }
 
@@ -67,7 +67,7 @@ TEST(Golden, EveryCaseHasTheErrorItMustHaveOrNone) {
     EXPECT_EQ(cases.size(), 266u);
     for (const Case& golden : cases) {
         const Compilation done = compile_golden(golden, node);
-        const Json* error = golden.expected.find("error");
+        const JsonValue* error = golden.expected.find("error");
         if (error == nullptr) {
             EXPECT_TRUE(done.ok())
                 << golden.name << ": " << done.errors[0].at.line << ": " << done.errors[0].message;
@@ -138,7 +138,7 @@ TEST(Golden, BytecodeIsThatOfTheReferenceExceptWhereListed) {
     const NodeFile node = golden_node();
     size_t equal = 0;
     for (const Case& golden : golden_cases()) {
-        const Json* bytecode = golden.expected.find("bytecode");
+        const JsonValue* bytecode = golden.expected.find("bytecode");
         if (bytecode == nullptr) continue;
         const Compilation done = compile_golden(golden, node);
         if (!done.ok()) continue;  // the first test tells
@@ -159,7 +159,7 @@ TEST(Golden, LinesAreThoseOfTheReferenceExceptWhereListed) {
     const NodeFile node = golden_node();
     size_t equal = 0;
     for (const Case& golden : golden_cases()) {
-        const Json* lines = golden.expected.find("lines");
+        const JsonValue* lines = golden.expected.find("lines");
         if (lines == nullptr) continue;
         const Compilation done = compile_golden(golden, node);
         if (!done.ok()) continue;  // the first test tells

@@ -15,7 +15,7 @@ constexpr int64_t kWordMax = UINT16_MAX;
 
 // The `name` of one entry of a list; `others` are the names before it.
 std::string read_name(JsonObject& entry, Complaints& complaints, std::set<std::string>& others) {
-    const Json* json = entry.find("name", JsonKind::String, Need::Required);
+    const JsonValue* json = entry.find("name", JsonKind::String, Need::Required);
     if (json == nullptr) return "";
     if (json->text.empty())
         complaints.push_back(
@@ -44,7 +44,7 @@ std::vector<Entry> read_list(JsonObject& object, std::string_view key, Need need
                              std::string_view what, Complaints& complaints, const Read& read) {
     std::vector<Entry> entries;
     std::set<std::string> names;
-    for (const Json& item : object.items(key, need)) {
+    for (const JsonValue& item : object.items(key, need)) {
         JsonObject entry(item, fmt::format("{} {}", what, entries.size() + 1), complaints);
         entries.push_back(read(entry, read_name(entry, complaints, names)));
         entry.finish();
@@ -113,7 +113,7 @@ void read_lists(JsonObject& object, NodeFile& node, Complaints& complaints) {
     check_count(object, "natives", target.natives.size(), kNativesMax);
 }
 
-NodeFile read_node(const Json& json, Complaints& complaints) {
+NodeFile read_node(const JsonValue& json, Complaints& complaints) {
     NodeFile node;
     JsonObject object(json, "the node", complaints);
     std::set<std::string> no_others;
@@ -129,33 +129,33 @@ NodeFile read_node(const Json& json, Complaints& complaints) {
 
 // An array of what `write` makes of each entry.
 template <typename Entry, typename Write>
-Json write_list(const std::vector<Entry>& entries, const Write& write) {
-    std::vector<Json> items;
+JsonValue write_list(const std::vector<Entry>& entries, const Write& write) {
+    std::vector<JsonValue> items;
     for (const Entry& entry : entries) items.push_back(write(entry));
     return json_array(std::move(items));
 }
 
-Json with_number(const std::string& name, std::string_view key, int64_t number) {
+JsonValue with_number(const std::string& name, std::string_view key, int64_t number) {
     return json_object({json_member("name", name), json_member(key, json_integer(number))});
 }
 
-void add_doc(Json& object, const std::string& doc) {
+void add_doc(JsonValue& object, const std::string& doc) {
     if (!doc.empty()) object.members.push_back(json_member("doc", doc));
 }
 
-Json write_local_event(const LocalEvent& event) {
-    Json json = json_object({json_member("name", event.name)});
+JsonValue write_local_event(const LocalEvent& event) {
+    JsonValue json = json_object({json_member("name", event.name)});
     add_doc(json, event.doc);
     return json;
 }
 
-Json write_event(const GlobalEvent& event) {
+JsonValue write_event(const GlobalEvent& event) {
     if (event.size) return with_number(event.name, "size", *event.size);
     return json_object({json_member("name", event.name)});
 }
 
-Json write_native(const NativeFunction& native) {
-    Json json = json_object({json_member("name", native.name)});
+JsonValue write_native(const NativeFunction& native) {
+    JsonValue json = json_object({json_member("name", native.name)});
     add_doc(json, native.doc);
     json.members.push_back(
         json_member("params", write_list(native.parameters, [](const NativeParameter& parameter) {
@@ -167,7 +167,7 @@ Json write_native(const NativeFunction& native) {
 }  // namespace
 
 Result<NodeFile> parse_node_file(std::string_view text, std::string_view file) {
-    const Json json = TRY(parse_format(text, file, FileFormat::Node));
+    const JsonValue json = TRY(parse_format(text, file, FileFormat::Node));
     Complaints complaints;
     NodeFile node = read_node(json, complaints);
     if (!complaints.empty()) return first_complaint(complaints, file);

@@ -255,7 +255,7 @@ NodeId Parser::tuple() {
     return whole;
 }
 
-// What stands between commas, with brackets around it or without, as one tuple that begins there.
+// What is between commas, with brackets around it or without, as one tuple that begins there.
 NodeId Parser::elements(TokenId first) {
     ChildList all;
     int64_t words = 0;

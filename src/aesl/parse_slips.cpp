@@ -80,7 +80,7 @@ bool Parser::hint_sign_first() {
     return true;
 }
 
-// What stands behind a whole statement on its line.
+// What is behind a whole statement on its line.
 bool Parser::hint_rest_of_line(TokenKind before) {
     const TokenId last = position_ - 1;
     const bool is_name = before == TokenKind::Identifier;
@@ -172,7 +172,7 @@ void Parser::missing_assignment(TokenId start) {
 
 // ---- Heads and expressions
 
-// For a sign or keyword that is missing: a word or sign stands in its place, as in `for i from 1`.
+// For a sign or keyword that is missing: a word or sign is in its place, as in `for i from 1`.
 std::optional<Fix> Parser::instead_of_word(std::string text) const {
     const bool is_in_place = at(TokenKind::Identifier) || at(TokenKind::SignAssign) ||
                              at(TokenKind::SignComma) || at(TokenKind::SignColon);

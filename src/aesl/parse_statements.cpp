@@ -106,7 +106,7 @@ NodeId Parser::misplaced_declaration() {
     return kNoNode;
 }
 
-// The statements up to a token that closes the block, or that must not stand in one.
+// The statements up to a token that closes the block, or that must not be in one.
 void Parser::statements(ChildList& list) {
     while (true) {
         switch (kind()) {

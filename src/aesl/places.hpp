@@ -12,7 +12,7 @@ namespace vagus::aesl {
 // mistake as bad.
 void check_places(Tree& tree, Diagnostics& diagnostics);
 
-// The element or slice with which an expression begins, not what stands in its index: all that the
+// The element or slice with which an expression begins, not what is in its index: all that the
 // reference looks at while it reads arguments. False if something was reported.
 bool check_first_place(const Tree& tree, NodeId expression, Diagnostics& diagnostics);
 

@@ -29,7 +29,7 @@ struct Mistake {
     std::string what;
 };
 
-vagus::Place place_at(std::string_view text, size_t offset) {
+Place place_at(std::string_view text, size_t offset) {
     const std::string_view before = text.substr(0, offset);
     const auto lines = std::count(before.begin(), before.end(), '\n');
     const size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0

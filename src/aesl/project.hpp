@@ -6,7 +6,7 @@
 //         compile(script.source, target_of(script.node), project.value().common, {});
 //
 // Reading is strict: what other tools take for 0 or drop is an Error here, with line, column and
-// mend. Children may come in any order. What has no meaning here (editor state, elements of other
+// fix. Children may come in any order. What has no meaning here (editor state, elements of other
 // tools) is kept and written again; only XML comments and the layout between elements are not.
 #pragma once
 

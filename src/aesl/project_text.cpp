@@ -36,8 +36,9 @@ Character character_at(std::string_view text, size_t offset, bool literal) {
         const bool pair = text.substr(offset).starts_with("\r\n");
         return {"\n", pair ? size_t{2} : size_t{1}};
     }
+    if (literal || text[offset] != '&') return {std::string(1, text[offset])};
     const size_t end = text.find(';', offset);
-    if (literal || text[offset] != '&' || end == text.npos) return {std::string(1, text[offset])};
+    if (end == text.npos) return {std::string(1, text[offset])};
     return {referred(text.substr(offset + 1, end - offset - 1)), end + 1 - offset};
 }
 

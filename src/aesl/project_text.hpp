@@ -45,7 +45,7 @@ public:
                                     size_t to) const;
 
 private:
-    // A child of the <network>, as it stands in the text.
+    // A child of the <network>, as it is in the text.
     struct Element {
         std::string name;
         size_t begin = 0, tag_end = 0, end = 0;  // <, behind the start tag, behind the end

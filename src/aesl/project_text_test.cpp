@@ -58,6 +58,15 @@ TEST(ProjectText, LineEndsAreThoseOfTheFile) {
               "<network>\r\n<node name=\"a\">var x\r\nvar y\r\nx=1\r\n</node>\r\n</network>\r\n");
 }
 
+// A file of the largest size: what looked to its end at each character would take minutes.
+TEST(ProjectText, ALongScriptIsReadInOnePass) {
+    std::string source;
+    while (source.size() < 4'000'000) source += "# nothing that ends an entity\n";
+    const std::string text = "<network>\n<node name=\"a\">" + source + "</node>\n</network>\n";
+    EXPECT_EQ(ProjectText(text).script(0), source);
+    EXPECT_EQ(ProjectText(text).replace(0, 0, 1, "#").size(), text.size());
+}
+
 TEST(ProjectText, DefinitionsComeChangeMoveAndGo) {
     const std::string two = ProjectText(kFile).add({"event", "pong", 0});
     EXPECT_NE(two.find("    <event size=\"2\" name=\"ping\"/>\n    <event size=\"0\" "

@@ -7,7 +7,7 @@ namespace vagus::aesl {
 
 namespace {
 
-int16_t read_word(const Json& json, JsonObject& owner) {
+int16_t read_word(const JsonValue& json, JsonObject& owner) {
     if (json.kind == JsonKind::Int && json.integer >= INT16_MIN && json.integer <= INT16_MAX) {
         return static_cast<int16_t>(json.integer);
     }
@@ -17,13 +17,13 @@ int16_t read_word(const Json& json, JsonObject& owner) {
     return 0;
 }
 
-std::vector<int16_t> read_words(const std::vector<Json>& items, JsonObject& owner) {
+std::vector<int16_t> read_words(const std::vector<JsonValue>& items, JsonObject& owner) {
     std::vector<int16_t> words;
-    for (const Json& item : items) words.push_back(read_word(item, owner));
+    for (const JsonValue& item : items) words.push_back(read_word(item, owner));
     return words;
 }
 
-std::vector<Assignment> read_assignments(const Json* set, JsonObject& owner) {
+std::vector<Assignment> read_assignments(const JsonValue* set, JsonObject& owner) {
     std::vector<Assignment> assignments;
     if (set == nullptr) return assignments;
     for (const JsonMember& member : set->members) {
@@ -38,13 +38,13 @@ std::vector<Assignment> read_assignments(const Json* set, JsonObject& owner) {
     return assignments;
 }
 
-Stimulus read_stimulus(const Json& json, size_t number, Complaints& complaints) {
+Stimulus read_stimulus(const JsonValue& json, size_t number, Complaints& complaints) {
     JsonObject object(json, "stimulus " + std::to_string(number), complaints);
     Stimulus stimulus;
     stimulus.set = read_assignments(object.find("set", JsonKind::Object, Need::Optional), object);
     stimulus.event = object.text("event", Need::Optional);
     stimulus.arguments = read_words(object.items("args", Need::Optional), object);
-    if (const Json* source = object.find("source", Need::Optional)) {
+    if (const JsonValue* source = object.find("source", Need::Optional)) {
         stimulus.source = read_word(*source, object);
     }
     if (stimulus.event.empty() && json.find("set") == nullptr) {
@@ -57,17 +57,17 @@ Stimulus read_stimulus(const Json& json, size_t number, Complaints& complaints) 
 }  // namespace
 
 Result<std::vector<Stimulus>> parse_stimuli(std::string_view text, std::string_view file) {
-    const Json json = TRY(parse_json(text, file));
+    const JsonValue json = TRY(parse_json(text, file));
     Complaints complaints;
     JsonObject object(json, "the file", complaints);
     std::vector<Stimulus> stimuli;
-    const std::vector<Json>& items = object.items("stimuli", Need::Optional);
+    const std::vector<JsonValue>& items = object.items("stimuli", Need::Optional);
     if (items.size() > kStimuliMax) {
         object.complain(json.at, "the file: at most " + std::to_string(kStimuliMax) +
                                      " stimuli, but there are " + std::to_string(items.size()) +
                                      ": split it");
     }
-    for (const Json& item : items) {
+    for (const JsonValue& item : items) {
         if (stimuli.size() == kStimuliMax) break;
         stimuli.push_back(read_stimulus(item, stimuli.size() + 1, complaints));
     }

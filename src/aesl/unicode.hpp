@@ -1,4 +1,4 @@
-// UTF-8 and the one question about characters that AESL asks: may it stand in a word? (section 1.1,
+// UTF-8 and the one question about characters that AESL asks: may it be in a word? (section 1.1,
 // 1.3)
 #pragma once
 

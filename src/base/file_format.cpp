@@ -42,7 +42,7 @@ bool is_script_project(std::string_view text) {
 }
 
 // It has no key "format", but these, and no other file of ours has two of them.
-bool is_node_file(const Json& json) {
+bool is_node_file(const JsonValue& json) {
     int found = 0;
     for (const char* key :
          {"protocolVersion", "bytecodeSize", "variablesSize", "stackSize", "localEvents"}) {
@@ -66,9 +66,9 @@ std::string name_of(FileFormat format) {
     return one.text.empty() ? std::string(one.name) : fmt::format("{} ({})", one.name, one.text);
 }
 
-std::optional<FileFormat> format_of(const Json& json) {
+std::optional<FileFormat> format_of(const JsonValue& json) {
     if (json.kind != JsonKind::Object) return std::nullopt;
-    const Json* format = json.find("format");
+    const JsonValue* format = json.find("format");
     if (format == nullptr) {
         return is_node_file(json) ? std::optional(FileFormat::Node) : std::nullopt;
     }
@@ -82,11 +82,11 @@ std::optional<FileFormat> format_of(std::string_view text) {
     if (is_script_project(text)) return FileFormat::Script;
     if (!without_spaces(text).starts_with('{')) return std::nullopt;
     const auto read = read_json(text);
-    const Json* json = std::get_if<Json>(&read);
+    const JsonValue* json = std::get_if<JsonValue>(&read);
     return json == nullptr ? std::nullopt : format_of(*json);
 }
 
-std::optional<std::string> other_format(const Json& json, FileFormat wanted) {
+std::optional<std::string> other_format(const JsonValue& json, FileFormat wanted) {
     const std::optional<FileFormat> found = format_of(json);
     if (!found || *found == wanted) return std::nullopt;
     return sentence(*found, wanted);
@@ -98,21 +98,21 @@ std::optional<std::string> other_format(std::string_view text, FileFormat wanted
     return sentence(*found, wanted);
 }
 
-Result<Json> parse_format(std::string_view text, std::string_view file, FileFormat wanted) {
+Result<JsonValue> parse_format(std::string_view text, std::string_view file, FileFormat wanted) {
     const auto refuse = [file](Place at, std::string_view what) {
         return Error{Code::BadInput, at_place(file, at, what)};
     };
     if (is_script_project(text)) return refuse({1, 1}, sentence(FileFormat::Script, wanted));
-    Json json = TRY(parse_json(text, file));
+    JsonValue json = TRY(parse_json(text, file));
     if (const auto other = other_format(json, wanted)) {
-        const Json* format = json.find("format");
+        const JsonValue* format = json.find("format");
         return refuse(format == nullptr ? json.at : format->at, *other);
     }
     return json;
 }
 
 void check_format(JsonObject& in, FileFormat wanted) {
-    const Json* json = in.find("format", JsonKind::String, Need::Required);
+    const JsonValue* json = in.find("format", JsonKind::String, Need::Required);
     if (json == nullptr || json->text == format_text(wanted)) return;
     in.complain(json->at, fmt::format("\"format\" is {}; write \"{}\", the only one that this "
                                       "program reads here",

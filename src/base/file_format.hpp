@@ -19,15 +19,15 @@ std::string name_of(FileFormat format);
 
 // What the text is by its beginning or its JSON; nothing if it is none of ours.
 std::optional<FileFormat> format_of(std::string_view text);
-std::optional<FileFormat> format_of(const Json& json);
+std::optional<FileFormat> format_of(const JsonValue& json);
 
 // "this is …; … was expected", if the text is one of our formats, but another than `wanted`.
 std::optional<std::string> other_format(std::string_view text, FileFormat wanted);
-std::optional<std::string> other_format(const Json& json, FileFormat wanted);
+std::optional<std::string> other_format(const JsonValue& json, FileFormat wanted);
 
 // Reads a JSON file of that format: text in, tree out. The Error says where the JSON is broken, or
 // which other format it is.
-Result<Json> parse_format(std::string_view text, std::string_view file, FileFormat wanted);
+Result<JsonValue> parse_format(std::string_view text, std::string_view file, FileFormat wanted);
 
 // Asks for the key "format" of the file's object and complains unless it is the wanted one.
 void check_format(JsonObject& in, FileFormat wanted);

@@ -110,7 +110,7 @@ public:
     }
 
     bool number_integer(number_integer_t value) override {
-        Json* json = add(JsonKind::Int);
+        JsonValue* json = add(JsonKind::Int);
         json->integer = value;
         json->number = static_cast<double>(value);
         return has_room();
@@ -162,7 +162,7 @@ public:
         return false;
     }
 
-    std::variant<Json, JsonError> take_result() {
+    std::variant<JsonValue, JsonError> take_result() {
         if (error_) return std::move(*error_);
         return std::move(root_);
     }
@@ -172,7 +172,7 @@ private:
         406;  // the library's number for a number that no double holds
 
     // `position` is behind the last character read. A broken token is marked where it breaks, a
-    // token that stands in a wrong place where it begins.
+    // token that is in a wrong place where it begins.
     Place place_of_error(size_t position, const std::string& reason) {
         if (position > text_.size()) return place_of(text_, text_.size());
         size_t at = position == 0 ? 0 : position - 1;
@@ -209,11 +209,11 @@ private:
     }
 
     // Puts a value of `kind` where the next one belongs and fills what the text says about it.
-    Json* add(JsonKind kind) {
+    JsonValue* add(JsonKind kind) {
         ++values_;
-        Json* json = &root_;
+        JsonValue* json = &root_;
         if (!open_.empty()) {
-            Json& parent = *open_.back();
+            JsonValue& parent = *open_.back();
             json = parent.kind == JsonKind::Array ? &parent.items.emplace_back()
                                                   : &parent.members.back().value;
         }
@@ -243,8 +243,9 @@ private:
 
     std::string_view text_;
     Cursor cursor_;
-    Json root_;
-    std::vector<Json*> open_;  // stays valid: a parent gets no new item while a child of it is open
+    JsonValue root_;
+    // Stays valid: a parent gets no new item while a child of it is open.
+    std::vector<JsonValue*> open_;
     size_t values_ = 0;
     std::optional<JsonError> error_;
 };
@@ -266,7 +267,7 @@ std::optional<JsonError> refuse_text(std::string_view text) {
 
 }  // namespace
 
-const Json* Json::find(std::string_view key) const {
+const JsonValue* JsonValue::find(std::string_view key) const {
     for (const JsonMember& member : members)
         if (member.key == key) return &member.value;
     return nullptr;
@@ -292,7 +293,7 @@ std::string_view name_of(JsonKind kind) {
     return "";
 }
 
-std::variant<Json, JsonError> read_json(std::string_view text) {
+std::variant<JsonValue, JsonError> read_json(std::string_view text) {
     if (auto refused = refuse_text(text)) return std::move(*refused);
     TreeBuilder builder(text);
     // The reader keeps its own stack on the heap, so that depth costs no stack of ours.
@@ -311,9 +312,9 @@ std::string at_place(std::string_view file, Place at, std::string_view sentence)
     return at_file(file, at) + ": " + std::string(sentence);
 }
 
-Result<Json> parse_json(std::string_view text, std::string_view file) {
+Result<JsonValue> parse_json(std::string_view text, std::string_view file) {
     auto read = read_json(text);
-    if (auto* json = std::get_if<Json>(&read)) return std::move(*json);
+    if (auto* json = std::get_if<JsonValue>(&read)) return std::move(*json);
     const JsonError& error = std::get<JsonError>(read);
     return Error{Code::BadInput, at_place(file, error.at, error.what)};
 }

@@ -3,8 +3,8 @@
 // saving what was not changed byte for byte. Built over nlohmann's event reader; no type of that
 // library shows here.
 //
-//     Result<Json> file = parse_json(text, "arena.world.json");
-//     const Json* seed = file.value().find("seed");
+//     Result<JsonValue> file = parse_json(text, "arena.world.json");
+//     const JsonValue* seed = file.value().find("seed");
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ enum class JsonKind { Null, Bool, Int, Float, String, Array, Object };
 
 struct JsonMember;
 
-struct Json {
+struct JsonValue {
     JsonKind kind = JsonKind::Null;
     Place at;
     bool boolean = false;
@@ -40,32 +40,32 @@ struct Json {
     double number = 0;                // Int and Float
     std::string text;                 // String: its characters; numbers: as written in the file
     std::string raw;                  // String: as written in the file, quotes included; else empty
-    std::vector<Json> items;          // Array
+    std::vector<JsonValue> items;     // Array
     std::vector<JsonMember> members;  // Object, in the order of the file, double keys kept
 
     bool is_number() const { return kind == JsonKind::Int || kind == JsonKind::Float; }
     // The first member of that key, or nullptr.
-    const Json* find(std::string_view key) const;
+    const JsonValue* find(std::string_view key) const;
 };
 
 struct JsonMember {
     std::string key;
     std::string raw_key;  // as written, quotes included
     Place at;             // of the key
-    Json value;
+    JsonValue value;
 };
 
 // "an object", "a whole number": for sentences.
 std::string_view name_of(JsonKind kind);
 
 // Values made by a program, without a place: what a writer builds before format_json().
-Json json_string(std::string_view text);
-Json json_integer(int64_t value);
-Json json_array(std::vector<Json> items);
-JsonMember json_member(std::string_view key, Json value);
+JsonValue json_string(std::string_view text);
+JsonValue json_integer(int64_t value);
+JsonValue json_array(std::vector<JsonValue> items);
+JsonMember json_member(std::string_view key, JsonValue value);
 JsonMember json_member(std::string_view key, std::string_view text);
 JsonMember json_member(std::string_view key, std::vector<JsonMember> members);
-Json json_object(std::vector<JsonMember> members);
+JsonValue json_object(std::vector<JsonMember> members);
 
 struct JsonError {
     Place at;
@@ -75,7 +75,7 @@ struct JsonError {
 // The first thing that keeps the text from being one JSON value (RFC 8259; UTF-8 without byte order
 // mark; depth, size and number of values limited; numbers out of range of a double and half
 // surrogates refused).
-std::variant<Json, JsonError> read_json(std::string_view text);
+std::variant<JsonValue, JsonError> read_json(std::string_view text);
 
 // "FILE:LINE:COL"; without the column, or both, if they are 0.
 std::string at_file(std::string_view file, Place at);
@@ -84,13 +84,13 @@ std::string at_file(std::string_view file, Place at);
 std::string at_place(std::string_view file, Place at, std::string_view sentence);
 
 // The same as a Result; the Error reads "FILE:LINE:COL: sentence".
-Result<Json> parse_json(std::string_view text, std::string_view file);
+Result<JsonValue> parse_json(std::string_view text, std::string_view file);
 
 // The saved form of docs/formats.md: the object and the objects directly in it one member a line,
 // the rest on one line where it fits 100 characters. Numbers and strings as they were written
-// (`raw`, `text`); a string without `raw` is quoted anew, a number without `text` is written from
+// (`raw`, `text`); a string without `raw` is quoted again, a number without `text` is written from
 // its value. A newline at the end.
-std::string format_json(const Json& value);
+std::string format_json(const JsonValue& value);
 
 // A string as JSON, quotes included: `"`, `\` and characters below U+0020 escaped, bytes that are
 // no UTF-8 (names that came over a bus) as U+FFFD, all else as it is.

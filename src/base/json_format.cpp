@@ -12,13 +12,13 @@ namespace {
 
 constexpr size_t kLineMax = 100;  // characters, with indentation, key and comma
 
-std::string number_text(const Json& json) {
+std::string number_text(const JsonValue& json) {
     if (!json.text.empty()) return json.text;
     if (json.kind == JsonKind::Int) return std::to_string(json.integer);
     return fmt::format("{}", json.number);  // the shortest that reads back as the same number
 }
 
-std::string scalar_text(const Json& json) {
+std::string scalar_text(const JsonValue& json) {
     switch (json.kind) {
         case JsonKind::Null:
             return "null";
@@ -40,15 +40,16 @@ std::string key_text(const JsonMember& member) {
     return (member.raw_key.empty() ? json_quote(member.key) : member.raw_key) + ": ";
 }
 
-bool is_empty(const Json& json) {
+bool is_empty(const JsonValue& json) {
     return json.items.empty() && json.members.empty();
 }
 
 // `{ "a": 1, "b": [2, 3] }`
-std::string one_line(const Json& json) {
+std::string one_line(const JsonValue& json) {
     std::string line;
     if (json.kind == JsonKind::Array) {
-        for (const Json& item : json.items) line += (line.empty() ? "" : ", ") + one_line(item);
+        for (const JsonValue& item : json.items)
+            line += (line.empty() ? "" : ", ") + one_line(item);
         return "[" + line + "]";
     }
     if (json.kind == JsonKind::Object) {
@@ -61,11 +62,11 @@ std::string one_line(const Json& json) {
 
 // Cheap answer for big values, so that deep trees are not written once a level: every value takes a
 // character, and a character takes at most four bytes.
-bool surely_too_long(const Json& json, size_t& room) {
+bool surely_too_long(const JsonValue& json, size_t& room) {
     const size_t least = 1 + std::max(json.raw.size(), json.text.size()) / 4;
     if (room < least) return true;
     room -= least;
-    for (const Json& item : json.items)
+    for (const JsonValue& item : json.items)
         if (surely_too_long(item, room)) return true;
     for (const JsonMember& member : json.members)
         if (surely_too_long(member.value, room)) return true;
@@ -76,7 +77,8 @@ class Formatter {
 public:
     // Writes `json` behind `prefix` (indentation and key), with `suffix` (a comma or nothing) at
     // its end.
-    void write(const Json& json, size_t depth, const std::string& prefix, std::string_view suffix) {
+    void write(const JsonValue& json, size_t depth, const std::string& prefix,
+               std::string_view suffix) {
         const bool is_open = json.kind == JsonKind::Object && depth <= 1 && !is_root_array_;
         if (is_empty(json) || (!is_open && fits(json, prefix, suffix))) {
             out_ += prefix + one_line(json) + std::string(suffix) + "\n";
@@ -88,27 +90,27 @@ public:
         out_ += std::string(depth * 2, ' ') + (is_array ? "]" : "}") + std::string(suffix) + "\n";
     }
 
-    std::string take_part(const Json& json, size_t depth, std::string_view prefix,
+    std::string take_part(const JsonValue& json, size_t depth, std::string_view prefix,
                           std::string_view suffix) {
         write(json, depth, std::string(depth * 2, ' ') + std::string(prefix), suffix);
         out_.pop_back();
         return out_.substr(depth * 2);
     }
 
-    std::string take(const Json& root) {
+    std::string take(const JsonValue& root) {
         is_root_array_ = root.kind == JsonKind::Array;
         write(root, 0, "", "");
         return std::move(out_);
     }
 
 private:
-    static bool fits(const Json& json, const std::string& prefix, std::string_view suffix) {
+    static bool fits(const JsonValue& json, const std::string& prefix, std::string_view suffix) {
         size_t room = kLineMax;
         if (surely_too_long(json, room)) return false;
         return count_code_points(prefix + one_line(json)) + suffix.size() <= kLineMax;
     }
 
-    void write_parts(const Json& json, size_t depth) {
+    void write_parts(const JsonValue& json, size_t depth) {
         const std::string indent(depth * 2, ' ');
         for (size_t i = 0; i < json.items.size(); ++i)
             write(json.items[i], depth, indent, i + 1 < json.items.size() ? "," : "");
@@ -123,23 +125,23 @@ private:
 
 }  // namespace
 
-Json json_string(std::string_view text) {
-    Json json;
+JsonValue json_string(std::string_view text) {
+    JsonValue json;
     json.kind = JsonKind::String;
     json.text = text;
     return json;
 }
 
-Json json_integer(int64_t value) {
-    Json json;
+JsonValue json_integer(int64_t value) {
+    JsonValue json;
     json.kind = JsonKind::Int;
     json.integer = value;
     json.number = static_cast<double>(value);
     return json;
 }
 
-Json json_array(std::vector<Json> items) {
-    Json json;
+JsonValue json_array(std::vector<JsonValue> items) {
+    JsonValue json;
     json.kind = JsonKind::Array;
     json.items = std::move(items);
     return json;
@@ -153,30 +155,30 @@ JsonMember json_member(std::string_view key, std::vector<JsonMember> members) {
     return json_member(key, json_object(std::move(members)));
 }
 
-JsonMember json_member(std::string_view key, Json value) {
+JsonMember json_member(std::string_view key, JsonValue value) {
     JsonMember member;
     member.key = key;
     member.value = std::move(value);
     return member;
 }
 
-Json json_object(std::vector<JsonMember> members) {
-    Json json;
+JsonValue json_object(std::vector<JsonMember> members) {
+    JsonValue json;
     json.kind = JsonKind::Object;
     json.members = std::move(members);
     return json;
 }
 
-std::string format_json(const Json& value) {
+std::string format_json(const JsonValue& value) {
     return Formatter().take(value);
 }
 
-std::string format_json_part(const Json& value, size_t depth, std::string_view prefix,
+std::string format_json_part(const JsonValue& value, size_t depth, std::string_view prefix,
                              std::string_view suffix) {
     return Formatter().take_part(value, depth, prefix, suffix);
 }
 
-std::string format_json_line(const Json& value) {
+std::string format_json_line(const JsonValue& value) {
     return one_line(value);
 }
 

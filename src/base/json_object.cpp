@@ -18,7 +18,7 @@ constexpr std::string_view kForeignKey = "x";
 // Longest value that is shown in a sentence.
 constexpr size_t kShownMax = 40;
 
-bool fits_kind(const Json& json, JsonKind kind) {
+bool fits_kind(const JsonValue& json, JsonKind kind) {
     return json.kind == kind || (kind == JsonKind::Float && json.kind == JsonKind::Int);
 }
 
@@ -26,7 +26,7 @@ std::string_view wanted_name(JsonKind kind) {
     return kind == JsonKind::Float ? "a number" : name_of(kind);
 }
 
-std::string shown(const Json& json) {
+std::string shown(const JsonValue& json) {
     if (json.kind == JsonKind::String) return json_quote(json.text.substr(0, kShownMax));
     if (json.is_number()) return json.text.substr(0, kShownMax);
     return std::string(name_of(json.kind));
@@ -53,7 +53,7 @@ std::vector<Error> errors_of(Complaints complaints, std::string_view file) {
     return errors;
 }
 
-JsonObject::JsonObject(const Json& json, std::string name, Complaints& complaints)
+JsonObject::JsonObject(const JsonValue& json, std::string name, Complaints& complaints)
     : json_(json),
       name_(std::move(name)),
       complaints_(complaints),
@@ -62,17 +62,17 @@ JsonObject::JsonObject(const Json& json, std::string name, Complaints& complaint
     complain(json.at, fmt::format("{} is {}; it must be an object: {{ … }}", name_, shown(json)));
 }
 
-const Json* JsonObject::find(std::string_view key, Need need) {
+const JsonValue* JsonObject::find(std::string_view key, Need need) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
-    const Json* value = json_.find(key);
+    const JsonValue* value = json_.find(key);
     const bool lacks = value == nullptr && need == Need::Required && is_object_;
     if (lacks && std::find(missing_.begin(), missing_.end(), key) == missing_.end())
         missing_.emplace_back(key);
     return value;
 }
 
-const Json* JsonObject::find(std::string_view key, JsonKind kind, Need need) {
-    const Json* value = find(key, need);
+const JsonValue* JsonObject::find(std::string_view key, JsonKind kind, Need need) {
+    const JsonValue* value = find(key, need);
     if (value == nullptr || fits_kind(*value, kind)) return value;
     complain(value->at, fmt::format("\"{}\" of {} is {}; write {}", key, name_, shown(*value),
                                     wanted_name(kind)));
@@ -80,12 +80,12 @@ const Json* JsonObject::find(std::string_view key, JsonKind kind, Need need) {
 }
 
 std::string JsonObject::text(std::string_view key, Need need, std::string_view fallback) {
-    const Json* value = find(key, JsonKind::String, need);
+    const JsonValue* value = find(key, JsonKind::String, need);
     return value == nullptr ? std::string(fallback) : value->text;
 }
 
 int64_t JsonObject::integer(std::string_view key, const IntegerRange& range) {
-    const Json* value = find(key, JsonKind::Int, range.need);
+    const JsonValue* value = find(key, JsonKind::Int, range.need);
     if (value == nullptr) return range.fallback;
     if (value->integer >= range.low && value->integer <= range.high) return value->integer;
     complain(value->at, fmt::format("\"{}\" of {} is {}; write a whole number from {} to {}", key,
@@ -94,7 +94,7 @@ int64_t JsonObject::integer(std::string_view key, const IntegerRange& range) {
 }
 
 double JsonObject::number(std::string_view key, const NumberRange& range) {
-    const Json* value = find(key, JsonKind::Float, range.need);
+    const JsonValue* value = find(key, JsonKind::Float, range.need);
     if (value == nullptr) return range.fallback;
     if (value->number >= range.low && value->number <= range.high) return value->number;
     complain(value->at, fmt::format("\"{}\" of {} is {}; write a number from {} to {}", key, name_,
@@ -103,19 +103,19 @@ double JsonObject::number(std::string_view key, const NumberRange& range) {
 }
 
 bool JsonObject::boolean(std::string_view key, bool fallback) {
-    const Json* value = find(key, JsonKind::Bool, Need::Optional);
+    const JsonValue* value = find(key, JsonKind::Bool, Need::Optional);
     return value == nullptr ? fallback : value->boolean;
 }
 
-const std::vector<Json>& JsonObject::items(std::string_view key, Need need) {
-    static const std::vector<Json> kNone;
-    const Json* value = find(key, JsonKind::Array, need);
+const std::vector<JsonValue>& JsonObject::items(std::string_view key, Need need) {
+    static const std::vector<JsonValue> kNone;
+    const JsonValue* value = find(key, JsonKind::Array, need);
     return value == nullptr ? kNone : value->items;
 }
 
 std::string JsonObject::word(std::string_view key, const std::vector<std::string_view>& words,
                              Need need, std::string_view fallback) {
-    const Json* value = find(key, JsonKind::String, need);
+    const JsonValue* value = find(key, JsonKind::String, need);
     if (value == nullptr) return std::string(fallback);
     if (std::find(words.begin(), words.end(), value->text) != words.end()) return value->text;
     const std::string guess = nearest(value->text, words);

@@ -21,7 +21,7 @@ namespace vagus {
 
 struct Complaint {
     Place at;
-    // Names the element, what was expected and found, and the mend; without the place.
+    // Names the element, what was expected and found, and the fix; without the place.
     std::string what;
 };
 constexpr size_t kComplaintsMax = 1000;  // more are not kept
@@ -57,20 +57,20 @@ public:
     // `name` is what sentences call it: "the node", "variable 3". `json` and `complaints` must
     // outlive this. A value that is no object is complained of once and then counts as an empty
     // object without needs.
-    JsonObject(const Json& json, std::string name, Complaints& complaints);
+    JsonObject(const JsonValue& json, std::string name, Complaints& complaints);
 
     // The value of that key, or nullptr. If `kind` does not fit, that is complained of and nullptr
     // given. Float means any number.
-    const Json* find(std::string_view key, JsonKind kind, Need need);
+    const JsonValue* find(std::string_view key, JsonKind kind, Need need);
     // The value whatever its kind.
-    const Json* find(std::string_view key, Need need);
+    const JsonValue* find(std::string_view key, Need need);
 
     std::string text(std::string_view key, Need need, std::string_view fallback = "");
     int64_t integer(std::string_view key, const IntegerRange& range);
     double number(std::string_view key, const NumberRange& range);
     bool boolean(std::string_view key, bool fallback);
     // Items of an array; empty if absent.
-    const std::vector<Json>& items(std::string_view key, Need need);
+    const std::vector<JsonValue>& items(std::string_view key, Need need);
     // One of `words`; the fallback if absent or complained of.
     std::string word(std::string_view key, const std::vector<std::string_view>& words, Need need,
                      std::string_view fallback = "");
@@ -85,7 +85,7 @@ public:
     Place at() const { return json_.at; }
 
 private:
-    const Json& json_;
+    const JsonValue& json_;
     std::string name_;
     Complaints& complaints_;
     bool is_object_;

@@ -8,7 +8,7 @@ namespace {
 // The complaints about a world with a size (1 to 9), a scale, a kind and a list, as "LINE:COL:
 // sentence".
 std::vector<std::string> complaints_of(std::string_view text) {
-    const Json json = parse_json(text, "f").value();
+    const JsonValue json = parse_json(text, "f").value();
     Complaints complaints;
     JsonObject world(json, "the world", complaints);
     (void)world.integer("size", {.low = 1, .high = 9, .fallback = 1, .need = Need::Required});
@@ -74,7 +74,7 @@ TEST(JsonObject, AMisspeltKeyIsNotAlsoMissing) {
 }
 
 TEST(JsonObject, ValuesThatWereComplainedOfFallBack) {
-    const Json json = parse_json(R"({"size": 10, "scale": "x"})", "f").value();
+    const JsonValue json = parse_json(R"({"size": 10, "scale": "x"})", "f").value();
     Complaints complaints;
     JsonObject world(json, "the world", complaints);
     EXPECT_EQ(world.integer("size", {.low = 1, .high = 9, .fallback = 4}), 4);

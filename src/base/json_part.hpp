@@ -11,10 +11,10 @@ namespace vagus {
 
 // `depth` objects and arrays stand around the value, `prefix` (its key) before it, `suffix` (a
 // comma) behind it. Without indentation before the first line, without a newline at the end.
-std::string format_json_part(const Json& value, size_t depth, std::string_view prefix,
+std::string format_json_part(const JsonValue& value, size_t depth, std::string_view prefix,
                              std::string_view suffix);
 
 // All on one line: `{ "a": 1, "b": [2, 3] }`.
-std::string format_json_line(const Json& value);
+std::string format_json_line(const JsonValue& value);
 
 }  // namespace vagus

@@ -411,7 +411,7 @@ private:
         value_is_over();
     }
 
-    // The character here, as it may stand in a sentence.
+    // The character here, as it may be in a sentence.
     std::string shown() const {
         return visible(text_.substr(at_, first_code_point(text_.substr(at_)).bytes));
     }

@@ -13,12 +13,13 @@ std::string error_of(std::string_view text) {
     return parsed.ok() ? "no error" : parsed.error().what;
 }
 
-TEST(Json, KnowsThePlaceOfEveryKeyAndValue) {
-    const Json json = parse_json("{ \"a\": [1,\n  \"é\", true],\n\t\"b\" : null }", "f").value();
+TEST(JsonValue, KnowsThePlaceOfEveryKeyAndValue) {
+    const JsonValue json =
+        parse_json("{ \"a\": [1,\n  \"é\", true],\n\t\"b\" : null }", "f").value();
     EXPECT_EQ(json.at, (Place{1, 1}));
     ASSERT_EQ(json.members.size(), 2u);
     EXPECT_EQ(json.members[0].at, (Place{1, 3}));
-    const Json& list = json.members[0].value;
+    const JsonValue& list = json.members[0].value;
     EXPECT_EQ(list.at, (Place{1, 8}));
     EXPECT_EQ(list.items[0].at, (Place{1, 9}));
     EXPECT_EQ(list.items[1].at, (Place{2, 3}));
@@ -27,8 +28,8 @@ TEST(Json, KnowsThePlaceOfEveryKeyAndValue) {
     EXPECT_EQ(json.members[1].value.at, (Place{3, 8}));
 }
 
-TEST(Json, KeepsOrderDoubleKeysAndRawText) {
-    const Json json = parse_json(R"({"b": 1.50, "a": "\u0041\n", "b": -0})", "f").value();
+TEST(JsonValue, KeepsOrderDoubleKeysAndRawText) {
+    const JsonValue json = parse_json(R"({"b": 1.50, "a": "\u0041\n", "b": -0})", "f").value();
     ASSERT_EQ(json.members.size(), 3u);
     EXPECT_EQ(json.members[0].key, "b");
     EXPECT_EQ(json.members[0].raw_key, "\"b\"");
@@ -43,7 +44,7 @@ TEST(Json, KeepsOrderDoubleKeysAndRawText) {
     EXPECT_EQ(json.find("c"), nullptr);
 }
 
-TEST(Json, ReadsNumbersToTheirLimits) {
+TEST(JsonValue, ReadsNumbersToTheirLimits) {
     EXPECT_EQ(parse_json("9223372036854775807", "f").value().integer, INT64_MAX);
     EXPECT_EQ(parse_json("-9223372036854775808", "f").value().integer, INT64_MIN);
     EXPECT_EQ(parse_json("1e-999", "f").value().number, 0.0);
@@ -52,7 +53,7 @@ TEST(Json, ReadsNumbersToTheirLimits) {
     EXPECT_EQ(parse_json("7", "f").value().number, 7.0) << "a whole number is a number, too";
 }
 
-TEST(Json, RefusesNumbersBeyondTheirLimits) {
+TEST(JsonValue, RefusesNumbersBeyondTheirLimits) {
     EXPECT_EQ(error_of("9223372036854775808").substr(0, 49),
               "f:1:1: the whole number does not fit 64 bits; wri");
     EXPECT_EQ(error_of("[-9223372036854775809]").substr(0, 6), "f:1:2:");
@@ -61,7 +62,7 @@ TEST(Json, RefusesNumbersBeyondTheirLimits) {
     EXPECT_EQ(error_of("[1" + std::string(400, '0') + "]").substr(0, 6), "f:1:2:");
 }
 
-TEST(Json, SaysWhereAndWhyTextIsNotJson) {
+TEST(JsonValue, SaysWhereAndWhyTextIsNotJson) {
     EXPECT_EQ(error_of("{\"a\": 1,}"),
               "f:1:9: this is not JSON: there is a comma before this }, and nothing behind the "
               "comma; remove the comma of line 1, column 8");
@@ -83,7 +84,7 @@ TEST(Json, SaysWhereAndWhyTextIsNotJson) {
     EXPECT_EQ(error_of("\"a\nb\"").substr(0, 24), "f:1:3: this is not JSON:");
 }
 
-TEST(Json, RefusesWhatIsNotUnicode) {
+TEST(JsonValue, RefusesWhatIsNotUnicode) {
     EXPECT_EQ(error_of("\"\\ud800\"").substr(0, 4), "f:1:");
     EXPECT_EQ(error_of("\"\\udc00\"").substr(0, 4), "f:1:");
     EXPECT_EQ(error_of("\"\\ud800\\u0041\"").substr(0, 4), "f:1:");
@@ -94,7 +95,7 @@ TEST(Json, RefusesWhatIsNotUnicode) {
     EXPECT_EQ(error_of(std::string_view("1\0x", 3)).substr(0, 6), "f:1:2:");
 }
 
-TEST(Json, DepthIsLimited) {
+TEST(JsonValue, DepthIsLimited) {
     const auto nested = [](size_t depth) {
         return std::string(depth, '[') + std::string(depth, ']');
     };
@@ -103,7 +104,7 @@ TEST(Json, DepthIsLimited) {
     EXPECT_EQ(error_of(std::string(5'000'000, '[')).substr(0, 8), "f:1:101:");
 }
 
-TEST(Json, SizeAndNumberOfValuesAreLimited) {
+TEST(JsonValue, SizeAndNumberOfValuesAreLimited) {
     std::string many = "[";
     for (size_t i = 1; i < kJsonValuesMax; ++i) many += i == 1 ? "1" : ",1";
     EXPECT_EQ(error_of(many + "]"), "no error");
@@ -114,13 +115,13 @@ TEST(Json, SizeAndNumberOfValuesAreLimited) {
               "f:1:1: the text is larger than 64 MB, the ");
 }
 
-TEST(Json, FormattingTheExampleChangesNoByte) {
+TEST(JsonValue, FormattingTheExampleChangesNoByte) {
     const std::string text = read_file(test::testdata("plans/WallFollow.plan.json")).value();
     EXPECT_EQ(format_json(parse_json(text, "f").value()), text);
 }
 
-TEST(Json, FormatsTheSavedForm) {
-    const Json json =
+TEST(JsonValue, FormatsTheSavedForm) {
+    const JsonValue json =
         parse_json(R"({"a":{"b":{"c":1,"d":[]}, "e":{}},"f":[{"g":1.50},[2,"\u0041"]]})", "f")
             .value();
     EXPECT_EQ(format_json(json), R"({
@@ -134,7 +135,7 @@ TEST(Json, FormatsTheSavedForm) {
 }
 
 // The line with indentation, key and comma may have 100 characters: 2 + 5 + 2 + 90 + 1.
-TEST(Json, ALineOf101CharactersIsBroken) {
+TEST(JsonValue, ALineOf101CharactersIsBroken) {
     const std::string fits = "{\n  \"k\": [\"" + std::string(88, 'x') + "\"],\n  \"l\": 1\n}\n";
     ASSERT_EQ(fits.find(",\n") - 1, 100u);
     EXPECT_EQ(format_json(parse_json(fits, "f").value()), fits);
@@ -146,15 +147,15 @@ TEST(Json, ALineOf101CharactersIsBroken) {
     EXPECT_EQ(format_json(parse_json(last, "f").value()), last);
 }
 
-TEST(Json, FormatsWhatAProgramBuilt) {
-    const Json json = json_object({json_member("a \"b\"", json_array({json_integer(-3)})),
-                                   json_member("c", "line\nend\x01é")});
+TEST(JsonValue, FormatsWhatAProgramBuilt) {
+    const JsonValue json = json_object({json_member("a \"b\"", json_array({json_integer(-3)})),
+                                        json_member("c", "line\nend\x01é")});
     EXPECT_EQ(format_json(json),
               "{\n  \"a \\\"b\\\"\": [-3],\n  \"c\": \"line\\nend\\u0001é\"\n}\n");
     EXPECT_EQ(format_json(parse_json(format_json(json), "f").value()), format_json(json));
 }
 
-TEST(Json, QuotesOnlyWhatMustBe) {
+TEST(JsonValue, QuotesOnlyWhatMustBe) {
     EXPECT_EQ(json_quote("a/\"\\\b\f\n\r\t\x1f\x7f€"), "\"a/\\\"\\\\\\b\\f\\n\\r\\t\\u001f\x7f€\"");
     EXPECT_EQ(json_quote("a\xff\x9b"
                          "b"),

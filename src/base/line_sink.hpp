@@ -1,5 +1,5 @@
 // Where lines go that are made one after the other: traces, logs, listings. A file, stdout or
-// nowhere. Whatever goes wrong (a full disk, a closed pipe), what stands in the file is whole
+// nowhere. Whatever goes wrong (a full disk, a closed pipe), what is in the file is whole
 // lines, and the first failure is kept for the one who opened the sink.
 //
 //     LineSink trace = TRY(LineSink::open("run.jsonl", LineSink::When::WithinASecond));

@@ -1,6 +1,6 @@
 // Paths that files name. A folder that holds a vagus.json is a project (docs/formats.md, "Project
 // file"), and no path in its files leads out of it, also not through symbolic links: a project from
-// a stranger reads nothing but itself. Where projects stand in each other, the outermost is the
+// a stranger reads nothing but itself. Where projects are in each other, the outermost is the
 // border. Without a vagus.json there is none.
 #pragma once
 
@@ -18,7 +18,7 @@ std::string project_border(const std::string& file);
 // The innermost one, as a path like that of `file`: the project that is opened.
 std::string innermost_project(const std::string& file);
 
-// Whether a file that stands in a project with that border (empty: none) may use `path`. The Error
+// Whether a file that is in a project with that border (empty: none) may use `path`. The Error
 // (Refused) names both.
 Status check_inside(const std::string& border, const std::string& path);
 

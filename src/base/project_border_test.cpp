@@ -43,7 +43,7 @@ TEST_F(ProjectBorderTest, TheOutermostProjectIsTheBorderAndTheInnermostIsOpened)
     EXPECT_EQ(project_border(path("outside/w.world.json")), "");
 }
 
-// An older version of a project stands below it, and is no part of it.
+// An older version of a project is below it, and is no part of it.
 TEST_F(ProjectBorderTest, WhatIsKeptBesideAProjectIsNoPartOfIt) {
     const fs::path kept = fs::path(path("all")) / ".vagus" / "versions" / "1" / "files";
     fs::create_directories(kept / "one");

@@ -50,7 +50,7 @@ void LiveScreen::scroll(int lines) {
 
 bool LiveScreen::paint(View view, Time now) {
     next_ = now + kFrameEvery;
-    // Who has scrolled back reads on while more happens.
+    // A reader who has scrolled back keeps the place while more happens.
     const size_t happened = view.plan ? listed(view) + view.plan->forgotten : 0;
     if (scrolled_ > 0 && happened > happened_) scrolled_ += happened - happened_;
     happened_ = happened;

@@ -1,5 +1,5 @@
 // The map of the program: one verb for each thing that Vagus does. What a verb takes and how it
-// runs stands in the file of its name; the list is verbs.def.
+// runs is in the file of its name; the list is verbs.def.
 #include <CLI/CLI.hpp>
 #include <sstream>
 

@@ -3,7 +3,7 @@
 //
 //     Status check(Bench& bench) {
 //         const uint16_t at = TRY(bench.room(1));
-//         const Instructions code = Instructions().push(2).push(3).binary(Add).store(at).stop();
+//         const Instructions code = Instructions().push(5).store(at).stop();
 //         TRY(bench.run_to_end(program_of(code)));
 //         return bench.expect_values(at, {5});
 //     }

@@ -10,7 +10,7 @@ using wire::MessageType;
 
 constexpr uint16_t kDivisionAt = kInitStart + 4;
 
-// The message that must come, and where the node stands afterwards.
+// The message that must come, and where the node is paused afterwards.
 struct FaultRow {
     MessageType type;
     Words words;
@@ -59,7 +59,7 @@ Status branch_by_zero(Bench& bench) {
     return faults(bench, program, {MessageType::DivisionByZero, {kDivisionAt}, kDivisionAt + 9});
 }
 
-// What stands behind the fault is not executed.
+// What is behind the fault is not executed.
 Status rest_of_the_event_is_lost(Bench& bench) {
     const uint16_t at = TRY(bench.room(1));
     TRY(bench.set(at, {1}));

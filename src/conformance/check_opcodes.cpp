@@ -144,7 +144,7 @@ Status branch_on_a_sum(Bench& bench) {
     return gives(bench, at, code, {2, 1});
 }
 
-// What stands behind the `when` counts how often it was taken: `at` is compared with 1.
+// What is behind the `when` counts how often it was taken: `at` is compared with 1.
 Instructions counting_when(uint16_t at) {
     Instructions code;
     code.load(at).push(1).when(BinaryOperator::Equal, 7);

@@ -1,10 +1,10 @@
 // Examines a live node over its link: finds it, reads its description, makes all checks, one after
 // the other. Nothing that a node does, or does not do, keeps this from ending.
 //
-//     const std::vector<Present> there = TRY(who_is_there(line));
+//     const std::vector<uint16_t> there = TRY(who_is_there(line));
 //     const aesl::Target target = TRY(describe(line, 3));
 //     const Report report = examine(line, {.node = 3}, target);
-//     print(report_text(report));
+//     print(summary_text(report));  // report_text.hpp
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
-// Small programs, written instruction by instruction as they stand in the specification (sections
+// Small programs, written instruction by instruction as they are in the specification (sections
 // 3.3 and 3.4), so that what a check sends does not come from a compiler.
 //
-//     const Instructions code = Instructions().push(2).push(3).binary(Add).store(at).stop();
-//     const Words program = program_of(code);
+//     const auto sum = Instructions().push(2).push(3).binary(BinaryOperator::Add).store(at).stop();
+//     const Words program = program_of(sum);
 //
 // Addresses of code count from the first word of the program: its only handler begins at
 // kInitStart.

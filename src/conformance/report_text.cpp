@@ -28,7 +28,7 @@ std::string padded(std::string text, size_t width) {
     return size < width ? text.append(width - size, ' ') : text;
 }
 
-Json row_json(const Row& row) {
+JsonValue row_json(const Row& row) {
     std::vector<JsonMember> members{
         json_member("group", row.check.group), json_member("check", row.check.name),
         json_member("section", row.check.section), json_member("result", word_of(row.verdict))};
@@ -37,7 +37,7 @@ Json row_json(const Row& row) {
     return json_object(std::move(members));
 }
 
-Json count_json(const Report& report, Verdict verdict) {
+JsonValue count_json(const Report& report, Verdict verdict) {
     return json_integer(static_cast<int64_t>(report.count(verdict)));
 }
 
@@ -65,7 +65,7 @@ std::string summary_text(const Report& report) {
 }
 
 std::string report_json(const Report& report) {
-    std::vector<Json> rows;
+    std::vector<JsonValue> rows;
     for (const Row& row : report.rows) rows.push_back(row_json(row));
     const int64_t foreign = static_cast<int64_t>(report.foreign);
     return format_json(json_object({json_member("node", json_integer(report.node)),

@@ -60,7 +60,7 @@ void Control::clear_breakpoints() {
     out_.command<wire::BreakpointClearAll>(view_.id);
 }
 
-// After a load or an absence: the table of the node is made anew. A line that has lost its code
+// After a load or an absence: the table of the node is made again. A line that has lost its code
 // keeps its breakpoint here, not on the node.
 void Control::place_breakpoints() {
     out_.command<wire::BreakpointClearAll>(view_.id);

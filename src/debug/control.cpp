@@ -288,7 +288,7 @@ void Control::note_restart(const wire::ExecutionStateChanged& state) {
     if (std::exchange(restart_check_, false) && lost) lose_program();
 }
 
-// A breakpoint at which the node stands because we stepped there counts as seen, until it moves.
+// A breakpoint at which the node is paused because we stepped there counts as seen, until it moves.
 void Control::note_step(const wire::ExecutionStateChanged& state) {
     const bool stepped = active(Kind::Step) && requests_.front().stepping;
     left_by_step_ = stepped || (left_by_step_ && state.pc == view_.at.pc &&

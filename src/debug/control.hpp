@@ -47,7 +47,7 @@ public:
     // Another host sent words of a program to this node.
     void foreign_bytecode(const wire::SetBytecode& words);
 
-    // ---- the condition of the breakpoint at which the node stands ----
+    // ---- the condition of the breakpoint at which the node is paused ----
     // Its variables are wanted; nullptr if none are. Cleared by condition_read().
     const Condition* wanted_condition() const { return wanted_ ? &*wanted_ : nullptr; }
     // With the values of its variables(), or why they could not be read.
@@ -56,7 +56,7 @@ public:
     uint32_t condition_number() const { return condition_number_; }
 
     // ---- the connection ----
-    // Described, or back after an absence: breakpoints are set anew, the state is asked for.
+    // Described, or back after an absence: set the breakpoints again, ask for the state.
     void connected(const std::vector<aesl::Constant>& constants);
     void disconnected(const std::string& why);
     // It waited for its turn, which has come.
@@ -123,7 +123,7 @@ private:
     bool started_ = false;          // the first was sent
     Time ask_again_{};              // when it may have been lost
     uint16_t flags_ = 0;            // as told last
-    bool left_by_step_ = false;  // we stepped to where the node stands: a breakpoint there was seen
+    bool left_by_step_ = false;  // stepped to where the node is paused: a breakpoint there was seen
     bool restart_check_ = false;  // the next state tells whether the node kept its program
     Resume resume_ = Resume::No;
     std::vector<aesl::Constant> constants_;  // for conditions

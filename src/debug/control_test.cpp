@@ -229,7 +229,7 @@ TEST_F(Program, AFalseConditionLetsItGoOnSilently) {
     bus.state(1, 6, 7);
     bus.state(1, 6, 5);
     EXPECT_EQ(bus.sent(), Dumps{});
-    // Whoever must brake at every hit hears of it; nothing else is told.
+    // What has to brake at every hit is told of it; nothing else is reported.
     EXPECT_EQ(bus.told<BreakpointReached>().size(), 1u);
     EXPECT_EQ(bus.told<BreakpointPassed>().size(), 1u);
     EXPECT_EQ(bus.events.size(), 2u);

@@ -16,7 +16,7 @@ public:
         Waiting,  // for its turn: see debug/turns.hpp
         Asking,
         Done,
-        Failed,  // why() says why; a header that arrives all the same begins anew
+        Failed,  // why() says why; a header that arrives all the same begins again
     };
 
     explicit Describer(NodeId id) : id_(id) {}

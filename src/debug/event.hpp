@@ -97,7 +97,7 @@ struct BreakpointReached {
 struct BreakpointPassed {
     CodePlace at;
 };
-// The node stands at the line, which is not yet executed, and the condition is true.
+// The node is paused at the line, which is not yet executed, and the condition is true.
 struct BreakpointHit {
     CodePlace at;
     uint32_t hits = 0;  // this one included

@@ -97,7 +97,7 @@ struct Span {
     uint16_t first = 0, last = 0;
 };
 
-// What stands in the brackets: "3" or "2:5".
+// What is in the brackets: "3" or "2:5".
 std::optional<Span> span_in(std::string_view text) {
     const size_t colon = text.find(':');
     const auto first = number_in(text.substr(0, colon), 0xffff);

@@ -154,7 +154,7 @@ void Network::Impl::receive_node(const wire::Frame& frame) {
     const size_t before = from->description_bytes();
     from->seen();
     if (!from->receive(frame)) malformed++;
-    description_bytes_ += from->description_bytes() - before;  // may be less: a header begins anew
+    description_bytes_ += from->description_bytes() - before;  // may be less: a header begins again
     if (description_bytes_ > kDescriptionBytesTotalMax) {
         description_bytes_ -= from->description_bytes();
         from->refuse_description();

@@ -61,7 +61,7 @@ constexpr size_t kEventsMax = 65536;       // not taken yet; then the newest are
 constexpr size_t kFramesMax = 16384;       // not taken yet; the same
 constexpr uint32_t kLineStepsMax = 10000;  // instructions of one step by line
 
-// Kept by the host and set anew on the node after each load and reconnection.
+// Kept by the host and set again on the node after each load and reconnection.
 struct Breakpoint {
     int line = 0;
     std::string condition;  // empty: always
@@ -152,7 +152,7 @@ public:
     // For the node's own description. An empty program with errors if it does not compile.
     aesl::Compilation compile(NodeId id, std::string_view source,
                               const aesl::Options& options) const;
-    // Sends the program in fragments, waits for the node's word after each, sets breakpoints anew,
+    // Sends the program in fragments, waits for the node's word after each, sets breakpoints again,
     // runs it.
     Result<RequestId> load(NodeId id, const aesl::Program& program);
     // The node has this program already, as another host or its flash loaded it: gives names,
@@ -161,7 +161,7 @@ public:
     // Nobody knows what the node has now: no names, no lines. Its breakpoints wait for adopt() or
     // load().
     void forget_program(NodeId id);
-    // Continues; leaves a breakpoint at which the node stands (Step, then Run: 2.8).
+    // Continues; leaves a breakpoint at which the node is paused (Step, then Run: 2.8).
     Result<RequestId> run(NodeId id);
     Result<RequestId> pause(NodeId id);
     Result<RequestId> stop(NodeId id);

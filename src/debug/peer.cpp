@@ -37,7 +37,7 @@ void Peer::seen() {
     if (view_.connected) return;
     view_.connected = true;
     out_.tell(view_.id, NodeReconnected{});
-    // It may have been started anew with other firmware: what it says now counts.
+    // It may have been started again with other firmware: what it says now counts.
     describer_.start(out_, view_.protocol);
     told_describer_ = describer_.state();
 }

@@ -168,7 +168,7 @@ void Peer::forget_told_program() {
     });
 }
 
-// The node stands at a breakpoint with a condition: its variables are read, each once.
+// The node is paused at a breakpoint with a condition: its variables are read, each once.
 void Peer::read_condition() {
     const Condition* condition = control_.wanted_condition();
     if (condition == nullptr || control_.condition_number() == condition_asked_) return;

@@ -2,7 +2,7 @@
 // may be slow, but when as much time has passed without an answer as answers have taken so far.
 //
 //     RollCall call(network, now, {.quiet = 300ms, .wanted = {3}});
-//     while (!call.over(network, now)) { … wait until call.next(); call.hear(event) … }
+//     while (!call.over(network, now)) call.hear(wait_until(call.next()));
 #pragma once
 
 #include <set>

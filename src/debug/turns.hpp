@@ -6,8 +6,8 @@
 //     while (const auto next = turns.next(now)) ask(*next);  // whenever something has happened
 //     turns.leave(id);                                       // it has answered, or is gone
 //
-// Who does not answer loses its turn: after kTurnFor if others that were asked later have answered,
-// for then it is the node that is slow and not the network; else after kTurnForMax.
+// A node that does not answer loses its turn: after kTurnFor if others that were asked later have
+// answered, for then it is the node that is slow and not the network; else after kTurnForMax.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // A bus that others are on, for a plan in real time: a connection, the nodes on it, and the events,
 // on a thread of its own while the plan runs.
 //
-//     auto opened = PlanBus::open({"tcp:127.0.0.1:33333", common, "arm.aesl", tell}, nodes);
+//     auto opened = PlanBus::open({"tcp:127.0.0.1:33333", common, "arm.aesl", tell}, bus_nodes);
 //     PlanBus& bus = *opened.value();
 //     bus.join(options);
 //     run::RealTime run(graph, library, options);

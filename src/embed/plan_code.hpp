@@ -5,7 +5,7 @@
 //     #include <vagus/templates/core.hpp>
 //
 //     vagus::embed::Plan make_Blink() {
-//         using vagus::embed::Plan;
+//         using vagus::embed::Plan, vagus::embed::Type;
 //         using vagus::templates::core::Timeout, vagus::templates::core::WaitForever;
 //
 //         WaitForever shine("shine");

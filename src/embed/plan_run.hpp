@@ -10,8 +10,8 @@
 //
 // A plan as a function, which a plan that calls a sub-plan does too:
 //
-//     const Called called = call(plan, {{"n", plan::Value(3.0)}}, {.clock = Clock::Virtual});
-//     called.ended.result, called.outputs.at("sum")
+//     const auto called = call(plan, {{"n", plan::Value(3.0)}}, {.clock = Clock::Virtual});
+//     if (called.ok()) show(called.value().ended.result, called.value().outputs.at("sum"));
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // The versions of a plan that runs (docs/plans.md, P31), as its files are saved: reads and checks
-// them anew, and keeps each that took over, since the trace of the run names what is in it.
+// them again, and keeps each that took over, since the trace of the run names what is in it.
 //
 //     PlanVersions versions(plan, "WallFollow.plan.json");
 //     const auto made = versions.read({"WallFollow.plan.json"});   // it was saved

@@ -145,7 +145,7 @@ public:
     run::Ended run_with(run::Clock clock, const std::function<run::Ended(run::Execution&)>& go);
     void abort(const std::string& by);
     void abort_this();
-    // Who has ended this run; empty if it has ended by itself.
+    // What ended this run; empty if it ended by itself.
     std::string ended_by() {
         const std::lock_guard lock(mutex_);
         return ended_by_;

@@ -9,7 +9,7 @@ namespace node {
 
 void send_header(Node& node);
 
-// What stands behind the header, one message each: variables first, then local events, then
+// What is behind the header, one message each: variables first, then local events, then
 // natives.
 uint16_t item_count(const Node& node);
 // Sends nothing for an item that does not exist.

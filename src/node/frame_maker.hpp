@@ -3,7 +3,7 @@
 //     const node::Board kBoard = {
 //         [](Node& node, uint16_t type) { self(node).maker.begin(node, type); },
 //         [](Node& node, uint8_t byte) { self(node).maker.put(byte); },
-//         [](Node& node) { self(node).send(self(node).maker.frame()); }, …
+//         [](Node& node) { self(node).send(self(node).maker.frame()); }, …, …};
 #pragma once
 
 #include "node/node.hpp"

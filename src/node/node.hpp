@@ -33,7 +33,7 @@ namespace node {
 struct Board {
     // A message for the bus as it is made, so that no node needs room for a whole one: begin, put
     // for each byte of the payload, at most wire::kPayloadMax, end. What was begun and then begun
-    // anew was not meant. With nobody connected it is thrown away. Boards that send whole frames
+    // again was not meant. With nobody connected it is thrown away. Boards that send whole frames
     // have frame_maker.hpp.
     void (*begin)(Node& node, uint16_t type);
     void (*put)(Node& node, uint8_t byte);

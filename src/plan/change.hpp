@@ -1,5 +1,5 @@
 // Whether a new version of a plan can take over while the plan runs (docs/plans.md, P31): what
-// stands in its way, from what is going on now.
+// is in its way, from what is going on now.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace vagus::plan {
 // The versions of a run are all kept to its end, since its trace names what is in them.
 constexpr size_t kChangesMax = 1000;
 
-// A new version of plan files: all plans anew, checked together, and which files it is about.
+// A new version of plan files: all plans again, checked together, and which files it is about.
 struct NewVersion {
     std::shared_ptr<const Graph> graph;  // owners: whoever made it, the run, who follows its trace
     std::vector<std::string> files;      // as GraphPlan::file

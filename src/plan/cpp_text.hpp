@@ -2,8 +2,8 @@
 // anything.
 //
 //     CppNames names({"plan"});
-//     names.give("while")     // while_
-//     names.give("plan")      // plan_, for `plan` is taken
+//     names.give("while");    // while_
+//     names.give("plan");     // plan_, for `plan` is taken
 #pragma once
 
 #include <initializer_list>

@@ -52,8 +52,8 @@ public:
     }
 
     // The members of an object that has these keys and no others, each once.
-    std::vector<const JsonMember*> members(const Json& object, Keys keys, std::string_view what,
-                                           std::string_view element) {
+    std::vector<const JsonMember*> members(const JsonValue& object, Keys keys,
+                                           std::string_view what, std::string_view element) {
         std::vector<const JsonMember*> kept;
         for (const JsonMember& member : once(object, element)) {
             if (std::find(keys.begin(), keys.end(), member.key) != keys.end()) {
@@ -72,7 +72,7 @@ public:
     }
 
     // Members whose keys are free names, each once.
-    std::vector<std::reference_wrapper<const JsonMember>> once(const Json& object,
+    std::vector<std::reference_wrapper<const JsonMember>> once(const JsonValue& object,
                                                                std::string_view element) {
         std::vector<std::reference_wrapper<const JsonMember>> kept;
         std::set<std::string_view> seen;
@@ -113,7 +113,7 @@ private:
     PlanFile& file_;
 };
 
-Value value_of(const Json& json) {
+Value value_of(const JsonValue& json) {
     switch (json.kind) {
         case JsonKind::Bool:
             return Value(json.boolean);
@@ -132,7 +132,7 @@ Value value_of(const Json& json) {
     return Value();
 }
 
-bool is_constant(const Json& json) {
+bool is_constant(const JsonValue& json) {
     return json.kind == JsonKind::Bool || json.is_number() || json.kind == JsonKind::String;
 }
 
@@ -316,7 +316,7 @@ void read_start(Reader& reader, const JsonMember& member) {
 
 void read_toolboxes(Reader& reader, const JsonMember& member) {
     if (!reader.is(member, JsonKind::Array, "")) return;
-    for (const Json& item : member.value.items) {
+    for (const JsonValue& item : member.value.items) {
         if (item.kind == JsonKind::String) {
             reader.plan().toolboxes.push_back({item.text, item.at});
             continue;
@@ -330,7 +330,7 @@ void read_toolboxes(Reader& reader, const JsonMember& member) {
 void read_layout(Reader& reader, const JsonMember& member) {
     if (!reader.is(member, JsonKind::Object, "")) return;
     for (const JsonMember& spot : reader.once(member.value, "")) {
-        const std::vector<Json>& items = spot.value.items;
+        const std::vector<JsonValue>& items = spot.value.items;
         if (spot.value.kind == JsonKind::Array && items.size() == 2 && items[0].is_number() &&
             items[1].is_number()) {
             reader.plan().layout.push_back({spot.key, items[0].number, items[1].number});
@@ -374,7 +374,7 @@ void read_part(Reader& reader, const JsonMember& part) {
     }
 }
 
-void read_plan(Reader& reader, const Json& json) {
+void read_plan(Reader& reader, const JsonValue& json) {
     if (json.kind != JsonKind::Object) {
         reader.complain("P0", "", json.at,
                         fmt::format("a plan file holds one object, not {}", name_of(json.kind)));
@@ -401,7 +401,7 @@ void check_supervisor_names(Reader& reader, std::vector<Supervisor>& supervisors
     }
 }
 
-void check_names(Reader& reader, const Json& json) {
+void check_names(Reader& reader, const JsonValue& json) {
     Plan& plan = reader.plan();
     for (const JsonMember& part : json.members) {
         if (part.key == "name") reader.check_name(plan.name, "plan", part.at);
@@ -427,7 +427,7 @@ void check_names(Reader& reader, const Json& json) {
 
 namespace {
 
-const JsonMember* find_member(const Json& json, std::string_view key) {
+const JsonMember* find_member(const JsonValue& json, std::string_view key) {
     for (const JsonMember& member : json.members) {
         if (member.key == key) return &member;
     }
@@ -440,13 +440,13 @@ PlanFile parse_plan(std::string_view text, std::string_view path) {
     PlanFile file;
     file.plan.file = std::string(path);
     Reader reader(file);
-    const std::variant<Json, JsonError> parsed = read_json(text);
+    const std::variant<JsonValue, JsonError> parsed = read_json(text);
     if (const JsonError* error = std::get_if<JsonError>(&parsed)) {
         const auto other = other_format(text, FileFormat::Plan);
         reader.complain("P0", "", error->at, other.value_or(error->what));
         return file;
     }
-    const Json& json = std::get<Json>(parsed);
+    const JsonValue& json = std::get<JsonValue>(parsed);
     if (const auto other = other_format(json, FileFormat::Plan)) {
         const JsonMember* const format = find_member(json, "format");
         reader.complain("P0", "", format == nullptr ? json.at : format->at, *other);

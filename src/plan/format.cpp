@@ -9,7 +9,7 @@ namespace vagus::plan {
 
 namespace {
 
-void order_by(Json& object, Keys keys) {
+void order_by(JsonValue& object, Keys keys) {
     const auto rank = [keys](const JsonMember& member) {
         return std::find(keys.begin(), keys.end(), member.key) - keys.begin();
     };
@@ -18,31 +18,31 @@ void order_by(Json& object, Keys keys) {
         [&rank](const JsonMember& a, const JsonMember& b) { return rank(a) < rank(b); });
 }
 
-Json* find(Json& object, std::string_view key) {
+JsonValue* find(JsonValue& object, std::string_view key) {
     for (JsonMember& member : object.members) {
         if (member.key == key) return &member.value;
     }
     return nullptr;
 }
 
-void order_supervisors(Json& holder) {
-    Json* supervisors = find(holder, "supervisors");
+void order_supervisors(JsonValue& holder) {
+    JsonValue* supervisors = find(holder, "supervisors");
     if (!supervisors) return;
     for (JsonMember& supervisor : supervisors->members) {
         order_by(supervisor.value, kSupervisorKeys);
     }
 }
 
-void order_plan(Json& plan) {
+void order_plan(JsonValue& plan) {
     order_by(plan, kPlanKeys);
-    if (Json* configuration = find(plan, "configuration")) {
+    if (JsonValue* configuration = find(plan, "configuration")) {
         for (JsonMember& variable : configuration->members) order_by(variable.value, kVariableKeys);
     }
-    if (Json* start = find(plan, "start")) {
+    if (JsonValue* start = find(plan, "start")) {
         order_by(*start, kStartKeys);
         order_supervisors(*start);
     }
-    if (Json* actors = find(plan, "actors")) {
+    if (JsonValue* actors = find(plan, "actors")) {
         for (JsonMember& actor : actors->members) {
             order_by(actor.value, kActorKeys);
             order_supervisors(actor.value);
@@ -58,7 +58,7 @@ Result<std::string> format_plan(std::string_view text, std::string_view path) {
         const Finding& first = file.findings.front();
         return Error{Code::BadInput, at_place(path, {first.line, first.column}, first.message)};
     }
-    Json json = TRY(parse_json(text, path));
+    JsonValue json = TRY(parse_json(text, path));
     order_plan(json);
     return format_json(json);
 }

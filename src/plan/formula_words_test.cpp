@@ -55,8 +55,8 @@ TEST(FormulaWords, ReservedWordsAreNoNamesOfVariables) {
 
 TEST(FormulaWords, AreJsonForEditors) {
     const auto read = read_json(format_formula_words_json());
-    ASSERT_TRUE(std::holds_alternative<Json>(read));
-    const Json& json = std::get<Json>(read);
+    ASSERT_TRUE(std::holds_alternative<JsonValue>(read));
+    const JsonValue& json = std::get<JsonValue>(read);
     EXPECT_EQ(json.find("operators")->items.size(), 16u);
     EXPECT_EQ(json.find("words")->items.size(), 5u);
     const auto& functions = json.find("functions")->items;

@@ -9,7 +9,7 @@
 //         for (Command& command : machine.take_commands()) obey(command);
 //         for (TraceEvent& event : machine.take_trace()) write(event);
 //         if (machine.over()) break;
-//         … wait for what comes next; tell the machine …
+//         …  // wait for what comes next; tell the machine
 //     }
 //
 // What ends an activation is taken one at a time; of several, the first told wins, and what comes
@@ -79,7 +79,7 @@ struct SubPlanOver {
     ActivationId activation;
     int level;  // of the actor
 };
-// After a change (P31): where each global supervisor stands in its file may be another; place_of()
+// After a change (P31): where each global supervisor is in its file may be another; place_of()
 // tells.
 struct RankAnew {};
 using Command =
@@ -135,9 +135,9 @@ public:
     void time_passed();
 
     // ---- hot change (P31) ----
-    // A sentence for each thing that stands in the way of the new version now; empty: none.
+    // A sentence for each thing that is in the way of the new version now; empty: none.
     std::vector<std::string> reasons_against(const NewVersion& next) const;
-    // The new version takes over if nothing stands in its way; what does is given back.
+    // The new version takes over if nothing is in its way; what does is given back.
     std::vector<std::string> change(const NewVersion& next, Time now);
 
     // ---- values ----

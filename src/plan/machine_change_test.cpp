@@ -87,7 +87,7 @@ TEST(HotChange, AGlobalSupervisorThatRestsMayGoAndDoesNotStartAnew) {
         R"("stop": { "template": "See", "in": { "limit": "n" }, "events": { "Seen": "turn" } },)",
         "");
     EXPECT_THAT(run.change(next), IsEmpty());
-    run.end();  // to drive: with it the supervisor would have started anew
+    run.end();  // to drive: with it the supervisor would have started again
     EXPECT_FALSE(run.watches("stop"));
     EXPECT_TRUE(run.watches("end"));
 }

@@ -14,7 +14,7 @@ enum class Rest : uint8_t {
     No,
     Remedy,  // its event has been taken, or only computations have followed: what comes next is
              // its remedy
-    Resting  // an actor that is no computation is active; it starts anew with the activation after
+    Resting  // an actor that is no computation is active; it starts again with the activation after
 };
 
 // What follows when an activation has been stopped.

@@ -1,8 +1,8 @@
 // The values of a plan's configuration: their types, their texts, and how one becomes another
 // (docs/plans.md, rules P7, P10, P11).
 //
-//     convert(Value{2.5}, Type::Int)          // 3: half away from zero
-//     text_of(Value{1e20})                    // "1e+20"
+//     convert(Value{2.5}, Type::Int);         // 3: half away from zero
+//     text_of(Value{1e20});                   // "1e+20"
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // The breakpoints of a plan's debugger: what they are, whether they fit the plan, when they are
 // hit.
 //
-//     breakpoints.add({.kind = Breakpoint::Kind::Actor, .element = "turn"})        // its number
-//     breakpoints.add({.kind = Breakpoint::Kind::Condition, .condition = "distance < 5"})
+//     breakpoints.add({.kind = Breakpoint::Kind::Actor, .element = "turn"});       // its number
+//     breakpoints.add({.kind = Breakpoint::Kind::Condition, .condition = "distance < 5"});
 #pragma once
 
 #include <cstdint>

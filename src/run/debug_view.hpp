@@ -1,4 +1,4 @@
-// What a debugger sees of a machine that stands between two decisions, and how the names that a
+// What a debugger sees of a machine that is between two decisions, and how the names that a
 // person gives are found in it.
 #pragma once
 

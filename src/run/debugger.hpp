@@ -78,7 +78,7 @@ struct RaiseEvent {
 // A new version of plans that run (P31), while they run or are paused. Answer: a Change.
 struct TakeVersion {
     plan::NewVersion next;
-    bool only_ask = false;  // what stands in its way now; nothing changes
+    bool only_ask = false;  // what is in its way now; nothing changes
 };
 // ---- events of the bus that came while it is paused; they go to the plan when it continues ----
 struct ListHeld {};  // answer: HeldNow

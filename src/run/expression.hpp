@@ -2,7 +2,7 @@
 // where its variables are.
 //
 //     const Result<Expression> near = Expression::parse("distance < walldist / 2", plan);
-//     near.value().evaluate(values)             // one Value for each of slots()
+//     near.value().evaluate(values);            // one Value for each of slots()
 #pragma once
 
 #include <span>

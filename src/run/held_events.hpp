@@ -1,5 +1,5 @@
-// Events of the bus that wait while a plan stands: in the order in which they came, until each is
-// let go or dropped, or all go because the plan goes on.
+// Events of the bus that wait while a plan is paused: in the order in which they came, until each
+// is let go or dropped, or all go because the plan goes on.
 //
 //     HeldEvents held;
 //     held.add({.number = 1, .event = {"touch", {3}, 2}});
@@ -37,7 +37,7 @@ public:
     void add(HeldEvent one);
     // Nothing if no such event waits.
     std::optional<HeldEvent> take(uint64_t number);
-    // The plan goes on; what was dropped is counted anew.
+    // The plan goes on; what was dropped is counted again.
     std::deque<HeldEvent> take_all() {
         dropped_ = 0;
         return std::exchange(events_, {});

@@ -185,7 +185,7 @@ void RealTime::Engine::finish() {
 // ---- debugging ----
 
 // Between two decisions: what a debugger asks is answered; while it pauses the run, here. Then no
-// message is taken, no check starts, code is held at its waits, and the run's clock stands.
+// message is taken, no check starts, code is held at its waits, and the run's clock is stopped.
 void RealTime::Engine::let_debug() {
     if (!options_.debugger) return;
     bool standing = false;

@@ -31,7 +31,7 @@ using SteadyClock = std::chrono::steady_clock;
 class RunClock {
 public:
     void start();
-    // The clock stands from here to release().
+    // The clock is stopped from here to release().
     void halt();
     void release();
     Time now() const;

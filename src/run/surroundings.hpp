@@ -7,7 +7,8 @@
 //         std::vector<BusEvent> begin() override { next_ += 1s; return {{"tick", {}}}; }
 //         void emit(Time, const BusEvent&) override {}
 //         void end() override {}
-//         …
+//         Time next_{};
+//     } metronome;
 //     options.surroundings = &metronome;               // then VirtualTime
 //
 // All calls come on the deciding thread: next() at any time; begin() when the run has come to that

@@ -481,8 +481,8 @@ void VirtualTime::open_gate() {
     for (HeldEvent& one : held_.take_all()) passing_.push_back(std::move(one.event));
 }
 
-// The clock stands, and yet something may have arrived: from nodes at this instant, from others on
-// the bus since.
+// The clock is stopped, and yet something may have arrived: from nodes at this instant, from others
+// on the bus since.
 HeldNow VirtualTime::held() {
     if (gate_closed_ && options_.surroundings) hold(options_.surroundings->arrived());
     return held_.now();

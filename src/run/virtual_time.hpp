@@ -2,8 +2,8 @@
 // the same to the byte each time (docs/plans.md, P21a and section 6). One thread decides; actors'
 // code runs in turn with it.
 //
-//     VirtualTime run(graph, library, {.seed = 1});
-//     run.on_trace([&](const TraceEvent& event) { … });
+//     const RunOptions options = {.seed = 1, .on_trace = [](const plan::TraceEvent& event) { … }};
+//     VirtualTime run(graph, library, options);
 //     const Ended ended = run.run();
 #pragma once
 

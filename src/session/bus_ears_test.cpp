@@ -89,7 +89,7 @@ TEST(BusEars, APlanDoesNotHearThatANodeWasStoppedThatSomebodyHolds) {
     EXPECT_TRUE(nodes.is_stopped("drive"));
 }
 
-// Whoever begins to work with a node asks how it is: what was told before that is not told again.
+// The state of a node is asked for when work with it begins: older reports are not repeated.
 TEST(BusEars, WhoseProgramWasStoppedCanBeAsked) {
     using State = debug::ProgramState;
     toolbox::BusNodes nodes;

@@ -2,8 +2,8 @@
 // project gives an event its number (docs/formats.md, "Numbers of events").
 //
 //     const BusNames names(project.common, "arm.aesl");
-//     report(names.check(plans));                                // before the run
-//     options.may_emit = [names](const BusEvent& event) { return names.may_emit(event); };
+//     report(names.check(plans, library));                       // before the run
+//     options.may_emit = [names](const run::BusEvent& event) { return names.may_emit(event); };
 #pragma once
 
 #include <set>

@@ -5,7 +5,7 @@
 //     session::LiveNode& node = *made.value();
 //     Time next = node.step(network.now());
 //     for (;;) {
-//         for (…) node.receive(frame);            // what came until `next`
+//         for (const wire::Frame& frame : arrived) node.receive(frame);  // what came until `next`
 //         next = node.step(network.now());
 //     }
 #pragma once

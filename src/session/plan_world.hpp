@@ -4,7 +4,7 @@
 //     toolbox::BusNodes nodes;                                  // templates ask it who is there
 //     auto opened = PlanWorld::open({.path = "arena.world.json"}, nodes);
 //     PlanWorld& world = *opened.value();
-//     report(world.names().check(plans));
+//     report(world.names().check(plans, library.templates()));
 //     world.join(options);                                      // run::RunOptions
 //     run::VirtualTime(graph, library, options).run();
 //

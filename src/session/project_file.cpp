@@ -29,7 +29,7 @@ struct Reading {
     Complaints complaints;
 };
 
-bool is_good_path(JsonObject& in, const Json& json, std::string_view key) {
+bool is_good_path(JsonObject& in, const JsonValue& json, std::string_view key) {
     if (json.kind != JsonKind::String) {
         in.complain(json.at, fmt::format("\"{}\" of {} holds paths in quotes, not {}", key,
                                          in.name(), name_of(json.kind)));
@@ -45,7 +45,7 @@ bool is_good_path(JsonObject& in, const Json& json, std::string_view key) {
 }
 
 std::string read_path(Reading& reading, JsonObject& in, std::string_view key) {
-    const Json* json = in.find(key, JsonKind::String, Need::Optional);
+    const JsonValue* json = in.find(key, JsonKind::String, Need::Optional);
     if (json == nullptr || !is_good_path(in, *json, key)) return "";
     reading.files.push_back({json->at, std::string(key), json->text});
     return json->text;
@@ -53,7 +53,7 @@ std::string read_path(Reading& reading, JsonObject& in, std::string_view key) {
 
 std::vector<std::string> read_paths(Reading& reading, JsonObject& in, std::string_view key) {
     std::vector<std::string> paths;
-    const std::vector<Json>& items = in.items(key, Need::Optional);
+    const std::vector<JsonValue>& items = in.items(key, Need::Optional);
     if (items.size() > kProjectPathsMax) {
         in.complain(in.find(key, Need::Optional)->at,
                     fmt::format("\"{}\" of {}: expected at most {} paths, found {}; take some away",
@@ -61,7 +61,7 @@ std::vector<std::string> read_paths(Reading& reading, JsonObject& in, std::strin
         return paths;
     }
     std::set<std::string_view> seen;
-    for (const Json& item : items) {
+    for (const JsonValue& item : items) {
         if (!is_good_path(in, item, key)) continue;
         if (!seen.insert(item.text).second) {
             in.complain(item.at, fmt::format("\"{}\" of {} names {} twice; keep one of them", key,
@@ -85,13 +85,13 @@ void read_target(Reading& reading, JsonObject& in) {
 }
 
 // Values as `--set` takes them.
-std::string set_text(const Json& value) {
+std::string set_text(const JsonValue& value) {
     if (value.kind == JsonKind::Bool) return value.boolean ? "true" : "false";
     return value.text;
 }
 
 void read_set(Reading& reading, JsonObject& start) {
-    const Json* set = start.find("set", JsonKind::Object, Need::Optional);
+    const JsonValue* set = start.find("set", JsonKind::Object, Need::Optional);
     if (set == nullptr) return;
     if (set->members.size() > kProjectVariablesMax) {
         start.complain(set->at,
@@ -121,7 +121,7 @@ void read_set(Reading& reading, JsonObject& start) {
 }
 
 void read_start(Reading& reading, JsonObject& in) {
-    const Json* json = in.find("start", JsonKind::Object, Need::Optional);
+    const JsonValue* json = in.find("start", JsonKind::Object, Need::Optional);
     if (json == nullptr) return;
     JsonObject start(*json, "\"start\"", reading.complaints);
     reading.project.start_plan = start.boolean("plan", false);
@@ -134,7 +134,7 @@ void read_start(Reading& reading, JsonObject& in) {
     }
 }
 
-Result<Json> parse(std::string_view text, const std::string& file) {
+Result<JsonValue> parse(std::string_view text, const std::string& file) {
     if (text.size() > kProjectBytesMax) {
         return Error{Code::Limit, fmt::format("{}: has {} bytes; {} are the most that is read",
                                               file, text.size(), kProjectBytesMax)};
@@ -143,7 +143,7 @@ Result<Json> parse(std::string_view text, const std::string& file) {
 }
 
 // Its complaints are left in it.
-Reading read_members(const Json& json, const std::string& file) {
+Reading read_members(const JsonValue& json, const std::string& file) {
     Reading reading;
     reading.project.file = file;
     JsonObject in(json, "the project", reading.complaints);
@@ -164,7 +164,7 @@ Reading read_members(const Json& json, const std::string& file) {
 }
 
 Result<Reading> read_all(std::string_view text, const std::string& file) {
-    const Json json = TRY(parse(text, file));
+    const JsonValue json = TRY(parse(text, file));
     Reading reading = read_members(json, file);
     if (!reading.complaints.empty()) return first_complaint(reading.complaints, file);
     return reading;
@@ -193,7 +193,7 @@ Result<ProjectFile> read_project_file(std::string_view text, const std::string& 
 }
 
 std::vector<Error> mistakes_of_project(std::string_view text, const std::string& file) {
-    const Result<Json> json = parse(text, file);
+    const Result<JsonValue> json = parse(text, file);
     if (!json.ok()) return {json.error()};
     return errors_of(read_members(json.value(), file).complaints, file);
 }

@@ -25,7 +25,7 @@ struct ProjectFile {
     std::string file;  // its path, as it was opened
     std::string name;
     std::string help;
-    // Paths as they stand in the file, from its folder; empty: none.
+    // Paths as they are in the file, from its folder; empty: none.
     std::string plan;
     std::vector<std::string> scripts;
     std::string world;

@@ -23,7 +23,7 @@ const SafeStop& shipped_safe_stop();
 // them say nothing. The Error is that of the first file that is wrong.
 Result<SafeStop> safe_stop_of(const std::vector<std::string>& toolboxes, const SafeStop& project);
 
-// For a file that stands in a project, or in none: with what the innermost vagus.json around it and
+// For a file that is in a project, or in none: with what the innermost vagus.json around it and
 // its toolboxes say; `toolboxes` stand above these, the project above all.
 Result<SafeStop> safe_stop_around(const std::string& file,
                                   const std::vector<std::string>& toolboxes);

@@ -66,7 +66,7 @@ bool SimSession::all_described() {
 void SimSession::place_files() {
     const std::vector<WaitingFile> files = std::exchange(waiting_, {});
     for (const WaitingFile& waiting : files) place(waiting);
-    compiled_.clear();  // the next text is another, and its mistakes are told anew
+    compiled_.clear();  // the next text is another, and its mistakes are told again
 }
 
 void SimSession::place(const WaitingFile& waiting) {

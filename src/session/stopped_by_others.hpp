@@ -2,7 +2,7 @@
 // again. A plan whose actor or supervisor works elsewhere at that moment would not notice, and
 // could wait for ever for what such a node is to say.
 //
-//     StoppedByOthers others;
+//     StoppedByOthers others(2s);
 //     others.hear(event);                                    // each event of the network
 //     for (const debug::NodeId node : others.take_due(now)) end_the_plan(node);
 #pragma once

@@ -158,7 +158,7 @@ void Stopping::no_answer(Node& node) {
     node.state = node.halted && !node.knows_checks ? State::Asked : State::Silent;
 }
 
-// Who insists asks at the next tick, with all else that is due.
+// An insistent stop asks at the next tick, with all else that is due.
 void Stopping::come_back(debug::NodeId id, Node& node) {
     if (insists()) {
         node.next = now_;

@@ -76,13 +76,13 @@ public:
 
     // All are at rest, or are not there any more; with Look: all have been read.
     bool settled() const;
-    // As it is now. Who has not answered by now is silent.
+    // As it is now. A node that has not answered by now is silent.
     std::vector<StopNode> report() const;
     // The same, but Asked for who may still answer.
     std::vector<StopNode> nodes() const;
     // Of a node that was asked, and is neither forgotten nor acknowledged.
     std::optional<StopNode::State> state_of(debug::NodeId node) const;
-    // Who has not answered at all by now is silent from here on.
+    // A node that has not answered at all by now is silent from here on.
     void note_silence();
 
 private:

@@ -17,7 +17,7 @@ namespace {
 
 // Box2D is made for bodies of 0.1 to 10 of its units, lets them sink 0.005 units into each other
 // and watches 0.1 unit around them for others. With one unit a decimetre a robot is one of them,
-// the slop is half a millimetre, and a robot on its way is sorted anew every tenth step (decision
+// the slop is half a millimetre, and a robot on its way is sorted again every tenth step (decision
 // 0070).
 constexpr double kUnitsPerMetre = 10;
 constexpr int kVelocityIterations = 6;
@@ -421,7 +421,7 @@ void Arena::step(Crew& crew) {
     if (!in.spaced) in.space_all();
     in.touches.touches.clear();
     in.strayed.resize(in.active.size());
-    // Who is alone moves while Box2D solves the others: neither looks at the other.
+    // Bodies that are alone move while Box2D solves the others: neither reads the other.
     const auto go_alone = [&in](size_t i) {
         const uint32_t index = in.active[i];
         if (in.bodies[index].solved) return;

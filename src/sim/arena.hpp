@@ -5,7 +5,7 @@
 //     const BodyId robot = arena.add_robot(kOutline, {{0.5, 0.5}, 0}, {.mass = 0.27});
 //     arena.drive(robot, {.forward = 0.1, .turn = 0});   // until told otherwise
 //     arena.step();                                      // kArenaStep of it
-//     arena.look(robot, kRays, distances);
+//     arena.look(robot, kRays, 0.02, distances);         // from 2 cm above; after prepare_looks()
 //
 // Lengths are metres here; inside, Box2D counts in decimetres (decision 0070).
 #pragma once
@@ -119,7 +119,7 @@ public:
     Arena& operator=(Arena&&) noexcept;
     ~Arena();
 
-    // The body of a robot stands on its wheels: it drives, and is pushed, with the grip of its
+    // The body of a robot is at rest on its wheels: it drives, and is pushed, with the grip of its
     // tyres. The corners are copied.
     BodyId add_robot(const Outline& outline, const Pose& pose, const RobotBody& body);
     // A wall, box or cylinder. With a mass it slides on the ground when pushed.

@@ -110,7 +110,7 @@ TEST_F(Camera, WhatIsToTheLeftIsOnTheLeft) {
     EXPECT_EQ(area.right, 60u);
 }
 
-// Half a right angle to the left of its robot: the same box stands in the middle.
+// Half a right angle to the left of its robot: the same box is in the middle.
 TEST_F(Camera, TurnsWithItsRobot) {
     at_.angle = trig::kPi / 4;
     add({.kind = ObjectKind::Cylinder, .at = {2, 6}, .radius = 0.1, .height = 0.3, .colour = kRed});

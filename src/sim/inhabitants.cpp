@@ -134,7 +134,7 @@ void Inhabitants::move_robot(size_t robot, const Pose& to) {
     arena_.place(robots_[robot]->body(), to);
 }
 
-// Patches and lamps are few and change rarely: made anew from the objects.
+// Patches and lamps are few and change rarely: made again from the objects.
 void Inhabitants::refresh_ground() {
     std::vector<ObjectDefinition> patches;
     std::vector<Point> lamps;

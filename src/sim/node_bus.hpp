@@ -37,7 +37,7 @@ public:
     // A frame of a node.
     void send(size_t place, const wire::Frame& frame, Time now);
 
-    // While time stands still: past the bus, uncounted.
+    // While time is stopped: past the bus, uncounted.
     void accept_at_once();
     void send_at_once(size_t place, const wire::Frame& frame);
 

@@ -85,7 +85,7 @@ bool NodeTurns::is_waited_for(const Berth& berth, size_t index) const {
            (own_bus != nullptr && own_bus->waiting(berth.private_link) > 0);
 }
 
-// Who was sent something is due.
+// A node that was sent something is due.
 void NodeTurns::call_receivers() {
     for (const hub::LinkId link : bus_.take_reached()) {
         const size_t index = link.number - berths_.front().link.number;

@@ -47,7 +47,7 @@ public:
     // delivered at the next instant. Robots that share nothing may have their turns on several
     // threads; what they send leaves in the order of their ids.
     void run(const Surroundings& around, Crew& crew);
-    // All nodes, while time stands still.
+    // All nodes, while time is stopped.
     void hold();
     // Variables to wheels, each robot its own.
     void drive(Arena& arena, Time now, Crew& crew);

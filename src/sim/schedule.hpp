@@ -28,7 +28,7 @@ public:
     void call(size_t who) { set(who, Time{}); }
 
     // Those due at `now` or before, ascending; borrowed until the next call. Each is to be set()
-    // anew, or it is never due again.
+    // again, or it is never due again.
     const std::vector<uint32_t>& due(Time now) {
         due_.clear();
         if (soonest_ > now) return due_;

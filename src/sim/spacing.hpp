@@ -1,5 +1,5 @@
-// Who can touch anything soon? A body that nothing can reach for some steps needs no solver: it
-// moves as its wheels say. Most bodies of a wide world are alone most of the time.
+// Which bodies can touch anything soon? A body that nothing can reach for some steps needs no
+// solver: it moves as its wheels say. Most bodies of a wide world are alone most of the time.
 //
 // Each body that moves has an anchor, a place where it stood, and a leash, how far it may go from
 // there. A body is alone while the discs around all anchors, as wide as body, leash and kSkin,

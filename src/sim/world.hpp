@@ -6,7 +6,7 @@
 //     World& world = loaded.value();
 //     const hub::LinkId host = world.bus().add({.name = "host"}).value();  // a host like any other
 //     world.step(std::chrono::milliseconds(30));                           // at any speed
-//     for (const Happening& happening : world.happenings()) write(trace_line(happening));
+//     for (const Happening& happening : world.happenings()) show(happening);
 //     for (const RobotView& robot : world.robots()) draw(robot.outline, robot.pose);
 //
 // Time runs in milliseconds for the nodes and in steps of kPhysicsStep for the bodies. At one

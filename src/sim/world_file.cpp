@@ -20,9 +20,9 @@ namespace {
 std::vector<double> read_numbers(JsonObject& in, std::string_view key, size_t count,
                                  const std::string& example) {
     std::vector<double> values;
-    const Json* list = in.find(key, JsonKind::Array, Need::Optional);
+    const JsonValue* list = in.find(key, JsonKind::Array, Need::Optional);
     if (list == nullptr) return values;
-    for (const Json& item : list->items)
+    for (const JsonValue& item : list->items)
         if (item.is_number() && values.size() < count) values.push_back(item.number);
     if (values.size() == count && list->items.size() == count) return values;
     in.complain(list->at, in.name() + "." + std::string(key) + ": expected " +
@@ -60,7 +60,8 @@ Enum read_word(JsonObject& in, std::string_view key, const Enum (&all)[kCount]) 
 
 // ---- The elements of the file ----
 
-ObjectDefinition read_object(const Json& json, const std::string& name, Complaints& complaints) {
+ObjectDefinition read_object(const JsonValue& json, const std::string& name,
+                             Complaints& complaints) {
     JsonObject in(json, name, complaints);
     ObjectDefinition object;
     object.id = in.text("id", Need::Optional);
@@ -79,7 +80,7 @@ ObjectDefinition read_object(const Json& json, const std::string& name, Complain
     return object;
 }
 
-RobotDefinition read_robot(const Json& json, const std::string& name, int64_t node,
+RobotDefinition read_robot(const JsonValue& json, const std::string& name, int64_t node,
                            Complaints& complaints) {
     JsonObject in(json, name, complaints);
     RobotDefinition robot;
@@ -100,7 +101,7 @@ RobotDefinition read_robot(const Json& json, const std::string& name, int64_t no
 Action read_action(JsonObject& in, const std::string& verb, Complaints& complaints) {
     if (verb == "add") {
         AddObject add;
-        const Json* object = in.find("object", JsonKind::Object, Need::Required);
+        const JsonValue* object = in.find("object", JsonKind::Object, Need::Required);
         if (object != nullptr) add.object = read_object(*object, in.name() + ".object", complaints);
         return add;
     }
@@ -123,7 +124,7 @@ Action read_action(JsonObject& in, const std::string& verb, Complaints& complain
     return RemoveObject{in.text("id", Need::Required)};
 }
 
-TimelineEntry read_entry(const Json& json, const std::string& name, Complaints& complaints) {
+TimelineEntry read_entry(const JsonValue& json, const std::string& name, Complaints& complaints) {
     JsonObject in(json, name, complaints);
     TimelineEntry entry;
     const double seconds =
@@ -137,7 +138,7 @@ TimelineEntry read_entry(const Json& json, const std::string& name, Complaints& 
     return entry;
 }
 
-void read_ground(const Json& json, WorldDefinition& world, Complaints& complaints) {
+void read_ground(const JsonValue& json, WorldDefinition& world, Complaints& complaints) {
     JsonObject in(json, "ground", complaints);
     read_colour(in, "colour", world.ground);
     world.ground_image = in.text("image", Need::Optional);
@@ -147,9 +148,9 @@ void read_ground(const Json& json, WorldDefinition& world, Complaints& complaint
 }
 
 // The items of a list, at most `max`.
-const std::vector<Json>& read_list(JsonObject& in, std::string_view key, size_t max) {
-    static const std::vector<Json> kNothing;
-    const std::vector<Json>& items = in.items(key, Need::Optional);
+const std::vector<JsonValue>& read_list(JsonObject& in, std::string_view key, size_t max) {
+    static const std::vector<JsonValue> kNothing;
+    const std::vector<JsonValue>& items = in.items(key, Need::Optional);
     if (items.size() <= max) return items;
     in.complain(in.find(key, Need::Optional)->at,
                 std::string(key) + ": expected at most " + std::to_string(max) +
@@ -157,7 +158,7 @@ const std::vector<Json>& read_list(JsonObject& in, std::string_view key, size_t 
     return kNothing;
 }
 
-WorldDefinition read_all(const Json& json, Complaints& complaints) {
+WorldDefinition read_all(const JsonValue& json, Complaints& complaints) {
     JsonObject in(json, "the world", complaints);
     WorldDefinition world;
     check_format(in, FileFormat::World);
@@ -169,19 +170,19 @@ WorldDefinition read_all(const Json& json, Complaints& complaints) {
     world.width = size.x;
     world.height = size.y;
     world.open = in.boolean("open", false);
-    if (const Json* ground = in.find("ground", JsonKind::Object, Need::Optional))
+    if (const JsonValue* ground = in.find("ground", JsonKind::Object, Need::Optional))
         read_ground(*ground, world, complaints);
-    for (const Json& item : read_list(in, "objects", kObjectsMax)) {
+    for (const JsonValue& item : read_list(in, "objects", kObjectsMax)) {
         world.objects.push_back(
             read_object(item, numbered("objects", world.objects.size()), complaints));
     }
     int64_t node = 1;  // the next one, if every robot takes its own from 1 on
-    for (const Json& item : read_list(in, "robots", kRobotsMax)) {
+    for (const JsonValue& item : read_list(in, "robots", kRobotsMax)) {
         const size_t index = world.robots.size();
         world.robots.push_back(read_robot(item, numbered("robots", index), node, complaints));
         node += nodes_of(world.robots.back().type);
     }
-    for (const Json& item : read_list(in, "timeline", kTimelineMax)) {
+    for (const JsonValue& item : read_list(in, "timeline", kTimelineMax)) {
         world.timeline.push_back(
             read_entry(item, numbered("timeline", world.timeline.size()), complaints));
     }
@@ -191,8 +192,8 @@ WorldDefinition read_all(const Json& json, Complaints& complaints) {
 
 // The place of an element of the tree by its name, "objects[3].mass"; of its nearest parent if it
 // is not written.
-Place place_of(const Json& top, std::string_view name) {
-    const Json* at = &top;
+Place place_of(const JsonValue& top, std::string_view name) {
+    const JsonValue* at = &top;
     while (!name.empty()) {
         const size_t end = std::min(name.find_first_of(".[", 1), name.size());
         const std::string_view step = name.substr(0, end);
@@ -202,7 +203,7 @@ Place place_of(const Json& top, std::string_view name) {
             if (index >= at->items.size()) break;
             at = &at->items[index];
         } else {
-            const Json* next = at->find(step.front() == '.' ? step.substr(1) : step);
+            const JsonValue* next = at->find(step.front() == '.' ? step.substr(1) : step);
             if (next == nullptr) break;
             at = next;
         }
@@ -211,7 +212,7 @@ Place place_of(const Json& top, std::string_view name) {
 }
 
 // What the whole must keep to is looked at once each part is right.
-WorldDefinition read_checked(const Json& json, Complaints& complaints) {
+WorldDefinition read_checked(const JsonValue& json, Complaints& complaints) {
     WorldDefinition world = read_all(json, complaints);
     if (!complaints.empty()) return world;
     for (const Problem& one : find_problems(world)) {
@@ -223,7 +224,7 @@ WorldDefinition read_checked(const Json& json, Complaints& complaints) {
 }  // namespace
 
 Result<WorldDefinition> read_world(std::string_view text, std::string_view file) {
-    const Json json = TRY(parse_format(text, file, FileFormat::World));
+    const JsonValue json = TRY(parse_format(text, file, FileFormat::World));
     Complaints complaints;
     WorldDefinition world = read_checked(json, complaints);
     if (!complaints.empty()) return first_complaint(complaints, file);
@@ -231,7 +232,7 @@ Result<WorldDefinition> read_world(std::string_view text, std::string_view file)
 }
 
 std::vector<Error> mistakes_of_world(std::string_view text, std::string_view file) {
-    const Result<Json> json = parse_format(text, file, FileFormat::World);
+    const Result<JsonValue> json = parse_format(text, file, FileFormat::World);
     if (!json.ok()) return {json.error()};
     Complaints complaints;
     read_checked(json.value(), complaints);
@@ -240,7 +241,7 @@ std::vector<Error> mistakes_of_world(std::string_view text, std::string_view fil
 
 std::vector<std::string> hints_of_world(std::string_view text, std::string_view file) {
     std::vector<std::string> lines;
-    const Result<Json> json = parse_json(text, file);
+    const Result<JsonValue> json = parse_json(text, file);
     if (!json.ok()) return lines;
     Complaints complaints;
     for (const Problem& hint : find_hints(read_all(json.value(), complaints))) {
@@ -251,7 +252,7 @@ std::vector<std::string> hints_of_world(std::string_view text, std::string_view 
 }
 
 Error error_in_world(const Error& error, std::string_view text, std::string_view file) {
-    const Result<Json> json = parse_json(text, file);
+    const Result<JsonValue> json = parse_json(text, file);
     if (!json.ok()) return json.error();
     const std::string element = error.what.substr(0, error.what.find(": "));
     Error placed = first_complaint({{place_of(json.value(), element), error.what}}, file);

@@ -26,7 +26,7 @@ void append(std::vector<run::Coded>& to, std::vector<run::Coded> more) {
 }
 
 SafeStop read_robots() {
-    const Result<Json> json = parse_json(kRobotsText, "built-in");
+    const Result<JsonValue> json = parse_json(kRobotsText, "built-in");
     assert(json.ok());
     Complaints complaints;
     JsonObject in(json.value(), "the file", complaints);

@@ -3,7 +3,7 @@
 //
 //     BusNodes nodes;
 //     nodes.appeared("drive");
-//     nodes.has("drive")                                   // true
+//     nodes.has("drive");                                  // true
 //     nodes.left("drive");                                 // and code that waits is woken:
 //     run.hear({node_left("drive"), {}});                  // context.wait_event("") gives it
 #pragma once

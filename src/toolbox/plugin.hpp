@@ -4,7 +4,7 @@
 //     #include <vagus/toolbox/plugin.hpp>
 //
 //     static vagus::toolbox::Plugin make(const vagus::toolbox::Parts&) {
-//         return {.name = "lamp", .help = "Lamps.", .templates = { … }};      // run/code.hpp
+//         return {.name = "lamp", .help = "Lamps.", .templates = …};          // run/code.hpp
 //     }
 //     VAGUS_TOOLBOX(make)
 //

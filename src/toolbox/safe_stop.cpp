@@ -16,14 +16,14 @@ class Reader {
 public:
     explicit Reader(Complaints& complaints) : complaints_(complaints) {}
 
-    SafeStop nodes(const Json& list);
+    SafeStop nodes(const JsonValue& list);
 
 private:
-    SafeStopNode node(const Json& json, const std::string& name);
+    SafeStopNode node(const JsonValue& json, const std::string& name);
     void set(JsonObject& in, SafeStopNode& node);
     void read(JsonObject& in, SafeStopNode& node);
-    std::vector<int16_t> values(const Json& json, const std::string& variable);
-    std::optional<int16_t> value(const Json& json, const std::string& variable);
+    std::vector<int16_t> values(const JsonValue& json, const std::string& variable);
+    std::optional<int16_t> value(const JsonValue& json, const std::string& variable);
 
     void complain(Place at, std::string what) {
         if (complaints_.size() < kComplaintsMax) complaints_.push_back({at, std::move(what)});
@@ -48,7 +48,7 @@ bool Reader::is_name(Place at, const std::string& name, std::string_view of) {
     return false;
 }
 
-std::optional<int16_t> Reader::value(const Json& json, const std::string& variable) {
+std::optional<int16_t> Reader::value(const JsonValue& json, const std::string& variable) {
     const bool whole = json.kind == JsonKind::Int;
     if (whole && json.integer >= INT16_MIN && json.integer <= INT16_MAX) {
         return static_cast<int16_t>(json.integer);
@@ -60,7 +60,7 @@ std::optional<int16_t> Reader::value(const Json& json, const std::string& variab
     return std::nullopt;
 }
 
-std::vector<int16_t> Reader::values(const Json& json, const std::string& variable) {
+std::vector<int16_t> Reader::values(const JsonValue& json, const std::string& variable) {
     std::vector<int16_t> values;
     if (json.kind != JsonKind::Array) {
         if (const auto one = value(json, variable)) values.push_back(*one);
@@ -70,14 +70,14 @@ std::vector<int16_t> Reader::values(const Json& json, const std::string& variabl
         fmt::format("{} in \"{}\": expected 1 to {} values", variable, kKey, kSafeStopValuesMax);
     if (json.items.empty()) complain(json.at, range + ", found none; write the value to set");
     if (!fits(json.at, json.items.size(), kSafeStopValuesMax, range)) return values;
-    for (const Json& item : json.items) {
+    for (const JsonValue& item : json.items) {
         if (const auto one = value(item, variable)) values.push_back(*one);
     }
     return values;
 }
 
 void Reader::set(JsonObject& in, SafeStopNode& node) {
-    const Json* json = in.find("set", JsonKind::Object, Need::Optional);
+    const JsonValue* json = in.find("set", JsonKind::Object, Need::Optional);
     if (!json) return;
     if (!fits(json->at, json->members.size(), kSafeStopVariablesMax,
               fmt::format("\"set\" of {}: expected at most {} variables", in.name(),
@@ -98,7 +98,7 @@ void Reader::set(JsonObject& in, SafeStopNode& node) {
 }
 
 void Reader::read(JsonObject& in, SafeStopNode& node) {
-    const std::vector<Json>& items = in.items("read", Need::Optional);
+    const std::vector<JsonValue>& items = in.items("read", Need::Optional);
     if (items.empty()) return;
     if (!fits(in.find("read", Need::Optional)->at, items.size(), kSafeStopVariablesMax,
               fmt::format("\"read\" of {}: expected at most {} variables", in.name(),
@@ -106,7 +106,7 @@ void Reader::read(JsonObject& in, SafeStopNode& node) {
         return;
     }
     std::set<std::string_view> seen;
-    for (const Json& item : items) {
+    for (const JsonValue& item : items) {
         if (item.kind != JsonKind::String) {
             complain(item.at, fmt::format("\"read\" of {} holds names of variables in quotes, not "
                                           "{}",
@@ -122,7 +122,7 @@ void Reader::read(JsonObject& in, SafeStopNode& node) {
     }
 }
 
-SafeStopNode Reader::node(const Json& json, const std::string& name) {
+SafeStopNode Reader::node(const JsonValue& json, const std::string& name) {
     JsonObject in(json, fmt::format("{} in \"{}\"", json_quote(name), kKey), complaints_);
     SafeStopNode node;
     set(in, node);
@@ -131,7 +131,7 @@ SafeStopNode Reader::node(const Json& json, const std::string& name) {
     return node;
 }
 
-SafeStop Reader::nodes(const Json& list) {
+SafeStop Reader::nodes(const JsonValue& list) {
     SafeStop safe;
     if (!fits(list.at, list.members.size(), kSafeStopNodesMax,
               fmt::format("\"{}\": expected at most {} nodes", kKey, kSafeStopNodesMax))) {
@@ -152,7 +152,7 @@ SafeStop Reader::nodes(const Json& list) {
 }  // namespace
 
 SafeStop read_safe_stop(JsonObject& in, Complaints& complaints) {
-    const Json* list = in.find(kKey, JsonKind::Object, Need::Optional);
+    const JsonValue* list = in.find(kKey, JsonKind::Object, Need::Optional);
     return list ? Reader(complaints).nodes(*list) : SafeStop();
 }
 

@@ -1,7 +1,7 @@
 // What brings a node to rest whose own safe state does not, and how a host knows that it is at
 // rest: data of a project or of a toolbox file (docs/formats.md, "Safe stop").
 //
-//     SafeStop safe = read_safe_stop(in);                  // the key "safe_stop" of that object
+//     SafeStop safe = read_safe_stop(in, complaints);      // the key "safe_stop" of that object
 //     for (const auto& [name, values] : safe["thymio-II"].set) …
 #pragma once
 

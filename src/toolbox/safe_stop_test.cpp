@@ -13,7 +13,7 @@ struct Read {
 };
 
 Read read(const std::string& value) {
-    const Json json = parse_json("{ \"safe_stop\": " + value + " }", "f").value();
+    const JsonValue json = parse_json("{ \"safe_stop\": " + value + " }", "f").value();
     Complaints complaints;
     JsonObject in(json, "the project", complaints);
     Read result;

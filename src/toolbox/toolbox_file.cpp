@@ -65,7 +65,7 @@ void check_name(Reading& reading, Place at, std::string_view name, std::string_v
 }
 
 // The members of an object whose keys are free names, each once and well-formed; at most `max`.
-std::vector<const JsonMember*> named_members(Reading& reading, const Json* object,
+std::vector<const JsonMember*> named_members(Reading& reading, const JsonValue* object,
                                              std::string_view what, size_t max) {
     std::vector<const JsonMember*> kept;
     if (!object) return kept;
@@ -99,7 +99,7 @@ struct Field {
 };
 
 void read_range(Reading& reading, JsonObject& in, const std::string& name, Field& field) {
-    const Json* range = in.find("range", JsonKind::Array, Need::Optional);
+    const JsonValue* range = in.find("range", JsonKind::Array, Need::Optional);
     if (!range) return;
     const auto& items = range->items;
     const bool numbers = items.size() == 2 && items[0].is_number() && items[1].is_number();
@@ -114,7 +114,7 @@ void read_range(Reading& reading, JsonObject& in, const std::string& name, Field
     field.declared.high = items[1].number;
 }
 
-Value constant_of(const Json& json, Type type) {
+Value constant_of(const JsonValue& json, Type type) {
     if (type == Type::Bool) return Value(json.boolean);
     return type == Type::Int ? Value(json.integer) : Value(json.number);
 }
@@ -124,7 +124,7 @@ void read_default(Reading& reading, JsonObject& in, const std::string& name, Fie
     const JsonKind kind = type == Type::Bool  ? JsonKind::Bool
                           : type == Type::Int ? JsonKind::Int
                                               : JsonKind::Float;
-    const Json* json = in.find("default", kind, Need::Optional);
+    const JsonValue* json = in.find("default", kind, Need::Optional);
     if (!json) return;
     const Value value = constant_of(*json, type);
     std::vector<int16_t> words;
@@ -138,7 +138,7 @@ void read_default(Reading& reading, JsonObject& in, const std::string& name, Fie
 // What makes no sense for this type or direction is complained of where it stands.
 void refuse(Reading& reading, JsonObject& in, const std::string& name, std::string_view key,
             std::string_view why) {
-    if (const Json* json = in.find(key, Need::Optional)) {
+    if (const JsonValue* json = in.find(key, Need::Optional)) {
         reading.complain(json->at,
                          fmt::format("{} has a \"{}\", but {}; remove it", name, key, why));
     }
@@ -174,7 +174,7 @@ Field read_field(Reading& reading, const JsonMember& member, bool is_input,
 }
 
 void read_inputs(Reading& reading, JsonObject& in, BusTemplate& made) {
-    const Json* list = in.find("in", JsonKind::Object, Need::Optional);
+    const JsonValue* list = in.find("in", JsonKind::Object, Need::Optional);
     int words = 1;  // the token
     for (const JsonMember* member :
          named_members(reading, list, "an input", run::kEventArgumentsMax)) {
@@ -193,7 +193,7 @@ void read_inputs(Reading& reading, JsonObject& in, BusTemplate& made) {
 }
 
 void read_outputs(Reading& reading, JsonObject& in, BusTemplate& made) {
-    const Json* list = in.find("out", JsonKind::Object, Need::Optional);
+    const JsonValue* list = in.find("out", JsonKind::Object, Need::Optional);
     for (const JsonMember* member : named_members(reading, list, "an output", kOutputsMax)) {
         Field field = read_field(reading, *member, false, in.name());
         made.declared.outputs.push_back({.name = field.declared.name,
@@ -208,7 +208,7 @@ void read_outputs(Reading& reading, JsonObject& in, BusTemplate& made) {
 
 // The event that `key` names; empty if there is none or it cannot be one.
 std::string read_event(Reading& reading, JsonObject& in, std::string_view key, Need need) {
-    const Json* json = in.find(key, JsonKind::String, need);
+    const JsonValue* json = in.find(key, JsonKind::String, need);
     if (!json) return {};
     if (json->text.size() <= kNameBytesMax && is_event_name(json->text)) return json->text;
     reading.complain(json->at,
@@ -225,7 +225,7 @@ std::vector<size_t> read_brought(Reading& reading, JsonObject& in, const BusTemp
     std::vector<size_t> brought;
     std::vector<std::string> known;
     for (const auto& output : made.declared.outputs) known.push_back(output.name);
-    for (const Json& item : in.items("out", Need::Optional)) {
+    for (const JsonValue& item : in.items("out", Need::Optional)) {
         const int found =
             item.kind == JsonKind::String ? plan::find_output(made.declared, item.text) : -1;
         const auto index = static_cast<size_t>(found);
@@ -280,8 +280,8 @@ void read_outcome(Reading& reading, const JsonMember& member, std::string_view w
     outcome.event = read_event(reading, in, "event", Need::Required);
     size_t words = 1;
     outcome.outputs = read_brought(reading, in, made, words);
-    const Json* event = in.find("event", Need::Optional);
-    const Json* out = in.find("out", Need::Optional);
+    const JsonValue* event = in.find("event", Need::Optional);
+    const JsonValue* out = in.find("out", Need::Optional);
     if (words > run::kEventArgumentsMax) {
         reading.complain(out->at, fmt::format("the token and \"out\" of {} need {} words, but an "
                                               "event carries {}; bring fewer outputs",
@@ -299,11 +299,11 @@ void read_outcome(Reading& reading, const JsonMember& member, std::string_view w
 // ---- templates ----
 
 void read_nodes(Reading& reading, JsonObject& in, BusTemplate& made) {
-    const Json* node = in.find("node", Need::Required);
+    const JsonValue* node = in.find("node", Need::Required);
     if (!node) return;
-    std::vector<const Json*> items;
+    std::vector<const JsonValue*> items;
     if (node->kind != JsonKind::Array) items.push_back(node);
-    for (const Json& item : node->items) items.push_back(&item);
+    for (const JsonValue& item : node->items) items.push_back(&item);
     if (items.empty() || items.size() > kNodeNamesMax) {
         reading.complain(node->at, fmt::format("\"node\" of {} must be the name of a node, or a "
                                                "list of 1 to {} names, of which the first on the "
@@ -311,7 +311,7 @@ void read_nodes(Reading& reading, JsonObject& in, BusTemplate& made) {
                                                in.name(), kNodeNamesMax, items.size()));
         return;
     }
-    for (const Json* item : items) {
+    for (const JsonValue* item : items) {
         if (item->kind != JsonKind::String || item->text.empty() ||
             item->text.size() > kNameBytesMax) {
             reading.complain(item->at, fmt::format("\"node\" of {} must be the name of a node, of "
@@ -342,8 +342,8 @@ void read_commands(Reading& reading, JsonObject& in, BusTemplate& made) {
         refuse(reading, in, in.name(), "alive", "only an actor is kept alive");
         refuse(reading, in, in.name(), "ended", "only the work of an actor ends");
     }
-    const Json* stop = in.find("stop", Need::Optional);
-    const Json* stopped = in.find("stopped", Need::Optional);
+    const JsonValue* stop = in.find("stop", Need::Optional);
+    const JsonValue* stopped = in.find("stopped", Need::Optional);
     if (actor && (stop == nullptr) != (stopped == nullptr)) {
         reading.complain(
             (stop ? stop : stopped)->at,
@@ -355,7 +355,7 @@ void read_commands(Reading& reading, JsonObject& in, BusTemplate& made) {
     for (const BusValue& input : made.inputs) words += static_cast<size_t>(input.words);
     std::set<std::string> seen;
     for (const std::string_view key : {"start", "stop", "stopped", "alive", "ended"}) {
-        const Json* json = in.find(key, Need::Optional);
+        const JsonValue* json = in.find(key, Need::Optional);
         if (!json || json->kind != JsonKind::String) continue;
         if (!seen.insert(json->text).second) {
             reading.complain(json->at, fmt::format("\"{}\" of {} is an event that another key of "
@@ -369,7 +369,7 @@ void read_commands(Reading& reading, JsonObject& in, BusTemplate& made) {
 }
 
 void read_icon(Reading& reading, JsonObject& in, plan::Template& declared) {
-    const Json* icon = in.find("icon", JsonKind::String, Need::Optional);
+    const JsonValue* icon = in.find("icon", JsonKind::String, Need::Optional);
     if (!icon) return;
     declared.icon = icon->text;
     if (plan::is_path_data(icon->text)) return;
@@ -400,7 +400,7 @@ BusTemplate read_template(Reading& reading, const JsonMember& member) {
         refuse(reading, in, in.name(), actor ? "events" : "states",
                actor ? "an actor has \"states\"" : "a supervisor has \"events\"");
     }
-    const Json* outcomes = in.find(list, JsonKind::Object, Need::Required);
+    const JsonValue* outcomes = in.find(list, JsonKind::Object, Need::Required);
     for (const JsonMember* outcome :
          named_members(reading, outcomes, actor ? "a state" : "an event", kOutcomesMax)) {
         read_outcome(reading, *outcome, one, made);
@@ -410,7 +410,7 @@ BusTemplate read_template(Reading& reading, const JsonMember& member) {
 }
 
 void check_toolbox_name(Reading& reading, JsonObject& in, const std::string& name) {
-    const Json* json = in.find("name", Need::Optional);
+    const JsonValue* json = in.find("name", Need::Optional);
     if (!json || json->kind != JsonKind::String) return;
     check_name(reading, json->at, name, "a toolbox");
     if (name == plan::kCoreToolbox) {
@@ -420,7 +420,7 @@ void check_toolbox_name(Reading& reading, JsonObject& in, const std::string& nam
     }
 }
 
-ToolboxFile read_all(Reading& reading, const Json& json, const std::string& path,
+ToolboxFile read_all(Reading& reading, const JsonValue& json, const std::string& path,
                      const ReadProject& read_project) {
     JsonObject in(json, "the toolbox", reading.complaints);
     ToolboxFile file;
@@ -429,14 +429,14 @@ ToolboxFile read_all(Reading& reading, const Json& json, const std::string& path
     check_toolbox_name(reading, in, file.name);
     file.help = in.text("help", Need::Optional);
     file.project = in.text("project", Need::Required);
-    const Json* templates = in.find("templates", JsonKind::Object, Need::Required);
+    const JsonValue* templates = in.find("templates", JsonKind::Object, Need::Required);
     for (const JsonMember* member :
          named_members(reading, templates, "a template", kTemplatesMax)) {
         file.templates.push_back(read_template(reading, *member));
     }
     file.safe_stop = read_safe_stop(in, reading.complaints);
     in.finish();
-    const Json* project = in.find("project", Need::Optional);
+    const JsonValue* project = in.find("project", Need::Optional);
     if (!read_project || !project || project->kind != JsonKind::String) return file;
     const Result<std::string> beside = path_beside(path, file.project);
     if (!beside.ok()) {
@@ -447,7 +447,7 @@ ToolboxFile read_all(Reading& reading, const Json& json, const std::string& path
     return file;
 }
 
-Result<Json> parse(std::string_view text, const std::string& file) {
+Result<JsonValue> parse(std::string_view text, const std::string& file) {
     if (text.size() > kToolboxBytesMax) {
         return Error{Code::Limit, fmt::format("{} has {} bytes; a toolbox file has at most {}",
                                               file, text.size(), kToolboxBytesMax)};
@@ -459,7 +459,7 @@ Result<Json> parse(std::string_view text, const std::string& file) {
 
 Result<ToolboxFile> read_toolbox(std::string_view text, const std::string& file,
                                  const ReadProject& read_project) {
-    const Json json = TRY(parse(text, file));
+    const JsonValue json = TRY(parse(text, file));
     Reading reading;
     ToolboxFile read = read_all(reading, json, file, read_project);
     if (!reading.complaints.empty()) return first_complaint(reading.complaints, file);
@@ -468,7 +468,7 @@ Result<ToolboxFile> read_toolbox(std::string_view text, const std::string& file,
 
 std::vector<Error> mistakes_of_toolbox(std::string_view text, const std::string& file,
                                        const ReadProject& read_project) {
-    const Result<Json> json = parse(text, file);
+    const Result<JsonValue> json = parse(text, file);
     if (!json.ok()) return {json.error()};
     Reading reading;
     read_all(reading, json.value(), file, read_project);

@@ -2,7 +2,7 @@
 // same list, so they cannot drift apart (docs/spec/aseba-wire-and-vm.md, sections 2.2 to 2.4
 // and 2.9).
 //
-//     wire::GetVariables ask{.dest = 3, .start = 0, .length = 10};
+//     wire::GetVariables ask{{{}, 3}, 0, 10};  // destination, start, length
 //     wire::Frame frame;
 //     if (wire::encode_message(ask, wire::kHostId, frame) != wire::Error::None) …
 //

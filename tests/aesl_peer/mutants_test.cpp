@@ -51,7 +51,7 @@ std::string_view line_of(const std::string& source, int line) {
     return line >= 1 && index < lines.size() ? lines[index] : std::string_view{};
 }
 
-// Why a difference is as it should be; empty: it is not. Each reason stands in the specification.
+// Why a difference is as it should be; empty: it is not. Each reason is in the specification.
 std::string_view excuse(const Mutant& made, const OurRun& ours, const Outcome& theirs) {
     if (ours.outcome.error) {
         const std::string& code = ours.outcome.error->code;

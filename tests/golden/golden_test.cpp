@@ -38,13 +38,13 @@ T good(Result<T> result) {
     return std::move(result.value());
 }
 
-Words words_of(const Json& list) {
+Words words_of(const JsonValue& list) {
     Words words;
-    for (const Json& item : list.items) words.push_back(static_cast<int16_t>(item.integer));
+    for (const JsonValue& item : list.items) words.push_back(static_cast<int16_t>(item.integer));
     return words;
 }
 
-std::map<std::string, Words> memory_of(const Json& object) {
+std::map<std::string, Words> memory_of(const JsonValue& object) {
     std::map<std::string, Words> memory;
     for (const JsonMember& member : object.members) memory[member.key] = words_of(member.value);
     return memory;
@@ -56,9 +56,9 @@ std::map<std::string, Words> memory_of(const session::Execution& execution) {
     return memory;
 }
 
-std::vector<session::Emission> emissions_of(const Json& list) {
+std::vector<session::Emission> emissions_of(const JsonValue& list) {
     std::vector<session::Emission> emissions;
-    for (const Json& item : list.items) {
+    for (const JsonValue& item : list.items) {
         emissions.push_back({static_cast<int>(item.find("during")->integer),
                              item.find("event")->text, words_of(*item.find("args"))});
     }
@@ -77,7 +77,7 @@ protected:
     std::string text(const std::string& ending) const {
         return good(read_file(kFolder + GetParam() + ending));
     }
-    static void expect_compile_error(const aesl::Compilation& done, const Json& expected) {
+    static void expect_compile_error(const aesl::Compilation& done, const JsonValue& expected) {
         ASSERT_FALSE(done.ok()) << "expected " << expected.find("code")->text;
         EXPECT_EQ(done.first_error().formal_place().line, expected.find("line")->integer)
             << done.first_error().message;
@@ -85,10 +85,10 @@ protected:
                   without_guess(expected.find("code")->text))
             << done.errors[0].message;
     }
-    static void expect_run(const session::Execution& execution, const Json& expected) {
+    static void expect_run(const session::Execution& execution, const JsonValue& expected) {
         EXPECT_EQ(memory_of(execution), memory_of(*expected.find("memory")));
         EXPECT_EQ(execution.emitted, emissions_of(*expected.find("events_emitted")));
-        const Json* error = expected.find("runtime_error");
+        const JsonValue* error = expected.find("runtime_error");
         ASSERT_EQ(execution.error.has_value(), error != nullptr);
         if (error == nullptr) return;
         EXPECT_EQ(session::name_of(execution.error->kind), error->find("kind")->text);
@@ -99,11 +99,11 @@ protected:
 
 TEST_P(Golden, IsAsExpected) {
     const std::string expected_text = text(std::string(kEnding));
-    const Json expected = good(parse_json(expected_text, GetParam()));
+    const JsonValue expected = good(parse_json(expected_text, GetParam()));
     const aesl::NodeFile node =
         good(aesl::parse_node_file(good(read_file(kFolder + "node.json")), "node.json"));
     const aesl::Compilation done = aesl::compile(text(".aesl"), node.target, node.common, {});
-    if (const Json* error = expected.find("error")) return expect_compile_error(done, *error);
+    if (const JsonValue* error = expected.find("error")) return expect_compile_error(done, *error);
     ASSERT_TRUE(done.ok()) << done.errors[0].at.line << ": " << done.errors[0].message << " ["
                            << done.errors[0].code << "]";
     const auto stimuli = good(aesl::parse_stimuli(expected_text, GetParam()));

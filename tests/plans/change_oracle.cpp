@@ -56,7 +56,7 @@ void ChangeOracle::activate(Level& level, const std::string& actor) {
     level.actor = actor;
     level.started = plan(level)["actors"][actor];
     level.on_its_way.clear();
-    level.resting.clear();  // those start anew
+    level.resting.clear();  // those start again
     if (is_computation(level.started)) return;
     level.resting = std::exchange(level.remedy, {});
 }

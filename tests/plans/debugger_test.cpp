@@ -436,7 +436,7 @@ TEST(PlanDebugger, InRealTimeAPauseHoldsTheCodeAtItsWaitAndTellsIt) {
     EXPECT_EQ(seen.released, 1);
 }
 
-// The clock stands while paused: a second look tells the same instant, and the deadlines that
+// The clock is stopped while paused: a second look tells the same instant, and the deadlines that
 // passed meanwhile by the clock on the wall are not made up for.
 TEST(PlanDebugger, InRealTimeTheRunsClockStandsWhilePaused) {
     Session session(R"({ "format": "vagus-plan/1", "name": "Watched",

@@ -61,7 +61,7 @@ std::string without_message(const std::string& line) {
 
 std::string json_line_value(const std::string& line, const std::string& key) {
     const auto json = read_json(line);
-    const Json* value = std::get<Json>(json).find(key);
+    const JsonValue* value = std::get<JsonValue>(json).find(key);
     return value ? value->text : std::string();
 }
 
@@ -122,7 +122,7 @@ int expected_status(const std::string& name, const std::string& last_line) {
 }
 
 void expect_digest(const Ran& ran, const fs::path& path) {
-    const Json digest = std::get<Json>(read_json(read_file(path.string()).value()));
+    const JsonValue digest = std::get<JsonValue>(read_json(read_file(path.string()).value()));
     std::string all;
     for (const std::string& line : ran.lines) all += line + "\n";
     EXPECT_EQ(static_cast<int64_t>(ran.lines.size()), digest.find("lines")->integer);
@@ -132,9 +132,9 @@ void expect_digest(const Ran& ran, const fs::path& path) {
 using Found = std::tuple<std::string, std::string, std::string, int64_t>;
 
 void expect_findings(const plan::Checked& checked, const fs::path& path) {
-    const Json json = std::get<Json>(read_json(read_file(path.string()).value()));
+    const JsonValue json = std::get<JsonValue>(read_json(read_file(path.string()).value()));
     std::multiset<Found> wanted, found;
-    for (const Json& one : json.items) {
+    for (const JsonValue& one : json.items) {
         wanted.emplace(one.find("severity")->text, one.find("rule")->text,
                        one.find("element")->text, one.find("line")->integer);
     }

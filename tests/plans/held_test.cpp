@@ -1,5 +1,5 @@
-// Events of the bus that come while a plan stands in its debugger (decision 0131): in virtual time
-// beside something that has time of its own, and in real time from another thread.
+// Events of the bus that come while a plan is paused in its debugger (decision 0131): in virtual
+// time beside something that has time of its own, and in real time from another thread.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ constexpr std::string_view kThree = R"(
     "c": { "template": "Receive", "in": { "event": "'end'" },
            "states": { "Received": "@terminate" } })";
 
-// Says which events come at which millisecond, and which have arrived while the plan stands.
+// Says which events come at which millisecond, and which have arrived while the plan is paused.
 class Clockwork final : public run::Surroundings {
 public:
     std::map<Time, std::vector<run::BusEvent>> events;
@@ -234,7 +234,7 @@ TEST_F(HeldTest, AStepWithOneEventStopsAtTheNextThingThePlanDoesAndHoldsTheOther
     EXPECT_EQ(finish(), "a 2;b 3;c 4;");
 }
 
-// Nothing comes of it: the plan stands again 100 ms later, before anything that is due then.
+// Nothing comes of it: the plan is paused again 100 ms later, before anything that is due then.
 TEST_F(HeldTest, AStepOfWhichNothingComesEnds) {
     clockwork_.events[2ms] = {{"go", {}}};
     clockwork_.events[50ms] = {{"on", {}}};

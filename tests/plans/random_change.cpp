@@ -161,7 +161,7 @@ private:
         plan_["configuration"] = all;
     }
 
-    // Nothing stands in a variable's way that nothing reads: often it can have another type.
+    // Nothing is in a variable's way that nothing reads: often it can have another type.
     void change_variable() {
         Json& variable = some(plan_["configuration"]);
         if (below(3) == 0) {

@@ -1,4 +1,4 @@
-// examples/obstacle: the same plan on Carbot and on Thymio II gets past what stands in its way.
+// examples/obstacle: the same plan on Carbot and on Thymio II gets past what is in its way.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -90,7 +90,7 @@ class Changes(Case):
         self.assertEqual(self.save(other, "refused"), said)
         self.wait_line("warning", "it goes on as it was")
         self.assertEqual((self.plan.value["state"], self.plan.value["levels"][0]["template"]), ("running", "Wait"))
-        # Mistakes are reasons, too; what is mended takes over.
+        # Mistakes are reasons, too; what is fixed takes over.
         wrong = changed(WAIT, actors={"wait": {**WAIT["actors"]["wait"], "states": {"Done": "nobody"}}})
         self.assertIn("nobody", self.save(wrong, "refused")[0])
         self.assertEqual(self.save(changed(WAIT, configuration={"more": {"type": "int"}}), "taken"), [])

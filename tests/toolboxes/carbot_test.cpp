@@ -113,7 +113,7 @@ TEST_F(CarbotTemplates, NavigateToArrives) {
     EXPECT_NEAR(end_of(ran).at.y, 3.9, 0.08);
 }
 
-// A wall stands in the way; the touch stops the wheels, and that the goal does not come nearer.
+// A wall is in the way; the touch stops the wheels, and that the goal does not come nearer.
 TEST_F(CarbotTemplates, NavigateToSaysWhenItIsStuck) {
     const Ran ran = run(R"("a": { "template": "NavigateTo", "in": { "x": 200, "y": 0 },
                               "states": { "Arrived": "a", "Stuck": "@terminate" } })",
@@ -265,7 +265,7 @@ TEST_F(CarbotTemplates, CheckDrivingLaneSeesWhatIsInTheWay) {
     EXPECT_NEAR(end_of(ran).at.x, 5.35, 0.1);
 }
 
-// The robot stands for 5 s under this supervisor, whose event is called `event`.
+// The robot is at rest for 5 s under this supervisor, whose event is called `event`.
 std::string standing(const std::string& supervisor, const std::string& event) {
     return R"("a": { "template": "Wait", "in": { "seconds": 5 },
              "states": { "Done": "@terminate" }, "supervisors": {
@@ -320,7 +320,7 @@ TEST_F(CarbotTemplates, MeasureDistanceLooksAsFarAsTheSensorTurns) {
     EXPECT_THAT(with("-120.1").ended.message, HasSubstr("from -120 to 120"));
 }
 
-// The robot stands for 5 s.
+// The robot is at rest for 5 s.
 TEST_F(CarbotTemplates, CheckProgressHearsThatItDoesNotGetOn) {
     const auto with = [&](const std::string& seconds) {
         return run(standing(R"("template": "CheckProgress", "in": { "seconds": )" + seconds + " }",

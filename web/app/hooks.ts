@@ -57,7 +57,7 @@ function asOf<T extends DocumentTopic>(key: string): Topics[T]['of'] {
   return JSON.parse(key) as Topics[T]['of'];
 }
 
-/** Renders anew when something has changed; the number says how often it has. */
+/** Renders again when something has changed; the number says how often it has. */
 export function useChanges(changed: Emitter<void>): number {
   return useSyncExternalStore(
     useCallback((listener: () => void) => changed.on(listener), [changed]),

@@ -2,7 +2,7 @@
 
 import { useCallback, useSyncExternalStore } from 'react';
 import type { PlanThen } from '../core/past';
-import type { Happening } from '../protocol/messages';
+import type { Happening, HistoryNode, NodeId } from '../protocol/messages';
 import { useDrives, useStudio, useTopic } from './hooks';
 
 function usePastPart<T>(select: () => T): T {
@@ -43,6 +43,14 @@ export function usePastEvents(): readonly Happening[] | null {
   const { past } = useStudio();
   return usePastPart(() => (past.at === null ? null : (past.instant?.events ?? null)));
 }
+
+/** What a node did at the instant that is shown, and where it was; null: what it does now is shown. */
+export function useNodeThen(node: NodeId | undefined): Partial<HistoryNode> | null {
+  const { past } = useStudio();
+  const nodes = usePastPart(() => (past.at === null ? null : (past.instant?.nodes ?? kNoNodes)));
+  return nodes && (nodes.find((one) => one.node === node) ?? {});
+}
+const kNoNodes: readonly HistoryNode[] = [];
 
 /** True if this page may change what runs: it drives, and shows now. */
 export function useMayAct(): boolean {

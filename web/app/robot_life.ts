@@ -59,7 +59,7 @@ function texts(picks: Parameters<typeof picksJson>[0], plot: Parameters<typeof p
 function useStanding(): void {
   const { words } = useStudio();
   const nodes = useTopic('robot', {})?.nodes;
-  // A simulation whose clock stands holds all its nodes, whatever their own state is.
+  // A simulation whose clock is stopped holds all its nodes, whatever their own state is.
   const held = usePart('clock', {}, (is) => is?.state === 'paused');
   useEffect(() => {
     for (const node of nodes ?? []) words.stands(node.id, held || node.state === 'paused');

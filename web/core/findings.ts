@@ -1,4 +1,4 @@
-// Findings of the checkers: order, counts, the next one, and the edits that mend one.
+// Findings of the checkers: order, counts, the next one, and the edits that fix one.
 
 import type { Doc, Edit, Finding } from '../protocol/messages';
 

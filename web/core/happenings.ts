@@ -91,7 +91,7 @@ export class Happenings {
   private received(items: readonly Happening[], leftOut: number): void {
     this.leftOut += leftOut;
     const known = Math.max(this.items.at(-1)?.number ?? -1, this.cleared);
-    // A server that was started anew counts from the beginning, later in the day.
+    // A server that was started again counts from the beginning, later in the day.
     const anew =
       items.length > 0 &&
       (items.at(-1)?.number ?? 0) < known &&

@@ -257,7 +257,7 @@ export class Plotter {
     const clock = this.topics.get('clock', {});
     if (!clock || clock.state === 'none') return;
     if (clock.t < this.newest - 1) {
-      // The run began anew: what was plotted belongs to the one before.
+      // The run began again: what was plotted belongs to the one before.
       for (const ring of this.rings.values()) ring.clear();
       this.newest = clock.t;
       this.held = null;

@@ -18,7 +18,7 @@ export function runStateOf(
   return runs ? 'running' : 'none';
 }
 
-/** The line where a node stands: asked to, at a breakpoint, or because of a fault. */
+/** The line where a node is paused: asked to, at a breakpoint, or because of a fault. */
 export function standsAt(node: Node | undefined): number | undefined {
   const stands =
     node?.state === 'paused' || (node?.state === 'stopped' && node.fault !== undefined);

@@ -73,7 +73,7 @@ export class TopicCache {
     });
   }
 
-  /** Nothing is known of any topic but these until the server has said it anew. */
+  /** Nothing is known of any topic but these until the server has said it again. */
   forget(but: readonly DocumentTopic[]): void {
     for (const entry of [...this.entries.values()].filter((one) => !but.includes(one.topic))) {
       entry.end();

@@ -15,7 +15,7 @@ export interface Flow {
 }
 export const kNobody = -1;
 
-/** Rates over the last seconds from looks at the counts; counts that went back began anew. */
+/** Rates over the last seconds from looks at the counts; counts that went back began again. */
 export class Rates {
   private looks: { at: number; counts: Map<string, number> }[] = [];
 
@@ -111,7 +111,7 @@ export const kBox = { width: 108, height: 40 };
 const kRayGap = 13.5;
 const kRayLength = 98;
 
-/** Where nodes stand around the bus, in an area of that size at least; grows with their number. */
+/** Where nodes are drawn around the bus, in an area of that size at least; grows with their number. */
 export function pictureOf(
   nodes: readonly NodeId[],
   area: { width: number; height: number },
@@ -165,7 +165,7 @@ function boxesApart(spots: readonly Spot[]): boolean {
 }
 const kBoxGap = 12;
 
-/** Two nodes stand left and right; from three on the first one stands at the top left. */
+/** Two nodes are drawn left and right; from three on the first one stands at the top left. */
 function startAt(count: number): number {
   return count <= 2 ? Math.PI : -Math.PI / 2 - Math.PI / count;
 }

@@ -39,7 +39,7 @@ export function eachSample(
 }
 
 export interface Mentioned {
-  /** As it stands in the text: event.args[1]. */
+  /** As it is in the text: event.args[1]. */
   shown: string;
   address: number;
   count: number;

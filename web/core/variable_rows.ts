@@ -103,7 +103,7 @@ function variableAndElements(
   ];
 }
 
-/** Each word stands in the name of the node or of the variable, or in its help. */
+/** Each word is in the name of the node or of the variable, or in its help. */
 function matches(node: string, variable: Variable, words: readonly string[]): boolean {
   const text = `${node}.${variable.name} ${variable.help ?? ''}`.toLowerCase();
   return words.every((word) => text.includes(word));

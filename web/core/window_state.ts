@@ -130,7 +130,7 @@ export function revealPanel(store: WindowStore, panel: string, focus = true): vo
   });
 }
 
-/** One that says the same as one that stands there is not added again. */
+/** One that says the same as one that is there is not added again. */
 export function toast(store: WindowStore, kind: Toast['kind'], text: string): void {
   update(store, (draft) => {
     const others = draft.toasts.filter((one) => one.text !== text);

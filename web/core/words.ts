@@ -29,9 +29,9 @@ export interface Look {
 
 export interface Seen {
   values: (number | undefined)[];
-  /** Changed within the last second; while the node stands: since it stood last. */
+  /** Changed within the last second; while the node is paused: since it stood last. */
   changed: boolean[];
-  /** While the node stands: what it was when it stood last. */
+  /** While the node is paused: what it was when it stood last. */
   before: (number | undefined)[];
   /** The values are those of an instant of the past; before: what they are now. */
   past?: true;

@@ -70,7 +70,7 @@ std::vector<std::string> qemu_words(const Board& board, uint16_t id, const fs::p
     return {kQemu,
             "-M",
             std::string(board.machine),
-            "-icount",  // 2^6 ns for an instruction: time stands still where the computer is busy
+            "-icount",  // 2^6 ns for an instruction: time is stopped where the computer is busy
             "shift=6",
             "-kernel",
             image,

@@ -1,5 +1,6 @@
-// vagus net break: sets a breakpoint, waits until the node stands there, says where. The condition
-// is evaluated here, so a breakpoint lasts as long as the command, unless it is to be kept.
+// vagus net break: sets a breakpoint, waits until the node is paused there, says where. The
+// condition is evaluated here, so a breakpoint lasts as long as the command, unless it is to be
+// kept.
 #include <algorithm>
 
 #include "cli/net/show.hpp"
@@ -10,7 +11,7 @@
 namespace vagus::cli {
 namespace {
 
-// The script that stands in the file for this node, told to the network.
+// The script that is in the file for this node, told to the network.
 Result<const aesl::Script*> script_in(NetSession& session, const std::string& file,
                                       debug::NodeId id) {
     session::ScriptFile scripts = TRY(read_scripts(file));

@@ -16,7 +16,7 @@
 
 namespace vagus::cli {
 
-// What stands on the command line before the verb.
+// What is on the command line before the verb.
 struct NetOptions {
     std::string target;
     std::string project_file;  // empty: none

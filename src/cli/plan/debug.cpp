@@ -198,7 +198,7 @@ Result<Reply> Prompt::ask(run::Request request) {
         if (!report) continue;
         auto* answer = std::get_if<run::Answer>(&*report);
         if (answer && answer->request == number) return std::move(answer->reply);
-        // A run that has ended must begin anew, or nobody answers.
+        // A run that has ended must begin again, or nobody answers.
         take(*report);
     }
 }
@@ -450,7 +450,7 @@ Status Prompt::where(std::string_view) {
     return Status::done();
 }
 
-// Where the plan's robot stands in its world; only while the run, whose thread moves it, is paused.
+// Where the plan's robot is in its world; only while the run, whose thread moves it, is paused.
 std::string Prompt::robot_text() {
     session::PlanWorld* const world = run_.prepared().world();
     if (!world) return "";

@@ -63,9 +63,9 @@ std::string format_marker(const Texts& files) {
 Result<Texts> read_marker(const fs::path& path) {
     const std::string text = TRY(read_file(path.string()));
     const auto json = read_json(text);
-    const Json* root = std::get_if<Json>(&json);
-    const Json* files = root ? root->find("files") : nullptr;
-    const Json* format = root ? root->find("format") : nullptr;
+    const JsonValue* root = std::get_if<JsonValue>(&json);
+    const JsonValue* files = root ? root->find("files") : nullptr;
+    const JsonValue* format = root ? root->find("format") : nullptr;
     if (!files || !format || format->text != kMarkerFormat) {
         return Error{Code::BadInput,
                      fmt::format("{} is not what `vagus plan generate` wrote; remove it, and the "
@@ -77,7 +77,7 @@ Result<Texts> read_marker(const fs::path& path) {
     return digests;
 }
 
-// The digests of what stands in the folder from an earlier generation; an Error if the folder is
+// The digests of what is in the folder from an earlier generation; an Error if the folder is
 // somebody else's.
 Result<Texts> look_at(const fs::path& folder) {
     std::error_code error;

@@ -1,5 +1,5 @@
 // `vagus plan run --watch`: a plan file that is saved while the plan runs takes over
-// (docs/plans.md, P31). What stands in its way is said, and the plan runs on as it was.
+// (docs/plans.md, P31). What is in its way is said, and the plan runs on as it was.
 #pragma once
 
 #include <functional>

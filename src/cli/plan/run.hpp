@@ -31,7 +31,7 @@ struct PlanRunOptions {
     bool headless = false;  // plain lines also on a terminal
     bool quiet = false;     // neither lines nor a view
     std::string theme;      // "dark", "light"; empty: found out
-    bool watch = false;     // starts anew when a file is saved
+    bool watch = false;     // starts again when a file is saved
 };
 
 void add_plan_file(CLI::App& verb, std::string& file);

@@ -98,16 +98,16 @@ std::string template_text(const plan::Toolbox& toolbox, const Template& of) {
 
 // ---- JSON ----
 
-Json json_number(double number) {
-    Json json;
+JsonValue json_number(double number) {
+    JsonValue json;
     json.kind = JsonKind::Float;
     json.number = number;
     json.text = plan::text_of(number);
     return json;
 }
 
-Json json_value(const plan::Value& value) {
-    Json json;
+JsonValue json_value(const plan::Value& value) {
+    JsonValue json;
     switch (value.type()) {
         case plan::Type::Bool:
             json.kind = JsonKind::Bool;
@@ -125,7 +125,7 @@ Json json_value(const plan::Value& value) {
     return json;  // null
 }
 
-Json input_json(const plan::Input& input) {
+JsonValue input_json(const plan::Input& input) {
     std::vector<JsonMember> members = {
         json_member("name", input.name), json_member("type", type_text(input.type)),
         json_member("unit", input.unit), json_member("help", input.help)};
@@ -137,24 +137,24 @@ Json input_json(const plan::Input& input) {
     return json_object(std::move(members));
 }
 
-Json output_json(const plan::OutputDeclaration& output) {
+JsonValue output_json(const plan::OutputDeclaration& output) {
     return json_object({json_member("name", output.name),
                         json_member("type", type_text(output.type)),
                         json_member("unit", output.unit), json_member("help", output.help)});
 }
 
-Json outcome_json(const plan::Outcome& outcome) {
+JsonValue outcome_json(const plan::Outcome& outcome) {
     return json_object({json_member("name", outcome.name), json_member("help", outcome.help)});
 }
 
 template <typename List, typename Make>
-Json array_of(const List& list, Make make) {
-    std::vector<Json> items;
+JsonValue array_of(const List& list, Make make) {
+    std::vector<JsonValue> items;
     for (const auto& one : list) items.push_back(make(one));
     return json_array(std::move(items));
 }
 
-Json template_json(const Template& of, Detail detail) {
+JsonValue template_json(const Template& of, Detail detail) {
     const bool supervisor = of.kind == Kind::Supervisor;
     std::vector<JsonMember> members = {json_member("name", of.name),
                                        json_member("kind", plan::name_of(of.kind)),

@@ -94,7 +94,7 @@ TEST(Screen, BelowTheSmallestSizeItSaysWhatItNeeds) {
     }
 }
 
-// Nothing of a sentence may be lost on a narrow screen: it is what mends the mistake.
+// Nothing of a sentence may be lost on a narrow screen: it is what fixes the mistake.
 TEST(Screen, MistakesOfTheScriptAreBrokenAtSpacesAndShownWhole) {
     View view = small_world();
     view.problems = {

@@ -33,7 +33,7 @@ std::optional<Theme> theme_of_colorfgbg(std::string_view value);
 // The colour, darker where it would not be read on a white background: at least 4.5 to 1.
 Rgb readable(Rgb colour, Theme theme);
 
-// The same for all text of an area that stands on the background of the terminal.
+// The same for all text of an area that is on the background of the terminal.
 void make_readable(Grid& grid, Area area, Theme theme);
 
 }  // namespace vagus::cli

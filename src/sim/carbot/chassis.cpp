@@ -12,7 +12,7 @@ namespace {
 // Standard deviations (docs/carbot.md).
 constexpr double kScaleFlaw = 0.001;
 constexpr double kAngleFlaw = 0.03 * trig::kPi / 180;
-constexpr double kSlip = 0.005;    // of the speed, anew in every step
+constexpr double kSlip = 0.005;    // of the speed, again in every step
 constexpr double kSticks = 0.001;  // m/s: friction holds a slower wheel that shall stand
 
 // 1 - exp(-step / response) by its Padé approximation, which has the same bits everywhere

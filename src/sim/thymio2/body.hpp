@@ -1,4 +1,4 @@
-// The body of a Thymio II: hull, wheels, sensors. Every number here stands in docs/sensors.md with
+// The body of a Thymio II: hull, wheels, sensors. Every number here is in docs/sensors.md with
 // its source. Knows the arena and the ground; nothing of variables and nodes.
 #pragma once
 

@@ -1,4 +1,4 @@
-// LookAround and SearchWall: the distance sensor is turned around, the robot stands.
+// LookAround and SearchWall: the distance sensor is turned around, the robot is at rest.
 #include <cmath>
 #include <memory>
 #include <string>

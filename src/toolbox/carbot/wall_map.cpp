@@ -39,7 +39,7 @@ void WallMap::take(const std::vector<Sounding>& sweep) {
     }
 }
 
-// What is in sight is seen anew; what is far away or long ago does not matter any more.
+// What is in sight is seen again; what is far away or long ago does not matter any more.
 void WallMap::forget(const std::vector<Sounding>& sweep) {
     const double one = sweep.front().echo.angle_deg;
     const double other = sweep.back().echo.angle_deg;

@@ -52,7 +52,7 @@ export function showProblem(studio: Studio, index: number, focus = true): void {
   revealDoc(studio.window, finding.doc, finding.at, focus);
 }
 
-/** A button of a finding: its fix, as it is for the text that stands there now. */
+/** A button of a finding: its fix, as it is for the text that is there now. */
 export function pressFix(studio: Studio, finding: Finding, fix: Fix): void {
   const press = async () => {
     const now = sameFinding(finding, fix.label, await freshFindings(studio));
@@ -93,7 +93,7 @@ function stepProblem(studio: Studio, by: 1 | -1): void {
   showProblem(studio, stepIndex(findingsOf(studio).length, studio.window.getState().problem, by));
 }
 
-/** What is mended is shown, wherever the caret was. */
+/** What is fixed is shown, wherever the caret was. */
 async function fixNext(studio: Studio): Promise<void> {
   const finding = fixable(studio, ordered(await freshFindings(studio)));
   if (!finding) return toast(studio.window, 'note', text.problems.noFix);

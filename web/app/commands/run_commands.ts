@@ -183,7 +183,7 @@ function loadedIn(answers: readonly object[]): number {
   );
 }
 
-// A node that stands at a line goes to its next line; else the whole simulation goes on by an instant.
+// A node that is at a line goes to its next line; else the whole simulation goes on by an instant.
 async function step(studio: Studio): Promise<void> {
   const standing =
     robotOf(studio)?.nodes.filter((node) => node.state === 'paused' && node.at) ?? [];

@@ -113,7 +113,7 @@ export function chooseLayout(studio: Studio, layout: LayoutName): void {
 
 function resetLayout(studio: Studio): void {
   const { layout } = studio.window.getState();
-  keepState(studio, `layout.${layout}`, null);
+  for (const key of [`layout.${layout}`, `layout.small.${layout}`]) keepState(studio, key, null);
   update(studio.window, (draft) => void draft.layoutNonce++);
 }
 

@@ -1,6 +1,6 @@
 import { useSyncExternalStore } from 'react';
 
-// Narrower than any window in which panels can stand beside each other.
+// Narrower than any window in which panels can be beside each other.
 const kPhone = '(max-width: 600px)';
 
 function subscribe(listener: () => void): () => void {

@@ -5,7 +5,7 @@ import { kStroke } from '../parts/icons';
 import { text } from '../text';
 import { Notice } from './notice';
 
-/** A run that died says why, and begins anew with one press. */
+/** A run that died says why, and begins again with one press. */
 export function RunNotice() {
   const { registry } = useStudio();
   const drives = useDrives();

@@ -22,7 +22,7 @@ export function changeTo(before: string, after: string): ChangeSet {
   return ChangeSet.of(textDiff(before, after), before.length);
 }
 
-/** The text is JSON, and no value was joined with what stands beside it. */
+/** The text is JSON, and no value was joined with what is beside it. */
 export function isAsMeant(after: string, made: readonly ChangeSet[]): boolean {
   return treeIfGood(after) !== null && !made.some((one) => joinsWords(after, one));
 }

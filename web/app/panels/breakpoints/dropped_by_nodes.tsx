@@ -3,7 +3,7 @@ import { text } from '../../text';
 
 const words = text.held;
 
-/** Nodes that stand at a line of their script, and how many events they have dropped there. */
+/** Nodes that are paused at a line of their script, and how many events they have dropped there. */
 export function DroppedByNodes({ nodes }: { nodes: readonly Node[] }) {
   const standing = nodes.filter((node) => node.state === 'paused' && node.at !== undefined);
   if (standing.length === 0) return null;

@@ -6,7 +6,7 @@ import { HeldRow } from './held_row';
 
 const words = text.held;
 
-/** Events of the bus that wait while the plan stands; and what standing nodes have dropped. */
+/** Events of the bus that wait while the plan is paused; and what paused nodes have dropped. */
 export function HeldEvents() {
   const studio = useStudio();
   const drives = useDrives();

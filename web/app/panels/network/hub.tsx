@@ -23,7 +23,7 @@ export function BusLine({ robot }: { robot: Topics['robot']['is'] }) {
   );
 }
 
-/** The bus as a ring on which the nodes stand. */
+/** The bus as a ring on which the nodes are drawn. */
 export function Ring({ picture: { centre, ring } }: { picture: Picture }) {
   return <ellipse className="net__ring" cx={centre.x} cy={centre.y} rx={ring.x} ry={ring.y} />;
 }

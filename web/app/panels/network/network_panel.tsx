@@ -56,7 +56,7 @@ export default function NetworkPanel() {
   );
 }
 
-/** In a panel of so many pixels the tables stand beside the picture; robot.css knows it, too. */
+/** In a panel of so many pixels the tables are beside the picture; robot.css knows it, too. */
 const kBeside = 900;
 
 /** The room for the picture; it is drawn for it, so that its text is never scaled. */

@@ -68,7 +68,7 @@ interface RowProps {
   chosen: boolean;
 }
 
-// The document of the robot comes anew with each change of one node: rows are told apart by content.
+// The document of the robot comes again with each change of one node: rows are told apart by content.
 const Row = memo(NodeRow, (before, after) => JSON.stringify(before) === JSON.stringify(after));
 
 function NodeRow({ node, says, hears, chosen }: RowProps) {

@@ -9,7 +9,7 @@ import { revealDoc, toast } from '../../../core/window_state';
 import { text } from '../../text';
 import { planDeskOf } from '../../views/plan/plan_desk';
 
-/** Toolboxes are read anew within a moment. */
+/** Toolboxes are read again within a moment. */
 const kKnownWithinMs = 5000;
 
 export async function newTemplate(studio: Studio, wanted: WantedTemplate): Promise<void> {

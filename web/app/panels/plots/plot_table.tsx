@@ -6,7 +6,7 @@ import { useStudio } from '../../hooks';
 import { text } from '../../text';
 
 const words = text.plots;
-/** Rows of the table, the newest first; and how often it is written anew, so that it can be read. */
+/** Rows of the table, the newest first; and how often it is written again, so that it can be read. */
 const kRows = 50;
 const kEveryMs = 1000;
 

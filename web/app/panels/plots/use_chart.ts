@@ -1,4 +1,4 @@
-// The life of the drawing of a plot: made anew when curves, axes or theme change, fitted to its place,
+// The life of the drawing of a plot: made again when curves, axes or theme change, fitted to its place,
 // drawn when samples come.
 
 import { useEffect, useRef, type RefObject } from 'react';

@@ -7,7 +7,7 @@ import { text } from '../../text';
 import type { Row } from './rows';
 
 const words = text.timeline;
-/** What stands in one row; drawn anew when something in it looks different. */
+/** What is in one row; drawn again when something in it looks different. */
 export const LaneShapes = memo(Shapes, (a, b) => a.row === b.row && looksAlike(a, b));
 
 function Shapes({ row, view }: { row: Row; view: LaneView }) {

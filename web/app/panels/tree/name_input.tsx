@@ -19,7 +19,7 @@ const endings: Record<NewKind, string> = {
   text: '.txt',
 };
 
-/** Names a new file, or renames one, where it stands in the tree. */
+/** Names a new file, or renames one, where it is in the tree. */
 export function NameInput({
   folder,
   kind,

@@ -37,6 +37,7 @@ constexpr size_t kFirstBytesMax = 4096;  // read at once when a request begins
 constexpr auto kGoodbyeWithin = seconds(2);
 constexpr size_t kPieceBytes = 64 * 1024;  // of a message to a page: so much of it counts as taken
 constexpr auto kWrongTokenWithin = seconds(5);  // a request with a wrong token is answered
+constexpr size_t kWrongWaitingMax = 64;         // of such requests; the next one gets no answer
 
 // The same connection once more, to end it from outside whatever carries it: its coroutine then
 // reads the end. Closed with the last copy.
@@ -64,26 +65,36 @@ struct Shared {
     Strangers& strangers;
 };
 
-// A connection among the strangers, as long as it is one.
+// A connection among the strangers, as long as it is one. Cut off, it waits for nothing any more:
+// a socket that was shut down wakes who reads from it, but no timer.
 struct Place {
     Place(Strangers& all, const std::string& address, std::function<void()> end)
-        : strangers(all), number(all.add(owner_of(address), std::move(end))) {}
-    ~Place() { strangers.remove(number); }
+        : strangers(all), number(all.add(owner_of(address), [this, end = std::move(end)] {
+              cut_off = true;
+              end();
+              wake();
+          })) {}
+    ~Place() { leave(); }
     Place(const Place&) = delete;
     Place& operator=(const Place&) = delete;
     void heard() const { strangers.heard(number); }
+    void leave() const { strangers.remove(number); }
+
     Strangers& strangers;
+    bool cut_off = false;
+    std::function<void()> wake = [] {};  // ends what the connection waits for
     const Strangers::Place number;
 };
 
 // The WebSocket of a page.
 class Live : public std::enable_shared_from_this<Live> {
 public:
-    Live(Stream stream, ClientId id, Shared& shared, const Place& place)
+    // `place` is borrowed until run() has ended, and told of no longer.
+    Live(Stream stream, ClientId id, Shared& shared, Place& place)
         : socket_(std::move(stream)),
           id_(id),
           shared_(shared),
-          place_(place.number),
+          place_(place),
           ready_(socket_.get_executor()),
           taken_(socket_.get_executor()),
           goodbye_(socket_.get_executor()) {
@@ -110,7 +121,7 @@ public:
     // It has shown its token.
     void know() {
         known_ = true;
-        shared_.strangers.remove(place_);
+        place_.leave();
         socket_.read_message_max(shared_.options.message_bytes_max);
         taken_.cancel();
     }
@@ -128,7 +139,9 @@ public:
         if (failed) co_return;
         asio::co_spawn(
             socket_.get_executor(), [self] { return self->write(); }, asio::detached);
+        place_.wake = [this] { taken_.cancel(); };
         co_await read();
+        place_.wake = [] {};
         over_ = true;
         ready_.cancel();
         goodbye_.cancel();
@@ -162,10 +175,13 @@ private:
             }
             std::string text = beast::buffers_to_string(buffer.data());
             Message message = Protocol::get().read(text);
+            // Whoever shows a right token gives way to nobody, however late that is heard.
+            shows_token(message) ? place_.leave() : place_.heard();
             shared_.inbox.put(ClientText{id_, std::move(text), std::move(message)});
-            shared_.strangers.heard(place_);
             // The client must be known before it may say more.
-            while (!known_ && !closing_) co_await taken_.async_wait(as_tuple(use_awaitable));
+            while (!known_ && !closing_ && !place_.cut_off) {
+                co_await taken_.async_wait(as_tuple(use_awaitable));
+            }
             // Back-pressure: stop reading a client that sends faster than it is answered.
             waiting_bytes_ += size;
             if (++waiting_ < kClientTextsMax &&
@@ -174,6 +190,12 @@ private:
             }
             co_await taken_.async_wait(as_tuple(use_awaitable));
         }
+    }
+
+    bool shows_token(const Message& message) const {
+        const auto* request = std::get_if<Request>(&message);
+        return !known_ && request && request->name == "hello" &&
+               shared_.options.may_look(request->in["token"].get<std::string>());
     }
 
     awaitable<void> write() {
@@ -217,7 +239,7 @@ private:
     websocket::stream<Stream> socket_;
     const ClientId id_;
     Shared& shared_;
-    const Strangers::Place place_;
+    Place& place_;
     asio::steady_timer ready_, taken_, goodbye_;
     std::deque<Outgoing> queue_;
     size_t waiting_ = 0;  // texts that nobody has taken yet
@@ -315,7 +337,7 @@ private:
     // Of a connection; borrowed from the coroutine that began with it.
     struct Ends {
         Tcp::endpoint local, remote;
-        const Place& place;
+        Place& place;
     };
 
     Live* find(ClientId client) {
@@ -360,8 +382,7 @@ private:
         socket.set_option(Tcp::no_delay(true), failed);
         const Tcp::endpoint local = socket.local_endpoint(failed);
         const Tcp::endpoint remote = socket.remote_endpoint(failed);
-        const Place place(strangers_, remote.address().to_string(),
-                          ender_of(socket.native_handle()));
+        Place place(strangers_, remote.address().to_string(), ender_of(socket.native_handle()));
         const Ends ends{local, remote, place};
         Stream stream{beast::tcp_stream(std::move(socket))};
         stream.expires_after(options_.request_within);
@@ -406,7 +427,7 @@ private:
                                     : answer_for(asked, shown(address));
             if (answer.result() == http::status::unauthorized) {
                 stream.expires_after(options_.request_within);
-                co_await wait_for_wrong(address);
+                if (!co_await wait_for_wrong(address, ends.place)) co_return;
             }
             const bool more = answer.keep_alive();
             if (!co_await write(stream, std::move(answer), asked.method() == http::verb::head) ||
@@ -426,13 +447,27 @@ private:
                 .note = [this](std::string note) { inbox_.put(WebNote{std::move(note)}); }};
     }
 
-    // As long as a page that said hello with one would wait.
-    awaitable<void> wait_for_wrong(const std::string& address) {
+    Time now() const {
+        if (options_.now) return options_.now();
         const auto now = asio::steady_timer::clock_type::now().time_since_epoch();
-        const auto since = std::chrono::duration_cast<Duration>(now);
-        const Duration wait = wrong_.wrong(address, since) - since;
-        asio::steady_timer timer(io_, std::min<Duration>(wait, kWrongTokenWithin));
-        co_await timer.async_wait(as_tuple(use_awaitable));
+        return std::chrono::duration_cast<Time>(now);
+    }
+
+    // As long as a page that said hello with one would wait; false if it is not to be answered.
+    awaitable<bool> wait_for_wrong(const std::string& address, Place& place) {
+        const Time since = now();
+        const Time until = std::min<Time>(wrong_.wrong(address, since), since + kWrongTokenWithin);
+        if (waiting_wrong_ >= kWrongWaitingMax) co_return false;
+        ++waiting_wrong_;
+        asio::steady_timer timer(io_);
+        place.wake = [&timer] { timer.cancel(); };
+        for (Time at = now(); at < until && !place.cut_off; at = now()) {
+            timer.expires_after(until - at);
+            co_await timer.async_wait(as_tuple(use_awaitable));
+        }
+        place.wake = [] {};
+        --waiting_wrong_;
+        co_return !place.cut_off;
     }
 
     // Waits for the first bytes of the next request: a browser keeps its connections for the parts
@@ -502,6 +537,7 @@ private:
     // Connections that end with io_ still give their places back.
     Strangers strangers_{{options_.strangers_max, options_.strangers_of_address_max}};
     WrongTokens wrong_;
+    size_t waiting_wrong_ = 0;  // requests
     asio::io_context io_{1};
     std::optional<asio::ssl::context> tls_;
     Tcp::acceptor acceptor_;

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "base/time.hpp"
 #include "serve/protocol/protocol.hpp"
 
 namespace vagus::serve {
@@ -55,6 +56,7 @@ struct WebOptions {
     size_t hello_bytes_max = 4096;  // of a stranger's message
     std::chrono::milliseconds request_within = kRequestWithin;
     std::chrono::milliseconds idle_within = kIdleWithin;
+    std::function<Time()> now = {};  // for the wait after a wrong token; empty: the clock's
 };
 
 // A page has opened its WebSocket; nothing else is known of it.

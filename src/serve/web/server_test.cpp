@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -89,6 +90,13 @@ struct WebServerTest : testing::Test {
             }));
         socket->handshake(host(), "/live");
         return socket;
+    }
+
+    // Of this process, in which the server is.
+    static size_t open_files() {
+        const std::filesystem::directory_iterator files("/proc/self/fd");
+        return static_cast<size_t>(
+            std::distance(std::filesystem::begin(files), std::filesystem::end(files)));
     }
 
     test::Folder folder;
@@ -217,6 +225,73 @@ TEST_F(WebServerTest, WhoHoldsConnectionsKeepsNobodyOut) {
     boost::system::error_code ended;
     asio::read(idle.front(), asio::dynamic_buffer(nothing), ended);
     EXPECT_TRUE(ended == asio::error::eof || ended == asio::error::connection_reset);
+}
+
+// What was seen: a request with a wrong token that was cut off kept its socket for five seconds.
+TEST_F(WebServerTest, WrongTokensHoldNoMoreSocketsThanOtherStrangers) {
+    server.reset();
+    begin({.strangers_of_address_max = 3, .now = [] { return Time{}; }});  // nobody's wait ends
+    const std::string wrong = "POST /stop HTTP/1.1\r\nHost: " + host() +
+                              "\r\nContent-Length: 0\r\nAuthorization: Bearer wrong\r\n\r\n";
+    EXPECT_THAT(ask(wrong), StartsWith("HTTP/1.1 401"));  // the first one, at once
+    const size_t before = open_files();
+    for (int i = 0; i < 200; ++i) {
+        Tcp::socket gone = connect();
+        asio::write(gone, asio::buffer(wrong));
+        next<WebNote>();  // it has been heard, and waits
+    }
+    EXPECT_THAT(get("/healthz"), StartsWith("HTTP/1.1 200"));
+    // Two for each connection; a few may be on their way out.
+    EXPECT_LT(open_files(), before + 50);
+}
+
+// The same for pages that say hello with one, while the loop that refuses them is busy.
+TEST_F(WebServerTest, WrongHellosHoldNoMoreSocketsThanOtherStrangers) {
+    server.reset();
+    begin({.strangers_of_address_max = 3});
+    const size_t before = open_files();
+    for (int i = 0; i < 100; ++i) {
+        auto page = live();
+        page->write(asio::buffer(std::string("hello")));
+        next<ClientText>();
+    }
+    EXPECT_THAT(get("/healthz"), StartsWith("HTTP/1.1 200"));
+    EXPECT_LT(open_files(), before + 50);
+}
+
+// By a clock that a look at it puts a quarter of a second on: the third wrong token is answered
+// 0.5 s and 1 s after the first one.
+TEST_F(WebServerTest, WrongTokensAreAnsweredSlowerAndSlower) {
+    server.reset();
+    std::atomic<int> looks = 0;
+    begin({.now = [&looks] { return std::chrono::milliseconds(250) * looks++; }});
+    const std::string wrong =
+        "GET /metrics HTTP/1.1\r\nHost: " + host() + "\r\nAuthorization: Bearer wrong\r\n\r\n";
+    server->publish_metrics("vagus_up 1\n");
+    for (int i = 0; i < 3; ++i) EXPECT_THAT(ask(wrong), StartsWith("HTTP/1.1 401"));
+    EXPECT_GE(250 * looks, 1500);
+    server.reset();
+}
+
+// The loop is busy and has not heard its hello: others open connections meanwhile.
+TEST_F(WebServerTest, WhoShowsARightTokenGivesWayToNobody) {
+    server.reset();
+    begin({.may_look = [](std::string_view token) { return token == "right"; },
+           .strangers_of_address_max = 3});
+    auto page = live();
+    const ClientId client = next<ClientOpened>().client;
+    page->write(asio::buffer(
+        std::string(R"({"id":1,"do":"hello","in":{"token":"right","client":"0123456789"}})")));
+    next<ClientText>();
+    std::vector<Tcp::socket> idle;
+    for (int i = 0; i < 20; ++i) idle.push_back(connect());
+    EXPECT_THAT(get("/healthz"), StartsWith("HTTP/1.1 200"));
+    server->know(client);
+    server->close(client, "seen to the end");
+    beast::flat_buffer buffer;
+    boost::system::error_code failed;
+    page->read(buffer, failed);
+    EXPECT_EQ(page->reason().reason, "seen to the end");
 }
 
 TEST_F(WebServerTest, AStrangerSaysOneShortMessage) {

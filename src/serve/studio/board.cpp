@@ -7,6 +7,7 @@
 
 #include "serve/json.hpp"
 #include "serve/studio/merge_patch.hpp"
+#include "serve/thrown.hpp"
 
 namespace vagus::serve {
 
@@ -38,8 +39,8 @@ void Board::stream(const std::string& topic, size_t kept) {
     streams_[topic].kept = kept;
 }
 
-void Board::binary(const std::string& topic, OpenBinary open) {
-    binaries_[topic] = std::move(open);
+void Board::binary(const std::string& topic, OpenBinary open, CheckSubject check) {
+    binaries_[topic] = {std::move(open), std::move(check)};
 }
 
 void Board::touch(const std::string& topic) {
@@ -99,17 +100,22 @@ std::optional<Problem> Board::watch(ClientId client, const Json& in, Time now) {
         watch.next = std::max(stream.first, end - std::min<uint64_t>(end, last));
         watch.kinds = of.value("kinds", std::vector<std::string>{});
     } else {
-        watch.source = binaries_.at(topic)(of);
+        const Binary& binary = binaries_.at(topic);
+        if (auto problem = binary.check(of)) return problem;
+        watch.source = binary.open(of);
     }
+    ++subscriptions_;
     watches_[{client, number}] = std::move(watch);
     return std::nullopt;
 }
 
 void Board::unwatch(ClientId client, uint32_t number) {
+    ++subscriptions_;
     watches_.erase({client, number});
 }
 
 void Board::drop(ClientId client) {
+    ++subscriptions_;
     std::erase_if(watches_, [&](const auto& entry) { return entry.first.first == client; });
 }
 
@@ -123,7 +129,9 @@ std::vector<Json> Board::subjects(const std::string& topic) const {
     return list;
 }
 
-void Board::flush(Time now, const std::function<bool(ClientId)>& has_room, const Send& send) {
+std::vector<std::string> Board::flush(Time now, const std::function<bool(ClientId)>& has_room,
+                                      const Send& send) {
+    std::vector<std::string> faults;
     for (auto& [place, watch] : watches_) {
         if (watch.due > now) continue;
         // Asked again at its own pace, not at once: who does not read costs nothing.
@@ -132,16 +140,11 @@ void Board::flush(Time now, const std::function<bool(ClientId)>& has_room, const
             continue;
         }
         bool sent = false;
-        switch (watch.kind) {
-            case TopicType::Kind::Document:
-                sent = flush_document(place, watch, send);
-                break;
-            case TopicType::Kind::Stream:
-                sent = flush_stream(place, watch, send);
-                break;
-            case TopicType::Kind::Binary:
-                sent = flush_binary(place, watch, send);
-                break;
+        const auto thrown = thrown_by([&] { sent = flush_one(place, watch, send); });
+        if (thrown) {
+            watch.due = now + kThrownAgain;
+            faults.push_back(watch.topic + ": " + *thrown);
+            continue;
         }
         // A change after a quiet time goes out at once.
         if (sent || watch.kind == TopicType::Kind::Binary) watch.due = now + watch.every;
@@ -153,6 +156,19 @@ void Board::flush(Time now, const std::function<bool(ClientId)>& has_room, const
             });
         });
     }
+    return faults;
+}
+
+bool Board::flush_one(const Place& place, Watch& watch, const Send& send) {
+    switch (watch.kind) {
+        case TopicType::Kind::Document:
+            return flush_document(place, watch, send);
+        case TopicType::Kind::Stream:
+            return flush_stream(place, watch, send);
+        case TopicType::Kind::Binary:
+            return flush_binary(place, watch, send);
+    }
+    return false;
 }
 
 bool Board::flush_document(const Place& place, Watch& watch, const Send& send) {

@@ -27,7 +27,8 @@
 
 namespace vagus::serve {
 
-constexpr double kWatchRate = 20;            // a second, unless the page asks for another
+constexpr double kWatchRate = 20;  // a second, unless the page asks for another
+constexpr Duration kThrownAgain = std::chrono::seconds(1);
 constexpr size_t kStreamItemsAtOnce = 1000;  // in one message of a stream
 
 // One subscription to binary frames; it remembers what it has sent.
@@ -42,12 +43,16 @@ class Board {
 public:
     using MakeDocument = std::function<Json(const Json& of)>;
     using OpenBinary = std::function<std::unique_ptr<BinaryWatch>(const Json& of)>;
+    // Why there is no such subscription, if there is none.
+    using CheckSubject = std::function<std::optional<Problem>(const Json& of)>;
     using Send = std::function<void(ClientId, bool binary, std::string bytes)>;
 
     // ---- what there is; the names are those of the protocol ----
     void document(const std::string& topic, MakeDocument make);
     void stream(const std::string& topic, size_t kept);
-    void binary(const std::string& topic, OpenBinary open);
+    void binary(
+        const std::string& topic, OpenBinary open,
+        CheckSubject check = [](const Json&) { return std::optional<Problem>(); });
 
     // The documents of a topic may differ from now on.
     void touch(const std::string& topic);
@@ -63,9 +68,13 @@ public:
     // Subjects of a topic that somebody watches now.
     std::vector<Json> subjects(const std::string& topic) const;
     bool watched(const std::string& topic) const { return !subjects(topic).empty(); }
+    // Another number whenever subjects() may be others.
+    uint64_t subscriptions() const { return subscriptions_; }
 
-    // Sends what is due and differs to every page for which has_room says yes.
-    void flush(Time now, const std::function<bool(ClientId)>& has_room, const Send& send);
+    // Sends what is due and differs to every page for which has_room says yes. What cannot be made
+    // waits for kThrownAgain, and keeps nothing else back: gives "TOPIC: WHY" of each.
+    std::vector<std::string> flush(Time now, const std::function<bool(ClientId)>& has_room,
+                                   const Send& send);
     // When flush() may have something again, at the latest; now, if something is touched.
     Time next_due(Time now) const;
 
@@ -100,6 +109,7 @@ private:
     };
     using Place = std::pair<ClientId, uint32_t>;
 
+    bool flush_one(const Place& place, Watch& watch, const Send& send);
     bool flush_document(const Place& place, Watch& watch, const Send& send);
     bool flush_stream(const Place& place, Watch& watch, const Send& send);
     bool flush_binary(const Place& place, Watch& watch, const Send& send);
@@ -109,8 +119,13 @@ private:
     std::map<std::string, Document> documents_;
     std::map<std::string, std::map<std::string, Subject>> subjects_;  // by topic, by subject
     std::map<std::string, Stream> streams_;
-    std::map<std::string, OpenBinary> binaries_;
+    struct Binary {
+        OpenBinary open;
+        CheckSubject check;
+    };
+    std::map<std::string, Binary> binaries_;
     std::map<Place, Watch> watches_;
+    uint64_t subscriptions_ = 0;
 };
 
 }  // namespace vagus::serve

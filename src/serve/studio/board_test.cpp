@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <stdexcept>
 
 #include "serve/json.hpp"
 #include "serve/studio/merge_patch.hpp"
@@ -36,9 +37,9 @@ struct Fixture {
         });
         board.stream("console", 3);
     }
-    void flush(Time now) {
+    std::vector<std::string> flush(Time now) {
         sent.clear();
-        board.flush(
+        return board.flush(
             now, [this](ClientId client) { return client != full; },
             [this](ClientId client, bool binary, std::string bytes) {
                 sent.push_back({client, binary, std::move(bytes)});
@@ -197,6 +198,26 @@ TEST(Board, WrongSubscriptionsAreRefused) {
     EXPECT_EQ(f.board.watch(kPage, {{"watch", 1000}, {"topic", "clock"}}, 0s)->code, "limit");
     f.board.drop(kPage);
     EXPECT_FALSE(f.board.watch(kPage, {{"watch", 1000}, {"topic", "clock"}}, 0s));
+}
+
+// What was seen: one document that threw kept all that come after it from every page.
+TEST(Board, ADocumentThatCannotBeMadeKeepsNoOtherBack) {
+    Fixture f;
+    int tried = 0;
+    f.board.document("breakpoints", [&](const Json&) -> Json {
+        ++tried;
+        throw std::runtime_error("no such line");
+    });
+    f.watch(kPage, {{"watch", 1}, {"topic", "breakpoints"}});
+    f.watch(kPage, {{"watch", 2}, {"topic", "clock"}});
+    EXPECT_EQ(f.flush(1s), std::vector<std::string>{"breakpoints: no such line"});
+    ASSERT_EQ(f.sent.size(), 1u);
+    EXPECT_EQ(f.sent[0].json()["watch"], 2);
+    // It is tried again later, not at each turn.
+    EXPECT_TRUE(f.flush(1s + kThrownAgain / 2).empty());
+    EXPECT_EQ(f.board.next_due(1s), 1s + kThrownAgain);
+    EXPECT_EQ(f.flush(1s + kThrownAgain).size(), 1u);
+    EXPECT_EQ(tried, 2);
 }
 
 }  // namespace

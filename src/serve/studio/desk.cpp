@@ -362,12 +362,12 @@ void Desk::tick(Time now) {
         return found != connections_.end() && !found->second.dropped &&
                found->second.unsent < kRoomBytes;
     };
-    const auto thrown = thrown_by([&] {
-        board_.flush(now, has_room, [this](ClientId client, bool binary, std::string bytes) {
-            send(client, binary, std::move(bytes));
-        });
-    });
-    if (thrown) log("a document cannot be shown: " + *thrown);
+    const auto to_page = [this](ClientId client, bool binary, std::string bytes) {
+        send(client, binary, std::move(bytes));
+    };
+    for (const std::string& fault : board_.flush(now, has_room, to_page)) {
+        log("a document cannot be shown: " + fault);
+    }
     const Duration passed = since < kOnTime ? since : Duration{};
     for (auto& [client, connection] : connections_) {
         if (!connection.dropped) look_after(client, connection, passed, now);

@@ -32,6 +32,7 @@
 #include "serve/target/carrier.hpp"
 #include "serve/target/dropped_events.hpp"
 #include "serve/target/stopping.hpp"
+#include "serve/target/word_ranges.hpp"
 
 namespace vagus::serve {
 
@@ -43,6 +44,7 @@ constexpr size_t kLeasesMax = 1024;        // clients that drive by hand
 constexpr Duration kRatesEvery = 1s;       // events a second are counted over this
 constexpr size_t kTrafficMax = 2000;       // different events by sender
 constexpr Duration kWatchedEvery = 50ms;   // variables that somebody looks at are asked for
+constexpr size_t kWatchedWordsMax = 4096;  // of one subscription
 constexpr size_t kSamplesKept = 20'000;    // of each plotted word
 constexpr size_t kSamplesAtOnce = 10'000;  // in one frame; the rest comes with the next
 
@@ -171,6 +173,8 @@ public:
 
     void tick(Time now);
     Time next_tick() const;
+    // How often it was put together what pages look at.
+    uint64_t watched_made() const { return watched_made_; }
 
 private:
     using Act = Result<debug::RequestId> (Target::*)(uint16_t);
@@ -281,6 +285,7 @@ private:
     void hear_place(const debug::Event& event, const debug::BreakpointResult& result);
     void happen(const char* kind, uint16_t node, const std::string& name, const std::string& text,
                 const std::vector<int16_t>& args = {});
+    void put_watched_together();
     void watch_what_is_shown();
     void tell_unwatched(uint16_t node, const debug::NodeView& view, const std::string& name);
     static std::map<std::string, std::pair<uint32_t, uint32_t>> variables_of(
@@ -338,6 +343,9 @@ private:
 
     // Values of watched variables as they were told last: by node and address.
     std::map<uint16_t, std::map<uint16_t, int16_t>> values_;
+    std::map<uint16_t, WordRanges> wanted_;  // that pages look at, by node
+    uint64_t wanted_of_ = 0;                 // Board::subscriptions()
+    uint64_t watched_made_ = 0;
     std::map<uint16_t, std::set<std::string>> watched_;  // names that we watch at the network
     struct Sample {
         double t;

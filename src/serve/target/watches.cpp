@@ -1,4 +1,6 @@
 // Values of variables for pages: only what somebody looks at is asked from the bus.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -19,46 +21,67 @@ void append(std::string& bytes, T value) {
 
 // The words of some ranges of a node, sent when they differ from what was sent.
 struct Target::VariableWatch final : BinaryWatch {
-    VariableWatch(Target& its_target, const Json& of) : target(its_target), node(of["node"]) {
+    VariableWatch(Target& its_target, const Json& of)
+        : target(its_target), node(of["node"]), ranges(ranges_of(of)) {}
+
+    static WordRanges ranges_of(const Json& of) {
+        WordRanges ranges;
         for (const Json& range : of["ranges"]) {
             if (!range.is_array() || range.size() != 2 || !range[0].is_number_unsigned() ||
                 !range[1].is_number_unsigned()) {
                 continue;
             }
             const uint64_t first = range[0], count = range[1];
-            if (count <= kCountMax && first + count <= 0x10000) {
-                ranges.emplace_back(static_cast<uint16_t>(first), static_cast<uint16_t>(count));
+            if (count <= kAddresses && first <= kAddresses - count) {
+                ranges.push_back(
+                    {static_cast<uint32_t>(first), static_cast<uint32_t>(first + count)});
             }
         }
+        return merged(std::move(ranges));
+    }
+
+    static std::optional<Problem> fault_of(const Json& of) {
+        const size_t words = words_in(ranges_of(of));
+        if (words <= kWatchedWordsMax) return std::nullopt;
+        return Problem{"limit",
+                       fmt::format("variables: {} words are asked for; one subscription has at "
+                                   "most {}: ask for those that are looked at",
+                                   words, kWatchedWordsMax),
+                       "in.of.ranges"};
     }
 
     std::optional<std::pair<double, std::string>> next() override {
         const auto values = target.values_.find(node);
         if (values == target.values_.end()) return std::nullopt;
         std::string payload;
-        for (const auto& [first, count] : ranges) {
-            std::string words;
-            bool known = count > 0;
-            for (uint32_t address = first; known && address < uint32_t{first} + count; ++address) {
-                const auto value = values->second.find(static_cast<uint16_t>(address));
-                known = value != values->second.end();
-                if (known) append(words, value->second);
-            }
-            if (!known || sent[first] == words) continue;
-            sent[first] = words;
-            append(payload, first);
-            append(payload, count);
+        for (const WordRange& range : ranges) {
+            const std::string words = words_of(values->second, range);
+            if (words.empty() || sent[range.first] == words) continue;
+            sent[range.first] = words;
+            append(payload, static_cast<uint16_t>(range.first));
+            append(payload, static_cast<uint16_t>(range.count()));
             payload += words;
         }
         if (payload.empty()) return std::nullopt;
         return std::pair(target.hints_.time(), payload);
     }
 
-    static constexpr uint64_t kCountMax = 4096;
+    // Empty if one of them is not known.
+    static std::string words_of(const std::map<uint16_t, int16_t>& values, const WordRange& range) {
+        std::string words;
+        auto value = values.lower_bound(static_cast<uint16_t>(range.first));
+        for (uint32_t address = range.first; address < range.end; ++address, ++value) {
+            if (value == values.end() || value->first != address) return {};
+            append(words, value->second);
+        }
+        return words;
+    }
+
+    static constexpr uint64_t kAddresses = 0x10000;
     Target& target;
     const uint16_t node;
-    std::vector<std::pair<uint16_t, uint16_t>> ranges;
-    std::map<uint16_t, std::string> sent;
+    const WordRanges ranges;
+    std::map<uint32_t, std::string> sent;
 };
 
 // Every value of some words that was seen since the last frame.
@@ -106,38 +129,46 @@ struct Target::SampleWatch final : BinaryWatch {
 
 void Target::declare_watches() {
     desk_.board().binary(
-        "variables", [this](const Json& of) { return std::make_unique<VariableWatch>(*this, of); });
+        "variables", [this](const Json& of) { return std::make_unique<VariableWatch>(*this, of); },
+        [](const Json& of) { return VariableWatch::fault_of(of); });
     desk_.board().binary(
         "samples", [this](const Json& of) { return std::make_unique<SampleWatch>(*this, of); });
 }
 
-// Asks for the variables that pages show now, and no longer for those that they do not.
-void Target::watch_what_is_shown() {
-    std::map<uint16_t, std::set<uint16_t>> wanted;  // by node: addresses
+// What pages look at is another only when a page asks for something else.
+void Target::put_watched_together() {
+    if (wanted_of_ == desk_.board().subscriptions()) return;
+    wanted_of_ = desk_.board().subscriptions();
+    ++watched_made_;
+    wanted_.clear();
     for (const Json& of : desk_.board().subjects("variables")) {
-        const VariableWatch watch(*this, of);
-        for (const auto& [first, count] : watch.ranges) {
-            for (uint32_t address = first; address < uint32_t{first} + count; ++address) {
-                wanted[watch.node].insert(static_cast<uint16_t>(address));
-            }
-        }
+        const WordRanges ranges = VariableWatch::ranges_of(of);
+        WordRanges& all = wanted_[of["node"].get<uint16_t>()];
+        all.insert(all.end(), ranges.begin(), ranges.end());
     }
     std::set<std::pair<uint16_t, uint16_t>> plotted;
     for (const Json& of : desk_.board().subjects("samples")) {
         for (const auto& word : SampleWatch::words_of(of)) {
-            wanted[word.first].insert(word.second);
+            wanted_[word.first].push_back({word.second, uint32_t{word.second} + 1});
             plotted.insert(word);
         }
     }
+    for (auto& [node, ranges] : wanted_) ranges = merged(std::move(ranges));
     for (const auto& word : plotted) samples_[word];
     std::erase_if(samples_, [&](const auto& entry) { return !plotted.contains(entry.first); });
+}
+
+// Asks for the variables that pages show now, and no longer for those that they do not.
+void Target::watch_what_is_shown() {
+    put_watched_together();
     for (const uint16_t node : live_nodes()) {
-        if (wanted[node].empty() && watched_[node].empty()) continue;
+        const auto wanted = wanted_.find(node);
+        if (wanted == wanted_.end() && watched_[node].empty()) continue;
         std::set<std::string> names;
         const debug::NodeView* view = network_->node(node);
         for (const auto& [name, place] : variables_of(*view)) {
-            const auto first = wanted[node].lower_bound(static_cast<uint16_t>(place.first));
-            const bool shown = first != wanted[node].end() && *first < place.first + place.second;
+            const bool shown = wanted != wanted_.end() &&
+                               has_some(wanted->second, place.first, place.first + place.second);
             if (!shown) continue;
             names.insert(name);
             if (watched_[node].contains(name)) continue;

@@ -1,0 +1,58 @@
+// What pages look at, with as many words as somebody likes to name.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "serve/target/test_target.hpp"
+#include "serve/target/word_ranges.hpp"
+
+namespace vagus::serve {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(WordRanges, WhatOverlapsIsOne) {
+    EXPECT_EQ(merged({{6, 8}, {1, 6}, {0, 2}, {3, 3}, {7, 8}}), (WordRanges{{0, 6}, {6, 8}}));
+    const WordRanges ranges = merged({{2, 4}, {10, 11}});
+    EXPECT_EQ(words_in(ranges), 3u);
+    EXPECT_FALSE(has_some(ranges, 0, 2));
+    EXPECT_TRUE(has_some(ranges, 0, 3));
+    EXPECT_TRUE(has_some(ranges, 3, 10));
+    EXPECT_FALSE(has_some(ranges, 4, 10));
+    EXPECT_TRUE(has_some(ranges, 4, 11));
+    EXPECT_FALSE(has_some(ranges, 11, 99));
+}
+
+class WatchedTest : public RobotTest {
+protected:
+    Json watch(uint32_t number, uint32_t node, const Json& ranges) {
+        return say("watch", {{"watch", number},
+                             {"topic", "variables"},
+                             {"of", {{"node", node}, {"ranges", ranges}}}});
+    }
+};
+
+// What was seen: 256 times the same 4096 words, put into a set word by word at every turn.
+TEST_F(WatchedTest, NamingWordsTwiceCostsNothing) {
+    connect();
+    Json ranges = Json::array();
+    for (int i = 0; i < 256; ++i) ranges.push_back({0, 4096});
+    EXPECT_TRUE(watch(1, kDrive, ranges).contains("ok"));
+    const uint64_t made = target.watched_made();
+    for (int i = 0; i < 100; ++i) pass(10ms);
+    EXPECT_EQ(target.watched_made(), made + 1);
+    ask("unwatch", {{"watch", 1}});
+    pass(10ms);
+    EXPECT_EQ(target.watched_made(), made + 2);
+}
+
+TEST_F(WatchedTest, ASubscriptionHasALimitOfWords) {
+    EXPECT_TRUE(watch(1, kDrive, {{0, 4000}, {4000, 96}}).contains("ok"));
+    const Json answer = watch(2, kDrive, {{0, 4000}, {4000, 97}});
+    EXPECT_EQ(answer["error"]["code"], "limit");
+    EXPECT_THAT(answer["error"]["what"].get<std::string>(), HasSubstr("4097 words"));
+}
+
+}  // namespace
+}  // namespace vagus::serve

@@ -45,14 +45,19 @@ void Files::enter(fs::path root, std::vector<std::string> only) {
     }
     for (const std::string& path : paths) {
         if (!waiting_.contains(path) || load(path).ok()) continue;
-        // The file is gone, the text is not.
-        const auto unsaved = waiting_.extract(path);
-        if (unsaved.empty()) continue;
-        File& file = files_[path];
-        file.text = OpenText(path, "", first_version_);
-        file.gone = true;
-        recover(path, file, unsaved.mapped());
+        (void)load_without_file(path).ok();
     }
+}
+
+// The file is gone, or is no text any more; what was typed is not.
+Result<Files::File*> Files::load_without_file(const std::string& path) {
+    const auto unsaved = waiting_.extract(path);
+    if (unsaved.empty()) return not_there(path);
+    File& file = files_[path];
+    file.text = OpenText(path, "", first_version_);
+    file.gone = true;
+    recover(path, file, unsaved.mapped());
+    return &file;
 }
 
 // A text of an earlier session; `file` is as it is on disk.
@@ -65,11 +70,17 @@ void Files::recover(const std::string& path, File& file, Unsaved unsaved) {
         file.conflict = Conflict{disk};
     }
     file.text.take(unsaved.text, "server");
-    file.unsaved = true;
+    file.unsaved = unsaved.text != file.saved;
     file.journaled = true;
+    // Somebody took the file away. It is here for whoever still has it open, and for no one after
+    // the next restart.
+    if (file.gone && !file.unsaved) {
+        file.journaled = false;
+        return journal_.forget(path);
+    }
     // The file changed meanwhile: what both did is put together, or both are shown. The journal
     // gets it with the next change: whoever only reads a project writes nothing.
-    if (!file.gone && take_disk(file, std::move(disk))) {
+    if (!file.gone && take_disk(file, std::move(disk), CameBack::No)) {
         file.unsaved = file.text.bytes() != file.saved;
     }
     recovered_.push_back(path);
@@ -132,7 +143,7 @@ void Files::add_unsaved_without_file(std::vector<FileInfo>& found) const {
     for (const auto& [path, file] : files_) {
         const bool listed = std::any_of(found.begin(), found.end(),
                                         [&](const FileInfo& info) { return info.path == path; });
-        if (!listed && file.unsaved) {
+        if (!listed && file.unsaved && !file.deleted) {
             found.push_back({path, kind_of_file(path), file.text.text(0).size(), true});
         }
     }
@@ -143,7 +154,7 @@ std::vector<FileInfo> Files::list_only() const {
     for (const std::string& path : only_) {
         std::error_code failed;
         const uintmax_t size = fs::file_size(root_ / path, failed);
-        if (failed && !is_unsaved(path)) continue;
+        if (failed && !counts_as_file(path)) continue;
         found.push_back({path, kind_of_file(path), failed ? 0 : size, is_unsaved(path)});
     }
     return found;
@@ -198,7 +209,7 @@ Result<Files::File*> Files::load(const std::string& path) {
     if (known != files_.end()) return &known->second;
     const fs::path real_path = TRY(real(path));
     std::error_code failed;
-    if (!fs::is_regular_file(real_path, failed)) return not_there(path);
+    if (!fs::is_regular_file(real_path, failed)) return load_without_file(path);
     if (fs::file_size(real_path, failed) > kTextBytesMax) {
         return Error{Code::Limit, fmt::format("{}: more than {} bytes; the studio edits shorter "
                                               "texts only",
@@ -238,6 +249,7 @@ DocumentState Files::state_of(const Opened& opened) const {
             .unsaved = file.unsaved,
             .by = updates.by(),
             .conflict = file.conflict.has_value(),
+            .disk_hash = file.conflict ? fmt::format("{:016x}", hash_of(file.conflict->bytes)) : "",
             .gone = file.gone};
 }
 
@@ -248,6 +260,12 @@ Result<DocumentView> Files::open(const std::string& doc) {
 
 Result<DocumentState> Files::state(const std::string& doc) {
     return state_of(TRY(opened(doc)));
+}
+
+Result<DocumentState> Files::state_now(const std::string& doc) {
+    const Opened found = TRY(opened(doc));
+    look_at_disk(found.path, *found.file, Look::Closely);
+    return state(doc);
 }
 
 Result<Missing> Files::since(const std::string& doc, uint32_t version) {
@@ -309,16 +327,23 @@ bool Files::is_unsaved(const std::string& doc) const {
 Result<std::string> Files::text(const std::string& path) const {
     const auto known = files_.find(path);
     if (known == files_.end()) return FileText::read(TRY(bytes(path))).text();
-    if (known->second.gone && !known->second.unsaved) return not_there(path);
+    if (!counts_as_file(path)) return not_there(path);
     return known->second.text.text(0);
 }
 
-bool Files::exists(const std::string& path) const {
+// A text of which a file is there, or is to be.
+bool Files::counts_as_file(const std::string& path) const {
     const auto known = files_.find(path);
-    if (known != files_.end() && !known->second.gone) return true;
+    if (known == files_.end()) return false;
+    const File& file = known->second;
+    return !file.gone || (file.unsaved && !file.deleted);
+}
+
+bool Files::exists(const std::string& path) const {
+    if (counts_as_file(path)) return true;
     const Result<fs::path> real_path = real(path);
     std::error_code failed;
-    return is_unsaved(path) || (real_path.ok() && fs::is_regular_file(real_path.value(), failed));
+    return real_path.ok() && fs::is_regular_file(real_path.value(), failed);
 }
 
 Result<uintmax_t> Files::size(const std::string& path) const {
@@ -342,7 +367,7 @@ Status Files::make(const std::string& path, std::string_view content) {
     if (fs::exists(real_path, failed)) {
         return Error{Code::Refused, path + ": there is such a file already; take another name"};
     }
-    if (is_unsaved(path)) {
+    if (counts_as_file(path)) {
         return Error{Code::Refused, path + ": there is an unsaved text of that name; save it"};
     }
     fs::create_directories(real_path.parent_path(), failed);
@@ -397,7 +422,6 @@ Status Files::rename(const std::string& path, const std::string& to) {
 }
 
 void Files::move(const std::string& path, const std::string& to, File file) {
-    journal_.forget(path);
     moved_.erase(to);
     if (moved_.size() >= kMovedMax) moved_.erase(moved_.begin());
     moved_[path] = to;
@@ -408,20 +432,48 @@ void Files::move(const std::string& path, const std::string& to, File file) {
     }
     std::replace(recovered_.begin(), recovered_.end(), path, to);
     if (file.sync > 0) file.sync = sync_.post((root_ / to).string());
+    file.journaled_as.push_back(path);
     File& kept = files_[to] = std::move(file);
     keep_in_journal(to, kept);
+}
+
+// A text that was renamed keeps the entry of its old name until it has one of the new: the disk may
+// be full.
+void Files::journal_is_written(File& file) {
+    for (const std::string& old : std::exchange(file.journaled_as, {})) {
+        if (!files_.contains(old)) journal_.forget(old);
+    }
+}
+
+// A free one.
+fs::path Files::place_in_trash(const fs::path& name) const {
+    std::error_code failed;
+    const fs::path trash = root_ / kOwnFolder / "trash";
+    fs::create_directories(trash, failed);
+    fs::path place = trash / name;
+    for (int i = 2; fs::exists(place, failed); ++i) {
+        place = trash / fmt::format("{} {}", name.string(), i);
+    }
+    return place;
+}
+
+Status Files::remove_text(const std::string& path, File& file) {
+    file.saved = file.text.bytes();
+    TRY(write_file_unsynced(place_in_trash(fs::path(path).filename()).string(), file.saved));
+    file.deleted = true;
+    std::erase(recovered_, path);
+    changed(path, file);
+    return Status::done();
 }
 
 Status Files::remove(const std::string& path) {
     const fs::path real_path = TRY(real(path));
     std::error_code failed;
-    const fs::path trash = root_ / kOwnFolder / "trash";
-    fs::create_directories(trash, failed);
-    fs::path place = trash / real_path.filename();
-    for (int i = 2; fs::exists(place, failed); ++i) {
-        place = trash / fmt::format("{} {}", real_path.filename().string(), i);
+    const auto known = files_.find(path);
+    if (known != files_.end() && known->second.gone && counts_as_file(path)) {
+        return remove_text(path, known->second);
     }
-    fs::rename(real_path, place, failed);
+    fs::rename(real_path, place_in_trash(real_path.filename()), failed);
     if (failed) {
         return Error{Code::Unavailable,
                      fmt::format("{}: cannot be deleted: {}", path, failed.message())};
@@ -429,9 +481,9 @@ Status Files::remove(const std::string& path) {
     // Texts stay: to be looked at, and saved again.
     for (auto& [name, file] : files_) {
         if (!is_in(path, name)) continue;
-        file.saved = file.text.bytes();
-        file.conflict.reset();
-        file.gone = true;
+        // What the file had last, which is in the trash now.
+        if (file.conflict) file.saved = std::exchange(file.conflict, std::nullopt)->bytes;
+        file.gone = file.deleted = true;
         changed(name, file);
     }
     changed_(path);
@@ -456,17 +508,17 @@ void Files::tick(Time now) {
 
 void Files::write_journal(const std::string& path, File& file) {
     file.journal_due.reset();
-    if (!file.unsaved && file.sync == 0) {
+    // What somebody else took away is on no disk.
+    const bool taken = file.gone && !file.deleted && !file.text.bytes().empty();
+    if (!file.unsaved && !taken && file.sync == 0) {
         if (std::exchange(file.journaled, false)) journal_.forget(path);
-        return;
+        return journal_is_written(file);
     }
-    Unsaved unsaved{file.saved, file.text.bytes()};
-    if (file.gone) unsaved.base.reset();
-    const Status written = journal_.write(path, unsaved);
+    const Status written = journal_.write(path, {file.saved, file.text.bytes()});
     if (written.ok()) {
         file.journaled = true;
         journal_fails_ = false;
-        return;
+        return journal_is_written(file);
     }
     if (!std::exchange(journal_fails_, true)) {
         trouble_ =

@@ -47,6 +47,7 @@ struct DocumentState {
     bool unsaved = false;
     std::string by;         // who changed it last: Update::by
     bool conflict = false;  // the file changed on disk where the text is unsaved
+    std::string disk_hash;  // of what it has there then
     bool gone = false;      // the file is not on disk
 };
 
@@ -89,6 +90,8 @@ public:
     // ---- documents ----
     Result<DocumentView> open(const std::string& doc);
     Result<DocumentState> state(const std::string& doc);
+    // The same after a look at the disk.
+    Result<DocumentState> state_now(const std::string& doc);
     Result<Missing> since(const std::string& doc, uint32_t version);
     // The Error has code Refused if `version` is not the one there is.
     Result<uint32_t> edit(const std::string& doc, uint32_t version, std::vector<TextChange> changes,
@@ -100,8 +103,9 @@ public:
     // text then, for everybody; when_on_disk() says when a power cut cannot take it back. Until
     // then it is in the journal, too.
     Status save(const std::string& doc);
-    // Saves what can be saved; the Error names what cannot. Files that are gone from the disk and
-    // have nothing unsaved stay gone.
+    // Saves what can be saved; the Error names what cannot, and has code Refused if a file has a
+    // conflict. Files that were deleted here stay deleted, as do others that are gone from the disk
+    // and have nothing unsaved.
     Status save_all(std::vector<std::string>& saved);
     // Calls `then` from tick() when all that was written up to now is on the disk, or says what is
     // not; at once if that is so already. Nobody waits meanwhile.
@@ -133,7 +137,9 @@ public:
     Status make(const std::string& path, std::string_view content);
     Status make_folder(const std::string& path);
     Status rename(const std::string& path, const std::string& to);
-    Status remove(const std::string& path);  // into .vagus/trash
+    // Into .vagus/trash. What was typed and not saved stays as a text without a file: save() makes
+    // it again. A text that has no file already goes into the trash itself.
+    Status remove(const std::string& path);
 
     void tick(Time now);
     Time next_tick() const { return next_tick_; }
@@ -155,9 +161,11 @@ private:
         std::optional<Conflict> conflict;
         bool unsaved = false;  // the text's bytes are not `saved`
         bool gone = false;
+        bool deleted = false;  // gone, because somebody said so here: `saved` is in the trash
         std::optional<Time> journal_due;  // it could not be written
         uint64_t sync = 0;                // number of the wait for the disk; 0: it is there
         bool journaled = false;
+        std::vector<std::string> journaled_as;  // names it had, whose entries are still needed
     };
     struct Place {
         std::string path;
@@ -174,6 +182,10 @@ private:
     Result<Place> place_of(const std::string& doc) const;
     std::string path_now(const std::string& path) const;
     Result<File*> load(const std::string& path);
+    Result<File*> load_without_file(const std::string& path);
+    bool counts_as_file(const std::string& path) const;
+    std::filesystem::path place_in_trash(const std::filesystem::path& name) const;
+    Status remove_text(const std::string& path, File& file);
     Result<Opened> opened(const std::string& doc);
     DocumentState state_of(const Opened& opened) const;
     void recover(const std::string& path, File& file, Unsaved unsaved);
@@ -182,10 +194,13 @@ private:
     void changed(const std::string& path, File& file);
     void keep_in_journal(const std::string& path, File& file);
     void write_journal(const std::string& path, File& file);
+    void journal_is_written(File& file);
 
     enum class Look { IfTouched, Closely };
     void look_at_disk(const std::string& path, File& file, Look look);
-    bool take_disk(File& file, std::string bytes) const;
+    // A file that was gone has nothing to do with the text of its name.
+    enum class CameBack { No, Yes };
+    bool take_disk(File& file, std::string bytes, CameBack back) const;
     Status write(const std::string& path, File& file);
     void move(const std::string& path, const std::string& to, File file);
     Result<std::filesystem::path> real(const std::string& path) const;

@@ -60,7 +60,7 @@ Status Files::write(const std::string& path, File& file) {
     file.written = fs::last_write_time(real_path, failed);
     file.size = bytes.size();
     file.saved = std::move(bytes);
-    file.gone = false;
+    file.gone = file.deleted = false;
     file.journal_due.reset();
     file.unsaved = false;
     std::erase(recovered_, path);
@@ -99,16 +99,19 @@ Status Files::save_all(std::vector<std::string>& saved) {
     TRY(check_open());
     std::vector<std::string> paths;
     for (auto& [path, file] : files_) {
-        if (file.unsaved || file.conflict) paths.push_back(path);
+        if (file.conflict || (file.unsaved && !file.deleted)) paths.push_back(path);
     }
     std::string refused;
+    bool conflict = false;
     for (const std::string& path : paths) {
         const Status done = save(path);
         if (done.ok()) saved.push_back(path);
-        if (!done.ok()) refused += (refused.empty() ? "" : "; ") + done.error().what;
+        if (done.ok()) continue;
+        refused += (refused.empty() ? "" : "; ") + done.error().what;
+        conflict = conflict || has_conflict(path);
     }
-    if (!refused.empty()) return Error{Code::Refused, refused};
-    return Status::done();
+    if (refused.empty()) return Status::done();
+    return Error{conflict ? Code::Refused : Code::Unavailable, refused};
 }
 
 Status Files::revert(const std::string& doc, const std::string& by) {
@@ -189,25 +192,27 @@ void Files::look_at_disk(const std::string& path, File& file, Look look) {
     if (gone) {
         // Nobody's text would be overwritten any more.
         const bool was_conflict = std::exchange(file.conflict, std::nullopt).has_value();
-        if (came_or_went || was_conflict) changed_(path);
+        if (came_or_went || was_conflict) changed(path, file);
         return;
     }
+    file.deleted = false;
     file.written = written;
     file.size = size;
     Result<std::string> bytes = read_file(real_path.value().string());
     const auto before = file.conflict;
     bool taken = false;
     if (bytes.ok()) {
-        taken = take_disk(file, std::move(bytes.value()));
+        taken =
+            take_disk(file, std::move(bytes.value()), came_or_went ? CameBack::Yes : CameBack::No);
     } else {
         file.conflict = Conflict{"", bytes.error().what};
     }
-    if (taken) return changed(path, file);
-    if (came_or_went || file.conflict != before) changed_(path);
+    if (taken || came_or_went) return changed(path, file);
+    if (file.conflict != before) changed_(path);
 }
 
 // The bytes of the file as somebody else may have written it. True: the text follows them.
-bool Files::take_disk(File& file, std::string bytes) const {
+bool Files::take_disk(File& file, std::string bytes, CameBack back) const {
     if (bytes == file.saved) {
         file.conflict.reset();
         return false;
@@ -219,7 +224,10 @@ bool Files::take_disk(File& file, std::string bytes) const {
         file.conflict = Conflict{std::move(bytes), why};
         return false;
     }
-    auto both = file.unsaved ? merged(file.saved, file.text.bytes(), bytes) : bytes;
+    std::optional<std::string> both = bytes;
+    if (file.unsaved && file.text.bytes() != bytes) {
+        both = back == CameBack::No ? merged(file.saved, file.text.bytes(), bytes) : std::nullopt;
+    }
     if (!both || both->size() > kTextBytesMax) {
         file.conflict = Conflict{std::move(bytes)};
         return false;

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 #include <semaphore>
 
@@ -289,6 +291,75 @@ TEST_F(FilesTest, AFileThatIsTakenAwayIsToldAndCanBeSavedAgain) {
     EXPECT_FALSE(files.open("note.txt").value().gone);
 }
 
+// What was seen: type, delete the file in the tree, kill -9; the text was nowhere any more.
+TEST_F(FilesTest, WhatWasTypedIntoADeletedFileComesBackAfterACrash) {
+    {
+        Files files(root);
+        edit(files, "note.txt", {{0, 5, "typed"}});
+        EXPECT_TRUE(files.remove("note.txt").ok());
+        edit(files, "note.txt", {{0, 0, "and "}});
+        EXPECT_FALSE(files.exists("note.txt"));
+        std::vector<std::string> saved;
+        EXPECT_TRUE(files.save_all(saved).ok());
+        EXPECT_TRUE(saved.empty());  // deleted is deleted
+        // Killed.
+    }
+    EXPECT_EQ(on_disk(".vagus/trash/note.txt"), "hello\n");
+    Files files(root);
+    EXPECT_THAT(files.recovered(), ElementsAre("note.txt"));
+    EXPECT_EQ(files.open("note.txt").value().text, "and typed\n");
+    EXPECT_TRUE(files.open("note.txt").value().gone);
+    edit(files, "note.txt", {{0, 0, "more "}});
+    EXPECT_TRUE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "more and typed\n");
+}
+
+TEST_F(FilesTest, ATextWithoutAFileGoesIntoTheTrashItself) {
+    {
+        Files files(root);
+        edit(files, "note.txt", {{0, 5, "typed"}});
+        EXPECT_TRUE(files.remove("note.txt").ok());
+    }
+    {
+        Files files(root);
+        EXPECT_TRUE(files.exists("note.txt"));
+        EXPECT_TRUE(files.remove("note.txt").ok());
+        EXPECT_FALSE(files.exists("note.txt"));
+        EXPECT_EQ(on_disk(".vagus/trash/note.txt 2"), "typed\n");
+    }
+    EXPECT_TRUE(Files(root).recovered().empty());
+}
+
+TEST_F(FilesTest, ATextWhoseFileSomebodyTookAwaySurvivesARestart) {
+    {
+        Files files(root);
+        ASSERT_TRUE(files.open("note.txt").ok());
+        fs::remove(root / "note.txt");
+        files.tick(kDiskEvery);
+    }
+    {
+        Files files(root);
+        EXPECT_TRUE(files.recovered().empty());  // nobody typed anything
+        bool more = false;
+        for (const FileInfo& file : files.list(more)) EXPECT_NE(file.path, "note.txt");
+        EXPECT_TRUE(files.open("note.txt").value().gone);
+        EXPECT_EQ(files.open("note.txt").value().text, "hello\n");
+        EXPECT_TRUE(files.save("note.txt").ok());
+        EXPECT_EQ(on_disk("note.txt"), "hello\n");
+    }
+}
+
+TEST_F(FilesTest, AFileMadeInThePlaceOfADeletedOneIsShownBesideTheUnsavedText) {
+    Files files(root);
+    edit(files, "note.txt", {{0, 5, "typed"}});
+    EXPECT_TRUE(files.remove("note.txt").ok());
+    EXPECT_TRUE(files.make("note.txt", "another\n").ok());
+    EXPECT_TRUE(files.has_conflict("note.txt"));
+    EXPECT_EQ(files.open("note.txt").value().text, "typed\n");
+    EXPECT_EQ(files.disk_text("note.txt").value(), "another\n");
+    EXPECT_FALSE(files.save("note.txt").ok());
+}
+
 TEST_F(FilesTest, LongAndBinaryFilesAreNotEdited) {
     write("long.txt", std::string(kTextBytesMax + 1, 'x'));
     write("binary.txt", "\xff\xfe");
@@ -479,6 +550,35 @@ TEST_F(FilesTest, AJournalThatCannotBeWrittenIsToldAndTriedAgain) {
     fs::remove(root / ".vagus/journal");
     files.tick(kJournalAgain * 2);
     EXPECT_EQ(Files(root).open("note.txt").value().text, "typed on\n");
+}
+
+// No file can grow meanwhile, as on a full disk.
+struct FullDisk {
+    FullDisk() : handler(std::signal(SIGXFSZ, SIG_IGN)) {
+        ::getrlimit(RLIMIT_FSIZE, &before);
+        const rlimit none{0, before.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &none);
+    }
+    ~FullDisk() {
+        ::setrlimit(RLIMIT_FSIZE, &before);
+        std::signal(SIGXFSZ, handler);
+    }
+    rlimit before{};
+    void (*handler)(int);
+};
+
+// What was seen: renamed while the disk was full, then killed; what was typed was lost.
+TEST_F(FilesTest, ARenamedTextKeepsItsOldEntryUntilItHasANewOne) {
+    Files files(root);
+    edit(files, "note.txt", {{0, 5, "typed"}});
+    {
+        const FullDisk full;
+        EXPECT_TRUE(files.rename("note.txt", "other.txt").ok());
+        EXPECT_EQ(Files(root).open("note.txt").value().text, "typed\n");  // were it killed now
+    }
+    files.tick(kJournalAgain);
+    EXPECT_FALSE(Files(root).open("note.txt").ok());
+    EXPECT_EQ(Files(root).open("other.txt").value().text, "typed\n");
 }
 
 }  // namespace

@@ -955,10 +955,12 @@ export interface Commands {
   }; out: {
     version: number;
   } };
-  /** The file changed on disk where its text has unsaved changes: keeps the text (mine), which can be saved then, takes the file (disk), or keeps both, mine in front of the file's where both changed one line. */
+  /** The file changed on disk where its text has unsaved changes: keeps the text (mine), which can be saved then, takes the file (disk), or keeps both, mine in front of the file's where both changed one line. Refused (behind) if the file is another one than disk_hash names: nobody has seen it. */
   'doc.keep': { in: {
     doc: Doc;
     which: 'mine' | 'disk' | 'both';
+    /** of the topic doc; missing: there is no conflict */
+    disk_hash?: string;
     seen?: DocVersion[];
   }; out: {
     version: number;
@@ -1462,6 +1464,8 @@ export interface Topics {
     by: string;
     /** the file changed on disk where the text has unsaved changes: doc.disk shows it, doc.keep chooses, until then nothing is saved */
     disk: boolean;
+    /** while disk is true: which file that is; another one after somebody else wrote it again */
+    disk_hash?: string;
     /** the file is not on disk; saving makes it again */
     gone: boolean;
     /** the file was renamed: what the document is now */
@@ -1821,7 +1825,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'start': { kind: 'document', is: { examples: '[Example; 200]', recent: '[Recent; 20]' } },
   'targets': { kind: 'document', is: { found: '[Found; 200]' } },
   'files': { kind: 'document', is: { files: '[FileEntry; 2000]', more: 'bool' } },
-  'doc': { kind: 'document', is: { epoch: 'line(32)', version: 'int(0..4294967295)', language: 'word(aesl|aesl-file|plan|world|toolbox|json|text)', ends: 'word(lf|crlf|mixed)', unsaved: 'bool', by: 'line(64)', disk: 'bool', gone: 'bool', moved: 'Doc?' } },
+  'doc': { kind: 'document', is: { epoch: 'line(32)', version: 'int(0..4294967295)', language: 'word(aesl|aesl-file|plan|world|toolbox|json|text)', ends: 'word(lf|crlf|mixed)', unsaved: 'bool', by: 'line(64)', disk: 'bool', disk_hash: 'line(16)?', gone: 'bool', moved: 'Doc?' } },
   'findings': { kind: 'document', is: { findings: '[Finding; 2000]', more: 'int(0..1000000)', versions: '{int(0..4294967295); 2000}' } },
   'templates': { kind: 'document', is: { toolboxes: '[PlanToolbox; 200]', formulas: '[FormulaWord; 200]' } },
   'script': { kind: 'document', is: { version: 'int(0..4294967295)', good: 'bool', node: 'Name', for: 'line(200)', bytecode: 'Meter', variables: 'Meter', stack: 'Meter', handlers: '[Handler; 1000]', code_lines: '[int(1..10000000); 65536]' } },

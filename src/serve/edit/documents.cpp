@@ -56,13 +56,25 @@ void Documents::declare_commands() {
         answer_version(call, files_.revert(call.in["doc"], made_for(call.member)));
     });
     desk_.command("doc.keep", [this](const Call& call) {
-        if (!seen_all(call, files_, epoch_)) return;
-        const std::string doc = call.in["doc"];
-        const std::string which = call.in["which"];
-        if (which == "mine") return answer_version(call, files_.keep_mine(doc));
-        const std::string by = made_for(call.member);
-        answer_version(call, which == "both" ? files_.keep_both(doc, by) : files_.revert(doc, by));
+        if (seen_all(call, files_, epoch_)) keep(call);
     });
+}
+
+// Nobody keeps or overwrites what nobody has seen.
+void Documents::keep(const Call& call) {
+    const std::string doc = call.in["doc"];
+    const std::string which = call.in["which"];
+    const auto state = files_.state_now(doc);
+    if (!state.ok()) return call.fail(state.error());
+    const bool nothing_to_lose = which == "mine" && !state.value().conflict;
+    if (!nothing_to_lose && state.value().disk_hash != call.in.value("disk_hash", "")) {
+        return call.fail("behind", doc +
+                                       ": the file on disk is another one by now than disk_hash "
+                                       "says; look at it again, then choose");
+    }
+    if (which == "mine") return answer_version(call, files_.keep_mine(doc));
+    const std::string by = made_for(call.member);
+    answer_version(call, which == "both" ? files_.keep_both(doc, by) : files_.revert(doc, by));
 }
 
 void Documents::open(const Call& call) {
@@ -156,7 +168,8 @@ void Documents::patch(const Call& call) {
 void Documents::save(const Call& call) {
     const std::string named = call.in["doc"];
     const std::string doc = files_.moved_to(named).value_or(named);
-    const bool unsaved = files_.is_unsaved(doc);
+    const auto before = files_.state(doc);
+    const bool unsaved = before.ok() && (before.value().unsaved || before.value().gone);
     const Status saved = files_.save(doc);
     if (!saved.ok() && files_.has_conflict(doc)) return call.fail("conflict", saved.error().what);
     if (!saved.ok()) return call.fail(saved.error());
@@ -202,6 +215,7 @@ Json Documents::doc_document(const Json& of) {
                  {"by", state.by},
                  {"gone", state.gone},
                  {"disk", state.conflict}};
+    if (state.conflict) json["disk_hash"] = state.disk_hash;
     if (moved) json["moved"] = *moved;
     return json;
 }

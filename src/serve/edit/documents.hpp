@@ -36,6 +36,7 @@ private:
     void edit(const Call& call);
     void pull(const Call& call);
     void disk(const Call& call);
+    void keep(const Call& call);
     void answer_missing(const Call& call, const std::string& doc) const;
     bool is_behind(const Call& call, const std::string& doc) const;
     void patch(const Call& call);

@@ -254,6 +254,46 @@ TEST_F(EditTest, ATextThatIsTooLongIsRefused) {
     EXPECT_THAT(refusal("doc.open", {{"doc", "long.txt"}}), StartsWith("limit: "));
 }
 
+// What was seen: a third text, written while two were compared, was overwritten by "Keep mine".
+TEST_F(EditTest, NobodyOverwritesAFileThatNobodyHasSeen) {
+    write("note.txt", "one\n");
+    enter();
+    edit("note.txt", 0, 3, "mine");
+    const auto hash = [&] {
+        now += kDiskEvery;
+        editing.tick(now);
+        return document("doc", {{"doc", "note.txt"}})["disk_hash"];
+    };
+    write("note.txt", "their two\n");
+    const Json seen = hash();
+    write("note.txt", "their three\n");
+    for (const char* which : {"mine", "disk", "both"}) {
+        EXPECT_THAT(
+            refusal("doc.keep", {{"doc", "note.txt"}, {"which", which}, {"disk_hash", seen}}),
+            StartsWith("behind: note.txt: "));
+        EXPECT_THAT(refusal("doc.keep", {{"doc", "note.txt"}, {"which", which}}),
+                    StartsWith("behind: note.txt: "));
+    }
+    EXPECT_NE(hash(), seen);
+    EXPECT_EQ(ask("doc.disk", {{"doc", "note.txt"}})["text"], "their three\n");
+    ask("doc.keep", {{"doc", "note.txt"}, {"which", "mine"}, {"disk_hash", hash()}});
+    ask("doc.save", {{"doc", "note.txt"}});
+    EXPECT_EQ(on_disk("note.txt"), "mine\n");
+}
+
+TEST_F(EditTest, AFileThatCannotBeWrittenIsNoConflict) {
+    write("folder/note.txt", "one\n");
+    enter();
+    edit("folder/note.txt", 0, 3, "two");
+    // A folder in the place of the new file keeps it from being written, also as root.
+    std::filesystem::remove(root / "folder/note.txt");
+    std::filesystem::create_directories(root / "folder/note.txt/in the way");
+    EXPECT_THAT(refusal("doc.save_all", Json::object()), StartsWith("unavailable: "));
+    std::filesystem::remove_all(root / "folder/note.txt");
+    ask("doc.save_all", Json::object());
+    EXPECT_EQ(on_disk("folder/note.txt"), "two\n");
+}
+
 TEST_F(EditTest, AFileThatChangedOnDiskIsKeptOrTaken) {
     write("note.txt", "one\n");
     enter();
@@ -270,15 +310,16 @@ TEST_F(EditTest, AFileThatChangedOnDiskIsKeptOrTaken) {
         EXPECT_THAT(refusal("doc.save_all", Json::object()), StartsWith("conflict: note.txt: "));
         EXPECT_EQ(on_disk("note.txt"), with);
     };
+    const auto hash = [&] { return document("doc", {{"doc", "note.txt"}})["disk_hash"]; };
     change_on_disk("two\n");
-    ask("doc.keep", {{"doc", "note.txt"}, {"which", "mine"}});
+    ask("doc.keep", {{"doc", "note.txt"}, {"which", "mine"}, {"disk_hash", hash()}});
     EXPECT_EQ(text("note.txt"), "my one\n");
     EXPECT_EQ(document("doc", {{"doc", "note.txt"}})["disk"], false);
     EXPECT_THAT(refusal("doc.disk", {{"doc", "note.txt"}}), StartsWith("not_found: "));
     ask("doc.save", {{"doc", "note.txt"}});
     EXPECT_EQ(on_disk("note.txt"), "my one\n");
     change_on_disk("three\n");
-    ask("doc.keep", {{"doc", "note.txt"}, {"which", "disk"}});
+    ask("doc.keep", {{"doc", "note.txt"}, {"which", "disk"}, {"disk_hash", hash()}});
     EXPECT_EQ(text("note.txt"), "three\n");
     EXPECT_EQ(document("doc", {{"doc", "note.txt"}})["unsaved"], false);
 }

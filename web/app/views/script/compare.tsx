@@ -6,8 +6,15 @@ import type { Doc } from '../../../protocol/messages';
 import { useStudio } from '../../hooks';
 import { text } from '../../text';
 
+interface Shown {
+  doc: Doc;
+  version: number;
+  /** Which file is on disk: `disk_hash` of the document. */
+  disk: string | undefined;
+}
+
 /** The text from here and the one on disk side by side, what differs marked. */
-export default function Compare({ doc, version }: { doc: Doc; version: number }) {
+export default function Compare({ doc, version, disk }: Shown) {
   const studio = useStudio();
   const [texts, setTexts] = useState<{ mine: string; theirs: string } | null>(null);
   useEffect(() => {
@@ -21,7 +28,7 @@ export default function Compare({ doc, version }: { doc: Doc; version: number })
       gone = true;
       held.release();
     };
-  }, [studio, doc, version]);
+  }, [studio, doc, version, disk]);
   return texts ? <SideBySide {...texts} /> : null;
 }
 

@@ -53,7 +53,9 @@ export function DiskNotice({ doc }: { doc: Doc }) {
   const state = useTopic('doc', { doc });
   if (state?.gone) return <Line>{words.gone}</Line>;
   if (!state?.disk) return null;
-  const keep = (which: 'mine' | 'disk' | 'both') => () => studio.order('doc.keep', { doc, which });
+  const { disk_hash } = state;
+  const keep = (which: 'mine' | 'disk' | 'both') => () =>
+    studio.order('doc.keep', { doc, which, disk_hash });
   const end = (
     <>
       <Button small kind="plain" aria-expanded={compare} onClick={() => setCompare(!compare)}>
@@ -77,7 +79,7 @@ export function DiskNotice({ doc }: { doc: Doc }) {
       <Line end={end}>{words.disk}</Line>
       {compare ? (
         <Suspense fallback={null}>
-          <Compare doc={doc} version={state.version} />
+          <Compare doc={doc} version={state.version} disk={disk_hash} />
         </Suspense>
       ) : null}
     </>

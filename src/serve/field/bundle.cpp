@@ -65,8 +65,18 @@ std::set<std::string> own_files(const Files& files, const std::string& own) {
     return paths;
 }
 
+// A file that is named and there, and that no project can send.
+Status check_named(const Files& files, const std::string& by, const std::string& path) {
+    const auto why = fault_of_path(path);
+    std::error_code failed;
+    const bool elsewhere = path.starts_with("/") || path.starts_with("../");
+    if (!why || elsewhere || !fs::exists(files.root() / path, failed)) return Status::done();
+    return Error{Code::BadInput, fmt::format("{} names {}: {}; nothing was sent",
+                                             (files.root() / by).string(), path, *why)};
+}
+
 // What they name, and what that names.
-void add_named(const Files& files, std::set<std::string>& paths) {
+Status add_named(const Files& files, std::set<std::string>& paths) {
     std::deque<std::string> left(paths.begin(), paths.end());
     while (!left.empty() && paths.size() <= kBundleFilesMax) {
         const std::string file = left.front();
@@ -75,9 +85,11 @@ void add_named(const Files& files, std::set<std::string>& paths) {
         if (!text.ok()) continue;  // no text: it names nothing
         for (const NamedPath& named : named_paths(file, text.value())) {
             const std::string path = path_from(file, named.text);
+            TRY(check_named(files, file, path));
             if (files.exists(path) && paths.insert(path).second) left.push_back(path);
         }
     }
+    return Status::done();
 }
 
 Result<BundleFile> described(const Files& files, const std::string& path) {
@@ -115,7 +127,7 @@ Result<CollectedBundle> collect_bundle(const std::string& project) {
     std::set<std::string> paths = own_files(files, own);
     paths.insert(opened.project_file);
     paths.insert(kProjectFileName);  // makes the border there what it is here
-    add_named(files, paths);
+    TRY(add_named(files, paths));
     if (paths.size() > kBundleFilesMax) {
         return too_much(fmt::format("{}: more than {} files", project, kBundleFilesMax));
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/text.hpp"
 
@@ -12,30 +13,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using Why = std::optional<std::string>;
+
 Error refuse(std::string_view path, const std::string& why) {
     return {Code::BadInput, fmt::format("“{}”: {}", path.substr(0, 200), why)};
 }
 
-Status check_name(std::string_view path, std::string_view name) {
-    if (name.empty()) return refuse(path, "a part of the path is empty; write it as folder/file");
+Why fault_of_name(std::string_view name) {
+    if (name.empty()) return "a part of the path is empty; write it as folder/file";
     if (name.size() > kNameBytesMax) {
-        return refuse(
-            path, fmt::format("a name of {} bytes; use at most {}", name.size(), kNameBytesMax));
+        return fmt::format("a name of {} bytes; use at most {}", name.size(), kNameBytesMax);
     }
-    if (name.front() == '.') {
-        return refuse(path, "a name begins with a dot; such files are not the studio's");
-    }
+    if (name.front() == '.') return "a name begins with a dot; such files are not the studio's";
     if (name.back() == '.' || name.back() == ' ' || name.front() == ' ') {
-        return refuse(path, "a name begins or ends in a space or a dot; leave it out");
+        return "a name begins or ends in a space or a dot; leave it out";
     }
     const bool odd = std::any_of(name.begin(), name.end(), [](char letter) {
         return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f ||
                std::string_view("\\:*?\"<>|#").find(letter) != std::string_view::npos;
     });
-    if (odd) {
-        return refuse(path, "a name has an odd character; use letters, digits, - and _");
-    }
-    return Status::done();
+    if (odd) return "a name has an odd character; use letters, digits, - and _";
+    return std::nullopt;
 }
 
 bool is_inside(const fs::path& root, const fs::path& path) {
@@ -45,15 +43,23 @@ bool is_inside(const fs::path& root, const fs::path& path) {
 
 }  // namespace
 
-Status check_path(std::string_view path) {
-    if (path.empty()) return refuse(path, "the path is empty");
+std::optional<std::string> fault_of_path(std::string_view path) {
+    if (path.empty()) return "the path is empty";
     if (path.size() > kPathBytesMax) {
-        return refuse(path, fmt::format("{} bytes; use at most {}", path.size(), kPathBytesMax));
+        return fmt::format("{} bytes; use at most {}", path.size(), kPathBytesMax);
     }
-    if (path.front() == '/') return refuse(path, "the path must begin inside the project");
-    if (malformed_utf8_at(path)) return refuse("", "the path is not UTF-8");
-    for (const std::string_view name : split(path, '/')) TRY(check_name(path, name));
-    return Status::done();
+    if (path.front() == '/') return "the path must begin inside the project";
+    if (malformed_utf8_at(path)) return "the path is not UTF-8";
+    for (const std::string_view name : split(path, '/')) {
+        if (auto why = fault_of_name(name)) return why;
+    }
+    return std::nullopt;
+}
+
+Status check_path(std::string_view path) {
+    const auto why = fault_of_path(path);
+    if (!why) return Status::done();
+    return refuse(malformed_utf8_at(path) ? "" : path, *why);
 }
 
 Result<fs::path> path_in(const fs::path& root, std::string_view path) {

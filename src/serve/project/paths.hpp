@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,8 @@ constexpr const char* kOwnFolder = ".vagus";  // journal, breakpoints, layouts: 
 // A relative path with / between names, each of them visible characters without \ : * ? " < > |,
 // not beginning with a dot, not ending in a dot or a space.
 Status check_path(std::string_view path);
+// Why it is none, without the path.
+std::optional<std::string> fault_of_path(std::string_view path);
 
 // Where it leads. Fails if that is outside of `root`.
 Result<std::filesystem::path> path_in(const std::filesystem::path& root, std::string_view path);

@@ -2,6 +2,7 @@
 
 #include <deque>
 
+#include "base/text.hpp"
 #include "serve/project/paths.hpp"
 
 namespace vagus::serve {
@@ -70,7 +71,11 @@ private:
         for (FolderEntry& entry : read_(root_ / folder.path, failed)) {
             const std::string path =
                 folder.path.empty() ? entry.name : folder.path + "/" + entry.name;
-            if (!check_path(path).ok()) continue;
+            if (entry.name.starts_with('.')) continue;
+            if (const auto why = fault_of_path(path)) {
+                pass_over(shown(path), *why + "; rename it, or move it out of the project");
+                continue;
+            }
             if (scan_.entries.size() >= kFilesMax) {
                 scan_.more = true;
                 return;
@@ -78,6 +83,15 @@ private:
             keep(path, entry, folder.depth);
         }
         if (failed) pass_over(folder.path.empty() ? "." : folder.path, why_of(failed));
+    }
+
+    // What is no text in UTF-8 is not shown as one.
+    static std::string shown(std::string path) {
+        if (!malformed_utf8_at(path)) return path;
+        for (char& byte : path) {
+            if (static_cast<unsigned char>(byte) >= 0x80) byte = '?';
+        }
+        return path;
     }
 
     void keep(const std::string& path, const FolderEntry& entry, size_t depth) {

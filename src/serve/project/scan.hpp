@@ -50,7 +50,8 @@ struct FolderScan {
 using ReadFolder =
     std::function<std::vector<FolderEntry>(const std::filesystem::path&, std::error_code&)>;
 
-// Names that a project cannot have (paths.hpp) are left out, .vagus and .git among them.
+// What begins with a dot is left out, .vagus and .git among it. Other names that a project cannot
+// have (paths.hpp) are passed over.
 FolderScan scan_folder(const std::filesystem::path& root, const ReadFolder& read = entries_of);
 
 }  // namespace vagus::serve

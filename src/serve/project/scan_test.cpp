@@ -136,6 +136,44 @@ TEST_F(ScanTest, WhatIsPassedOverIsToldOnce) {
     EXPECT_NE(files.take_trouble(), std::nullopt);
 }
 
+// What was seen: deploy left them out without a word, a folder with all that was in it.
+TEST_F(ScanTest, OddNamesAreNamedAndThoseWithADotLeftOut) {
+    fs::create_directories(root / "parts #2/inner");
+    fs::create_directories(root / ".git");
+    write("parts #2/a.aesl");
+    write("why?.txt");
+    write(" a.txt");
+    write("caf\xe9.txt");
+    write(std::string(129, 'x'));
+    write(".hidden");
+    const FolderScan scan = scan_folder(root);
+    EXPECT_THAT(paths(scan), UnorderedElementsAre("a.txt", "inner", "inner/b.txt", "z.txt"));
+    EXPECT_THAT(faults(scan), UnorderedElementsAre("parts #2", "why?.txt", " a.txt", "caf?.txt",
+                                                   std::string(129, 'x')));
+    for (const ScanFault& fault : scan.passed_over) EXPECT_THAT(fault.why, HasSubstr("rename it"));
+}
+
+TEST_F(ScanTest, AProjectWithAnOddNameIsNotSent) {
+    std::ofstream(root / "vagus.json") << R"({"format":"vagus-project/1","name":"p"})";
+    ASSERT_TRUE(collect_bundle(root.string()).ok());
+    fs::create_directories(root / "parts #2");
+    const auto refused = collect_bundle(root.string());
+    ASSERT_FALSE(refused.ok());
+    EXPECT_THAT(refused.error().what, HasSubstr("parts #2: a name has an odd character"));
+}
+
+// A project inside another one may name what stands beside it.
+TEST_F(ScanTest, AFileOfAnOddNameThatIsNamedIsNotLeftOut) {
+    std::ofstream(root / "vagus.json") << R"({"format":"vagus-project/1","name":"p"})";
+    std::ofstream(root / "inner/vagus.json")
+        << R"({"format":"vagus-project/1","name":"q","scripts":["../odd#.aesl"]})";
+    ASSERT_TRUE(collect_bundle((root / "inner").string()).ok());
+    write("odd#.aesl");
+    const auto refused = collect_bundle((root / "inner").string());
+    ASSERT_FALSE(refused.ok());
+    EXPECT_THAT(refused.error().what, HasSubstr("names odd#.aesl: a name has an odd character"));
+}
+
 TEST_F(ScanTest, NoPartOfAProjectIsSent) {
     std::ofstream(root / "vagus.json") << R"({"format":"vagus-project/1","name":"p"})";
     ASSERT_TRUE(collect_bundle(root.string()).ok());

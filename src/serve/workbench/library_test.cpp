@@ -3,6 +3,7 @@
 #include "base/test_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -172,6 +173,19 @@ TEST_F(LibraryTest, WhatCannotBeOpenedSaysWhatCan) {
         const auto opened = open_path((data / path).string());
         ASSERT_FALSE(opened.ok()) << path;
         EXPECT_NE(opened.error().what.find("NAME.plan.json"), std::string::npos);
+    }
+}
+
+// What was seen: the folder in which the server was started became the project.
+TEST_F(LibraryTest, APipeOrAFolderInThePlaceOfAProjectFileIsNoProject) {
+    fs::create_directories(data / "p/vagus.json");
+    fs::create_directories(data / "q");
+    ASSERT_EQ(::mkfifo((data / "q/vagus.json").c_str(), 0600), 0);
+    ASSERT_EQ(::mkfifo((data / "q/a.plan.json").c_str(), 0600), 0);
+    for (const char* path : {"p", "p/vagus.json", "q", "q/vagus.json", "q/a.plan.json"}) {
+        const auto opened = open_path((data / path).string());
+        ASSERT_FALSE(opened.ok()) << path;
+        EXPECT_NE(opened.error().what.find(path), std::string::npos) << opened.error().what;
     }
 }
 

@@ -84,8 +84,14 @@ Result<OpenedProject> open_path(const std::string& named) {
         return Error{Code::NotFound,
                      fmt::format("{}: there is no such file or folder; {}", named, kWhatOpens)};
     }
-    if (path.filename() == kProjectFileName) return open_folder(path.parent_path());
-    if (!fs::is_directory(path, failed)) return open_file(path);
+    const bool file = fs::is_regular_file(path, failed);
+    if (!file && !fs::is_directory(path, failed)) {
+        return Error{Code::BadInput,
+                     fmt::format("{}: expected a file or a folder, found a pipe or a device; {}",
+                                 named, kWhatOpens)};
+    }
+    if (file && path.filename() == kProjectFileName) return open_folder(path.parent_path());
+    if (file) return open_file(path);
     if (fs::is_regular_file(path / kProjectFileName, failed)) return open_folder(path);
     return Error{
         Code::NotFound,

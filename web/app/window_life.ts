@@ -47,9 +47,11 @@ export function useKeys(): void {
     const pressed = (event: KeyboardEvent) => {
       if (event.defaultPrevented || event.isComposing) return;
       const { target } = event;
+      const types = typesIn(target);
+      // A field has its keys for itself, also one that is in a place: undo takes back what is typed.
       const isWithin = (place: string) =>
-        target instanceof Element && target.closest(`[data-place~="${place}"]`) !== null;
-      if (registry.press(event, typesIn(target), isWithin)) event.preventDefault();
+        !types && target instanceof Element && target.closest(`[data-place~="${place}"]`) !== null;
+      if (registry.press(event, types, isWithin)) event.preventDefault();
     };
     addEventListener('keydown', pressed);
     return () => removeEventListener('keydown', pressed);

@@ -105,15 +105,20 @@ function useUnsentWork(): void {
     const { documents } = studio;
     const leaves = (event: BeforeUnloadEvent) => {
       documents.fields.settle();
-      if (documents.isUnsent) event.preventDefault();
+      if (documents.isUnsent || documents.hasLeft) event.preventDefault();
     };
     addEventListener('beforeunload', leaves);
-    const end = documents.refused.on(({ doc, refusal }) =>
-      toast(studio.window, 'error', text.documents.refused(doc, refusal)),
-    );
+    const ends = [
+      documents.refused.on(({ doc, refusal }) =>
+        toast(studio.window, 'error', text.documents.refused(doc, refusal)),
+      ),
+      studio.left.on(({ folder, docs }) =>
+        toast(studio.window, 'error', text.documents.left(folder, docs)),
+      ),
+    ];
     return () => {
       removeEventListener('beforeunload', leaves);
-      end();
+      ends.forEach((end) => end());
     };
   }, [studio]);
 }

@@ -67,10 +67,22 @@ export function useChanges(changed: Emitter<void>): number {
 
 /** Something was typed that the server does not have; with a document: in that one. */
 export function useUnsent(doc?: Doc): boolean {
+  return useDocuments((documents) =>
+    doc === undefined ? documents.isUnsent : documents.waits(doc),
+  );
+}
+
+/** A file that is looked at is not on disk. */
+export function useIsGone(): boolean {
+  return useDocuments((documents) => documents.isGone);
+}
+
+/** What `select` gives of the open files; a plain value. */
+export function useDocuments<P>(select: (documents: Studio['documents']) => P): P {
   const { documents } = useStudio();
   return useSyncExternalStore(
     useCallback((listener: () => void) => documents.changed.on(listener), [documents]),
-    () => (doc === undefined ? documents.isUnsent : documents.waits(doc)),
+    () => select(documents),
   );
 }
 

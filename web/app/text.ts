@@ -500,6 +500,8 @@ export const text = {
     stopped: 'stopped',
   },
   documents: {
+    left: (folder: string, docs: readonly string[]) =>
+      `${docs.join(', ')}: what was typed last is in this page only. Open ${folder} again, and it is saved there.`,
     refused: (doc: string, refusal: { why: 'gone'; places: string[] } | { why: 'undo' }) =>
       refusal.why === 'undo'
         ? `${doc}: this was not undone. Somebody else has changed the same place since.`
@@ -511,6 +513,7 @@ export const text = {
     warnings: (count: number) => s(count, 'warning', 'warnings'),
     saved: 'Saved',
     notSaved: 'Not saved',
+    notOnDisk: 'Not on disk',
     ready: 'Ready',
     runsScript: (node: string, time: string) => `${node}: running the script of ${time}`,
     showActor: (actor: string) => `Show ${actor}`,
@@ -608,6 +611,7 @@ export const text = {
     mine: 'Keep mine',
     theirs: 'Use the file',
     both: 'Keep both',
+    oneOnly: 'Both lines together are no JSON: compare them, and keep one.',
     bothHelp: 'Where both changed one line: yours, and the file’s below it',
     compare: 'Show what changed',
     hide: 'Hide what changed',

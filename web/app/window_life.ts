@@ -47,9 +47,11 @@ export function useKeys(): void {
     const pressed = (event: KeyboardEvent) => {
       if (event.defaultPrevented || event.isComposing) return;
       const { target } = event;
+      const types = typesIn(target);
+      // A field has its keys for itself, also one that is in a place: undo takes back what is typed.
       const isWithin = (place: string) =>
-        target instanceof Element && target.closest(`[data-place~="${place}"]`) !== null;
-      if (registry.press(event, typesIn(target), isWithin)) event.preventDefault();
+        !types && target instanceof Element && target.closest(`[data-place~="${place}"]`) !== null;
+      if (registry.press(event, types, isWithin)) event.preventDefault();
     };
     addEventListener('keydown', pressed);
     return () => removeEventListener('keydown', pressed);
@@ -103,15 +105,20 @@ function useUnsentWork(): void {
     const { documents } = studio;
     const leaves = (event: BeforeUnloadEvent) => {
       documents.fields.settle();
-      if (documents.isUnsent) event.preventDefault();
+      if (documents.isUnsent || documents.hasLeft) event.preventDefault();
     };
     addEventListener('beforeunload', leaves);
-    const end = documents.refused.on(({ doc, refusal }) =>
-      toast(studio.window, 'error', text.documents.refused(doc, refusal)),
-    );
+    const ends = [
+      documents.refused.on(({ doc, refusal }) =>
+        toast(studio.window, 'error', text.documents.refused(doc, refusal)),
+      ),
+      studio.left.on(({ folder, docs }) =>
+        toast(studio.window, 'error', text.documents.left(folder, docs)),
+      ),
+    ];
     return () => {
       removeEventListener('beforeunload', leaves);
-      end();
+      ends.forEach((end) => end());
     };
   }, [studio]);
 }

@@ -1,4 +1,5 @@
 import { expect, test } from 'vitest';
+import { limits } from '../protocol/messages';
 import { answers, Connection, kFirstRetryMs, kSilentMs } from './connection';
 import { TestWorld } from './test_world';
 
@@ -234,8 +235,56 @@ test('AfterThreeMissingPingsWhatMovesARobotIsRefusedAndStopIsSent', async () => 
   await expect(connection.send('run.start', {})).rejects.toThrow();
   const sent = world.last.sent.length;
   void connection.send('stop', {});
-  void connection.send('doc.save_all', {});
-  expect(world.last.sent.slice(sent).map((one) => one.do)).toEqual(['stop', 'doc.save_all']);
+  void connection.send('driver.leave', {});
+  expect(world.last.sent.slice(sent).map((one) => one.do)).toEqual(['stop', 'driver.leave']);
   world.say({ ping: 6, now: 9000 });
   expect(answers(connection.link)).toBe(true);
+});
+
+test('ASaveEndsWhenTheConnectionIsLostOrSilentAndIsNotSentAgain', async () => {
+  const { world, connection } = make();
+  await expect(connection.send('doc.save', { doc: 'a' })).rejects.toThrow('not connected');
+  world.welcome();
+  const lost = connection.send('doc.save', { doc: 'a' });
+  world.last.events.closed();
+  await expect(lost).rejects.toThrow('save again');
+  world.pass(1000);
+  world.welcome();
+  expect(world.last.sent.map((one) => one.do)).toEqual(['hello']);
+  const silent = connection.send('doc.save_all', {});
+  world.pass(kSilentMs);
+  await expect(silent).rejects.toThrow('save again');
+});
+
+test('AMessageThatIsTooLongIsRefusedHereAndNothingElseIs', async () => {
+  const { world, connection } = make();
+  world.welcome();
+  // {"id":2,"do":"state.put","in":{"key":"k","value":"…"}} is 53 bytes without the value.
+  const put = (value: string) => connection.send('state.put', { key: 'k', value });
+  const most = limits.message_bytes - 53;
+  await expect(put('x'.repeat(most + 1))).rejects.toThrow('more than 4 MiB');
+  // Two bytes each.
+  await expect(put('é'.repeat(most / 2 + 1))).rejects.toThrow('more than 4 MiB');
+  void put('x'.repeat(most - 10));
+  void connection.send('driver.leave', {});
+  expect(world.last.sent.map((one) => one.do)).toEqual(['hello', 'state.put', 'driver.leave']);
+  world.last.events.closed();
+  world.pass(1000);
+  world.welcome();
+  expect(world.last.sent.map((one) => one.do)).toEqual(['hello', 'state.put', 'driver.leave']);
+});
+
+test('AnotherLifeOfTheServerIsToldBeforeWhatItSays', () => {
+  const { world, connection } = make();
+  const told: string[] = [];
+  connection.renewed.on(() => told.push('renewed'));
+  connection.changed.on((link) => told.push(link.state));
+  world.welcome();
+  world.last.events.closed();
+  world.pass(1000);
+  world.welcome();
+  world.last.events.closed();
+  world.pass(1000);
+  world.welcome(7, { epoch: 'f' });
+  expect(told).toEqual(['open', 'lost', 'open', 'lost', 'renewed', 'open']);
 });

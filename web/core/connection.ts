@@ -29,6 +29,9 @@ export const kSilentMs = 3500;
 
 const kTimesKept = 8;
 
+/** What a person waits for: it ends with the connection, and is not sent again behind their back. */
+const kSaves: ReadonlySet<CommandName> = new Set(['doc.save', 'doc.save_all']);
+
 export type Link =
   | { state: 'connecting' }
   | {
@@ -95,6 +98,8 @@ export interface ConnectionOptions {
 
 export class Connection {
   readonly changed = new Emitter<Link>();
+  /** Another life of the server: what it counted begins again. Before anything else is heard of it. */
+  readonly renewed = new Emitter<void>();
   readonly odd = new Emitter<string>();
   link: Link = { state: 'connecting' };
 
@@ -109,6 +114,7 @@ export class Connection {
   private cancelSilence: () => void = ignore;
   private closed = false;
   private client: string;
+  private epoch: string | null = null;
   /** By how much the server's clock was ahead of ours, as the last messages that told it say. */
   private ahead: number[] = [];
 
@@ -153,8 +159,10 @@ export class Connection {
     const text = JSON.stringify({ id, do: command, in: input, until });
     return new Promise((resolve, reject) => {
       const failed = (problem: Problem) => reject(new CommandError(problem));
-      if (act && !answers(this.link))
+      if ((act || kSaves.has(command)) && !answers(this.link))
         return failed(this.link.state === 'refused' ? this.link.problem : notSent);
+      // The server would end the connection, and again with each one on which it is sent again.
+      if (isTooLong(text)) return failed(tooLong(command));
       if (this.waiting.size >= kWaitingMax) return failed(tooMany);
       // The check at the border has proved the shape.
       const done = (out: Json) => resolve(out as Commands[C]['out']);
@@ -226,6 +234,9 @@ export class Connection {
     this.tellTime(hello.now);
     if (hello.client !== this.client) this.options.renamed?.(hello.client);
     this.client = hello.client;
+    const isOther = this.epoch !== null && this.epoch !== hello.epoch;
+    this.epoch = hello.epoch;
+    if (isOther) this.renewed.emit();
     this.setLink({ state: 'open', number: hello.number, role: hello.role, version: hello.version });
     this.listenForPings();
     // Unanswered commands first, in their order: what is subscribed to shows their effect at once.
@@ -279,8 +290,9 @@ export class Connection {
   private listenForPings(): void {
     this.cancelSilence();
     this.cancelSilence = this.world.later(kSilentMs, () => {
-      if (this.link.state === 'open')
-        this.setLink({ ...this.link, silentSince: this.options.now() });
+      if (this.link.state !== 'open') return;
+      this.setLink({ ...this.link, silentSince: this.options.now() });
+      this.failAll((command) => kSaves.has(command));
     });
   }
 
@@ -300,6 +312,12 @@ export class Connection {
     const waiting = this.waiting.get(id);
     this.waiting.delete(id);
     waiting?.failed(problem);
+  }
+
+  /** Nobody knows whether these were done. */
+  private failAll(is: (command: CommandName) => boolean): void {
+    for (const [id, { command }] of [...this.waiting])
+      if (is(command)) this.fail(id, kSaves.has(command) ? unsaved : unknown);
   }
 
   private receivedChange(message: Record<string, Json>): void {
@@ -334,8 +352,7 @@ export class Connection {
     this.socket = null;
     this.cancelSilence();
     this.watchIds.clear();
-    for (const [id, waiting] of [...this.waiting])
-      if (commandTable[waiting.command].kind === 'act') this.fail(id, unknown);
+    this.failAll((command) => commandTable[command].kind === 'act' || kSaves.has(command));
     if (this.closed) return;
     if (this.link.state !== 'lost') this.setLink({ state: 'lost', since: this.options.now() });
     const wait = Math.min(kRetryMsMax, kFirstRetryMs * 2 ** this.retries++);
@@ -364,6 +381,23 @@ const unknown: Problem = {
   code: 'unavailable',
   what: 'The connection was lost before the answer came. It may have been done; it is not sent again.',
 };
+
+const unsaved: Problem = {
+  code: 'unavailable',
+  what: 'The connection was lost before the answer came. It may not be saved: save again when the server is back.',
+};
+
+function tooLong(command: CommandName): Problem {
+  const most = Math.floor(limits.message_bytes / 2 ** 20);
+  const what = `This is more than ${most} MiB, which is the most that the server takes at once (${command}). Nothing was sent: undo it, or paste less.`;
+  return { code: 'limit', what };
+}
+
+function isTooLong(text: string): boolean {
+  // A character is three bytes at most for each of its units.
+  if (text.length * 3 <= limits.message_bytes) return false;
+  return new TextEncoder().encode(text).length > limits.message_bytes;
+}
 
 function ignore(): void {}
 

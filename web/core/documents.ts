@@ -1,8 +1,8 @@
 // The files that are open, each with one session that all its views share. A session stays until
 // another project is open: its undo survives layouts, tabs and views.
 
-import type { Doc, Problem } from '../protocol/messages';
-import { CommandError, type Connection } from './connection';
+import type { Doc, DocVersion, Problem } from '../protocol/messages';
+import { answers, CommandError, type Connection } from './connection';
 import { Emitter } from './emitter';
 import { Fields } from './session/fields';
 import type { OpenDocument } from './session/open';
@@ -15,6 +15,8 @@ export type { OpenDocument } from './session/open';
 
 /** What the server says of a file is followed so long after its last view has gone. */
 export const kStayMs = 120_000;
+/** As many texts can be named with a command that changes several. */
+export const kSeenMax = 2000;
 
 interface Entry {
   doc: Doc;
@@ -23,6 +25,8 @@ interface Entry {
   /** The same, once it is there. */
   there: OpenDocument | null;
   unfollow: (() => void) | null;
+  /** The file is not on disk. */
+  isGone: boolean;
 }
 
 export interface DocumentsOptions {
@@ -42,13 +46,18 @@ export class Documents {
   readonly fields = new Fields();
   private readonly entries = new Map<Doc, Entry>();
   private edits = 0;
+  /** What the server calls this page. */
+  private number = 0;
+  /** By folder: files of projects that were left with something that the server does not have. */
+  private readonly left = new Map<string, Entry[]>();
 
   constructor(
     private readonly connection: Connection,
     private readonly topics: TopicCache,
     private readonly options: DocumentsOptions,
   ) {
-    connection.changed.on(() => {
+    connection.changed.on((link) => {
+      if (link.state === 'open') this.number = link.number;
       for (const { there } of this.entries.values()) there?.sync.linked(this.isLinked);
     });
     this.fields.changed.on(() => this.changed.emit());
@@ -93,6 +102,32 @@ export class Documents {
     return this.sent(doc);
   }
 
+  /**
+   * What was typed goes first; gives the texts as this page has them then, for a command that is to
+   * change just those. With a document: that one, also if what was done there is refused.
+   */
+  async seen(doc?: Doc): Promise<DocVersion[]> {
+    if (doc === undefined) await this.flushAll();
+    else await this.flushOne(doc).catch(() => {});
+    const looked = [...this.entries.values()].filter(
+      // Of those that nobody looks at, others may have made something else by now.
+      (entry) => entry.unfollow && !entry.isGone && (doc === undefined || entry.doc === doc),
+    );
+    return looked
+      .slice(0, kSeenMax)
+      .flatMap(({ doc, there }) => (there ? { doc, ...there.sync.confirmed } : []));
+  }
+
+  /** Why what was done in a file is not with the server, if that is so. */
+  problemOf(doc: Doc): Problem | null {
+    return this.entries.get(doc)?.there?.sync.problem ?? null;
+  }
+
+  /** A file that is looked at is not on disk. */
+  get isGone(): boolean {
+    return [...this.entries.values()].some((entry) => entry.users > 0 && entry.isGone);
+  }
+
   /** Only sends what was not sent yet in one file: what is typed in a field goes on being typed. */
   async sent(doc: Doc): Promise<void> {
     await this.flush((one) => fileOf(one) === fileOf(doc));
@@ -102,7 +137,10 @@ export class Documents {
   renamed(from: Doc, to: Doc): void {
     if (from === to) return;
     const entry = this.entries.get(from);
+    const other = this.entries.get(to);
     if (entry) this.drop(entry);
+    // What was open under that name is another file, and gone: its text counts only if it was typed.
+    if (entry && other && !isUnsent(other)) this.drop(other);
     if (entry && !this.entries.has(to)) {
       entry.doc = to;
       this.entries.set(to, entry);
@@ -117,11 +155,36 @@ export class Documents {
       if (there?.sync.problem) void there.sync.flushed();
   }
 
-  /** Another project is open: what it calls by the same name is another file. */
-  forget(): void {
-    for (const entry of this.entries.values()) entry.unfollow?.();
-    this.entries.clear();
+  /**
+   * Another project is open: what it calls by the same name is another file. What the server does not
+   * have is kept until enter() of that folder; gives the names of those files.
+   */
+  leave(folder: string): Doc[] {
+    const kept = [...this.entries.values()].filter(isUnsent);
+    for (const entry of [...this.entries.values()]) {
+      this.drop(entry);
+      entry.there?.sync.linked(false);
+    }
+    if (kept.length > 0) this.left.set(folder, kept);
     this.changed.emit();
+    return kept.map(({ doc }) => doc);
+  }
+
+  enter(folder: string): void {
+    for (const entry of this.left.get(folder) ?? []) {
+      this.entries.set(entry.doc, entry);
+      this.follow(entry);
+      entry.there?.sync.linked(this.isLinked);
+      // Without a project it was refused.
+      void entry.there?.sync.flushed();
+    }
+    this.left.delete(folder);
+    this.changed.emit();
+  }
+
+  /** Files of other projects have something that the server does not have: it is in this page only. */
+  get hasLeft(): boolean {
+    return this.left.size > 0;
   }
 
   private async flush(is: (doc: Doc) => boolean): Promise<Map<Doc, number>> {
@@ -138,11 +201,18 @@ export class Documents {
   }
 
   private get isLinked(): boolean {
-    return this.connection.link.state === 'open';
+    return answers(this.connection.link);
   }
 
   private begin(doc: Doc): Entry {
-    const entry: Entry = { doc, users: 0, opened: this.open(doc), there: null, unfollow: null };
+    const entry: Entry = {
+      doc,
+      users: 0,
+      opened: this.open(doc),
+      there: null,
+      unfollow: null,
+      isGone: false,
+    };
     this.entries.set(doc, entry);
     entry.opened.then(
       (opened) => this.entered(entry, opened),
@@ -176,7 +246,8 @@ export class Documents {
         }),
       pull: (from) => this.connection.send('doc.pull', { ...from, doc: nameNow() }),
     };
-    const made = openDocument(opened, { link, name, now: () => this.options.now() });
+    const isAsked = (by: string) => by === `for:${this.number}`;
+    const made = openDocument(opened, { link, name, isAsked, now: () => this.options.now() });
     return made;
   }
 
@@ -190,6 +261,10 @@ export class Documents {
   private told(entry: Entry): void {
     const state = this.topics.get('doc', { doc: entry.doc });
     if (!state) return;
+    if (entry.isGone !== state.gone) {
+      entry.isGone = state.gone;
+      this.changed.emit();
+    }
     if (state.moved !== undefined) this.renamed(entry.doc, state.moved);
     // A file that is gone keeps its text.
     else if (state.version > 0) entry.there?.sync.told(state);
@@ -203,11 +278,12 @@ export class Documents {
 
   private release(entry: Entry): void {
     entry.users--;
-    if (entry.users === 0) this.options.later(kStayMs, () => this.leave(entry));
+    if (entry.isGone) this.changed.emit();
+    if (entry.users === 0) this.options.later(kStayMs, () => this.unfollowed(entry));
   }
 
   /** Nobody looks: it is asked again when somebody does. */
-  private leave(entry: Entry): void {
+  private unfollowed(entry: Entry): void {
     if (entry.users > 0 || isUnsent(entry)) return;
     entry.unfollow?.();
     entry.unfollow = null;

@@ -41,7 +41,13 @@ export class Happenings {
       frame(act: () => void): void;
       later(milliseconds: number, act: () => void): () => void;
     },
-  ) {}
+  ) {
+    // Numbers are those of the server's life.
+    connection.renewed.on(() => {
+      this.clear();
+      this.cleared = -1;
+    });
+  }
 
   /** Follows what happens until the returned function is called. each: of new ones as they come. */
   follow(each?: (items: readonly Happening[]) => void): () => void {
@@ -91,14 +97,7 @@ export class Happenings {
   private received(items: readonly Happening[], leftOut: number): void {
     this.leftOut += leftOut;
     const known = Math.max(this.items.at(-1)?.number ?? -1, this.cleared);
-    // A server that was started again counts from the beginning, later in the day.
-    const anew =
-      items.length > 0 &&
-      (items.at(-1)?.number ?? 0) < known &&
-      (items.at(-1)?.wall ?? 0) > (this.items.at(-1)?.wall ?? Infinity);
-    if (anew) this.clear();
-    if (anew) this.cleared = -1;
-    const fresh = items.filter((item) => item.number > (anew ? -1 : known));
+    const fresh = items.filter((item) => item.number > known);
     if (fresh.length === 0 && leftOut === 0) return;
     this.items =
       this.items.length + fresh.length > kHappeningsMax

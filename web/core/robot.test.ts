@@ -331,14 +331,24 @@ describe('happenings', () => {
     expect(each.mock.calls.map(([items]) => (items as Happening[]).length)).toEqual([2, 1]);
     expect(happenings.countList()[0]).toMatchObject({ name: 'steer', count: 3, rate: 10 });
   });
-  test('WhatWasClearedDoesNotComeBackButAServerThatBeginsAnewIsHeard', () => {
-    const { happenings, say } = open();
+  test('WhatWasClearedDoesNotComeBackButAServerThatWasRestartedIsHeard', () => {
+    const { world, happenings, say } = open();
+    const restart = (epoch: string) => {
+      world.last.events.closed();
+      world.pass(1000);
+      world.welcome(7, { epoch });
+    };
     happenings.follow();
     say([happening(5)]);
     happenings.clear();
     say([happening(5), happening(6)]);
     expect(happenings.items.map((item) => item.number)).toEqual([6]);
-    say([happening(0, { wall: 99_000 })]);
+    restart('f');
+    say([happening(0)]);
+    expect(happenings.items.map((item) => item.number)).toEqual([0]);
+    happenings.clear();
+    restart('g');
+    say([happening(0)]);
     expect(happenings.items.map((item) => item.number)).toEqual([0]);
   });
   test('NoMoreAreKeptThanThePageTakes', () => {

@@ -1,8 +1,9 @@
 // Everything behind the pages, put together: one of these for each page.
 
-import type { CommandName, Commands } from '../protocol/messages';
+import type { CommandName, Commands, Doc } from '../protocol/messages';
 import { answers, CommandError, Connection } from './connection';
 import { Documents } from './documents';
+import { Emitter } from './emitter';
 import { Happenings } from './happenings';
 import type { Identity } from './identity';
 import { Past } from './past';
@@ -14,6 +15,11 @@ import { Stopping } from './stopping';
 import { TopicCache } from './topics';
 import { createWindowStore, forgetProject, toast, type WindowStore } from './window_state';
 import { LiveWords } from './words';
+
+/** Commands that say which texts they are for. */
+type Changing = {
+  [C in CommandName]: 'seen' extends keyof Commands[C]['in'] ? C : never;
+}[CommandName];
 
 export class Studio {
   readonly connection: Connection;
@@ -29,6 +35,8 @@ export class Studio {
   readonly past: Past;
   /** The variables of the watch table. */
   readonly watched = new PickList();
+  /** Another project is open, and in that one is something that the server does not have. */
+  readonly left = new Emitter<{ folder: string; docs: readonly Doc[] }>();
   /** Of the project that is looked at; '' if there is none, null until the server has said it. */
   private folder: string | null = null;
   /** What the server calls this page, or did when it was last heard. */
@@ -93,14 +101,16 @@ export class Studio {
   private lookAtProject(): void {
     const folder = this.topics.get('studio', {})?.project?.folder ?? '';
     if (folder === this.folder) return;
-    const first = this.folder === null;
+    const before = this.folder;
     this.folder = folder;
-    if (first) return;
-    this.documents.forget();
+    if (before === null) return;
+    const unsent = this.documents.leave(before);
+    if (unsent.length > 0) this.left.emit({ folder: before, docs: unsent });
     this.past.closeTrace();
     this.happenings.clear();
     this.topics.forget(['studio', 'start', 'targets']);
     forgetProject(this.window);
+    this.documents.enter(folder);
   }
 
   /** This page may change things. */
@@ -117,6 +127,19 @@ export class Studio {
 
   send<C extends CommandName>(command: C, input: Commands[C]['in']): Promise<Commands[C]['out']> {
     return this.connection.send(command, input);
+  }
+
+  /**
+   * For what changes texts on the server: what was typed goes first, and it is refused if one of the
+   * texts is another one by then. With a document: only that one counts.
+   */
+  async change<C extends Changing>(
+    command: C,
+    input: Commands[C]['in'],
+    doc?: Doc,
+  ): Promise<Commands[C]['out']> {
+    const seen = await this.documents.seen(doc);
+    return this.send(command, { ...input, seen });
   }
 
   /** Sends what nobody waits for; a failure is shown as a toast. */

@@ -1,12 +1,12 @@
 // Work that is never lost: a server that is started again or does not answer, two pages, files that
 // change on disk or get another name, keyboards of other countries.
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject, twoNodes } from './support/robots.mjs';
 import { startProgram, vagusProgram } from './support/server.mjs';
 import { hands, openWindow, seen, test, until } from './support/studio.mjs';
-/** @import { Page, Studio, TestContext } from './support/studio.mjs' */
+/** @import { Locator, Page, Studio, TestContext } from './support/studio.mjs' */
 
 const scripts = { left: 'var left = 0\n', right: 'var right = 0\n' };
 const two = { prepare: (/** @type {TestContext} */ t) => twoNodes(t, scripts, {}) };
@@ -203,12 +203,104 @@ test(
     await studio.press('Enter');
     await says(studio, 'left', '# typed');
     await studio.editor('left').click();
+    await studio.press('Control+Home');
+    await studio.type('# more\n');
     await studio.press('Control+s');
     await until('saved under its new name', () =>
-      readFileSync(join(place, 'other.aesl'), 'utf8').includes('# typed'),
+      ['# typed', '# more'].every((one) =>
+        readFileSync(join(place, 'other.aesl'), 'utf8').includes(one),
+      ),
     );
+    // What is done in the editor is done to the file of the new name.
+    await studio.press('Control+f');
+    await seen(page.locator('.cm-search'));
+    await studio.press('Escape', 'F9');
+    await seen(page.locator('.cm-gutters .disc'));
+    await studio.editor('left').click();
+    await studio.press('Control+End');
+    await studio.type('le');
+    await studio.press('Control+Space');
+    await seen(page.getByRole('listbox').getByText('left'));
   },
 );
+
+test('a renamed variable is taken back before what was typed earlier', two, async (studio) => {
+  const { page, press } = studio;
+  await typeAtEnd(studio, 'left', '# typed\n');
+  await press('Control+Home', 'ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowRight', 'F2');
+  await page.getByLabel('New name').fill('speed');
+  await press('Enter');
+  await says(studio, 'left', 'var speed = 0');
+  await studio.editor('left').click();
+  await press('Control+z');
+  await says(studio, 'left', 'var left = 0');
+  assert.ok((await textOf(studio, 'left')).includes('# typed'));
+});
+
+test('what a person typed comes back after the file was used', two, async (studio) => {
+  const { page, button, press, place } = studio;
+  const path = join(place, 'two.aesl');
+  await studio.tab(/^left/).click();
+  await studio.editor('left').click();
+  await press('Control+Home', 'End');
+  await studio.type(' # mine');
+  await seen(page.getByText('Not saved'));
+  writeFileSync(path, readFileSync(path, 'utf8').replace('var left = 0', 'var left = 7'));
+  await button('Use the file').click();
+  await says(studio, 'left', 'var left = 7');
+  await studio.editor('left').click();
+  await press('Control+z');
+  await says(studio, 'left', '# mine');
+});
+
+test('a file that was deleted is said to be, and saving writes it again', two, async (studio) => {
+  const { page, press, place } = studio;
+  const path = join(place, 'two.aesl');
+  await typeAtEnd(studio, 'left', '# typed\n');
+  await press('Control+s');
+  await seen(page.getByText('Saved', { exact: true }));
+  rmSync(path);
+  await seen(page.getByText('Not on disk', { exact: true }));
+  await studio.editor('left').click();
+  await press('Control+s');
+  await until('it is there', () => existsSync(path));
+  assert.ok(readFileSync(path, 'utf8').includes('# typed'));
+  await seen(page.getByText('Saved', { exact: true }));
+});
+
+const odd = {
+  prepare(/** @type {TestContext} */ t) {
+    const made = makeProject(t, { name: 'O' }, { 'notes.txt': '' });
+    writeFileSync(join(made.place, 'notes.txt'), Uint8Array.of(0xff, 0xfe));
+    return made;
+  },
+};
+
+test('a text that could not be opened is tried again', odd, async (studio) => {
+  const { page, button, place } = studio;
+  await studio.command('Show Project');
+  await page.getByRole('treeitem', { name: /^notes/ }).dblclick();
+  await seen(page.getByText('This text cannot be opened.'));
+  // The server says so with a problem of its own.
+  writeFileSync(join(place, 'notes.txt'), 'good\n');
+  await button('Try again').click();
+  await seen(page.getByRole('textbox', { name: /notes/ }).getByText('good'));
+});
+
+test('of a JSON file one of two is kept, chosen side by side', plan, async (studio) => {
+  const { page, button, press, place } = studio;
+  const path = join(place, 'p.plan.json');
+  await page.locator('[data-place~="plan"]').first().waitFor();
+  await studio.command('Plan: new variable');
+  await seen(page.getByText('Not saved'));
+  writeFileSync(path, readFileSync(path, 'utf8').replace('"start": {}', '"help": "disk"'));
+  await press('Control+s');
+  await seen(page.getByText('Both lines together are no JSON'));
+  await seen(page.getByRole('textbox', { name: 'Use the file' }).getByText('disk'));
+  await button('Keep mine').click();
+  await press('Control+s');
+  await until('mine is kept', () => readFileSync(path, 'utf8').includes('configuration'));
+});
 
 test('keys of a German, a Swiss and a French keyboard', plan, async (studio) => {
   const { page, command } = studio;
@@ -219,14 +311,16 @@ test('keys of a German, a Swiss and a French keyboard', plan, async (studio) => 
   const said = () => page.locator('.plan__text .cm-content').first().innerText();
   const has = async () => (await said()).includes('configuration');
   await until('it is there', has);
-  const key = (/** @type {any} */ init) =>
-    canvas.evaluate(
+  /** True: the key is left to be typed. */
+  const keyIn = (/** @type {Locator} */ place, /** @type {any} */ init) =>
+    place.evaluate(
       (element, init) =>
         element.dispatchEvent(
           new KeyboardEvent('keydown', { bubbles: true, cancelable: true, ...init }),
         ),
       init,
     );
+  const key = (/** @type {any} */ init) => keyIn(canvas, init);
   // Ctrl+Shift+Z redoes, wherever Z is: nothing is to redo, and nothing is undone.
   await key({ key: 'Z', code: 'KeyY', ctrlKey: true, shiftKey: true });
   await key({ key: 'Z', code: 'KeyW', ctrlKey: true, shiftKey: true });
@@ -238,4 +332,22 @@ test('keys of a German, a Swiss and a French keyboard', plan, async (studio) => 
   await until('undone by its letter', async () => !(await has()));
   await key({ key: 'y', code: 'KeyZ', ctrlKey: true });
   await until('and redone', has);
+
+  // The same in a text.
+  const editor = page.locator('.plan__text .cm-content').first();
+  await editor.click();
+  await studio.press('Control+End');
+  await studio.type('# typed');
+  const typed = async () => (await said()).includes('# typed');
+  await until('it is typed', typed);
+  const caps = { modifierCapsLock: true, ctrlKey: true };
+  await keyIn(editor, { key: 'z', code: 'KeyZ', keyCode: 90, shiftKey: true, ...caps });
+  await keyIn(editor, { key: 'z', code: 'KeyY', keyCode: 90, shiftKey: true, ...caps });
+  await keyIn(editor, { key: 'y', code: 'KeyZ', keyCode: 89, ctrlKey: true });
+  assert.ok(await typed());
+  await keyIn(editor, { key: 'Z', code: 'KeyY', keyCode: 90, ...caps });
+  await until('undone by its letter, with Caps Lock', async () => !(await typed()));
+  await keyIn(editor, { key: 'z', code: 'KeyY', keyCode: 90, shiftKey: true, ...caps });
+  await until('redone', typed);
+  assert.ok(await keyIn(editor, { key: '@', code: 'KeyQ', keyCode: 81, modifierAltGraph: true }));
 });

@@ -65,6 +65,47 @@ test('a note is written, moved, resized and removed by the keyboard', plan, asyn
   await until('the file is as it was', () => file(place) === kPlan);
 });
 
+test('while a note is written, Save takes it and Stop stops', plan, async (studio) => {
+  const { page, layout, press, type, place } = studio;
+  await layout('Draw');
+  await page.getByRole('group', { name: 'wait, actor Wait', exact: false }).focus();
+  await press('n');
+  const field = page.getByRole('textbox', { name: 'Text of the note' }).first();
+  await seen(field);
+  await type('kept');
+  await press('Control+s');
+  await until('it is saved', () => notes(place)[0]?.text === 'kept');
+  await type(' too');
+  await seen(page.getByText('Not saved'));
+  const stopped = page.waitForRequest((request) => new URL(request.url()).pathname === '/stop');
+  await press('Shift+F5');
+  await stopped;
+  // Undo is the field's own.
+  await press('Control+a', 'Delete');
+  await type('all');
+  await press('Control+Enter');
+  await seen(card(page, 'all'));
+});
+
+test('a name that cannot be stays in its field, marked', plan, async (studio) => {
+  const { page, layout, press, type, place } = studio;
+  await layout('Draw');
+  await page.getByRole('group', { name: 'wait, actor Wait', exact: false }).focus();
+  await press('F2');
+  const field = page.getByRole('region', { name: 'Properties' }).getByLabel('Name');
+  await seen(field);
+  await press('Control+a');
+  await type('1 no name');
+  await press('Enter', 'Control+s');
+  assert.equal(await field.inputValue(), '1 no name');
+  assert.equal(await field.getAttribute('aria-invalid'), 'true');
+  await seen(page.getByText('Not saved'));
+  await press('Control+a');
+  await type('rest');
+  await press('Control+s');
+  await until('it is saved without Enter', () => 'rest' in JSON.parse(file(place)).actors);
+});
+
 test('a note is written and enlarged by the mouse', plan, async (studio) => {
   const { page, layout, press, place, button } = studio;
   await layout('Draw');

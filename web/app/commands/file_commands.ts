@@ -73,7 +73,10 @@ export function fileCommands(studio: Studio): Command[] {
       title: titles['file.revert'],
       group,
       enabled: () => inProject() && shown() !== null,
-      run: async () => void (await studio.send('doc.revert', { doc: shown() ?? '' })),
+      async run() {
+        const doc = shown() ?? '';
+        await studio.change('doc.revert', { doc }, doc);
+      },
     },
     ...fileKinds.map((kind): Command => ({
       id: `file.new.${kind}`,

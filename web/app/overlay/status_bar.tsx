@@ -9,7 +9,7 @@ import { countsOf } from '../../core/findings';
 import { shownTime } from '../../core/numbers';
 import { standsAt } from '../../core/run_state';
 import { kindOf } from '../documents';
-import { usePart, useStudio, useTopic, useUnsent, useWindow } from '../hooks';
+import { useIsGone, usePart, useStudio, useTopic, useUnsent, useWindow } from '../hooks';
 import { Kbd } from '../parts/kbd';
 import { kStroke } from '../parts/icons';
 import { timeOf } from '../parts/time_of';
@@ -35,7 +35,9 @@ function Left() {
   const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
   const warnings = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).warnings);
   const isUnsent = useUnsent();
+  const isGone = useIsGone();
   const unsaved = usePart('files', {}, (is) => is?.files.some((file) => file.unsaved) ?? false);
+  const saved = isGone ? text.status.notOnDisk : text.status.saved;
   const Icon = errors > 0 ? IconAlertOctagon : warnings > 0 ? IconAlertTriangle : IconCircleCheck;
   const found = [
     errors > 0 && text.status.errors(errors),
@@ -47,9 +49,7 @@ function Left() {
         <Icon size={13} stroke={kStroke} aria-hidden />
         {found.length > 0 ? found.join(', ') : text.status.noProblems}
       </button>
-      <span className="status__part">
-        {unsaved || isUnsent ? text.status.notSaved : text.status.saved}
-      </span>
+      <span className="status__part">{unsaved || isUnsent ? text.status.notSaved : saved}</span>
       <Runs />
     </>
   );

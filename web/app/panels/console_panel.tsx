@@ -42,8 +42,10 @@ export default function ConsolePanel() {
 function useLines(): { lines: Line[]; leftOut: number } {
   const { connection } = useStudio();
   const [state, setState] = useState<{ lines: Line[]; leftOut: number }>({ lines: [], leftOut: 0 });
-  useEffect(
-    () =>
+  useEffect(() => {
+    // Numbers are those of the server's life: it says its last lines again.
+    const ends = [
+      connection.renewed.on(() => setState({ lines: [], leftOut: 0 })),
       connection.watch(
         'console',
         { last: kLinesMax },
@@ -56,8 +58,9 @@ function useLines(): { lines: Line[]; leftOut: number } {
             })),
         },
       ),
-    [connection],
-  );
+    ];
+    return () => ends.forEach((end) => end());
+  }, [connection]);
   return state;
 }
 

@@ -27,8 +27,7 @@ export default function SearchPanel() {
     setFound({ ...(await studio.send('text.search', query)), asked: query });
   };
   const replace = async () => {
-    await studio.documents.flushAll();
-    const { changed, places } = await studio.send('text.replace', { ...query, by });
+    const { changed, places } = await studio.change('text.replace', { ...query, by });
     toast(studio.window, 'ok', words.replaced(places, changed.length));
     await search();
   };

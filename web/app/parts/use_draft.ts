@@ -18,7 +18,6 @@ export interface Draft {
 
 /** `take` gets what was typed, if it is another text than the value; false: it cannot be that. */
 export function useDraft(value: string, take: (typed: string) => boolean | void): Draft {
-  const { fields } = useStudio().documents;
   const [typed, setTyped] = useState<string | null>(null);
   const [isRefused, setRefused] = useState(false);
   const set = (text: string | null) => {
@@ -37,15 +36,22 @@ export function useDraft(value: string, take: (typed: string) => boolean | void)
     else return false;
     return true;
   };
-  const isTyped = typed !== null && typed !== value;
-  // Save and Run take what is typed before they do their work.
-  const settle = useRef(done);
+  useTyped(typed !== null && typed !== value, done);
+  return { typed, shown: typed ?? value, isRefused, set, done, key };
+}
+
+/**
+ * Save and Run take what is typed before they do their work: a field, or a form of several, with
+ * something in it that does not count yet. `take`: false if it is refused.
+ */
+export function useTyped(isTyped: boolean, take: () => boolean): void {
+  const { fields } = useStudio().documents;
+  const settle = useRef(take);
   useEffect(() => {
-    settle.current = done;
+    settle.current = take;
   });
   useEffect(
     () => (isTyped ? fields.add({ settle: () => settle.current() }) : undefined),
     [fields, isTyped],
   );
-  return { typed, shown: typed ?? value, isRefused, set, done, key };
 }

@@ -372,8 +372,10 @@ export class PlanBoard {
     return variable && ['configuration', variable.name];
   }
 
-  rename(key: string, to: string): void {
-    const { value } = this.file;
+  /** False: not now. */
+  rename(key: string, to: string): boolean {
+    const { value, broken } = this.file;
+    if (broken !== null) return false;
     const stood = this.stood.get(key);
     if (stood) this.stood = new Map([...this.stood, [to, stood]]);
     const supervisor = this.supervisor(key);
@@ -388,6 +390,7 @@ export class PlanBoard {
     const next = supervisor ? `${supervisor.owner}/${to}` : variable ? pillKey(to) : to;
     this.commit(steps);
     this.select(next);
+    return true;
   }
 
   /** The value in the file. */

@@ -18,18 +18,20 @@ export interface OpenDocument {
 export interface OpenOptions {
   link: DocLink;
   name: () => string;
+  /** See FileSync. */
+  isAsked: (by: string) => boolean;
   now: () => number;
 }
 
 export function openDocument(
   opened: Opened & { text: string; language: string },
-  { link, name, now }: OpenOptions,
+  { link, name, isAsked, now }: OpenOptions,
 ): OpenDocument {
   const session = new TextSession(opened.text, opened.language);
   let file: JsonFile | null = null;
   return {
     session,
-    sync: new FileSync(session, opened, link, name),
+    sync: new FileSync(session, opened, link, name, isAsked),
     language: opened.language,
     file: () => (file ??= new JsonFile(session, now)),
     kept: null,

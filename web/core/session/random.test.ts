@@ -1,5 +1,6 @@
-// Two pages and a server, with links that are late, cut and doubled, restarts of the server and files
-// that change on disk: in the end all have the same text, and nothing that somebody typed is lost.
+// Two pages and a server, with links that are late, cut and doubled, restarts of the server that lose
+// what nobody has heard of, edits that are refused, files that change on disk and conflicts there: in
+// the end all have the same text, and nothing that somebody typed is lost.
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
@@ -19,7 +20,8 @@ type Act =
   | { do: 'delete'; page: number; at: number; size: number }
   | { do: 'undo' | 'redo' | 'cut' | 'join' | 'flush'; page: number }
   | { do: 'wait'; ms: number }
-  | { do: 'restart' | 'forget' }
+  | { do: 'restart' | 'lose' | 'forget' | 'refuse' }
+  | { do: 'conflict'; page: number }
   | { do: 'disk'; at: number };
 
 const page = fc.nat(1);
@@ -48,7 +50,11 @@ const act: fc.Arbitrary<Act> = fc.oneof(
     arbitrary: fc.record({ do: fc.constantFrom('undo', 'redo', 'cut', 'join', 'flush'), page }),
   },
   { weight: 4, arbitrary: fc.record({ do: fc.constant('wait'), ms: fc.nat(60) }) },
-  { weight: 1, arbitrary: fc.record({ do: fc.constantFrom('restart', 'forget') }) },
+  {
+    weight: 1,
+    arbitrary: fc.record({ do: fc.constantFrom('restart', 'lose', 'forget', 'refuse') }),
+  },
+  { weight: 1, arbitrary: fc.record({ do: fc.constant('conflict'), page }) },
   { weight: 1, arbitrary: fc.record({ do: fc.constant('disk'), at }) },
 );
 
@@ -86,16 +92,31 @@ class Game {
       case 'wait':
         return this.schedule.advance(act.ms);
       case 'restart':
+      case 'lose':
         this.pages.forEach((one) => one.cut());
-        this.server.restart();
+        this.server.restart({ loses: act.do === 'lose' });
         return this.schedule.in(15, () => this.pages.forEach((one) => one.join()));
       case 'forget':
         return this.server.forget();
+      case 'refuse':
+        this.server.refuses = 2;
+        return;
+      case 'conflict': {
+        // The file changed on disk, and that page chose it: its edits may be undone.
+        for (const one of this.server.text) this.touched.add(one);
+        const to = this.server.text.length;
+        const by = `for:${this.pages[act.page]?.name}`;
+        return this.onDisk(by, { from: 0, to, text: this.letters(5) });
+      }
       case 'disk': {
-        const place = act.at % (this.server.text.length + 1);
-        this.server.apply('disk', [{ from: place, to: place, text: this.letters(2) }]);
+        const from = act.at % (this.server.text.length + 1);
+        return this.onDisk('disk', { from, to: from, text: this.letters(2) });
       }
     }
+  }
+
+  private onDisk(by: string, change: { from: number; to: number; text: string }): void {
+    this.server.journal(this.server.apply(by, [change]));
   }
 
   flush(page: number): void {
@@ -106,6 +127,7 @@ class Game {
 
   async settle(): Promise<void> {
     this.pages.forEach((one) => one.join());
+    this.server.refuses = 0;
     await this.schedule.advance(2000);
     this.pages.forEach((_one, index) => this.flush(index));
     await this.schedule.advance(2000);
@@ -184,6 +206,37 @@ describe('documents', () => {
     await fc.assert(game, parameters);
   }, 600_000);
 
+  test('UndoLosesNoCharacterOfOthersAlsoWhereBothTypedInOnePlace', async () => {
+    const game = fc.asyncProperty(
+      fc.array(act, { maxLength: 40 }),
+      fc.nat(),
+      async (acts, chance) => {
+        const game = new Game(chance);
+        const deleted = new Set<string>();
+        const others = new Set<string>();
+        for (const one of acts) {
+          const shown = () => game.pages['page' in one ? one.page : 1]?.session.text ?? '';
+          const before = shown();
+          if (kPlainActs.has(one.do)) await game.play(one);
+          const after = shown();
+          if (one.do === 'delete')
+            for (const letter of before) if (!after.includes(letter)) deleted.add(letter);
+          if (one.do === 'type' && one.page === 1)
+            for (const letter of after) if (!before.includes(letter)) others.add(letter);
+        }
+        await game.settle();
+        while (game.pages[0]?.session.undo());
+        await game.settle();
+        for (const letter of others)
+          if (!deleted.has(letter)) expect(game.server.text.split(letter).length - 1).toBe(1);
+        expect(game.pages.map(({ session }) => session.text)).toEqual(
+          game.pages.map(() => game.server.text),
+        );
+      },
+    );
+    await fc.assert(game, parameters);
+  }, 600_000);
+
   test('StepsOfTwoDrawingsAndTheirUndoLeaveAFileThatParses', async () => {
     const game = fc.asyncProperty(
       fc.array(drawn, { maxLength: 25 }),
@@ -210,6 +263,16 @@ describe('documents', () => {
     await fc.assert(game, parameters);
   }, 600_000);
 });
+
+/** Acts whose letters are followed easily. */
+const kPlainActs: ReadonlySet<Act['do']> = new Set([
+  'type',
+  'delete',
+  'wait',
+  'cut',
+  'join',
+  'disk',
+]);
 
 const kOwnZones = ['aaaa', 'cccc', 'eeee', 'gggg'];
 

@@ -133,6 +133,51 @@ describe('two who edit one file', () => {
   });
 });
 
+describe('what the server does because it was asked', () => {
+  test('UndoTakesItBackBeforeWhatWasTypedEarlierAndRedoDoesItAgain', async () => {
+    const { server, schedule, a, b } = pair('var old\n', 'text');
+    a.session.type({ changes: { from: 8, insert: '# note' }, at: 0 });
+    await schedule.advance(100);
+    server.apply('for:A', [{ from: 4, to: 7, text: 'new' }]);
+    await schedule.advance(100);
+    expect(a.session.text).toBe('var new\n# note');
+    a.session.undo();
+    await schedule.advance(100);
+    expect(server.text).toBe('var old\n# note');
+    a.session.redo();
+    await schedule.advance(100);
+    expect(server.text).toBe('var new\n# note');
+    b.session.undo();
+    await schedule.advance(100);
+    expect(b.session.text).toBe('var new\n# note');
+    a.session.undo();
+    a.session.undo();
+    await schedule.advance(100);
+    expect(server.text).toBe('var old\n');
+  });
+  test('ItIsAStepOfItsOwnAlsoWhileSomethingIsUnderWay', async () => {
+    const { server, schedule, a } = pair('var old\n', 'text');
+    a.session.type({ changes: { from: 8, insert: '# note' }, at: 0 });
+    server.apply('for:A', [{ from: 4, to: 7, text: 'new' }]);
+    await schedule.advance(100);
+    expect(server.text).toBe('var new\n# note');
+    a.session.undo();
+    await schedule.advance(100);
+    expect(server.text).toBe('var old\n# note');
+  });
+  test('AfterAllWasReplacedTheTypedTextComesBack', async () => {
+    const { server, schedule, a } = pair('abc', 'text');
+    a.session.type({ changes: { from: 3, insert: ' typed' }, at: 0 });
+    await schedule.advance(100);
+    server.apply('for:A', [{ from: 0, to: 9, text: 'disk' }]);
+    await schedule.advance(100);
+    expect(a.session.text).toBe('disk');
+    a.session.undo();
+    await schedule.advance(100);
+    expect(server.text).toBe('abc typed');
+  });
+});
+
 describe('a server that was started again', () => {
   test('WhatWasTypedAndNotAnsweredIsMergedOnce', async () => {
     const { server, schedule, a } = pair('abc', 'text');

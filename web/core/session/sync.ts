@@ -55,6 +55,8 @@ export class FileSync {
     opened: Opened,
     private readonly link: DocLink,
     private readonly name: () => string,
+    /** By its name: what the server did because this page asked for it. */
+    private readonly isAsked: (by: string) => boolean = () => false,
   ) {
     this.epoch = opened.epoch;
     this.version = opened.version;
@@ -182,13 +184,14 @@ export class FileSync {
     for (const update of behind ?? []) {
       if (update.version <= this.version) continue;
       if (update.by === this.sending?.by) this.taken(update.version);
-      else this.others(specOf(update.changes));
+      else if (this.isAsked(update.by)) this.session.receiveOwn(this.changeOf(update.changes));
+      else this.session.receive(this.changeOf(update.changes));
       this.version = update.version;
     }
   }
 
-  private others(changes: { from: number; to: number; insert: string }[]): void {
-    this.session.receive(ChangeSet.of(changes, this.session.confirmed.length));
+  private changeOf(changes: readonly Change[]): ChangeSet {
+    return ChangeSet.of(specOf(changes), this.session.confirmed.length);
   }
 
   /** Three ways: what both had, what is here, and what the server has now. */
@@ -200,7 +203,8 @@ export class FileSync {
     // Nobody has said whether it took what was under way: the text tells.
     const isTaken = count > 0 && sizeOf(differences(sent, text)) < sizeOf(without);
     if (isTaken) session.confirm(count);
-    this.others(isTaken ? differences(sent, text) : without);
+    const theirs = isTaken ? differences(sent, text) : without;
+    session.receive(ChangeSet.of(theirs, session.confirmed.length));
     this.sending = null;
     this.epoch = opened.epoch;
     this.version = opened.version;

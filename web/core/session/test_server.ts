@@ -13,7 +13,11 @@ export class ModelServer {
   epoch = 1;
   version = 1;
   readonly told: (() => void)[] = [];
+  /** So many edits are refused. */
+  refuses = 0;
   private log: Update[] = [];
+  /** Texts by their versions, from the one on that is in the journal. */
+  private texts = new Map<number, string>();
   private readonly answers = new Map<string, Answer>();
 
   constructor(public text: string) {}
@@ -22,6 +26,10 @@ export class ModelServer {
   edit(name: string, order: Order): Answer {
     const known = this.answers.get(name);
     if (known) return known;
+    if (this.refuses > 0) {
+      this.refuses--;
+      throw new Error('refused');
+    }
     const missing = this.missing(order);
     const answer = missing ?? { version: this.apply(order.by, order.changes) };
     this.answers.set(name, answer);
@@ -33,16 +41,25 @@ export class ModelServer {
   }
 
   apply(by: string, changes: Order['changes']): number {
-    const length = this.text.length;
-    const set = ChangeSet.of(specOf(changes), length);
+    const before = this.text;
+    const set = ChangeSet.of(specOf(changes), before.length);
     this.text = set.apply(Text.of(this.text.split('\n'))).toString();
+    this.texts.set(this.version, before);
     this.log.push({ version: ++this.version, by, changes: changesOf(set) });
     this.told.forEach((tell) => tell());
     return this.version;
   }
 
+  /** Somebody has heard of that text: it is in the journal. */
+  journal(version: number): void {
+    for (const old of this.texts.keys()) if (old < version) this.texts.delete(old);
+  }
+
   /** What was acknowledged is in the journal; what was answered is forgotten. */
-  restart(): void {
+  restart({ loses = false } = {}): void {
+    // The oldest is what is in the journal; what came after it was never acknowledged.
+    if (loses) this.text = this.texts.values().next().value ?? this.text;
+    this.texts.clear();
     this.epoch++;
     this.version = 1;
     this.log = [];
@@ -121,7 +138,13 @@ export class ModelPage {
       edit: (order) => this.ask((number) => server.edit(`${name} ${number}`, order)),
       pull: (from) => this.ask(() => server.pull(from)),
     };
-    this.sync = new FileSync(this.session, server.state, link, () => `${name}.${++this.edits}`);
+    this.sync = new FileSync(
+      this.session,
+      server.state,
+      link,
+      () => `${name}.${++this.edits}`,
+      (by) => by === `for:${name}`,
+    );
     server.told.push(() => this.tell());
   }
 
@@ -157,9 +180,14 @@ export class ModelPage {
       try {
         answer = one.ask();
       } catch (error) {
-        return one.failed(new CommandError({ code: 'bad_input', what: String(error) }));
+        const refusal = new CommandError({ code: 'bad_input', what: String(error) });
+        return this.later(() => this.waiting.delete(number) && one.failed(refusal));
       }
-      const deliver = () => this.waiting.delete(number) && one.done(answer);
+      const deliver = () => {
+        if (!this.waiting.delete(number)) return;
+        this.server.journal(answer.version);
+        one.done(answer);
+      };
       this.later(deliver);
       // Doubled now and then.
       if (this.delay() % 3 === 0) this.later(deliver);

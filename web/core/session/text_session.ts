@@ -5,6 +5,7 @@ import { collab, receiveUpdates, sendableUpdates, type Update } from '@codemirro
 import { history, invertedEffects, redo, redoDepth, undo, undoDepth } from '@codemirror/commands';
 import {
   Annotation,
+  type AnnotationType,
   EditorState,
   Transaction,
   type ChangeSet,
@@ -158,16 +159,43 @@ export class TextSession {
 
   /** What others have made of the text that is confirmed. */
   receive(changes: ChangeSet): void {
+    this.woven(changes, (one) => this.follow(one));
+  }
+
+  /** What the server has made of it because it was asked from here: a step of one's own. */
+  receiveOwn(changes: ChangeSet): void {
+    this.last = null;
+    this.woven(changes, (one) => this.follow(this.remembered(one)));
+  }
+
+  private woven(changes: ChangeSet, follow: (one: Transaction) => void): void {
     const base = this.known;
     const before = this.unsent;
     this.known = changes.apply(base);
     const one = receiveUpdates(this.state, [{ changes, clientID: kOthers }]);
-    this.follow(one);
+    follow(one);
     const again = this.again({ base, changes, before, after: this.unsent });
     const made = again ? one.changes.compose(this.correct(again.text)) : one.changes;
     this.tell(made);
     if (again && again.refused.length > 0)
       this.refused.emit({ why: 'gone', places: again.refused });
+  }
+
+  /** The same as a step that undo takes back: collab keeps what it receives out of the history. */
+  private remembered(one: Transaction): Transaction {
+    // They are not in its types: one of them is collab's own, which it needs.
+    const { annotations } = one as unknown as { annotations: readonly Annotation<unknown>[] };
+    const others = [Transaction.addToHistory, Transaction.remote, Transaction.time] as const;
+    const kept = annotations.filter(
+      ({ type }) => !others.some((other) => type === (other as AnnotationType<unknown>)),
+    );
+    const { changes, effects } = one;
+    return this.state.update({
+      changes,
+      effects,
+      annotations: [...kept, joins.of(false)],
+      filter: false,
+    });
   }
 
   private again(others: Parameters<typeof doneAgain>[0]): Again | null {

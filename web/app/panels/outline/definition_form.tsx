@@ -27,9 +27,9 @@ export function DefinitionForm({
   const good = /^-?\d+$/.test(value) && Number(value) >= least && Number(value) <= most;
   const save = async () => {
     if (!good || name === '') return;
-    if (!definition) await studio.send('define.add', { file, kind, name, value: Number(value) });
+    if (!definition) await studio.change('define.add', { file, kind, name, value: Number(value) });
     else {
-      const { places, others } = await studio.send('define.change', {
+      const { places, others } = await studio.change('define.change', {
         file,
         kind,
         name: definition.name,

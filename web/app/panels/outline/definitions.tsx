@@ -87,8 +87,10 @@ function Row({
   if (form === 'send') return <SendForm definition={definition} onEnd={end} />;
   const send = () =>
     value === 0 ? studio.order('event.send', { name, args: [] }) : setForm('send');
+  const tell = (done: Promise<unknown>) =>
+    void done.catch((problem: unknown) => studio.tell(problem));
   const move = (by: number) =>
-    studio.order('define.move', { file: file.path, kind, name, to: index + by });
+    tell(studio.change('define.move', { file: file.path, kind, name, to: index + by }));
   const moveKey = (event: KeyboardEvent) => {
     const by = event.altKey ? { ArrowUp: -1, ArrowDown: 1 }[event.key] : undefined;
     if (!by || !drives || (by < 0 ? index === 0 : last)) return;
@@ -140,7 +142,7 @@ function Row({
           disabled={!drives}
           tip={text.outline.remove(name)}
           icon={<IconTrash {...icon} />}
-          onClick={() => studio.order('define.remove', { file: file.path, kind, name })}
+          onClick={() => tell(studio.change('define.remove', { file: file.path, kind, name }))}
         />
       </span>
       <span className="outline__words num">{value}</span>

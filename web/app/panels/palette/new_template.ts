@@ -13,9 +13,7 @@ import { planDeskOf } from '../../views/plan/plan_desk';
 const kKnownWithinMs = 5000;
 
 export async function newTemplate(studio: Studio, wanted: WantedTemplate): Promise<void> {
-  // The scripts as they are typed.
-  await studio.documents.flushAll();
-  const { toolbox, at } = await studio.send('template.new', wanted);
+  const { toolbox, at } = await studio.change('template.new', wanted);
   const found = await known(studio, toolbox, wanted.name);
   if (found) addToPlan(studio, found);
   toast(studio.window, 'ok', text.templates.made(wanted.name));

@@ -45,7 +45,7 @@ export function NameInput({
     if (why) return;
     end();
     const path = joinPath(rename ? folderOf(rename) : folder, name);
-    if (rename && path !== rename) await studio.send('file.rename', { path: rename, to: path });
+    if (rename && path !== rename) await studio.change('file.rename', { path: rename, to: path });
     if (rename) return;
     await studio.send('file.new', { path, kind });
     if (kind === 'folder') return;

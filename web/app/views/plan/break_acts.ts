@@ -23,12 +23,13 @@ export function toggleBreak(studio: Studio, board: PlanBoard, key: string): void
   else studio.order('plan.break.set', { doc: board.doc, ...place });
 }
 
-/** Does what may give an element another name; its breakpoints follow it. */
-export function withBreaks(studio: Studio, board: PlanBoard, act: () => void): void {
+/** Does what may give an element another name; its breakpoints follow it. False: it was refused. */
+export function withBreaks(studio: Studio, board: PlanBoard, act: () => boolean | void): boolean {
   const before = board.model;
-  act();
+  if (act() === false) return false;
   const change = renamed(before, board.model);
   if (change) renameBreaks(studio, board.doc, change);
+  return true;
 }
 
 function renameBreaks(studio: Studio, doc: string, { is, from, to }: Renamed): void {

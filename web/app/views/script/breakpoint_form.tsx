@@ -3,6 +3,7 @@ import { mistakeIn } from '../../../core/condition';
 import type { Doc } from '../../../protocol/messages';
 import { useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
+import { useTyped } from '../../parts/use_draft';
 import { text } from '../../text';
 
 const words = text.editor;
@@ -20,10 +21,17 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
   const good = /^\d{1,6}$/.test(ignore) && wrong === '';
   const save = () => {
     setTried(true);
-    if (!good) return;
+    if (!good) return false;
     studio.order('break.set', { doc, line, condition, ignore: Number(ignore), enabled });
     onEnd();
+    return true;
   };
+  const before = { condition: '', ignore: 0, enabled: true, ...there };
+  const isTyped =
+    condition !== before.condition ||
+    ignore !== String(before.ignore) ||
+    enabled !== before.enabled;
+  useTyped(isTyped, save);
   return (
     <form className="form form--line" onSubmit={(event) => (event.preventDefault(), save())}>
       <label>

@@ -11,18 +11,16 @@ const words = text.editor;
 
 export function RenameForm({ doc, view, onEnd }: { doc: Doc; view: EditorView; onEnd(): void }) {
   const studio = useStudio();
-  const head = view.state.selection.main.head;
-  const [name, setName] = useState(() => wordAt(view, head));
+  const head = () => view.state.selection.main.head;
+  const [name, setName] = useState(() => wordAt(view, head()));
   const [why, setWhy] = useState('');
   const rename = async () => {
     const { good, why: reason } = await studio.send('script.format_name', { name });
     if (!good) return setWhy(reason ?? '');
-    await studio.documents.flushAll();
-    const { places, changed } = await studio.send('script.rename', {
-      doc,
-      at: placeOf(view.state.doc, head),
-      to: name,
-    });
+    const seen = await studio.documents.seen();
+    // Others may have moved it meanwhile: where it is in the text that was seen.
+    const at = placeOf(view.state.doc, head());
+    const { places, changed } = await studio.send('script.rename', { doc, at, to: name, seen });
     toast(studio.window, 'ok', words.renamed(places, changed.length));
     onEnd();
   };

@@ -3,14 +3,14 @@ import { Suspense, useState, type ReactNode } from 'react';
 import { late } from '../../parts/late';
 import type { Doc } from '../../../protocol/messages';
 import { countsOf } from '../../../core/findings';
-import { useDrives, useStudio, useTopic } from '../../hooks';
+import { useDocuments, useDrives, useStudio, useTopic } from '../../hooks';
 import { timeOf } from '../../parts/time_of';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 
 const words = text.editor;
-// Lines below each other are no JSON any more.
+/** Lines below each other are no JSON any more. */
 const kTexts: readonly string[] = ['aesl', 'aesl-file', 'text'];
 const Compare = late(() => import('./compare'));
 
@@ -49,17 +49,23 @@ function LoadedNotice({ doc }: { doc: Doc }) {
 export function DiskNotice({ doc }: { doc: Doc }) {
   const studio = useStudio();
   const drives = useDrives();
-  const [compare, setCompare] = useState(false);
+  const [compare, setCompare] = useState<boolean | null>(null);
   const state = useTopic('doc', { doc });
+  const problem = useDocuments((documents) => documents.problemOf(doc)?.what);
   if (state?.gone) return <Line>{words.gone}</Line>;
-  if (!state?.disk) return null;
+  if (!state?.disk) return problem === undefined ? null : <Line error>{problem}</Line>;
   const { disk_hash } = state;
+  const isText = kTexts.includes(state.language);
+  // Where only one can be kept, it is chosen by looking at both.
+  const compares = compare ?? !isText;
   const keep = (which: 'mine' | 'disk' | 'both') => () =>
-    studio.order('doc.keep', { doc, which, disk_hash });
+    void studio
+      .change('doc.keep', { doc, which, disk_hash }, doc)
+      .catch((problem: unknown) => studio.tell(problem));
   const end = (
     <>
-      <Button small kind="plain" aria-expanded={compare} onClick={() => setCompare(!compare)}>
-        {compare ? words.hide : words.compare}
+      <Button small kind="plain" aria-expanded={compares} onClick={() => setCompare(!compares)}>
+        {compares ? words.hide : words.compare}
       </Button>
       <Button small disabled={!drives} onClick={keep('mine')}>
         {words.mine}
@@ -67,7 +73,7 @@ export function DiskNotice({ doc }: { doc: Doc }) {
       <Button small disabled={!drives} onClick={keep('disk')}>
         {words.theirs}
       </Button>
-      {kTexts.includes(state.language) ? (
+      {isText ? (
         <Button small disabled={!drives} tip={words.bothHelp} onClick={keep('both')}>
           {words.both}
         </Button>
@@ -76,8 +82,8 @@ export function DiskNotice({ doc }: { doc: Doc }) {
   );
   return (
     <>
-      <Line end={end}>{words.disk}</Line>
-      {compare ? (
+      <Line end={end}>{isText ? words.disk : `${words.disk} ${words.oneOnly}`}</Line>
+      {compares ? (
         <Suspense fallback={null}>
           <Compare doc={doc} version={state.version} disk={disk_hash} />
         </Suspense>

@@ -27,6 +27,7 @@ import {
 } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import { aesl } from '../../../aesl/language';
+import { pressedKeys } from '../../../core/keys';
 import type { Settings } from '../../../core/settings';
 
 // Classes, so that the colours are those of the theme's tokens.
@@ -115,20 +116,28 @@ export function readOnlyOf(readOnly: boolean): Extension {
   return EditorState.readOnly.of(readOnly);
 }
 
-/** Undo and redo by keys and by the browser's menu. Ctrl+Y and Ctrl+Shift+Z never undo. */
-export function backKeys(act: (act: 'undo' | 'redo') => void): Extension {
+/** As core/keys.ts spells them: with Caps Lock and on any keyboard, Ctrl+Y and Ctrl+Shift+Z never undo. */
+const kBackKeys: Readonly<Record<string, 'undo' | 'redo'>> = {
+  'Ctrl+Z': 'undo',
+  'Ctrl+Y': 'redo',
+  'Ctrl+Shift+Z': 'redo',
+};
+
+/** Undo and redo by keys and by the browser's menu. */
+export function backKeys(isApple: boolean, act: (act: 'undo' | 'redo') => void): Extension {
   // The key is the editor's also where nothing is to undo.
   const back = (view: EditorView, which: 'undo' | 'redo') => {
     if (!view.state.readOnly) act(which);
     return true;
   };
-  const key = (key: string, act: 'undo' | 'redo') => ({
-    key,
-    run: (view: EditorView) => back(view, act),
-    preventDefault: true,
-  });
+  const pressed = (event: KeyboardEvent, view: EditorView) => {
+    const [meant] = pressedKeys(event, isApple).flatMap((key) => kBackKeys[key] ?? []);
+    if (meant === undefined) return false;
+    event.preventDefault();
+    return back(view, meant);
+  };
   return [
-    Prec.high(keymap.of([key('Mod-z', 'undo'), key('Mod-y', 'redo'), key('Mod-Shift-z', 'redo')])),
+    Prec.highest(EditorView.domEventHandlers({ keydown: pressed })),
     EditorView.domEventHandlers({
       beforeinput(event, view) {
         const act = { historyUndo: 'undo', historyRedo: 'redo' }[event.inputType];

@@ -44,6 +44,11 @@ export function useEditor(doc: Doc): EditorLife {
   const [view, setView] = useState<EditorView | null>(null);
   const [failed, setFailed] = useState<string | null>(null);
   const [tries, setTries] = useState(0);
+  // A file that was renamed to this name is another one than what was open under it.
+  useEffect(
+    () => studio.documents.moved.on(({ to }) => to === doc && setTries((before) => before + 1)),
+    [studio, doc],
+  );
   useEffect(() => {
     const held = studio.documents.acquire(doc);
     let end = () => {};
@@ -53,19 +58,25 @@ export function useEditor(doc: Doc): EditorLife {
         if (gone || !host.current) return;
         const made = attach(studio, doc, opened, host.current);
         end = made.end;
-        setFailed(null);
         setView(made.view);
       },
-      (problem: unknown) => setFailed(problem instanceof Error ? problem.message : String(problem)),
+      (problem: unknown) =>
+        gone || setFailed(problem instanceof Error ? problem.message : String(problem)),
     );
     return () => {
       gone = true;
       setView(null);
+      setFailed(null);
       end();
       held.release();
     };
   }, [studio, doc, tries]);
-  return { host, view, failed, retry: () => setTries(tries + 1) };
+  // Its place has to be there again before it can be shown: the effect runs behind that.
+  const retry = () => {
+    setFailed(null);
+    setTries(tries + 1);
+  };
+  return { host, view, failed, retry };
 }
 
 function attach(
@@ -96,7 +107,7 @@ function attach(
     view,
     end() {
       end();
-      opened.kept = view.state;
+      opened.kept = { doc, state: view.state } satisfies Kept;
       view.destroy();
     },
   };
@@ -117,13 +128,25 @@ function followed(spec: TransactionSpec): TransactionSpec {
   return { ...spec, annotations: fromSession.of(true) };
 }
 
+/** An editor's state; its parts are for the name that the document had then. */
+interface Kept {
+  doc: Doc;
+  state: EditorState;
+}
+
 function stateFor(studio: Studio, doc: Doc, opened: OpenDocument): EditorState {
   // Kept by an editor of this same document, here above.
-  if (opened.kept) return opened.kept as EditorState;
+  const kept = opened.kept as Kept | null;
+  if (kept?.doc === doc) return kept.state;
+  const made = newState(studio, doc, opened, kept?.state.doc.toString() ?? opened.session.text);
+  return kept ? made.update({ selection: kept.state.selection }).state : made;
+}
+
+function newState(studio: Studio, doc: Doc, opened: OpenDocument, shown: string): EditorState {
   const isScript = doc.includes('#');
   const name = nameOf(studio, doc);
   const extensions = [
-    backKeys((act) => opened.session[act]()),
+    backKeys(studio.registry.isApple, (act) => opened.session[act]()),
     EditorView.updateListener.of((change) => tellCursor(studio, doc, change)),
     findingsExtension,
     revealSentence,
@@ -135,7 +158,7 @@ function stateFor(studio: Studio, doc: Doc, opened: OpenDocument): EditorState {
   ];
   const settings = readSettings(studio.topics.get('studio', {})?.settings);
   return makeState({
-    text: opened.session.text,
+    text: shown,
     language: opened.language,
     label: isScript ? text.editor.label(name) : text.editor.textLabel(name),
     extensions,

@@ -35,9 +35,9 @@ export function EntryForm(props: { file: JsonFile; id: string; model: WorldModel
   const verb = verbs.find((one) => one === entry['do']) ?? 'add';
   const retime = (t: number | undefined) => {
     const timed = t === undefined ? null : timeSteps(file.value, id, t);
-    if (!timed) return;
+    if (!timed || file.broken !== null) return false;
     model.selectEntry(timed.key);
-    file.commit(timed.steps);
+    return file.commit(timed.steps);
   };
   return (
     <>

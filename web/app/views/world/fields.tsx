@@ -27,7 +27,8 @@ export function TextField(props: {
   value: string;
   otherwise?: string;
   disabled?: boolean;
-  onSet: (value: string) => void;
+  /** False: not now, it stays in the field. */
+  onSet: (value: string) => boolean | void;
 }) {
   const { label, value, otherwise, disabled, onSet } = props;
   const draft = useDraft(value, onSet);

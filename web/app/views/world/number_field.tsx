@@ -14,7 +14,8 @@ export function NumberField(props: {
   step?: number;
   whole?: boolean;
   disabled?: boolean;
-  onSet: (value: number | undefined) => void;
+  /** False: not now, it stays in the field. */
+  onSet: (value: number | undefined) => boolean | void;
 }) {
   const { label, unit, value, otherwise, step = 0.01, whole, disabled, onSet } = props;
   const { low = -1e6, high = 1e6 } = props;
@@ -29,14 +30,12 @@ export function NumberField(props: {
   };
   const draft = useDraft(shown, (typed) => {
     const { isGood, number } = read(typed);
-    if (isGood) onSet(number);
-    return isGood;
+    return isGood && onSet(number) !== false;
   });
-  const good = draft.typed === null || read(draft.typed).isGood;
+  const good = !draft.isRefused && (draft.typed === null || read(draft.typed).isGood);
   const by = (sign: number) => {
     const next = tidy(Math.min(high, Math.max(low, (value ?? 0) + sign * step)));
-    draft.set(null);
-    onSet(next);
+    if (onSet(next) !== false) draft.set(null);
   };
   return (
     <Field label={label} {...(unit ? { unit } : {})}>

@@ -11,8 +11,9 @@ export function PlaceFields(props: {
   angle: number | undefined;
   off: boolean;
   angleMayBeOpen?: boolean;
-  onMove(x: number, y: number): void;
-  onTurn(angle: number | undefined): void;
+  /** False: not now. */
+  onMove(x: number, y: number): boolean | void;
+  onTurn(angle: number | undefined): boolean | void;
 }) {
   const { x, y, angle, off, onMove, onTurn } = props;
   return (

@@ -14,7 +14,8 @@ export interface EditedThing {
   id: string;
   table: Table;
   off: boolean;
-  set(name: string, value: Json | undefined): void;
+  /** False: not now. */
+  set(name: string, value: Json | undefined): boolean;
 }
 
 export function PoseFields({ file, id, table, off }: EditedThing) {
@@ -46,7 +47,9 @@ export function SizeFields({ file, id, table, off, set }: EditedThing) {
       high={100}
       value={size?.[index]}
       disabled={off}
-      onSet={(value) => value !== undefined && size && set('size', size.with(index, value))}
+      onSet={(value) =>
+        value !== undefined && size !== null && set('size', size.with(index, value))
+      }
     />
   );
   const lamp = kind === 'light' || kind === 'infrared';

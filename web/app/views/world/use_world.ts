@@ -100,6 +100,12 @@ export function useJsonFile(doc: Doc | null): { file: JsonFile | null; failed: s
   const studio = useStudio();
   const [file, setFile] = useState<JsonFile | null>(null);
   const [failed, setFailed] = useState<string | null>(null);
+  const [moves, setMoves] = useState(0);
+  // A file that was renamed to this name is another one than what was open under it.
+  useEffect(
+    () => studio.documents.moved.on(({ to }) => to === doc && setMoves((before) => before + 1)),
+    [studio, doc],
+  );
   useEffect(() => {
     if (doc === null) return;
     let gone = false;
@@ -117,7 +123,7 @@ export function useJsonFile(doc: Doc | null): { file: JsonFile | null; failed: s
       held.release();
       setFile(null);
     };
-  }, [studio, doc]);
+  }, [studio, doc, moves]);
   return { file, failed };
 }
 

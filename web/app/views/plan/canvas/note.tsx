@@ -3,6 +3,7 @@ import { memo, useContext, useEffect, useState } from 'react';
 import type { Note as PlanNote } from '../../../../core/plan/model';
 import { kNoteLeast, noteKey } from '../../../../core/plan/notes';
 import { useStudio } from '../../../hooks';
+import { useDraft } from '../../../parts/use_draft';
 import { text } from '../../../text';
 import { planDeskOf } from '../plan_desk';
 import { NoteContext } from './note_context';
@@ -28,10 +29,11 @@ export const NoteCard = memo(function NoteCard({ data, selected }: NodeProps<Not
       className={selected ? 'pnote is-selected' : 'pnote'}
       onDoubleClick={() => notes && write(true)}
     >
-      {isWritten && notes ? (
+      {isWritten ? (
         <Editor
           note={note}
-          onWrite={(typed) => notes.write(key, typed)}
+          // While nothing may be changed, what is typed stays in the field.
+          onWrite={(typed) => notes?.write(key, typed) ?? false}
           onEnd={() => write(false)}
         />
       ) : (
@@ -53,30 +55,31 @@ export const NoteCard = memo(function NoteCard({ data, selected }: NodeProps<Not
   );
 });
 
-function Editor(props: { note: PlanNote; onWrite: (typed: string) => void; onEnd: () => void }) {
+function Editor(props: { note: PlanNote; onWrite: (typed: string) => boolean; onEnd: () => void }) {
   const { note, onWrite, onEnd } = props;
-  const [typed, type] = useState(note.text);
-  const done = () => {
-    onWrite(typed);
-    onEnd();
-  };
+  const draft = useDraft(note.text, onWrite);
+  const done = () => draft.done() && (onEnd(), true);
   return (
     <textarea
       className="pnote__editor nodrag nopan nowheel"
       aria-label={words.noteText}
       maxLength={kTextMax}
       autoFocus
-      value={typed}
-      onFocus={({ target }) => target.setSelectionRange(typed.length, typed.length)}
-      onChange={(event) => type(event.target.value)}
+      aria-invalid={draft.isRefused}
+      value={draft.shown}
+      onFocus={({ target }) => target.setSelectionRange(target.value.length, target.value.length)}
+      onChange={(event) => draft.set(event.target.value)}
       onBlur={done}
       onKeyDown={(event) => {
-        event.stopPropagation();
         const card = event.currentTarget.closest<HTMLElement>('.react-flow__node');
-        if (event.key === 'Enter' && event.ctrlKey) done();
-        else if (event.key === 'Escape') onEnd();
-        else return;
+        const isEnd = event.key === 'Enter' && event.ctrlKey;
+        if (!isEnd && event.key !== 'Escape') return;
         event.preventDefault();
+        if (isEnd && !done()) return;
+        if (!isEnd) {
+          draft.set(null);
+          onEnd();
+        }
         card?.focus();
       }}
     />

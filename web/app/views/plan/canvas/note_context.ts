@@ -5,7 +5,8 @@ import type { PlanBoard } from '../../../../core/plan/board';
 import { writeNote, type Size } from '../../../../core/plan/notes';
 
 export interface NoteActs {
-  write(key: string, text: string): void;
+  /** False: not now. */
+  write(key: string, text: string): boolean;
   /** While its corner is dragged. */
   hold(key: string, size: Size): void;
   letGo(): void;
@@ -20,7 +21,7 @@ export function useNoteActs(board: PlanBoard, drives: boolean): NoteActs | null 
         ? {
             write(key, text) {
               const note = board.note(key);
-              if (note) board.commit(writeNote(note, text));
+              return !note || board.commit(writeNote(note, text));
             },
             hold: (key, size) => board.holdSize(key, size),
             letGo: () => board.letGo(),

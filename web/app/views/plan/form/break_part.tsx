@@ -5,6 +5,7 @@ import { arrowId } from '../../../../core/plan/arrows';
 import { discOf, isAt, placeOf } from '../../../../core/plan/breaks';
 import { mistakeIn } from '../../../../core/condition';
 import { useStudio, useTopic } from '../../../hooks';
+import { useTyped } from '../../../parts/use_draft';
 import { text } from '../../../text';
 import { changeBreak, toggleBreak } from '../break_acts';
 
@@ -67,12 +68,15 @@ function Details({ one, disabled }: { one: PlanBreakpoint; disabled: boolean }) 
   const wrong = mistakeIn(condition);
   const told = tried === condition ? wrong : '';
   const good = /^[1-9]\d{0,8}$/.test(count);
+  const isTyped = condition.trim() !== one.condition || count !== String(one.stop_at);
   const save = () => {
-    const to = { condition: condition.trim(), stop_at: Number(count) };
     setTried(condition);
-    if (good && wrong === '' && (to.condition !== one.condition || to.stop_at !== one.stop_at))
-      changeBreak(studio, one, to);
+    if (!good || wrong !== '') return false;
+    const to = { condition: condition.trim(), stop_at: Number(count) };
+    if (isTyped) changeBreak(studio, one, to);
+    return true;
   };
+  useTyped(isTyped, save);
   return (
     <form
       className="breakplace__when"

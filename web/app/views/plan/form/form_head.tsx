@@ -6,6 +6,7 @@ import { useDrives, useStudio } from '../../../hooks';
 import { Button } from '../../../parts/button';
 import { kStroke } from '../../../parts/icons';
 import { takeFocus } from '../../../parts/take_focus';
+import { useDraft } from '../../../parts/use_draft';
 import { text } from '../../../text';
 import { withBreaks } from '../break_acts';
 import { TemplateIcon } from '../canvas/template_icon';
@@ -67,7 +68,6 @@ export function FormHead(props: {
 function NameField(props: { board: PlanBoard; chosen: string; name: string; onDone: () => void }) {
   const { board, chosen, name, onDone } = props;
   const studio = useStudio();
-  const [typed, type] = useState(name);
   const field = useRef<HTMLInputElement>(null);
   useEffect(
     () => takeFocus(() => (field.current?.focus(), document.activeElement === field.current)),
@@ -78,23 +78,28 @@ function NameField(props: { board: PlanBoard; chosen: string; name: string; onDo
     : board.supervisor(chosen)
       ? 'supervisor'
       : 'actor';
-  const why = typed === name ? null : whyNoName(board.model, typed, is);
+  const whyNot = (typed: string | null) =>
+    typed === null || typed === name ? null : whyNoName(board.model, typed, is);
+  const draft = useDraft(
+    name,
+    (typed) =>
+      whyNot(typed) === null && withBreaks(studio, board, () => board.rename(chosen, typed)),
+  );
+  const why = whyNot(draft.typed);
+  // A name that cannot be stays in its field, with the reason below it.
   const done = () => {
-    if (typed !== name && why === null) {
-      withBreaks(studio, board, () => board.rename(chosen, typed));
-    }
-    onDone();
+    if (draft.done()) onDone();
   };
   return (
     <>
       <input
         className="field field--small"
         aria-label={words.name}
-        aria-invalid={why !== null}
+        aria-invalid={why !== null || draft.isRefused}
         ref={field}
-        value={typed}
+        value={draft.shown}
         onFocus={(event) => event.target.select()}
-        onChange={(event) => type(event.target.value)}
+        onChange={(event) => draft.set(event.target.value)}
         onBlur={done}
         onKeyDown={(event) => {
           if (event.key === 'Enter') done();

@@ -1,9 +1,10 @@
-import { useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import type { Note } from '../../../../core/plan/model';
-import { kNoteLeast, resizeNote, writeNote } from '../../../../core/plan/notes';
+import { kNoteLeast, resizeNote, writeNote, type Size } from '../../../../core/plan/notes';
 import { kSnap } from '../../../../core/plan/place';
+import { useDraft } from '../../../parts/use_draft';
 import { Field } from '../../world/fields';
+import { NumberField } from '../../world/number_field';
 import { text } from '../../../text';
 
 const words = text.draw;
@@ -12,12 +13,22 @@ const words = text.draw;
 export function NoteForm(props: { board: PlanBoard; note: Note; disabled: boolean }) {
   const { board, note, disabled } = props;
   const [width, height] = note.size;
+  const measure = (label: string, value: number, least: number, size: (to: number) => Size) => (
+    <NumberField
+      label={label}
+      unit="px"
+      low={least}
+      step={kSnap}
+      value={value}
+      disabled={disabled}
+      onSet={(to) => to !== undefined && board.commit(resizeNote(note, size(to)))}
+    />
+  );
   return (
     <section className="planform__part" aria-label={words.note}>
       <Field label={words.noteText}>
         {(id) => (
           <Written
-            key={note.text}
             id={id}
             value={note.text}
             disabled={disabled}
@@ -25,20 +36,8 @@ export function NoteForm(props: { board: PlanBoard; note: Note; disabled: boolea
           />
         )}
       </Field>
-      <Measure
-        label={words.width}
-        value={width}
-        least={kNoteLeast.width}
-        disabled={disabled}
-        onSet={(to) => board.commit(resizeNote(note, { width: to, height }))}
-      />
-      <Measure
-        label={words.height}
-        value={height}
-        least={kNoteLeast.height}
-        disabled={disabled}
-        onSet={(to) => board.commit(resizeNote(note, { width, height: to }))}
-      />
+      {measure(words.width, width, kNoteLeast.width, (to) => ({ width: to, height }))}
+      {measure(words.height, height, kNoteLeast.height, (to) => ({ width, height: to }))}
     </section>
   );
 }
@@ -47,47 +46,21 @@ function Written(props: {
   id: string;
   value: string;
   disabled: boolean;
-  onSet: (typed: string) => void;
+  onSet: (typed: string) => boolean;
 }) {
   const { id, value, disabled, onSet } = props;
-  const [typed, type] = useState(value);
+  const draft = useDraft(value, onSet);
   return (
     <textarea
       id={id}
       className="field planform__note"
       rows={4}
-      value={typed}
+      value={draft.shown}
       disabled={disabled}
-      onChange={(event) => type(event.target.value)}
-      onBlur={() => onSet(typed)}
+      aria-invalid={draft.isRefused}
+      onChange={(event) => draft.set(event.target.value)}
+      onBlur={draft.done}
+      onKeyDown={(event) => event.key === 'Escape' && draft.key(event)}
     />
-  );
-}
-
-function Measure(props: {
-  label: string;
-  value: number;
-  least: number;
-  disabled: boolean;
-  onSet: (to: number) => void;
-}) {
-  const { label, value, least, disabled, onSet } = props;
-  return (
-    <Field label={label} unit="px">
-      {(id) => (
-        <input
-          id={id}
-          type="number"
-          className="field field--small num"
-          min={least}
-          step={kSnap}
-          value={value}
-          disabled={disabled}
-          onChange={({ target }) => {
-            if (Number.isFinite(target.valueAsNumber)) onSet(target.valueAsNumber);
-          }}
-        />
-      )}
-    </Field>
   );
 }

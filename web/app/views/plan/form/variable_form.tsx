@@ -17,14 +17,14 @@ export function VariableForm(props: { board: PlanBoard; name: string; disabled: 
   const access = textOf(memberOf(value, 'access'));
   const set = (member: string) => (to: string) => {
     const at = [...keys, member];
-    board.commit(to === '' ? dropSteps(board.file.value, at) : setSteps(board.file.value, at, to));
+    const { value: file } = board.file;
+    return board.commit(to === '' ? dropSteps(file, at) : setSteps(file, at, to));
   };
   const setInitial = (to: string) => {
     const at = [...keys, 'initial'];
     const json = type === 'string' ? to : formulaJson(to);
-    board.commit(
-      to === '' ? dropSteps(board.file.value, at) : setSteps(board.file.value, at, json),
-    );
+    const { value: file } = board.file;
+    return board.commit(to === '' ? dropSteps(file, at) : setSteps(file, at, json));
   };
   return (
     <div className="props__fields">

@@ -10,8 +10,9 @@ import {
   type PlanModel,
   type Supervisor,
 } from './model';
+import type { Routed } from './path';
 import type { Scene } from './place';
-import { outOf, Routing, type Port, type Routed, type Side, type Way } from './route';
+import { outOf, Routing, type Port, type Side, type Way } from './route';
 import { eventRow, kEntry, kTag, overlaps, stateRow, type Block, type Box } from './shape';
 
 export interface Arrow {

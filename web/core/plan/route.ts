@@ -6,7 +6,7 @@ import { Field, meetingOf } from './field';
 import { kClear, type Grid } from './grid';
 import { Heap } from './heap';
 import { kApart, Lanes } from './lanes';
-import { eachStretch, stretchBox } from './path';
+import { eachStretch, stretchBox, type Routed } from './path';
 import { around, overlaps, type Box, type Point } from './shape';
 
 export type Side = 'left' | 'right' | 'top' | 'bottom';
@@ -22,11 +22,6 @@ export interface Way {
   entries: readonly Port[];
   /** Ways with the same aim share their last stretch. */
   aim: string;
-}
-
-export interface Routed {
-  id: string;
-  points: readonly Point[];
 }
 
 /** From the edge of a box to the first bend: room for a head of an arrow and its corner. */

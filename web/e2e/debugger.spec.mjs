@@ -1,7 +1,7 @@
 // The debugger over several nodes: run, break, step, faults, and nodes that come and go.
 import assert from 'node:assert/strict';
-import { startNode, twoNodes } from './support/robots.mjs';
-import { reads, seen, test } from './support/studio.mjs';
+import { makeProject, startNode, twoNodes } from './support/robots.mjs';
+import { boxOf, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 const scripts = {
@@ -118,4 +118,74 @@ test('a fault is shown at the line that caused it', faulty, async (studio) => {
   await page.getByRole('button', { name: 'Send', exact: true }).click();
   await seen(page.getByText(/The node stopped here: .*/));
   await seen(page.getByText('left paused at line 5'));
+});
+
+const day = {
+  format: 'vagus-plan/1',
+  name: 'Day',
+  start: { actor: 'rise' },
+  actors: {
+    rise: { template: 'Wait', in: { seconds: 0.1 }, states: { Done: 'nap' } },
+    nap: {
+      plan: 'Nap.plan.json',
+      states: { OK: '@terminate', Interrupted: '@terminate', Error: '@terminate' },
+    },
+  },
+};
+const nap = {
+  format: 'vagus-plan/1',
+  name: 'Nap',
+  start: { actor: 'doze' },
+  actors: {
+    doze: { template: 'Wait', in: { seconds: 0.1 }, states: { Done: 'snore' } },
+    snore: { template: 'Wait', in: { seconds: 1 }, states: { Done: '@terminate' } },
+  },
+};
+const nested = {
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(
+      t,
+      { name: 'Day', plan: 'Day.plan.json', world: 'room.world.json', target: 'sim' },
+      {
+        'Day.plan.json': JSON.stringify(day),
+        'Nap.plan.json': JSON.stringify(nap),
+        'room.world.json': JSON.stringify({ format: 'vagus-world/1', size: [2, 2] }),
+      },
+    ),
+};
+test('a plan that is paused comes to the front, the innermost one', nested, async (studio) => {
+  const { page, press, layout, tab } = studio;
+  await layout('Draw');
+  const actor = (/** @type {string} */ name) => page.getByRole('group', { name, exact: false });
+  const drawn = (/** @type {string} */ name) =>
+    page.getByRole('region', { name: `Plan ${name}, drawn` });
+  await actor('nap, sub-plan').focus();
+  await press('Space', 'o');
+  await seen(drawn('Nap'));
+  await actor('snore, actor Wait').focus();
+  await press('Space', 'F9');
+  await seen(actor('snore, actor Wait').locator('.pdot'));
+  await layout('Debug');
+  await tab(/^Day\.plan/).click();
+  await seen(drawn('Day'));
+  // Somebody writes at the other side of the window: the keyboard stays there.
+  await page.getByRole('tab', { name: 'Watch' }).click();
+  const field = page.getByRole('combobox', { name: 'node.variable' });
+  await press('F5');
+  await field.focus();
+  await seen(drawn('Nap'));
+  const active = page.locator('.pactor.is-active').filter({ hasText: 'snore' });
+  await seen(active);
+  assert.equal(await field.evaluate((one) => one === document.activeElement), true);
+  // What it may end in is named at any zoom.
+  await drawn('Nap').hover();
+  const exit = active.locator('.prow > span');
+  await until('the drawing is small', async () => {
+    await page.mouse.wheel(0, 400);
+    return (await boxOf(active)).width < 90;
+  });
+  await page.mouse.move(5, 5);
+  assert.equal(await exit.evaluate((one) => getComputedStyle(one).opacity), '1');
+  const other = page.locator('.pactor').filter({ hasText: 'doze' }).locator('.prow > span');
+  assert.equal(await other.evaluate((one) => getComputedStyle(one).opacity), '0');
 });

@@ -1,8 +1,10 @@
 // A drawing stays where it is: nothing moves on the screen that was not touched.
 import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
-import { boxOf, seen, test, until } from './support/studio.mjs';
-/** @import { Page, TestContext } from './support/studio.mjs' */
+import { boxOf, gone, openWindow, seen, test, until } from './support/studio.mjs';
+/** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 const actor = (/** @type {string} */ to) => ({
   template: 'Wait',
@@ -25,6 +27,16 @@ const files = {
 const project = {
   prepare: (/** @type {TestContext} */ t) =>
     makeProject(t, { name: 'P', plan: 'P.plan.json' }, files),
+};
+
+/** Without a mistake. */
+const sound = {
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(
+      t,
+      { name: 'P', plan: 'P.plan.json' },
+      { 'P.plan.json': JSON.stringify(plan('P')) },
+    ),
 };
 
 /** Where each element is on the screen, in whole pixels; nothing of hidden tabs. */
@@ -136,3 +148,128 @@ test(
     }
   },
 );
+
+/** What is seen of the plan: where its first actor stands in the panel, and how large. */
+const view = (/** @type {Page} */ page) =>
+  page.evaluate(() => {
+    const actor = [...document.querySelectorAll('[data-id="one"]')].find((one) =>
+      one.checkVisibility(),
+    );
+    const panel = actor?.closest('[data-tab-content]');
+    if (!actor || !panel) return '';
+    const { x, y, width } = actor.getBoundingClientRect();
+    const { left, top } = panel.getBoundingClientRect();
+    return [x - left, y - top, width].map(Math.round).join(' ');
+  });
+
+async function viewed(/** @type {Page} */ page) {
+  await settled(page);
+  return view(page);
+}
+
+/** Somewhere else, at another zoom: by hand. */
+async function lookElsewhere(/** @type {Studio} */ { page, press }) {
+  const canvas = await boxOf(page.locator('.pcanvas'));
+  await page.mouse.move(canvas.x + 40, canvas.y + canvas.height - 30);
+  await page.mouse.down();
+  await page.mouse.move(canvas.x + 107, canvas.y + canvas.height - 83, { steps: 3 });
+  await page.mouse.up();
+  await press('+');
+  return viewed(page);
+}
+
+test(
+  'layouts, other tabs and a reload show the place that was looked at',
+  project,
+  async (studio) => {
+    const { page, layout, tab } = studio;
+    await layout('Draw');
+    const plan = page.getByRole('region', { name: 'Plan P, drawn' });
+    await seen(plan);
+    const fitted = await viewed(page);
+    const mine = await lookElsewhere(studio);
+    assert.notEqual(mine, fitted);
+    for (const name of ['Debug', 'Draw', 'Present', 'Debug', 'Draw']) {
+      await layout(name);
+      await seen(page.getByRole('radio', { name, checked: true }));
+      await seen(plan);
+      if (name === 'Present') continue;
+      await until(`${name} shows the same place`, async () => (await viewed(page)) === mine);
+    }
+    await tab(/^Project/).click();
+    await page.locator('[role="treeitem"][data-path="S.plan.json"]').click();
+    await seen(page.getByRole('region', { name: 'Plan S, drawn' }));
+    await tab(/^P\.plan/).click();
+    await seen(plan);
+    assert.equal(await viewed(page), mine);
+    await page.reload();
+    await seen(plan);
+    await until('a reload shows the same place', async () => (await viewed(page)) === mine);
+  },
+);
+
+test('what is seen is each window\u2019s own', project, async (studio, t) => {
+  const { page, layout, server } = studio;
+  const other = await openWindow(t, server);
+  await layout('Draw');
+  await other.layout('Draw');
+  await seen(other.page.getByRole('region', { name: 'Plan P, drawn' }));
+  const fitted = await viewed(other.page);
+  await lookElsewhere(studio);
+  await other.layout('Debug');
+  await other.layout('Draw');
+  await seen(other.page.getByRole('region', { name: 'Plan P, drawn' }));
+  assert.equal(await viewed(other.page), fitted);
+  assert.deepEqual(other.complaints, []);
+  await seen(page.getByRole('region', { name: 'Plan P, drawn' }));
+});
+
+for (const by of ['the button', 'the palette'])
+  test(`after ${by} has zoomed a line above the drawing moves nothing`, sound, async (studio) => {
+    const { page, layout, button, command, place } = studio;
+    await layout('Draw');
+    await seen(page.getByRole('region', { name: 'Plan P, drawn' }));
+    await settled(page);
+    if (by === 'the button') await button(/^Zoom: \d+ %$/).click();
+    else await command('Plan: zoom in');
+    const before = await settled(page);
+    // An actor without a value is an error, and a line above the drawing.
+    const file = join(place, 'P.plan.json');
+    const good = readFileSync(file, 'utf8');
+    writeFileSync(file, good.replace('"in":{"seconds":1}', '"in":{}'));
+    const line = page.locator('.plan .notice--error');
+    await seen(line);
+    assert.deepEqual(await settled(page), before);
+    writeFileSync(file, good);
+    await gone(line);
+    assert.deepEqual(await settled(page), before);
+  });
+
+test('Tidy brings the whole plan in sight', project, async (studio) => {
+  const { page, press, layout } = studio;
+  await layout('Draw');
+  await seen(page.getByRole('region', { name: 'Plan P, drawn' }));
+  await settled(page);
+  const canvas = await boxOf(page.locator('.pcanvas'));
+  await page.mouse.move(canvas.x + 40, canvas.y + canvas.height - 30);
+  await page.mouse.down();
+  await page.mouse.move(canvas.x + canvas.width + 900, canvas.y - 700, { steps: 3 });
+  await page.mouse.up();
+  await page.locator('.pcanvas').focus();
+  await press('t');
+  await until('all of it is in sight', () =>
+    page.evaluate(() => {
+      const frame = document.querySelector('.pcanvas')?.getBoundingClientRect();
+      return [...document.querySelectorAll('.react-flow__node')].every((node) => {
+        const { left, right, top, bottom } = node.getBoundingClientRect();
+        return (
+          frame !== undefined &&
+          left >= frame.left &&
+          right <= frame.right &&
+          top >= frame.top &&
+          bottom <= frame.bottom
+        );
+      });
+    }),
+  );
+});

@@ -32,14 +32,18 @@ const storeys = [
 ];
 
 const wrong = [];
+/** What each file imports of ours, types included. */
+const imports = new Map();
 for (const layer of Object.keys(may))
   for (const file of filesOf(join(root, layer))) check(layer, file);
+checkCircles();
 checkClasses();
 for (const line of wrong) console.error(line);
 process.exit(wrong.length ? 1 : 0);
 
 function check(layer, file) {
   const test = /\.test\.tsx?$/.test(file);
+  imports.set(file, []);
   for (const [, target] of readFileSync(file, 'utf8').matchAll(
     /(?:from|import)\s*\(?\s*'([^']+)'/g,
   )) {
@@ -48,6 +52,7 @@ function check(layer, file) {
       if (!may[layer].includes(other) && !(test && other in may))
         wrong.push(`${relative(root, file)}: ${layer} may not import ${other} (${target})`);
       checkStorey(file, target);
+      imports.get(file).push(resolve(dirname(file), target));
     } else if (!test && packages[layer] && !packages[layer].test(target))
       wrong.push(`${relative(root, file)}: ${layer} may not import ${target}`);
   }
@@ -63,6 +68,24 @@ function checkStorey(file, target) {
     wrong.push(
       `${relative(root, file)}: ${storeys[from]} may not import ${storeys[to]} (${target})`,
     );
+}
+
+/** Files that need each other are one file in two places: each circle is told once. */
+function checkCircles() {
+  const done = new Set();
+  const visit = (file, way) => {
+    const at = way.indexOf(file);
+    if (at >= 0) {
+      const names = [...way.slice(at), file].map((one) => relative(root, one));
+      wrong.push(`${names.join(' -> ')}: a circle; move what both need to a file of its own`);
+    } else if (!done.has(file)) {
+      for (const path of imports.get(file) ?? [])
+        for (const end of ['.ts', '.tsx'])
+          if (imports.has(path + end)) visit(path + end, [...way, file]);
+      done.add(file);
+    }
+  };
+  for (const file of imports.keys()) visit(file, []);
 }
 
 function checkClasses() {

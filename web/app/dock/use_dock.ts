@@ -26,6 +26,7 @@ import { usePart, useStudio, useWindow } from '../hooks';
 import { takeFocus } from '../parts/take_focus';
 import { panelOf } from './panels';
 import { carryDocuments, type Opened } from './carry';
+import { usePausedPlan } from './use_paused_plan';
 import { useSmall } from './use_small';
 import {
   areaFor,
@@ -74,6 +75,7 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
 
   useFit(frameRef, model, extent);
   useReveal(studio, model);
+  usePausedPlan(model);
   useNames(studio, model);
   const keep = useKeep(studio, keyOf(layout, small));
   const changed = useCallback(

@@ -6,12 +6,14 @@ import {
   kStart,
   kTerminate,
   type Actor,
+  type Note,
   type Outcome,
   type PlanModel,
   type Supervisor,
 } from './model';
+import type { Routed } from './path';
 import type { Scene } from './place';
-import { outOf, Routing, type Port, type Routed, type Side, type Way } from './route';
+import { kTight, outOf, Routing, type Port, type Side, type Way } from './route';
 import { eventRow, kEntry, kTag, overlaps, stateRow, type Block, type Box } from './shape';
 
 export interface Arrow {
@@ -69,7 +71,8 @@ const routings = new WeakMap<Drawing, Routing>();
 
 export function drawingOf(model: PlanModel, scene: Scene, pace: Pace = {}): Drawing {
   const rows = rowsOf(model, scene);
-  const boxes = boxesOf(scene);
+  const elements = boxesOf(scene);
+  const boxes = [...elements, ...notesInTheWay(model.notes, elements)];
   const tags = rows.flatMap((row) => tagOf(row, boxes) ?? []);
   const ports = new Map(rows.map((row) => [row.id, portOf(row, tags)]));
   const portAt = (row: Row): Port => ports.get(row.id) ?? portOn(row, 'right');
@@ -207,6 +210,13 @@ function boxesOf(scene: Scene): Box[] {
     ...blocks.flatMap((block) => block.supervisors.map(({ box }) => box)),
     ...scene.pills.map(({ box }) => box),
   ];
+}
+
+/** Notes stand in the way of arrows, but for those that are a ground on which elements stand. */
+function notesInTheWay(notes: readonly Note[], elements: readonly Box[]): Box[] {
+  return notes
+    .map(({ at: [x, y], size: [width, height] }) => ({ x, y, width, height }))
+    .filter((box) => !elements.some((one) => overlaps(one, box, kTight.in + kTight.clear)));
 }
 
 /** Left and right at the name, above, and below where nothing hangs. */

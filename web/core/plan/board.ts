@@ -194,7 +194,7 @@ export class PlanBoard {
   /** The same for the size of a note. */
   holdSize(key: string, size: notes.Size): void {
     this.heldSizes.set(key, notes.fitting(size));
-    this.tell();
+    this.redraw();
   }
 
   letGo(): void {
@@ -221,7 +221,11 @@ export class PlanBoard {
   /** Several at new places, as one change. */
   place(places: readonly (readonly [string, Point])[]): void {
     const draft = new Draft(this.file.value);
-    for (const [name, { x, y }] of places) draft.set(['layout', name], [x, y]);
+    for (const [key, at] of places) {
+      const note = this.note(key);
+      if (note) draft.do(notes.moveNote(note, at));
+      else draft.set(['layout', key], [at.x, at.y]);
+    }
     this.commit(draft.steps);
   }
 
@@ -406,8 +410,8 @@ export class PlanBoard {
   private redraw(): void {
     const places = new Map(this.model.places);
     for (const [name, { x, y }] of this.held) places.set(name, [x, y]);
-    const isHeld = this.held.size > 0;
-    const model = isHeld ? { ...this.model, places } : this.model;
+    const isHeld = this.held.size + this.heldSizes.size > 0;
+    const model = isHeld ? { ...this.model, places, notes: this.notes } : this.model;
     this.scene = sceneOf(model, this.stood);
     this.stood = found(model, this.scene, this.stood);
     this.drawing = drawingOf(model, this.scene, {

@@ -31,10 +31,10 @@ export class Field {
   }
 
   /** For one search inside of an area; `own` ends of arrows have lines through them in any case. */
-  grid(area: Box, own: readonly Point[]): Grid {
+  grid(area: Box, own: readonly Point[], clear: number): Grid {
     const isLarge = area.width * area.height > kLarge;
-    const stubs = isLarge ? own : [...this.stubs.near(area)].filter((one) => holds(area, one));
-    return new Grid(area, [...this.boxes.near(area)], stubs);
+    const others = isLarge ? [] : [...this.stubs.near(area)].filter((one) => holds(area, one));
+    return new Grid(area, [...this.boxes.near(area)], [...own, ...others], clear);
   }
 
   near(area: Box): ReadonlySet<Box> {

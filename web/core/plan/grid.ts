@@ -1,9 +1,7 @@
 // The lines that an arrow may run on, with what is in its way, and the memory of its search.
 
-import type { Box, Point } from './shape';
+import { grown, type Box, type Point } from './shape';
 
-/** Between an arrow and a box. */
-export const kClear = 7;
 /** Between lines of the grid: no box is as narrow, so no step leaps over one. */
 const kPitch = 12;
 
@@ -18,8 +16,8 @@ export class Grid {
   private readonly seen: Uint8Array;
   private readonly closed: Uint8Array;
 
-  /** Over an area, with more lines through `stubs`. */
-  constructor(area: Box, boxes: readonly Box[], stubs: readonly Point[]) {
+  /** Over an area, with more lines through `stubs`; `clear` of each box. */
+  constructor(area: Box, boxes: readonly Box[], stubs: readonly Point[], clear: number) {
     const { x, y, width, height } = area;
     this.xs = lines(
       x,
@@ -35,7 +33,7 @@ export class Grid {
     this.rowOf = new Map(this.ys.map((one, index) => [one, index]));
     const count = this.xs.length * this.ys.length;
     this.covered = new Uint8Array(count);
-    for (const box of boxes) this.cover(box);
+    for (const box of boxes) this.cover(grown(box, clear));
     this.costs = new Float64Array(count * 4);
     this.from = new Int32Array(count * 4);
     this.seen = new Uint8Array(count * 4);
@@ -93,8 +91,8 @@ export class Grid {
   }
 
   private cover(box: Box): void {
-    const columns = within(this.xs, box.x - kClear, box.x + box.width + kClear);
-    const rows = within(this.ys, box.y - kClear, box.y + box.height + kClear);
+    const columns = within(this.xs, box.x, box.x + box.width);
+    const rows = within(this.ys, box.y, box.y + box.height);
     for (let row = rows.first; row < rows.end; row++)
       for (let column = columns.first; column < columns.end; column++)
         this.covered[row * this.xs.length + column] = 1;

@@ -1,8 +1,13 @@
 // Ways as SVG paths: rounded corners, and where one way crosses another.
 
 import { Cells } from './cells';
-import type { Routed } from './route';
 import type { Box, Point } from './shape';
+
+/** The way of an arrow. */
+export interface Routed {
+  id: string;
+  points: readonly Point[];
+}
 
 export const kCorner = 8;
 

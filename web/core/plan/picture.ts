@@ -14,6 +14,7 @@ import {
   supervisorPart,
   tagPart,
   type PictureLook,
+  type Row,
 } from './picture_parts';
 import type { Scene } from './place';
 import type { Port } from './route';
@@ -36,13 +37,6 @@ export interface Picture {
   svg: string;
   width: number;
   height: number;
-}
-
-/** A state or event, where its arrow starts. */
-export interface Row {
-  name: string;
-  port: Port;
-  isLoose: boolean;
 }
 
 const kMargin = 24;

@@ -1,7 +1,7 @@
 // The elements of a plan as SVG, drawn as the canvas draws them: shapes by role, names, rows.
 
-import type { Row } from './picture';
 import type { Actor, Note, Supervisor, Variable } from './model';
+import type { Port } from './route';
 import type { Box } from './shape';
 import { escaped, tag, type Attributes } from './svg';
 
@@ -18,6 +18,13 @@ export interface PictureLook {
   arrow: string;
   data: string;
   error: string;
+}
+
+/** A state or event, where its arrow starts. */
+export interface Row {
+  name: string;
+  port: Port;
+  isLoose: boolean;
 }
 
 export const kUiFonts = "'Inter Variable', Inter, system-ui, 'Segoe UI', sans-serif";

@@ -9,7 +9,14 @@ import { freePlace, sceneOf, type Scene } from './place';
 import { seeded } from '../test_seeded';
 import { kApart } from './route';
 import type { Point } from './shape';
-import { covered, faultsOfArrows, randomPlan, toolboxes } from './test_plans';
+import {
+  covered,
+  coveredNotes,
+  faultsOfArrows,
+  packedPlan,
+  randomPlan,
+  toolboxes,
+} from './test_plans';
 import { findTemplate, hiddenBy, matching } from './templates';
 
 function files(): { name: string; value: Json }[] {
@@ -208,6 +215,32 @@ describe('ways', () => {
       expectRound(`seed ${seed}, plan ${plan}`, scene, drawingOf(model, scene));
     }
   }, 300_000);
+
+  it('of 50 random plans go between boxes that stand close together, and round notes', () => {
+    const seed = Number(process.env['VAGUS_SEED'] ?? Math.floor(Math.random() * 2 ** 31));
+    console.info(`seed ${seed}`);
+    const random = seeded(seed);
+    for (let plan = 0; plan < 50; plan++) {
+      const model = planModel(packedPlan(random), toolboxes);
+      const scene = sceneOf(model);
+      expectApart(scene);
+      const name = `seed ${seed}, plan ${plan}`;
+      expect(coveredNotes(model, scene), name).toEqual([]);
+      expect(faultsOfArrows(scene, drawingOf(model, scene), model.notes), name).toEqual([]);
+    }
+  }, 300_000);
+
+  it('run through a note on which elements stand', () => {
+    const noted = (at: number[], size: number[]) => ({
+      ...small,
+      x: { notes: [{ at, size, text: '' }] },
+    });
+    const routeOf = (value: Json) => {
+      const model = planModel(value, toolboxes);
+      return drawingOf(model, sceneOf(model)).routes.get('go.There')?.points;
+    };
+    expect(routeOf(noted([-2000, -2000], [4000, 4000]))).toEqual(routeOf(small));
+  });
 
   it('are kept while something else moves, and found bit by bit', () => {
     const model = planModel(small, toolboxes);

@@ -3,11 +3,11 @@
 // after the other, the short ones first.
 
 import { Field, meetingOf } from './field';
-import { kClear, type Grid } from './grid';
+import type { Grid } from './grid';
 import { Heap } from './heap';
 import { kApart, Lanes } from './lanes';
-import { eachStretch, stretchBox } from './path';
-import { around, overlaps, type Box, type Point } from './shape';
+import { eachStretch, stretchBox, type Routed } from './path';
+import { around, grown, overlaps, type Box, type Point } from './shape';
 
 export type Side = 'left' | 'right' | 'top' | 'bottom';
 
@@ -24,14 +24,17 @@ export interface Way {
   aim: string;
 }
 
-export interface Routed {
-  id: string;
-  points: readonly Point[];
+/** What an arrow needs: from its source to the first bend, from the last one to its target, and beside a box. */
+interface Room {
+  out: number;
+  in: number;
+  clear: number;
 }
 
-/** From the edge of a box to the first bend: room for a head of an arrow and its corner. */
-const kStubOut = 10;
-const kStubIn = 18;
+/** For a head of an arrow and its corner. */
+const kRoomy: Room = { out: 10, in: 18, clear: 7 };
+/** Between boxes that stand close together. */
+export const kTight: Room = { out: 3, in: 3, clear: 1 };
 const kHeadRoom = 12;
 const kBend = 28;
 const kCrossing = 40;
@@ -73,12 +76,12 @@ export class Routing {
 
   constructor(boxes: readonly Box[], ways: readonly Way[]) {
     const stubs = ways.flatMap((way) => [
-      outOf(way.from, kStubOut),
-      ...way.entries.map((entry) => outOf(entry, kStubIn)),
+      outOf(way.from, kRoomy.out),
+      ...way.entries.map((entry) => outOf(entry, kRoomy.in)),
     ]);
     this.field = new Field(boxes, stubs);
     for (const way of ways) {
-      this.lanes.add(way.aim, [way.from, outOf(way.from, kStubOut)]);
+      this.lanes.add(way.aim, [way.from, outOf(way.from, kRoomy.out)]);
       // Nobody crosses where a head of an arrow will be.
       for (const entry of way.entries) this.lanes.add(way.aim, [entry, outOf(entry, kHeadRoom)]);
     }
@@ -148,28 +151,47 @@ function length({ from, entries }: Way): number {
 
 class Search {
   private readonly begin: Point;
+  private readonly ends: readonly Point[];
 
   constructor(
     private readonly field: Field,
     private readonly lanes: Lanes,
     private readonly way: Way,
     private readonly haste: number,
+    private readonly room = kRoomy,
   ) {
-    this.begin = outOf(way.from, kStubOut);
+    this.begin = outOf(way.from, room.out);
+    this.ends = [this.begin, ...way.entries.map((entry) => outOf(entry, room.in))];
   }
 
-  /** First near by and strictly, then farther, then across others; straight if boxes cover it. */
+  /**
+   * First near by and strictly, then farther, then across others, last between boxes that stand close together, also
+   * around all of them. Straight only if a box stands on one of its ends.
+   */
   points(): Point[] {
     return (
       this.find(kMargin, false) ??
       (this.haste > 1 ? null : this.find(kFar, false)) ??
       this.find(kFar, true) ??
+      new Search(this.field, this.lanes, this.way, this.haste, kTight).squeezed() ??
       straight(this.way)
     );
   }
 
-  private find(margin: number, across: boolean): Point[] | null {
-    const grid = this.field.grid(this.area(margin), this.ends());
+  /** With lines through the gaps around its ends. */
+  private squeezed(): Point[] | null {
+    const beside = [...this.field.near(this.area(kMargin))].flatMap((box) => {
+      const { x, y, width, height } = grown(box, 2 * this.room.clear);
+      return [
+        { x, y },
+        { x: x + width, y: y + height },
+      ];
+    });
+    return this.find(Infinity, true, beside);
+  }
+
+  private find(margin: number, across: boolean, more: readonly Point[] = []): Point[] | null {
+    const grid = this.field.grid(this.area(margin), [...this.ends, ...more], this.room.clear);
     const start = grid.node(this.begin);
     if (start < 0) return null;
     const first = kOfSide[this.way.from.side];
@@ -189,22 +211,11 @@ class Search {
     return null;
   }
 
-  private ends(): Point[] {
-    return [this.begin, ...this.way.entries.map((entry) => outOf(entry, kStubIn))];
-  }
-
   /** Around source and target. */
   private area(margin: number): Box {
-    const { x, y, width, height } = around(
-      this.ends().map((one) => ({ ...one, width: 0, height: 0 })),
-    );
-    const wide = {
-      x: x - margin,
-      y: y - margin,
-      width: width + 2 * margin,
-      height: height + 2 * margin,
-    };
-    return meetingOf(wide, this.field.whole);
+    if (margin === Infinity) return this.field.whole;
+    const all = around(this.ends.map((one) => ({ ...one, width: 0, height: 0 })));
+    return meetingOf(grown(all, margin), this.field.whole);
   }
 
   private expand(
@@ -245,7 +256,7 @@ class Search {
   private goals(grid: Grid): Map<number, Port> {
     const goals = new Map<number, Port>();
     for (const entry of this.way.entries) {
-      const node = grid.node(outOf(entry, kStubIn));
+      const node = grid.node(outOf(entry, this.room.in));
       if (node >= 0) goals.set(node * 4 + (kOfSide[entry.side] ^ 2), entry);
     }
     return goals;
@@ -254,16 +265,16 @@ class Search {
   private hope(at: Point, goals: ReadonlyMap<number, Port>, haste: number): number {
     let least = Infinity;
     for (const goal of goals.values())
-      least = Math.min(least, Math.abs(goal.x - at.x) + Math.abs(goal.y - at.y) - kStubIn);
+      least = Math.min(least, Math.abs(goal.x - at.x) + Math.abs(goal.y - at.y) - this.room.in);
     return Math.max(0, least) * haste;
   }
 }
 
 function straight({ from, entries }: Way): Point[] {
-  const begin = outOf(from, kStubOut);
+  const begin = outOf(from, kRoomy.out);
   const [entry] = entries;
   if (!entry) return [from, begin];
-  const end = outOf(entry, kStubIn);
+  const end = outOf(entry, kRoomy.in);
   return [from, begin, { x: begin.x, y: end.y }, end, entry];
 }
 
@@ -285,4 +296,4 @@ export function simplified(points: readonly Point[]): Point[] {
   return kept;
 }
 
-export { kApart, kClear };
+export { kApart };

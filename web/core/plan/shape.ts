@@ -101,6 +101,11 @@ export function around(boxes: readonly Box[]): Box {
   return { x, y, width: right - x, height: bottom - y };
 }
 
+/** With so much more on each side; less if that is negative. */
+export function grown({ x, y, width, height }: Box, by: number): Box {
+  return { x: x - by, y: y - by, width: width + 2 * by, height: height + 2 * by };
+}
+
 export function overlaps(a: Box, b: Box, gap = 0): boolean {
   return (
     a.x < b.x + b.width + gap &&

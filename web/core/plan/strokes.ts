@@ -3,8 +3,7 @@
 
 import type { Drawing } from './arrows';
 import type { DataArrow } from './data';
-import { crossings, type Crossing } from './path';
-import type { Routed } from './route';
+import { crossings, type Crossing, type Routed } from './path';
 import type { Box, Point } from './shape';
 
 /** Events interrupt: their arrows are dashed; look/draw.css says the same. */

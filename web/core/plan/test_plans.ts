@@ -3,6 +3,7 @@
 import type { Json, PlanTemplate, PlanToolbox } from '../../protocol/messages';
 import type { Drawing } from './arrows';
 import { eachStretch, stretchBox } from './path';
+import type { Note, PlanModel } from './model';
 import type { Scene } from './place';
 import { overlaps, type Box } from './shape';
 
@@ -65,6 +66,30 @@ export function randomPlan(random: (below: number) => number, count = 1 + random
   };
 }
 
+/** Twelve actors in four columns with 8 px between them, and notes among them: as close as the grid permits. */
+export function packedPlan(random: (below: number) => number): Json {
+  const actors: Record<string, Json> = {};
+  const layout: Record<string, Json> = { '@start': [-200, 0] };
+  const notes: Json[] = [];
+  for (let at = 0; at < 12; at++) {
+    const corner = [(at % 4) * 176, Math.floor(at / 4) * 104];
+    if (random(4) === 0) notes.push({ at: corner, size: [168, 96], text: '' });
+    else layout[`a${at}`] = corner;
+  }
+  const names = Object.keys(layout).filter((name) => name !== '@start');
+  const target = () => names[random(names.length)] ?? '@terminate';
+  for (const name of names)
+    actors[name] = { template: 'For', states: { Loop: target(), Done: target() } };
+  return {
+    format: 'vagus-plan/1',
+    name: 'R',
+    start: { actor: names[0] ?? '' },
+    actors,
+    layout,
+    x: { notes },
+  };
+}
+
 /** Blocks of which one stands on another. */
 export function covered(scene: Scene): [Box, Box][] {
   const boxes = [scene.start, ...scene.actors].map((block) => block.whole);
@@ -75,9 +100,25 @@ export function covered(scene: Scene): [Box, Box][] {
   );
 }
 
+/** Notes on which an element stands. */
+export function coveredNotes({ notes }: PlanModel, scene: Scene): Box[] {
+  const boxes = [...[scene.start, ...scene.actors].map(({ whole }) => whole), ...pillsOf(scene)];
+  return notes.map(noteBox).filter((note) => boxes.some((box) => overlaps(box, note)));
+}
+
+export function noteBox({ at: [x, y], size: [width, height] }: Note): Box {
+  return { x, y, width, height };
+}
+
+const pillsOf = (scene: Scene) => scene.pills.map(({ box }) => box);
+
 /** What is wrong with the arrows: each is there, has right angles and runs through no box. */
-export function faultsOfArrows(scene: Scene, drawing: Drawing): string[] {
-  const boxes = boxesOf(scene, drawing);
+export function faultsOfArrows(
+  scene: Scene,
+  drawing: Drawing,
+  notes: readonly Note[] = [],
+): string[] {
+  const boxes = [...boxesOf(scene, drawing), ...notes.map(noteBox)];
   return drawing.arrows.flatMap(({ id }) => {
     const points = drawing.routes.get(id)?.points ?? [];
     const faults = points.length < 2 ? [`${id} is not there`] : [];
@@ -97,7 +138,7 @@ function boxesOf(scene: Scene, drawing: Drawing): Box[] {
       block.box,
       ...block.supervisors.map(({ box }) => box),
     ]),
-    ...scene.pills.map(({ box }) => box),
+    ...pillsOf(scene),
     ...drawing.tags.map(({ box }) => box),
   ];
 }

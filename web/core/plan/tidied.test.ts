@@ -5,9 +5,11 @@ import type { Json } from '../../protocol/messages';
 import { seeded } from '../test_seeded';
 import { drawingOf } from './arrows';
 import { kConfiguration, kStart, planModel } from './model';
+import type { Point } from './shape';
+import { noteIndex } from './notes';
 import { sceneOf } from './place';
-import { covered, faultsOfArrows, randomPlan, toolboxes } from './test_plans';
-import { besideVariables, elkGraph, inColumns, layoutGraph, tidied } from './tidy';
+import { covered, coveredNotes, faultsOfArrows, randomPlan, toolboxes } from './test_plans';
+import { besideNotes, besideVariables, elkGraph, inColumns, layoutGraph, tidied } from './tidy';
 
 async function tidy(value: { [key: string]: Json }) {
   const model = planModel(value, toolboxes);
@@ -17,17 +19,27 @@ async function tidy(value: { [key: string]: Json }) {
   const places = new Map(
     (laid.children ?? []).map(({ id, x, y }) => [id, { x: x ?? 0, y: y ?? 0 }]),
   );
-  const after = besideVariables(model, tidied(graph, places));
-  const layout = Object.fromEntries(after.map(([name, { x, y }]) => [name, [x, y]]));
-  const before = value['layout'] as { [key: string]: Json };
-  return planModel({ ...value, layout: { ...before, ...layout } }, toolboxes);
+  return placed(value, besideNotes(model, besideVariables(model, tidied(graph, places))));
+}
+
+/** The plan with what it has at these places. */
+function placed(value: { [key: string]: Json }, places: readonly [string, Point][]) {
+  const layout = { ...(value['layout'] as { [key: string]: Json }) };
+  const notes = planModel(value, toolboxes).notes.map(({ at, size, text }) => ({ at, size, text }));
+  for (const [key, { x, y }] of places) {
+    const note = notes[noteIndex(key) ?? -1];
+    if (note) note.at = [x, y];
+    else layout[key] = [x, y];
+  }
+  return planModel({ ...value, layout, x: { notes } as unknown as Json }, toolboxes);
 }
 
 async function expectTidied(name: string, value: Json): Promise<void> {
   const model = await tidy(value as { [key: string]: Json });
   const scene = sceneOf(model);
   expect(covered(scene), name).toEqual([]);
-  expect(faultsOfArrows(scene, drawingOf(model, scene)), name).toEqual([]);
+  expect(coveredNotes(model, scene), name).toEqual([]);
+  expect(faultsOfArrows(scene, drawingOf(model, scene), model.notes), name).toEqual([]);
 }
 
 describe('a tidied plan', () => {
@@ -40,6 +52,13 @@ describe('a tidied plan', () => {
       const layout = value['layout'] as { [key: string]: Json };
       // The variables were placed by hand where elements come to stand.
       if (random(2)) layout[kConfiguration] = [80 + random(400), 80 + random(400)];
+      // Notes that were written where elements come to stand.
+      const notes = Array.from({ length: random(4) }, (_one, at) => ({
+        at: [80 + random(120) * 8, 80 + random(80) * 8],
+        size: [192, 72],
+        text: `note ${at}`,
+      }));
+      value['x'] = { notes };
       await expectTidied(`seed ${seed}, plan ${plan}`, value);
     }
   }, 300_000);

@@ -2,8 +2,9 @@
 // supervisors is one box, arrows lead from left to right.
 
 import { kConfiguration, kStart, type PlanModel } from './model';
+import { noteKey } from './notes';
 import { sceneOf, snapped, type Scene } from './place';
-import { overlaps, type Block, type Point } from './shape';
+import { overlaps, type Block, type Box, type Point } from './shape';
 
 export interface LayoutGraph {
   boxes: { id: string; width: number; height: number }[];
@@ -77,6 +78,8 @@ export function elkGraph({ boxes, edges }: LayoutGraph) {
 }
 
 const kGap = 48;
+/** Room for arrows between a note and an element. */
+const kNoteGap = 24;
 
 /** Where the first of them stand; below all others if those are in the way. */
 function cornerOf(blocks: readonly Block[], moved: readonly Block[]): Point {
@@ -113,6 +116,32 @@ export function besideVariables(
   const above = sceneOf({ ...model, places: after }).configuration;
   const on = { x: snapped(above.x), y: snapped(above.y) };
   return [...places, [kConfiguration, on]];
+}
+
+/** With places for the notes on which elements would stand: below those, where they cover nothing. */
+export function besideNotes(
+  model: PlanModel,
+  places: readonly [string, Point][],
+): [string, Point][] {
+  const after = new Map(model.places);
+  for (const [name, { x, y }] of places) after.set(name, [x, y]);
+  const { start, actors, pills } = sceneOf({ ...model, places: after });
+  const taken = [...[start, ...actors].map(({ whole }) => whole), ...pills.map(({ box }) => box)];
+  const onto = (box: Box) => taken.find((one) => overlaps(one, box, kNoteGap));
+  const notes = model.notes.map(({ index, at: [x, y], size: [width, height] }) => ({
+    key: noteKey(index),
+    box: { x, y, width, height },
+  }));
+  const covered = notes.filter(({ box }) => onto(box));
+  taken.push(...notes.filter((one) => !covered.includes(one)).map(({ box }) => box));
+  const moved = covered.map(({ key, box }): [string, Point] => {
+    const free = { ...box, x: snapped(box.x), y: snapped(box.y) };
+    for (let other = onto(free); other; other = onto(free))
+      free.y = snapped(other.y + other.height + kGap);
+    taken.push(free);
+    return [key, { x: free.x, y: free.y }];
+  });
+  return [...places, ...moved];
 }
 
 /** Places on the grid, as a layout gave them. */

@@ -8,10 +8,20 @@ import { StateSign } from '../../parts/state_sign';
 import { text } from '../../text';
 import { NodeControls } from './node_controls';
 import { WriteScript } from '../../parts/write_script';
+import { NetworkPart, type Column } from './network_part';
 import type { NetworkState } from './use_network';
 
 const words = text.network;
 const { columns } = words;
+const kColumns: readonly Column[] = [
+  { title: '' },
+  { title: columns.node },
+  { title: columns.state },
+  { title: columns.program },
+  { title: columns.says, is: 'number' },
+  { title: columns.hears, is: 'number' },
+  { title: columns.controls, is: 'hidden' },
+];
 
 /** One row for each node; the buttons above are for those that are chosen, or for all. */
 export function NodeTable({ network: { nodes, talk } }: { network: NetworkState }) {
@@ -19,45 +29,29 @@ export function NodeTable({ network: { nodes, talk } }: { network: NetworkState 
   const there = chosen.filter((id) => nodes.some((node) => node.id === id));
   const name = there.length > 0 ? words.forSome(there.length) : words.forAll;
   return (
-    <section className="network__part">
-      <div className="network__head">
-        <h3>{words.nodes}</h3>
-        <span className="count">{nodes.length}</span>
-        <span className="grow" />
-        <span className="muted">{name}</span>
-        <NodeControls nodes={there} name={name} />
-      </div>
-      <table className="table table--nodes">
-        <thead>
-          <tr>
-            <td />
-            <th scope="col">{columns.node}</th>
-            <th scope="col">{columns.state}</th>
-            <th scope="col">{columns.program}</th>
-            <th scope="col" className="table__num">
-              {columns.says}
-            </th>
-            <th scope="col" className="table__num">
-              {columns.hears}
-            </th>
-            <th scope="col">
-              <span className="hidden-text">{columns.controls}</span>
-            </th>
-          </tr>
-        </thead>
-        <tbody>
-          {nodes.map((node) => (
-            <Row
-              key={node.id}
-              node={node}
-              says={shownRate(talk.get(node.id)?.says ?? 0)}
-              hears={shownRate(talk.get(node.id)?.hears ?? 0)}
-              chosen={chosen.includes(node.id)}
-            />
-          ))}
-        </tbody>
-      </table>
-    </section>
+    <NetworkPart
+      title={words.nodes}
+      count={nodes.length}
+      tools={
+        <>
+          <span className="grow" />
+          <span className="muted">{name}</span>
+          <NodeControls nodes={there} name={name} />
+        </>
+      }
+      columns={kColumns}
+      className="table table--nodes"
+    >
+      {nodes.map((node) => (
+        <Row
+          key={node.id}
+          node={node}
+          says={shownRate(talk.get(node.id)?.says ?? 0)}
+          hears={shownRate(talk.get(node.id)?.hears ?? 0)}
+          chosen={chosen.includes(node.id)}
+        />
+      ))}
+    </NetworkPart>
   );
 }
 

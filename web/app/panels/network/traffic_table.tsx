@@ -2,12 +2,28 @@ import { shortCount, shownRate } from '../../../core/numbers';
 import { addToPlot } from '../../commands/robot_commands';
 import { useStudio, useWindow } from '../../hooks';
 import { text } from '../../text';
+import { NetworkPart, type Column } from './network_part';
 import type { NetworkState } from './use_network';
 
 const words = text.network;
 const { columns } = words;
 const kRowsMax = 200;
 const kNamesMax = 4;
+
+const kTrafficColumns: readonly Column[] = [
+  { title: columns.from },
+  { title: columns.event },
+  { title: columns.to },
+  { title: columns.rate, is: 'number' },
+  { title: columns.count, is: 'number' },
+];
+const kLinkColumns: readonly Column[] = [
+  { title: columns.link },
+  { title: columns.nodesOf },
+  { title: columns.in, is: 'number' },
+  { title: columns.out, is: 'number' },
+  { title: columns.lost, is: 'number' },
+];
 
 /** Each event with who says it and whose scripts have a handler for it; of the chosen nodes if some are. */
 export function TrafficTable({ network }: { network: NetworkState }) {
@@ -21,45 +37,26 @@ export function TrafficTable({ network }: { network: NetworkState }) {
       network.rateOf(b) - network.rateOf(a) || b.count - a.count || (a.event < b.event ? -1 : 1),
   );
   return (
-    <section className="network__part">
-      <div className="network__head">
-        <h3>{words.talk}</h3>
-        <span className="count">{rows.length}</span>
-      </div>
-      {rows.length === 0 ? <p className="quiet">{words.noTraffic}</p> : null}
-      {rows.length > 0 ? (
-        <table className="table">
-          <thead>
-            <tr>
-              <th scope="col">{columns.from}</th>
-              <th scope="col">{columns.event}</th>
-              <th scope="col">{columns.to}</th>
-              <th scope="col" className="table__num">
-                {columns.rate}
-              </th>
-              <th scope="col" className="table__num">
-                {columns.count}
-              </th>
-            </tr>
-          </thead>
-          <tbody>
-            {rows.slice(0, kRowsMax).map((one) => (
-              <tr key={`${one.from} ${one.event}`}>
-                <td>{network.nameOf(one.from)}</td>
-                <th scope="row">
-                  <EventName event={one.event} />
-                </th>
-                <td className="muted">
-                  <To names={one.to.map(network.nameOf)} />
-                </td>
-                <td className="table__num num">{shownRate(network.rateOf(one))}</td>
-                <td className="table__num num">{shortCount(one.count)}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      ) : null}
-    </section>
+    <NetworkPart
+      title={words.talk}
+      count={rows.length}
+      empty={words.noTraffic}
+      columns={kTrafficColumns}
+    >
+      {rows.slice(0, kRowsMax).map((one) => (
+        <tr key={`${one.from} ${one.event}`}>
+          <td>{network.nameOf(one.from)}</td>
+          <th scope="row">
+            <EventName event={one.event} />
+          </th>
+          <td className="muted">
+            <To names={one.to.map(network.nameOf)} />
+          </td>
+          <td className="table__num num">{shownRate(network.rateOf(one))}</td>
+          <td className="table__num num">{shortCount(one.count)}</td>
+        </tr>
+      ))}
+    </NetworkPart>
   );
 }
 
@@ -89,43 +86,20 @@ function To({ names }: { names: readonly string[] }) {
 export function LinkTable({ network: { links, nameOf } }: { network: NetworkState }) {
   if (links.length === 0) return null;
   return (
-    <section className="network__part">
-      <div className="network__head">
-        <h3>{words.links}</h3>
-        <span className="count">{links.length}</span>
-      </div>
-      <table className="table">
-        <thead>
-          <tr>
-            <th scope="col">{columns.link}</th>
-            <th scope="col">{columns.nodesOf}</th>
-            <th scope="col" className="table__num">
-              {columns.in}
-            </th>
-            <th scope="col" className="table__num">
-              {columns.out}
-            </th>
-            <th scope="col" className="table__num">
-              {columns.lost}
-            </th>
-          </tr>
-        </thead>
-        <tbody>
-          {links.map((link) => (
-            <tr key={link.name}>
-              <th scope="row">{link.name}</th>
-              <td className="muted">
-                <To names={link.nodes.map(nameOf)} />
-              </td>
-              <td className="table__num num">{shortCount(link.frames_in)}</td>
-              <td className="table__num num">{shortCount(link.frames_out)}</td>
-              <td className={link.lost > 0 ? 'table__num num is-warning' : 'table__num num'}>
-                {shortCount(link.lost)}
-              </td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
-    </section>
+    <NetworkPart title={words.links} count={links.length} columns={kLinkColumns}>
+      {links.map((link) => (
+        <tr key={link.name}>
+          <th scope="row">{link.name}</th>
+          <td className="muted">
+            <To names={link.nodes.map(nameOf)} />
+          </td>
+          <td className="table__num num">{shortCount(link.frames_in)}</td>
+          <td className="table__num num">{shortCount(link.frames_out)}</td>
+          <td className={link.lost > 0 ? 'table__num num is-warning' : 'table__num num'}>
+            {shortCount(link.lost)}
+          </td>
+        </tr>
+      ))}
+    </NetworkPart>
   );
 }

@@ -4,7 +4,8 @@ import { toast } from '../../../core/window_state';
 import { useStudio } from '../../hooks';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
-import type { DefinitionKind } from './definitions';
+
+export type DefinitionKind = 'event' | 'constant';
 
 const words = text.outline;
 

@@ -13,10 +13,9 @@ import { Quiet } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
-import { DefinitionForm, SendForm } from './definition_form';
-import { Group } from './outline';
+import { DefinitionForm, SendForm, type DefinitionKind } from './definition_form';
+import { Group } from './group';
 
-export type DefinitionKind = 'event' | 'constant';
 const icon = { size: 14, stroke: kStroke };
 
 /** Events or constants of an .aesl file: add, rename, change, remove; events can be sent. */

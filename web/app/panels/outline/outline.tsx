@@ -1,13 +1,11 @@
-import { IconChevronDown, IconChevronRight } from '@tabler/icons-react';
-import { useState, type ReactNode } from 'react';
 import type { Doc, Handler } from '../../../protocol/messages';
 import { partOf } from '../../../core/paths';
 import { revealDoc } from '../../../core/window_state';
 import { useStudio, useTopic, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
-import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 import { Definitions } from './definitions';
+import { Group } from './group';
 
 /** Handlers of the script that is looked at; events and constants that its file shares. */
 export function Outline() {
@@ -22,49 +20,6 @@ export function Outline() {
       {file ? <Definitions file={file} kind="event" /> : null}
       {file ? <Definitions file={file} kind="constant" /> : null}
     </>
-  );
-}
-
-export function Group({
-  title,
-  note,
-  open,
-  wanted = false,
-  tools,
-  children,
-}: {
-  title: string;
-  note: string;
-  open: boolean;
-  /** Something in it was asked for: it unfolds. */
-  wanted?: boolean;
-  tools?: ReactNode;
-  children: ReactNode;
-}) {
-  const [shown, setShown] = useState(open);
-  const [wasWanted, setWasWanted] = useState(false);
-  if (wanted !== wasWanted) {
-    setWasWanted(wanted);
-    if (wanted) setShown(true);
-  }
-  const Icon = shown ? IconChevronDown : IconChevronRight;
-  return (
-    <section>
-      <div className="group">
-        <button
-          type="button"
-          className="group__toggle"
-          aria-expanded={shown}
-          onClick={() => setShown(!shown)}
-        >
-          <Icon className="icon" size={14} stroke={kStroke} aria-hidden />
-          <span className="ellipsis">{title}</span>
-          <span className="group__note num">{note}</span>
-        </button>
-        {tools}
-      </div>
-      {shown ? children : null}
-    </section>
   );
 }
 

@@ -15,6 +15,8 @@ export interface ShownPlan {
   zoomed: Emitter<void>;
   /** Around the middle. */
   zoomTo(zoom: number): void;
+  /** Brings an element in sight. */
+  show(key: string): void;
   /** Brings the keyboard to an element. */
   focus(key: string): void;
 }

@@ -1,26 +1,40 @@
 import type { Doc } from '../../../protocol/messages';
 import type { Studio } from '../../../core/studio';
 import { revealDoc } from '../../../core/window_state';
-import { planDeskOf } from './plan_desk';
+import { planDeskOf, type ShownPlan } from './plan_desk';
 
 /** Opens a plan and chooses the actor, supervisor or variable of that name in it. */
 export function revealElement(studio: Studio, doc: Doc, name: string): void {
   const desk = planDeskOf(studio);
-  const show = (): boolean => {
-    const shown = desk.find(({ board }) => board.doc === doc);
-    if (!shown) return false;
+  revealDoc(studio.window, doc, null);
+  onceDrawn(studio, doc, (shown) => {
     desk.use(shown);
     const key = shown.board.keyOf(name);
-    if (key !== null) {
-      shown.board.select(key);
-      shown.focus(key);
-    }
-    return true;
-  };
-  revealDoc(studio.window, doc, null);
-  if (show()) return;
-  // Its canvas comes to the desk once it is drawn.
-  const end = desk.changed.on(() => {
-    if (show()) end();
+    if (key === null) return;
+    shown.board.select(key);
+    shown.focus(key);
   });
+}
+
+/** An element of a plan that is open comes in sight; what is chosen and the keyboard stay. Gives what ends the wait. */
+export function showElement(studio: Studio, doc: Doc, name: string): () => void {
+  return onceDrawn(studio, doc, (shown) => {
+    const key = shown.board.keyOf(name);
+    if (key !== null) shown.show(key);
+  });
+}
+
+/** A canvas comes to the desk once it is drawn. */
+function onceDrawn(studio: Studio, doc: Doc, act: (shown: ShownPlan) => void): () => void {
+  const desk = planDeskOf(studio);
+  const attempt = (): boolean => {
+    const shown = desk.find(({ board }) => board.doc === doc);
+    if (shown) act(shown);
+    return shown !== undefined;
+  };
+  if (attempt()) return () => {};
+  const end = desk.changed.on(() => {
+    if (attempt()) end();
+  });
+  return end;
 }

@@ -16,16 +16,10 @@ import { useDrives } from '../../hooks';
 import { text } from '../../text';
 import { ChoiceField, SwitchField } from './fields';
 import { FileForm } from './file_form';
-import { EntryTarget } from './entry_target';
+import { EntryTarget, type EditedEntry } from './entry_target';
 import { NumberField } from './number_field';
 
 const words = text.world;
-
-export interface EditedEntry {
-  file: JsonFile;
-  id: string;
-  off: boolean;
-}
 
 /** An entry of the timeline: when, what, with whom. */
 export function EntryForm(props: { file: JsonFile; id: string; model: WorldModel }) {

@@ -1,7 +1,13 @@
+import type { JsonFile } from '../../../core/session/json_file';
 import { entryOf, pairOf, setSteps } from '../../../core/world/file';
 import { tidy } from '../../../core/world/snap';
-import type { EditedEntry } from './entry_form';
 import { PlaceFields } from './place_fields';
+
+export interface EditedEntry {
+  file: JsonFile;
+  id: string;
+  off: boolean;
+}
 
 /** Where an entry moves something to. */
 export function EntryTarget({ file, id, off }: EditedEntry) {

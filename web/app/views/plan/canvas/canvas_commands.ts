@@ -80,7 +80,15 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     ),
     make('draw.fit', ['1'], () => acts.fit()),
     make('draw.find', ['Ctrl+F', '/'], () => acts.find()),
-    make('draw.tidy', ['T'], (plan) => tidy(plan), edits),
+    make(
+      'draw.tidy',
+      ['T'],
+      async (plan) => {
+        await tidy(plan);
+        acts.fit();
+      },
+      edits,
+    ),
     make('draw.zoomIn', ['+', '='], () => acts.zoom(1.25)),
     make('draw.zoomOut', ['-'], () => acts.zoom(0.8)),
     make(

@@ -94,7 +94,7 @@ export function useKeptFocus(frame: React.RefObject<HTMLDivElement | null>, node
 export function useOnDesk(
   board: PlanBoard,
   frame: React.RefObject<HTMLDivElement | null>,
-  find: () => void,
+  { find, worksOn }: { find: () => void; worksOn: () => void },
 ) {
   const studio = useStudio();
   const flow = useReactFlow();
@@ -106,13 +106,21 @@ export function useOnDesk(
       board,
       zoom: () => flow.getZoom(),
       zoomed,
-      zoomTo: (zoom) => void flow.zoomTo(zoom),
+      zoomTo(zoom) {
+        worksOn();
+        void flow.zoomTo(zoom);
+      },
       middle() {
         const { left, top, width, height } =
           frame.current?.getBoundingClientRect() ?? new DOMRect();
         return flow.screenToFlowPosition({ x: left + width / 2 - 84, y: top + height / 3 });
       },
+      show(key) {
+        worksOn();
+        reveal(flow, board.boxOf(key), frame.current);
+      },
       focus(key) {
+        worksOn();
         reveal(flow, board.boxOf(key), frame.current);
         requestAnimationFrame(() =>
           frame.current
@@ -121,7 +129,7 @@ export function useOnDesk(
         );
       },
     }),
-    [board, flow, frame, zoomed],
+    [board, flow, frame, zoomed, worksOn],
   );
   // Before it can have the focus, which says that it is used.
   useLayoutEffect(() => planDeskOf(studio).add(shown), [studio, shown]);
@@ -131,7 +139,10 @@ export function useOnDesk(
       ...debugCommands(studio, properties),
       ...canvasCommands(studio, {
         fit: () => void flow.fitView(kFit),
-        zoom: (by) => void flow.zoomTo(flow.getZoom() * by),
+        zoom(by) {
+          worksOn();
+          void flow.zoomTo(flow.getZoom() * by);
+        },
         properties,
         rename() {
           const { board } = shown;
@@ -142,7 +153,7 @@ export function useOnDesk(
         find,
       }),
     ]);
-  }, [studio, shown, flow, find]);
+  }, [studio, shown, flow, find, worksOn]);
   const use = useCallback(() => {
     planDeskOf(studio).use(shown);
     const { doc } = shown.board;

@@ -17,7 +17,7 @@ import { ConnectMenu } from './connect_menu';
 import { kManyNodes, useAfterwards, useDistance } from './distance';
 import { ElementMenu } from './element_menu';
 import { FindBar } from './find_bar';
-import { kFit, useFitted } from './fitted';
+import { kFit, useFirstView, useFitted } from './fitted';
 import type { PlanNode } from './flow_nodes';
 import { nodeTypes } from './nodes';
 import { SmallMap } from './small_map';
@@ -53,14 +53,15 @@ function Canvas({ board }: { board: PlanBoard }) {
   const keep = useKeptFocus(frame, nodes);
   const [finds, setFinds] = useState(false);
   const find = useCallback(() => setFinds(true), []);
-  const { shown, use } = useOnDesk(board, frame, find);
+  const worksOn = useFitted(board, frame);
+  const view = useFirstView(board);
+  const { shown, use } = useOnDesk(board, frame, { find, worksOn });
   const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
   const dropping = useDropping(board, drives);
   const { menu, closeMenu, onNodeContextMenu } = useElementMenu(board);
   const options = usePlanOptions();
   const onNodesChange = useNodeChanges(board);
-  const worksOn = useFitted(board, frame);
   if (!isKnown) return <Blank title={words.broken}>{broken}</Blank>;
   return (
     <CanvasContexts board={board} drives={drives} distance={distance} connect={connect}>
@@ -98,8 +99,9 @@ function Canvas({ board }: { board: PlanBoard }) {
           snapGrid={kGrid}
           minZoom={0.1}
           maxZoom={2}
-          fitView
+          fitView={!view}
           fitViewOptions={kFit}
+          {...(view ? { defaultViewport: view } : {})}
           deleteKeyCode={null}
           selectionKeyCode="Shift"
           multiSelectionKeyCode={kAlso}

@@ -18,6 +18,7 @@ aesl::Program two_lines() {
 constexpr const char* kUpload =
     "14 00 00 00 01 a0 01 00 00 00 03 00 ff ff 03 00 01 10 64 40 02 10 65 40 00 00";
 constexpr const char* kRun = "02 00 00 00 03 a0 01 00";
+constexpr const char* kStop = "02 00 00 00 06 a0 01 00";
 constexpr const char* kStep = "02 00 00 00 05 a0 01 00";
 constexpr const char* kGetState = "02 00 00 00 07 a0 01 00";
 constexpr const char* kClear5 = "04 00 00 00 09 a0 01 00 05 00";
@@ -374,6 +375,20 @@ TEST_F(Program, ANodeIsAskedAnewWhatIsLeftWhenItsLinkWasLost) {
     bus.describe_robot(1);
     bus.state(1, 0, 0);
     EXPECT_EQ(bus.told<ProgramReplaced>().size(), 1u);
+}
+
+// Nobody else would ever say that it is over.
+TEST_F(Program, StopForANodeThatIsAwayIsSentAndAnsweredInTime) {
+    load();
+    bus.network.link_lost();
+    bus.forget();
+    const RequestId request = bus.network.stop_now(1).value();
+    EXPECT_EQ(bus.sent(), Dumps{kStop});
+    EXPECT_LE(bus.network.next_tick(), bus.now + kAnswerWithin);
+    EXPECT_EQ(error_of(bus, request), std::nullopt);
+    bus.pass(kAnswerWithin);
+    EXPECT_EQ(error_of(bus, request),
+              "node 1 \"robot\" did not answer the request to stop within 3 s");
 }
 
 TEST_F(Program, WhatAnotherHostLoadsIsNoticed) {

@@ -163,7 +163,8 @@ void Peer::lost() {
 }
 
 void Peer::tick() {
-    if (!view_.connected) return;
+    // Who is away may be told to stop all the same, and whoever asked that is answered, too.
+    if (!view_.connected) return control_.tick();
     if (view_.protocol >= kListedSince && out_.now - last_seen_ >= kSilenceMax) {
         leave("is disconnected: it was silent for " +
               std::to_string(kSilenceMax / std::chrono::seconds(1)) + " s");
@@ -177,7 +178,7 @@ void Peer::tick() {
 }
 
 Time Peer::next_tick() const {
-    if (!view_.connected) return Time::max();
+    if (!view_.connected) return control_.next_tick().value_or(Time::max());
     Time next = view_.protocol >= kListedSince ? last_seen_ + kSilenceMax : Time::max();
     if (describer_.state() == Describer::State::Asking)
         next = std::min(next, describer_.next_tick());

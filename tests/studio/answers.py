@@ -10,7 +10,7 @@ import unittest
 
 import projects
 from cases import Case
-from harness import listening, simulated
+from harness import Missing, listening, simulated
 from protocol import COMMANDS, invented_fields
 
 # What these do is what is done to the others; folder.list reads folders that are nobody's business here.
@@ -48,7 +48,10 @@ class Answers(Case):
         def unanswered():
             return {number: page.asked[number] for number in asked if number not in page.answered}
 
-        page.wait(lambda: not unanswered() or None, "answers to all")
+        try:
+            page.wait(lambda: not unanswered(), "answers to all")
+        except Missing as missing:  # which ones, before all the rest
+            raise Missing(f"never answered: {unanswered()}; {missing}") from None
         page.do("driver.ask")  # nothing is on its way any more
         self.assertEqual([page.asked[number] for number in asked if page.answered[number] != 1], [])
 

@@ -87,12 +87,14 @@ void Describer::take(Outbox& out, Progress progress) {
         case Progress::Impossible:
             return fail(out, description_.why());
         case Progress::Complete:
+            part_at_ = out.now;
             state_ = State::Done;
             return out.descriptions.leave(id_);
         case Progress::More:
             break;
     }
     tries_ = 0;
+    part_at_ = out.now;
     deadline_ = out.now + kDescriptionRetry;
     out.descriptions.progress(id_, out.now);
     if (mode_ == Mode::Fragments) ask(out);

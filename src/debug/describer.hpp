@@ -39,6 +39,7 @@ public:
 
     State state() const { return state_; }
     Time next_tick() const { return deadline_; }  // while Asking
+    Time part_at() const { return part_at_; }     // when a part came last
     const Description& description() const { return description_; }
     const std::string& why() const { return why_; }
 
@@ -55,6 +56,7 @@ private:
     NodeId id_;
     int tries_ = 0;  // since the last progress
     Time deadline_{};
+    Time part_at_{};
     Description description_;
     std::string why_;
 };

@@ -81,6 +81,7 @@ struct NodeView {
     std::string other_name;  // of the other one, if it has another
     ProgramState state = ProgramState::Unknown;
     CodePlace at;                          // as the node told last
+    Time part_at{};                        // when a part of its description came last
     aesl::Target target;                   // empty until described
     std::optional<aesl::Program> program;  // what this host loaded or was told that the node has
     // Of a node with `_program`, as it told last: mark_of() what it runs (debug/program_mark.hpp).

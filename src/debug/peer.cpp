@@ -90,6 +90,7 @@ bool Peer::receive_description(const wire::Frame& frame) {
     } else {
         good = with<wire::NativeFunctionDescription>(frame, take);
     }
+    view_.part_at = describer_.part_at();
     describe_progress();
     return good;
 }

@@ -33,17 +33,24 @@ bool RollCall::has_wanted(const Network& network) const {
                        [&](NodeId id) { return has(network, id); });
 }
 
+// A slow board describes itself part by part.
+Time RollCall::last_sign(const Network& network, NodeId id) const {
+    const NodeView* node = network.node(id);
+    return node == nullptr ? last_answer_ : std::max(last_answer_, node->part_at);
+}
+
 Time RollCall::end(const Network& network) const {
     Time end = last_answer_ + std::max(options_.quiet, std::min(slowest_, kNodesWithin));
     if (!answered_) end = std::max(end, start_ + options_.first_within);
     for (const NodeId id : options_.wanted) {
-        if (!network.node(id)) end = std::max(end, last_answer_ + kWantedWithin);
+        if (!has(network, id)) end = std::max(end, last_sign(network, id) + kWantedWithin);
     }
-    bool all_ready = !network.examines_ids();
+    const Duration within = std::max(kNodesWithin, options_.quiet);
+    if (network.examines_ids()) end = std::max(end, last_answer_ + within);
     for (const NodeId id : network.nodes()) {
-        all_ready = all_ready && (has(network, id) || !network.node(id)->connected);
+        if (has(network, id) || !network.node(id)->connected) continue;
+        end = std::max(end, last_sign(network, id) + within);
     }
-    if (!all_ready) end = std::max(end, last_answer_ + std::max(kNodesWithin, options_.quiet));
     return std::min(end, start_ + std::max(kRollCallMax, options_.quiet));
 }
 

@@ -86,6 +86,50 @@ TEST_F(RollCalls, ANodeThatIsAskedForByNumberIsAskedItselfAndWaitedFor) {
     EXPECT_TRUE(over());
 }
 
+// "net … save 3" on a busy machine: the parts of its description come steadily, and slowly.
+TEST_F(RollCalls, AWantedNodeThatDescribesItselfSlowlyIsWaitedFor) {
+    begin({.wanted = {3}, .only_wanted = true});
+    wire::NodePresent present{};
+    present.version = 5;
+    bus_.node_sends(3, present);
+    wire::Description header{};
+    header.name = {"robot", 5};
+    header.protocol_version = 5;
+    header.bytecode_size = 100;
+    header.stack_size = 32;
+    header.variables_size = 100;
+    header.variable_count = 2;
+    bus_.node_sends(3, header);
+    bus_.variable(3, "id", 1);
+    EXPECT_FALSE(over(milliseconds(2500)));
+    bus_.variable(3, "source", 1);  // the last
+    hear();
+    EXPECT_FALSE(over(milliseconds(4500)));  // its state is still to come
+    bus_.state(3, 0, 0);
+    EXPECT_TRUE(over());
+}
+
+TEST_F(RollCalls, EachPartOfADescriptionGivesTheRestItsTime) {
+    begin({});
+    wire::NodePresent present{};
+    present.version = 5;
+    bus_.node_sends(3, present);
+    wire::Description header{};
+    header.name = {"robot", 5};
+    header.protocol_version = 5;
+    header.bytecode_size = 100;
+    header.stack_size = 32;
+    header.variables_size = 100;
+    header.variable_count = 4;
+    bus_.node_sends(3, header);
+    for (const char* name : {"a", "b", "c"}) {
+        EXPECT_FALSE(over(kNodesWithin - milliseconds(1)));
+        bus_.variable(3, name, 1);
+    }
+    EXPECT_FALSE(over(kNodesWithin - milliseconds(1)));
+    EXPECT_TRUE(over(milliseconds(1)));
+}
+
 TEST_F(RollCalls, OneThatNeverAnswersIsWaitedForFiveSecondsAfterTheLastAnswer) {
     begin({.wanted = {3}, .only_wanted = true});
     answers(1);

@@ -68,6 +68,11 @@ void Diagnostics::report(Diag what, Mark mark, std::initializer_list<std::string
                     .formal = extra.formal});
 }
 
+void Diagnostics::set_declared(size_t error, uint16_t words) {
+    if (error >= errors_.size() || !errors_[error].fix || !errors_[error].fix->declares) return;
+    errors_[error].fix->declares->size = words;
+}
+
 bool Diagnostics::full() const {
     return errors_.size() >= kErrorsMax;
 }

@@ -52,6 +52,10 @@ public:
     void report(Diag what, Mark mark, std::initializer_list<std::string_view> words = {},
                 Extra extra = {});
 
+    // How many words the event has that the fix of an error declares: known only behind it. `error`
+    // is errors_found() before it was reported.
+    void set_declared(size_t error, uint16_t words);
+
     // A line of the script in the words of a sentence: as the file counts it (Options::first_line).
     std::string line_text(int line) const { return std::to_string(line + first_line_ - 1); }
 

@@ -18,6 +18,7 @@ NodeId Parser::emit_statement() {
         expect(TokenKind::Identifier, Diag::ExpectedEventName, {found(), tree_.text(keyword)});
     if (!has_name) return finish_simple(kNoNode, before);
     Symbol& event = symbol(name);
+    const size_t reported = diagnostics_.errors_found();
     if (event.global_event < 0 && event.local_event >= 0) {
         error(Diag::EmitLocalEvent, name, {name_text(name)});
     } else if (event.global_event < 0 && !event.is_event_unknown) {
@@ -25,9 +26,18 @@ NodeId Parser::emit_statement() {
     }
     const NodeId node =
         add({.kind = NodeKind::Emit, .token = keyword, .value = event.global_event});
-    tree_[node].first = emit_argument(keyword, name, node);
+    const NodeId argument = emit_argument(keyword, name, node);
+    tree_[node].first = argument;
+    if (event.global_event < 0 && argument != kNoNode) declare_as_emitted(reported, argument);
     tree_[node].bad = errors() > before || event.global_event < 0;
     return finish_simple(node, before);
+}
+
+// The event that nobody declares is to have as many words as it is emitted with.
+void Parser::declare_as_emitted(size_t error, NodeId argument) {
+    const int32_t words = tree_[argument].size;
+    if (words < 1 || words > kEventArgumentsMax) return;
+    diagnostics_.set_declared(error, static_cast<uint16_t>(words));
 }
 
 // Whether there is an argument depends on the size that the event declares (section 2.2).

@@ -100,14 +100,16 @@ bool Parser::belongs_to(const Symbol& known, NameSpace space) const {
     return false;
 }
 
-// The known name that is closest to a token, or nothing.
+// The known name that is closest to a token, or nothing. One that differs only in capitals is meant,
+// however many they are.
 std::string Parser::guess(TokenId name, NameSpace space) const {
     if (diagnostics_.full()) return {};
     std::vector<std::string_view> candidates;
     for (NameId id = 0; id < symbols_.size(); ++id) {
         if (belongs_to(symbols_[id], space)) candidates.push_back(tree_.names.text(id));
     }
-    return shown(closest(tree_.text(name), candidates));
+    const std::string_view same = same_letters(tree_.text(name), candidates);
+    return shown(same.empty() ? closest(tree_.text(name), candidates) : same);
 }
 
 void Parser::unknown_event(TokenId name, NameSpace space) {

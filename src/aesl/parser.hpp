@@ -170,6 +170,7 @@ private:
     // parse_calls.cpp
     NodeId emit_statement();
     NodeId emit_argument(TokenId keyword, TokenId name, NodeId node);
+    void declare_as_emitted(size_t error, NodeId argument);
     void check_event_size(TokenId keyword, TokenId name, NodeId argument);
     bool unsized_takes_argument(TokenId name) const;
     NodeId call_statement();

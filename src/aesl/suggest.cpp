@@ -52,6 +52,16 @@ std::string in_small_letters(std::string_view text) {
     return lower;
 }
 
+std::string_view same_letters(std::string_view name, std::span<const std::string_view> candidates) {
+    const std::string wanted = in_small_letters(name);
+    std::string_view first;
+    for (const std::string_view candidate : candidates) {
+        if (candidate == name || in_small_letters(candidate) != wanted) continue;
+        if (first.empty() || candidate < first) first = candidate;
+    }
+    return first;
+}
+
 std::string_view closest(std::string_view name, std::span<const std::string_view> candidates) {
     constexpr size_t kBytesOfCodePointMax = 4;
     const std::u32string wanted = code_points(name);

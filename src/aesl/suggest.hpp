@@ -11,6 +11,10 @@ namespace vagus::aesl {
 // code-point order on a tie; empty if there is none.
 std::string_view closest(std::string_view name, std::span<const std::string_view> candidates);
 
+// The candidate that differs from `name` in ASCII capitals only; the first in code-point order if
+// there are more; empty if there is none.
+std::string_view same_letters(std::string_view name, std::span<const std::string_view> candidates);
+
 // ASCII capitals made small.
 std::string in_small_letters(std::string_view text);
 

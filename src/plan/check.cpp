@@ -53,6 +53,13 @@ private:
                              std::move(meant)});
     }
 
+    // What the file should say of an element, and does not.
+    void say_missing(std::string_view rule, const Element& element, Missing missing,
+                     std::string message) {
+        say(rule, element.name, element.line, std::move(message));
+        findings_.back().missing = std::move(missing);
+    }
+
     // ---- the plan's own parts ----
 
     void check_toolboxes() {
@@ -78,8 +85,8 @@ private:
         if (!v.type) {
             const bool missing = v.type_line.line == 0;
             say("P7", v.name, missing ? v.line : v.type_line,
-                missing ? fmt::format("the variable \"{}\" has no type; add \"type\": bool, int, "
-                                      "float, string or object",
+                missing ? fmt::format("the variable \"{}\" has no type; choose bool, int, float, "
+                                      "string or object",
                                       v.name)
                         : fmt::format("the type \"{}\" is not known{}", v.type_word,
                                       hint(v.type_word, kTypes)),
@@ -104,7 +111,9 @@ private:
     void check_start() {
         if (!plan_.start_actor) {
             say("P15", "", plan_.start_line.line > 0 ? plan_.start_line : Place{1, 1},
-                "the plan has no start actor; add \"start\": { \"actor\": … }");
+                "the plan has no start actor: draw an arrow from Start to the first actor, or name "
+                "it in the file under start");
+            findings_.back().missing = Missing{"start", "actor"};
         } else if (find_actor(plan_, *plan_.start_actor) < 0) {
             say("P15", "", plan_.start_actor_line,
                 fmt::format("the start actor \"{}\" does not exist{}", *plan_.start_actor,
@@ -191,8 +200,8 @@ private:
     void say_unlisted(std::string_view element, Place line, std::string_view name,
                       std::string_view toolbox) {
         say("P2", element, line,
-            fmt::format("the template \"{}\" is in the toolbox {}, which this plan does not list; "
-                        "add \"{}\" to \"toolboxes\"",
+            fmt::format("the template \"{}\" is in the toolbox {}, which this plan does not use; "
+                        "add {} to the toolboxes of the plan",
                         name, toolbox, toolbox));
     }
 
@@ -245,7 +254,7 @@ private:
         const Value& period = *supervisor.period_ms;
         if (found.period_ms == 0) {
             say("P22", supervisor.name, supervisor.period_line,
-                fmt::format("{} waits for events itself and has no period; take period_ms away",
+                fmt::format("{} waits for events itself and has no period; remove its period",
                             found.name));
         } else if (period.type() != Type::Int || period.integer() < 1 ||
                    period.integer() > kPeriodMaxMs) {
@@ -280,10 +289,9 @@ private:
         }
         for (size_t i = 0; i < inputs.size(); ++i) {
             if (fed[i] || inputs[i].fallback) continue;
-            say("P3", element.name, element.line,
-                fmt::format("the input \"{}\" of \"{}\" is not fed and has no default; add it to "
-                            "\"in\"",
-                            inputs[i].name, element.name));
+            say_missing("P3", element, {"in", inputs[i].name},
+                        fmt::format("the input \"{}\" of \"{}\" needs a value: it has no default",
+                                    inputs[i].name, element.name));
         }
         return types;
     }
@@ -438,10 +446,13 @@ private:
                 return rule.name == outcome.name;
             });
             if (has) continue;
-            say(number, element.name, element.line,
-                fmt::format("the {} \"{}\" of \"{}\" leads nowhere; give it a target: an actor{}, "
-                            "or @terminate",
-                            what, outcome.name, element.name, what == "event" ? ", @ignore" : ""));
+            const bool is_event = what == "event";
+            say_missing(
+                number, element, {is_event ? "events" : "states", outcome.name},
+                fmt::format("the {} \"{}\" of \"{}\" leads nowhere; say what comes next: an "
+                            "actor, {}or the end (@terminate)",
+                            what, outcome.name, element.name,
+                            is_event ? "nothing (@ignore), " : ""));
         }
     }
 

@@ -18,6 +18,12 @@ struct Meant {
     bool is_key = false;  // of the member at the place of the finding; else in its value
 };
 
+// A member that the file lacks: of the element at the place of a finding, or of start.
+struct Missing {
+    std::string part;  // in, states, events; start
+    std::string name;
+};
+
 struct Finding {
     Severity severity = Severity::Error;
     std::string rule;     // "P8", "W3"
@@ -28,6 +34,7 @@ struct Finding {
     std::string message;  // one sentence: what is wrong, what was expected, how to fix it
     int column = 0;       // from 1, in code points; 0: not known
     std::optional<Meant> meant = {};
+    std::optional<Missing> missing = {};
 };
 
 using Findings = std::vector<Finding>;

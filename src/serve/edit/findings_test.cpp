@@ -77,6 +77,16 @@ TEST_F(EditTest, AnEventIsDeclaredByOneClick) {
     EXPECT_THAT(findings(), IsEmpty());
 }
 
+TEST_F(EditTest, AnEventIsDeclaredWithAsManyArgumentsAsItIsEmittedWith) {
+    write("a.aesl", project("var n\nonevent buttons\n  emit beat n\n"));
+    enter();
+    const Finding unknown = finding("EVENT_NOT_DEFINED");
+    ASSERT_EQ(unknown.fixes.size(), 1u);
+    apply(unknown.fixes[0]);
+    EXPECT_THAT(text("a.aesl"), HasSubstr("<event size=\"1\" name=\"beat\"/>"));
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
 TEST_F(EditTest, TheMissingEndIsAddedByOneClick) {
     write("a.aesl",
           project("onevent buttons\nif button.left == 1 then\n  motor.left.target = 5\n"));
@@ -124,6 +134,27 @@ TEST_F(EditTest, FindingsOfPlansSayWhichMemberIsMeant) {
     EXPECT_EQ(finding("P17").keys, Json({"actors", "a", "states", "Done"}));
     const Json first = document("findings")["findings"][0];
     EXPECT_EQ(first["keys"], Json({"actors", "a", "in", "seconds"}));
+}
+
+// A button of the page leads to it: an arrow to draw, a field that needs a value.
+TEST_F(EditTest, FindingsOfPlansSayWhichMemberIsMissing) {
+    write("P.plan.json", bare_plan(R"(    "a": { "template": "Wait" })"));
+    enter({.plan = "P.plan.json"});
+    const Finding value = finding("P3");
+    EXPECT_EQ(value.keys, Json({"actors", "a", "in", "seconds"}));
+    EXPECT_EQ(value.what, "the input \"seconds\" of \"a\" needs a value: it has no default");
+    const Finding next = finding("P17");
+    EXPECT_EQ(next.keys, Json({"actors", "a", "states", "Done"}));
+    EXPECT_EQ(
+        next.what,
+        "the state \"Done\" of \"a\" leads nowhere; say what comes next: an actor, or the end "
+        "(@terminate)");
+    put("P.plan.json", "\"actor\": \"a\"", "");
+    EXPECT_EQ(
+        finding("P15").what,
+        "the plan has no start actor: draw an arrow from Start to the first actor, or name it "
+        "in the file under start");
+    EXPECT_EQ(finding("P15").keys, Json({"start", "actor"}));
 }
 
 TEST_F(EditTest, APlanIsCheckedAsItWouldBeWithoutAChange) {

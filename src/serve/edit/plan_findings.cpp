@@ -150,6 +150,11 @@ std::vector<Finding> plan_findings(const plan::Findings& findings, const TextOf&
             one.file, one.severity, one.rule, one.element, {one.line, std::max(one.column, 1)},
             {},       one.message,  {}};
         finding.keys = text->second.keys_to(one.line, one.column);
+        if (one.missing) {
+            if (one.missing->part == "start") finding.keys = nlohmann::json::array();
+            finding.keys.push_back(one.missing->part);
+            finding.keys.push_back(one.missing->name);
+        }
         finding.end = end_of_word(text->second.text(), finding.at);
         if (one.meant) {
             FindingFix fix = text->second.mend(one.file, one);

@@ -68,6 +68,8 @@ void Target::hear(const debug::Event& event, const debug::Fault& fault) {
     known.fault_line = fault.at.line;
     known.why = "fault";
     known.held = false;
+    // Killed: somebody wanted it, and the others run on.
+    if (fault.kind != debug::FaultKind::Killed) hints_.stopped_at_breakpoint();
     const std::string place = fault.at.line > 0 ? fmt::format(" at line {}", fault.at.line) : "";
     happen("fault", event.node, debug::name_of(fault.kind), fault.text + place);
     say_("error", fmt::format("{}{}: {}", name_of(event.node), place, fault.text));

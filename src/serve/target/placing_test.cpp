@@ -101,5 +101,18 @@ TEST_F(PlacingTest, AFaultIsShownAtItsLine) {
     EXPECT_EQ(node["at"]["line"], 4);
 }
 
+// Else the clock of a simulation runs on, and the page says Running beside a node that is paused.
+TEST_F(PlacingTest, AFaultPausesTheClockAsABreakpointDoes) {
+    int paused = 0;
+    RobotHints hints;
+    hints.stopped_at_breakpoint = [&paused] { ++paused; };
+    target.set_hints(hints);
+    type("var n\nonevent tick\n  n = 0\n  n = 5 / n\n");
+    run();
+    pass(300ms);
+    EXPECT_EQ(node_document(kBumper)["why"], "fault");
+    EXPECT_EQ(paused, 1);
+}
+
 }  // namespace
 }  // namespace vagus::serve

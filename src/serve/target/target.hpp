@@ -54,7 +54,7 @@ struct RobotHints {
     // The plan waits for an event of that name.
     std::function<bool(const std::string& event)> plan_hears = [](auto&) { return false; };
     std::function<std::optional<double>()> load = [] { return std::optional<double>(); };
-    // A script stopped at a breakpoint, or goes on: the clock of a simulation stands with it.
+    // A script stopped at a breakpoint or by a fault: the clock of a simulation is paused with it.
     std::function<void()> stopped_at_breakpoint = [] {};
     // The run's clock, for what pages show.
     std::function<double()> time = [] { return 0.0; };

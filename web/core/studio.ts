@@ -14,6 +14,8 @@ import { Stopping } from './stopping';
 import { TopicCache } from './topics';
 import { createWindowStore, forgetProject, toast, type WindowStore } from './window_state';
 import { LiveWords } from './words';
+import { Hand } from './world/hand';
+import { Ways } from './world/ways';
 
 export class Studio {
   readonly connection: Connection;
@@ -27,6 +29,10 @@ export class Studio {
   readonly plotter: Plotter;
   /** Now, or the instant that is looked back at. */
   readonly past: Past;
+  /** What this page did by hand in the world of the run. */
+  readonly hand: Hand;
+  /** Where its robots went. */
+  readonly ways: Ways;
   /** The variables of the watch table. */
   readonly watched = new PickList();
   /** Of the project that is looked at; '' if there is none, null until the server has said it. */
@@ -67,6 +73,9 @@ export class Studio {
     this.happenings = new Happenings(this.connection, timed);
     this.plotter = new Plotter(this.connection, this.topics, this.happenings, timed);
     this.past = this.makePast();
+    this.ways = new Ways((input) => this.send('history.ways', input));
+    this.hand = new Hand((command, input) => this.send(command, input));
+    this.hand.failed.on((problem) => this.tell(problem));
     this.registry.failed.on((problem) => this.tell(problem));
     this.topics.subscribe('studio', {}, () => {
       this.lookAtProject();
@@ -99,6 +108,8 @@ export class Studio {
     this.documents.forget();
     this.past.closeTrace();
     this.happenings.clear();
+    this.hand.forget();
+    this.ways.forget();
     this.topics.forget(['studio', 'start', 'targets']);
     forgetProject(this.window);
   }

@@ -418,8 +418,12 @@ std::string SimSession::label(const Node& node) const {
 }
 
 Result<SimSession> open_sim(const std::string& path, SimOptions options) {
+    return open_sim_text(path, TRY(read_file(path)), std::move(options));
+}
+
+Result<SimSession> open_sim_text(const std::string& path, const std::string& text,
+                                 SimOptions options) {
     namespace fs = std::filesystem;
-    const std::string text = TRY(read_file(path));
     options.world.folder = fs::path(path).parent_path().string();
     if (options.world.folder.empty()) options.world.folder = ".";
     SimSession session(TRY(sim::World::load(text, path, options.world)), options);

@@ -275,5 +275,8 @@ private:
 
 // Opens a world file and loads the scripts that it names for its robots, from the file's folder.
 Result<SimSession> open_sim(const std::string& path, SimOptions options);
+// The same of a text that the file may not have yet: as it is in an editor.
+Result<SimSession> open_sim_text(const std::string& path, const std::string& text,
+                                 SimOptions options);
 
 }  // namespace vagus::session

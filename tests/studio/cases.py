@@ -212,6 +212,7 @@ class Runs(Case):
         self.refused("bad_input", "world.put", kind="box", at=[1e300, 1], size=[1, 1])
         self.refused("bad_input", "world.put", kind="box", at=[1], size=[1, 1])
         self.refused("bad_input", "world.put", kind="box", at=[1, 1], size=[])
+        self.refused("bad_input", "world.put", kind="patch", at=[1, 1], radius=1, colour=[1, 1])
         self.assertIn("object", self.refused("bad_input", "world.take", object=4711))
         self.assertIn("robot", self.refused("bad_input", "world.press", robot="bob", button="center", down=True))
         self.assertIn("forward", self.refused("bad_input", "world.press", robot="alice", button="nose", down=True))

@@ -169,6 +169,7 @@ export const text = {
     'world.copy': 'World: duplicate the selected thing',
     'world.undo': 'World: undo',
     'world.redo': 'World: redo',
+    'world.keep': 'World: keep what was changed by hand',
     'world.fit': 'World: fit into the view',
     'world.zoomIn': 'World: zoom in',
     'world.zoomOut': 'World: zoom out',
@@ -271,6 +272,7 @@ export const text = {
       'file.': 'Open a file first.',
       'view.': 'Open a file first.',
       'watch.': 'Nothing is watched.',
+      'world.keep': 'Nothing was changed by hand.',
       'events.': 'No events yet.',
       'events.send': 'No robot is connected.',
       'plots.': 'Nothing is plotted.',
@@ -835,6 +837,30 @@ export const text = {
   },
   world: {
     modes: { live: 'Live', edit: 'Edit', text: 'Text' },
+    modeTips: {
+      live: 'The world of the run. What you change here lasts until it is opened again, unless you keep it.',
+      edit: 'The world file as a drawing. What you change here is how each run begins.',
+      text: 'The world file as text.',
+    },
+    explain: {
+      live: 'Live shows this run: what you move or add here is gone after it. Edit changes the file.',
+      edit: 'Edit changes the file, with which each run begins. Live shows the run.',
+    },
+    understood: 'Got it',
+    inRun: 'in this run',
+    keep: 'Keep in the world',
+    keepHelp:
+      'Writes it into the world file, robots as where they start. One undo in Edit takes it back.',
+    changedByHand: (count: number, thisRun: boolean) =>
+      `${s(count, 'thing', 'things')} changed ${thisRun ? 'in this run' : 'by hand before'}`,
+    kept: (count: number, file: string) =>
+      `${s(count, 'thing is', 'things are')} kept in ${file}. Not saved yet.`,
+    cannotKeep: 'The text of the world is no JSON at the moment. Fix it first.',
+    forget: 'Dismiss',
+    fileChanged: 'The world file has changed; a restart shows it.',
+    restart: 'Restart',
+    nothingToUndo: 'Nothing was changed by hand in this run.',
+    nothingToRedo: 'Nothing was undone in this run.',
     mode: 'What is shown of the world',
     canvas: (name: string) => `World ${name}`.trim(),
     canvasHelp:
@@ -901,7 +927,6 @@ export const text = {
     asFile: 'As in the file. F5 runs it.',
     notRunning: 'The world is stopped.',
     notRunningHelp: 'Press F5 to start the simulator; or edit the world as its file says.',
-    otherRuns: 'Another world is running, and shown here.',
     editIt: 'Edit',
     noWorld: 'No world',
     noWorldHelp: 'This project has no world. Make one with + at the project’s files.',

@@ -15,6 +15,8 @@ import { Stopping } from './stopping';
 import { TopicCache } from './topics';
 import { createWindowStore, forgetProject, toast, type WindowStore } from './window_state';
 import { LiveWords } from './words';
+import { Hand } from './world/hand';
+import { Ways } from './world/ways';
 
 /** Commands that say which texts they are for. */
 type Changing = {
@@ -33,6 +35,10 @@ export class Studio {
   readonly plotter: Plotter;
   /** Now, or the instant that is looked back at. */
   readonly past: Past;
+  /** What this page did by hand in the world of the run. */
+  readonly hand: Hand;
+  /** Where its robots went. */
+  readonly ways: Ways;
   /** The variables of the watch table. */
   readonly watched = new PickList();
   /** Another project is open, and in that one is something that the server does not have. */
@@ -75,6 +81,9 @@ export class Studio {
     this.happenings = new Happenings(this.connection, timed);
     this.plotter = new Plotter(this.connection, this.topics, this.happenings, timed);
     this.past = this.makePast();
+    this.ways = new Ways((input) => this.send('history.ways', input));
+    this.hand = new Hand((command, input) => this.send(command, input));
+    this.hand.failed.on((problem) => this.tell(problem));
     this.registry.failed.on((problem) => this.tell(problem));
     this.topics.subscribe('studio', {}, () => {
       this.lookAtProject();
@@ -108,6 +117,8 @@ export class Studio {
     if (unsent.length > 0) this.left.emit({ folder: before, docs: unsent });
     this.past.closeTrace();
     this.happenings.clear();
+    this.hand.forget();
+    this.ways.forget();
     this.topics.forget(['studio', 'start', 'targets']);
     forgetProject(this.window);
     this.documents.enter(folder);

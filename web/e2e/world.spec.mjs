@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { seen, test, until } from './support/studio.mjs';
+import { openWorld } from './support/world.mjs';
 /** @import { Page } from './support/studio.mjs' */
 
 const thymio = { words: ['--example', 'thymio'] };
@@ -63,14 +64,26 @@ test('a robot drives in it; hands move, press, put down', thymio, async (studio)
 });
 
 test('the mouse drags the robot, its form presses its buttons', thymio, async (studio) => {
-  const { page, layout, press } = studio;
+  const { page, press } = studio;
   await seen(studio.editor('thymio-II'));
-  await layout('Present');
+  const { view, at, pose, stands } = await openWorld(page, 'arena.world', [2, 1.5]);
+  await view.getByRole('radio', { name: 'Live' }).click();
+  await pose('thymio');
   await press('F5');
-  await seen(page.getByRole('button', { name: /Running/ }));
-  await layout('Draw');
-  const canvas = page.locator('canvas').first();
-  await seen(canvas);
+  await until('it drives', async () => ((await pose('thymio'))[0] ?? 0) > 0.53);
+  await view.getByRole('button', { name: 'thymio' }).click();
+  // Its button in the middle stops it.
+  const form = page.getByRole('region', { name: 'Properties' }).first();
+  await form.getByRole('button', { name: 'Press center' }).click();
+  await seen(view.getByText(/ 0 cm\/s/));
+  const [x = 0, y = 0] = await pose('thymio');
+  const [from, to] = [await at(x, y), await at(1.35, 0.7)];
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 4 });
+  await page.mouse.move(to.x, to.y, { steps: 4 });
+  await page.mouse.up();
+  await stands('thymio', 1.35, 0.7, 0.02);
 });
 
 test('in 3D', thymio, async (studio) => {

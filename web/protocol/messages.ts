@@ -635,6 +635,8 @@ export interface Project {
   copy_of?: string;
   plan?: Path;
   world?: Path;
+  /** the text of the world, or the picture on its ground, is another one than when it was opened */
+  world_changed?: boolean;
   scripts: Path[];
   target: string;
   /** the outermost folder of the project; paths count from it */
@@ -1356,6 +1358,15 @@ export interface Commands {
     /** events of sources that had no room */
     left_out: number;
   } };
+  /** Where robots of a world went: a place for each centimetre, the newest 4000 of a robot, 40000 of all. */
+  'history.ways': { in: {
+    from: number;
+    to: number;
+  }; out: {
+    run: number;
+    /** [index in the scene, t, x, y, t, x, y, …] */
+    ways: Json[];
+  } };
   /** Reads a trace that is kept as a file, NAME.trace.jsonl. */
   'history.open': { in: {
     trace: Path;
@@ -1381,11 +1392,20 @@ export interface Commands {
   }; out: Record<never, never> };
   /** Puts an object into the running world, not into the file. */
   'world.put': { in: {
-    kind: 'wall' | 'box' | 'cylinder';
+    kind: 'wall' | 'box' | 'cylinder' | 'patch' | 'light' | 'infrared';
     at: Point;
     angle?: number;
+    /** unlike that of any other object */
+    id?: string;
+    /** of a rectangle */
     size?: number[];
+    /** of a disc */
     radius?: number;
+    height?: number;
+    mass?: number;
+    colour?: Colour;
+    /** of a lamp; missing: it is */
+    on?: boolean;
   }; out: {
     number: number;
   } };
@@ -1593,6 +1613,8 @@ export interface Topics {
   } };
   /** What is in the world; where it is comes by poses. */
   'scene': { kind: 'document'; of: Record<never, never>; is: {
+    /** another one each time a world is opened; numbers of objects begin again */
+    opening?: number;
     name: string;
     size: number[];
     open: boolean;
@@ -1711,7 +1733,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
   FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
   JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', text: 'text(2097152)?', to: 'int(0..1000000)?' },
-  Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
+  Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', world_changed: 'bool?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
   FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world)' },
   SharedFile: { path: 'Path', events: '[Definition; 65536]', constants: '[Definition; 65536]' },
   ListingLine: { line: 'int(0..10000000)', address: 'int(0..65535)', words: 'int(1..65535)', text: 'line(200)' },
@@ -1809,6 +1831,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'plan.set': { may: 'driver', kind: 'act', out: {} },
   'history.at': { may: 'look', kind: 'look', out: { run: 'number', t: 'number', to: 'number', plan: 'json?', before: 'number?', next: 'number?', values: '[HistoryWords; 256]', robots: '[json; 1024]', objects: '[json; 10000]', nodes: '[HistoryNode; 2048]', events: '[Happening; 2000]', exact: 'bool?' } },
   'history.lanes': { may: 'look', kind: 'look', out: { run: 'number', from: 'number', to: 'number', lanes: '[HistoryLane; 600]', curves: '[HistoryCurve; 16]', loads: '[HistoryCurve; 64]', left_out: 'number' } },
+  'history.ways': { may: 'look', kind: 'look', out: { run: 'number', ways: '[json; 1024]' } },
   'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
   'history.save': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
   'world.move': { may: 'driver', kind: 'act', out: {} },
@@ -1839,7 +1862,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', stands_at: '[number; 1000]?', levels: '[PlanLevel; 64]', story: '[Line; 200]', change: 'PlanChange?' } },
   'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
   'state': { kind: 'document', is: { values: 'json' } },
-  'scene': { kind: 'document', is: { name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },
+  'scene': { kind: 'document', is: { opening: 'number?', name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },
   'held': { kind: 'document', is: { stands: 'bool', events: '[HeldEvent; 200]', more: 'number', dropped: 'number' } },
   'happenings': { kind: 'stream', item: 'Happening' },
   'console': { kind: 'stream', item: 'Line' },

@@ -144,6 +144,23 @@ Json History::at(const Instant& instant) const {
 
 // ---- a window ----
 
+// To a tenth of a millimetre, as pages draw it.
+Json History::ways(double from, double to) const {
+    const auto rounded = [](double value, double unit) { return std::round(value * unit) / unit; };
+    Json ways = Json::array();
+    for (const auto& [robot, points] : tape_.ways(from, to)) {
+        if (ways.size() >= kWaysMax) break;
+        Json way = {robot};
+        for (const Tape::WayPoint& point : points) {
+            way.push_back(rounded(point.t, 1e3));
+            way.push_back(rounded(point.x, 1e4));
+            way.push_back(rounded(point.y, 1e4));
+        }
+        ways.push_back(std::move(way));
+    }
+    return {{"run", run_}, {"ways", std::move(ways)}};
+}
+
 Json History::curve(const Word& word, const Window& window) const {
     Json low = Json::array();
     Json high = Json::array();

@@ -28,6 +28,7 @@ constexpr size_t kTimelineWords = 16;       // curves of a timeline
 constexpr size_t kInstantRanges = 256;
 constexpr size_t kInstantWords = 20'000;  // words of one instant
 constexpr size_t kInstantEvents = 2000;
+constexpr size_t kWaysMax = 1024;  // robots whose ways are told
 
 class History {
 public:
@@ -83,6 +84,8 @@ public:
     // The answers of history.at and history.lanes.
     Json at(const Instant& instant) const;
     Json lanes(const Window& window) const;
+    // The answer of history.ways.
+    Json ways(double from, double to) const;
     // Of the outermost plan; empty without one.
     std::string plan_name() const { return plan_ ? plan_->name() : ""; }
     std::string trace_text() const { return plan_ ? plan_->text() : ""; }

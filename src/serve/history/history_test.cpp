@@ -154,6 +154,50 @@ TEST(Tape, WhatCannotBeThinnedIsDroppedFromItsOldEnd) {
     EXPECT_EQ(tape.at(tape.from() - 0.01).word(1, 0), std::nullopt);
 }
 
+std::string stand(double t, uint32_t robot, float x, float y) {
+    RecordWriter writer;
+    writer.begin(t);
+    writer.pose(kRobotKey | robot, x, y, 0);
+    return writer.take();
+}
+
+TEST(Tape, AWayHasAPlaceForEachCentimetreSinceItsBegin) {
+    Tape tape;
+    // Two blocks: the second begins 15 s later.
+    ASSERT_TRUE(tape.record(stand(1, 0, 1, 1)));
+    ASSERT_TRUE(tape.record(stand(2, 0, 1.004F, 1)));
+    ASSERT_TRUE(tape.record(stand(3, 0, 1.02F, 1)));
+    ASSERT_TRUE(tape.record(stand(3, 1, 5, 5)));
+    ASSERT_TRUE(tape.record(stand(18, 0, 1.02F, 1.5F)));
+    const auto ways = tape.ways(0, 20);
+    ASSERT_EQ(ways.size(), 2u);
+    EXPECT_EQ(ways.at(0),
+              (std::deque<Tape::WayPoint>{{1, 1, 1}, {3, 1.02F, 1}, {18, 1.02F, 1.5F}}));
+    EXPECT_EQ(ways.at(1), (std::deque<Tape::WayPoint>{{3, 5, 5}}));
+    // From the middle: where it stood then, and what came after.
+    EXPECT_EQ(tape.ways(2.5, 10).at(0),
+              (std::deque<Tape::WayPoint>{{2.5, 1.004F, 1}, {3, 1.02F, 1}}));
+}
+
+TEST(Tape, OfALongWayTheNewestPlacesAreKept) {
+    Tape tape;
+    for (size_t i = 0; i <= kWayPointsMax; ++i) {
+        const auto k = static_cast<float>(i);
+        ASSERT_TRUE(tape.record(stand(0.1 * k, 0, 0.02F * k, 0)));
+    }
+    const auto way = tape.ways(0, 1e6).at(0);
+    EXPECT_EQ(way.size(), kWayPointsMax);
+    EXPECT_FLOAT_EQ(way.front().x, 0.02F);
+    EXPECT_FLOAT_EQ(way.back().x, 0.02F * kWayPointsMax);
+}
+
+TEST(History, WaysAreToldInTenthsOfAMillimetre) {
+    History history;
+    history.begin({.kind = "simulated"});
+    ASSERT_TRUE(history.record(stand(1.00049, 0, 0.123456F, 2)));
+    EXPECT_EQ(history.ways(0, 2)["ways"], Json({{0, 1.0, 0.1235, 2.0}}));
+}
+
 TEST(EventPast, TheOldestGoFirstAndAreCounted) {
     EventPast past;
     for (size_t i = 0; i <= kPastEvents; ++i) {

@@ -182,6 +182,33 @@ TapeState Tape::at(double t) const {
     return state;
 }
 
+std::map<uint32_t, std::deque<Tape::WayPoint>> Tape::ways(double from, double to) const {
+    std::map<uint32_t, std::deque<WayPoint>> ways;
+    const auto go = [&](uint32_t key, const WayPoint& point) {
+        if ((key & kRobotKey) == 0) return;
+        std::deque<WayPoint>& way = ways[key & ~kRobotKey];
+        if (!way.empty()) {
+            const WayPoint& last = way.back();
+            if (std::hypot(point.x - last.x, point.y - last.y) < kWayStep) return;
+        }
+        way.push_back(point);
+        const size_t most = std::min(kWayPointsMax, kWaysPointsMax / ways.size());
+        while (way.size() > std::max<size_t>(most, 1)) way.pop_front();
+    };
+    const TapeState begins = at(from);
+    for (const auto& [key, standing] : begins.things()) go(key, {from, standing.x, standing.y});
+    for (const Block& block : blocks_) {
+        if (block.to < from || block.from > to) continue;
+        each_record(block.bytes, {[](double, std::string_view) {},
+                                  [&](const RecordItem& item) {
+                                      if (item.kind != RecordItem::Kind::Pose) return;
+                                      if (item.t <= from || item.t > to) return;
+                                      go(item.key, {item.t, item.x, item.y});
+                                  }});
+    }
+    return ways;
+}
+
 std::vector<Tape::Column> Tape::columns(uint16_t node, uint16_t address,
                                         const Window& window) const {
     std::vector<Column> columns(window.columns);

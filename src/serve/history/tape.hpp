@@ -27,6 +27,9 @@ constexpr double kTapeCoarseStep = 0.2;    // what is older: one instant in so m
 constexpr double kTapeSeconds = 3600;      // what is older still is dropped
 constexpr size_t kTapeBytes = 64u << 20;   // all together
 constexpr size_t kTapeThingsMax = 10'000;  // robots and objects
+constexpr float kWayStep = 0.01F;          // metres between two places of a way
+constexpr size_t kWayPointsMax = 4000;     // of one robot: the newest
+constexpr size_t kWaysPointsMax = 40'000;  // of all together
 
 // All that is known of one instant.
 class TapeState {
@@ -67,6 +70,13 @@ public:
     // these are no whole records, and nothing of them is kept.
     bool record(std::string_view bytes);
     TapeState at(double t) const;
+    // Where robots went in that time, by their index in the scene: a place for each kWayStep.
+    struct WayPoint {
+        double t = 0;
+        float x = 0, y = 0;
+        friend bool operator==(const WayPoint&, const WayPoint&) = default;
+    };
+    std::map<uint32_t, std::deque<WayPoint>> ways(double from, double to) const;
     std::vector<Column> columns(uint16_t node, uint16_t address, const Window& window) const;
 
     bool empty() const { return blocks_.empty(); }

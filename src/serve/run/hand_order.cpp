@@ -2,6 +2,9 @@
 
 #include "serve/json.hpp"
 
+#include <algorithm>
+#include <cassert>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace vagus::serve {
@@ -12,6 +15,10 @@ talk::Point point_of(const Json& pair) {
     return {pair[0], pair[1]};
 }
 
+talk::Colour colour_of(const Json& list) {
+    return {list[0], list[1], list[2]};
+}
+
 HandOrder move_of(const Json& in) {
     std::optional<double> angle;
     if (in.contains("angle")) angle = in["angle"].get<double>();
@@ -20,8 +27,10 @@ HandOrder move_of(const Json& in) {
 }
 
 talk::ObjectKind object_kind_of(const std::string& word) {
-    if (word == "wall") return talk::ObjectKind::Wall;
-    return word == "box" ? talk::ObjectKind::Box : talk::ObjectKind::Cylinder;
+    const auto& words = talk::Words<talk::ObjectKind>::kAll;
+    const auto* const found = std::find(std::begin(words), std::end(words), word);
+    assert(found != std::end(words));  // checked where it came in
+    return static_cast<talk::ObjectKind>(found - std::begin(words));
 }
 
 talk::PutObject put_of(const Json& in) {
@@ -29,8 +38,13 @@ talk::PutObject put_of(const Json& in) {
     put.kind = object_kind_of(in["kind"]);
     put.at = point_of(in["at"]);
     put.angle = in.value("angle", put.angle);
+    put.id = in.value("id", put.id);
     if (in.contains("size")) put.size = point_of(in["size"]);
-    put.radius = in.value("radius", put.radius);
+    if (in.contains("radius")) put.radius = in["radius"].get<double>();
+    if (in.contains("height")) put.height = in["height"].get<double>();
+    if (in.contains("mass")) put.mass = in["mass"].get<double>();
+    if (in.contains("colour")) put.colour = colour_of(in["colour"]);
+    put.on = in.value("on", put.on);
     return put;
 }
 

@@ -82,6 +82,7 @@ talk::Open Run::open_order(const RunOrder& order) {
     talk::Open open;
     open.order = ++orders_;
     open.world = order.world;
+    open.world_text = order.world_text;
     open.plan = order.plan;
     open.toolboxes = order.toolboxes;
     for (const auto& [name, value] : order.set.items()) {

@@ -31,8 +31,9 @@ constexpr Duration kSilentAfter = 300ms;
 constexpr Duration kClockAgainAfter = 1s;  // of a clock that says nothing new
 
 struct RunOrder {
-    std::string world;  // paths of this computer
-    std::string plan;   // empty: the world alone
+    std::string world;                      // paths of this computer
+    std::optional<std::string> world_text;  // without a plan: what its editor has, saved or not
+    std::string plan;                       // empty: the world alone
     std::vector<std::string> toolboxes;
     nlohmann::json set = nlohmann::json::object();
     std::string from;  // the actor that the plan begins with; empty: its start
@@ -252,7 +253,8 @@ private:
     std::vector<uint16_t> held_nodes_;  // as it was told
     uint64_t generation_ = 0;
     uint64_t orders_ = 0;
-    bool opening_ = false;  // what the runner tells is still of the order before
+    uint64_t opened_order_ = 0;  // of the world that is there
+    bool opening_ = false;       // what the runner tells is still of the order before
     bool rests_ = true;
     uint64_t deaths_ = 0, late_checks_ = 0;
 

@@ -47,7 +47,11 @@ Json Run::plan_document() const {
 }
 
 Json Run::scene_document() const {
-    if (scene_) return scene_->document.json;
+    if (scene_) {
+        Json scene = scene_->document.json;
+        scene["opening"] = opened_order_;
+        return scene;
+    }
     return {{"name", ""},          {"size", {1, 1}},          {"open", true},
             {"ground", {1, 1, 1}}, {"robots", Json::array()}, {"objects", Json::array()}};
 }

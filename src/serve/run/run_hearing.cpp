@@ -51,6 +51,7 @@ bool Run::counts(const talk::News& news) const {
 
 void Run::hear(talk::Opened& opened) {
     opening_ = false;
+    opened_order_ = opened.order;
     has_world_ = opened.scene.has_value();
     scene_ = std::move(opened.scene);
     programs_.clear();

@@ -8,6 +8,8 @@ namespace vagus::serve {
 
 namespace {
 
+constexpr double kUsualSide = 0.2, kUsualRadius = 0.05;  // metres, of what a hand puts
+
 Status check_inside(const sim::World& world, const talk::Point& at) {
     const sim::WorldDefinition& is = world.definition();
     const bool inside = at.x >= 0 && at.x <= is.width && at.y >= 0 && at.y <= is.height;
@@ -23,16 +25,29 @@ Result<sim::RobotId> robot_named(sim::World& world, const std::string& name) {
     return *robot;
 }
 
+// The kinds of the two lists have one order.
 sim::ObjectKind kind_of(talk::ObjectKind kind) {
-    switch (kind) {
-        case talk::ObjectKind::Wall:
-            return sim::ObjectKind::Wall;
-        case talk::ObjectKind::Box:
-            return sim::ObjectKind::Box;
-        case talk::ObjectKind::Cylinder:
-            return sim::ObjectKind::Cylinder;
+    return static_cast<sim::ObjectKind>(kind);
+}
+static_assert(static_cast<int>(talk::ObjectKind::Wall) == static_cast<int>(sim::ObjectKind::Wall));
+static_assert(static_cast<int>(talk::ObjectKind::Infrared) ==
+              static_cast<int>(sim::ObjectKind::Infrared));
+
+// Neither a size nor a radius was given: a disc, or a square; a lamp needs neither.
+void give_usual_size(sim::ObjectDefinition& object) {
+    switch (object.kind) {
+        case sim::ObjectKind::Wall:
+        case sim::ObjectKind::Box:
+            object.width = object.length = kUsualSide;
+            return;
+        case sim::ObjectKind::Cylinder:
+        case sim::ObjectKind::Patch:
+            object.radius = kUsualRadius;
+            return;
+        case sim::ObjectKind::Light:
+        case sim::ObjectKind::Infrared:
+            return;
     }
-    return sim::ObjectKind::Box;
 }
 
 }  // namespace
@@ -61,13 +76,17 @@ Result<uint32_t> hand(sim::World& world, const talk::PutObject& order) {
     object.kind = kind_of(order.kind);
     object.at = {order.at.x, order.at.y};
     object.angle = order.angle;
-    if (order.kind == talk::ObjectKind::Cylinder) {
-        object.radius = order.radius;
-    } else {
-        object.width = order.size.x;
-        object.length = order.size.y;
-    }
-    return TRY(world.add(object)).number;
+    object.id = order.id;
+    if (!order.size && !order.radius) give_usual_size(object);
+    object.radius = order.radius.value_or(object.radius);
+    if (order.size) object.width = order.size->x;
+    if (order.size) object.length = order.size->y;
+    object.height = order.height.value_or(object.height);
+    object.mass = order.mass.value_or(object.mass);
+    if (order.colour) object.colour = {order.colour->r, order.colour->g, order.colour->b};
+    const sim::ObjectId put = TRY(world.add(object));
+    if (!order.on) TRY(world.switch_light(put, false));
+    return put.number;
 }
 
 Status hand(sim::World& world, const talk::TakeObject& order) {

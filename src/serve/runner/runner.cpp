@@ -137,7 +137,8 @@ private:
     void fail(const std::string& why) { teller_.tell(talk::OpenFailed{number_, why}); }
 
     void run_world(const talk::Open& order) {
-        auto opened = session::open_sim(order.world, {});
+        auto opened = order.world_text ? session::open_sim_text(order.world, *order.world_text, {})
+                                       : session::open_sim(order.world, {});
         if (!opened.ok()) return fail(opened.error().what);
         own_ = std::make_unique<session::SimSession>(std::move(opened.value()));
         (void)own_->settle();

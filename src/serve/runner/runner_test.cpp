@@ -9,9 +9,11 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "base/file.hpp"
+#include "serve/json.hpp"
 #include "serve/talk/codec.hpp"
 
 namespace vagus::serve {
@@ -194,6 +196,39 @@ TEST_F(RunHostTest, AHandPutsMovesAndTakesAnObject) {
     EXPECT_EQ(wait<talk::Answer>().why, "");
     say(talk::MoveRobot{4, "alice", {0.5, 0.5}, 1.5});
     EXPECT_EQ(wait<talk::Answer>().why, "");
+}
+
+// What a hand took away can be put back as it was: Undo of a page.
+TEST_F(RunHostTest, AHandPutsALampWithAllThatItHas) {
+    say(talk::SetPace{true, 1});
+    say(order(1, world()));
+    (void)wait<talk::Opened>();
+    say(talk::PutObject{.request = 1,
+                        .kind = talk::ObjectKind::Light,
+                        .at = {0.5, 0.5},
+                        .id = "lamp",
+                        .radius = 0.125,
+                        .height = 0.25,
+                        .colour = talk::Colour{1, 0.5, 0},
+                        .on = false});
+    EXPECT_EQ(wait<talk::Answer>().why, "");
+    const auto scene = wait<talk::SceneNow>(
+        [](const talk::SceneNow& now) { return !now.scene.document.json["objects"].empty(); });
+    const Json lamp = scene.scene.document.json["objects"][0];
+    EXPECT_EQ(lamp["id"], "lamp");
+    EXPECT_EQ(lamp["kind"], "light");
+    EXPECT_EQ(lamp["radius"], 0.125);
+    EXPECT_EQ(lamp["height"], 0.25);
+    EXPECT_EQ(lamp["colour"], Json({1, 0.5, 0}));
+    EXPECT_EQ(lamp["on"], false);
+}
+
+// The text of its editor counts, not the file on the disk.
+TEST_F(RunHostTest, AWorldIsOpenedFromATextThatIsNotSaved) {
+    talk::Open open = order(1, world());
+    open.world_text = R"({"format": "vagus-world/1", "size": [2, 1]})";
+    say(open);
+    EXPECT_EQ(wait<talk::Opened>().scene->document.json["size"], Json({2, 1}));
 }
 
 // ---- what is no order ----

@@ -51,9 +51,10 @@ struct Breakpoint {
 };
 
 struct Open {
-    uint64_t order = 0;      // counts up; what is told of it names it
-    std::string world = {};  // files of this computer
-    std::string plan = {};   // empty: the world alone
+    uint64_t order = 0;                          // counts up; what is told of it names it
+    std::string world = {};                      // files of this computer
+    std::optional<std::string> world_text = {};  // without: as the file is on the disk
+    std::string plan = {};                       // empty: the world alone
     std::vector<std::string> toolboxes = {};
     std::map<std::string, std::string> set = {};  // variables of the plan, as texts
     std::vector<Breakpoint> breakpoints = {};
@@ -66,6 +67,7 @@ struct Open {
     static void layout(auto& each, auto& it) {
         each("order", it.order);
         each("world", it.world);
+        each("world_text", it.world_text);
         each("plan", it.plan);
         each("toolboxes", it.toolboxes);
         each("set", it.set);
@@ -252,10 +254,11 @@ struct MoveObject {
     bool operator==(const MoveObject&) const = default;
 };
 
-enum class ObjectKind { Wall, Box, Cylinder };
+enum class ObjectKind { Wall, Box, Cylinder, Patch, Light, Infrared };
 template <>
 struct Words<ObjectKind> {
-    static constexpr std::string_view kAll[] = {"wall", "box", "cylinder"};
+    static constexpr std::string_view kAll[] = {"wall",  "box",   "cylinder",
+                                                "patch", "light", "infrared"};
 };
 
 // Its answer has the number of the object.
@@ -264,16 +267,25 @@ struct PutObject {
     ObjectKind kind = ObjectKind::Box;
     Point at = {};
     double angle = 0;
-    Point size{0.2, 0.2};  // not of a cylinder
-    double radius = 0.05;  // of a cylinder
+    std::string id = {};                // empty, or unlike that of any other object
+    std::optional<Point> size = {};     // of a rectangle
+    std::optional<double> radius = {};  // of a disc; neither: what the kind has
+    std::optional<double> height = {}, mass = {};
+    std::optional<Colour> colour = {};
+    bool on = true;  // of a lamp
     static constexpr std::string_view kName = "object.put";
     static void layout(auto& each, auto& it) {
         each("request", it.request);
         each("kind", it.kind);
         each("at", it.at);
         each("angle", it.angle);
+        each("id", it.id);
         each("size", it.size);
         each("radius", it.radius);
+        each("height", it.height);
+        each("mass", it.mass);
+        each("colour", it.colour);
+        each("on", it.on);
     }
     bool operator==(const PutObject&) const = default;
 };

@@ -67,6 +67,16 @@ struct Pose {
     bool operator==(const Pose&) const = default;
 };
 
+struct Colour {
+    double r = 0, g = 0, b = 0;  // 0 to 1
+    static void layout(auto& each, auto& it) {
+        each("r", it.r);
+        each("g", it.g);
+        each("b", it.b);
+    }
+    bool operator==(const Colour&) const = default;
+};
+
 // The words of an enumeration, in its order: as they travel.
 template <typename Enum>
 struct Words;

@@ -102,6 +102,15 @@ void HistoryDesk::declare() {
         ask(call,
             [call, window](const History& history) { call.done(history.lanes(window.value())); });
     });
+    desk_.command("history.ways", [this](const Call& call) {
+        for (const char* key : {"from", "to"}) {
+            const Status good = check_time(call.in, key);
+            if (!good.ok()) return call.fail(good.error());
+        }
+        ask(call, [call](const History& history) {
+            call.done(history.ways(call.in["from"], call.in["to"]));
+        });
+    });
     desk_.command("history.open", [this](const Call& call) {
         open(call, [call](const OpenTrace& trace) {
             call.done({{"from", trace.history.plan()->from()},

@@ -105,7 +105,8 @@ Status Workbench::open_plan(RunOrder order) {
 Status Workbench::open_world(RunOrder order, bool keep_poses) {
     order.keep_poses = keep_poses;
     const auto text = files_.text(project_->world);
-    opened_world_ = text.ok() ? text.value() : "";
+    note_opened_world(text.ok() ? text.value() : "");
+    if (text.ok() && order.plan.empty()) order.world_text = text.value();
     loaded_by_world_.clear();
     record_plan(order);
     return run_.open(order, now_);

@@ -5,7 +5,12 @@
 
 #include "serve/workbench/workbench.hpp"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "base/text.hpp"
+#include "serve/edit/file_checks.hpp"
+#include "serve/edit/named_paths.hpp"
 #include "serve/json.hpp"
 
 namespace vagus::serve {
@@ -14,6 +19,15 @@ namespace {
 
 constexpr const char* kNoWorld =
     "the project has no world to simulate; name one in vagus.json, or choose a robot";
+// Its size and when it was written; empty: it is not there.
+std::string state_of_file(const std::string& path) {
+    std::error_code failed;
+    const auto size = std::filesystem::file_size(path, failed);
+    if (failed) return "";
+    const auto written = std::filesystem::last_write_time(path, failed).time_since_epoch().count();
+    return failed ? "" : fmt::format("{} {}", size, written);
+}
+
 constexpr const char* kNoProject = "no project is open; open one first";
 
 }  // namespace
@@ -69,7 +83,28 @@ RunOrder Workbench::order_of(const std::string& plan, const Json& set) const {
 // The file says something else than what stands there.
 bool Workbench::world_has_changed() const {
     const auto text = files_.text(project_->world);
-    return text.ok() && text.value() != opened_world_;
+    return text.ok() && (text.value() != opened_world_ || picture_now_ != picture_then_);
+}
+
+void Workbench::note_opened_world(const std::string& text) {
+    opened_world_ = text;
+    world_touched_ = false;
+    picture_.clear();
+    for (const NamedPath& named : named_paths(project_->world, text)) {
+        if (named.at.size() != 2 || named.at.front() != JsonStep::Key("ground")) continue;
+        picture_ = project_->real(path_from(project_->world, named.text));
+    }
+    picture_now_ = picture_then_ = state_of_file(picture_);
+    desk_.board().touch("studio");
+}
+
+// Another image in the file of the ground makes it another world.
+void Workbench::look_at_picture() {
+    if (picture_.empty() || !project_ || now_ < next_picture_look_) return;
+    next_picture_look_ = now_ + kPictureEvery;
+    const std::string now = state_of_file(picture_);
+    if (now == std::exchange(picture_now_, now)) return;
+    world_edited(project_->world);
 }
 
 void Workbench::file_saved(const std::string& path) {
@@ -103,6 +138,32 @@ void Workbench::check_change(const Call& call) {
 void Workbench::world_saved(const std::string& path) {
     if (!project_ || path != project_->world || !simulates() || !run_.rests()) return;
     if (life_.state() != Life::State::Ready || !world_has_changed()) return;
+    tell_life(life::Open{});
+    live();
+}
+
+void Workbench::world_edited(const std::string& path) {
+    if (!project_ || path != project_->world) return;
+    world_edited_ = now_;
+    desk_.board().touch("studio");
+}
+
+bool Workbench::is_being_opened() const {
+    return life_.state() == Life::State::Opening || life_.state() == Life::State::Loading;
+}
+
+// A world in which nothing has run yet shows its file as it is edited, saved or not. What a hand has
+// done there is not lost by that, and a file with errors waits until it has none.
+void Workbench::follow_world_text() {
+    if (!world_edited_ || now_ < *world_edited_ + kWorldFollowsAfter || is_being_opened()) return;
+    world_edited_.reset();
+    const bool at_start = life_.state() == Life::State::Ready && run_.rests() && run_.time() == 0;
+    const bool failed = life_.state() == Life::State::None;  // to open: a picture that is none
+    const bool stands = run_.is_open() && !bus_ && (failed || (simulates() && at_start));
+    if (!project_ || !stands || world_touched_ || !world_has_changed()) return;
+    const std::vector<Finding> found = check_world_file(files_, project_->world).findings;
+    const auto is_error = [](const Finding& one) { return one.severity == Severity::Error; };
+    if (std::any_of(found.begin(), found.end(), is_error)) return;
     tell_life(life::Open{});
     live();
 }
@@ -305,14 +366,15 @@ void Workbench::declare_world_commands() {
         desk_.command(command, [this, hand = std::string(command)](const Call& call) {
             if (!simulates()) return call.fail("unavailable", "there is no simulated world");
             const Json& in = call.in;
-            for (const char* pair : {"at", "size"}) {
-                if (!in.contains(pair) || in[pair].size() == 2) continue;
-                return call.fail("bad_input", fmt::format("in.{}: expected two numbers, found {}",
-                                                          pair, in[pair].size()));
+            for (const auto& [list, count] : {std::pair{"at", 2}, {"size", 2}, {"colour", 3}}) {
+                if (!in.contains(list) || in[list].size() == static_cast<size_t>(count)) continue;
+                return call.fail("bad_input", fmt::format("in.{}: expected {} numbers, found {}",
+                                                          list, count, in[list].size()));
             }
             if (hand == "world.move" && !in.contains("robot") && !in.contains("object")) {
                 return call.fail("bad_input", "say what is to be moved: a robot or an object");
             }
+            if (hand != "world.press" && hand != "world.tap") world_touched_ = true;
             run_.lend_hand(hand_order(hand, in),
                            [call](std::optional<uint32_t> number, const std::string& why) {
                                if (!why.empty()) return call.fail("bad_input", why);

@@ -43,6 +43,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     run_.on_say(tell);
     editing_.on_text_changed([this](const std::string& path) {
         target_.script_changed(path);
+        world_edited(path);
         if (project_ && path == project_->project_file) project_file_changed();
     });
     editing_.on_saved([this](const std::string& path) { file_saved(path); });
@@ -121,6 +122,7 @@ Json Workbench::studio_document() const {
     studio["settings"] = settings_.values();
     studio["recovered"] = files_.recovered();
     if (project_) studio["project"] = project_->to_json();
+    if (project_ && simulates() && world_has_changed()) studio["project"]["world_changed"] = true;
     if (places_.serves) studio["serves"] = true;
     return studio;
 }
@@ -387,6 +389,8 @@ void Workbench::tick(Time now) {
     worker_.tick();
     editing_.tick(now);
     change_plan();
+    look_at_picture();
+    follow_world_text();
     if (desk_.board().watched("targets") && targets_.look(now)) desk_.board().touch("targets");
 }
 
@@ -402,6 +406,10 @@ void Workbench::watch_run() {
 Time Workbench::next_tick(Time now) const {
     Time next = std::min({run_.next_tick(), target_.next_tick(), editing_.next_tick()});
     if (desk_.board().watched("targets")) next = std::min(next, now + kLookEvery);
+    if (project_ && !picture_.empty()) next = std::min(next, next_picture_look_);
+    if (world_edited_ && !is_being_opened()) {
+        next = std::min(next, *world_edited_ + kWorldFollowsAfter);
+    }
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

@@ -41,7 +41,9 @@
 
 namespace vagus::serve {
 
-constexpr int kStepMs = 10;  // of run.step, unless it says otherwise
+constexpr Duration kWorldFollowsAfter = 150ms;  // the last edit of its file, before a run has begun
+constexpr Duration kPictureEvery = 1s;          // the file of a ground is looked at
+constexpr int kStepMs = 10;                     // of run.step, unless it says otherwise
 
 struct WorkbenchPlaces {
     LibraryPlaces library;
@@ -161,6 +163,11 @@ private:
     RunOrder order_of(const std::string& plan, const Json& set) const;
     bool world_has_changed() const;
     void world_saved(const std::string& path);
+    void world_edited(const std::string& path);
+    bool is_being_opened() const;
+    void follow_world_text();
+    void note_opened_world(const std::string& text);
+    void look_at_picture();
     void file_saved(const std::string& path);
     void change_plan();
     void check_change(const Call& call);
@@ -248,8 +255,12 @@ private:
     RunEnds ends_;
     uint64_t stop_number_ = 0;  // of the latest
     size_t people_ = 0;
-    std::vector<std::string> saved_plans_;             // the run is not told of them yet
-    std::string opened_world_;                         // text of the world that is there
+    std::vector<std::string> saved_plans_;              // the run is not told of them yet
+    std::string opened_world_;                          // text of the world that is there
+    std::string picture_, picture_then_, picture_now_;  // on its ground: path, states of the file
+    Time next_picture_look_{};
+    bool world_touched_ = false;                       // a hand has changed it since
+    std::optional<Time> world_edited_;                 // its file; not followed yet
     std::map<uint16_t, std::string> loaded_by_world_;  // source by node
 };
 

@@ -13,6 +13,7 @@ import {
   useLive,
   useWorldModel,
 } from '../views/world/use_world';
+import { RunNotes } from '../views/world/run_notes';
 import { SpeedBar } from '../views/world/speed_bar';
 import { ThingList } from '../views/world/thing_list';
 import { WorldStage } from '../views/world/world_stage';
@@ -40,6 +41,7 @@ function Running() {
   useLive(model, useShown(frame));
   return (
     <div className="world world--panel" ref={frame} data-world>
+      <RunNotes />
       <WorldStage model={model} file={null} live>
         <div className="world__wide">
           <SpeedBar />

@@ -1,8 +1,10 @@
 import { useRef } from 'react';
+import { tipOf } from './button';
 
 interface Segment<T> {
   value: T;
   words: string;
+  tip?: string;
 }
 
 /** One of a few, side by side: arrows choose, as in any group of radio buttons. */
@@ -36,7 +38,7 @@ export function Segments<T>(props: {
         if (by) (event.preventDefault(), move(by));
       }}
     >
-      {segments.map(({ value, words }, index) => (
+      {segments.map(({ value, words, tip }, index) => (
         <button
           key={words}
           type="button"
@@ -46,6 +48,7 @@ export function Segments<T>(props: {
           // Nothing is chosen: the first can be reached.
           tabIndex={index === Math.max(0, at) ? 0 : -1}
           disabled={disabled}
+          {...tipOf(tip)}
           onClick={() => onChoose(value)}
         >
           {words}

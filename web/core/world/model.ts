@@ -27,6 +27,9 @@ export interface WorldActs {
   move(thing: Thing, pose: Pose, by: MoveBy): void;
   put(placing: Placing): void;
   take(thing: Thing): void;
+  light?(thing: Thing, on: boolean): void;
+  /** A frame of poses has come: what a hand holds there is put back into it. */
+  again?(): void;
 }
 
 const emptyStage: Stage = {
@@ -65,7 +68,7 @@ export class WorldModel {
   fits = true;
   screen: Extent = { width: 0, height: 0 };
 
-  readonly trails = new Trails();
+  trails = new Trails();
   looks: readonly Look[] = [];
   lamps: readonly Lamp[] = [];
   t = 0;
@@ -89,6 +92,12 @@ export class WorldModel {
     this.tell();
   }
 
+  /** Those of a run are one for all its views (ways.ts). */
+  show(trails: Trails): void {
+    this.trails = trails;
+    this.drawn.emit();
+  }
+
   /** What a hand may do from now on. */
   allow(acts: WorldActs): void {
     this.acts = acts;
@@ -96,19 +105,9 @@ export class WorldModel {
 
   /** The picture that lies on the ground; null: it has its colour. */
   cover(image: CanvasImageSource | null): void {
+    if (image === this.image) return;
     this.image = image;
     this.drawn.emit();
-  }
-
-  /** Another world: nothing of the one before is left over. */
-  clear(): void {
-    this.poses.clear();
-    this.then.clear();
-    this.held.clear();
-    this.trails.clear();
-    this.looks = [];
-    this.lamps = [];
-    this.setStage(emptyStage);
   }
 
   setPoses(t: number, frame: PosesFrame): void {
@@ -122,6 +121,12 @@ export class WorldModel {
     });
     for (const { number, pose } of frame.objects) this.poses.set(keyOfObject(number), pose);
     this.moved();
+    this.acts?.again?.();
+  }
+
+  /** Where the run has it, whatever a hand holds. */
+  poseInRun(thing: Thing): Pose | undefined {
+    return this.poses.get(thing.key);
   }
 
   /** Things as they stood then, while those of now are remembered; null: now again. */
@@ -149,6 +154,11 @@ export class WorldModel {
     this.looks = looks;
     this.lamps = lamps;
     this.drawn.emit();
+  }
+
+  /** In the order of the scene. */
+  get robotKeys(): readonly string[] {
+    return this.robots.map((robot) => robot.key);
   }
 
   robotAt(index: number): Thing | undefined {

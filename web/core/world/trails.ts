@@ -9,6 +9,8 @@ export const kTrailPointsMax = 4000;
 const kJump = 0.5;
 
 export interface TrailPoint extends Point {
+  /** When it was there, in seconds of the run. */
+  t: number;
   /** The line does not lead here: a hand put the robot down. */
   begins: boolean;
 }
@@ -17,8 +19,13 @@ export class Trails {
   private readonly ways = new Map<string, TrailPoint[]>();
   private last = -Infinity;
 
-  /** Metres that are kept; Infinity: all. */
+  /** Metres that are shown; Infinity: all. */
   constructor(public limit = 20) {}
+
+  /** The time of the newest frame; -Infinity before the first one. */
+  get now(): number {
+    return this.last;
+  }
 
   /** The time of a frame; going back begins again. */
   at(t: number): void {
@@ -30,11 +37,20 @@ export class Trails {
     if (!Number.isFinite(point.x)) return;
     const way = this.ways.get(key) ?? [];
     if (way.length === 0) this.ways.set(key, way);
-    const before = way.at(-1);
-    const far = before ? distance(before, point) : Infinity;
-    if (far < kTrailStep) return;
-    way.push({ x: point.x, y: point.y, begins: far > kJump });
+    push(way, { x: point.x, y: point.y, t: this.last });
     if (way.length > kTrailPointsMax) way.splice(0, way.length - kTrailPointsMax);
+  }
+
+  /** Where it went while nobody looked: between what is known of before and of after. */
+  fill(key: string, points: readonly (Point & { t: number })[]): void {
+    const [from, to] = [points[0]?.t, points.at(-1)?.t];
+    if (from === undefined || to === undefined) return;
+    const known = this.ways.get(key) ?? [];
+    const before = known.filter(({ t }) => t < from);
+    const after = known.filter(({ t }) => t > to);
+    const way: TrailPoint[] = [];
+    for (const point of [...before, ...points, ...after]) push(way, point);
+    this.ways.set(key, way.slice(-kTrailPointsMax));
   }
 
   /** The newest part of a way, as long as the limit allows. */
@@ -53,4 +69,10 @@ export class Trails {
   clear(): void {
     this.ways.clear();
   }
+}
+
+function push(way: TrailPoint[], { x, y, t }: Point & { t: number }): void {
+  const before = way.at(-1);
+  const far = before ? distance(before, { x, y }) : Infinity;
+  if (far >= kTrailStep) way.push({ x, y, t, begins: far > kJump });
 }

@@ -4,7 +4,8 @@ import { useEffect, useReducer } from 'react';
 import type { JsonFile } from '../../../core/session/json_file';
 import { objectKinds, robotTypes } from '../../../core/world/stage';
 import { isObstacle } from './world_commands';
-import { useDrives, useStudio } from '../../hooks';
+import { useChanges, useDrives, useStudio } from '../../hooks';
+import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { CommandItem, StudioMenu } from '../../parts/menu';
@@ -59,21 +60,11 @@ export function EditTools({ file }: { file: JsonFile }) {
   return (
     <>
       <AddMenu edits />
-      <Button
-        kind="plain"
-        small
-        disabled={!drives || !file.canUndo}
-        tip={`${words.undo}  (Ctrl+Z)`}
-        icon={<IconArrowBackUp {...size} />}
-        onClick={() => file.undo()}
-      />
-      <Button
-        kind="plain"
-        small
-        disabled={!drives || !file.canRedo}
-        tip={`${words.redo}  (Ctrl+Y)`}
-        icon={<IconArrowForwardUp {...size} />}
-        onClick={() => file.redo()}
+      <UndoButtons
+        canUndo={drives && file.canUndo}
+        canRedo={drives && file.canRedo}
+        undo={() => file.undo()}
+        redo={() => file.redo()}
       />
       <button
         type="button"
@@ -85,6 +76,52 @@ export function EditTools({ file }: { file: JsonFile }) {
       >
         {words.snap}
       </button>
+    </>
+  );
+}
+
+/** For a run: what can be put into it, and what was done by hand. */
+export function RunTools() {
+  const { hand } = useStudio();
+  const may = useMayAct();
+  useChanges(hand.changed);
+  return (
+    <>
+      <AddMenu edits={false} />
+      <UndoButtons
+        canUndo={may && hand.canUndo}
+        canRedo={may && hand.canRedo}
+        undo={() => void hand.undo()}
+        redo={() => void hand.redo()}
+      />
+    </>
+  );
+}
+
+function UndoButtons(props: {
+  canUndo: boolean;
+  canRedo: boolean;
+  undo: () => void;
+  redo: () => void;
+}) {
+  return (
+    <>
+      <Button
+        kind="plain"
+        small
+        disabled={!props.canUndo}
+        tip={`${words.undo}  (Ctrl+Z)`}
+        icon={<IconArrowBackUp {...size} />}
+        onClick={props.undo}
+      />
+      <Button
+        kind="plain"
+        small
+        disabled={!props.canRedo}
+        tip={`${words.redo}  (Ctrl+Y)`}
+        icon={<IconArrowForwardUp {...size} />}
+        onClick={props.redo}
+      />
     </>
   );
 }

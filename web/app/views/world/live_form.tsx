@@ -3,7 +3,7 @@ import { radians, shownDegrees, type Pose } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import { isLamp, type Thing } from '../../../core/world/stage';
 import { useEffect, useState } from 'react';
-import { useStudio, useTopic } from '../../hooks';
+import { useTopic } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
@@ -19,7 +19,6 @@ const kEveryMs = 300;
 
 /** The chosen thing of a running world: where it is, and what a hand can do with it. */
 export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) {
-  const studio = useStudio();
   const drives = useMayAct();
   const { follows } = useModel(model);
   const pose = usePose(model, thing);
@@ -54,7 +53,7 @@ export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) 
           label={words.on}
           on={thing.on}
           disabled={!drives}
-          onSet={(on) => studio.order('world.light', { object: targetOf(thing).object ?? 0, on })}
+          onSet={(on) => model.acts?.light?.(thing, on)}
         />
       ) : null}
       {thing.kind === 'robot' ? (

@@ -4,7 +4,11 @@ import { text } from '../../text';
 const worldModes = ['live', 'edit', 'text'] as const;
 export type WorldMode = (typeof worldModes)[number];
 
-const segments = worldModes.map((value) => ({ value, words: text.world.modes[value] }));
+const segments = worldModes.map((value) => ({
+  value,
+  words: text.world.modes[value],
+  tip: text.world.modeTips[value],
+}));
 
 /** The same world three times: as it runs, its file drawn, its file as text. */
 export function ModeSwitch(props: { mode: WorldMode; onChange: (mode: WorldMode) => void }) {

@@ -17,6 +17,8 @@ export interface WorldOptions {
   picture: boolean;
   list: boolean;
   snap: boolean;
+  /** What Live and Edit change has been read. */
+  explained: boolean;
 }
 
 export const trailLengths = [1, 5, 20, 0];
@@ -30,6 +32,7 @@ const defaults: WorldOptions = {
   picture: true,
   list: true,
   snap: true,
+  explained: false,
 };
 
 type Store = StoreApi<WorldOptions>;
@@ -81,5 +84,6 @@ function read(kept: Json | undefined): WorldOptions {
     picture: on('picture'),
     list: on('list'),
     snap: on('snap'),
+    explained: on('explained'),
   };
 }

@@ -50,9 +50,11 @@ function drawIn(
 ): () => void {
   const drawer = new SolidDrawer(model, colours);
   let built: unknown = null;
+  let image: unknown = null;
   let asked = 0;
   const draw = () => {
     asked = 0;
+    build();
     drawer.move(optionsOf(studio).getState());
     stage.draw();
   };
@@ -60,8 +62,9 @@ function drawIn(
     if (asked === 0) asked = requestAnimationFrame(draw);
   };
   const build = () => {
-    if (built === model.stage) return;
+    if (built === model.stage && image === model.image) return;
     built = model.stage;
+    image = model.image;
     drawer.build();
     model.drawn.emit();
   };

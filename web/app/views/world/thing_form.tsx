@@ -73,7 +73,9 @@ function Head({ world, entry }: { world: ShownWorld; entry: string | null }) {
       {thing ? <Swatch thing={thing} /> : <IconMap2 size={16} stroke={kStroke} aria-hidden />}
       <div className="grow">
         <h2 className="props__name ellipsis">{title}</h2>
-        <p className="props__kind ellipsis">{kind}</p>
+        <p className="props__kind ellipsis">
+          {kind} <span className="muted">· {file ? words.inFile : words.inRun}</span>
+        </p>
       </div>
       {edits && thing ? (
         <Button

@@ -1,7 +1,7 @@
 // The mouse and fingers on the picture of a world: choose, drag, turn, pan, zoom, put down.
 
 import { useEffect, useRef, type RefObject } from 'react';
-import { radians, type Point, type Pose } from '../../../core/world/geometry';
+import { radians, type Point } from '../../../core/world/geometry';
 import type { Standing } from '../../../core/world/hit';
 import type { WorldModel } from '../../../core/world/model';
 import { kSnapAngle, kSnapM, snapAngle, snapPoint } from '../../../core/world/snap';
@@ -17,12 +17,14 @@ export interface Eye {
 }
 
 type Grip =
-  | { is: 'thing'; key: string; offset: Point; start: Pose; moved: boolean }
+  | { is: 'thing'; key: string; offset: Point; since: number; moved: boolean }
   | { is: 'handle'; key: string }
   | { is: 'view'; moved: boolean };
 
 /** A press that moves less than this is a click, in pixels. */
 const kClickPx = 4;
+/** A press that lasts longer holds what it is on, also where it moves by itself, in ms. */
+const kGrabMs = 200;
 const kWheelTurn = radians(5);
 
 export function useHands(
@@ -70,7 +72,8 @@ function attach(
     else if (hit && ground) {
       model.select(hit.thing.key);
       const offset = { x: hit.pose.x - ground.x, y: hit.pose.y - ground.y };
-      grip = { is: 'thing', key: hit.thing.key, offset, start: hit.pose, moved: false };
+      const since = performance.now();
+      grip = { is: 'thing', key: hit.thing.key, offset, since, moved: false };
     } else grip = { is: 'view', moved: false };
     if (grip.is !== 'view') {
       now.hold(true);
@@ -117,13 +120,27 @@ function attach(
     model.acts?.move(thing, { ...to, angle: model.poseOf(thing).angle }, 'holds');
   };
 
+  /** With each frame: a robot that is pressed on for longer than a click drives no farther. */
+  const grab = () => {
+    const { acts } = model;
+    if (grip?.is !== 'thing' || grip.moved || !acts?.may || acts.edits) return;
+    if (performance.now() - grip.since < kGrabMs) return;
+    const thing = model.thing(grip.key);
+    const ground = eye.current?.meet(last).ground;
+    if (!thing || !ground) return;
+    const pose = model.poseOf(thing);
+    grip.offset = { x: pose.x - ground.x, y: pose.y - ground.y };
+    grip.moved = true;
+    acts.move(thing, pose, 'holds');
+  };
+
   const hover = (at: Point, now: Eye) => {
     const { hit, onHandle } = now.meet(at);
     model.hover(onHandle ? null : (hit?.thing.key ?? null));
     place.dataset['over'] = onHandle ? 'handle' : hit && may() ? 'thing' : 'none';
   };
 
-  const up = (event: PointerEvent) => {
+  const up = (event: Pick<PointerEvent, 'type'>) => {
     const held = grip;
     grip = null;
     if (!held) return;
@@ -174,7 +191,11 @@ function attach(
   ];
   for (const [name, act, options] of listen)
     place.addEventListener(name, act as EventListener, options);
+  const off = model.drawn.on(grab);
   return () => {
+    off();
+    // What is held when the picture goes is let go.
+    up({ type: 'pointercancel' });
     for (const [name, act, options] of listen)
       place.removeEventListener(name, act as EventListener, options);
   };

@@ -8,7 +8,7 @@ import { stageOfFile } from '../../../core/world/file';
 import { posesThen, readPoses, readRays } from '../../../core/world/frames';
 import { WorldModel } from '../../../core/world/model';
 import { stageOfScene } from '../../../core/world/stage';
-import { useDrives, useStudio, useTopic } from '../../hooks';
+import { useDrives, usePart, useStudio, useTopic } from '../../hooks';
 import { useMayAct, usePastTime } from '../../past_hooks';
 import { FileActs } from './file_acts';
 import { LiveActs } from './live_acts';
@@ -35,23 +35,31 @@ export function useLive(model: WorldModel, on: boolean): void {
   const looksBack = usePastTime() !== null;
   useEffect(() => {
     if (!on || !scene) return;
+    if (scene.opening !== undefined) studio.hand.opened(scene.opening);
     model.setStage(stageOfScene(scene));
-  }, [model, on, scene]);
+  }, [studio, model, on, scene]);
   useEffect(() => {
-    if (on) model.allow(new LiveActs(studio, model, drives));
+    if (on) model.allow(new LiveActs(studio, model, drives, () => Date.now()));
   }, [studio, model, on, drives]);
   useEffect(() => {
     if (!on) return;
-    const { past } = studio;
+    const { past, ways } = studio;
+    model.show(ways.trails);
     const show = () => model.showThen(past.instant ? posesThen(past.instant) : null);
     const ends = [
       studio.connection.watch(
         'poses',
         {},
-        { frame: (t, payload) => model.setPoses(t, readPoses(payload)) },
+        {
+          frame(t, payload) {
+            ways.frame(t, model.robotKeys);
+            model.setPoses(t, readPoses(payload));
+          },
+        },
         kPosesRate,
       ),
       past.changed.on(show),
+      ways.changed.on(() => model.drawn.emit()),
     ];
     show();
     return () => ends.forEach((end) => end());
@@ -69,7 +77,8 @@ export function useLive(model: WorldModel, on: boolean): void {
       model.setRays({ looks: [], lamps: [] });
     };
   }, [studio, model, on, looksBack]);
-  useImage(model, on ? scene?.image : undefined, world);
+  // As the world that was opened has it.
+  useImage(model, on ? scene?.image : undefined, world, scene?.opening ?? 0);
 }
 
 /** Shows the file as its text says, also while nothing runs. */
@@ -92,7 +101,9 @@ export function useFileStage(
     show();
     return file.changed.on(show);
   }, [model, file, drives]);
-  useImage(model, file ? (image ?? undefined) : undefined, doc);
+  const shown = file && image !== null ? resolved(folderOf(doc), image) : null;
+  const size = usePart('files', {}, (is) => is?.files.find((one) => one.path === shown)?.size);
+  useImage(model, file ? (image ?? undefined) : undefined, doc, size ?? 0);
 }
 
 /** A JSON file, open for edits by its members while wanted. */
@@ -135,24 +146,28 @@ export function useBroken(file: JsonFile | null): string | null {
   );
 }
 
-/** The picture on the ground; its path counts from the folder of the world. */
-function useImage(model: WorldModel, image: string | undefined, world: Path | undefined): void {
+/** The picture on the ground; its path counts from the folder of the world. Another version is read again. */
+function useImage(
+  model: WorldModel,
+  image: string | undefined,
+  world: Path | undefined,
+  version: number,
+): void {
   const { connection } = useStudio();
-  const shown = useRef<string | null>(null);
+  const wanted = useRef('');
   useEffect(() => {
     const path = image && world ? resolved(folderOf(world), image) : null;
-    shown.current = path;
-    if (model.image) model.cover(null);
-    if (path === null) return;
+    const wish = (wanted.current = `${path} ${version}`);
+    if (path === null) return model.cover(null);
+    const show = (bitmap: ImageBitmap | null) => {
+      if (wanted.current === wish) model.cover(bitmap);
+    };
     connection
       .send('file.bytes', { path })
       .then(({ base64 }) => bitmapOf(base64))
-      .then((bitmap) => {
-        if (shown.current === path) model.cover(bitmap);
-      })
       // Without it the ground has its colour; the checker says that the file is missing.
-      .catch(() => {});
-  }, [connection, model, image, world]);
+      .then(show, () => show(null));
+  }, [connection, model, image, world, version]);
 }
 
 function resolved(folder: Path, path: string): Path {

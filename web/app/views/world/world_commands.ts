@@ -11,6 +11,7 @@ import { objectKinds, robotTypes } from '../../../core/world/stage';
 import { panned, zoomed } from '../../../core/world/view';
 import { text } from '../../text';
 import { deskOf, type ShownWorld } from './desk';
+import { keepInWorld, redoInRun, undoInRun } from './keep_acts';
 import { optionsOf, toggleOption } from './options';
 import { putDown } from './use_hands';
 import { spokenPlace } from './words';
@@ -53,6 +54,7 @@ export function worldCommands(studio: Studio): Command[] {
     make(id, [key], ({ model }) => nudge(model, x, y, far), { hidden: true });
   const has = ({ model }: ShownWorld) => model.chosen !== undefined && (model.acts?.may ?? false);
   const turns = (world: ShownWorld) => has(world) || world.model.placing !== null;
+  const touches = ({ file, model }: ShownWorld) => file === null && (model.acts?.may ?? false);
   const edits = ({ file, model }: ShownWorld) => file !== null && (model.acts?.may ?? false);
   return [
     make('world.next', ['N'], ({ model }) => choose(model, 1)),
@@ -82,12 +84,22 @@ export function worldCommands(studio: Studio): Command[] {
       { may: (world) => has(world) && (world.file !== null || !isRobot(world)) },
     ),
     make('world.copy', ['Ctrl+D'], copy, { may: (world) => edits(world) && has(world) }),
-    make('world.undo', ['Ctrl+Z'], ({ file }) => file?.undo(), {
-      may: (world) => edits(world) && (world.file?.canUndo ?? false),
+    make('world.undo', ['Ctrl+Z'], ({ file }) => (file ? file.undo() : undoInRun(studio)), {
+      may: (world) => (edits(world) ? (world.file?.canUndo ?? false) : touches(world)),
     }),
-    make('world.redo', ['Ctrl+Y', 'Ctrl+Shift+Z'], ({ file }) => file?.redo(), {
-      may: (world) => edits(world) && (world.file?.canRedo ?? false),
-    }),
+    make(
+      'world.redo',
+      ['Ctrl+Y', 'Ctrl+Shift+Z'],
+      ({ file }) => (file ? file.redo() : redoInRun(studio)),
+      { may: (world) => (edits(world) ? (world.file?.canRedo ?? false) : touches(world)) },
+    ),
+    {
+      id: 'world.keep',
+      title: titles['world.keep'],
+      group,
+      enabled: () => studio.drives && studio.hand.changes().length > 0,
+      run: () => keepInWorld(studio),
+    },
     make('world.fit', ['1'], ({ model }) => model.fit()),
     make('world.zoomIn', ['+', '='], ({ model }) => zoom(model, 1.25)),
     make('world.zoomOut', ['-'], ({ model }) => zoom(model, 0.8)),
@@ -101,7 +113,8 @@ export function worldCommands(studio: Studio): Command[] {
     make('world.rays', ['R'], () => toggleOption(studio, 'rays')),
     make('world.trails', ['T'], () => toggleOption(studio, 'trails')),
     make('world.clearTrails', [], ({ model }) => {
-      model.trails.clear();
+      if (model.trails === studio.ways.trails) studio.ways.clear();
+      else model.trails.clear();
       model.drawn.emit();
     }),
     make('world.grid', ['G'], () => toggleOption(studio, 'grid')),

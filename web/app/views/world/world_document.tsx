@@ -9,9 +9,10 @@ import { useShown } from '../../robot_hooks';
 import { FindingNotice } from '../finding_notice';
 import { DiskNotice } from '../script/script_notices';
 import type { ShownWorld } from './desk';
-import { AddMenu, EditTools } from './edit_tools';
+import { EditTools, RunTools } from './edit_tools';
 import { ModeSwitch, type WorldMode } from './mode_switch';
 import { useWorldOptions } from './options';
+import { ModeNote, RunNotes } from './run_notes';
 import { SpeedBar } from './speed_bar';
 import {
   useBroken,
@@ -76,11 +77,13 @@ function LiveWorld(props: { modes: React.ReactNode; runs: boolean; onEdit: () =>
     <div className="world" ref={frame} data-world>
       <div className="world__bar">
         {modes}
-        {runs ? <AddMenu edits={false} /> : null}
+        {runs ? <RunTools /> : null}
         <span className="grow" />
         <SpeedBar />
         <WorldTools />
       </div>
+      <ModeNote mode="live" />
+      <RunNotes />
       {runs ? (
         <div className="world__main">
           <WorldStage model={model} file={null} live />
@@ -112,6 +115,7 @@ function EditedWorld(props: { doc: Doc; modes: React.ReactNode; onText: () => vo
         <span className="grow" />
         <WorldTools />
       </div>
+      <ModeNote mode="edit" />
       <DiskNotice doc={doc} />
       {broken === null ? null : <p className="notice">{text.world.locked}</p>}
       <FindingNotice doc={doc} onShow={(finding) => showFound(model, finding)} />

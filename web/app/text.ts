@@ -1141,6 +1141,8 @@ export const text = {
     rename: 'Rename',
     remove: 'Delete',
     name: 'Name',
+    connectIt: 'Connect to…',
+    enterValue: 'Enter a value',
     badName: {
       form: 'Letters, digits and _ only, not beginning with a digit.',
       taken: 'There is one of that name already.',

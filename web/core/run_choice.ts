@@ -26,6 +26,13 @@ export function planMeant({ doc, kept, project, exists }: Choice): Doc | undefin
   return keptPlan(kept, exists) ?? project;
 }
 
+/** In a sub-plan that is active F5 is for the plan that runs: it is not replaced by a part of itself. */
+export function planInRun(meant: Doc | undefined, plan: Plan | undefined): Doc | undefined {
+  const goes = plan?.state === 'running' || plan?.state === 'paused';
+  const isInside = goes && plan.levels.some((level) => level.doc === meant);
+  return isInside ? (plan.doc ?? meant) : meant;
+}
+
 function keptPlan(kept: Json | undefined, exists: (doc: Doc) => boolean): Doc | undefined {
   if (typeof kept !== 'object' || kept === null || Array.isArray(kept)) return undefined;
   const last = kept[kLastPlan];

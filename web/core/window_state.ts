@@ -57,7 +57,7 @@ export interface WindowState {
   /** The plot in numbers. */
   plotTable: boolean;
   /** What F5 could not run, said in the document where it was pressed. */
-  runNote: Readonly<{ doc: Doc | null; text: string }> | null;
+  runNote: Readonly<{ doc: Doc | null; text: string; about: readonly Doc[] }> | null;
   /** The menu of targets is open. */
   targets: boolean;
   /** Nodes that the buttons of the network are for; none: all. */

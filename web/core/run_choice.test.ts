@@ -68,6 +68,9 @@ it('what runs is named by its plan, else by its nodes', () => {
   expect(whatRuns(robot('simulator', ['drive']), plan('running', 'x/Wall.plan.json'))).toBe('Wall');
   expect(whatRuns(robot('bus', ['a', 'b']), plan('ended', 'Wall.plan.json'))).toBe('a, b');
   expect(whatRuns(robot('simulator', []), plan('none'))).toBe('');
+  const [first, ...others] = robot('bus', ['a', 'b']).nodes;
+  const paused = { nodes: [{ ...first, state: 'paused' }, ...others] } as never;
+  expect(whatRuns(paused, plan('none'))).toBe('b');
 });
 
 it('what a run lacks is told by the target, the world and the nodes', () => {

@@ -59,13 +59,13 @@ export function runOrder(
   return { command: 'plan.start', doc: meant };
 }
 
-/** "WallFollow"; nodes without a plan; '' if only a world passes its time. */
+/** "WallFollow"; nodes that run without a plan; '' if only a world passes its time. */
 export function whatRuns(robot: Robot | undefined, plan: Plan | undefined): string {
   const goes = plan?.state === 'running' || plan?.state === 'paused';
   if (goes && plan.doc !== undefined) return planName(plan.doc);
   const own = (robot?.nodes ?? []).filter((node) => node.doc !== undefined);
-  const names = own.filter(({ state }) => state === 'running' || state === 'paused');
-  return names.map((node) => node.name).join(', ');
+  const runs = own.filter(({ state }) => state === 'running');
+  return runs.map((node) => node.name).join(', ');
 }
 
 export function planName(doc: Doc): string {

@@ -35,7 +35,7 @@ export function Clock() {
   const runs = plan || nodes;
   const isBus = usePart('robot', {}, (is) => is?.kind === 'bus');
   // On a bus there is a clock only while a plan runs.
-  if (isBus && state === 'none') return null;
+  if (isBus && state === 'none') return <RunsAlone names={nodes} />;
   const Icon =
     past !== null
       ? IconHistory
@@ -103,5 +103,16 @@ export function Clock() {
 /** "Running: WallFollow": a world alone says so, too. */
 function stateText(state: Topics['clock']['is']['state'], runs: string): string {
   const word = text.run[state];
+/** Scripts of ours that run on a robot, without a plan. */
+function RunsAlone({ names }: { names: string }) {
+  if (names === '') return null;
+  return (
+    <span className="clock clock--running" title={names}>
+      <IconPlayerPlayFilled className="icon" size={14} aria-hidden />
+      <span className="clock__state">{stateText('running', names)}</span>
+    </span>
+  );
+}
+
   return state === 'running' ? `${word}: ${runs || text.run.worldOnly}` : word;
 }

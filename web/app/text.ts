@@ -555,6 +555,7 @@ export const text = {
       text: 'Text',
       folder: 'Folder',
     },
+    copied: (path: string) => `${path} is on the clipboard.`,
     ask: (name: string) => `Delete ${name}?`,
     keepIt: 'Cancel',
   },

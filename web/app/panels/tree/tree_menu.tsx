@@ -2,6 +2,7 @@ import { Menu } from '@mantine/core';
 import { IconDots } from '@tabler/icons-react';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc } from '../../../core/window_state';
+import { copyText } from '../../commands/clipboard';
 import { documentsIn } from '../../documents';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
@@ -37,6 +38,10 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
     documentsIn(studio, row.path)
       .slice(0, 1)
       .forEach((doc) => revealDoc(studio.window, doc, null, true, true));
+  const copy = () =>
+    void copyText(studio, row.path, text.tree.copied(row.path)).catch((problem: unknown) =>
+      studio.tell(problem),
+    );
   return (
     <span onClick={(event) => event.stopPropagation()} className="tree__end">
       <StudioMenu button={button} position="bottom-end" opened={open} onChange={onChange}>
@@ -57,10 +62,8 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
           onClick={() => tree.ask(row)}
         >
           {text.tree.delete}
-        </Menu.Item>
-        <Menu.Item onClick={() => void navigator.clipboard.writeText(row.path)}>
-          {text.tree.copyPath}
-        </Menu.Item>
+        </WhyItem>
+        <Menu.Item onClick={copy}>{text.tree.copyPath}</Menu.Item>
       </StudioMenu>
     </span>
   );

@@ -169,7 +169,7 @@ use_node() {
 # No source of the pages is younger than what was built from them.
 are_pages_built() {
     [ -f "$root/web/dist/index.html" ] || return 1
-    [ -z "$(find "$root/web" "$root/src/serve/protocol/protocol.json" \( -name node_modules -o -name dist -o -name .node \) -prune \
+    [ -z "$(find "$root/web" "$root/docs/aesl.md" "$root/docs/thymio.md" "$root/src/serve/protocol/protocol.json" \( -name node_modules -o -name dist -o -name .node \) -prune \
         -o -type f -newer "$root/web/dist/index.html" -print -quit)" ]
 }
 

@@ -10,6 +10,8 @@ export default defineConfig({
   // The dev server passes the live connection on to a running studio.
   server: {
     host: '127.0.0.1',
+    // The help shows pages of docs/.
+    fs: { allow: ['.', '../docs'] },
     proxy: { '/live': { target: process.env['STUDIO'] ?? 'http://127.0.0.1:7357', ws: true } },
   },
   build: {

@@ -3,6 +3,7 @@
 import type { Doc, FileEntry } from '../protocol/messages';
 import type { DocumentKind } from '../core/layouts';
 import { partOf, shownName } from '../core/paths';
+import { isPlan, planMeant } from '../core/run_choice';
 import type { Studio } from '../core/studio';
 
 export function kindOf(doc: Doc): DocumentKind {
@@ -25,7 +26,7 @@ export function documentsOf(studio: Studio, kind: DocumentKind): Doc[] {
   const project = studio.topics.get('studio', {})?.project;
   switch (kind) {
     case 'plan':
-      return project?.plan ? [project.plan] : [];
+      return planOf(studio);
     case 'world':
       return project?.world ? [project.world] : [];
     case 'script':
@@ -33,6 +34,20 @@ export function documentsOf(studio: Studio, kind: DocumentKind): Doc[] {
     case 'other':
       return [];
   }
+}
+
+/** The plan that a layout opens: that which runs, was shown or ran last, that of vagus.json, any. */
+function planOf(studio: Studio): Doc[] {
+  const exists = (doc: Doc) => documentExists(studio, doc);
+  const { doc } = studio.window.getState();
+  const plan = studio.topics.get('plan', {});
+  const runs = plan?.state === 'running' || plan?.state === 'paused' ? plan.doc : undefined;
+  const kept = studio.topics.get('state', {})?.values;
+  const project = studio.topics.get('studio', {})?.project?.plan;
+  const meant = planMeant({ doc: runs ?? doc, kept, project, exists });
+  if (meant !== undefined) return [meant];
+  const files = studio.topics.get('files', {})?.files ?? [];
+  return files.flatMap(({ path }) => (isPlan(path) ? path : [])).slice(0, 1);
 }
 
 /** Those of the files that the project names; all if it names none. */

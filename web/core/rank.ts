@@ -16,7 +16,7 @@ export function rankCommands(
 ): Ranked[] {
   const found: Ranked[] = [];
   for (const command of commands) {
-    const marked = match(command.title, query);
+    const marked = fuzzy(command.title, query);
     if (marked)
       found.push({
         command,
@@ -30,7 +30,7 @@ export function rankCommands(
 }
 
 /** Places of the query's letters in the title; whole words are preferred; null if they are not there. */
-function match(title: string, query: string): number[] | null {
+export function fuzzy(title: string, query: string): number[] | null {
   const low = title.toLowerCase();
   const wanted = query.toLowerCase().replaceAll(' ', '');
   const whole = low.indexOf(query.trim().toLowerCase());
@@ -46,7 +46,7 @@ function match(title: string, query: string): number[] | null {
 }
 
 /** Small is good: near the beginning and close together. */
-function scoreOf(title: string, marked: readonly number[]): number {
+export function scoreOf(title: string, marked: readonly number[]): number {
   const first = marked[0];
   if (first === undefined) return 0;
   const spread = (marked.at(-1) ?? first) - first + 1 - marked.length;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Topics } from '../protocol/messages';
-import { missingFor, planMeant, runOrder, whatRuns } from './run_choice';
+import { missingFor, planInRun, planMeant, runOrder, whatRuns } from './run_choice';
 
 const exists = (doc: string) => doc !== 'gone.plan.json';
 const meant = (doc: string | null, kept: unknown, project?: string) =>
@@ -47,6 +47,15 @@ describe('what F5 sends', () => {
     expect(runOrder(undefined, plan('none'), false, undefined)).toEqual(on);
     expect(runOrder('a.plan.json', undefined, false, 'a.plan.json')).toEqual(on);
   });
+  it('is for the plan that runs where its active sub-plan is looked at', () => {
+    const levels = [{ doc: 'a.plan.json' }, { doc: 'sub.plan.json' }];
+    const runs = { ...plan('running', 'a.plan.json'), levels } as never;
+    expect(planInRun('sub.plan.json', runs)).toBe('a.plan.json');
+    expect(planInRun('b.plan.json', runs)).toBe('b.plan.json');
+    expect(planInRun('sub.plan.json', { ...plan('ended', 'a.plan.json'), levels } as never)).toBe(
+      'sub.plan.json',
+    );
+  });
   it('starts that of vagus.json in place of another that runs', () => {
     expect(runOrder('a.plan.json', plan('running', 'b.plan.json'), false, 'a.plan.json')).toEqual({
       command: 'plan.start',
@@ -59,6 +68,9 @@ it('what runs is named by its plan, else by its nodes', () => {
   expect(whatRuns(robot('simulator', ['drive']), plan('running', 'x/Wall.plan.json'))).toBe('Wall');
   expect(whatRuns(robot('bus', ['a', 'b']), plan('ended', 'Wall.plan.json'))).toBe('a, b');
   expect(whatRuns(robot('simulator', []), plan('none'))).toBe('');
+  const [first, ...others] = robot('bus', ['a', 'b']).nodes;
+  const paused = { nodes: [{ ...first, state: 'paused' }, ...others] } as never;
+  expect(whatRuns(paused, plan('none'))).toBe('b');
 });
 
 it('what a run lacks is told by the target, the world and the nodes', () => {

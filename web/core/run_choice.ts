@@ -26,6 +26,13 @@ export function planMeant({ doc, kept, project, exists }: Choice): Doc | undefin
   return keptPlan(kept, exists) ?? project;
 }
 
+/** In a sub-plan that is active F5 is for the plan that runs: it is not replaced by a part of itself. */
+export function planInRun(meant: Doc | undefined, plan: Plan | undefined): Doc | undefined {
+  const goes = plan?.state === 'running' || plan?.state === 'paused';
+  const isInside = goes && plan.levels.some((level) => level.doc === meant);
+  return isInside ? (plan.doc ?? meant) : meant;
+}
+
 function keptPlan(kept: Json | undefined, exists: (doc: Doc) => boolean): Doc | undefined {
   if (typeof kept !== 'object' || kept === null || Array.isArray(kept)) return undefined;
   const last = kept[kLastPlan];
@@ -52,13 +59,13 @@ export function runOrder(
   return { command: 'plan.start', doc: meant };
 }
 
-/** "WallFollow"; nodes without a plan; '' if only a world passes its time. */
+/** "WallFollow"; nodes that run without a plan; '' if only a world passes its time. */
 export function whatRuns(robot: Robot | undefined, plan: Plan | undefined): string {
   const goes = plan?.state === 'running' || plan?.state === 'paused';
   if (goes && plan.doc !== undefined) return planName(plan.doc);
   const own = (robot?.nodes ?? []).filter((node) => node.doc !== undefined);
-  const names = own.filter(({ state }) => state === 'running' || state === 'paused');
-  return names.map((node) => node.name).join(', ');
+  const runs = own.filter(({ state }) => state === 'running');
+  return runs.map((node) => node.name).join(', ');
 }
 
 export function planName(doc: Doc): string {

@@ -30,7 +30,9 @@ export interface WindowState {
   doc: Doc | null;
   node: NodeId | null;
   cursor: Readonly<{ doc: Doc; line: number; column: number }> | null;
-  overlay: 'palette' | 'keys' | 'folder' | 'project' | 'runFrom' | 'newTemplate' | null;
+  overlay: 'palette' | 'help' | 'folder' | 'project' | 'runFrom' | 'newTemplate' | null;
+  /** Which part of the help is shown first, and what is looked for there. */
+  help: Readonly<{ tab: 'help' | 'keys'; query: string }>;
   /** A new file is being named in the tree, or a file renamed. */
   naming:
     | { kind: 'folder' | 'script' | 'plan' | 'world' | 'toolbox' | 'text' }
@@ -55,7 +57,7 @@ export interface WindowState {
   /** The plot in numbers. */
   plotTable: boolean;
   /** What F5 could not run, said in the document where it was pressed. */
-  runNote: Readonly<{ doc: Doc | null; text: string }> | null;
+  runNote: Readonly<{ doc: Doc | null; text: string; about: readonly Doc[] }> | null;
   /** The menu of targets is open. */
   targets: boolean;
   /** Nodes that the buttons of the network are for; none: all. */
@@ -74,6 +76,7 @@ export function createWindowStore() {
     node: null,
     cursor: null,
     overlay: null,
+    help: { tab: 'help', query: '' },
     naming: null,
     reveal: null,
     toasts: [],

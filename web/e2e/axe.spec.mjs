@@ -60,6 +60,10 @@ for (const theme of /** @type {const} */ (['dark', 'light'])) {
       await seen(page.getByRole('combobox', { name: 'Type a command' }));
       await look(studio, 'palette');
       await press('Escape', 'F1');
+      await seen(page.getByRole('option', { name: /^onevent/ }));
+      await look(studio, 'help');
+      await page.getByRole('tab', { name: 'Help', exact: true }).focus();
+      await press('ArrowRight');
       await seen(page.getByRole('dialog', { name: 'Keys' }));
       await look(studio, 'keys');
     },

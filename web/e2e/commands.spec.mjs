@@ -1,6 +1,6 @@
 // Whatever a menu or a key offers does something, or says why not: tried with real keys.
 import assert from 'node:assert/strict';
-import { reads, seen, test, until } from './support/studio.mjs';
+import { gone, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page } from './support/studio.mjs' */
 
 const example = { words: ['--example', 'follow-wall'] };
@@ -164,6 +164,134 @@ test('a key that can do nothing now says why', example, async ({ page, press, la
   await press('F8');
   await reads(page.getByRole('log', { name: 'Messages' }), /Pause: Nothing is running\./);
 });
+
+test('the path of a file is copied', example, async ({ page, layout }) => {
+  await layout('Script');
+  const row = page.locator('[role="treeitem"][data-path="carbot/arena.world.json"]');
+  const copy = async () => {
+    await row.focus();
+    await row.getByRole('button', { name: /More/ }).click();
+    await page.getByRole('menuitem', { name: 'Copy the path' }).click();
+    await seen(page.getByText('carbot/arena.world.json is on the clipboard.'));
+  };
+  await copy();
+  assert.equal(
+    await page.evaluate(() => navigator.clipboard.readText()),
+    'carbot/arena.world.json',
+  );
+  // Without https there is no clipboard of the page.
+  await page.getByRole('button', { name: 'Close' }).last().click();
+  await page.evaluate(() =>
+    Object.defineProperty(navigator, 'clipboard', { value: undefined, configurable: true }),
+  );
+  await copy();
+});
+
+test(
+  'keys with Alt, and F12, say why they do nothing now',
+  example,
+  async ({ page, press, layout }) => {
+    await layout('Script');
+    const log = page.getByRole('log', { name: 'Messages' });
+    await page.locator('[role="treeitem"]').first().focus();
+    await press('Control+Alt+u');
+    await reads(log, /Upload to the node: No node is connected\./);
+  },
+);
+
+/** Opens one menu after the other from its place, and reads its entries: [title, is off]. */
+const menus = [
+  {
+    name: 'the tree',
+    layout: 'Script',
+    open: async (/** @type {any} */ { page }, /** @type {string} */ by) => {
+      const row = page.locator('[role="treeitem"][data-path="carbot/arena.world.json"]');
+      await row.focus();
+      if (by === 'mouse') await row.getByRole('button', { name: /More/ }).click();
+      else await page.keyboard.press('Shift+F10');
+    },
+  },
+  {
+    name: 'an element',
+    layout: 'Draw',
+    open: async (/** @type {any} */ { page }, /** @type {string} */ by) => {
+      const actor = page.getByRole('group', { name: /^followWall, actor/ });
+      await actor.focus();
+      await page.keyboard.press('Space');
+      if (by === 'mouse') await actor.click({ button: 'right' });
+      else await page.keyboard.press('Shift+F10');
+    },
+  },
+  {
+    name: 'the clock',
+    layout: 'Script',
+    open: async (/** @type {any} */ { page }, /** @type {string} */ by) => {
+      const clock = page.locator('button.clock');
+      if (by === 'mouse') await clock.click();
+      else {
+        await clock.focus();
+        await page.keyboard.press('Enter');
+      }
+    },
+  },
+];
+/** Another window opens, or the run ends, or the same is seen as before. */
+const unseen = /^(Simulation back to its start|1 ×|1x|.*✓)/;
+
+for (const { name, layout, open } of menus)
+  for (const by of ['mouse', 'keyboard'])
+    test(
+      `every entry of the menu of ${name} does something or says why not, by ${by}`,
+      example,
+      async (studio) => {
+        const { page, press } = studio;
+        await studio.layout(layout);
+        const menu = page.getByRole('menu');
+        const items = menu.getByRole('menuitem');
+        await open(studio, by);
+        await seen(items);
+        const all = await items.evaluateAll((rows) =>
+          rows.map((row) => ({
+            title:
+              row.querySelector('.mantine-Menu-itemLabel, [class*=itemLabel]')?.firstChild
+                ?.textContent ??
+              row.textContent ??
+              '',
+            off: row.hasAttribute('data-disabled') || row.hasAttribute('disabled'),
+            why: row.querySelector('.menu__help')?.textContent ?? '',
+          })),
+        );
+        await press('Escape');
+        assert.ok(all.length > 2, `${all.length} entries`);
+        for (const { title, off, why } of all) assert.equal(off, why !== '', `${title}: ${why}`);
+        const idle = [];
+        for (const [index, { title, off }] of all.entries()) {
+          if (off || unseen.test(title)) continue;
+          await open(studio, by);
+          const item = items.nth(index);
+          await seen(item);
+          const before = await seenNow(page);
+          if (by === 'mouse') await item.click();
+          else {
+            await until('the entry has the focus', async () => {
+              if (await item.evaluate((one) => one === document.activeElement)) return true;
+              await press('ArrowDown');
+            });
+            await press('Enter');
+          }
+          await gone(menu);
+          const did = await until(title, async () => (await seenNow(page)) !== before, 1500).catch(
+            () => false,
+          );
+          if (!did) idle.push(title);
+          await press('Escape', 'Escape');
+          // What was removed comes back, so that the next entry has its place.
+          if (/^(Delete|Duplicate|Extract)/.test(title) && layout === 'Draw')
+            await press('Control+z');
+        }
+        assert.deepEqual(idle, [], 'these did nothing that is seen');
+      },
+    );
 
 for (const layout of ['Draw', 'Script'])
   test(

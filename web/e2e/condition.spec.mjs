@@ -1,4 +1,5 @@
 // A condition that is none is refused where it is typed.
+import assert from 'node:assert/strict';
 import { seen, test, gone } from './support/studio.mjs';
 
 test(
@@ -18,5 +19,22 @@ test(
     await gone(page.getByRole('alert').filter({ hasText: 'expected' }));
     await press('Enter');
     await gone(field);
+  },
+);
+
+test(
+  'a condition with a name that the script does not have stays in its form',
+  { words: ['--example', 'thymio'] },
+  async (studio) => {
+    const { page, press, type, layout } = studio;
+    await layout('Script');
+    await page.getByRole('textbox', { name: /^Script of/ }).click();
+    await press('Control+Home', 'Control+F9');
+    const field = page.getByLabel('Stops if');
+    await seen(field);
+    await type('nobody > 3');
+    await press('Enter');
+    await seen(page.getByRole('alert').filter({ hasText: 'nobody' }));
+    assert.equal(await field.inputValue(), 'nobody > 3');
   },
 );

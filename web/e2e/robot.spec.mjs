@@ -43,6 +43,8 @@ const number = (/** @type {string} */ text) =>
 test('variables are live, found, changed in place, watched', two, async (studio) => {
   const { page, press, button } = studio;
   await run(studio);
+  // No plan runs and there is no clock: the scripts are named.
+  await seen(page.getByText('Running: left, right'));
   const value = () => variable(page, 'n').getByRole('button').first().innerText();
   const before = await until('it has a value', async () => number(await value()));
   await until('it counts', async () => number(await value()) > before + 3);

@@ -15,7 +15,7 @@ export function editCommands(studio: Studio): Command[] {
   const make = (
     id: EditId,
     keys: string[],
-    act: keyof EditorHandle,
+    act: Exclude<keyof EditorHandle, 'word'>,
     may: () => boolean,
   ): Command => ({
     id,

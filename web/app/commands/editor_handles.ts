@@ -13,6 +13,8 @@ export interface EditorHandle {
   find(): void;
   comment(): void;
   focus(): void;
+  /** Where the caret is, while the editor has the focus; '' if there is none. */
+  word(): string;
 }
 
 const handles = new WeakMap<Studio, Map<Doc, EditorHandle>>();

@@ -1,6 +1,7 @@
 // What commands look at: the last values of the topics that the window always follows.
 
-import type { Json, Node } from '../../protocol/messages';
+import type { Doc, Json, Node } from '../../protocol/messages';
+import { kLastPlan } from '../../core/run_choice';
 import type { Studio } from '../../core/studio';
 
 export const projectOf = (studio: Studio) => studio.topics.get('studio', {})?.project ?? null;
@@ -25,6 +26,11 @@ export function shownNode(studio: Studio): Node | undefined {
 /** Keeps a part of the window; whoever only looks on has it until the page is closed, as has the start screen. */
 export function keepState(studio: Studio, key: string, value: Json): void {
   if (drives(studio) && projectOf(studio)) studio.order('state.put', { key, value });
+}
+
+/** F5 from anywhere but a plan starts it again. */
+export function rememberPlan(studio: Studio, doc: Doc | undefined): void {
+  if (doc !== undefined) keepState(studio, kLastPlan, doc);
 }
 
 /** All topics that the window always follows, so that commands know when they may run. */

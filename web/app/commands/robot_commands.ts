@@ -8,6 +8,7 @@ import type { Studio } from '../../core/studio';
 import { revealPanel, toast, updateEvents } from '../../core/window_state';
 import { takeFocus } from '../parts/take_focus';
 import { text } from '../text';
+import { copyText } from './clipboard';
 import { plotPicture } from './plot_handles';
 import { download } from './download';
 import { projectOf, robotOf, drives } from './looks';
@@ -106,8 +107,7 @@ function openSend(studio: Studio): void {
 }
 
 async function copyCsv(studio: Studio): Promise<void> {
-  await clipboard().writeText(studio.plotter.csv());
-  toast(studio.window, 'ok', text.plots.copied('CSV'));
+  await copyText(studio, studio.plotter.csv(), text.plots.copied('CSV'));
 }
 
 async function copyPng(studio: Studio): Promise<void> {

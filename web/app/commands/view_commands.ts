@@ -4,6 +4,7 @@ import { layoutNames, type LayoutName } from '../../core/layouts';
 import { readSettings, type Theme } from '../../core/settings';
 import { revealDoc, revealPanel, update } from '../../core/window_state';
 import { text } from '../text';
+import { shownEditor } from './editor_handles';
 import { focusRegion } from './focus';
 import { drives, keepState, projectOf } from './looks';
 
@@ -19,8 +20,11 @@ export interface Panel {
 
 /** Panels, layouts, theme, palette, help. */
 export function viewCommands(studio: Studio, panels: readonly Panel[]): Command[] {
-  const overlay = (name: 'palette' | 'keys') => () =>
-    update(studio.window, (draft) => void (draft.overlay = draft.overlay === name ? null : name));
+  const palette = () =>
+    update(
+      studio.window,
+      (draft) => void (draft.overlay = draft.overlay === 'palette' ? null : 'palette'),
+    );
   const open = () => projectOf(studio) !== null;
   return [
     ...layoutNames.map((layout): Command => ({
@@ -86,11 +90,18 @@ export function viewCommands(studio: Studio, panels: readonly Panel[]): Command[
       run: () => revealPanel(studio.window, 'search'),
     },
     {
+      id: 'help.open',
+      title: titles['help.open'],
+      group: text.groups.help,
+      keys: ['F1'],
+      run: () => showHelp(studio, 'help'),
+    },
+    {
       id: 'help.keys',
       title: titles['help.keys'],
       group: text.groups.help,
-      keys: ['?', 'F1'],
-      run: overlay('keys'),
+      keys: ['?'],
+      run: () => showHelp(studio, 'keys'),
     },
     {
       id: 'palette.open',
@@ -98,7 +109,7 @@ export function viewCommands(studio: Studio, panels: readonly Panel[]): Command[
       group: text.groups.help,
       keys: ['Ctrl+K', 'Ctrl+Shift+P'],
       hidden: true,
-      run: overlay('palette'),
+      run: palette,
     },
   ];
 }
@@ -109,6 +120,15 @@ export function chooseLayout(studio: Studio, layout: LayoutName): void {
     draft.isLayoutChosen = true;
   });
   keepState(studio, 'layout', layout);
+}
+
+/** Opens it at the word where the caret is; the same key again closes it. */
+function showHelp(studio: Studio, tab: 'help' | 'keys'): void {
+  update(studio.window, (draft) => {
+    const isShown = draft.overlay === 'help' && draft.help.tab === tab;
+    draft.overlay = isShown ? null : 'help';
+    draft.help = { tab, query: tab === 'help' ? (shownEditor(studio)?.word() ?? '') : '' };
+  });
 }
 
 function resetLayout(studio: Studio): void {

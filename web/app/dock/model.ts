@@ -69,6 +69,23 @@ export function keptModel(kept: unknown, exists: (doc: string) => boolean): Mode
   }
 }
 
+/** A layout that was kept before the project had what one of its areas is for lacks that area. */
+export function lacksArea(
+  model: Model,
+  plan: Split,
+  docs: (kind: DocumentKind) => NamedDoc[],
+): boolean {
+  const there: string[] = [];
+  model.visitNodes((node) => {
+    if (node instanceof TabSetNode) there.push(String(configOf(node).takes ?? ''));
+  });
+  const lacks = (box: Box): boolean =>
+    box.is === 'row' || box.is === 'column'
+      ? box.parts.some(lacks)
+      : box.is === 'documents' && hasUse(box, docs) && !there.includes(String(box.takes));
+  return lacks(plan);
+}
+
 export function panelTab(id: string): IJsonTabNode {
   return {
     type: 'tab',

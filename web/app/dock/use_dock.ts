@@ -33,8 +33,10 @@ import {
   areaForPanel,
   growArea,
   documentTab,
+  documentTabs,
   fitModel,
   keptModel,
+  lacksArea,
   makeModel,
   panelTab,
   type Extent,
@@ -70,6 +72,7 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     const opened = { model: next, plan };
     if (before.current) carryDocuments(studio, before.current, opened, closed.current);
     before.current = opened;
+    notePlan(studio, next);
     setModel(next);
   }, [studio, layout, small, nonce, ready, frameRef]);
 
@@ -116,13 +119,13 @@ function openLayout(
   const kept = isTable(values) ? values[key] : undefined;
   const known =
     !fresh && isTable(kept) ? keptModel(kept['model'], (doc) => documentExists(studio, doc)) : null;
-  if (known && isTable(kept)) {
+  const docs = (kind: DocumentKind) =>
+    documentsOf(studio, kind).map((doc) => ({ doc, name: tabNameOf(studio, doc) }));
+  if (known && isTable(kept) && !lacksArea(known, plan, docs)) {
     fitModel(known, { width: Number(kept['width']), height: Number(kept['height']) }, extent);
     return known;
   }
-  return makeModel(plan, extent, (kind: DocumentKind) =>
-    documentsOf(studio, kind).map((doc) => ({ doc, name: tabNameOf(studio, doc) })),
-  );
+  return makeModel(plan, extent, docs);
 }
 
 function useFit(
@@ -171,6 +174,19 @@ export function noteShown(studio: Studio, model: Model): void {
   const shown = model.getActiveTabset()?.getSelectedNode();
   const doc = shown?.getId().startsWith('doc:') ? shown.getId().slice(4) : null;
   if (doc !== null) update(studio.window, (draft) => void (draft.doc = doc));
+}
+
+/** Before anything was clicked F5 is for the plan that the window opens with. */
+function notePlan(studio: Studio, model: Model): void {
+  if (studio.window.getState().doc !== null) return;
+  const plans = documentTabs(model).filter(([id, doc]) => {
+    const area = model.getNodeById(id)?.getParent();
+    return (
+      kindOf(doc) === 'plan' && area instanceof TabSetNode && area.getSelectedNode()?.getId() === id
+    );
+  });
+  const [first] = plans;
+  if (first) update(studio.window, (draft) => void (draft.doc = first[1]));
 }
 
 function useReveal(studio: Studio, model: Model | null): void {

@@ -1,13 +1,12 @@
 import { Suspense } from 'react';
 import { late } from '../parts/late';
 import { useWindow } from '../hooks';
-import KeysHelp from './keys_help';
 import Palette from './palette';
 
 // The palette is there at once: what is typed behind Ctrl+K must not get lost.
 const views = {
   palette: Palette,
-  keys: KeysHelp,
+  help: late(() => import('./help/help')),
   folder: late(() => import('../start/folder_chooser')),
   project: late(() => import('../start/new_project')),
   runFrom: late(() => import('../views/plan/run_from')),

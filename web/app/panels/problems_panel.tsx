@@ -9,6 +9,7 @@ import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { VirtualRows } from '../parts/virtual_rows';
 import { text } from '../text';
+import { FindingButton } from '../views/plan/finding_button';
 import '../look/lists.css';
 
 /** All mistakes and remarks of the project, errors first. */
@@ -74,6 +75,8 @@ function Problem({
         type="button"
         className="problem__open"
         data-inset
+        // The name of the rule, for who asks for it.
+        title={`${place}: ${what} [${code}]`}
         // Keys are those of its row.
         tabIndex={-1}
         aria-current={chosen}
@@ -89,8 +92,9 @@ function Problem({
         <span className="ellipsis">
           <b>{element ?? place}</b> {what}
         </span>
-        <span className="problem__code">{element ? `${place} · ${code}` : code}</span>
+        {element ? <span className="problem__place">{place}</span> : null}
       </button>
+      {fixes.length === 0 ? <FindingButton finding={finding} /> : null}
       {fixes.slice(0, 2).map((fix) => (
         <Button
           key={fix.label}

@@ -1,7 +1,5 @@
 import { useSyncExternalStore } from 'react';
-
-// Narrower than any window in which panels can be beside each other.
-const kPhone = '(max-width: 600px)';
+import { isPhone, kPhone } from '../is_phone';
 
 function subscribe(listener: () => void): () => void {
   const query = matchMedia(kPhone);
@@ -11,5 +9,5 @@ function subscribe(listener: () => void): () => void {
 
 /** Whether this window is that of a telephone; turning or widening it changes that. */
 export function usePhone(): boolean {
-  return useSyncExternalStore(subscribe, () => matchMedia(kPhone).matches);
+  return useSyncExternalStore(subscribe, isPhone);
 }

@@ -35,7 +35,7 @@ export function Clock() {
   const runs = plan || nodes;
   const isBus = usePart('robot', {}, (is) => is?.kind === 'bus');
   // On a bus there is a clock only while a plan runs.
-  if (isBus && state === 'none') return null;
+  if (isBus && state === 'none') return <RunsAlone names={nodes} />;
   const Icon =
     past !== null
       ? IconHistory
@@ -79,6 +79,9 @@ export function Clock() {
     );
   return (
     <StudioMenu button={button}>
+      {drives ? null : (
+        <Menu.Label>{past === null ? text.whyNot.viewOnly : text.whyNot.looksBack}</Menu.Label>
+      )}
       <Menu.Label>
         {text.menu.speed} · {text.run.measured(real)}
       </Menu.Label>
@@ -97,6 +100,17 @@ export function Clock() {
       <CommandItem id="run.reset" title={text.run.reset} />
       <CommandItem id="run.end" />
     </StudioMenu>
+  );
+}
+
+/** Scripts of ours that run on a robot, without a plan. */
+function RunsAlone({ names }: { names: string }) {
+  if (names === '') return null;
+  return (
+    <span className="clock clock--running" title={names}>
+      <IconPlayerPlayFilled className="icon" size={14} aria-hidden />
+      <span className="clock__state">{stateText('running', names)}</span>
+    </span>
   );
 }
 

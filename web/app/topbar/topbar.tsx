@@ -58,10 +58,10 @@ function Tools() {
       />
       <Button
         kind="plain"
-        tip={text.commands['help.keys']}
-        keys="?"
+        tip={text.commands['help.open']}
+        keys="F1"
         icon={<IconHelp {...size} />}
-        onClick={() => registry.run('help.keys')}
+        onClick={() => registry.run('help.open')}
       />
     </div>
   );

@@ -7,6 +7,7 @@ import { useDrives, useStudio, useTopic } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
+import { FindingButton } from './plan/finding_button';
 
 /** The first finding of a document that is not shown as its text; a press shows the place. */
 export function FindingNotice({
@@ -41,6 +42,7 @@ export function FindingNotice({
           {fix.label}
         </Button>
       ) : null}
+      {fix ? null : <FindingButton finding={first} />}
       {onShow ? (
         <Button small kind="plain" onClick={() => onShow(first)}>
           {text.world.showIt}

@@ -1,7 +1,9 @@
 import { IconAlertTriangle } from '@tabler/icons-react';
+import { useEffect } from 'react';
+import { countsOf } from '../../core/findings';
 import { update } from '../../core/window_state';
 import type { Doc } from '../../protocol/messages';
-import { useStudio, useWindow } from '../hooks';
+import { usePart, useStudio, useWindow } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
@@ -10,7 +12,17 @@ import { text } from '../text';
 export function RunNote({ doc }: { doc: Doc }) {
   const { window: store, registry } = useStudio();
   const note = useWindow((state) => state.runNote);
-  if (note?.doc !== doc) return null;
+  // The node is loaded, or the plan can be started now: it says nothing of that any more.
+  const isOver = usePart(
+    'findings',
+    {},
+    (is) => !note?.about.some((one) => countsOf(is?.findings ?? [], one).errors > 0),
+  );
+  const isMine = note?.doc === doc;
+  useEffect(() => {
+    if (isMine && isOver) update(store, (draft) => void (draft.runNote = null));
+  }, [store, isMine, isOver]);
+  if (!isMine || isOver) return null;
   const dismiss = () => update(store, (draft) => void (draft.runNote = null));
   return (
     <div className="notice runnote" role="alert">

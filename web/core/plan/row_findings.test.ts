@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Finding } from '../../protocol/messages';
-import { findingsAt, findingsOfElement } from './row_findings';
+import { findingsAt, findingsOfElement, wantedBy } from './row_findings';
 
 const finding = (what: string, ...keys: string[]): Finding => ({
   doc: 'P.plan.json',
@@ -32,3 +32,14 @@ test('the head of an element shows what no row shows', () => {
   expect(whats(findingsOfElement(all, ['actors', 'go']))).toEqual(['not fed', 'no such template']);
   expect(findingsOfElement(all, ['actors', 'go', 'supervisors', 'see'])).toEqual([]);
 });
+
+test.each([
+  ['P3', ['actors', 'go', 'in', 'speed'], { is: 'value', name: 'speed' }],
+  ['P17', ['actors', 'go', 'states', 'Done'], { is: 'arrow', name: 'Done' }],
+  ['P18', ['start', 'supervisors', 'see', 'events', 'Seen'], { is: 'arrow', name: 'Seen' }],
+  ['P15', ['start', 'actor'], { is: 'arrow', name: '' }],
+  ['P8', ['actors', 'go', 'in', 'speed'], null],
+  ['P3', ['actors', 'go'], null],
+])('WhatHelpsWith %s at %j', (code, keys, wanted) =>
+  expect(wantedBy({ ...finding('', ...keys), code })).toEqual(wanted),
+);

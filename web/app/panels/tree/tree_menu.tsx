@@ -2,11 +2,12 @@ import { Menu } from '@mantine/core';
 import { IconDots } from '@tabler/icons-react';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc } from '../../../core/window_state';
+import { copyText } from '../../commands/clipboard';
 import { documentsIn } from '../../documents';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
 import { Kbd } from '../../parts/kbd';
-import { StudioMenu } from '../../parts/menu';
+import { StudioMenu, WhyItem } from '../../parts/menu';
 import { text } from '../../text';
 import type { TreeState } from './use_tree';
 
@@ -20,7 +21,7 @@ interface Props {
 /** What can be done with a file; its button shows with the pointer or the focus. */
 export function TreeMenu({ row, tree, open, onChange }: Props) {
   const studio = useStudio();
-  const drives = useDrives();
+  const why = useDrives() ? '' : text.whyNot.viewOnly;
   const isFile = row.kind !== 'folder';
   const button = (
     <button
@@ -37,6 +38,10 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
     documentsIn(studio, row.path)
       .slice(0, 1)
       .forEach((doc) => revealDoc(studio.window, doc, null, true, true));
+  const copy = () =>
+    void copyText(studio, row.path, text.tree.copied(row.path)).catch((problem: unknown) =>
+      studio.tell(problem),
+    );
   return (
     <span onClick={(event) => event.stopPropagation()} className="tree__end">
       <StudioMenu button={button} position="bottom-end" opened={open} onChange={onChange}>
@@ -44,23 +49,13 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
         {row.kind === 'script' ? (
           <Menu.Item onClick={() => tree.openText(row)}>{text.tree.openText}</Menu.Item>
         ) : null}
-        <Menu.Item
-          disabled={!drives}
-          rightSection={<Kbd keys="F2" />}
-          onClick={() => tree.rename(row)}
-        >
+        <WhyItem why={why} rightSection={<Kbd keys="F2" />} onClick={() => tree.rename(row)}>
           {text.tree.rename}
-        </Menu.Item>
-        <Menu.Item
-          disabled={!drives}
-          rightSection={<Kbd keys="Del" />}
-          onClick={() => tree.ask(row)}
-        >
+        </WhyItem>
+        <WhyItem why={why} rightSection={<Kbd keys="Del" />} onClick={() => tree.ask(row)}>
           {text.tree.delete}
-        </Menu.Item>
-        <Menu.Item onClick={() => void navigator.clipboard.writeText(row.path)}>
-          {text.tree.copyPath}
-        </Menu.Item>
+        </WhyItem>
+        <Menu.Item onClick={copy}>{text.tree.copyPath}</Menu.Item>
       </StudioMenu>
     </span>
   );

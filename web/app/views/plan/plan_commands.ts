@@ -5,7 +5,7 @@ import { countsOf } from '../../../core/findings';
 import { kindOf } from '../../documents';
 import { text } from '../../text';
 import { revealElement } from './reveal_element';
-import { drives, projectOf } from '../../commands/looks';
+import { drives, projectOf, rememberPlan } from '../../commands/looks';
 
 const titles = text.commands;
 const group = text.groups.run;
@@ -42,6 +42,7 @@ export function planCommands(studio: Studio): Command[] {
         const doc = planToStart(studio);
         await studio.documents.flushAll();
         await studio.send('plan.start', doc === undefined ? {} : { doc });
+        rememberPlan(studio, doc);
       },
     },
     make('plan.pause', () => state() === 'running'),

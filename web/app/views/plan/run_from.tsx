@@ -5,6 +5,7 @@ import { typedValue } from '../../../core/plan_view';
 import { useStudio } from '../../hooks';
 import { OverlayFrame, useCloseOverlay } from '../../parts/overlay_frame';
 import { Button } from '../../parts/button';
+import { rememberPlan } from '../../commands/looks';
 import { text } from '../../text';
 import { planDeskOf } from './plan_desk';
 
@@ -112,4 +113,5 @@ async function start(
   );
   await studio.documents.flushAll();
   studio.order('plan.start', { doc, from, set });
+  rememberPlan(studio, doc);
 }

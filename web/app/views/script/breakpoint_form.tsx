@@ -17,14 +17,23 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
   const [ignore, setIgnore] = useState(String(there?.ignore ?? 0));
   const [enabled, setEnabled] = useState(there?.enabled ?? true);
   const [tried, setTried] = useState(false);
+  const [refused, setRefused] = useState('');
   const wrong = mistakeIn(condition);
   const good = /^\d{1,6}$/.test(ignore) && wrong === '';
+  const send = async () => {
+    try {
+      await studio.send('break.set', { doc, line, condition, ignore: Number(ignore), enabled });
+    } catch (problem) {
+      // A name that the script does not have: what was typed stays.
+      return setRefused(problem instanceof Error ? problem.message : String(problem));
+    }
+    onEnd();
+  };
   const save = () => {
     setTried(true);
-    if (!good) return false;
-    studio.order('break.set', { doc, line, condition, ignore: Number(ignore), enabled });
-    onEnd();
-    return true;
+    setRefused('');
+    if (good) void send();
+    return good;
   };
   const before = { condition: '', ignore: 0, enabled: true, ...there };
   const isTyped =
@@ -41,9 +50,9 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
           autoFocus
           placeholder={words.conditionHint}
           value={condition}
-          aria-invalid={tried && wrong !== ''}
+          aria-invalid={tried && (wrong || refused) !== ''}
           spellCheck={false}
-          onChange={(event) => setCondition(event.target.value)}
+          onChange={(event) => (setCondition(event.target.value), setRefused(''))}
         />
       </label>
       <label className="form__short">
@@ -64,9 +73,9 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
         />
         {words.enabled}
       </label>
-      {tried && wrong ? (
+      {tried && (wrong || refused) ? (
         <p className="planform__why" role="alert">
-          {wrong}
+          {wrong || refused}
         </p>
       ) : null}
       <div className="form__end">

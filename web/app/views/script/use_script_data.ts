@@ -6,6 +6,7 @@ import { startCompletion } from '@codemirror/autocomplete';
 import { openSearchPanel } from '@codemirror/search';
 import { useCallback, useEffect, useMemo, useState } from 'react';
 import type { Breakpoint, Doc, Handler, HistoryNode, Node } from '../../../protocol/messages';
+import { wordAt } from '../../../core/help/entries';
 import { mentionedIn, readWords, valueText } from '../../../core/values';
 import { standsAt } from '../../../core/run_state';
 import type { Settings } from '../../../core/settings';
@@ -195,6 +196,10 @@ function useHandle(doc: Doc, view: EditorView | null): void {
         find: () => void openSearchPanel(view),
         comment: () => void toggleComment(view),
         focus: () => view.focus(),
+        word: () => {
+          const { text, from } = view.state.doc.lineAt(head());
+          return view.hasFocus ? wordAt(text, head() - from) : '';
+        },
       }),
     ];
     return () => ends.forEach((end) => end());

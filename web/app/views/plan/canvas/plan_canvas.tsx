@@ -16,6 +16,7 @@ import { CanvasContexts } from './canvas_contexts';
 import { ConnectMenu } from './connect_menu';
 import { kManyNodes, useAfterwards, useDistance } from './distance';
 import { ElementMenu } from './element_menu';
+import { EmptyPlan } from './empty_plan';
 import { FindBar } from './find_bar';
 import { kFit, useFirstView, useFitted } from './fitted';
 import type { PlanNode } from './flow_nodes';
@@ -119,7 +120,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           {options.map && map ? <SmallMap board={board} /> : null}
         </ReactFlow>
         {broken === null ? null : <p className="pcanvas__locked">{words.locked}</p>}
-        {board.model.actors.length === 0 ? <p className="pcanvas__empty">{words.empty}</p> : null}
+        {board.model.actors.length === 0 ? <EmptyPlan /> : null}
         {finds ? (
           <FindBar board={board} focus={shown.focus} onClose={() => setFinds(false)} />
         ) : null}

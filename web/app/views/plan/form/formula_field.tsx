@@ -58,6 +58,7 @@ export function FormulaField(props: {
                 style={styleOf(mistake)}
                 onScroll={followText}
                 title={input.help}
+                data-plan-input={`${element.name}.${input.name}`}
                 role="combobox"
                 aria-autocomplete="list"
                 aria-expanded={offers.length > 0}

@@ -5,6 +5,7 @@ import { findingsAt, findingsOfElement } from '../../../../core/plan/row_finding
 import { pressFix } from '../../../commands/problem_commands';
 import { useDrives, useStudio, useTopic } from '../../../hooks';
 import { Button } from '../../../parts/button';
+import { FindingButton } from '../finding_button';
 
 /** What is wrong with one member of the file. */
 export function useFindingsAt(doc: Doc, keys: Keys): Finding[] {
@@ -44,6 +45,7 @@ export function Findings({ findings, id }: { findings: readonly Finding[]; id?: 
               {fix.label}
             </Button>
           ))}
+          {one.fixes.length === 0 ? <FindingButton finding={one} /> : null}
         </div>
       ))}
     </div>

@@ -1,0 +1,72 @@
+// What helps with a finding of a plan that no edit of a text can fix: an arrow to draw, a value to type.
+
+import { arrowId } from '../../../core/plan/arrows';
+import { kStart } from '../../../core/plan/model';
+import { wantedBy } from '../../../core/plan/row_findings';
+import type { Studio } from '../../../core/studio';
+import { revealPanel } from '../../../core/window_state';
+import type { Finding } from '../../../protocol/messages';
+import { takeFocus } from '../../parts/take_focus';
+import { text } from '../../text';
+import { planDeskOf } from './plan_desk';
+import { revealElement } from './reveal_element';
+
+export interface FindingAct {
+  label: string;
+  run(): void;
+}
+
+/** The button for it; null if nothing but its fixes helps. */
+export function actFor(studio: Studio, finding: Finding): FindingAct | null {
+  const wanted = wantedBy(finding);
+  if (wanted === null) return null;
+  const { doc, element = '' } = finding;
+  if (wanted.is === 'value')
+    return {
+      label: text.draw.enterValue,
+      run() {
+        revealElement(studio, doc, element);
+        revealPanel(studio.window, 'properties', false);
+        focusOn(`[data-plan-input="${CSS.escape(`${element}.${wanted.name}`)}"]`);
+      },
+    };
+  return {
+    label: text.draw.connectIt,
+    run() {
+      revealElement(studio, doc, element);
+      const port = () => {
+        const { shown } = planDeskOf(studio);
+        if (shown?.board.doc !== doc) return null;
+        const source = element === '' ? kStart : shown.board.keyOf(element);
+        return source === null ? null : arrowId(source, wanted.name);
+      };
+      askAt(port);
+    },
+  };
+}
+
+/** The list of what may follow, at the port where the arrow begins. */
+function askAt(port: () => string | null): void {
+  takeFocus(() => {
+    const id = port();
+    const found = id === null ? null : shown(`[data-plan-port="${CSS.escape(id)}"]`);
+    if (!found) return false;
+    // The port has the focus again once something was chosen.
+    found.focus();
+    found.dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter', bubbles: true }));
+    return true;
+  });
+}
+
+function focusOn(selector: string): void {
+  takeFocus(() => {
+    const found = shown(selector);
+    found?.focus();
+    return found !== null;
+  });
+}
+
+function shown(selector: string): HTMLElement | null {
+  const found = document.querySelector<HTMLElement>(selector);
+  return found !== null && found.offsetParent !== null ? found : null;
+}

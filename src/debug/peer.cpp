@@ -123,9 +123,9 @@ void Peer::described() {
 }
 
 // What the node told is over from now on.
-Result<RequestId> Peer::load(const aesl::Program& program) {
-    forget_told_program();
-    return control_.load(program);
+Result<RequestId> Peer::load(const aesl::Program& program, AfterLoad then) {
+    (void)forget_told_program();
+    return control_.load(program, then);
 }
 
 void Peer::refuse_description() {

@@ -37,7 +37,7 @@ public:
 
     const NodeView& view() const { return view_; }
     Control& control() { return control_; }
-    Result<RequestId> load(const aesl::Program& program);
+    Result<RequestId> load(const aesl::Program& program, AfterLoad then);
     size_t description_bytes() const { return describer_.description().bytes(); }
     // kDescriptionBytesTotalMax is passed: this description is given up.
     void refuse_description();

@@ -27,6 +27,7 @@ TEST_F(RobotTest, ANodeThatWasStartedAgainGetsItsScriptAndStands) {
     EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
     EXPECT_GE(count_sent(kDrive, Type::SetBytecode), 1u);
     EXPECT_EQ(count_sent(kDrive, Type::Stop) > 0, true);
+    EXPECT_EQ(count_sent(kDrive, Type::Run), 0u);  // not for a moment
     target.run_all([](auto) {});
     pass(300ms);
     EXPECT_EQ(bus.word(kDrive, "wheel.target"), 100);

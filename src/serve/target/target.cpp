@@ -252,7 +252,8 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
         [&, run](uint16_t node) -> Result<debug::RequestId> {
             const CompiledScript* script = scripts_.compiled(doc_of(node));
             network_->set_common(script->common);
-            auto asked = network_->load(node, script->result.program);
+            const auto then = run ? debug::AfterLoad::Run : debug::AfterLoad::Stay;
+            auto asked = network_->load(node, script->result.program, then);
             if (!asked.ok()) return asked;
             // What was loaded runs by itself; who wants it to stand says so behind it, and before
             // anybody says something else.

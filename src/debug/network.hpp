@@ -181,7 +181,7 @@ public:
     Result<RequestId> query(NodeId id);
     // Asks a node with `_program` which program it runs: ProgramTold, then RequestDone. An Error if
     // it lacks that variable. Asked by itself when a node was described or came back; if the answer
-    // is not `program` of its view, ProgramReplaced follows.
+    // is not `program` of its view, ProgramReplaced follows, and if there is none, ProgramUntold.
     Result<RequestId> ask_program(NodeId id);
     // The node keeps its program for its next start. Nodes need not answer; the note says what the
     // node told.

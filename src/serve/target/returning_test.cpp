@@ -46,6 +46,52 @@ TEST_F(RobotTest, InDoubtANodeGetsItsScriptAgain) {
     EXPECT_FALSE(runs(kDrive));
 }
 
+// One that can tell, and says all else: nobody may wait for that for ever.
+struct DoubtTest : RobotTest {
+    // It was away, is back, and does not tell what it runs.
+    void leave_in_doubt() {
+        run();
+        bus.mute(kBumper);
+        pass(4s);
+        bus.mute(kBumper, false);
+        bus.tells_nothing(kBumper);
+        pass(1500ms);
+        ASSERT_EQ(node_document(kBumper)["program"], "unknown");
+        bus.sent.clear();
+    }
+};
+
+TEST_F(DoubtTest, ANodeThatNeverTellsGetsItsScriptAgain) {
+    leave_in_doubt();
+    pass(5s);
+    EXPECT_GE(count_sent(kBumper, Type::SetBytecode), 1u);
+    EXPECT_EQ(node_document(kBumper)["program"], "current");
+    EXPECT_EQ(count_sent(kBumper, Type::Run), 0u);
+}
+
+TEST_F(DoubtTest, ANodeThatAnotherHostLoadsBeforeItTellsGetsItsScriptAgain) {
+    leave_in_doubt();
+    wire::SetBytecode words{};
+    words.dest = kBumper;
+    words.words.count = 1;
+    words.words.values[0] = 0;
+    wire::Frame frame;
+    ASSERT_EQ(wire::encode_message(words, wire::kHostId, frame), wire::Error::None);
+    bus.others_say(frame);
+    pass(500ms);
+    EXPECT_GE(count_sent(kBumper, Type::SetBytecode), 1u);
+    EXPECT_EQ(node_document(kBumper)["program"], "current");
+}
+
+TEST_F(DoubtTest, RunLoadsWhatNobodyKnows) {
+    leave_in_doubt();
+    target.load_changed(true, [](auto failed) { EXPECT_TRUE(failed.empty()); });
+    pass(500ms);
+    EXPECT_GE(count_sent(kBumper, Type::SetBytecode), 1u);
+    EXPECT_EQ(node_document(kBumper)["program"], "current");
+    EXPECT_TRUE(runs(kBumper));
+}
+
 // In a simulation its process was slow, and nothing else has happened.
 TEST_F(RobotTest, ANodeOfASimulationKeepsItsScript) {
     run("simulator");

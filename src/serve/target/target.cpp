@@ -255,15 +255,12 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
             const auto then = run ? debug::AfterLoad::Run : debug::AfterLoad::Stay;
             auto asked = network_->load(node, script->result.program, then);
             if (!asked.ok()) return asked;
-            // What was loaded runs by itself; who wants it to stand says so behind it, and before
-            // anybody says something else.
-            if (!run) (void)network_->stop(node).ok();
             Known& known = known_[node];
             end_rest();
             if (run) stopping_.forget(node);
             known.loaded = script->source;
             known.has_program = true;
-            known.lost_program = known.in_doubt = false;
+            known.lost_program = known.in_doubt = known.away = false;
             known.fault.clear();
             known.why.clear();
             return asked;
@@ -295,7 +292,8 @@ void Target::load_changed(bool run, std::function<void(std::vector<std::string>)
     for (const uint16_t node : live_nodes()) {
         const CompiledScript* script = scripts_.compiled(doc_of(node));
         const Known& known = known_[node];
-        if (script && (!known.has_program || known.loaded != script->source)) {
+        const bool unsure = known.in_doubt || known.away;
+        if (script && (unsure || !known.has_program || known.loaded != script->source)) {
             changed.push_back(node);
         }
     }

@@ -94,7 +94,7 @@ void Control::give_up(const Error& why) {
     out_.requests.leave(view_.id);
 }
 
-Result<RequestId> Control::load(const aesl::Program& program) {
+Result<RequestId> Control::load(const aesl::Program& program, AfterLoad then) {
     const size_t words = program.bytecode.size();
     if (words == 0) {
         return Error{Code::BadInput, "the program for " + who() +
@@ -109,6 +109,7 @@ Result<RequestId> Control::load(const aesl::Program& program) {
     Request request;
     request.kind = Kind::Load;
     request.program = program;
+    request.then = then;
     return enqueue(std::move(request));
 }
 
@@ -334,6 +335,7 @@ Control::Answer Control::answer_load(Request& request, const wire::ExecutionStat
     view_.program = request.program;
     view_.at = place_of(state.pc);
     place_breakpoints();
+    if (request.then == AfterLoad::Stay) return Outcome{};
     out_.command<wire::Run>(view_.id);
     return {};
 }

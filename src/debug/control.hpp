@@ -24,7 +24,7 @@ public:
     Result<RequestId> ask(Kind kind);
     // Before all that was asked, which is given up: Stop, Pause.
     RequestId at_once(Kind kind);
-    Result<RequestId> load(const aesl::Program& program);
+    Result<RequestId> load(const aesl::Program& program, AfterLoad then);
     void forget_program();
     void adopt(const aesl::Program& program);
     Result<RequestId> set_breakpoint(int line, std::string_view condition,
@@ -69,13 +69,14 @@ private:
     struct Request {
         RequestId id;
         Kind kind = Kind::Query;
-        aesl::Program program;       // Load
-        size_t sent = 0, acked = 0;  // Load: fragments
-        uint16_t pc = 0;             // Break
-        bool stepping = false;       // Step, Run: an instruction is being executed by itself
-        int from_line = 0;           // Step
-        uint32_t steps = 0;          // Step
-        std::string note;            // Save: what the node said
+        aesl::Program program;            // Load
+        AfterLoad then = AfterLoad::Run;  // Load
+        size_t sent = 0, acked = 0;       // Load: fragments
+        uint16_t pc = 0;                  // Break
+        bool stepping = false;            // Step, Run: an instruction is being executed by itself
+        int from_line = 0;                // Step
+        uint32_t steps = 0;               // Step
+        std::string note;                 // Save: what the node said
         Time deadline{};
     };
     // Going on from a breakpoint whose condition is false: one step, then, if that was no fault,

@@ -63,6 +63,20 @@ TEST_F(Program, IsLoadedThenRun) {
     EXPECT_EQ(bus.network.node(1)->state, ProgramState::Running);
 }
 
+// What SetBytecode leaves is paused before the first line: a script that drives in its first lines
+// would drive until a Stop behind Run came.
+TEST_F(Program, ThatIsToStayIsLoadedAndNotRun) {
+    const RequestId request = bus.network.load(1, two_lines(), AfterLoad::Stay).value();
+    EXPECT_EQ(bus.sent(), Dumps{kUpload});
+    bus.node_says("04 00 01 00 0a 90 03 00 03 00");
+    EXPECT_EQ(bus.sent(), Dumps{kClearAll});
+    EXPECT_EQ(error_of(bus, request), "");
+    EXPECT_EQ(bus.network.node(1)->state, ProgramState::Paused);
+    EXPECT_EQ(bus.told<StateChanged>().size(), 1u);
+    ASSERT_TRUE(bus.network.run(1).ok());
+    EXPECT_TRUE(bus.network.node(1)->program.has_value());
+}
+
 TEST_F(Program, LargerThanAFragmentGoesInPiecesOf256Words) {
     aesl::Program program;
     program.bytecode.assign(600, 0);

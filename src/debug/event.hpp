@@ -115,6 +115,10 @@ struct ProgramTold {
     uint32_t mark = 0;
 };
 
+// Such a node was asked by itself, and nobody knows what it runs: it did not answer, or another
+// host sent it words of a program meanwhile.
+struct ProgramUntold {};
+
 // ---- variables and events ----
 // Answer to get(). `first` counts from the beginning of the variable.
 struct VariablesArrived {
@@ -145,8 +149,8 @@ using Happening =
     std::variant<NodeAppeared, NodeDescribed, DescriptionFailed, NodeDisconnected, NodeReconnected,
                  NodeConfirmed, ProtocolMismatch, NodeIdShared, TooManyNodes, StateChanged, Fault,
                  BreakpointResult, BreakpointReached, BreakpointPassed, BreakpointHit,
-                 ConditionFailed, ProgramReplaced, ProgramTold, VariablesArrived, VariableChanged,
-                 UserEvent, RequestDone>;
+                 ConditionFailed, ProgramReplaced, ProgramTold, ProgramUntold, VariablesArrived,
+                 VariableChanged, UserEvent, RequestDone>;
 
 struct Event {
     Time at{};

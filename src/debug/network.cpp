@@ -402,8 +402,8 @@ Result<Peer*> Network::usable(NodeId id) const {
     return known;
 }
 
-Result<RequestId> Network::load(NodeId id, const aesl::Program& program) {
-    return TRY(usable(id))->load(program);
+Result<RequestId> Network::load(NodeId id, const aesl::Program& program, AfterLoad then) {
+    return TRY(usable(id))->load(program, then);
 }
 
 Status Network::adopt(NodeId id, const aesl::Program& program) {

@@ -90,6 +90,8 @@ struct NodeView {
     std::vector<Breakpoint> breakpoints;
 };
 
+enum class AfterLoad { Run, Stay };
+
 // Words of a variable, `first` counted from its beginning.
 struct VariableRange {
     std::string name;
@@ -154,8 +156,9 @@ public:
     aesl::Compilation compile(NodeId id, std::string_view source,
                               const aesl::Options& options) const;
     // Sends the program in fragments, waits for the node's word after each, sets breakpoints again,
-    // runs it.
-    Result<RequestId> load(NodeId id, const aesl::Program& program);
+    // and runs it unless it is to stay as SetBytecode leaves it: paused before its first line.
+    Result<RequestId> load(NodeId id, const aesl::Program& program,
+                           AfterLoad then = AfterLoad::Run);
     // The node has this program already, as another host or its flash loaded it: gives names,
     // lines, breakpoints.
     Status adopt(NodeId id, const aesl::Program& program);
@@ -178,7 +181,7 @@ public:
     Result<RequestId> query(NodeId id);
     // Asks a node with `_program` which program it runs: ProgramTold, then RequestDone. An Error if
     // it lacks that variable. Asked by itself when a node was described or came back; if the answer
-    // is not `program` of its view, ProgramReplaced follows.
+    // is not `program` of its view, ProgramReplaced follows, and if there is none, ProgramUntold.
     Result<RequestId> ask_program(NodeId id);
     // The node keeps its program for its next start. Nodes need not answer; the note says what the
     // node told.

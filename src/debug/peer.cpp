@@ -123,9 +123,9 @@ void Peer::described() {
 }
 
 // What the node told is over from now on.
-Result<RequestId> Peer::load(const aesl::Program& program) {
-    forget_told_program();
-    return control_.load(program);
+Result<RequestId> Peer::load(const aesl::Program& program, AfterLoad then) {
+    (void)forget_told_program();
+    return control_.load(program, then);
 }
 
 void Peer::refuse_description() {
@@ -136,7 +136,7 @@ void Peer::refuse_description() {
 
 void Peer::foreign_command(const wire::Frame& frame) {
     if (frame.type == static_cast<uint16_t>(wire::MessageType::SetBytecode)) {
-        forget_told_program();
+        if (forget_told_program()) out_.tell(view_.id, ProgramUntold{});
         with<wire::SetBytecode>(frame, [this](const auto& m) { control_.foreign_bytecode(m); });
     }
     if (frame.type == static_cast<uint16_t>(wire::MessageType::GetNodeDescriptionFragment)) {
@@ -146,7 +146,7 @@ void Peer::foreign_command(const wire::Frame& frame) {
 
 void Peer::leave(const std::string& why) {
     view_.connected = false;
-    forget_told_program();
+    (void)forget_told_program();
     out_.descriptions.leave(view_.id);
     const std::string reason = who() + " " + why;
     control_.disconnected(reason);

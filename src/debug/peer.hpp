@@ -37,7 +37,7 @@ public:
 
     const NodeView& view() const { return view_; }
     Control& control() { return control_; }
-    Result<RequestId> load(const aesl::Program& program);
+    Result<RequestId> load(const aesl::Program& program, AfterLoad then);
     size_t description_bytes() const { return describer_.description().bytes(); }
     // kDescriptionBytesTotalMax is passed: this description is given up.
     void refuse_description();
@@ -78,7 +78,8 @@ private:
     void watched(const Reading& reading);
     void read_program(RequestId request);
     void program_told(const Reading& reading);
-    void forget_told_program();
+    // Whether an answer was still to come that nobody but us has asked for.
+    bool forget_told_program();
     void read_condition();
     void condition_word(const Reading& reading);
     void tick_readings();

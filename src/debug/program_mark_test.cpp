@@ -102,6 +102,24 @@ TEST_F(ProgramMark, ThatNeverComesEndsTheRequest) {
     EXPECT_TRUE(bus.told<RequestDone>()[0].error);
 }
 
+// Whoever waits for it would wait for ever.
+TEST_F(ProgramMark, ThatNeverComesUnaskedIsSaid) {
+    for (int i = 0; i < kFetchTriesMax; i++) {
+        EXPECT_TRUE(bus.told<ProgramUntold>().empty());
+        bus.node_says("02 00 01 00 0c 90 05 00");  // it lives
+        bus.pass(kFetchRetry);
+    }
+    EXPECT_EQ(bus.told<ProgramUntold>().size(), 1u);
+}
+
+TEST_F(ProgramMark, IsSaidToBeUntoldIfAnotherHostLoadsMeanwhile) {
+    const char* const words = "06 00 00 00 01 a0 01 00 04 00 01 00";
+    bus.node_says(words);
+    EXPECT_EQ(bus.told<ProgramUntold>().size(), 1u);
+    bus.node_says(words);  // nobody waits any more
+    EXPECT_EQ(bus.told<ProgramUntold>().size(), 1u);
+}
+
 // Standing as after power-up proves nothing, nor does standing elsewhere.
 TEST_F(ProgramMark, OfTheSameProgramKeepsItWhereverTheNodeStands) {
     adopt();

@@ -103,7 +103,7 @@ void Peer::failed(const Reading& reading) {
         case Purpose::Confirm:
             return out_.tell(view_.id, RequestDone{reading.request, error, ""});
         case Purpose::Program:
-            if (reading.request == RequestId{}) return;
+            if (reading.request == RequestId{}) return out_.tell(view_.id, ProgramUntold{});
             return out_.tell(view_.id, RequestDone{reading.request, error, ""});
         case Purpose::Watch:
             for (Watch& watch : watches_) {
@@ -161,11 +161,12 @@ void Peer::program_told(const Reading& reading) {
 }
 
 // An answer that is still to come may be of the program before.
-void Peer::forget_told_program() {
+bool Peer::forget_told_program() {
     view_.told_program.reset();
-    std::erase_if(readings_, [](const Reading& reading) {
+    const auto forgotten = std::erase_if(readings_, [](const Reading& reading) {
         return reading.purpose == Purpose::Program && reading.request == RequestId{};
     });
+    return forgotten > 0;
 }
 
 // The node is paused at a breakpoint with a condition: its variables are read, each once.

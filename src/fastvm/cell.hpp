@@ -17,6 +17,8 @@
 // is rare is done by no cell: it calls leave(), and vm::run() executes that instruction.
 #pragma once
 
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -56,7 +58,7 @@ using Cells = std::vector<Cell>;
 struct Context {
     vm::Vm& vm;
     const Cell* cells;
-    uint16_t cell_count;
+    size_t cell_count;  // with the last, which leaves
     uint16_t* bytecode;
     int16_t* stack;
     int16_t* stack_end;
@@ -64,6 +66,13 @@ struct Context {
     int16_t* top = nullptr;
     int left = 0;
 };
+
+// Where a word leads that nobody has checked before the run; other targets were checked when the
+// program was decoded.
+inline const Cell* cell_at(const Context& context, uint16_t word) {
+    assert(word < context.cell_count);
+    return context.cells + word;
+}
 
 inline void go(const Cell* cell, int16_t* top, int16_t* variables, int left, Context& context) {
     return cell->handler(cell, top, variables, left, context);

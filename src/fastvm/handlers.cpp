@@ -117,7 +117,7 @@ void return_from_sub(const Cell* cell, int16_t* top, int16_t* variables, int lef
                      Context& context) {
     const auto target = static_cast<uint16_t>(top[-1]);
     if (target >= context.cell_count) return leave_paid(cell, top, left, context);
-    return enter(context.cells + target, top - 1, variables, left, context);
+    return enter(cell_at(context, target), top - 1, variables, left, context);
 }
 
 // The Host sees the machine as it is at the instruction.

@@ -14,16 +14,15 @@ constexpr int kStretchMax = 2048;
 // Executes instructions as long as cells can; gives how many. 0: the next one is for vm::run().
 int run_stretch(vm::Vm& vm, const Cells& cells, int limit) {
     const vm::Config& config = *vm.config;
-    const size_t count = cells.size() - 1;
-    if (vm.pc >= count) return 0;
+    if (vm.pc >= cells.size()) return 0;
     Context context = {.vm = vm,
                        .cells = cells.data(),
-                       .cell_count = static_cast<uint16_t>(count),
+                       .cell_count = cells.size(),
                        .bytecode = config.bytecode,
                        .stack = config.stack,
                        .stack_end = config.stack + config.stack_size};
     const int most = std::min(limit, kStretchMax);
-    enter(cells.data() + vm.pc, config.stack + vm.depth, config.variables, most, context);
+    enter(cell_at(context, vm.pc), config.stack + vm.depth, config.variables, most, context);
     vm.pc = static_cast<uint16_t>(context.cell - cells.data());
     vm.depth = static_cast<uint16_t>(context.top - config.stack);
     return most - context.left;

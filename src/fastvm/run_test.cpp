@@ -154,11 +154,13 @@ TEST(FastRun, AReturnToNowhereGoesThereAndIsStopped) {
 }
 
 // The last decoded words, the one cell behind them, and what lies behind that: a return leads to
-// each, and finds the 0 there, which is Stop.
+// each, and finds the 0 there, which is Stop. The first that has no cell is the tenth word: three
+// of the table, three of code, and three that may be the end of an instruction or leave.
 TEST(FastRun, AReturnBehindTheProgramStopsAtThatWord) {
     for (uint16_t target = 6; target < 20; ++target) {
         TestMachine machine;
         machine.load({0x2000, target, op(Opcode::SubRet, 0)});
+        ASSERT_EQ(decode({machine.bytecode.data(), machine.bytecode.size()}, 600).size(), 9u);
         EXPECT_EQ(machine.run(100), 3) << target;
         EXPECT_EQ(machine.vm.pc, target);
         EXPECT_EQ(machine.vm.depth, 0);

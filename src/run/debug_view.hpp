@@ -8,7 +8,7 @@
 
 #include "base/result.hpp"
 #include "plan/machine.hpp"
-#include "run/debugger.hpp"
+#include "run/debug_values.hpp"
 
 namespace vagus::run {
 

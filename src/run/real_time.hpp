@@ -52,7 +52,8 @@ public:
     // Writes a variable of the outermost plan (P29); the Error comes back through `done` or is
     // dropped where nobody asks.
     void set(int slot, plan::Value value);
-    // An event has come from the bus.
+    // An event has come from the bus. Beyond kInboxMax that wait (run/real_time_parts.hpp) they are
+    // dropped and counted.
     void hear(BusEvent event);
     // From now on tokens count from this one (RunOptions::first_token).
     void move_tokens(uint16_t token);
@@ -63,6 +64,5 @@ private:
 };
 
 constexpr size_t kLatenessSamples = 100'000;
-constexpr size_t kInboxMax = 65'536;  // events from outside beyond this are dropped and counted
 
 }  // namespace vagus::run

@@ -1,5 +1,6 @@
 // The parts of RealTime that its threads share: the run's clock, the inbox of the deciding thread,
-// and what an actor's code waits on. Only real_time.cpp includes this.
+// and what an actor's code waits on. Only its own source, real_time.cpp, and real_time_watch.hpp,
+// which is a part of that, include this.
 #pragma once
 
 #include <time.h>
@@ -20,11 +21,12 @@
 #include "run/held_events.hpp"
 #include "run/kept_events.hpp"
 #include "run/options.hpp"
-#include "run/real_time.hpp"
 
 namespace vagus::run {
 
 using SteadyClock = std::chrono::steady_clock;
+
+constexpr size_t kInboxMax = 65'536;  // events from outside beyond this are dropped and counted
 
 // Time since the start of the run, without its pauses. Read from any thread; started, halted and
 // released by the deciding one.

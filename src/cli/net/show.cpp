@@ -260,6 +260,7 @@ struct Teller {
         return {.kind = "program", .event = "replaced", .detail = "by another host or a restart"};
     }
     Told operator()(const debug::ProgramTold&) const { return {}; }
+    Told operator()(const debug::ProgramUntold&) const { return {}; }
     Told operator()(const debug::VariablesArrived&) const { return {}; }
     Told operator()(const debug::VariableChanged& e) const {
         return {.kind = "variable",

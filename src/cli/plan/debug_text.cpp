@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <numbers>
-
 #include "base/nearest.hpp"
 #include "base/text.hpp"
+#include "cli/screen/degrees.hpp"
 
 namespace vagus::cli {
 
@@ -198,8 +197,8 @@ std::string variables_of(const run::LevelNow& level) {
 }
 
 std::string text_of(const sim::RobotView& robot) {
-    return fmt::format("{} stands at {:.2f}, {:.2f} m, {:.0f} deg\n", robot.name, robot.pose.at.x,
-                       robot.pose.at.y, robot.pose.angle * 180 / std::numbers::pi);
+    return fmt::format("{} stands at {:.2f}, {:.2f} m, {} deg\n", robot.name, robot.pose.at.x,
+                       robot.pose.at.y, degrees_shown(robot.pose.angle));
 }
 
 std::string text_of(const run::Where& where) {

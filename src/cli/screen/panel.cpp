@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
+#include "cli/screen/degrees.hpp"
 #include "cli/screen/page.hpp"
 
 namespace vagus::cli {
@@ -42,11 +41,9 @@ void add_robot(Page& page, const View& view, Charset charset) {
     page.next();
     if (view.selected >= view.robots.size()) return;
     const RobotPicture& robot = view.robots[view.selected];
-    const double degrees = robot.angle * 180 / std::numbers::pi;
     const std::string degree = charset == Charset::Ascii ? " deg" : "°";
-    const int64_t turned = (std::llround(degrees) % 360 + 360) % 360;
     page.add("at " + fixed(robot.at.x, 2) + ", " + fixed(robot.at.y, 2) + " m  " +
-                 std::to_string(turned) + degree,
+                 std::to_string(degrees_shown(robot.angle)) + degree,
              {});
     page.next();
 }

@@ -1,11 +1,10 @@
 #include "cli/sim/lines.hpp"
 
-#include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "base/text.hpp"
 #include "cli/output.hpp"
+#include "cli/screen/degrees.hpp"
 #include "cli/sim/view.hpp"
 
 namespace vagus::cli {
@@ -24,7 +23,7 @@ std::string stamp(Time at) {
 std::string state_line(const session::SimSession& session, const sim::RobotView& robot) {
     std::string line = stamp(session.now()) + visible(robot.name) + "  at " +
                        fixed(robot.pose.at.x, 2) + ", " + fixed(robot.pose.at.y, 2) + " m  " +
-                       fixed(robot.pose.angle * 180 / std::numbers::pi, 0) + " deg";
+                       std::to_string(degrees_shown(robot.pose.angle)) + " deg";
     const Dials& dials = dials_of(robot.type);
     for (const Dial& dial : dials.bars) {
         line += "  " + std::string(dial.label);

@@ -150,7 +150,7 @@ void Target::hear(const debug::Event& event) {
         hints_.stopped_at_breakpoint();
     } else if (std::get_if<debug::ProgramReplaced>(what)) {
         Known& known = known_[event.node];
-        known.lost_program = known.has_program;
+        known.lost_program = known.lost_program || known.has_program;
         known.has_program = false;
     } else if (const auto* gone = std::get_if<debug::NodeDisconnected>(what)) {
         dropped_.state(event.node, debug::ProgramState::Unknown);
@@ -161,6 +161,8 @@ void Target::hear(const debug::Event& event) {
         place_breakpoints();
     } else if (const auto* told = std::get_if<debug::ProgramTold>(what)) {
         told_program(event.node, told->mark);
+    } else if (std::get_if<debug::ProgramUntold>(what)) {
+        if (known_[event.node].in_doubt) program_is_lost(event.node);
     } else if (std::get_if<debug::NodeConfirmed>(what)) {
         came_back(event.node);
     }

@@ -27,6 +27,7 @@ TEST_F(RobotTest, ANodeThatWasStartedAgainGetsItsScriptAndStands) {
     EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
     EXPECT_GE(count_sent(kDrive, Type::SetBytecode), 1u);
     EXPECT_EQ(count_sent(kDrive, Type::Stop) > 0, true);
+    EXPECT_EQ(count_sent(kDrive, Type::Run), 0u);  // not for a moment
     target.run_all([](auto) {});
     pass(300ms);
     EXPECT_EQ(bus.word(kDrive, "wheel.target"), 100);
@@ -43,6 +44,52 @@ TEST_F(RobotTest, InDoubtANodeGetsItsScriptAgain) {
     EXPECT_GE(count_sent(kDrive, Type::SetBytecode), 1u);
     EXPECT_EQ(node_document(kDrive)["program"], "current");
     EXPECT_FALSE(runs(kDrive));
+}
+
+// One that can tell, and says all else: nobody may wait for that for ever.
+struct DoubtTest : RobotTest {
+    // It was away, is back, and does not tell what it runs.
+    void leave_in_doubt() {
+        run();
+        bus.mute(kBumper);
+        pass(4s);
+        bus.mute(kBumper, false);
+        bus.tells_nothing(kBumper);
+        pass(1500ms);
+        ASSERT_EQ(node_document(kBumper)["program"], "unknown");
+        bus.sent.clear();
+    }
+};
+
+TEST_F(DoubtTest, ANodeThatNeverTellsGetsItsScriptAgain) {
+    leave_in_doubt();
+    pass(5s);
+    EXPECT_GE(count_sent(kBumper, Type::SetBytecode), 1u);
+    EXPECT_EQ(node_document(kBumper)["program"], "current");
+    EXPECT_EQ(count_sent(kBumper, Type::Run), 0u);
+}
+
+TEST_F(DoubtTest, ANodeThatAnotherHostLoadsBeforeItTellsGetsItsScriptAgain) {
+    leave_in_doubt();
+    wire::SetBytecode words{};
+    words.dest = kBumper;
+    words.words.count = 1;
+    words.words.values[0] = 0;
+    wire::Frame frame;
+    ASSERT_EQ(wire::encode_message(words, wire::kHostId, frame), wire::Error::None);
+    bus.others_say(frame);
+    pass(500ms);
+    EXPECT_GE(count_sent(kBumper, Type::SetBytecode), 1u);
+    EXPECT_EQ(node_document(kBumper)["program"], "current");
+}
+
+TEST_F(DoubtTest, RunLoadsWhatNobodyKnows) {
+    leave_in_doubt();
+    target.load_changed(true, [](auto failed) { EXPECT_TRUE(failed.empty()); });
+    pass(500ms);
+    EXPECT_GE(count_sent(kBumper, Type::SetBytecode), 1u);
+    EXPECT_EQ(node_document(kBumper)["program"], "current");
+    EXPECT_TRUE(runs(kBumper));
 }
 
 // In a simulation its process was slow, and nothing else has happened.

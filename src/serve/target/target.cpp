@@ -252,17 +252,15 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
         [&, run](uint16_t node) -> Result<debug::RequestId> {
             const CompiledScript* script = scripts_.compiled(doc_of(node));
             network_->set_common(script->common);
-            auto asked = network_->load(node, script->result.program);
+            const auto then = run ? debug::AfterLoad::Run : debug::AfterLoad::Stay;
+            auto asked = network_->load(node, script->result.program, then);
             if (!asked.ok()) return asked;
-            // What was loaded runs by itself; who wants it to stand says so behind it, and before
-            // anybody says something else.
-            if (!run) (void)network_->stop(node).ok();
             Known& known = known_[node];
             end_rest();
             if (run) stopping_.forget(node);
             known.loaded = script->source;
             known.has_program = true;
-            known.lost_program = known.in_doubt = false;
+            known.lost_program = known.in_doubt = known.away = false;
             known.fault.clear();
             known.why.clear();
             return asked;
@@ -294,7 +292,8 @@ void Target::load_changed(bool run, std::function<void(std::vector<std::string>)
     for (const uint16_t node : live_nodes()) {
         const CompiledScript* script = scripts_.compiled(doc_of(node));
         const Known& known = known_[node];
-        if (script && (!known.has_program || known.loaded != script->source)) {
+        const bool unsure = known.in_doubt || known.away;
+        if (script && (unsure || !known.has_program || known.loaded != script->source)) {
             changed.push_back(node);
         }
     }

@@ -22,7 +22,7 @@ namespace vagus::serve {
 
 constexpr const char* kPageToken = "0123456789abcdef";
 
-// "drive" moves, "bumper" only senses.
+// "drive" moves, "bumper" only senses, and can tell which program it runs.
 inline aesl::Target test_target(const std::string& name) {
     aesl::Target target;
     target.name = name;
@@ -34,6 +34,7 @@ inline aesl::Target test_target(const std::string& name) {
         target.variables.push_back({"wheel.target", 1});
         target.variables.push_back({"wheel.speed", 1});
     }
+    if (name == "bumper") target.variables.push_back({"_program", 2});
     target.local_events = {{"tick", "each step"}};
     return target;
 }
@@ -55,7 +56,10 @@ public:
     void switch_on(uint16_t id) {
         Place& place = places_[id];
         const auto transmit = [this, &place](const wire::Frame& frame) {
-            if (!place.mute) said_.push_back({place.link, frame});
+            const bool variables =
+                frame.type == static_cast<uint16_t>(wire::MessageType::Variables);
+            if (!place.mute && !(place.tells_nothing && variables))
+                said_.push_back({place.link, frame});
         };
         auto made =
             session::SoftwareNode::make(test_target(place.name), {.id = id, .transmit = transmit});
@@ -67,6 +71,8 @@ public:
     }
     // It hears, and nobody hears it.
     void mute(uint16_t id, bool on = true) { places_.at(id).mute = on; }
+    // It answers no question for its variables.
+    void tells_nothing(uint16_t id, bool on = true) { places_.at(id).tells_nothing = on; }
     void others_say(const wire::Frame& frame) { hub_.receive(others_, frame); }
 
     // Each node looks at 16 frames, as a simulated one in a millisecond, and hears its tick.
@@ -115,6 +121,7 @@ private:
         hub::LinkId link;
         std::unique_ptr<session::SoftwareNode> node;
         bool mute = false;
+        bool tells_nothing = false;
     };
     hub::Hub hub_;
     hub::LinkId own_, others_;

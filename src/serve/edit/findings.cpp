@@ -27,14 +27,14 @@ Json list_of_findings(const std::vector<Finding>& findings) {
 
 Findings::Findings(Desk& desk, Files& files, Scripts& scripts, const EditedProject& project)
     : desk_(desk), files_(files), scripts_(scripts), project_(project) {
-    desk_.board().document("findings", [this](const Json&) { return document(); });
-    desk_.board().document("templates", [this](const Json&) {
+    desk_.topics().document("findings", [this](const Json&) { return document(); });
+    desk_.topics().document("templates", [this](const Json&) {
         return template_list(toolboxes().library->templates());
     });
 }
 
 void Findings::text_changed(const std::string& path) {
-    desk_.board().touch("findings");
+    desk_.topics().touch("findings");
     if (!concerns_files(path)) return;
     due_at_last_ = due_ ? due_at_last_ : std::optional(now_ + kCheckWithin);
     due_ = std::min(now_ + kCheckAfter, *due_at_last_);
@@ -87,8 +87,8 @@ void Findings::project_changed() {
     list_anew();
     due_ = due_at_last_ = now_;
     find_scope();
-    desk_.board().touch("findings");
-    desk_.board().touch("templates");
+    desk_.topics().touch("findings");
+    desk_.topics().touch("templates");
 }
 
 // ---- which files ----
@@ -138,7 +138,7 @@ const std::set<std::string>& Findings::files_of_project() {
 // What somebody looks at is checked wherever it stands.
 std::set<std::string> Findings::wanted() const {
     std::set<std::string> paths = scope_;
-    for (const Json& of : desk_.board().subjects("doc")) {
+    for (const Json& of : desk_.topics().subjects("doc")) {
         const std::string doc = of["doc"];
         paths.insert(doc.substr(0, doc.rfind('#')));
     }
@@ -192,7 +192,7 @@ void Findings::refresh_toolboxes() {
     toolbox_paths_ = project_.toolboxes;
     toolboxes_ = load_toolboxes(files_, toolbox_paths_);
     ++toolboxes_generation_;
-    desk_.board().touch("templates");
+    desk_.topics().touch("templates");
 }
 
 void Findings::begin_round() {
@@ -242,12 +242,12 @@ void Findings::check_next() {
         done_.insert(path);
     }
     if (left_.empty()) end_round();
-    desk_.board().touch("findings");
+    desk_.topics().touch("findings");
 }
 
 void Findings::end_round() {
     std::erase_if(of_files_, [&](const auto& entry) { return !done_.contains(entry.first); });
-    desk_.board().touch("findings");
+    desk_.topics().touch("findings");
 }
 
 Checkup Findings::check(const std::string& path) {
@@ -295,15 +295,15 @@ void Findings::tick(Time now) {
     now_ = now;
     if (targets_ != scripts_.generation()) {
         targets_ = scripts_.generation();
-        desk_.board().touch("findings");
+        desk_.topics().touch("findings");
     }
-    if (!desk_.board().watched("findings")) return;
+    if (!desk_.topics().watched("findings")) return;
     if (due_ && now >= *due_) return begin_round();
     if (!left_.empty()) check_next();
 }
 
 Time Findings::next_tick() const {
-    if (!desk_.board().watched("findings")) return Time::max();
+    if (!desk_.topics().watched("findings")) return Time::max();
     if (due_) return left_.empty() ? *due_ : std::min(*due_, now_);
     return left_.empty() ? Time::max() : now_;
 }

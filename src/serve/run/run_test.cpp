@@ -78,7 +78,7 @@ protected:
     void flush(int times = 10) {
         frames.clear();
         for (int i = 0; i < times; ++i) {
-            desk.board().flush(
+            desk.topics().flush(
                 now += 100ms, [](ClientId) { return true; },
                 [this](ClientId, bool, const std::string& bytes) { frames.push_back(bytes); });
         }
@@ -318,7 +318,7 @@ TEST_F(RunTest, ThePlanOfPagesHasTheirDocuments) {
     plan.levels = {{"b", {{{"path", "A/b"}, {"doc", "b"}}}}};
     plan.stands_at = {4};
     say(plan);
-    ASSERT_FALSE(desk.board().watch(ClientId{1}, {{"watch", 1}, {"topic", "plan"}}, now));
+    ASSERT_FALSE(desk.topics().watch(ClientId{1}, {{"watch", 1}, {"topic", "plan"}}, now));
     flush();
     ASSERT_FALSE(frames.empty());
     const Json shown = Json::parse(frames.back())["whole"];
@@ -333,7 +333,7 @@ TEST_F(RunTest, AClockThatSaysNothingNewIsNotSentAgain) {
     open();
     say(opened_answer(number));
     const Json watch = {{"watch", 1}, {"topic", "clock"}};
-    ASSERT_FALSE(desk.board().watch(ClientId{1}, watch, now).has_value());
+    ASSERT_FALSE(desk.topics().watch(ClientId{1}, watch, now).has_value());
     talk::Clock told = clock(3);
     told.paused = true;
     const auto tell = [&] {
@@ -357,7 +357,7 @@ TEST_F(RunTest, APictureIsSentOnceToEachWhoWatches) {
     say(opened_answer(number));
     const ClientId page{1};
     const Json watch = {{"watch", 1}, {"topic", "picture"}, {"of", {{"robot", "alice"}}}};
-    ASSERT_FALSE(desk.board().watch(page, watch, now).has_value());
+    ASSERT_FALSE(desk.topics().watch(page, watch, now).has_value());
     const auto look = [this] {
         flush();
         return frames.size();

@@ -186,7 +186,7 @@ TEST(Desk, APageThatClosesGivesTheWheelToWhoAskedForIt) {
 
 TEST(Desk, WhoReadsNothingIsSentAwayAndOthersAreServed) {
     Fixture f;
-    f.desk.board().document("clock", [&](const Json&) {
+    f.desk.topics().document("clock", [&](const Json&) {
         return Json{{"t", static_cast<double>(f.now.count())}, {"why", std::string(100'000, 'x')}};
     });
     f.hello(1, kDrive, "a");
@@ -194,7 +194,7 @@ TEST(Desk, WhoReadsNothingIsSentAwayAndOthersAreServed) {
     size_t largest = 0;
     for (int i = 0; i < 100; ++i) {
         f.now += 101ms;
-        f.desk.board().touch("clock");
+        f.desk.topics().touch("clock");
         f.desk.tick(f.now);
         size_t bytes = 0;
         for (const Json& message : f.got[ClientId{1}]) bytes += message.dump().size();

@@ -38,11 +38,11 @@ void describe(Json& variable, const KnownVariable* known) {
 }  // namespace
 
 void Target::declare_topics() {
-    Board& board = desk_.board();
-    board.document("robot", [this](const Json&) { return robot_document(); });
-    board.document("node", [this](const Json& of) { return node_document(of); });
-    board.document("network", [this](const Json&) { return network_document(); });
-    board.stream("happenings", Protocol::get().limit("events_kept"));
+    Topics& topics = desk_.topics();
+    topics.document("robot", [this](const Json&) { return robot_document(); });
+    topics.document("node", [this](const Json& of) { return node_document(of); });
+    topics.document("network", [this](const Json&) { return network_document(); });
+    topics.stream("happenings", Protocol::get().limit("events_kept"));
     declare_watches();
 }
 

@@ -16,15 +16,15 @@ void Target::happen(const char* kind, uint16_t node, const std::string& name,
         {"kind", kind},       {"node", node}, {"source", node == 0 ? "main" : name_of(node)},
         {"name", name},       {"args", args}, {"text", text}};
     told_.happening(happening);
-    desk_.board().add("happenings", happening);
+    desk_.topics().add("happenings", happening);
 }
 
 void Target::hear(const debug::Event& event, const debug::NodeDescribed& described) {
     scripts_.targets_changed();
-    desk_.board().touch("scripts");
-    desk_.board().touch("script");
-    desk_.board().touch("findings");
-    desk_.board().touch("node");
+    desk_.topics().touch("scripts");
+    desk_.topics().touch("script");
+    desk_.topics().touch("findings");
+    desk_.topics().touch("node");
     happen("appeared", event.node, described.name, "");
     Known& known = known_[event.node];
     const auto loaded = hints_.loaded_already(event.node);
@@ -76,7 +76,7 @@ void Target::hear(const debug::Event& event, const debug::Fault& fault) {
 void Target::hear(const debug::Event& event, const debug::BreakpointHit& hit) {
     ScriptBreakpoint* breakpoint = breakpoint_of(event.node, hit.at.line);
     if (breakpoint) breakpoint->hits = hit.hits;
-    desk_.board().touch("breakpoints");
+    desk_.topics().touch("breakpoints");
     if (breakpoint && hit.hits <= breakpoint->ignore) {
         (void)network_->run(event.node).ok();
         return release(event.node);
@@ -89,7 +89,7 @@ void Target::hear(const debug::Event& event, const debug::BreakpointHit& hit) {
 
 void Target::hear_place(const debug::Event& event, const debug::BreakpointResult& result) {
     ScriptBreakpoint* breakpoint = breakpoint_of(event.node, result.at.line);
-    desk_.board().touch("breakpoints");
+    desk_.topics().touch("breakpoints");
     if (!breakpoint) return;
     breakpoint->set = result.success;
     breakpoint->why = result.success ? "" : "the node refused it: its table of breakpoints is full";
@@ -111,12 +111,12 @@ void Target::count_dropped(uint16_t from, uint16_t event) {
         if (id == from || !dropped_.stands(id)) continue;
         const auto& program = network_->node(id)->program;
         dropped_.came(id, program ? std::optional(handles(*program, event)) : std::nullopt);
-        desk_.board().touch("robot");
+        desk_.topics().touch("robot");
     }
 }
 
 void Target::hear(const debug::Event& event) {
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
     // A node that was just being started may have said meanwhile that it runs.
     if (const auto stopped = stopping_.hear(event)) known_[*stopped].stopped = true;
     (void)resting_.hear(event);

@@ -22,7 +22,7 @@ void Target::link_changed() {
     if (connection_ == Connection::Connected) network_->link_lost();
     connection_ = state();
     if (connection_ == Connection::Connected) network_->list_nodes();
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 // Nodes are asked each second who is there. A link without nodes may be silent, and so may one of a

@@ -28,7 +28,7 @@ LineMap Target::lines_between(uint16_t node, Direction direction) const {
 }
 
 void Target::place_breakpoints() {
-    desk_.board().touch("breakpoints");
+    desk_.topics().touch("breakpoints");
     remember_lines();
     if (!network_) return;
     for (const uint16_t node : live_nodes()) {

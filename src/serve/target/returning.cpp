@@ -13,8 +13,8 @@ void Target::restore(uint16_t node) {
     network_->set_common(script->common);
     if (known.loaded == script->source) (void)network_->adopt(node, script->result.program).ok();
     place_breakpoints();
-    desk_.board().touch("robot");
-    desk_.board().touch("node");
+    desk_.topics().touch("robot");
+    desk_.topics().touch("node");
 }
 
 // In a simulation it was its process that was slow: nothing has changed there. Elsewhere nobody

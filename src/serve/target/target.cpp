@@ -52,7 +52,7 @@ void Target::connect(Carrier& carrier, const std::string& target, const std::str
     now_ = due_ = looked_at_ = now;
     connection_ = Connection::Connecting;
     network_ = std::make_unique<debug::Network>();
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 void Target::disconnect() {
@@ -81,8 +81,8 @@ void Target::disconnect() {
         }
         batch->finish(*batch);
     }
-    desk_.board().touch("robot");
-    desk_.board().touch("network");
+    desk_.topics().touch("robot");
+    desk_.topics().touch("network");
 }
 
 std::vector<DescribedNode> Target::described() const {
@@ -176,7 +176,7 @@ void Target::start_batch(const std::vector<uint16_t>& nodes, const Ask& ask,
         known_[node].busy = busy;
     }
     batches_.push_back(std::move(batch));
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 void Target::finish_batches() {
@@ -200,7 +200,7 @@ void Target::hear(const debug::RequestDone& done) {
         // The line that it stepped over may have set what drives.
         if (known_[node].busy == "stepping" && !brake_causes_.empty()) make_safe(node);
         known_[node].busy.clear();
-        desk_.board().touch("robot");
+        desk_.topics().touch("robot");
         if (done.error) {
             batch->failed.emplace_back(node, done.error->what);
         } else {
@@ -274,7 +274,7 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
             }
             note_failed_loads(batch);
             batch.failed.insert(batch.failed.end(), failed.begin(), failed.end());
-            desk_.board().touch("node");  // it has the variables of its new program
+            desk_.topics().touch("node");  // it has the variables of its new program
             place_breakpoints();
             finish(batch);
         },
@@ -387,12 +387,12 @@ void Target::stop_all(std::function<void(const StopReport&)> done) {
     stopping_.begin(*network_, safe_stop_, heard, state() == Connection::Connected, now_,
                     std::move(done));
     send_frames();
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 void Target::acknowledge_stop() {
     stopping_.acknowledge();
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 Result<debug::RequestId> Target::stop(uint16_t node) {
@@ -411,7 +411,7 @@ void Target::note_stopped(const Batch& batch) {
 }
 
 void Target::script_changed(const std::string& file) {
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
     follow_lines(file);
     const aesl::CommonDefinitions* common = scripts_.common(file);
     // What nodes have loaded tells numbers of events by its own list.
@@ -471,8 +471,8 @@ void Target::count_rates(Time now) {
     events_a_second_ = static_cast<double>(events_ - events_before_) / seconds;
     events_before_ = events_;
     rates_at_ = now;
-    desk_.board().touch("robot");
-    desk_.board().touch("network");
+    desk_.topics().touch("robot");
+    desk_.topics().touch("network");
 }
 
 }  // namespace vagus::serve

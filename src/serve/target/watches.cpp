@@ -105,16 +105,16 @@ struct Target::SampleWatch final : BinaryWatch {
 };
 
 void Target::declare_watches() {
-    desk_.board().binary(
+    desk_.topics().binary(
         "variables", [this](const Json& of) { return std::make_unique<VariableWatch>(*this, of); });
-    desk_.board().binary(
+    desk_.topics().binary(
         "samples", [this](const Json& of) { return std::make_unique<SampleWatch>(*this, of); });
 }
 
 // Asks for the variables that pages show now, and no longer for those that they do not.
 void Target::watch_what_is_shown() {
     std::map<uint16_t, std::set<uint16_t>> wanted;  // by node: addresses
-    for (const Json& of : desk_.board().subjects("variables")) {
+    for (const Json& of : desk_.topics().subjects("variables")) {
         const VariableWatch watch(*this, of);
         for (const auto& [first, count] : watch.ranges) {
             for (uint32_t address = first; address < uint32_t{first} + count; ++address) {
@@ -123,7 +123,7 @@ void Target::watch_what_is_shown() {
         }
     }
     std::set<std::pair<uint16_t, uint16_t>> plotted;
-    for (const Json& of : desk_.board().subjects("samples")) {
+    for (const Json& of : desk_.topics().subjects("samples")) {
         for (const auto& word : SampleWatch::words_of(of)) {
             wanted[word.first].insert(word.second);
             plotted.insert(word);

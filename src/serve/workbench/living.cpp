@@ -114,7 +114,7 @@ Status Workbench::open_world(RunOrder order, bool keep_poses) {
 void Workbench::perform(const life::ConnectWorld&) {
     loaded_by_world_ = run_.programs();
     target_.connect(run_, "sim", "Simulator", "simulator", now_);
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 void Workbench::perform(const life::LoadNodes& load) {
@@ -234,7 +234,7 @@ void Workbench::perform(const life::AnswerStop& answer) {
 }
 
 void Workbench::perform(const life::Tell& told) {
-    desk_.board().touch("end");
+    desk_.topics().touch("end");
     if (told.again) return ends_.renew(told.end);
     ends_.add(told.end, clock(), desk_.wall_ms());
     say(ends_.kind(), ends_.sentence());

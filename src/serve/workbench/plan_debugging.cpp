@@ -48,7 +48,7 @@ std::vector<talk::Breakpoint> Workbench::plan_breakpoint_orders() const {
 }
 
 void Workbench::plan_breakpoints_changed() {
-    desk_.board().touch("breakpoints");
+    desk_.topics().touch("breakpoints");
     keep_breakpoints();
     run_.set_breakpoints(plan_breakpoint_orders());
 }

@@ -30,7 +30,7 @@ void Workbench::leave(const life::Cause& cause, std::function<void()> then) {
 
 Status Workbench::join_target(const std::string& target) {
     project_->target = target;
-    desk_.board().touch("studio");
+    desk_.topics().touch("studio");
     if (target == "sim") {
         if (project_->world.empty()) return Error{Code::Unavailable, kNoWorld};
         tell_life(life::Open{});
@@ -180,7 +180,7 @@ void Workbench::end_by(const std::string& by, life::Why why) {
 
 // Nobody looks any more, and the project says that it does not work alone.
 void Workbench::people_changed() {
-    desk_.board().touch("studio");
+    desk_.topics().touch("studio");
     const size_t people = desk_.clients().connected();
     const bool left = std::exchange(people_, people) > 0 && people == 0;
     if (left && project_ && project_->stops_alone) end_by("nobody", life::Why::Alone);
@@ -196,7 +196,7 @@ void Workbench::declare_run_commands() {
             return call.fail("not_found", "another end was told since");
         }
         target_.acknowledge_stop();
-        desk_.board().touch("end");
+        desk_.topics().touch("end");
         call.done();
     });
     desk_.command("run.start", [this](const Call& call) { start(call); });

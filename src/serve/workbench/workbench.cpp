@@ -70,7 +70,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     run_.set_short([this](const std::string& text) { return with_short_paths(text); });
     hear_run();
     run_.on_breakpoints([this](const Run::BreakpointsNow& list) {
-        if (plan_breakpoints_.note(list)) desk_.board().touch("breakpoints");
+        if (plan_breakpoints_.note(list)) desk_.topics().touch("breakpoints");
     });
     record_history();
     desk.on_people([this] { people_changed(); });
@@ -86,7 +86,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
 Workbench::~Workbench() = default;
 
 void Workbench::say(const std::string& kind, const std::string& text) {
-    desk_.board().add("console", {{"t", clock()}, {"kind", kind}, {"text", text}});
+    desk_.topics().add("console", {{"t", clock()}, {"kind", kind}, {"text", text}});
     line_(kind, text);
 }
 
@@ -99,21 +99,21 @@ double Workbench::clock() const {
 // ---- documents ----
 
 void Workbench::declare_topics() {
-    Board& board = desk_.board();
-    board.document("studio", [this](const Json&) { return studio_document(); });
-    board.document("start", [this](const Json&) {
+    Topics& topics = desk_.topics();
+    topics.document("studio", [this](const Json&) { return studio_document(); });
+    topics.document("start", [this](const Json&) {
         return Json{{"examples", library_.examples()}, {"recent", library_.recent()}};
     });
-    board.document("targets", [this](const Json&) { return targets_.document(); });
-    board.document("state", [this](const Json&) {
+    topics.document("targets", [this](const Json&) { return targets_.document(); });
+    topics.document("state", [this](const Json&) {
         return Json{{"values", state_.object("window")}};
     });
-    board.document("breakpoints", [this](const Json&) {
+    topics.document("breakpoints", [this](const Json&) {
         return Json{{"breakpoints", target_.breakpoints_list()},
                     {"plans", plan_breakpoints_.list()}};
     });
-    board.document("end", [this](const Json&) { return ends_.document(); });
-    board.stream("console", Protocol::get().limit("lines_kept"));
+    topics.document("end", [this](const Json&) { return ends_.document(); });
+    topics.stream("console", Protocol::get().limit("lines_kept"));
 }
 
 Json Workbench::studio_document() const {
@@ -153,7 +153,7 @@ void Workbench::declare_project_commands() {
     });
     desk_.command("project.forget", [this](const Call& call) {
         library_.forget(call.in["path"]);
-        desk_.board().touch("start");
+        desk_.topics().touch("start");
         call.done();
     });
     desk_.command("script.add", [this](const Call& call) {
@@ -238,7 +238,7 @@ void Workbench::enter(OpenedProject project) {
     for (const std::string& path : files_.recovered()) {
         say("warning", path + ": this text was not saved when the studio ended; here it is again");
     }
-    for (const char* topic : {"studio", "state", "start"}) desk_.board().touch(topic);
+    for (const char* topic : {"studio", "state", "start"}) desk_.topics().touch(topic);
     // What the project is for; a robot that is not there is looked for until it is.
     const bool nothing =
         project_->target.empty() || (project_->target == "sim" && project_->world.empty());
@@ -262,7 +262,7 @@ void Workbench::close() {
 
 void Workbench::forget_project() {
     history_.forget();
-    desk_.board().forget("happenings");
+    desk_.topics().forget("happenings");
     files_.leave();
     scripts_.reread();
     breakpoints_ = {};
@@ -271,7 +271,7 @@ void Workbench::forget_project() {
     project_.reset();
     editing_.set_project({});
     for (const char* topic : {"studio", "state", "start", "breakpoints"}) {
-        desk_.board().touch(topic);
+        desk_.topics().touch(topic);
     }
 }
 
@@ -294,7 +294,7 @@ void Workbench::project_file_changed() {
     scripts_.prefer(project_->scripts);
     editing_.set_project(edited_project());
     take_safe_stop();
-    desk_.board().touch("studio");
+    desk_.topics().touch("studio");
 }
 
 // ---- scripts for nodes that have none ----
@@ -345,7 +345,7 @@ std::string Workbench::with_short_paths(std::string text) const {
 void Workbench::declare_kept_commands() {
     desk_.command("settings.put", [this](const Call& call) {
         const Status kept = settings_.put(call.in["key"], call.in["value"]);
-        desk_.board().touch("studio");
+        desk_.topics().touch("studio");
         call.answer(kept);
     });
     desk_.command("state.put", [this](const Call& call) {
@@ -355,7 +355,7 @@ void Workbench::declare_kept_commands() {
         Json window = state_.object("window");
         window[call.in["key"].get<std::string>()] = call.in["value"];
         const Status kept = state_.put("window", std::move(window));
-        desk_.board().touch("state");
+        desk_.topics().touch("state");
         call.answer(kept);
     });
 }
@@ -387,7 +387,7 @@ void Workbench::tick(Time now) {
     worker_.tick();
     editing_.tick(now);
     change_plan();
-    if (desk_.board().watched("targets") && targets_.look(now)) desk_.board().touch("targets");
+    if (desk_.topics().watched("targets") && targets_.look(now)) desk_.topics().touch("targets");
 }
 
 void Workbench::watch_run() {
@@ -401,7 +401,7 @@ void Workbench::watch_run() {
 
 Time Workbench::next_tick(Time now) const {
     Time next = std::min({run_.next_tick(), target_.next_tick(), editing_.next_tick()});
-    if (desk_.board().watched("targets")) next = std::min(next, now + kLookEvery);
+    if (desk_.topics().watched("targets")) next = std::min(next, now + kLookEvery);
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

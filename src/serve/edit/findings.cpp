@@ -17,9 +17,9 @@ bool is_checked(const std::string& kind) {
     return kind == "plan" || kind == "world" || kind == "toolbox" || kind == "project";
 }
 
-Json list_of_findings(const std::vector<Finding>& findings) {
+Json list_of_findings(const std::vector<DocFinding>& findings) {
     Json list = Json::array();
-    for (const Finding& finding : findings) list.push_back(json_of(finding));
+    for (const DocFinding& finding : findings) list.push_back(json_of(finding));
     return list;
 }
 
@@ -169,9 +169,9 @@ void Findings::refresh_scripts() {
     of_scripts_ = std::move(kept);
 }
 
-std::vector<Finding> Findings::broken_files() {
+std::vector<DocFinding> Findings::broken_files() {
     const std::set<std::string> paths = wanted();
-    std::vector<Finding> findings;
+    std::vector<DocFinding> findings;
     for (const BrokenFile& broken : scripts_.broken()) {
         if (!paths.contains(broken.file)) continue;
         const Result<std::string> text = files_.text(broken.file);
@@ -315,12 +315,12 @@ const Toolboxes& Findings::toolboxes() {
 
 // ---- all of them ----
 
-std::vector<Finding> Findings::all() {
+std::vector<DocFinding> Findings::all() {
     if (due_) begin_round();
     while (!left_.empty()) check_next();
     refresh_scripts();
-    std::vector<Finding> found = broken_files();
-    const auto add = [&](const std::vector<Finding>& more) {
+    std::vector<DocFinding> found = broken_files();
+    const auto add = [&](const std::vector<DocFinding>& more) {
         found.insert(found.end(), more.begin(), more.end());
     };
     for (const auto& [doc, of] : of_scripts_) add(of.findings);

@@ -57,7 +57,7 @@ TEST_F(EditTest, EveryErrorAndWarningOfAScriptIsAFinding) {
 TEST_F(EditTest, DidYouMeanIsOneClick) {
     write("a.aesl", project("var speed\nonevent buttons\n  speed = 1\n# 😀\n  sped = 2\n"));
     enter();
-    const Finding guess = finding("VARIABLE_NOT_DEFINED_GUESS");
+    const DocFinding guess = finding("VARIABLE_NOT_DEFINED_GUESS");
     ASSERT_EQ(guess.fixes.size(), 1u);
     EXPECT_EQ(guess.fixes[0].label, "Write \"speed\"");
     apply(guess.fixes[0]);
@@ -68,7 +68,7 @@ TEST_F(EditTest, DidYouMeanIsOneClick) {
 TEST_F(EditTest, AnEventIsDeclaredByOneClick) {
     write("a.aesl", project("onevent zebra\n  motor.left.target = 1\n"));
     enter();
-    const Finding unknown = finding("EVENT_NOT_DEFINED");
+    const DocFinding unknown = finding("EVENT_NOT_DEFINED");
     ASSERT_EQ(unknown.fixes.size(), 1u);
     EXPECT_EQ(unknown.fixes[0].label, "Declare the event \"zebra\"");
     EXPECT_EQ(unknown.fixes[0].edits.at(0).doc, "a.aesl");
@@ -81,7 +81,7 @@ TEST_F(EditTest, TheMissingEndIsAddedByOneClick) {
     write("a.aesl",
           project("onevent buttons\nif button.left == 1 then\n  motor.left.target = 5\n"));
     enter();
-    const Finding open = finding("EXPECTING");
+    const DocFinding open = finding("EXPECTING");
     ASSERT_EQ(open.fixes.size(), 1u);
     apply(open.fixes[0]);
     EXPECT_THAT(findings(), IsEmpty());
@@ -92,7 +92,7 @@ TEST_F(EditTest, AProjectFileThatCannotBeReadIsAFinding) {
     enter();
     EXPECT_THAT(findings(), IsEmpty());
     put("a.aesl", "</network>", "</netwrk>");
-    const Finding broken = finding("aesl_file");
+    const DocFinding broken = finding("aesl_file");
     EXPECT_EQ(broken.doc, "a.aesl");
     EXPECT_GT(broken.at.line, 1);
     put("a.aesl", "</netwrk>", "</network>");
@@ -104,7 +104,7 @@ TEST_F(EditTest, PlansAreCheckedAsTheyAreEdited) {
     enter({.plan = "P.plan.json"});
     EXPECT_THAT(findings(), IsEmpty());
     put("P.plan.json", "\"seconds\": \"speed\"", "\"seconds\": \"sped * 2 + sped\"");
-    const Finding unknown = finding("P8");
+    const DocFinding unknown = finding("P8");
     EXPECT_EQ(unknown.doc, "P.plan.json");
     EXPECT_EQ(unknown.element, "a");
     EXPECT_EQ(unknown.at, (aesl::Position{11, 40}));  // "seconds"
@@ -179,7 +179,7 @@ TEST_F(EditTest, MistypedNamesOfPlansAreMendedByOneClick) {
     };
     for (const auto& [right, wrong, rule] : slips) {
         put("P.plan.json", right, wrong);
-        const Finding slip = finding(rule);
+        const DocFinding slip = finding(rule);
         ASSERT_EQ(slip.fixes.size(), 1u) << wrong << slip.what;
         apply(slip.fixes[0]);
         EXPECT_EQ(text("P.plan.json"), good) << wrong;
@@ -235,7 +235,7 @@ TEST_F(EditTest, PlansKnowTheToolboxesOfTheProjectAsTheyAreEdited) {
     EXPECT_THAT(findings(), IsEmpty());
     // An event that the toolbox needs is gone from its project.
     ask("define.remove", {{"file", "arm.aesl"}, {"kind", "event"}, {"name", "lifted"}});
-    const Finding missing = finding("toolbox");
+    const DocFinding missing = finding("toolbox");
     EXPECT_EQ(missing.doc, "arm.toolbox.json");
     EXPECT_THAT(missing.what, HasSubstr("lifted"));
     EXPECT_THAT(missing.what, testing::Not(HasSubstr(root.string())));
@@ -297,7 +297,7 @@ TEST_F(EditTest, EventsOfAPlanMustBeDeclaredByTheWorldsScripts) {
     write("P.plan.json", bare_plan(R"(    "a": { "template": "Send", "in": { "event": "'helo'" }, )"
                                    R"("states": { "Sent": "@terminate" } })"));
     enter({.plan = "P.plan.json", .world = "w.world.json"});
-    const Finding unknown = finding("bus");
+    const DocFinding unknown = finding("bus");
     EXPECT_THAT(unknown.what, HasSubstr("did you mean \"hello\"?"));
     ASSERT_EQ(unknown.fixes.size(), 1u);
     apply(unknown.fixes[0]);
@@ -321,7 +321,7 @@ TEST_F(EditTest, WorldsAndProjectFilesAreChecked) {
     put("w.world.json", "[0.5, 0.5]", "[0.5, 5]");
     EXPECT_THAT(finding("world").what, HasSubstr("outside of the walls"));
     put("w.world.json", "[0.5, 5]", "[0.5, 0.5], \"angle\": 90");
-    const Finding hint = finding("world");
+    const DocFinding hint = finding("world");
     EXPECT_EQ(hint.severity, Severity::Warning);
     EXPECT_THAT(hint.what, HasSubstr("radians"));
     put("vagus.json", "\"world\"", "\"wrld\"");

@@ -137,16 +137,16 @@ void add_warnings(const plan::Checked& checked, const std::optional<session::Bus
     if (names) add(names->check(checked.plans, *checked.library));
 }
 
-std::vector<Finding> plan_findings(const plan::Findings& findings, const TextOf& text_of) {
+std::vector<DocFinding> plan_findings(const plan::Findings& findings, const TextOf& text_of) {
     std::map<std::string, PlanText> texts;
-    std::vector<Finding> all;
+    std::vector<DocFinding> all;
     for (const plan::Finding& one : findings) {
         auto text = texts.find(one.file);
         if (text == texts.end()) {
             const auto read = text_of(one.file);
             text = texts.try_emplace(one.file, read.ok() ? read.value() : "").first;
         }
-        Finding finding{
+        DocFinding finding{
             one.file, one.severity, one.rule, one.element, {one.line, std::max(one.column, 1)},
             {},       one.message,  {}};
         finding.keys = text->second.keys_to(one.line, one.column);

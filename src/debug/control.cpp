@@ -183,7 +183,7 @@ void Control::start(Request& request) {
             out_.command<wire::WriteBytecode>(view_.id);
             return out_.command<wire::GetExecutionState>(view_.id);
         case Kind::Break: {
-            Breakpoint* breakpoint = breakpoint_at(request.pc);
+            LineBreakpoint* breakpoint = breakpoint_at(request.pc);
             if (breakpoint != nullptr) return place(*breakpoint);
             return finish(
                 {Error{Code::Refused, "the breakpoint was removed before it was set"}, ""});
@@ -259,7 +259,7 @@ void Control::receive(const wire::ExecutionStateChanged& state) {
         resume_ = Resume::Running;
         out_.command<wire::Run>(view_.id);
     }
-    Breakpoint* breakpoint = is_hit(before, state) ? breakpoint_at(state.pc) : nullptr;
+    LineBreakpoint* breakpoint = is_hit(before, state) ? breakpoint_at(state.pc) : nullptr;
     Answer done;
     if (started_) done = answer(requests_.front(), state);
     const bool between = !done && (active(Kind::Load) || active(Kind::Step) || active(Kind::Run));
@@ -432,7 +432,7 @@ void Control::connected(const std::vector<aesl::Constant>& constants) {
 void Control::disconnected(const std::string& why) {
     wanted_.reset();
     resume_ = Resume::No;
-    for (Breakpoint& breakpoint : view_.breakpoints) breakpoint.on_node = false;
+    for (LineBreakpoint& breakpoint : view_.breakpoints) breakpoint.on_node = false;
     give_up({Code::Unavailable, why});
 }
 

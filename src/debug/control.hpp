@@ -32,7 +32,7 @@ public:
     Status clear_breakpoint(int line);
     void clear_breakpoints();
     // As another description of the same node left them: set when a program is known.
-    void restore_breakpoints(const std::vector<Breakpoint>& breakpoints) {
+    void restore_breakpoints(const std::vector<LineBreakpoint>& breakpoints) {
         view_.breakpoints = breakpoints;
     }
 
@@ -99,8 +99,8 @@ private:
     void start_run(Request& request);
     void send_fragments(Request& request);
     void place_breakpoints();
-    void place(Breakpoint& breakpoint);
-    Breakpoint* breakpoint_at(uint16_t pc);
+    void place(LineBreakpoint& breakpoint);
+    LineBreakpoint* breakpoint_at(uint16_t pc);
 
     Answer answer(Request& request, const wire::ExecutionStateChanged& state);
     Answer answer_load(Request& request, const wire::ExecutionStateChanged& state);
@@ -108,7 +108,7 @@ private:
     Answer answer_step(Request& request, const wire::ExecutionStateChanged& state);
     Answer after_step(Request& request, const wire::ExecutionStateChanged& state);
     bool is_hit(ProgramState before, const wire::ExecutionStateChanged& state);
-    void hit(Breakpoint& breakpoint);
+    void hit(LineBreakpoint& breakpoint);
     void step_and_ask();
     void lose_program();
     void note_restart(const wire::ExecutionStateChanged& state);

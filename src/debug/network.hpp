@@ -62,7 +62,7 @@ constexpr size_t kFramesMax = 16384;       // not taken yet; the same
 constexpr uint32_t kLineStepsMax = 10000;  // instructions of one step by line
 
 // Kept by the host and set again on the node after each load and reconnection.
-struct Breakpoint {
+struct LineBreakpoint {
     int line = 0;
     std::string condition;  // empty: always
     uint16_t pc = 0;
@@ -86,7 +86,7 @@ struct NodeView {
     // Of a node with `_program`, as it told last: mark_of() what it runs (debug/program_mark.hpp).
     // None: not told yet since it was described, came back, or got words of a program.
     std::optional<uint32_t> told_program;
-    std::vector<Breakpoint> breakpoints;
+    std::vector<LineBreakpoint> breakpoints;
 };
 
 // Words of a variable, `first` counted from its beginning.

@@ -46,7 +46,7 @@ public:
     void rename(const std::string& from, const std::string& to);
 
     // What the runner is told; `path_of` gives the file of a document.
-    std::vector<talk::Breakpoint> orders(
+    std::vector<talk::BreakpointOrder> orders(
         const std::function<std::string(const std::string& doc)>& path_of) const;
     // What it told; those that are not in the list are not set any more, and keep their hits. True
     // if that is news.

@@ -234,7 +234,7 @@ void Run::hold_nodes(std::vector<uint16_t> nodes) {
     tell(talk::HoldNodes{held_nodes_});
 }
 
-void Run::set_breakpoints(const std::vector<talk::Breakpoint>& list) {
+void Run::set_breakpoints(const std::vector<talk::BreakpointOrder>& list) {
     tell(talk::SetBreakpoints{list});
 }
 

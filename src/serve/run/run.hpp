@@ -36,7 +36,7 @@ struct RunOrder {
     std::vector<std::string> toolboxes;
     nlohmann::json set = nlohmann::json::object();
     std::string from;  // the actor that the plan begins with; empty: its start
-    std::vector<talk::Breakpoint> breakpoints;  // as PlanBreakpoints::orders()
+    std::vector<talk::BreakpointOrder> breakpoints;  // as PlanBreakpoints::orders()
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
     bool keep_poses = false;   // robots are at rest where they stood before
@@ -141,7 +141,7 @@ public:
     // ---- the plan ----
     void step_plan();  // to the next actor that begins
     void stop_plan();
-    void set_breakpoints(const std::vector<talk::Breakpoint>& list);
+    void set_breakpoints(const std::vector<talk::BreakpointOrder>& list);
     // A hand from above: `done` gets the number of an object that was put, or why it was not done.
     using HandDone = std::function<void(std::optional<uint32_t> number, const std::string& why)>;
     void lend_hand(HandOrder order, HandDone done);

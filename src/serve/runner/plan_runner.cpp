@@ -127,7 +127,7 @@ void PlanRunner::tell_stops() {
 
 // ---- what it is told ----
 
-void PlanRunner::want(std::vector<talk::Breakpoint> breakpoints) {
+void PlanRunner::want(std::vector<talk::BreakpointOrder> breakpoints) {
     stops_.want(std::move(breakpoints));
 }
 

@@ -65,7 +65,7 @@ public:
     bool take_haste() { return std::exchange(haste_, false); }
 
     // ---- what it is told ----
-    void want(std::vector<talk::Breakpoint> breakpoints);
+    void want(std::vector<talk::BreakpointOrder> breakpoints);
     void tend_stops();
     void hold() { talk_->hold(); }
     void abort() { talk_->abort(); }

@@ -58,7 +58,7 @@ struct OneThread {
     PlanStops stops;
 };
 
-talk::Breakpoint at_step(uint64_t stop_at) {
+talk::BreakpointOrder at_step(uint64_t stop_at) {
     return {.number = 7, .plan = "count.plan.json", .element = "step", .stop_at = stop_at};
 }
 
@@ -88,7 +88,7 @@ TEST(PlanTalk, TheHitsOfABreakpointAreToldWhileThePlanStands) {
 
 TEST(PlanTalk, ABreakpointThatDoesNotFitSaysWhy) {
     OneThread plan;
-    talk::Breakpoint wrong = at_step(1);
+    talk::BreakpointOrder wrong = at_step(1);
     wrong.element = "stepp";
     plan.stops.want({wrong});
     (void)plan.run([&](const PlanTalk::Heard&) { plan.talk->go_on(); });

@@ -140,7 +140,7 @@ private:
     Status is_in_plan(const PlanBreakpoint& wanted);
     void set_plan_breakpoint(const Call& call);
     void plan_breakpoints_changed();
-    std::vector<talk::Breakpoint> plan_breakpoint_orders() const;
+    std::vector<talk::BreakpointOrder> plan_breakpoint_orders() const;
     Json handlers_of(const std::vector<std::string>& events);
     void step_into_script(const Call& call);
 

@@ -24,7 +24,7 @@ namespace {
 // meanwhile looks at the keys and paints.
 class PlanScreen {
 public:
-    PlanScreen(PlanRun& run, std::unique_ptr<LiveScreen> screen)
+    PlanScreen(TerminalRun& run, std::unique_ptr<LiveScreen> screen)
         : run_(run), screen_(std::move(screen)) {}
 
     // To the end of the plan, and until nobody looks any more; again where a person restarts it.
@@ -52,7 +52,7 @@ private:
     void paint();
     PlanPanelView panel();
 
-    PlanRun& run_;
+    TerminalRun& run_;
     std::unique_ptr<LiveScreen> screen_;
     std::optional<PlanStory> story_;
     std::optional<SimView> view_;  // of the world of this run
@@ -248,7 +248,7 @@ void tell_summary(const session::SimSession& session, const Lines& tell) {
 }
 
 // Gives the exit code.
-int tell_end(PlanRun& run, const run::Ended& ended, const Lines& tell) {
+int tell_end(TerminalRun& run, const run::Ended& ended, const Lines& tell) {
     if (run.prepared().world() != nullptr) tell_summary(run.prepared().world()->session(), tell);
     if (!ended.message.empty()) complain(ended.message);
     return run.prepared().exit_status(ended);
@@ -266,7 +266,7 @@ PlanShown how_to_show(const PlanRunOptions& options) {
     return screen ? PlanShown::Screen : PlanShown::Lines;
 }
 
-int run_on_screen(PlanRun& run, const std::string& theme) {
+int run_on_screen(TerminalRun& run, const std::string& theme) {
     auto live = LiveScreen::open(theme);
     if (!live.ok()) return complain(live.error());
     auto screen = std::make_unique<PlanScreen>(run, std::move(live.value()));
@@ -282,7 +282,7 @@ int run_on_screen(PlanRun& run, const std::string& theme) {
     return tell_end(run, ended, tell);
 }
 
-int run_in_lines(PlanRun& run, PlanShown shown) {
+int run_in_lines(TerminalRun& run, PlanShown shown) {
     const Lines tell(shown);
     run.prepared().listen([&tell](const plan::TraceEvent& event) {
         if (const auto sentence = sentence_of(event)) tell(event.at, *sentence);

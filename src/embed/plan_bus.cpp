@@ -11,7 +11,7 @@
 #include "base/text.hpp"
 #include "debug/roll_call.hpp"
 #include "hub/hub.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "session/bus_ears.hpp"
 #include "session/rival_plans.hpp"
 #include "session/stopped_by_others.hpp"
@@ -93,7 +93,7 @@ private:
     std::optional<uint16_t> moved_to;  // our tokens are to count from here on
     debug::Network network;
     hub::Hub hub;
-    net::Network net;  // after the hub: it goes first
+    net::Links net;  // after the hub: it goes first
     hub::LinkId own;
     hub::LinkId peer;
     bool connected = false;

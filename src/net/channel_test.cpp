@@ -14,7 +14,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "wire/can.hpp"
 
 namespace vagus::net {
@@ -239,7 +239,7 @@ private:
 struct Serial : testing::Test {
     hub::Hub hub;
     hub::LinkId own = hub.add({.name = "host"}).value();
-    Network network;
+    Links network;
     Pty line;
     std::vector<EventKind> kinds;
 

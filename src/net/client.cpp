@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "hub/hub.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 
 namespace vagus::net {
 
@@ -14,7 +14,7 @@ struct Client::State {
     std::optional<hub::LinkId> peer;  // none: it has gone
     std::string name;
     std::string why_gone;
-    Network network;  // after the hub: it goes first
+    Links network;  // after the hub: it goes first
 
     void poll(Time deadline) {
         for (const Event& event : network.poll(deadline)) {

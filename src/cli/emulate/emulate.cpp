@@ -13,7 +13,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/process.hpp"
 #include "serve/workbench/door.hpp"
 
@@ -66,7 +66,7 @@ private:
 
     hub::Hub hub_;
     std::vector<EmulatorProcess> boards_;
-    net::Network network_;          // behind the hub: it goes first
+    net::Links network_;            // behind the hub: it goes first
     std::set<net::PlaceId> lines_;  // of the boards
 };
 

@@ -8,7 +8,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "session/live_node.hpp"
 #include "session/standard_target.hpp"
 
@@ -53,7 +53,7 @@ private:
     bool notice(const net::Event& event);
 
     hub::Hub hub_;
-    net::Network network_;  // behind the hub: it goes first
+    net::Links network_;  // behind the hub: it goes first
     hub::LinkId own_;
     std::unique_ptr<session::LiveNode> node_;
 };

@@ -1,5 +1,5 @@
 // `vagus switch`: a hub, the connections that people name, and this loop. All rules of routing
-// stand in hub/hub.hpp, all care for slow and broken peers in net/network.hpp.
+// stand in hub/hub.hpp, all care for slow and broken peers in net/links.hpp.
 #include "cli/net/switch.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 #include "base/time.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "wire/reports.hpp"
 
 namespace vagus::cli {
@@ -192,7 +192,7 @@ private:
 
     const Options& options_;
     hub::Hub hub_;
-    net::Network network_;  // after the hub: it goes first
+    net::Links network_;  // after the hub: it goes first
     std::set<net::PlaceId> targets_;
     std::optional<hub::LinkId> monitor_;
     std::map<hub::LinkId, hub::Dropped> told_;

@@ -12,7 +12,7 @@
 #include "cli/screen/pace.hpp"
 #include "cli/sim/hands.hpp"
 #include "cli/sim/view.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "run/options.hpp"
 #include "session/plan_world.hpp"
 
@@ -56,7 +56,7 @@ private:
     std::unique_ptr<LiveScreen> screen_;
     std::optional<PlanStory> story_;
     std::optional<SimView> view_;  // of the world of this run
-    net::Network clock_;
+    net::Links clock_;
     Pace pace_;
     Hands hands_;
     std::string notice_;

@@ -16,7 +16,7 @@
 #include "cli/sim/lines.hpp"
 #include "cli/sim/view.hpp"
 #include "net/end_signal.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "session/safe_stop.hpp"
 #include "session/sim_session.hpp"
 
@@ -79,7 +79,7 @@ private:
 
     const SimRunOptions& options_;
     session::SimSession session_;
-    net::Network network_;  // after the session: its links leave the session's bus first
+    net::Links network_;  // after the session: its links leave the session's bus first
     SimLines lines_;
     SimView view_;
     FileWatch watch_;

@@ -23,7 +23,7 @@ bool can_move(const wire::Frame& frame) {
 
 }  // namespace
 
-Result<std::unique_ptr<BusCarrier>> BusCarrier::connect(net::Network& network,
+Result<std::unique_ptr<BusCarrier>> BusCarrier::connect(net::Links& network,
                                                         const std::string& text) {
     const net::Target target = TRY(net::parse_target(text));
     if (target.use == net::Use::Listen) {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "hub/hub.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/target/carrier.hpp"
 
 namespace vagus::serve {
@@ -16,7 +16,7 @@ namespace vagus::serve {
 class BusCarrier final : public Carrier {
 public:
     // The network is borrowed; its events go to hear().
-    static Result<std::unique_ptr<BusCarrier>> connect(net::Network& network,
+    static Result<std::unique_ptr<BusCarrier>> connect(net::Links& network,
                                                        const std::string& target);
     ~BusCarrier() override;
 
@@ -37,10 +37,10 @@ public:
     std::vector<LinkView> links() const override;
 
 private:
-    explicit BusCarrier(net::Network& network) : network_(network) {}
+    explicit BusCarrier(net::Links& network) : network_(network) {}
     void hear_door(const net::Event& event);
 
-    net::Network& network_;
+    net::Links& network_;
     hub::Hub hub_;
     hub::LinkId own_;
     net::PlaceId place_;

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "base/test_folder.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/json.hpp"
 #include "serve/workbench/workbench.hpp"
 
@@ -173,7 +173,7 @@ protected:
     size_t unread = 0;
     int closed = 0;
     std::vector<Json> got;
-    net::Network network;
+    net::Links network;
     Desk desk;
     Workbench bench;
 };

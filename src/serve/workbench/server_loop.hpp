@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/studio/calm_log.hpp"
 #include "serve/workbench/door.hpp"
 #include "serve/workbench/workbench.hpp"
@@ -34,7 +34,7 @@ public:
     // Listens for pages, and for signals.
     Status open(const DoorOptions& options, const std::filesystem::path& data,
                 const std::function<void(const std::string&)>& log, const WorkbenchPlaces& places);
-    net::Network& network() { return network_; }
+    net::Links& network() { return network_; }
     Door& door() { return *door_; }
     Desk& desk() { return *desk_; }
     Workbench& bench() { return *bench_; }
@@ -51,7 +51,7 @@ private:
     void guarded(const std::function<void()>& part);
     void end();
 
-    net::Network network_;
+    net::Links network_;
     std::optional<Door> door_;
     std::unique_ptr<Desk> desk_;
     std::unique_ptr<Workbench> bench_;

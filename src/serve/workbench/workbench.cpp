@@ -21,7 +21,7 @@ constexpr size_t kEntriesMax = 2000;  // of a folder that is shown for choosing
 
 }  // namespace
 
-Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& places)
+Workbench::Workbench(net::Links& network, Desk& desk, const WorkbenchPlaces& places)
     : network_(network),
       desk_(desk),
       places_(places),

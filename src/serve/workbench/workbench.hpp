@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/edit/editing.hpp"
 #include "serve/json.hpp"
 #include "serve/life/life.hpp"
@@ -68,7 +68,7 @@ struct Figures {
 
 class Workbench {
 public:
-    Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& places);
+    Workbench(net::Links& network, Desk& desk, const WorkbenchPlaces& places);
     ~Workbench();
 
     // Opens what a path names, in place of what is open, as soon as its robot has stopped; what is
@@ -204,7 +204,7 @@ private:
     void perform(const life::AnswerStop& answer);
     void perform(const life::Tell& told);
 
-    net::Network& network_;
+    net::Links& network_;
     Desk& desk_;
     WorkbenchPlaces places_;
     Library library_;

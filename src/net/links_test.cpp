@@ -1,7 +1,7 @@
 // Real sockets on the loopback interface, port 0, everything in one thread: each step polls until
 // what it waits for has happened. The deadline is only there so that a broken build fails instead
 // of hanging.
-#include "net/network.hpp"
+#include "net/links.hpp"
 
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -36,7 +36,7 @@ wire::Frame event_from(uint16_t source, uint16_t number, uint16_t payload = 8) {
 // A switch with one listener, and what has happened so far.
 struct Switch {
     hub::Hub hub;
-    Network network;
+    Links network;
     Listening listening = network.listen(hub, kAnyPort).value();
     std::vector<Event> events;
 
@@ -129,13 +129,13 @@ Hex receive(Switch& net, const Peer& peer, size_t size) {
     return all;
 }
 
-TEST(Network, GivesTheRealPortOfPort0) {
+TEST(Links, GivesTheRealPortOfPort0) {
     Switch net;
     EXPECT_NE(std::get<TcpPlace>(net.listening.target.place).port, 0);
     EXPECT_EQ(to_string(net.listening.target).rfind("tcp:127.0.0.1:", 0), 0u);
 }
 
-TEST(Network, PassesAFrameFromOneClientToTheOther) {
+TEST(Links, PassesAFrameFromOneClientToTheOther) {
     Switch net;
     const Peer a(net.listening.target), b(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 2; }));
@@ -146,7 +146,7 @@ TEST(Network, PassesAFrameFromOneClientToTheOther) {
     EXPECT_EQ(a.take(), Hex{});
 }
 
-TEST(Network, PassesAFrameThatComesByteByByte) {
+TEST(Links, PassesAFrameThatComesByteByByte) {
     Switch net;
     const Peer a(net.listening.target), b(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 2; }));
@@ -159,7 +159,7 @@ TEST(Network, PassesAFrameThatComesByteByByte) {
 }
 
 // Without wake() the poll would last until the test is given up.
-TEST(Network, AnotherThreadWakesAPoll) {
+TEST(Links, AnotherThreadWakesAPoll) {
     Switch host;
     std::thread other([&host] { host.network.wake(); });
     EXPECT_TRUE(host.network.poll(Time::max()).empty());
@@ -170,7 +170,7 @@ TEST(Network, AnotherThreadWakesAPoll) {
 }
 
 // The line of a process that this one has started.
-TEST(Network, JoinsOneEndOfAPairOfSockets) {
+TEST(Links, JoinsOneEndOfAPairOfSockets) {
     Switch net;
     int ends[2];
     ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
@@ -190,7 +190,7 @@ TEST(Network, JoinsOneEndOfAPairOfSockets) {
     EXPECT_NE(net.events.back().what.find("board 7"), std::string::npos);
 }
 
-TEST(Network, ServesAPlaceInThisProcess) {
+TEST(Links, ServesAPlaceInThisProcess) {
     Switch net;
     const hub::LinkId own = net.hub.add({.name = "node"}).value();
     const Peer a(net.listening.target);
@@ -203,7 +203,7 @@ TEST(Network, ServesAPlaceInThisProcess) {
     EXPECT_EQ(receive(net, a, 14), bytes_of(event_from(1, 5)));
 }
 
-TEST(Network, TellsTheOthersThatANodeLeft) {
+TEST(Links, TellsTheOthersThatANodeLeft) {
     Switch net;
     const Peer host(net.listening.target);
     {
@@ -217,7 +217,7 @@ TEST(Network, TellsTheOthersThatANodeLeft) {
     EXPECT_NE(net.events.back().what.find("the other side closed it"), std::string::npos);
 }
 
-TEST(Network, WhatAClientSaidBeforeItLeftArrives) {
+TEST(Links, WhatAClientSaidBeforeItLeftArrives) {
     Switch net;
     const Peer host(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 1; }));
@@ -229,7 +229,7 @@ TEST(Network, WhatAClientSaidBeforeItLeftArrives) {
     EXPECT_EQ(receive(net, host, 50 * 6).size(), 50u * 6);
 }
 
-TEST(Network, AClientThatNeverReadsCostsTheOthersNothing) {
+TEST(Links, AClientThatNeverReadsCostsTheOthersNothing) {
     Switch net;
     const Peer sender(net.listening.target), reader(net.listening.target);
     const Peer stuck(net.listening.target);
@@ -250,7 +250,7 @@ TEST(Network, AClientThatNeverReadsCostsTheOthersNothing) {
 
 // One sends as fast as it can, the other reads as fast as it can: nothing may be lost between them,
 // though the sender is faster.
-TEST(Network, AFloodReachesAReceiverThatKeepsUp) {
+TEST(Links, AFloodReachesAReceiverThatKeepsUp) {
     Switch net;
     const Peer sender(net.listening.target), reader(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 2; }));
@@ -275,7 +275,7 @@ TEST(Network, AFloodReachesAReceiverThatKeepsUp) {
     EXPECT_EQ(net.hub.stats(net.hub.links()[1]).dropped, hub::Dropped{});
 }
 
-TEST(Network, ServesHundredsOfClients) {
+TEST(Links, ServesHundredsOfClients) {
     Switch net;
     const size_t count = 300;
     std::vector<Peer> peers;
@@ -292,7 +292,7 @@ TEST(Network, ServesHundredsOfClients) {
     ASSERT_TRUE(net.until([&] { return net.hub.links().empty(); }));
 }
 
-TEST(Network, ClosesAPeerThatDoesNotSpeakTheProtocol) {
+TEST(Links, ClosesAPeerThatDoesNotSpeakTheProtocol) {
     Switch net;
     const Peer good(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 1; }));
@@ -310,12 +310,12 @@ TEST(Network, ClosesAPeerThatDoesNotSpeakTheProtocol) {
     EXPECT_EQ(net.hub.links().size(), 1u);
 }
 
-TEST(Network, RemapsALinkAsItsTargetSays) {
+TEST(Links, RemapsALinkAsItsTargetSays) {
     Switch node_side;
     const hub::LinkId node = node_side.hub.add({.name = "node"}).value();
     hub::Hub hub;
     const hub::LinkId host = hub.add({.name = "host"}).value();
-    Network network;
+    Links network;
     Target target = node_side.listening.target;
     target.remap = hub::Remap{5, 1};
     ASSERT_TRUE(network.connect(hub, target).ok());
@@ -332,9 +332,9 @@ TEST(Network, RemapsALinkAsItsTargetSays) {
     EXPECT_EQ(frame.source, 5);
 }
 
-TEST(Network, ReconnectsALostTarget) {
+TEST(Links, ReconnectsALostTarget) {
     hub::Hub hub;
-    Network network;
+    Links network;
     std::vector<Event> events;
     auto first = std::make_unique<Switch>();
     const Target target = first->listening.target;
@@ -363,9 +363,9 @@ TEST(Network, ReconnectsALostTarget) {
                                              EventKind::Failed, EventKind::Opened}));
 }
 
-TEST(Network, ASingleClientListenerReplacesItsClient) {
+TEST(Links, ASingleClientListenerReplacesItsClient) {
     hub::Hub hub;
-    Network network;
+    Links network;
     const Listening at = network.listen(hub, kAnyPort, {.clients = Clients::One}).value();
     Switch clock;  // only for its until()
     const Peer first(at.target);
@@ -383,7 +383,7 @@ TEST(Network, ASingleClientListenerReplacesItsClient) {
     EXPECT_TRUE(second.take().has_value());
 }
 
-TEST(Network, NamesWhatCannotBeDone) {
+TEST(Links, NamesWhatCannotBeDone) {
     Switch net;
     const auto taken = net.network.listen(net.hub, net.listening.target);
     ASSERT_FALSE(taken.ok());
@@ -401,7 +401,7 @@ TEST(Network, NamesWhatCannotBeDone) {
     EXPECT_NE(rate.error().what.find("12345 is no baud rate"), std::string::npos);
 }
 
-TEST(Network, AMissingDeviceIsAFailedAttempt) {
+TEST(Links, AMissingDeviceIsAFailedAttempt) {
     Switch net;
     ASSERT_TRUE(net.network.connect(net.hub, parse_target("ser:/dev/no-such-line").value()).ok());
     ASSERT_TRUE(net.until([&] { return net.count(EventKind::Failed) == 1; }));
@@ -409,14 +409,14 @@ TEST(Network, AMissingDeviceIsAFailedAttempt) {
               std::string::npos);
 }
 
-TEST(Network, PollEndsAtItsDeadline) {
+TEST(Links, PollEndsAtItsDeadline) {
     Switch net;
     const Time before = net.network.now();
     EXPECT_TRUE(net.network.poll(before + 20ms).empty());
     EXPECT_GE(net.network.now(), before + 20ms);
 }
 
-TEST(Network, TellsOfSignalsAndOfInput) {
+TEST(Links, TellsOfSignalsAndOfInput) {
     Switch net;
     ASSERT_TRUE(net.network.watch_signals().ok());
     ::raise(SIGTERM);
@@ -439,8 +439,8 @@ TEST(Network, TellsOfSignalsAndOfInput) {
 }
 
 // Time::max() in nanoseconds is no number: a wait for it once was a busy loop.
-TEST(Network, WaitsWithoutAnEndAndWithoutWork) {
-    Network network;
+TEST(Links, WaitsWithoutAnEndAndWithoutWork) {
+    Links network;
     ASSERT_TRUE(network.watch_signals().ok());
     sigevent tell{};
     tell.sigev_notify = SIGEV_SIGNAL;
@@ -460,11 +460,11 @@ TEST(Network, WaitsWithoutAnEndAndWithoutWork) {
     EXPECT_LT(worked, waited / 4);
 }
 
-TEST(Network, TakesItsLinksAlongWhenItGoes) {
+TEST(Links, TakesItsLinksAlongWhenItGoes) {
     hub::Hub hub;
     const hub::LinkId own = hub.add({.name = "own"}).value();
     {
-        Network network;
+        Links network;
         const Listening at = network.listen(hub, kAnyPort).value();
         const Peer peer(at.target);
         while (hub.links().size() < 2) network.poll(network.now() + 1ms);
@@ -515,7 +515,7 @@ TEST(Client, SaysThatNobodyIsThere) {
 
 // A thousand steps of coming, going, garbage and silence. Two clients behave and must never miss a
 // frame.
-TEST(Network, RandomPeersNeverDisturbTheGoodOnes) {
+TEST(Links, RandomPeersNeverDisturbTheGoodOnes) {
     const uint64_t seed = 1000;
     SCOPED_TRACE("seed " + std::to_string(seed));
     SplitMix64 random(seed);

@@ -2,7 +2,7 @@
 // thread that calls poll(); what happened comes back as values, nothing is called back.
 //
 //     hub::Hub hub;
-//     net::Network network;                                        // after the hub: it goes first
+//     net::Links network;                                        // after the hub: it goes first
 //     const hub::LinkId own = hub.add({.name = "node"}).value();   // a place in this process
 //     const auto listening = network.listen(hub, net::parse_target("tcp:127.0.0.1:0").value());
 //     for (;;) {
@@ -92,12 +92,12 @@ struct Listening {
     Target target;  // with the real port; "listening " + to_string(target) is what to print
 };
 
-class Network {
+class Links {
 public:
-    Network();
-    ~Network();  // closes everything and takes its links out of their hubs
-    Network(const Network&) = delete;
-    Network& operator=(const Network&) = delete;
+    Links();
+    ~Links();  // closes everything and takes its links out of their hubs
+    Links(const Links&) = delete;
+    Links& operator=(const Links&) = delete;
 
     // Only TCP. The hub must live longer than the network; so in connect().
     Result<Listening> listen(hub::Hub& hub, const Target& target, ListenOptions options = {});
@@ -141,7 +141,7 @@ public:
     bool has_unwritten() const;
 
 private:
-    class Loop;  // Asio stays in network.cpp
+    class Loop;  // Asio stays in links.cpp
     std::unique_ptr<Loop> loop_;
 };
 

@@ -22,15 +22,15 @@ using testing::HasSubstr;
 
 constexpr int kLooksMax = 200'000;  // a process that talks much is read in small pieces
 
-class RunHostTest : public testing::Test {
+class RunnerTest : public testing::Test {
 protected:
-    RunHostTest() {
+    RunnerTest() {
         int pair[2];
         EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
         server.emplace(pair[0]);
         thread = std::thread([this, end = pair[1]] { ended = run_runner(Pipe(end)); });
     }
-    ~RunHostTest() override { leave(); }
+    ~RunnerTest() override { leave(); }
     int leave() {
         server.reset();
         if (thread.joinable()) thread.join();
@@ -108,7 +108,7 @@ protected:
     std::deque<talk::News> heard;
 };
 
-TEST_F(RunHostTest, AWorldIsOpenedStandsAndGoes) {
+TEST_F(RunnerTest, AWorldIsOpenedStandsAndGoes) {
     say(talk::SetPace{true, 1});
     say(order(7, world()));
     EXPECT_EQ(wait<talk::Opening>().order, 7u);
@@ -126,7 +126,7 @@ TEST_F(RunHostTest, AWorldIsOpenedStandsAndGoes) {
     EXPECT_EQ(ended.why, "");
 }
 
-TEST_F(RunHostTest, WhatCannotBeOpenedIsToldAndAnotherOrderIsServed) {
+TEST_F(RunnerTest, WhatCannotBeOpenedIsToldAndAnotherOrderIsServed) {
     say(order(1, (folder / "nowhere.world.json").string()));
     const auto failed = wait<talk::OpenFailed>();
     EXPECT_EQ(failed.order, 1u);
@@ -137,7 +137,7 @@ TEST_F(RunHostTest, WhatCannotBeOpenedIsToldAndAnotherOrderIsServed) {
     EXPECT_EQ(wait<talk::Opened>().order, 3u);
 }
 
-TEST_F(RunHostTest, APlanRunsToItsEndAndSaysHowItEnded) {
+TEST_F(RunnerTest, APlanRunsToItsEndAndSaysHowItEnded) {
     const std::string plan = write("fail.plan.json", R"({
         "format": "vagus-plan/1", "name": "P", "start": {"actor": "a"}, "actors": {
         "a": {"template": "Fail", "in": {"message": "'it is broken'"}, "states": {}}}})");
@@ -150,7 +150,7 @@ TEST_F(RunHostTest, APlanRunsToItsEndAndSaysHowItEnded) {
     EXPECT_THAT(over.message, HasSubstr("it is broken"));
 }
 
-TEST_F(RunHostTest, EachRequestIsAnsweredWhateverRuns) {
+TEST_F(RunnerTest, EachRequestIsAnsweredWhateverRuns) {
     say(talk::SetPace{true, 1});
     say(order(1, world()));
     (void)wait<talk::Opened>();
@@ -177,7 +177,7 @@ TEST_F(RunHostTest, EachRequestIsAnsweredWhateverRuns) {
     }
 }
 
-TEST_F(RunHostTest, AHandPutsMovesAndTakesAnObject) {
+TEST_F(RunnerTest, AHandPutsMovesAndTakesAnObject) {
     say(talk::SetPace{true, 1});
     say(order(1, world()));
     (void)wait<talk::Opened>();
@@ -198,7 +198,7 @@ TEST_F(RunHostTest, AHandPutsMovesAndTakesAnObject) {
 
 // ---- what is no order ----
 
-TEST_F(RunHostTest, AServerThatSpeaksNonsenseIsLeft) {
+TEST_F(RunnerTest, AServerThatSpeaksNonsenseIsLeft) {
     ASSERT_TRUE(server->send('J', "not JSON"));
     wait_end();
     EXPECT_EQ(leave(), kExitNonsense);
@@ -207,7 +207,7 @@ TEST_F(RunHostTest, AServerThatSpeaksNonsenseIsLeft) {
               "is ended");
 }
 
-TEST_F(RunHostTest, AMalformedOrderEndsAPlanThatRuns) {
+TEST_F(RunnerTest, AMalformedOrderEndsAPlanThatRuns) {
     say(talk::SetPace{false, 1});
     say(order(1, world(), waiting_plan()));
     (void)wait<talk::Traced>();
@@ -223,7 +223,7 @@ TEST_F(RunHostTest, AMalformedOrderEndsAPlanThatRuns) {
 
 // ---- two orders, one behind the other ----
 
-TEST_F(RunHostTest, OfTwoOrdersOneBehindTheOtherTheSecondIsServed) {
+TEST_F(RunnerTest, OfTwoOrdersOneBehindTheOtherTheSecondIsServed) {
     say(talk::SetPace{false, 0});
     say(order(1, world(), waiting_plan()));
     say(talk::SetVariable{1, 0, "n", plan::Value(true)});
@@ -236,7 +236,7 @@ TEST_F(RunHostTest, OfTwoOrdersOneBehindTheOtherTheSecondIsServed) {
     EXPECT_EQ(leave(), 0);
 }
 
-TEST_F(RunHostTest, AnOrderEndsThePlanThatRuns) {
+TEST_F(RunnerTest, AnOrderEndsThePlanThatRuns) {
     say(talk::SetPace{false, 0});
     say(order(1, world(), waiting_plan()));
     (void)wait<talk::Traced>();
@@ -254,7 +254,7 @@ TEST_F(RunHostTest, AnOrderEndsThePlanThatRuns) {
 
 // ---- the plan changes ----
 
-TEST_F(RunHostTest, AVersionThatTakesOverIsToldOnceAfterItsLineWithItsNumber) {
+TEST_F(RunnerTest, AVersionThatTakesOverIsToldOnceAfterItsLineWithItsNumber) {
     say(talk::SetPace{false, 1});
     const std::string plan = waiting_plan();
     say(order(1, world(), plan));
@@ -278,7 +278,7 @@ TEST_F(RunHostTest, AVersionThatTakesOverIsToldOnceAfterItsLineWithItsNumber) {
 }
 
 // Two plans of the run change at one instant: two lines, one version.
-TEST_F(RunHostTest, AVersionOfTwoFilesIsToldOnce) {
+TEST_F(RunnerTest, AVersionOfTwoFilesIsToldOnce) {
     const auto outer = [this](const std::string& help) {
         return write("outer.plan.json", R"({"format": "vagus-plan/1", "name": "Outer",
             "help": ")" + help + R"(", "start": {"actor": "a"}, "actors": {
@@ -312,7 +312,7 @@ TEST_F(RunHostTest, AVersionOfTwoFilesIsToldOnce) {
 }
 
 // The plan has ended and its world goes on: nothing of it is left that could be asked.
-TEST_F(RunHostTest, AVersionForAPlanThatHasEndedIsRefused) {
+TEST_F(RunnerTest, AVersionForAPlanThatHasEndedIsRefused) {
     say(talk::SetPace{false, 1});
     const std::string plan = waiting_plan();
     say(order(1, world(), plan));

@@ -3,7 +3,7 @@
 //
 //     Desk desk(access, {.send = …, .close = …, .log = …, .wall_ms = …});
 //     desk.command("node.run", [&](const Call& call) { call.done(run(call.in)); });
-//     desk.topics().document("robot", [&](const Json&) { return robot_document(); });
+//     desk.topics().document("robot", [&](const Json&) { return target_document(); });
 //     desk.hear(event, now);                       // of the web server
 //     desk.tick(now);
 #pragma once

@@ -39,7 +39,7 @@ void describe(Json& variable, const KnownVariable* known) {
 
 void Target::declare_topics() {
     Topics& topics = desk_.topics();
-    topics.document("robot", [this](const Json&) { return robot_document(); });
+    topics.document("robot", [this](const Json&) { return target_document(); });
     topics.document("node", [this](const Json& of) { return node_document(of); });
     topics.document("network", [this](const Json&) { return network_document(); });
     topics.stream("happenings", Protocol::get().limit("events_kept"));
@@ -88,7 +88,7 @@ Json Target::node_line(uint16_t id) const {
     return node;
 }
 
-Json Target::robot_document() const {
+Json Target::target_document() const {
     Json nodes = Json::array();
     Json twins = Json::array();
     if (network_) {

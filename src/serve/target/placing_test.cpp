@@ -9,7 +9,7 @@ namespace {
 using testing::HasSubstr;
 using Type = wire::MessageType;
 
-struct PlacingTest : RobotTest {
+struct PlacingTest : TargetTest {
     static constexpr const char* kDoc = "robot.aesl#2";
     static constexpr const char* kText = "var n\nonevent tick\n  n = n + 1\n";
 

@@ -10,7 +10,7 @@ using Type = wire::MessageType;
 
 // A cable was pulled and put back; meanwhile the node was started again, and stands where the
 // program before it stood.
-TEST_F(RobotTest, ANodeThatWasStartedAgainGetsItsScriptAndStands) {
+TEST_F(TargetTest, ANodeThatWasStartedAgainGetsItsScriptAndStands) {
     run();
     bus.state = Connection::Lost;
     pass(100ms);
@@ -33,7 +33,7 @@ TEST_F(RobotTest, ANodeThatWasStartedAgainGetsItsScriptAndStands) {
 }
 
 // One that cannot tell what it runs, although it is what it was.
-TEST_F(RobotTest, InDoubtANodeGetsItsScriptAgain) {
+TEST_F(TargetTest, InDoubtANodeGetsItsScriptAgain) {
     run();
     bus.mute(kDrive);
     pass(4s);
@@ -46,7 +46,7 @@ TEST_F(RobotTest, InDoubtANodeGetsItsScriptAgain) {
 }
 
 // In a simulation its process was slow, and nothing else has happened.
-TEST_F(RobotTest, ANodeOfASimulationKeepsItsScript) {
+TEST_F(TargetTest, ANodeOfASimulationKeepsItsScript) {
     run("simulator");
     bus.mute(kDrive);
     pass(4s);

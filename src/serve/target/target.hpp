@@ -47,7 +47,7 @@ constexpr size_t kSamplesKept = 20'000;    // of each plotted word
 constexpr size_t kSamplesAtOnce = 10'000;  // in one frame; the rest comes with the next
 
 // What a simulation adds to what nodes tell of themselves.
-struct RobotHints {
+struct TargetHints {
     std::function<std::string(uint16_t node)> robot_of = [](uint16_t) { return std::string(); };
     // The plan waits for an event of that name.
     std::function<bool(const std::string& event)> plan_hears = [](auto&) { return false; };
@@ -70,7 +70,7 @@ struct TargetCounts {
 
 // For the history: what happened, a Happening of the protocol; where a node is paused; words that
 // were seen, and words that nobody looks at any more.
-struct RobotTold {
+struct TargetTold {
     using Words = std::span<const int16_t>;
     std::function<void(const nlohmann::json& happening)> happening = [](auto&) {};
     // The number of the run that it belongs to.
@@ -98,8 +98,8 @@ public:
     Target(Desk& desk, Files& files, Scripts& scripts, ScriptBreakpoints& breakpoints);
     ~Target();
 
-    void set_hints(RobotHints hints) { hints_ = std::move(hints); }
-    void on_told(RobotTold told) { told_ = std::move(told); }
+    void set_hints(TargetHints hints) { hints_ = std::move(hints); }
+    void on_told(TargetTold told) { told_ = std::move(told); }
     // What is told to the people: a line of the console.
     void on_say(std::function<void(const std::string& kind, const std::string& text)> say) {
         say_ = std::move(say);
@@ -299,7 +299,7 @@ private:
     std::string doc_of(uint16_t node) const;
     std::string name_of(uint16_t node) const;
 
-    Json robot_document() const;
+    Json target_document() const;
     Json node_document(const Json& of) const;
     Json node_line(uint16_t id) const;
     Json network_document() const;
@@ -308,8 +308,8 @@ private:
     Files& files_;
     Scripts& scripts_;
     ScriptBreakpoints& breakpoints_;
-    RobotHints hints_;
-    RobotTold told_;
+    TargetHints hints_;
+    TargetTold told_;
     std::function<void(const std::string&, const std::string&)> say_ = [](auto&, auto&) {};
     std::function<void()> breakpoints_changed_ = [] {};
 

@@ -239,22 +239,22 @@ private:
 struct Serial : testing::Test {
     hub::Hub hub;
     hub::LinkId own = hub.add({.name = "host"}).value();
-    Links network;
+    Links links;
     Pty line;
     std::vector<EventKind> kinds;
 
     template <typename Condition>
     bool until(Condition done) {
-        const Time deadline = network.now() + 60s;
-        while (network.now() < deadline) {
+        const Time deadline = links.now() + 60s;
+        while (links.now() < deadline) {
             if (done()) return true;
-            for (const Event& each : network.poll(network.now() + 1ms)) kinds.push_back(each.kind);
+            for (const Event& each : links.poll(links.now() + 1ms)) kinds.push_back(each.kind);
         }
         return false;
     }
     bool open(Retry retry = Retry::Never) {
         const Target target = parse_target("ser:" + line.device()).value();
-        return network.connect(hub, target, {.retry = retry}).ok() &&
+        return links.connect(hub, target, {.retry = retry}).ok() &&
                until([this] { return hub.links().size() == 2; });
     }
 };

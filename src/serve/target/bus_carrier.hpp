@@ -15,8 +15,8 @@ namespace vagus::serve {
 
 class BusCarrier final : public Carrier {
 public:
-    // The network is borrowed; its events go to hear().
-    static Result<std::unique_ptr<BusCarrier>> connect(net::Links& network,
+    // `links` are borrowed; their events go to hear().
+    static Result<std::unique_ptr<BusCarrier>> connect(net::Links& links,
                                                        const std::string& target);
     ~BusCarrier() override;
 
@@ -37,10 +37,10 @@ public:
     std::vector<LinkView> links() const override;
 
 private:
-    explicit BusCarrier(net::Links& network) : network_(network) {}
+    explicit BusCarrier(net::Links& links) : links_(links) {}
     void hear_door(const net::Event& event);
 
-    net::Links& network_;
+    net::Links& links_;
     hub::Hub hub_;
     hub::LinkId own_;
     net::PlaceId place_;

@@ -2,7 +2,7 @@
 // own. It knows bytes, addresses and limits, not what messages are for: they come out as values,
 // read by the protocol's list, and what is sent goes in as text or bytes.
 //
-//     auto started = WebServer::start({.pages = "share/pages"}, [&] { network.wake(); });
+//     auto started = WebServer::start({.pages = "share/pages"}, [&] { links.wake(); });
 //     WebServer& web = *started.value();
 //     for (WebEvent& event : web.take()) hear(event);              // the thread that asks
 //     web.send(client, R"({"id":1,"ok":{}})");

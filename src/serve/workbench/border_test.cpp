@@ -121,7 +121,7 @@ protected:
                                        .close = [this](ClientId, const std::string&) { ++closed; },
                                        .log = [](const std::string&) {},
                                        .wall_ms = [] { return 1e12; }}),
-          bench(network, desk,
+          bench(links, desk,
                 {.library = {root / "data", root / "examples"},
                  .settings = (root / "settings.json").string(),
                  .program = "/bin/false",
@@ -173,7 +173,7 @@ protected:
     size_t unread = 0;
     int closed = 0;
     std::vector<Json> got;
-    net::Links network;
+    net::Links links;
     Desk desk;
     Workbench bench;
 };

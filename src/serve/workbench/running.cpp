@@ -37,7 +37,7 @@ Status Workbench::join_target(const std::string& target) {
         live();
         return Status::done();
     }
-    auto connected = BusCarrier::connect(network_, target);
+    auto connected = BusCarrier::connect(links_, target);
     if (!connected.ok()) return connected.error();
     bus_ = std::move(connected.value());
     bus_since_ = now_;

@@ -32,7 +32,7 @@ WorkbenchPlaces places_of(const StudioOptions& options, const fs::path& data) {
 }
 
 Status open_first(const StudioOptions& options, ServerLoop& server) {
-    const Time now = server.network().now();
+    const Time now = server.links().now();
     if (!options.example.empty()) return server.bench().open_example(options.example, now);
     if (!options.project.empty()) return server.bench().open(options.project, now);
     return Status::done();

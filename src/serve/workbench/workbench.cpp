@@ -21,8 +21,8 @@ constexpr size_t kEntriesMax = 2000;  // of a folder that is shown for choosing
 
 }  // namespace
 
-Workbench::Workbench(net::Links& network, Desk& desk, const WorkbenchPlaces& places)
-    : network_(network),
+Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& places)
+    : links_(links),
       desk_(desk),
       places_(places),
       library_(places.library),
@@ -32,9 +32,9 @@ Workbench::Workbench(net::Links& network, Desk& desk, const WorkbenchPlaces& pla
       editing_(desk, files_, scripts_, desk.epoch()),
       target_(desk, files_, scripts_, breakpoints_),
       run_(desk, start_runner(places.program)),
-      worker_([&network] { network.wake(); }),
+      worker_([&links] { links.wake(); }),
       history_(desk, files_, worker_.poster()) {
-    files_.on_wake([&network] { network.wake(); });
+    files_.on_wake([&links] { links.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
         say(kind, with_short_paths(text));
     };
@@ -393,10 +393,10 @@ void Workbench::tick(Time now) {
 void Workbench::watch_run() {
     const std::pair now_there(run_.descriptor(), run_.generation());
     if (now_there == watched_run_) return;
-    if (watched_run_.first >= 0) network_.unwatch_input(watched_run_.first);
+    if (watched_run_.first >= 0) links_.unwatch_input(watched_run_.first);
     watched_run_ = now_there;
     // One that cannot be watched is asked at each tick all the same.
-    if (now_there.first >= 0) (void)network_.watch_input(now_there.first).ok();
+    if (now_there.first >= 0) (void)links_.watch_input(now_there.first).ok();
 }
 
 Time Workbench::next_tick(Time now) const {

@@ -2,11 +2,11 @@
 // and the run, and the commands that join them. One thread, told the time; whoever has the web
 // server hands its events to the desk.
 //
-//     Workbench bench(network, desk, places);
-//     bench.open("examples/follow-wall", network.now());
+//     Workbench bench(links, desk, places);
+//     bench.open("examples/follow-wall", links.now());
 //     for (;;) {
-//         for (const net::Event& event : network.poll(next)) bench.hear(event);
-//         bench.tick(network.now());
+//         for (const net::Event& event : links.poll(next)) bench.hear(event);
+//         bench.tick(links.now());
 //     }
 #pragma once
 
@@ -68,7 +68,7 @@ struct Figures {
 
 class Workbench {
 public:
-    Workbench(net::Links& network, Desk& desk, const WorkbenchPlaces& places);
+    Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& places);
     ~Workbench();
 
     // Opens what a path names, in place of what is open, as soon as its robot has stopped; what is
@@ -204,7 +204,7 @@ private:
     void perform(const life::AnswerStop& answer);
     void perform(const life::Tell& told);
 
-    net::Links& network_;
+    net::Links& links_;
     Desk& desk_;
     WorkbenchPlaces places_;
     Library library_;

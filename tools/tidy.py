@@ -47,7 +47,6 @@ ROOMS = {
         ("checks", "types warn"),
         ("code", "code code_writer emit stack link"),
         ("whole", "compile"),
-        ("reference", "reference/"),
     ],
     "conformance": [
         ("values", "line instructions finding standard_natives"),

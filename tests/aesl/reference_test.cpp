@@ -2,9 +2,9 @@
 // evaluator on programs made up from seeds. VAGUS_LONG runs 20 times as many; VAGUS_SEED=N one.
 #include <gtest/gtest.h>
 
-#include "aesl/reference/evaluate.hpp"
-#include "aesl/reference/generate.hpp"
 #include "our_run.hpp"
+#include "reference/evaluate.hpp"
+#include "reference/generate.hpp"
 
 namespace vagus::aesl {
 namespace {

@@ -2,9 +2,9 @@
 // Debian's. VAGUS_LONG runs 20 times as many; VAGUS_SEED=N one.
 #include <gtest/gtest.h>
 
-#include "aesl/reference/generate.hpp"
 #include "our_run.hpp"
 #include "peer.hpp"
+#include "reference/generate.hpp"
 
 namespace vagus::aesl {
 namespace {

@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <regex>
 
-#include "aesl/reference/generate.hpp"
 #include "base/text.hpp"
 #include "mutate.hpp"
 #include "our_run.hpp"
 #include "peer.hpp"
+#include "reference/generate.hpp"
 #include "survive.hpp"
 
 namespace vagus::aesl {

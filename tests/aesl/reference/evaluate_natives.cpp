@@ -1,5 +1,5 @@
 // Reference natives: see evaluate_natives.hpp. Letters in comments are those of appendix A.
-#include "aesl/reference/evaluate_natives.hpp"
+#include "reference/evaluate_natives.hpp"
 
 #include <algorithm>
 #include <array>

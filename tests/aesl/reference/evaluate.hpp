@@ -4,7 +4,7 @@
 #pragma once
 
 #include "aesl/node_file.hpp"
-#include "aesl/reference/outcome.hpp"
+#include "reference/outcome.hpp"
 
 namespace vagus::aesl {
 

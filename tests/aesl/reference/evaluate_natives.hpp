@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "aesl/reference/outcome.hpp"
+#include "reference/outcome.hpp"
 
 namespace vagus::aesl {
 

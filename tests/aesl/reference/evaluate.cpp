@@ -1,12 +1,12 @@
 // The evaluator: see evaluate.hpp. Statement by statement, element by element.
-#include "aesl/reference/evaluate.hpp"
+#include "reference/evaluate.hpp"
 
 #include <bit>
 #include <cassert>
 
 #include "aesl/parse.hpp"
-#include "aesl/reference/evaluate_fold.hpp"
-#include "aesl/reference/evaluate_natives.hpp"
+#include "reference/evaluate_fold.hpp"
+#include "reference/evaluate_natives.hpp"
 
 namespace vagus::aesl {
 namespace {

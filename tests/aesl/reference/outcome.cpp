@@ -1,5 +1,5 @@
 // Comparing and reading outcomes: see outcome.hpp.
-#include "aesl/reference/outcome.hpp"
+#include "reference/outcome.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -15,10 +15,10 @@ constexpr uint32_t kStepsPerEvent = 2'000'000;
 constexpr uint64_t kLongFactor = 20;
 const std::string kGoldenFolder = test::testdata("golden/aesl/");
 
-FaultKind converted(session::StopKind kind) {
-    if (kind == session::StopKind::DivisionByZero) return FaultKind::DivisionByZero;
-    if (kind == session::StopKind::ArrayOutOfBounds) return FaultKind::ArrayOutOfBounds;
-    return FaultKind::NodeSpecific;
+FaultCause converted(session::StopKind kind) {
+    if (kind == session::StopKind::DivisionByZero) return FaultCause::DivisionByZero;
+    if (kind == session::StopKind::ArrayOutOfBounds) return FaultCause::ArrayOutOfBounds;
+    return FaultCause::NodeSpecific;
 }
 
 Outcome converted(const session::Execution& execution, const Target& target) {

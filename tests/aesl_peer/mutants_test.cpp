@@ -75,7 +75,7 @@ std::string_view excuse(const Mutant& made, const OurRun& ours, const Outcome& t
     if (has("return") && has("sub ")) return "4.8: a return in an if at the end of a sub";
     const auto& fault = ours.outcome.fault;
     const bool is_deque =
-        fault && fault->kind == FaultKind::ArrayOutOfBounds &&
+        fault && fault->kind == FaultCause::ArrayOutOfBounds &&
         line_of(made.program.source, fault->line).find("deque.") != std::string_view::npos;
     return is_deque ? "A.2: an array of fewer than three words holds no deque" : "";
 }

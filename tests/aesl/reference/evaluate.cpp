@@ -55,7 +55,7 @@ public:
 private:
     NodeId child(NodeId id, int position) const { return tree_.child(id, position); }
 
-    void fault(NodeId id, FaultKind kind) {
+    void fault(NodeId id, FaultCause kind) {
         if (!outcome_.fault) outcome_.fault = Fault{kind, during_, tree_.line_of(id)};
     }
 
@@ -112,7 +112,7 @@ private:
         const TreeVariable& variable = tree_.variables[static_cast<size_t>(tree_[id].value)];
         if (*index >= 0 && *index < variable.size)
             return static_cast<size_t>(variable.address + *index);
-        fault(id, FaultKind::ArrayOutOfBounds);
+        fault(id, FaultCause::ArrayOutOfBounds);
         return std::nullopt;
     }
 
@@ -135,7 +135,7 @@ private:
         const Value b = value(right, k);
         if (!b) return std::nullopt;
         const Value result = run_binary(op, *a, *b);
-        if (!result) fault(id, FaultKind::DivisionByZero);
+        if (!result) fault(id, FaultCause::DivisionByZero);
         return result;
     }
 

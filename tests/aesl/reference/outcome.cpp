@@ -51,7 +51,7 @@ Emission emission_of(const JsonValue& json) {
 
 Fault fault_of(const JsonValue& json) {
     const auto* kind = std::find(kFaultNames.begin(), kFaultNames.end(), text_in(json, "kind"));
-    return {static_cast<FaultKind>(kind - kFaultNames.begin()),
+    return {static_cast<FaultCause>(kind - kFaultNames.begin()),
             static_cast<size_t>(integer_in(json, "during")),
             static_cast<int>(integer_in(json, "line"))};
 }

@@ -28,10 +28,10 @@ struct Emission {
     friend bool operator==(const Emission&, const Emission&) = default;
 };
 
-enum class FaultKind { DivisionByZero, ArrayOutOfBounds, NodeSpecific };
+enum class FaultCause { DivisionByZero, ArrayOutOfBounds, NodeSpecific };
 
 struct Fault {
-    FaultKind kind = FaultKind::DivisionByZero;
+    FaultCause kind = FaultCause::DivisionByZero;
     size_t during = 0;
     int line = 0;
     friend bool operator==(const Fault&, const Fault&) = default;

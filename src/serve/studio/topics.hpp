@@ -1,7 +1,7 @@
 // What pages watch: documents that change, streams that grow, binary frames that flow. Whoever has
-// something to show declares it once and says when it may have changed; only
-// what somebody watches is computed, what differs from what that page has is sent, no faster than
-// it asked for, and nothing to a page without room: what it missed is merged or counted, not queued.
+// something to show declares it once and says when it may have changed. Only what somebody watches
+// is computed. A page is sent what differs from what it has, no faster than it asked for, and
+// nothing while it has no room: what it missed is merged or counted, not queued.
 //
 //     topics.document("clock", [&](const Json&) { return clock_document(); });
 //     topics.touch("clock");

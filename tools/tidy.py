@@ -64,7 +64,7 @@ ROOMS = {
         ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world"),
     ],
     "serve": [
-        ("ground", "process access base64 json plan_value thrown worker"),
+        ("ground", "process access base64 bytes json plan_value thrown worker"),
         ("protocol", "protocol/"),
         ("door", "web/"),
         ("pages", "studio/"),

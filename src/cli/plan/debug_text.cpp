@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/nearest.hpp"
+#include "base/seconds.hpp"
 #include "base/text.hpp"
 
 namespace vagus::cli {
@@ -15,10 +16,6 @@ namespace {
 using Kind = run::Breakpoint::Kind;
 
 const std::vector<std::string> kKinds = {"actor", "state", "event", "when"};
-
-std::string seconds_of(Time at) {
-    return fmt::format("{}.{:06}", at.count() / 1'000'000, at.count() % 1'000'000);
-}
 
 std::string_view words_of(plan::Phase phase) {
     switch (phase) {
@@ -179,12 +176,12 @@ std::string text_of(const run::Stopped& stopped) {
         case run::Stopped::Why::Step:
             break;
     }
-    return fmt::format("{}paused at {}, {}\n", why, seconds_of(where.at),
+    return fmt::format("{}paused at {}, {}\n", why, seconds_text(where.at),
                        line_of(where.levels.back()));
 }
 
 std::string text_of(const run::RunOver& over) {
-    return fmt::format("the run is over at {}: {}{}\n", seconds_of(over.at),
+    return fmt::format("the run is over at {}: {}{}\n", seconds_text(over.at),
                        plan::name_of(over.result), over.message.empty() ? "" : ", " + over.message);
 }
 
@@ -205,7 +202,7 @@ std::string text_of(const sim::RobotView& robot) {
 std::string text_of(const run::Where& where) {
     if (where.levels.empty()) return "before the start\n";
     std::string text =
-        fmt::format("{} at {}\n", where.paused ? "paused" : "runs", seconds_of(where.at));
+        fmt::format("{} at {}\n", where.paused ? "paused" : "runs", seconds_text(where.at));
     for (size_t i = 0; i < where.levels.size(); ++i) {
         text += fmt::format("{} {}\n", i, line_of(where.levels[i]));
         for (const run::SupervisorNow& supervisor : where.levels[i].supervisors) {

@@ -7,6 +7,7 @@
 
 #include "base/file.hpp"
 #include "base/line_sink.hpp"
+#include "base/seconds.hpp"
 #include "base/text.hpp"
 #include "cli/file_watch.hpp"
 #include "cli/live_screen.hpp"
@@ -28,10 +29,6 @@ using namespace std::chrono_literals;
 constexpr Duration kTurn = 10ms;        // of the loop, in real time
 constexpr Duration kHeadlessFor = 20s;  // simulated, unless --duration says otherwise
 constexpr Duration kGuestsWithin = 3s;  // for nodes on the bus to be read back at rest
-
-Duration seconds(double value) {
-    return Duration(std::llround(value * 1e6));
-}
 
 // A robot's own port.
 struct Port {
@@ -140,7 +137,7 @@ bool SimRun::settle() {
 }
 
 Duration SimRun::end() const {
-    if (options_.duration) return seconds(*options_.duration);
+    if (options_.duration) return from_seconds(*options_.duration);
     return on_terminal() ? Duration::max() : kHeadlessFor;
 }
 

@@ -4,18 +4,10 @@
 
 #include "serve/target/target.hpp"
 
+#include "serve/bytes.hpp"
 #include "serve/json.hpp"
 
 namespace vagus::serve {
-
-namespace {
-
-template <typename T>
-void append(std::string& bytes, T value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-}  // namespace
 
 // The words of some ranges of a node, sent when they differ from what was sent.
 struct Target::VariableWatch final : BinaryWatch {

@@ -4,7 +4,7 @@
 
 namespace vagus::net {
 
-Links::Network() : loop_(std::make_unique<Loop>()) {}
+Links::Links() : loop_(std::make_unique<Loop>()) {}
 Links::~Links() = default;
 
 Result<Listening> Links::listen(hub::Hub& hub, const Target& target, ListenOptions options) {

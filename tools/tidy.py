@@ -4,6 +4,7 @@
     tools/tidy.py            check the checkout around this file
     tools/tidy.py --self     check that each rule still catches its example
 """
+import os
 import pathlib
 import re
 import sys
@@ -119,6 +120,10 @@ TYPE_ALONE = re.compile(r"^\s+(const |static |mutable )*(?!default:)[\w:]+(<[^()
 NAME_AND_COMMENT = re.compile(r"^\s*\w+(\{\})?( = [^;]*)?;\s*//")
 EXAMPLE_LINE = re.compile(r"^\s*//     ")
 TWO_STATEMENTS = re.compile(r";\s+([A-Z]\w* \w+\s*(;|=|$)|(const|if|for)\b|\w+;)")
+# Folders that hold what is made, not what is written.
+MADE = {"build", "node_modules", "dist", "__pycache__"}
+# Of docs/ARCHITECTURE.md: names that stand for any file.
+EXAMPLE_PATHS = {"x.cpp", "x_test.cpp"}
 SUFFIXES = {".hpp", ".cpp", ".inl", ".h"}
 
 
@@ -278,6 +283,34 @@ def check_words(root):
                 yield f"{path.relative_to(root)}:{number}: a path of one machine"
 
 
+def known_paths(root):
+    """All files and folders of the checkout that are not made, as paths from its root; folders end in /."""
+    for folder, folders, files in os.walk(root):
+        folders[:] = [name for name in folders if name not in MADE and not name.startswith(".")]
+        here = str(pathlib.Path(folder).relative_to(root)) + "/"
+        yield from ("/" + path.removeprefix("./") for path in [here] + [here + name for name in files])
+
+
+def missing_paths(text, known):
+    """(line, path) for each path in backticks that is nowhere: it may be whole, or the end of one."""
+    for number, line in enumerate(text.split("\n"), 1):
+        for path in re.findall(r"`([\w<>*{},./-]+)`", line):
+            is_path = "/" in path.strip("/") or path.endswith("/") or re.search(r"\w\.(cpp|hpp|inl|def|md|json|py|mjs|tsx?|sh)$", path)
+            if not is_path or path.startswith("/") or path in EXAMPLE_PATHS:
+                continue
+            pattern = re.escape(path.removeprefix("./").rstrip("/")).replace(r"\*", "[^/]*")
+            pattern = re.sub(r"<\w+>", "[^/]+", pattern)
+            if not any(re.search("/" + pattern + "/?$", each) for each in known):
+                yield number, path
+
+
+def check_map(root):
+    """The map of the project leads to what is there."""
+    page = root / "docs/ARCHITECTURE.md"
+    for number, path in missing_paths(page.read_text(encoding="utf-8"), list(known_paths(root))):
+        yield f"docs/ARCHITECTURE.md:{number}: `{path}` is not there: name the file or folder that does it now"
+
+
 def check_tree(root):
     breaches = []
     for top in ("src", "tests", "bench", "fuzz", "firmware", "tools", "examples"):
@@ -285,7 +318,7 @@ def check_tree(root):
             if path.suffix in SUFFIXES and "build" not in path.parts:
                 name = str(path.relative_to(root))
                 breaches += Checker(name, path.read_text(encoding="utf-8")).run()
-    return breaches + list(check_module_known(root)) + list(check_words(root))
+    return breaches + list(check_module_known(root)) + list(check_words(root)) + list(check_map(root))
 
 
 EXAMPLES = [  # path, text, what must be said of it
@@ -320,6 +353,10 @@ def check_self():
         if not any(sentence in breach for breach in found):
             print(f"the rule for «{sentence}» no longer catches its example; found {found}")
             failed += 1
+    missed = list(missing_paths("`hub/hub.hpp`, `hub.hpp`, `src/<any>/`, `hub/hub.cpp`", ["/src/hub/", "/src/hub/hub.hpp"]))
+    if missed != [(1, "hub/hub.cpp")]:
+        print(f"the rule for paths of the map no longer catches its example; found {missed}")
+        failed += 1
     allowed = Checker("src/hub/a.cpp", '#include "wire/frame.hpp"\n#include <vector>\n').run()
     if allowed:
         print(f"what is allowed was refused: {allowed}")

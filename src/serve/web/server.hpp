@@ -7,7 +7,7 @@
 //     for (WebEvent& event : web.take()) hear(event);              // the thread that asks
 //     web.send(client, R"({"id":1,"ok":{}})");
 //
-// What a browser may do here (serve.md, who may do what): GET and HEAD of the pages, /healthz,
+// What a browser may do here (docs/protocol.md): GET and HEAD of the pages, /healthz,
 // /metrics with a token, POST /stop with a token, and the WebSocket at /live. Host must name this
 // machine and Origin, if there is one, the same host: other pages in the same browser and names
 // that point here get nothing. Who is whom is decided by the token, in the first message, by

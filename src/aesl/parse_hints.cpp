@@ -167,7 +167,7 @@ std::string Parser::misspelt_keyword(TokenId name) const {
     std::vector<std::string_view> keywords;
     for (auto kind = kFirstKeyword; kind <= kLastKeyword;
          kind = static_cast<TokenKind>(static_cast<int>(kind) + 1)) {
-        if (begins_anew(kind)) keywords.push_back(spelling_of(kind));
+        if (is_boundary(kind)) keywords.push_back(spelling_of(kind));
     }
     const std::string lower = in_small_letters(name_text(name));
     if (std::find(keywords.begin(), keywords.end(), lower) != keywords.end()) return lower;

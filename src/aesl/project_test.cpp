@@ -142,12 +142,12 @@ TEST(Project, NamesHaveAtMost255Bytes) {
 }
 
 TEST(Project, BrokenXmlIsPlacedAndMended) {
-    constexpr std::string_view kMend =
+    constexpr std::string_view kFix =
         "; in a script write &lt; for < and &amp; for &, or put the script into <![CDATA[ … ]]>";
     EXPECT_EQ(error_of("<network>\n<node name=\"a\">é & 1</node></network>"),
-              "p.aesl:2:18: this & begins no character that XML knows" + std::string(kMend));
+              "p.aesl:2:18: this & begins no character that XML knows" + std::string(kFix));
     EXPECT_EQ(error_of("<network>\n<node name=\"a\">if x < 2</node></network>"),
-              "p.aesl:2:21: this < begins no whole tag" + std::string(kMend));
+              "p.aesl:2:21: this < begins no whole tag" + std::string(kFix));
     EXPECT_EQ(error_of("<network>\n<node name=\"a\">if x <y</node></network>").substr(0, 12),
               "p.aesl:2:21:");
     EXPECT_NE(error_of("<network>\n<node name=\"a\">").find("this is not XML"), std::string::npos);

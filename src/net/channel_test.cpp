@@ -306,7 +306,7 @@ TEST_F(Serial, SetsTheBaudRateAndTheFlowControl) {
     EXPECT_EQ(settings.c_lflag & (ECHO | ICANON | ISIG), 0u);
 }
 
-TEST(SerialErrors, NameTheDeviceAndTheMend) {
+TEST(SerialErrors, NameTheDeviceAndTheFix) {
     const auto file = open_serial(SerialPlace{.device = "/dev/null", .name = ""});
     ASSERT_FALSE(file.ok());
     EXPECT_EQ(file.error().what, "ser:/dev/null: /dev/null is not a serial line");

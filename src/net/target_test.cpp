@@ -67,7 +67,7 @@ struct Refusal {
     const char* says;  // a part of the sentence
 };
 
-TEST(Target, ErrorsQuoteTheTextAndNameTheKeyAndTheMend) {
+TEST(Target, ErrorsQuoteTheTextAndNameTheKeyAndTheFix) {
     const Refusal refusals[] = {
         {"", "no ':'"},
         {"localhost", "no ':'"},

@@ -55,7 +55,7 @@ public:
     std::vector<Breakpoint> list() const;
 
     // A new run: no hits, no variables.
-    void start_anew();
+    void start_again();
     // Each line of the trace, then settle() at the end of each decision: an end or an event counts
     // with what it wrote. These give the breakpoints that stop the run, by number.
     std::vector<int> see(const plan::TraceEvent& event);

@@ -310,7 +310,7 @@ void Debugger::attach(plan::Machine& machine, EventGate& gate, std::function<voi
     core.machine_ = &machine;
     core.gate_ = &gate;
     core.now_ = Time{0};
-    core.breakpoints_.start_anew();
+    core.breakpoints_.start_again();
     core.met_.clear();
     core.waiting_.clear();
     core.step_ = core.stepped_ = core.abort_asked_ = false;

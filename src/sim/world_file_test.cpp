@@ -85,7 +85,7 @@ TEST(WorldFile, EveryKeyArrivesWhereItBelongs) {
     EXPECT_EQ(std::get<AddObject>(w.timeline[4].action).object.kind, ObjectKind::Wall);
 }
 
-TEST(WorldFile, ErrorsNamePlaceElementAndMend) {
+TEST(WorldFile, ErrorsNamePlaceElementAndFix) {
     const std::string mass =
         error_of(with(R"("objects":[{"kind":"box","at":[1,1],"size":[1,1],"mass":-1}])"));
     EXPECT_EQ(mass,

@@ -118,7 +118,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
 
 class Mistakes : public testing::TestWithParam<Mistake> {};
 
-TEST_P(Mistakes, AreToldWithTheirPlaceAndMend) {
+TEST_P(Mistakes, AreToldWithTheirPlaceAndFix) {
     const Mistake& mistake = GetParam();
     const std::string error = error_of(lamp_with(mistake.from, mistake.to));
     EXPECT_TRUE(error.starts_with("box/lamp.toolbox.json:" + std::string(mistake.place) + ": "))

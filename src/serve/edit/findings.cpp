@@ -42,7 +42,7 @@ void Findings::text_changed(const std::string& path) {
 
 // A script concerns others by what it declares only; names of files by whether they are there.
 bool Findings::concerns_files(const std::string& path) {
-    if (kind_of_file(path) == "other") return list_anew();  // a folder, perhaps
+    if (kind_of_file(path) == "other") return list_again();  // a folder, perhaps
     const bool there = files_.exists(path);
     const bool known = listed_.contains(path);
     if (there != known) {
@@ -65,7 +65,7 @@ bool Findings::concerns_files(const std::string& path) {
 }
 
 // Whether there are others than before.
-bool Findings::list_anew() {
+bool Findings::list_again() {
     std::set<std::string> listed;
     bool more = false;
     for (const FileInfo& file : files_.list(more)) {
@@ -84,7 +84,7 @@ void Findings::project_changed() {
     of_scripts_.clear();
     of_files_.clear();
     left_.clear();
-    list_anew();
+    list_again();
     due_ = due_at_last_ = now_;
     find_scope();
     desk_.topics().touch("findings");

@@ -56,7 +56,7 @@ private:
     };
 
     bool concerns_files(const std::string& path);
-    bool list_anew();
+    bool list_again();
     std::vector<std::string> named_in(const std::string& file);
     void find_scope();
     std::set<std::string> wanted() const;

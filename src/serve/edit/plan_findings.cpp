@@ -34,7 +34,7 @@ public:
 
     const std::string& text() const { return text_; }
 
-    FindingFix mend(const std::string& doc, plan::Finding const& finding) {
+    FindingFix fix_of(const std::string& doc, plan::Finding const& finding) {
         FindingFix fix{"Write \"" + finding.meant->name + "\"", {}};
         if (!read_) read();
         const auto [from, to] = strings_.equal_range({finding.line, finding.column});
@@ -152,7 +152,7 @@ std::vector<DocFinding> plan_findings(const plan::Findings& findings, const Text
         finding.keys = text->second.keys_to(one.line, one.column);
         finding.end = end_of_word(text->second.text(), finding.at);
         if (one.meant) {
-            FindingFix fix = text->second.mend(one.file, one);
+            FindingFix fix = text->second.fix_of(one.file, one);
             if (!fix.edits.empty()) finding.fixes.push_back(std::move(fix));
         }
         all.push_back(std::move(finding));

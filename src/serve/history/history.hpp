@@ -50,8 +50,8 @@ public:
     // over. One that was told already changes nothing.
     void plan(uint64_t version, PlanPast::Plans plans);
     void happen(PastEvent event) { events_.add(std::move(event)); }
-    void stand(double t, uint16_t node, const std::string& state, int line) {
-        events_.stand(t, node, state, line);
+    void node_state(double t, uint16_t node, const std::string& state, int line) {
+        events_.node_state(t, node, state, line);
     }
     void words(double t, uint16_t node, uint16_t address, std::span<const int16_t> values);
     void forget(double t, uint16_t node, uint16_t address, uint16_t count);

@@ -188,8 +188,8 @@ TEST(EventPast, DenseEventsAreARunAndFewAreMarks) {
 
 TEST(EventPast, ANodeStandsWhereItSaidLast) {
     EventPast past;
-    past.stand(1, 3, "running", 0);
-    past.stand(2, 3, "paused", 12);
+    past.node_state(1, 3, "running", 0);
+    past.node_state(2, 3, "paused", 12);
     EXPECT_EQ(past.nodes_at(0.5), Json::array());
     EXPECT_EQ(past.nodes_at(1.5), Json::array({{{"node", 3}, {"state", "running"}}}));
     EXPECT_EQ(past.nodes_at(2), Json::array({{{"node", 3}, {"state", "paused"}, {"line", 12}}}));

@@ -63,7 +63,7 @@ public:
 
 private:
     enum class Target { None, World, Bus };
-    enum class Plan { None, Stands, Runs, Ending };
+    enum class Plan { None, Paused, Runs, Ending };
     enum class What { World, Plan, Scripts, GoOn };
     enum class Phase { Opening, Describing, Loading, Going };
     struct Starting {

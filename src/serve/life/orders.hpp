@@ -49,10 +49,10 @@ struct Open {
 // Run: what stands goes on, or everything begins.
 struct Start {
     CallNumber call = 0;
-    bool plan = false;        // there is one to run
-    bool world_anew = false;  // the world does not stand there, or is another by now
-    bool go = true;           // otherwise the plan is paused before its first actor
-    bool anew = false;        // also if it runs
+    bool plan = false;         // there is one to run
+    bool world_again = false;  // the world does not stand there, or is another by now
+    bool go = true;            // otherwise the plan is paused before its first actor
+    bool again = false;        // also if it runs
 };
 // The process of the run has opened what it was told to open, or cannot.
 struct Opened {};

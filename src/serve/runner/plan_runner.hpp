@@ -52,7 +52,7 @@ public:
     bool runs() const { return talk_.has_value(); }
     bool is_on_bus() const { return runs() && on_ == On::Bus; }
     // It has come to a breakpoint or to the end of a step.
-    bool stands() const { return runs() && talk_->stands(); }
+    bool is_paused() const { return runs() && talk_->is_paused(); }
     // Only while it runs.
     run::Debugger& debugger() { return talk_->debugger(); }
 

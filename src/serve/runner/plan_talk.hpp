@@ -34,7 +34,7 @@ public:
     void step_event(std::optional<uint64_t> number, Answered answered);
     void abort();
     // Held by what it came to: a breakpoint, or the end of a step.
-    bool stands() const { return stands_; }
+    bool is_paused() const { return paused_; }
 
     // At once, also while it runs.
     void ask(run::Request request, Answered answered);
@@ -59,7 +59,7 @@ public:
 private:
     run::Debugger debugger_;
     bool stepping_ = false;
-    bool stands_ = false;
+    bool paused_ = false;
     std::map<uint64_t, Answered> asked_;  // by number at the debugger
 };
 

@@ -36,13 +36,13 @@ struct OneThread {
         graph = plan::make_graph(checked);
         talk.emplace(graph);
     }
-    run::Ended run(std::function<void(const PlanTalk::Heard&)> standing) {
+    run::Ended run(std::function<void(const PlanTalk::Heard&)> when_paused) {
         run::RunOptions options;
         options.debugger = &talk->debugger();
-        talk->debugger().while_paused([this, standing = std::move(standing)] {
+        talk->debugger().while_paused([this, when_paused = std::move(when_paused)] {
             const PlanTalk::Heard heard = talk->hear();
             stops.tend(*talk);
-            if (heard.broken || heard.stepped) standing(heard);
+            if (heard.broken || heard.stepped) when_paused(heard);
         });
         stops.tend(*talk);
         const run::Ended ended = run::VirtualTime(graph, library, options).run();
@@ -110,7 +110,7 @@ TEST(PlanTalk, WhatIsSetWhileItStandsIsDoneAndItStaysThere) {
             run::SetVariable{0, "n", plan::Value(int64_t{4})},
             [&](const Result<run::Reply>& reply) {
                 why = reply.ok() ? "" : reply.error().what;
-                EXPECT_TRUE(plan.talk->stands());
+                EXPECT_TRUE(plan.talk->is_paused());
                 plan.talk->go_on();
             },
             PlanTalk::Then::GoOn);

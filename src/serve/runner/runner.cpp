@@ -119,7 +119,7 @@ private:
 
     void stop_plan() {
         // A plan that is held hears nothing but its debugger.
-        if (plan_.is_on_bus() || plan_.stands()) plan_.abort();
+        if (plan_.is_on_bus() || plan_.is_paused()) plan_.abort();
         if (prepared_ && !plan_.is_on_bus()) prepared_->abort();
     }
 

@@ -117,9 +117,9 @@ TEST_F(RunnerTest, AWorldIsOpenedStandsAndGoes) {
     ASSERT_TRUE(opened.scene.has_value());
     EXPECT_EQ(opened.scene->robots.at(0).name, "alice");
     EXPECT_EQ(opened.scene->document.json["robots"][0]["name"], "alice");
-    const auto stands = wait<talk::Clock>();
-    EXPECT_EQ(stands.t, 0);
-    EXPECT_TRUE(stands.paused);
+    const auto paused = wait<talk::Clock>();
+    EXPECT_EQ(paused.t, 0);
+    EXPECT_TRUE(paused.paused);
     say(talk::SetPace{false, 0});
     (void)wait<talk::Clock>([](const talk::Clock& clock) { return clock.t > 1; });
     EXPECT_EQ(leave(), 0);

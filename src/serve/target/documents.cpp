@@ -71,13 +71,13 @@ Json Target::node_line(uint16_t id) const {
                       : script && script->source == known.loaded ? "current"
                                                                  : "older";
     if (known.loaded_wall > 0) node["loaded_wall"] = known.loaded_wall;
-    const bool stands =
+    const bool paused =
         view->state == debug::ProgramState::Paused || view->state == debug::ProgramState::Stopped;
     // After a fault the next event is begun and waits: its line is not that of the mistake.
     const bool faulty = known.why == "fault" && known.fault_line > 0;
     const int line = faulty ? known.fault_line : view->at.line;
-    if (stands && !stopped && !waits && line > 0) node["at"] = {{"line", line}, {"column", 1}};
-    if (stands && !known.why.empty()) node["why"] = known.why;
+    if (paused && !stopped && !waits && line > 0) node["at"] = {{"line", line}, {"column", 1}};
+    if (paused && !known.why.empty()) node["why"] = known.why;
     if (!known.fault.empty()) node["fault"] = known.fault;
     if (const auto dropped = dropped_.of(id)) node["dropped"] = *dropped;
     if (!known.busy.empty()) node["busy"] = known.busy;

@@ -29,7 +29,7 @@ public:
     void came(uint16_t node, std::optional<bool> handled);
     // Since it came to stand; nothing: it does not stand, or nobody knows what its script handles.
     std::optional<uint64_t> of(uint16_t node) const;
-    bool stands(uint16_t node) const { return counts_.contains(node); }
+    bool is_paused(uint16_t node) const { return counts_.contains(node); }
     void forget() { counts_.clear(); }
 
 private:

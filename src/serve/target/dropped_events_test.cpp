@@ -49,7 +49,7 @@ TEST(DroppedEvents, WhatAnUnknownScriptDropsIsNotKnown) {
     dropped.state(2, ProgramState::Paused);
     dropped.came(2, true);
     dropped.came(2, std::nullopt);
-    EXPECT_TRUE(dropped.stands(2));
+    EXPECT_TRUE(dropped.is_paused(2));
     EXPECT_FALSE(dropped.of(2));
 }
 

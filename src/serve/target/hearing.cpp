@@ -47,11 +47,11 @@ void Target::hear(const debug::Event& event, const debug::StateChanged& state) {
     } else if (known.why.empty()) {
         known.why = "asked";
     }
-    const bool stands = state.state != debug::ProgramState::Running && state.at.line > 0;
+    const bool paused = state.state != debug::ProgramState::Running && state.at.line > 0;
     dropped_.state(event.node, state.state);
-    told_.stands(time(), event.node, debug::name_of(state.state), stands ? state.at.line : 0);
+    told_.node_state(time(), event.node, debug::name_of(state.state), paused ? state.at.line : 0);
     happen("state", event.node, debug::name_of(state.state),
-           stands ? fmt::format("line {}", state.at.line) : "");
+           paused ? fmt::format("line {}", state.at.line) : "");
 }
 
 // Another program on the bus may have paused it, too.
@@ -108,7 +108,7 @@ void Target::hear(const debug::Event& event, const debug::UserEvent& sent) {
 // All nodes that stand take the event for nothing; the one that emitted it does not hear it.
 void Target::count_dropped(uint16_t from, uint16_t event) {
     for (const uint16_t id : live_nodes()) {
-        if (id == from || !dropped_.stands(id)) continue;
+        if (id == from || !dropped_.is_paused(id)) continue;
         const auto& program = network_->node(id)->program;
         dropped_.came(id, program ? std::optional(handles(*program, event)) : std::nullopt);
         desk_.topics().touch("robot");

@@ -330,13 +330,13 @@ void Target::pause_all(std::function<void(std::vector<std::string>)> done) {
         [done = std::move(done)](Batch& batch) { done(sentences(batch.failed)); }, "pausing");
 }
 
-void Target::run_standing(std::function<void(std::vector<std::string>)> done) {
-    let_run(standing_nodes(), std::move(done));
+void Target::run_paused(std::function<void(std::vector<std::string>)> done) {
+    let_run(paused_nodes(), std::move(done));
 }
 
-void Target::step_standing(std::function<void(std::vector<std::string>)> done) {
+void Target::step_paused(std::function<void(std::vector<std::string>)> done) {
     start_batch(
-        standing_nodes(), [this](uint16_t node) { return step(node); },
+        paused_nodes(), [this](uint16_t node) { return step(node); },
         [done = std::move(done)](Batch& batch) { done(sentences(batch.failed)); }, "stepping");
 }
 
@@ -351,17 +351,17 @@ Result<debug::RequestId> Target::step(uint16_t node) {
 }
 
 // Those that were stopped or paused and have a program.
-std::vector<uint16_t> Target::standing_nodes() const {
-    std::vector<uint16_t> standing = live_nodes();
-    std::erase_if(standing, [this](uint16_t node) {
+std::vector<uint16_t> Target::paused_nodes() const {
+    std::vector<uint16_t> paused = live_nodes();
+    std::erase_if(paused, [this](uint16_t node) {
         return network_->node(node)->state == debug::ProgramState::Running;
     });
-    return standing;
+    return paused;
 }
 
 bool Target::stands_inside() const {
-    const auto standing = standing_nodes();
-    return std::any_of(standing.begin(), standing.end(), [this](uint16_t node) {
+    const auto paused = paused_nodes();
+    return std::any_of(paused.begin(), paused.end(), [this](uint16_t node) {
         const debug::NodeView* view = network_->node(node);
         return view->state == debug::ProgramState::Paused && view->at.line > 0 && !is_stopped(node);
     });

@@ -75,7 +75,7 @@ struct TargetTold {
     std::function<void(const nlohmann::json& happening)> happening = [](auto&) {};
     // The number of the run that it belongs to.
     std::function<uint64_t()> run = [] { return uint64_t{0}; };
-    std::function<void(double t, uint16_t node, const std::string& state, int line)> stands =
+    std::function<void(double t, uint16_t node, const std::string& state, int line)> node_state =
         [](double, uint16_t, auto&, int) {};
     std::function<void(double t, uint16_t node, uint16_t address, Words values)> words =
         [](double, uint16_t, uint16_t, Words) {};
@@ -146,8 +146,8 @@ public:
     void run_all(std::function<void(std::vector<std::string>)> done);
     void pause_all(std::function<void(std::vector<std::string>)> done);
     // Of the nodes that stand only.
-    void run_standing(std::function<void(std::vector<std::string>)> done);
-    void step_standing(std::function<void(std::vector<std::string>)> done);
+    void run_paused(std::function<void(std::vector<std::string>)> done);
+    void step_paused(std::function<void(std::vector<std::string>)> done);
     // A node is paused at a line of its script.
     bool stands_inside() const;
     // Empty if it is not there or has not told what it is.
@@ -257,7 +257,7 @@ private:
     void load_lost_programs();
     std::vector<uint16_t> nodes_of(const Json& node) const;
     std::vector<uint16_t> live_nodes() const;
-    std::vector<uint16_t> standing_nodes() const;
+    std::vector<uint16_t> paused_nodes() const;
     bool is_stopped(uint16_t node) const {
         const auto known = known_.find(node);
         return known != known_.end() && known->second.stopped;

@@ -179,8 +179,8 @@ void HistoryDesk::happening(const Json& happening, double t) {
                        happening["args"].get<std::vector<int16_t>>()});
 }
 
-void HistoryDesk::stands(double t, uint16_t node, const std::string& state, int line) {
-    told_at(t).stand(t, node, state, line);
+void HistoryDesk::node_state(double t, uint16_t node, const std::string& state, int line) {
+    told_at(t).node_state(t, node, state, line);
 }
 
 void HistoryDesk::words(double t, uint16_t node, uint16_t address,

@@ -132,7 +132,7 @@ void Workbench::perform(const life::LetNodesGo& go) {
         if (!stayed.empty()) say("warning", joined_lines(stayed));
         tell_life(life::Went{start});
     };
-    go.all ? target_.run_all(went) : target_.run_standing(went);
+    go.all ? target_.run_all(went) : target_.run_paused(went);
 }
 
 void Workbench::perform(const life::BeginRun&) {

@@ -142,10 +142,10 @@ void Workbench::start_with(const Call& call, const std::string& plan, life::Star
     }
     start.call = keep(call);
     start.plan = !plan.empty();
-    start.world_anew = !bus_ && (!simulates() || world_has_changed());
+    start.world_again = !bus_ && (!simulates() || world_has_changed());
     if (start.plan) {
         // What begins does so with what is saved.
-        if (!life_.plan_runs() || start.anew) saved_plans_.clear();
+        if (!life_.plan_runs() || start.again) saved_plans_.clear();
         RunOrder order = order_of(plan, call.in.value("set", Json::object()));
         order.from = call.in.value("from", "");
         orders_.emplace(start.call, std::move(order));
@@ -156,7 +156,7 @@ void Workbench::start_with(const Call& call, const std::string& plan, life::Star
 
 void Workbench::step(const Call& call) {
     if (bus_ || target_.stands_inside()) {
-        return target_.step_standing([call](const std::vector<std::string>& failed) {
+        return target_.step_paused([call](const std::vector<std::string>& failed) {
             if (failed.empty()) return call.done();
             call.fail("failed", joined_lines(failed));
         });

@@ -177,8 +177,8 @@ void DriveNode::raise_endings() {
     Motion& motion = driver_.motion;
     if (motion.take(Ending::Arrived)) machine_.raise(kArrived);
     if (motion.take(Ending::Turned)) machine_.raise(kTurned);
-    const bool stand = motion.take(Ending::Halted);
-    if (stand && !driver_.owes_halted) machine_.raise(kHalted);
+    const bool rests = motion.take(Ending::Halted);
+    if (rests && !driver_.owes_halted) machine_.raise(kHalted);
     if (!driver_.owes_halted || motion.state() == MotionState::Brakes) return;
     if (!machine_.hears(kHalted)) return;
     machine_.raise(kHalted);

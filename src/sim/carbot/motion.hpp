@@ -15,7 +15,7 @@
 namespace vagus::sim::carbot {
 
 enum class MotionKind : int16_t { None, Move, Turn, Curve, Steer };
-enum class MotionState : int16_t { Stands, Drives, Brakes, Paused };
+enum class MotionState : int16_t { AtRest, Drives, Brakes, Paused };
 
 // What has come to its end.
 enum class Ending : uint8_t { Arrived = 1, Turned = 2, Halted = 4 };
@@ -71,7 +71,7 @@ private:
     void note(Ending what) { done_ = static_cast<uint8_t>(done_ | static_cast<uint8_t>(what)); }
 
     MotionKind kind_ = MotionKind::None;
-    MotionState state_ = MotionState::Stands;
+    MotionState state_ = MotionState::AtRest;
     Path path_;
     bool ending_ = false;   // the way is done, the wheels still roll
     bool halting_ = false;  // someone waits for Halted

@@ -92,13 +92,13 @@ export class Happenings {
     this.leftOut += leftOut;
     const known = Math.max(this.items.at(-1)?.number ?? -1, this.cleared);
     // A server that was started again counts from the beginning, later in the day.
-    const anew =
+    const restarted =
       items.length > 0 &&
       (items.at(-1)?.number ?? 0) < known &&
       (items.at(-1)?.wall ?? 0) > (this.items.at(-1)?.wall ?? Infinity);
-    if (anew) this.clear();
-    if (anew) this.cleared = -1;
-    const fresh = items.filter((item) => item.number > (anew ? -1 : known));
+    if (restarted) this.clear();
+    if (restarted) this.cleared = -1;
+    const fresh = items.filter((item) => item.number > (restarted ? -1 : known));
     if (fresh.length === 0 && leftOut === 0) return;
     this.items =
       this.items.length + fresh.length > kHappeningsMax

@@ -65,7 +65,7 @@ export function randomPlan(random: (below: number) => number, count = 1 + random
   };
 }
 
-/** Blocks of which one stands on another. */
+/** Blocks of which one is on another. */
 export function covered(scene: Scene): [Box, Box][] {
   const boxes = [scene.start, ...scene.actors].map((block) => block.whole);
   return boxes.flatMap((box, index) =>

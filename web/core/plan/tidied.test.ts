@@ -38,7 +38,7 @@ describe('a tidied plan', () => {
     for (let plan = 0; plan < 50; plan++) {
       const value = randomPlan(random) as { [key: string]: Json };
       const layout = value['layout'] as { [key: string]: Json };
-      // The variables were placed by hand where elements come to stand.
+      // The variables were placed by hand where elements are put.
       if (random(2)) layout[kConfiguration] = [80 + random(400), 80 + random(400)];
       await expectTidied(`seed ${seed}, plan ${plan}`, value);
     }

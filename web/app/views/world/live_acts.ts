@@ -1,5 +1,5 @@
 // A hand in a running world: its moves become commands, one under way at a time, the newest place
-// last; meanwhile the thing stands where the hand holds it.
+// last; meanwhile the thing is where the hand holds it.
 
 import type { Commands } from '../../../protocol/messages';
 import type { Studio } from '../../../core/studio';

@@ -125,7 +125,7 @@ void Parser::unknown_event(TokenId name, NameSpace space) {
     error(Diag::UnknownEvent, name, {text}, {.fix = declaring(tree_.text(name), 0)});
 }
 
-// A sub may stand further down, where the parser has not been yet.
+// A sub may be declared further down, where the parser has not been yet.
 bool Parser::is_sub_somewhere(TokenId name) const {
     const int32_t wanted = tree_.tokens[name].value;
     for (TokenId i = 0; i + 1 < tree_.tokens.size(); ++i) {

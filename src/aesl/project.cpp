@@ -113,7 +113,7 @@ std::optional<Mistake> refuse_text(std::string_view text) {
     });
     if (control != text.end())
         return Mistake{static_cast<size_t>(control - text.begin()),
-                       "a control character cannot stand in XML; remove it"};
+                       "XML cannot contain a control character; remove it"};
     for (size_t offset = 0; offset < text.size();) {
         const size_t behind = skip_opaque(text, offset);
         const size_t end = behind > offset ? behind : piece_end(text, offset);

@@ -1,4 +1,4 @@
-// Control's breakpoints: where they stand on the node, what happens when it stops at one.
+// Control's breakpoints: where they are on the node, what happens when it stops at one.
 #include <algorithm>
 
 #include "debug/control.hpp"
@@ -119,8 +119,8 @@ void Control::receive(const wire::BreakpointSetResult& result) {
             ""});
 }
 
-// The node was running, now it stands before an instruction with a breakpoint, and nobody asked it
-// to stand.
+// The node was running, now it is before an instruction with a breakpoint, and nobody asked it
+// to pause.
 bool Control::is_hit(ProgramState before, const wire::ExecutionStateChanged& state) {
     const bool asked =
         active(Kind::Pause) || active(Kind::Reset) || active(Kind::Query) || uploading();

@@ -280,7 +280,7 @@ void Control::returned_with(uint32_t mark) {
     if (view_.program && mark != mark_of(view_.program->bytecode)) lose_program();
 }
 
-// A node that cannot tell its program, was away, and stands as after power-up (3.1), although it
+// A node that cannot tell its program, was away, and is paused as after power-up (3.1), although it
 // had run, or would have run the code before the first handler: its program is gone.
 void Control::note_restart(const wire::ExecutionStateChanged& state) {
     const bool fresh = state.pc == 0 && state.flags == 0;

@@ -22,7 +22,7 @@ public:
 
     // ---- asked by the caller ----
     Result<RequestId> ask(Kind kind);
-    // Before all that was asked, which is given up: Stop, Pause.
+    // Before all that was asked, which is cancelled: Stop, Pause.
     RequestId at_once(Kind kind);
     Result<RequestId> load(const aesl::Program& program);
     void forget_program();

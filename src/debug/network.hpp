@@ -165,7 +165,7 @@ public:
     Result<RequestId> run(NodeId id);
     Result<RequestId> pause(NodeId id);
     Result<RequestId> stop(NodeId id);
-    // Now, before whatever waits for the node or is under way there, which is given up. Also for a
+    // Now, before what waits for the node or is under way there, which is cancelled. Also for a
     // node that is away, that has not told what it is, or that nobody has heard of: what it may
     // answer is then nobody's (nothing returned).
     std::optional<RequestId> stop_now(NodeId id);

@@ -102,7 +102,7 @@ TEST_F(ProgramMark, ThatNeverComesEndsTheRequest) {
     EXPECT_TRUE(bus.told<RequestDone>()[0].error);
 }
 
-// Standing as after power-up proves nothing, nor does standing elsewhere.
+// Being paused as after power-up proves nothing, nor does being paused elsewhere.
 TEST_F(ProgramMark, OfTheSameProgramKeepsItWhereverTheNodeStands) {
     adopt();
     come_back();

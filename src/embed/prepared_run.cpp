@@ -52,14 +52,14 @@ Status check_words(const RunWords& words) {
     if (!words.bus.empty() && words.clock == "virtual") {
         return usage(
             "--bus with --clock virtual: what is on a bus lives in real time; leave "
-            "--clock out, or let a --world stand for it");
+            "--clock out, or let a --world take its place");
     }
     if (!words.listen.empty() && words.world.empty()) {
         return usage("--listen goes with --world: it opens the bus of the world to others");
     }
     if (!words.listen.empty() && words.clock == "virtual") {
         return usage(
-            "--listen with --clock virtual: who joins a bus lives in real time; leave one "
+            "--listen with --clock virtual: programs on a bus live in real time; leave one "
             "of them out");
     }
     if (!words.project.empty() && words.bus.empty()) {

@@ -150,7 +150,7 @@ ssize_t send_or_no_buffers(int descriptor, const void* bytes, size_t size, int f
     return -1;
 }
 
-// The original gives up there (section 1.7): here every part goes out once, in its order.
+// The original stops there (section 1.7): here every part goes out once, in its order.
 TEST_F(Can, AFullDeviceIsTriedAgainWhereItStopped) {
     can_sends = 0;
     channel_ = make_can_channel(::dup(channel_->descriptor()), send_or_no_buffers);

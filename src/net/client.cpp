@@ -56,7 +56,7 @@ Status Client::send(const wire::Frame& frame) {
         if (!state_->links.has_unwritten()) return Status::done();
         state_->poll(deadline);
     } while (now() < deadline);
-    return Error{Code::Timeout, state_->name + ": the peer takes nothing any more"};
+    return Error{Code::Timeout, state_->name + ": the peer has stopped reading"};
 }
 
 Result<std::optional<wire::Frame>> Client::receive(Time deadline) {

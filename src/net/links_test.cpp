@@ -158,7 +158,7 @@ TEST(Links, PassesAFrameThatComesByteByByte) {
     EXPECT_EQ(receive(net, b, 14), whole);
 }
 
-// Without wake() the poll would last until the test is given up.
+// Without wake() the poll would last until the test times out.
 TEST(Links, AnotherThreadWakesAPoll) {
     Switch host;
     std::thread other([&host] { host.links.wake(); });

@@ -72,7 +72,7 @@ private:
         if (!v.access) {
             say("P5", v.name, v.access_line,
                 fmt::format("the access \"{}\" is not known; write in, out, inout or shared, or "
-                            "leave it away for a local variable",
+                            "omit it for a local variable",
                             v.access_word));
         }
         if (!v.type) {
@@ -89,7 +89,7 @@ private:
         if (v.initial && !fits_initial(v)) {
             say("P6", v.name, v.initial_line,
                 *v.type == Type::Object
-                    ? std::string("a variable of type object has no initial value; take it away")
+                    ? std::string("a variable of type object has no initial value; delete it")
                     : fmt::format("the initial value must be a constant of the type {}, but is one "
                                   "of the type {}",
                                   name_of(*v.type), name_of(v.initial->type())));
@@ -126,7 +126,7 @@ private:
         if (found && found->kind == Kind::Computation && !actor.supervisors.empty()) {
             say("P14", actor.name, actor.line,
                 fmt::format("\"{}\" is a computation ({}) and ends at once: it cannot have "
-                            "supervisors; take them away",
+                            "supervisors; delete them",
                             actor.name, found->name));
         }
         for (const Supervisor& supervisor : actor.supervisors) check_supervisor(supervisor);
@@ -245,7 +245,7 @@ private:
         const Value& period = *supervisor.period_ms;
         if (found.period_ms == 0) {
             say("P22", supervisor.name, supervisor.period_line,
-                fmt::format("{} waits for events itself and has no period; take period_ms away",
+                fmt::format("{} waits for events itself and has no period; delete period_ms",
                             found.name));
         } else if (period.type() != Type::Int || period.integer() < 1 ||
                    period.integer() > kPeriodMaxMs) {

@@ -85,7 +85,7 @@ struct RankAgain {};
 using Command =
     std::variant<StartWatch, StopWatch, Activate, StartCode, StopCode, SubPlanOver, RankAgain>;
 
-// Where the activation of a level stands.
+// How far the activation of a level is.
 enum class Phase : uint8_t {
     Pending,   // begin() is due
     Running,   // its code, or a plan inside it, runs

@@ -29,7 +29,7 @@ struct Breakpoint {
         Condition  // `condition` has become true by a write; true from the start does not count
     };
     Kind kind = Kind::Actor;
-    // The plan it stands in, in each instance of it: its name or file; empty: the outermost.
+    // The plan it is in, in each instance of it: its name or file; empty: the outermost.
     std::string plan = {};
     std::string element = {};
     std::string outcome = {};

@@ -150,9 +150,9 @@ Result<Raised> find_raised(const plan::Machine& machine, const std::string& supe
     }
     const int stopping = machine.stopping_level();
     if (stopping >= 0 && at.level >= stopping) {
-        return Error{Code::Refused,
-                     fmt::format("what {} watches is being stopped already; let it go on first",
-                                 supervisor)};
+        return Error{
+            Code::Refused,
+            fmt::format("what {} watches is being stopped already; continue first", supervisor)};
     }
     plan::Given given = TRY(make_given(*found->of, event, outputs));
     return Raised{machine.watch_at(at), std::move(given)};

@@ -129,7 +129,7 @@ Ended RealTime::Engine::decide() {
         let_debug();
         begin_if_checked();
         let_debug();
-        begin_if_checked();  // it stood before that, and events that came meanwhile come after it
+        begin_if_checked();  // paused before that; events that came meanwhile come after it
         start_due_checks();
         obey();
         taken_ = inbox_.take();

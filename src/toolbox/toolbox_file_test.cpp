@@ -127,7 +127,7 @@ TEST_P(Mistakes, AreToldWithTheirPlaceAndFix) {
 }
 
 constexpr Mistake kMistakes[] = {
-    {"{\n", "[\n", "2:11", "stand in an object, { … }, not in an array"},
+    {"{\n", "[\n", "2:11", "belong in an object, { … }, not in an array"},
     {"vagus-toolbox/1", "vagus-toolbox/2", "2:13",
      "\"format\" is \"vagus-toolbox/2\"; write \"vagus-toolbox/1\""},
     {"\"lamp\",\n  \"project\"", "\"la mp\",\n  \"project\"", "3:11",

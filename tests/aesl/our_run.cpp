@@ -31,7 +31,7 @@ Outcome converted(const session::Execution& execution, const Target& target) {
         outcome.emitted.push_back(
             {static_cast<size_t>(emission.during), emission.event, emission.arguments});
     if (!execution.error) return outcome;
-    outcome.gave_up = execution.error->kind == session::StopKind::StepLimit;
+    outcome.out_of_steps = execution.error->kind == session::StopKind::StepLimit;
     outcome.fault = Fault{converted(execution.error->kind),
                           static_cast<size_t>(execution.error->during), execution.error->line};
     return outcome;

@@ -87,10 +87,10 @@ std::string compared(uint64_t seed, const Sources& sources, PeerCompiler& small,
     const Mutant made = mutant(seed, sources);
     // The header colons of 2007 are errors to the peer.
     const OurRun ours = run_ours(made.program, made.node, Dialect::Modern);
-    if (ours.outcome.gave_up || ours.bytecode_words > kPeerWordsMax) return {};
+    if (ours.outcome.out_of_steps || ours.bytecode_words > kPeerWordsMax) return {};
     PeerCompiler& peer = &made.node == &sources.node ? small : large;
     const Outcome theirs = run_peer(peer, made.program, made.node);
-    if (theirs.gave_up || ours.outcome == theirs) return {};
+    if (theirs.out_of_steps || ours.outcome == theirs) return {};
     if (const std::string_view reason = excuse(made, ours, theirs); !reason.empty())
         return kExcused + std::string(reason);
     return explain(seed, made.program, to_string(theirs), to_string(ours.outcome));

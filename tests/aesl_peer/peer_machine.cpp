@@ -46,14 +46,14 @@ public:
         if (AsebaVMSetupEvent(&vm_, event) == 0) return;
         for (int i = 0; i < kRunsMax && (vm_.flags & kFlagActive) != 0; ++i)
             AsebaVMRun(&vm_, kRunSteps);
-        if ((vm_.flags & kFlagActive) != 0) outcome_.gave_up = true;
+        if ((vm_.flags & kFlagActive) != 0) outcome_.out_of_steps = true;
     }
 
     void set(size_t address, const Words& words) {
         std::copy(words.begin(), words.end(), variables_.begin() + static_cast<ptrdiff_t>(address));
     }
 
-    bool has_stopped() const { return outcome_.fault || outcome_.gave_up; }
+    bool has_stopped() const { return outcome_.fault || outcome_.out_of_steps; }
 
     void store_memory() {
         for (const auto& [name, place] : program_.variables) {

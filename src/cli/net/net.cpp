@@ -91,7 +91,7 @@ int run(const Call& call, const Act& act) {
 CLI::App* add_verb(CLI::App& net, const char* name, const char* what, const char* footer) {
     CLI::App* verb = net.add_subcommand(name, what);
     verb->footer(footer);
-    verb->fallthrough();  // --json, --project and --wait may stand behind the verb, too
+    verb->fallthrough();  // --json, --project and --wait may follow the verb, too
     return verb;
 }
 

@@ -39,7 +39,7 @@ Result<aesl::Target> target_of(const NodeOptions& options) {
     return target;
 }
 
-// A hub with two sides: the node, and whoever is connected.
+// A hub with two sides: the node, and what is connected.
 class NodeProgram {
 public:
     Status make_node(const NodeOptions& options);

@@ -1,5 +1,5 @@
 // `vagus switch`: a hub, the connections that people name, and this loop. All rules of routing
-// stand in hub/hub.hpp, all care for slow and broken peers in net/links.hpp.
+// are in hub/hub.hpp, all care for slow and broken peers in net/links.hpp.
 #include "cli/net/switch.hpp"
 
 #include <fmt/format.h>

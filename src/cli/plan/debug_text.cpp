@@ -195,7 +195,7 @@ std::string variables_of(const run::LevelNow& level) {
 }
 
 std::string text_of(const sim::RobotView& robot) {
-    return fmt::format("{} stands at {:.2f}, {:.2f} m, {:.0f} deg\n", robot.name, robot.pose.at.x,
+    return fmt::format("{} is at {:.2f}, {:.2f} m, {:.0f} deg\n", robot.name, robot.pose.at.x,
                        robot.pose.at.y, robot.pose.angle * 180 / std::numbers::pi);
 }
 

@@ -197,8 +197,9 @@ void add_run(CLI::App& plan, int& exit_code) {
     CLI::App* verb = plan.add_subcommand("run", "runs a plan");
     verb->footer(
         "Exit codes: 0 the plan ended well, 3 it was interrupted, 4 it failed, 5 --max-time came, "
-        "2 it is not valid.\n\nBeside a world, on a terminal, it shows the plan and the world; the "
-        "keys stand at the bottom. At the\nend the view stays until a key. Otherwise it prints a "
+        "2 it is not valid.\n\nBeside a world, on a terminal, it shows the plan and the world; "
+        "keys are listed at the bottom. At the\nend the view stays until a key. Otherwise it "
+        "prints a "
         "line "
         "for each thing that happens: on stdout, or on\nstderr where stdout carries a trace. "
         "--quiet "

@@ -191,7 +191,7 @@ PlanPanelView PlanScreen::panel() {
 std::vector<KeyHelp> PlanScreen::key_help() {
     const KeyHelp scroll{"PgUp PgDn", "scroll"};
     if (last_word_) return {{"q", "quit"}, {"r", "restart"}, scroll};
-    std::vector<KeyHelp> keys = {{"space", pace_.paused() ? "go on" : "pause"}, {"q", "quit"}};
+    std::vector<KeyHelp> keys = {{"space", pace_.paused() ? "continue" : "pause"}, {"q", "quit"}};
     for (KeyHelp& key : Hands::keys_beside_a_plan(type_of_robot())) keys.push_back(std::move(key));
     keys.insert(keys.end(), {{"+ -", "speed"}, {"r", "restart"}, scroll});
     return keys;
@@ -235,8 +235,8 @@ private:
 
 void tell_summary(const session::SimSession& session, const Lines& tell) {
     for (const sim::RobotView& robot : session.world().robots()) {
-        tell(session.now(), fmt::format("{} stands at {:.2f}, {:.2f} m", robot.name,
-                                        robot.pose.at.x, robot.pose.at.y));
+        tell(session.now(), fmt::format("{} is at {:.2f}, {:.2f} m", robot.name, robot.pose.at.x,
+                                        robot.pose.at.y));
     }
     const auto load = session.world().bus_load();
     if (!load) return;
@@ -273,7 +273,7 @@ int run_on_screen(TerminalRun& run, const std::string& theme) {
     const run::Ended ended = screen->run();
     const auto last_word = screen->last_word();
     const auto notices = screen->notices();
-    // What is said from here on stands on the normal screen.
+    // What is said from here on is printed on the normal screen.
     screen.reset();
     run.prepared().tell([](const std::string& sentence) { complain(sentence); });
     for (const std::string& sentence : notices) complain(sentence);

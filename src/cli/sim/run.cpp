@@ -114,7 +114,7 @@ Status SimRun::listen() {
 }
 
 Status SimRun::open_trace() {
-    // On stdout its lines stand between the plain ones, as they happen.
+    // On stdout its lines are between the plain ones, as they happen.
     const auto when =
         options_.trace == "-" ? LineSink::When::AtOnce : LineSink::When::WithinASecond;
     trace_ = TRY(LineSink::open(options_.trace, when));
@@ -309,7 +309,7 @@ void SimRun::restart() {
 
 std::vector<KeyHelp> SimRun::key_help() const {
     const auto nodes = session_.nodes();
-    std::vector<KeyHelp> keys = {{"space", pace_.paused() ? "go on" : "pause"},
+    std::vector<KeyHelp> keys = {{"space", pace_.paused() ? "continue" : "pause"},
                                  {"q", "quit"},
                                  {"r", "restart"},
                                  {"+ -", "speed"}};

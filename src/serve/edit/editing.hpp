@@ -1,5 +1,5 @@
 // The part of the studio's server that edits: texts, files, scripts, what is wrong with them. It
-// declares their commands and topics at the desk; whoever joins the studio together tells it which
+// declares their commands and topics at the desk; the owner of the studio tells it which
 // project is open and when time passes.
 //
 //     Editing editing(desk, files, scripts, epoch);

@@ -135,7 +135,7 @@ const std::set<std::string>& Findings::files_of_project() {
     return scope_;
 }
 
-// What somebody looks at is checked wherever it stands.
+// What a page watches is checked wherever it is.
 std::set<std::string> Findings::wanted() const {
     std::set<std::string> paths = scope_;
     for (const Json& of : desk_.topics().subjects("doc")) {

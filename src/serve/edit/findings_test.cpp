@@ -114,7 +114,7 @@ TEST_F(EditTest, PlansAreCheckedAsTheyAreEdited) {
     EXPECT_THAT(findings(), IsEmpty());
 }
 
-// A page marks the row of a form by it: the words of the sentence say nothing of where it stands.
+// A page marks the row of a form by it: the words of the sentence say nothing of where it is.
 TEST_F(EditTest, FindingsOfPlansSayWhichMemberIsMeant) {
     write("P.plan.json", plan(kGoodActor));
     enter({.plan = "P.plan.json"});

@@ -17,7 +17,7 @@ bool is_name_letter(char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_';
 }
 
-// Where in a text a name stands as a word of its own; npos if it does not.
+// Where in a text a name is a word of its own; npos if it does not.
 size_t find_word(std::string_view text, std::string_view name, size_t from) {
     for (size_t at = text.find(name, from); at != text.npos; at = text.find(name, at + 1)) {
         const bool begins = at == 0 || !is_name_letter(text[at - 1]);
@@ -95,9 +95,9 @@ private:
             walk(member.value, {member.at});
         }
     }
-    void add(Place at, Place stands, const std::string& raw, bool is_key) {
+    void add(Place at, Place begin, const std::string& raw, bool is_key) {
         strings_.emplace(PlaceKey(at.line, at.column),
-                         Found{places_.byte_of({stands.line, stands.column}), raw, is_key});
+                         Found{places_.byte_of({begin.line, begin.column}), raw, is_key});
     }
 
     // The whole string, or the name wherever it is in a formula.

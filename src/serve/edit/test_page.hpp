@@ -143,7 +143,7 @@ protected:
                 {"by", "page"},
                 {"changes", changes}};
     }
-    // Replaces the one place where a text stands, which is plain ASCII before it.
+    // Replaces the one place that has a text, which is plain ASCII before it.
     void put(const std::string& doc, const std::string& what, const std::string& with) {
         const std::string before = text(doc);
         const size_t at = before.find(what);

@@ -71,7 +71,7 @@ public:
     void commit(Done done);
     // Back to the version before.
     void back(Done done);
-    // Somebody has pressed Stop: what is in force stays so, and stands.
+    // Stop was pressed: what is in force stays so, and is stopped.
     void stopped();
 
     bool busy() const { return done_ != nullptr || working_ > 0; }

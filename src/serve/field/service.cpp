@@ -73,7 +73,7 @@ private:
         return Status::done();
     }
 
-    // Other versions of a file that stands alone would have no place.
+    // Other versions of a single file would have no place.
     Status check_folder() const {
         std::error_code failed;
         if (fs::is_directory(options_.project, failed)) return Status::done();

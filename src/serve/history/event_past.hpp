@@ -1,4 +1,4 @@
-// What happened on the bus during a run, and where nodes stood: the newest that fit.
+// What happened on the bus during a run, and where nodes were paused: the newest that fit.
 #pragma once
 
 #include <cstdint>

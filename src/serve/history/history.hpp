@@ -1,5 +1,5 @@
 // All that is kept of a run, or of a trace that was opened: what the plan did, what happened on the
-// bus, what variables were, where things stood. It is told the time with everything it is told, and
+// bus, what variables were, where things were. It is told the time with everything it is told, and
 // answers for any instant and for any window of time.
 //
 //     History history;

@@ -171,7 +171,7 @@ TEST(EventPast, TheOldestGoFirstAndAreCounted) {
 
 TEST(EventPast, DenseEventsAreARunAndFewAreMarks) {
     EventPast past;
-    // 100 s on 100 pixels: a pixel is a second. Three at 10, 12, 14 stand closer than 6 pixels.
+    // 100 s on 100 pixels: a pixel is a second. Three at 10, 12, 14 are closer than 6 pixels.
     for (const double t : {10.0, 12.0, 14.0, 50.0, 80.0, 80.5}) {
         past.add({.t = t, .kind = "event", .source = "drive", .name = t > 80 ? "b" : "a"});
     }

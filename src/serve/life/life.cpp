@@ -124,7 +124,7 @@ void Life::open_world(CallNumber call, bool go) {
     open_runner(OpenRunner::What::World);
 }
 
-// The world alone, with its robots where they stand. Nobody waits for it.
+// The world alone, with its robots where they are. Nobody waits for it.
 void Life::reopen_world() {
     begin(What::World, Phase::Opening, false, 0);
     open_runner(OpenRunner::What::WorldAgain);
@@ -189,7 +189,7 @@ void Life::on(const Opened&) {
     const auto opened = std::exchange(runner_opens_, std::nullopt);
     if (!opened) return;
     if (target_ == Target::Bus) return opened_on_bus();
-    // Stopped while its world opened: the plan is given up, the world stays.
+    // Stopped while its world opened: the plan is abandoned, the world stays.
     if (*opened == OpenRunner::What::Plan && !starting_) return reopen_world();
     if (!starting_) begin(What::World, Phase::Opening, false, 0);
     if (*opened == OpenRunner::What::Plan) plan_ = Plan::Paused;
@@ -200,7 +200,7 @@ void Life::on(const Opened&) {
     state_ = State::Loading;
 }
 
-// It stands before its first actor.
+// It is paused before its first actor.
 void Life::opened_on_bus() {
     if (!starting_ || starting_->phase != Phase::Opening) {  // Stop came meanwhile
         plan_ = Plan::Ending;

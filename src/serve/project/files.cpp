@@ -68,7 +68,7 @@ void Files::recover(const std::string& path, File& file, Unsaved unsaved) {
     file.unsaved = true;
     file.journaled = true;
     // The file changed meanwhile: what both did is put together, or both are shown. The journal
-    // gets it with the next change: whoever only reads a project writes nothing.
+    // gets it with the next change: reading a project writes nothing.
     if (!file.gone && take_disk(file, std::move(disk))) {
         file.unsaved = file.text.bytes() != file.saved;
     }
@@ -167,7 +167,7 @@ Result<Files::Place> Files::place_of(const std::string& doc) const {
 }
 
 // A file that was renamed is found under its old name, too, until there is another one of that
-// name: whoever typed into it while it moved has lost nothing.
+// name: what was typed into it while it moved is not lost.
 std::string Files::path_now(const std::string& path) const {
     std::string now = path;
     for (size_t steps = 0; steps <= moved_.size() && !files_.contains(now); ++steps) {

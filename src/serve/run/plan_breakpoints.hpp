@@ -38,7 +38,7 @@ public:
     const std::vector<PlanBreakpoint>& all() const { return all_; }
     // A new one, or the one there is: by its number, else by place (a condition by its text).
     Result<PlanBreakpoint*> set(const PlanBreakpoint& wanted);
-    // Whether one stands at that place already: what is there may have been deleted since.
+    // Whether one is at that place already: what is there may have been deleted since.
     bool stands_at(const PlanBreakpoint& place) const;
     // Without a number all of the document, without a document all.
     void clear(std::optional<uint64_t> number, const std::optional<std::string>& doc);

@@ -62,7 +62,7 @@ Status Run::open(const RunOrder& order, Time now) {
     return Status::done();
 }
 
-// All but what stands there: that is shown until the next world stands.
+// All but the scene: that is shown until the next world is open.
 void Run::forget_run() {
     forget_asked("the run was started again");
     forget_held();
@@ -280,7 +280,7 @@ void Run::keep_change(const std::vector<std::string>& files, const talk::Answer&
                {"reasons", *reasons}};
     desk_.topics().touch("plan");
     if (taken) return;
-    std::string text = "the plan that runs cannot change so; it goes on as it was:";
+    std::string text = "the running plan cannot take this change; it continues unchanged:";
     for (const std::string& reason : *reasons) text += "\n" + reason;
     say_("warning", text);
 }

@@ -19,7 +19,7 @@ void Run::hear_all() {
     hear_end(*fault);
 }
 
-// Gives why it cannot go on: the beginning of a sentence. Whoever hears of one thing may close the
+// Gives why it cannot go on: the beginning of a sentence. A listener of one thing may close the
 // run, or open another.
 std::optional<std::string> Run::hear_packets() {
     const RunProcess* const process = child_.get();
@@ -141,8 +141,8 @@ void Run::hear(const talk::FrameSeen& seen) {
 void Run::hear_end(const std::string& what) {
     const std::string last = last_actor_.empty() ? "" : "; the active actor was " + last_actor_;
     why_ = fmt::format(
-        "{} at {:.3f} s{}. Everything that was recorded is kept; run it again to start over", what,
-        t_, last);
+        "{} after {:.1f} s{}. Everything that was recorded is kept; run it again to start over",
+        what, t_, last);
     state_ = State::Dead;
     has_world_ = false;
     child_.reset();

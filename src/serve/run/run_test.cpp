@@ -163,10 +163,12 @@ TEST_F(RunTest, ADeathAnswersWhatWasAskedAndSaysWhereItWas) {
     say(talk::Traced{.line = R"({"kind":"actor-start","actor":"go"})", .actor = "go"});
     std::vector<std::string> answers;
     run.set_variable(0, "n", 1, [&](const std::string& why) { answers.push_back(why); });
-    end = ChildEnd{false, 9, "ended by signal 9 (Killed)"};
+    end = ChildEnd{false, 9, "was ended by signal 9 (Killed)"};
     run.tick(now += 1ms);
     ASSERT_EQ(deaths.size(), 1u);
-    EXPECT_THAT(deaths[0], HasSubstr("signal 9 (Killed) at 0.000 s; the active actor was go."));
+    EXPECT_THAT(
+        deaths[0],
+        HasSubstr("the run was ended by signal 9 (Killed) after 0.0 s; the active actor was go."));
     EXPECT_EQ(answers, deaths);
     EXPECT_EQ(run.state(), serve::Run::State::Dead);
     EXPECT_EQ(run.deaths(), 1u);

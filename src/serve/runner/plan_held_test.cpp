@@ -47,7 +47,7 @@ private:
     Time next_ = 1ms;
 };
 
-// Runs the plan with a breakpoint at b; `standing` is called again and again while it is paused.
+// Runs the plan with a breakpoint at b; `when_paused` is called again and again while it is paused.
 struct PausedPlan {
     PausedPlan() {
         toolbox::add_core(library);
@@ -134,7 +134,7 @@ TEST(PlanHeld, OneIsDroppedAndWithTheOtherThePlanSteps) {
         }
     });
     EXPECT_EQ(said, "ds");
-    // b has heard it and was the last: the plan is over before it could stand again.
+    // b has heard it and was the last: the plan is over before it could pause again.
     EXPECT_EQ(ended.result, plan::PlanResult::Ok);
 }
 

@@ -29,7 +29,7 @@ public:
     void step();
     void give_up_step();
     // On with one event of those that wait, without a number the first, and held again at the next
-    // thing that the plan does. Refused, it stays where it stands.
+    // thing that the plan does. Refused, it stays where it is.
     using Answered = std::function<void(const Result<run::Reply>& reply)>;
     void step_event(std::optional<uint64_t> number, Answered answered);
     void abort();
@@ -38,7 +38,7 @@ public:
 
     // At once, also while it runs.
     void ask(run::Request request, Answered answered);
-    // What a debugger does for a plan that is held only. A plan that stands by itself stays so.
+    // What a debugger does for a plan that is held only. A plan that paused by itself stays so.
     enum class Then { Hold, GoOn };
     void ask_held(run::Request request, Answered answered, Then then);
 

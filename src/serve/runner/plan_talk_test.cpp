@@ -28,7 +28,7 @@ constexpr const char* kCount = R"({
   }
 })";
 
-// Runs the plan to its end; `standing` is called with what it stands for, each time it stands.
+// Runs the plan to its end; `when_paused` is called with why, each time it pauses.
 struct OneThread {
     OneThread() {
         toolbox::add_core(library);
@@ -65,14 +65,14 @@ talk::BreakpointOrder at_step(uint64_t stop_at) {
 TEST(PlanTalk, APlanOnTheSameThreadStandsAtABreakpointAndGoesOn) {
     OneThread plan;
     plan.stops.want({at_step(4)});
-    std::vector<Time> stood;
+    std::vector<Time> paused;
     const run::Ended ended = plan.run([&](const PlanTalk::Heard& heard) {
-        stood.push_back(heard.broken->where.at);
+        paused.push_back(heard.broken->where.at);
         EXPECT_EQ(plan.stops.numbers(heard.broken->breakpoints), std::vector<uint64_t>{7});
         plan.talk->go_on();
     });
     EXPECT_EQ(ended.result, plan::PlanResult::Ok);
-    EXPECT_EQ(stood, (std::vector<Time>{4s, 5s, 6s}));
+    EXPECT_EQ(paused, (std::vector<Time>{4s, 5s, 6s}));
 }
 
 TEST(PlanTalk, TheHitsOfABreakpointAreToldWhileThePlanStands) {
@@ -124,13 +124,13 @@ TEST(PlanTalk, WhatIsSetWhileItStandsIsDoneAndItStaysThere) {
 TEST(PlanTalk, StepsFromABreakpointToTheNextActor) {
     OneThread plan;
     plan.stops.want({at_step(5)});
-    std::vector<std::string> stood;
+    std::vector<std::string> paused;
     (void)plan.run([&](const PlanTalk::Heard& heard) {
         const run::Where& where = heard.stepped ? *heard.stepped : heard.broken->where;
-        stood.push_back(where.levels.back().actor);
-        stood.size() == 1 ? plan.talk->step() : plan.talk->go_on();
+        paused.push_back(where.levels.back().actor);
+        paused.size() == 1 ? plan.talk->step() : plan.talk->go_on();
     });
-    EXPECT_EQ(stood, (std::vector<std::string>{"step", "wait", "step"}));
+    EXPECT_EQ(paused, (std::vector<std::string>{"step", "wait", "step"}));
 }
 
 }  // namespace

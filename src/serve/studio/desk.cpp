@@ -342,7 +342,7 @@ void Desk::send(ClientId client, bool binary, std::string bytes) {
     found->second.unsent += bytes.size();
     outside_.send(client, binary, std::move(bytes));
     if (found->second.unsent > Protocol::get().limit("unsent_bytes")) {
-        drop(client, "this page asks for more than it takes; it may return");
+        drop(client, "this page read too slowly and was disconnected; reload it");
     }
 }
 

@@ -101,7 +101,7 @@ TEST(Desk, ARightTokenDoesNotWaitForWrongOnes) {
     EXPECT_TRUE(f.hello(21, kDrive, "b").contains("ok"));
 }
 
-// As long as one that says nothing: who guesses cannot fill all the places for longer.
+// As long as one that says nothing: a guesser cannot fill all the places for longer.
 TEST(Desk, NoWrongTokenStaysLongerThanAPageWithoutAHello) {
     Fixture f;
     for (uint32_t i = 1; i <= 20; ++i) f.hello(i, "wrong", "a");

@@ -126,7 +126,7 @@ std::vector<Json> Topics::subjects(const std::string& topic) const {
 void Topics::flush(Time now, const std::function<bool(ClientId)>& has_room, const Send& send) {
     for (auto& [place, watch] : watches_) {
         if (watch.due > now) continue;
-        // Asked again at its own pace, not at once: who does not read costs nothing.
+        // Asked again at its own pace, not at once: a page that does not read costs nothing.
         if (!has_room(place.first)) {
             watch.due = now + watch.every;
             continue;

@@ -1,4 +1,4 @@
-// What pages watch: documents that change, streams that grow, binary frames that flow. Whoever has
+// What pages watch: documents that change, streams that grow, binary frames that flow. A part with
 // something to show declares it once and says when it may have changed. Only what somebody watches
 // is computed. A page is sent what differs from what it has, no faster than it asked for, and
 // nothing while it has no room: what it missed is merged or counted, not queued.

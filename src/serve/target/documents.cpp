@@ -58,10 +58,10 @@ Json Target::node_line(uint16_t id) const {
     if (!doc.empty()) node["doc"] = doc;
     const auto found = known_.find(id);
     const Known known = found == known_.end() ? Known{} : found->second;
-    // Events make a stopped node stand at their first line; it is stopped all the same.
+    // Events pause a stopped node at their first line; it is stopped all the same.
     const bool stopped = known.stopped && view->connected;
     if (stopped) node["state"] = "stopped";
-    // Paused between two events: it stands, but at no line.
+    // Paused between two events: at no line.
     const bool waits = view->connected && view->state == debug::ProgramState::Stopped && !stopped &&
                        known.fault.empty();
     if (waits) node["state"] = "paused";

@@ -36,7 +36,7 @@ TEST(DroppedEvents, OnlyWhatComesWhileTheNodeStandsInsideAnEventIsCounted) {
     EXPECT_EQ(dropped.of(2), 0u);
 }
 
-// Paused between two events, it takes the next one and stands at its first line.
+// Paused between two events, it takes the next one and pauses at its first line.
 TEST(DroppedEvents, ANodeThatStandsBetweenTwoEventsDropsNone) {
     DroppedEvents dropped;
     dropped.state(2, ProgramState::Stopped);

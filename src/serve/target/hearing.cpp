@@ -105,7 +105,7 @@ void Target::hear(const debug::Event& event, const debug::UserEvent& sent) {
     count_dropped(event.node, sent.number);
 }
 
-// All nodes that stand take the event for nothing; the one that emitted it does not hear it.
+// All paused nodes discard the event; the one that emitted it does not hear it.
 void Target::count_dropped(uint16_t from, uint16_t event) {
     for (const uint16_t id : live_nodes()) {
         if (id == from || !dropped_.is_paused(id)) continue;

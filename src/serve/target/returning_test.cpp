@@ -8,9 +8,9 @@ namespace {
 
 using Type = wire::MessageType;
 
-// A cable was pulled and put back; meanwhile the node was started again, and stands where the
-// program before it stood.
-TEST_F(TargetTest, ANodeThatWasStartedAgainGetsItsScriptAndStands) {
+// A cable was pulled and put back; meanwhile the node was started again, and is where the
+// program before it was.
+TEST_F(TargetTest, ANodeThatWasStartedAgainGetsItsScriptAndStaysPaused) {
     run();
     bus.state = Connection::Lost;
     pass(100ms);

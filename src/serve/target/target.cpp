@@ -254,7 +254,7 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
             network_->set_common(script->common);
             auto asked = network_->load(node, script->result.program);
             if (!asked.ok()) return asked;
-            // What was loaded runs by itself; who wants it to stand says so behind it, and before
+            // What was loaded runs by itself; a request to pause is sent behind it, before
             // anybody says something else.
             if (!run) (void)network_->stop(node).ok();
             Known& known = known_[node];
@@ -340,7 +340,7 @@ void Target::step_paused(std::function<void(std::vector<std::string>)> done) {
         [done = std::move(done)](Batch& batch) { done(sentences(batch.failed)); }, "stepping");
 }
 
-// Why it stood before is no longer why it stands.
+// Why it was paused before is no longer why it is paused.
 Result<debug::RequestId> Target::step(uint16_t node) {
     in_charge_ = true;
     end_rest();
@@ -359,7 +359,7 @@ std::vector<uint16_t> Target::paused_nodes() const {
     return paused;
 }
 
-bool Target::stands_inside() const {
+bool Target::is_paused_inside() const {
     const auto paused = paused_nodes();
     return std::any_of(paused.begin(), paused.end(), [this](uint16_t node) {
         const debug::NodeView* view = network_->node(node);

@@ -6,11 +6,11 @@
 //     target.tick(now);
 //
 // A node that was away comes back without anybody doing anything: one that says that it kept its
-// program goes on with its breakpoints; any other gets it again and stands until someone lets it
+// program goes on with its breakpoints; any other gets it again and is paused until a page lets it
 // run.
 //
 // What moves is stopped wherever nobody watches it (safe stop): stop_all() reads back whether nodes
-// are at rest; of a live robot, one node that stands brakes all (brake.cpp); who drives by hand and
+// are at rest; of a live robot, one paused node brakes all (brake.cpp); a page that drives and
 // loses the connection drives no more (lease.cpp).
 #pragma once
 
@@ -52,7 +52,7 @@ struct TargetHints {
     // The plan waits for an event of that name.
     std::function<bool(const std::string& event)> plan_hears = [](auto&) { return false; };
     std::function<std::optional<double>()> load = [] { return std::optional<double>(); };
-    // A script stopped at a breakpoint, or goes on: the clock of a simulation stands with it.
+    // A script stopped at a breakpoint, or goes on: the clock of a simulation pauses with it.
     std::function<void()> stopped_at_breakpoint = [] {};
     // The run's clock, for what pages show.
     std::function<double()> time = [] { return 0.0; };
@@ -145,15 +145,15 @@ public:
     void load_changed(bool run, std::function<void(std::vector<std::string>)> done);
     void run_all(std::function<void(std::vector<std::string>)> done);
     void pause_all(std::function<void(std::vector<std::string>)> done);
-    // Of the nodes that stand only.
+    // Of the paused nodes only.
     void run_paused(std::function<void(std::vector<std::string>)> done);
     void step_paused(std::function<void(std::vector<std::string>)> done);
     // A node is paused at a line of its script.
-    bool stands_inside() const;
+    bool is_paused_inside() const;
     // Empty if it is not there or has not told what it is.
     std::string described_name(uint16_t node) const;
     // Nodes that somebody debugs: paused, reset, stepped or loaded from here, at a breakpoint of
-    // whoever, or paused because of such a one. In ascending order.
+    // a host, or paused because of such a one. In ascending order.
     std::vector<uint16_t> held_nodes() const;
     // Nodes that the project has no script for.
     std::vector<uint16_t> without_script() const;
@@ -180,7 +180,7 @@ private:
         std::string loaded;  // the source that was loaded
         bool has_program = false;
         double loaded_wall = 0;
-        std::string why;  // it stands
+        std::string why;  // it is paused
         std::string fault;
         int fault_line = 0;  // 0: not known
         std::string busy;
@@ -326,7 +326,7 @@ private:
     session::Stopping resting_;  // while scripts run on
     Time rest_until_{};
     bool in_charge_ = false;                         // somebody has acted on the robot from here
-    std::set<uint16_t> brake_causes_;                // nodes that stand, or are away
+    std::set<uint16_t> brake_causes_;                // nodes that are paused, or away
     std::set<uint16_t> braked_;                      // nodes that were paused because of them
     std::map<uint32_t, std::set<uint16_t>> leases_;  // what each client drives by hand
     std::unique_ptr<debug::Network> network_;

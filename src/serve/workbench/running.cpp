@@ -66,7 +66,7 @@ RunOrder Workbench::order_of(const std::string& plan, const Json& set) const {
     return order;
 }
 
-// The file says something else than what stands there.
+// The file says something else than what is shown.
 bool Workbench::world_has_changed() const {
     const auto text = files_.text(project_->world);
     return text.ok() && text.value() != opened_world_;
@@ -99,7 +99,7 @@ void Workbench::check_change(const Call& call) {
     });
 }
 
-// A world that only stands there shows at once what was saved.
+// A world that does not run shows at once what was saved.
 void Workbench::world_saved(const std::string& path) {
     if (!project_ || path != project_->world || !simulates() || !run_.rests()) return;
     if (life_.state() != Life::State::Ready || !world_has_changed()) return;
@@ -155,7 +155,7 @@ void Workbench::start_with(const Call& call, const std::string& plan, life::Star
 }
 
 void Workbench::step(const Call& call) {
-    if (bus_ || target_.stands_inside()) {
+    if (bus_ || target_.is_paused_inside()) {
         return target_.step_paused([call](const std::vector<std::string>& failed) {
             if (failed.empty()) return call.done();
             call.fail("failed", joined_lines(failed));
@@ -256,7 +256,7 @@ void Workbench::declare_plan_commands() {
         const std::string plan = call.in.value("doc", project_->plan);
         if (plan.empty()) return call.fail("not_found", "the project has no plan");
         if (!save_all(call)) return;
-        start_with(call, plan, {.go = true, .anew = true});
+        start_with(call, plan, {.go = true, .again = true});
     });
     const auto while_it_runs = [this](const char* name, std::function<void(const Call&)> act) {
         desk_.command(name, [this, act = std::move(act)](const Call& call) {
@@ -293,7 +293,7 @@ void Workbench::declare_plan_commands() {
             return call.fail("not_found", "the project has no plan");
         }
         if (!save_all(call)) return;
-        start_with(call, project_->plan, {.go = false, .anew = true});
+        start_with(call, project_->plan, {.go = false, .again = true});
     });
 }
 

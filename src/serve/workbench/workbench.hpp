@@ -1,5 +1,5 @@
 // The studio without its door: the open project with its files, scripts and breakpoints, the robot
-// and the run, and the commands that join them. One thread, told the time; whoever has the web
+// and the run, and the commands that join them. One thread, told the time; the loop with the web
 // server hands its events to the desk.
 //
 //     Workbench bench(links, desk, places);
@@ -110,7 +110,7 @@ public:
     void on_end(std::function<void(const life::End& end)> ended) { ended_ = std::move(ended); }
 
     // If anything runs, or was sent that can move a node: the plan ends, and all nodes stop. Until
-    // that is over, or given up, is_stopping().
+    // that is over, or waited for no longer, is_stopping().
     void end_by(const std::string& by, life::Why why);
     bool is_stopping() const { return life_.is_stopping(); }
 

@@ -171,7 +171,7 @@ void DriveNode::sense(const Surroundings& around) {
 }
 
 // A program that does not run would miss them: they wait until it does. That the node has ended a
-// command is told when the wheels stand, or when they have another command before that; to the next
+// command is told when the wheels rest, or when they have another command before that; to the next
 // program if this one would not hear it, for it may be an empty one.
 void DriveNode::raise_endings() {
     Motion& motion = driver_.motion;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFaster = 0.8 * kArenaStep;  // m/s in a step, of a wheel
 constexpr double kSlower = 0.6;               // m/s^2 of a wheel
 constexpr double kCreep = 0.01;               // m/s: the slowest approach
-constexpr double kRestSpeed = 0.001;          // m/s: a slower wheel stands
+constexpr double kRestSpeed = 0.001;          // m/s: a slower wheel is at rest
 constexpr double kClose = 0.0003;             // m: so near is there
 // Between what a servo does and shall do: within the first a path may be followed exactly, beyond
 // the second the wheels do not roll.
@@ -35,7 +35,7 @@ WheelPair scaled(WheelPair wheels, double factor) {
     return wheels;
 }
 
-// Servos swing only under wheels that stand: under way they would drag the robot aside.
+// Servos swing only under wheels at rest: under way they would drag the robot aside.
 WheelPair swing(const WheelPair& wheels, const WheelPair& wanted) {
     return scaled(at_rest(wheels) ? wanted : wheels, 0);
 }
@@ -169,7 +169,7 @@ void Motion::finish() {
 }
 
 // The speed grows no quicker than the tyres like, and stays slow enough to stop in time, counting
-// the way that the wheels roll on after they were told to stand.
+// the way that the wheels roll on after they were told to stop.
 WheelPair Motion::follow_path(const WheelPair& wheels) {
     const double rolling = speed_along(wheels, path_.aim);
     const double rest = path_.left - std::max(0.0, rolling) * kResponse;

@@ -1,5 +1,5 @@
 // The driving commands of a Carbot: what its drive node's firmware makes of "one metre ahead".
-// Told in each step how the wheels stand, it says where they shall go. Knows nothing of nodes and
+// Told in each step how the wheels are, it says where they shall go. Knows nothing of nodes and
 // ground.
 //
 //     Motion motion;
@@ -31,10 +31,10 @@ public:
     void brake();
     void pause();   // keeps the command
     void resume();  // of a paused one
-    // As brake(), because whoever commands is gone. False, and nothing done, without a command.
+    // As brake(), because the commander is gone. False, and nothing done, without a command.
     bool cut();
 
-    // One step of kArenaStep: where the wheels shall go, given how they stand.
+    // One step of kArenaStep: where the wheels shall go, given how they are.
     WheelPair step(const WheelPair& wheels);
 
     MotionKind kind() const { return kind_; }

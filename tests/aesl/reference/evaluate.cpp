@@ -43,7 +43,7 @@ public:
         for (size_t i = 0; i < words.size(); ++i) memory_[address + i] = words[i];
     }
 
-    bool has_stopped() const { return outcome_.fault || outcome_.gave_up; }
+    bool has_stopped() const { return outcome_.fault || outcome_.out_of_steps; }
 
     void store_memory() {
         for (const TreeVariable& variable : tree_.variables) {
@@ -60,8 +60,8 @@ private:
     }
 
     bool has_step_left() {
-        if (++steps_ > kEvaluateStepsMax) outcome_.gave_up = true;
-        return !outcome_.gave_up;
+        if (++steps_ > kEvaluateStepsMax) outcome_.out_of_steps = true;
+        return !outcome_.out_of_steps;
     }
 
     // ---- expressions ----

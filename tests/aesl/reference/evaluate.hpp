@@ -8,7 +8,7 @@
 
 namespace vagus::aesl {
 
-// Statements and loop rounds of a whole case; then the evaluator gives up.
+// Statements and loop rounds of a whole case; then the evaluator stops.
 constexpr int kEvaluateStepsMax = 50'000;
 
 // Runs the initialisation, then the stimuli in order. Errors of the text are those of the

@@ -59,7 +59,7 @@ Fault fault_of(const JsonValue& json) {
 }  // namespace
 
 std::string to_string(const Outcome& outcome) {
-    if (outcome.gave_up) return "gave up\n";
+    if (outcome.out_of_steps) return "out of steps\n";
     if (outcome.error)
         return fmt::format("error {} in line {}\n", outcome.error->code, outcome.error->line);
     std::string text;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures the simulated robots of Debian's asebaplayground as a black box.
 
-Robots stand in cells of one big arena, each with a wall, a cylinder or a coloured floor at a known place; their
+Robots are in cells of one big arena, each with a wall, a cylinder or a coloured floor at a known place; their
 variables are read over TCP with GetVariables (docs/spec/aseba-wire-and-vm.md, section 2.3). Nothing but what the
 program tells over its sockets is used. Prints one JSON object: the table of docs/sensors.md is made from it.
 

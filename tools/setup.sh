@@ -99,7 +99,7 @@ forget_moved_build() {
         place=$(sed -n "s/^$entry=//p" "$folder/CMakeCache.txt")
         [ "$entry" = CMAKE_HOME_DIRECTORY:INTERNAL ] && here=$root || here=$folder
         if [ -n "$place" ] && ! [ "$place" -ef "$here" ]; then
-            say "build/$1 was made in another place ($place); making it anew"
+            say "build/$1 was made in another place ($place); making it again"
             rm -rf "$folder"
             return 0
         fi
@@ -173,7 +173,7 @@ are_pages_built() {
         -o -type f -newer "$root/web/dist/index.html" -print -quit)" ]
 }
 
-# 0 when they stand in web/dist; else it has said why they do not.
+# 0 when they are in web/dist; else it has said why they do not.
 build_pages() {
     are_pages_built && return 0
     need_web || return 1

@@ -4,6 +4,7 @@
     tools/tidy.py            check the checkout around this file
     tools/tidy.py --self     check that each rule still catches its example
 """
+import os
 import pathlib
 import re
 import sys
@@ -47,7 +48,6 @@ ROOMS = {
         ("checks", "types warn"),
         ("code", "code code_writer emit stack link"),
         ("whole", "compile"),
-        ("reference", "reference/"),
     ],
     "conformance": [
         ("values", "line instructions finding standard_natives"),
@@ -65,7 +65,7 @@ ROOMS = {
         ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world"),
     ],
     "serve": [
-        ("ground", "process access base64 json plan_value thrown worker"),
+        ("ground", "process access base64 bytes json plan_value thrown worker"),
         ("protocol", "protocol/"),
         ("door", "web/"),
         ("pages", "studio/"),
@@ -96,7 +96,7 @@ MAY_CALL_SYSTEM = ("src/net/", "src/cli/", "src/base/file.cpp", "src/base/folder
 # Libraries that stay behind one door.
 ONE_DOOR = [
     (re.compile(r"^(rapidjson|nlohmann)/"), ("src/base/json", "src/serve/"), "JSON is read through base/json"),
-    (re.compile(r"^boost/"), ("src/net/", "src/serve/web/"), "sockets stand in net and serve/web only"),
+    (re.compile(r"^boost/"), ("src/net/", "src/serve/web/"), "sockets are in net and serve/web only"),
     (re.compile(r"^CLI/"), ("src/cli/",), "the command line is known in cli only"),
     (re.compile(r"^box2d/"), ("src/sim/",), "physics is known in sim only"),
     (re.compile(r"^pugixml"), ("src/aesl/project",), "XML is read in aesl/project only"),
@@ -114,12 +114,19 @@ LONG_FUNCTIONS = {
 }
 SLEEPS = re.compile(r"\b(sleep_for|sleep_until|usleep|nanosleep)\s*\(|(?<![\w.])sleep\s*\(\s*\d")
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
-# Of sentences that people read: the words to write instead stand in docs/STYLE.md, "Words".
-OLD_WORDS = re.compile(r'"[^"]*\b(mend|mended|mends|anew)\b')
+# Of sentences that people read: the words to write instead are in docs/STYLE.md, "Words".
+OLD_WORDS = re.compile(r"\b(anew|mend(?:s|ed|ing)?|must be fed|comes? to stand|came to stand|(?:give|gives|gave|given|giving) up"
+                       r"|(?:take|takes|took|taken|taking)(?: it| them| one| some)? away)\b", re.IGNORECASE)
+# Of the pages below docs, these speak of such words, or are older than the words.
+MAY_SAY_OLD_WORDS = {"docs/STYLE.md", "docs/decisions", "docs/spec"}
 TYPE_ALONE = re.compile(r"^\s+(const |static |mutable )*(?!default:)[\w:]+(<[^()]*>)?[&*]?$")
 NAME_AND_COMMENT = re.compile(r"^\s*\w+(\{\})?( = [^;]*)?;\s*//")
 EXAMPLE_LINE = re.compile(r"^\s*//     ")
 TWO_STATEMENTS = re.compile(r";\s+([A-Z]\w* \w+\s*(;|=|$)|(const|if|for)\b|\w+;)")
+# Folders that hold what is made, not what is written.
+MADE = {"build", "node_modules", "dist", "__pycache__"}
+# Of docs/ARCHITECTURE.md: names that mean any file.
+EXAMPLE_PATHS = {"x.cpp", "x_test.cpp"}
 SUFFIXES = {".hpp", ".cpp", ".inl", ".h"}
 
 
@@ -166,8 +173,8 @@ class Checker:
         if UNFINISHED.search(line):
             self.say(number, "unfinished work: finish it, or put it into an issue")
         old = OLD_WORDS.search(line)
-        if old and self.module():
-            self.say(number, f'"{old.group(1)}" in a sentence: docs/STYLE.md, "Words", has the word for it')
+        if old:
+            self.say(number, old_word(old))
         if SLEEPS.search(line) and not self.path.startswith("src/net/"):
             self.say(number, "a sleep: wait for the condition, or be told the time")
         if CLOCKS.search(line) and self.module() and not self.is_test() and not self.path.startswith(MAY_TELL_TIME):
@@ -210,7 +217,7 @@ class Checker:
         here, there = room_of(module, self.path[len("src/"):]), room_of(module, name)
         for place, path in ((here, self.path), (there, name)):
             if place is None:
-                self.say(number, f"{path} stands in no room of {module}: say in ROOMS of tools/tidy.py where it belongs")
+                self.say(number, f"{path} is in no room of {module}: say in ROOMS of tools/tidy.py where it belongs")
         if here is not None and there is not None and there > here:
             self.say(number, f"an arrow upwards inside {module}: the room \"{ROOMS[module][here][0]}\" may not include "
                              f"\"{ROOMS[module][there][0]}\" (ROOMS in tools/tidy.py)")
@@ -218,7 +225,7 @@ class Checker:
             mine, other = (next((folder for folder in folders.split() if path.startswith(f"{module}/{folder}")), None)
                            for path in (self.path[len("src/"):], name))
             if mine and other and mine != other:
-                self.say(number, f"{module}/{mine} may not include {module}/{other}: what both need stands below both "
+                self.say(number, f"{module}/{mine} may not include {module}/{other}: what both need belongs below both "
                                  f"(APART in tools/tidy.py)")
 
     def check_shape(self):
@@ -248,7 +255,7 @@ class Checker:
 
 
 def room_of(module, path):
-    """The number of the room in which a file stands, or None. `path` begins with the module: aesl/scan.cpp."""
+    """The number of the room in which a file is, or None. `path` begins with the module: aesl/scan.cpp."""
     inside = path[len(module) + 1:]
     stem = re.sub(r"\.\w+$", "", inside)
     for number, (_, names) in enumerate(ROOMS[module]):
@@ -258,7 +265,7 @@ def room_of(module, path):
 
 
 def bare(line):
-    """An example's code: without comments, texts in quotes, and what stands in parentheses."""
+    """An example's code: without comments, texts in quotes, and what is in parentheses."""
     code = re.split(r"\s//", re.sub(r'"[^"]*"', '""', line.split("//", 1)[1]))[0]
     while re.search(r"\([^()]*\)", code):
         code = re.sub(r"\([^()]*\)", "", code)
@@ -271,12 +278,49 @@ def check_module_known(root):
             yield f"src/{folder.name}:1: a module that MAY_INCLUDE in tools/tidy.py does not know: say what it may include"
 
 
+def old_word(found):
+    return f'"{found.group(1)}" in a sentence: docs/STYLE.md, "Words", has the word for it'
+
+
 def check_words(root):
-    """Pages and comments speak of the project alone: no path of one machine."""
-    for path in sorted(root.glob("docs/**/*.md")) + sorted(root.glob("*.md")):
+    """Pages and comments speak of the project alone: no path of one machine. One word a notion, in what people read."""
+    read_by_people = [root / "src/serve/protocol/protocol.json", root / "web/app/text.ts"]
+    for path in sorted(root.glob("docs/**/*.md")) + sorted(root.glob("*.md")) + read_by_people:
+        name = str(path.relative_to(root))
         for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
+            old = OLD_WORDS.search(line)
+            if old and not any(name.startswith(place) for place in MAY_SAY_OLD_WORDS):
+                yield f"{name}:{number}: {old_word(old)}"
             if re.search(r"(^|[\s`(])(/work/|/root/|/home/(?!vagus))|\.\./shared", line):
-                yield f"{path.relative_to(root)}:{number}: a path of one machine"
+                yield f"{name}:{number}: a path of one machine"
+
+
+def known_paths(root):
+    """All files and folders of the checkout that are not made, as paths from its root; folders end in /."""
+    for folder, folders, files in os.walk(root):
+        folders[:] = [name for name in folders if name not in MADE and not name.startswith(".")]
+        here = str(pathlib.Path(folder).relative_to(root)) + "/"
+        yield from ("/" + path.removeprefix("./") for path in [here] + [here + name for name in files])
+
+
+def missing_paths(text, known):
+    """(line, path) for each path in backticks that is nowhere: it may be whole, or the end of one."""
+    for number, line in enumerate(text.split("\n"), 1):
+        for path in re.findall(r"`([\w<>*{},./-]+)`", line):
+            is_path = "/" in path.strip("/") or path.endswith("/") or re.search(r"\w\.(cpp|hpp|inl|def|md|json|py|mjs|tsx?|sh)$", path)
+            if not is_path or path.startswith("/") or path in EXAMPLE_PATHS:
+                continue
+            pattern = re.escape(path.removeprefix("./").rstrip("/")).replace(r"\*", "[^/]*")
+            pattern = re.sub(r"<\w+>", "[^/]+", pattern)
+            if not any(re.search("/" + pattern + "/?$", each) for each in known):
+                yield number, path
+
+
+def check_map(root):
+    """The map of the project leads to what is there."""
+    page = root / "docs/ARCHITECTURE.md"
+    for number, path in missing_paths(page.read_text(encoding="utf-8"), list(known_paths(root))):
+        yield f"docs/ARCHITECTURE.md:{number}: `{path}` is not there: name the file or folder that does it now"
 
 
 def check_tree(root):
@@ -286,7 +330,7 @@ def check_tree(root):
             if path.suffix in SUFFIXES and "build" not in path.parts:
                 name = str(path.relative_to(root))
                 breaches += Checker(name, path.read_text(encoding="utf-8")).run()
-    return breaches + list(check_module_known(root)) + list(check_words(root))
+    return breaches + list(check_module_known(root)) + list(check_words(root)) + list(check_map(root))
 
 
 EXAMPLES = [  # path, text, what must be said of it
@@ -309,6 +353,7 @@ EXAMPLES = [  # path, text, what must be said of it
     ("src/hub/a_test.cpp", "std::this_thread::sleep_for(1s);\n", "a sleep"),
     ("src/hub/a.cpp", "// TO" + "DO: later\n", "unfinished"),
     ("src/hub/a.cpp", 'say("start it anew");\n', '"anew" in a sentence'),
+    ("src/hub/a.cpp", "// Takes the link along.\n// Takes it away.\n", "a.cpp:2: \"Takes it away\""),
     ("src/hub/a.cpp", "void f(int a) {\n" + "    g();\n" * 60 + "}\n", "a function of 62 lines"),
     ("src/hub/a.cpp", '#include "hub.hpp"\n', "write the whole path"),
 ]
@@ -321,6 +366,10 @@ def check_self():
         if not any(sentence in breach for breach in found):
             print(f"the rule for «{sentence}» no longer catches its example; found {found}")
             failed += 1
+    missed = list(missing_paths("`hub/hub.hpp`, `hub.hpp`, `src/<any>/`, `hub/hub.cpp`", ["/src/hub/", "/src/hub/hub.hpp"]))
+    if missed != [(1, "hub/hub.cpp")]:
+        print(f"the rule for paths of the map no longer catches its example; found {missed}")
+        failed += 1
     allowed = Checker("src/hub/a.cpp", '#include "wire/frame.hpp"\n#include <vector>\n').run()
     if allowed:
         print(f"what is allowed was refused: {allowed}")

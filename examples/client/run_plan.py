@@ -7,7 +7,7 @@ this program the address that it prints:
     vagus studio --example patterns
     python3 run_plan.py 'http://127.0.0.1:8910/#token=…' --speed 20
 
-It needs the Debian package python3-websockets. It takes the wheel of the studio; a browser that is open meanwhile looks on.
+It needs the Debian package python3-websockets. It takes control in the studio; a browser that is open meanwhile can only view.
 It ends with the plan: exit status 0 if the plan's result was OK, else 1.
 """
 import argparse

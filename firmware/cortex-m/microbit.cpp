@@ -183,7 +183,7 @@ static void on_uart() {
 }
 
 // Looks at the serial line, too: the emulator raises no interrupt for a byte that had to wait for
-// whoever reads.
+// its reader.
 static void on_timer() {
     vagus::register_at(vagus::board::kTimerElapsed) = 0;
     vagus::board::milliseconds.in_interrupt(

@@ -1,6 +1,6 @@
 // An emulated ATmega1284P in real time: its serial line is standard input and output. `vagus
 // emulate` starts it, as it starts QEMU for the Cortex-M boards. A program of its own: simavr
-// stands under the GNU General Public License.
+// is under the GNU General Public License.
 //
 //     vagus-avr IMAGE.elf [--id N] [--eeprom FILE] [--report]
 //
@@ -126,7 +126,7 @@ private:
         }
     }
 
-    // Time stands still for the chip while nobody reads.
+    // The chip's clock is paused while nobody reads.
     void send(uint8_t byte) {
         while (!closed_ && ended == 0 && ::write(line_, &byte, 1) != 1) {
             if (errno != EAGAIN && errno != EINTR) closed_ = true;

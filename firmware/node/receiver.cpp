@@ -40,7 +40,7 @@ uint16_t type_of(const uint8_t* header) {
 }
 
 // Bytes of a command, read one place too early or too late, look like an event of a strange node;
-// six zeros stand inside of many a frame.
+// six zeros are inside of many frames.
 bool is_likely(const uint8_t* header) {
     const uint16_t size = size_of(header);
     const uint16_t source = source_of(header);

@@ -155,7 +155,7 @@ TEST_F(Line, ZerosBehindABadByteAreNoFrames) {
     EXPECT_EQ(types(), Types{kRun});
 }
 
-// Whatever byte of it is lost: it takes bytes of the next frame instead, and what stands behind it
+// Whatever byte of it is lost: it takes bytes of the next frame instead, and what follows it
 // is no header.
 TEST_F(Line, BytecodeThatLostAByteIsNotGiven) {
     const Bytes whole =

@@ -31,7 +31,7 @@ public:
     void patch_branch(uint32_t branch, uint32_t target);
 
     // A word to be filled by patch_jump() with a jump to a later place. Where the jump takes more
-    // than one word, what stands behind it moves; gives by how much.
+    // than one word, what follows it moves; gives by how much.
     uint32_t jump_placeholder(int32_t line);
     uint32_t patch_jump(uint32_t jump, uint32_t target);
     void jump_back(uint32_t target, int32_t line);

@@ -14,7 +14,7 @@ Fix replacing(Mark range, std::string text);
 // `Insert "then"`: `text` may have white space around, which the label does not show.
 Fix inserting(Position at, std::string text);
 
-// `Delete ";"`: `shown` is what stands there.
+// `Delete ";"`: `shown` is what is there.
 Fix deleting(Mark range, std::string_view shown);
 
 // `Declare the event "found"`: in the project.

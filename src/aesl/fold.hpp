@@ -42,7 +42,7 @@ struct FoldProblem {
     TokenId token;
 };
 
-// Where an operator stands: its token, for errors, and its line, for the bytecode.
+// Where an operator is: its token, for errors, and its line, for the bytecode.
 struct OperatorPlace {
     TokenId token;
     int32_t line;

@@ -19,7 +19,7 @@
 namespace vagus::aesl {
 
 // `source`, `target` and `common` are those that the program was compiled from; `first_line` is the
-// number to show for the first line of the source, which may stand inside a project file. Any words
+// number to show for the first line of the source, which may be inside a project file. Any words
 // can be listed: what is no instruction is shown as a number.
 std::string listing(const Program& program, std::string_view source, const Target& target,
                     const CommonDefinitions& common, int first_line = 1);

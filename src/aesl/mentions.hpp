@@ -29,7 +29,7 @@ struct Mention {
 // In the order of the text. `common` tells constants from variables.
 std::vector<Mention> mentions(std::string_view source, const CommonDefinitions& common);
 
-// What may stand where a cursor is: the kind of name that its place asks for.
+// What may be written where a cursor is: the kind of name that its place asks for.
 enum class Wanted {
     Statement,   // the beginning of a line: keywords, variables to assign to
     Expression,  // variables, constants

@@ -65,7 +65,7 @@ TEST(NodeFile, AnEventWithoutSizeStaysWithoutSize) {
     EXPECT_EQ(parse_node_file(kSmall, "n").value().common.events[1].size, std::nullopt);
 }
 
-TEST(NodeFile, MistakesHavePlaceAndMend) {
+TEST(NodeFile, MistakesHavePlaceAndFix) {
     EXPECT_EQ(error_with("\"stackSize\": 32,", ""),
               "n.json:1:1: the node has no \"stackSize\"; add it");
     EXPECT_EQ(error_with("bytecodeSize\": 600", "bytecodeSize\": 65536"),

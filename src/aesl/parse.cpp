@@ -20,7 +20,7 @@ int bracket_step(TokenKind kind) {
 
 }  // namespace
 
-bool begins_anew(TokenKind kind) {
+bool is_boundary(TokenKind kind) {
     switch (kind) {
         case TokenKind::Call:
         case TokenKind::CallSub:
@@ -457,12 +457,12 @@ NodeId Parser::recover() {
     const TokenId start = statement_start_;
     int depth = open_brackets();
     // The token that is no statement itself must be passed, or nothing ever changes.
-    if (position_ == start && (!begins_anew(kind()) || at(TokenKind::End) || at(TokenKind::Else) ||
+    if (position_ == start && (!is_boundary(kind()) || at(TokenKind::End) || at(TokenKind::Else) ||
                                at(TokenKind::ElseIf))) {
         depth += bracket_step(kind());
         advance();
     }
-    while (!begins_anew(kind())) {
+    while (!is_boundary(kind())) {
         if (at(TokenKind::Then) || at(TokenKind::Do)) return orphan_block();
         const bool is_new_line = is_first_of_line(position_) && position_ > start;
         const bool is_bad = at(TokenKind::Bad);
@@ -495,7 +495,7 @@ NodeId Parser::orphan_block() {
 // Over an `else`, or an `elseif` with its condition, that has no `if`.
 void Parser::skip_branch_head() {
     advance();
-    while (!begins_anew(kind()) && !at(TokenKind::Then) && !is_first_of_line(position_)) advance();
+    while (!is_boundary(kind()) && !at(TokenKind::Then) && !is_first_of_line(position_)) advance();
     accept(TokenKind::Then);
 }
 
@@ -507,7 +507,7 @@ NodeId Parser::finish_simple(NodeId statement, size_t errors_before) {
         return orphan == kNoNode ? statement : orphan;
     }
     const bool has_rest =
-        errors() > errors_before && !is_first_of_line(position_) && !begins_anew(kind());
+        errors() > errors_before && !is_first_of_line(position_) && !is_boundary(kind());
     if (!has_rest) return statement;
     const NodeId orphan = recover();
     return orphan == kNoNode ? statement : orphan;

@@ -12,7 +12,7 @@ namespace {
 using isa::BinaryOperator;
 using isa::UnaryOperator;
 
-// Levels of precedence, loosest first. `not` stands between And and Comparison.
+// Levels of precedence, loosest first. `not` is between And and Comparison.
 enum Level { kNoLevel, kOr, kAnd, kComparison, kBitOr, kBitXor, kBitAnd, kShift, kSum, kProduct };
 
 struct OperatorEntry {

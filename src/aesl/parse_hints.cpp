@@ -127,7 +127,7 @@ void Parser::unknown_event(TokenId name, NameSpace space) {
     error(Diag::UnknownEvent, name, {text}, {.fix = declaring(tree_.text(name), 0)});
 }
 
-// A sub may stand further down, where the parser has not been yet.
+// A sub may be declared further down, where the parser has not been yet.
 bool Parser::is_sub_somewhere(TokenId name) const {
     const int32_t wanted = tree_.tokens[name].value;
     for (TokenId i = 0; i + 1 < tree_.tokens.size(); ++i) {
@@ -169,7 +169,7 @@ std::string Parser::misspelt_keyword(TokenId name) const {
     std::vector<std::string_view> keywords;
     for (auto kind = kFirstKeyword; kind <= kLastKeyword;
          kind = static_cast<TokenKind>(static_cast<int>(kind) + 1)) {
-        if (begins_anew(kind)) keywords.push_back(spelling_of(kind));
+        if (is_boundary(kind)) keywords.push_back(spelling_of(kind));
     }
     const std::string lower = in_small_letters(name_text(name));
     if (std::find(keywords.begin(), keywords.end(), lower) != keywords.end()) return lower;

@@ -89,7 +89,7 @@ NodeId Parser::unexpected_statement() {
     return recover();
 }
 
-// `var` and `const` where they must not stand: reported, but what they declare counts.
+// `var` and `const` where they are not allowed: reported, but what they declare counts.
 NodeId Parser::misplaced_declaration() {
     const bool is_var = at(TokenKind::Var);
     const bool is_top = nesting_ == 0;

@@ -53,7 +53,7 @@ struct ChildList {
 };
 
 // Keywords at which the next statement, header or declaration begins, or a block ends.
-bool begins_anew(TokenKind kind);
+bool is_boundary(TokenKind kind);
 
 class Parser {
 public:

@@ -20,7 +20,7 @@ namespace vagus::aesl {
 namespace {
 
 constexpr size_t kUuidLength = 36;
-constexpr std::string_view kMendMarkup =
+constexpr std::string_view kFixMarkup =
     "in a script write &lt; for < and &amp; for &, or put the script into <![CDATA[ … ]]>";
 
 // A mistake: where in the text, and the sentence.
@@ -65,7 +65,7 @@ std::optional<Mistake> refuse_reference(std::string_view text, size_t offset) {
     if (end != text.npos && is_reference(text.substr(offset + 1, end - offset - 1)))
         return std::nullopt;
     return Mistake{offset,
-                   fmt::format("this & begins no character that XML knows; {}", kMendMarkup)};
+                   fmt::format("this & begins no character that XML knows; {}", kFixMarkup)};
 }
 
 // Behind the tag, or the text up to the next tag, that begins at `offset`.
@@ -87,7 +87,7 @@ std::optional<Mistake> refuse_piece(std::string_view text, size_t start, size_t 
     const bool is_doctype = text.substr(start).starts_with("<!");
     const std::string_view piece = text.substr(start, end - start);
     if (piece[0] == '<' && (piece.find('<', 1) != piece.npos || !begins_tag(text, start)))
-        return Mistake{start, fmt::format("this < begins no whole tag; {}", kMendMarkup)};
+        return Mistake{start, fmt::format("this < begins no whole tag; {}", kFixMarkup)};
     for (size_t offset = start; offset < end; ++offset) {
         if (text[offset] == '&') {
             if (auto mistake = refuse_reference(text, offset)) return mistake;
@@ -113,7 +113,7 @@ std::optional<Mistake> refuse_text(std::string_view text) {
     });
     if (control != text.end())
         return Mistake{static_cast<size_t>(control - text.begin()),
-                       "a control character cannot stand in XML; remove it"};
+                       "XML cannot contain a control character; remove it"};
     for (size_t offset = 0; offset < text.size();) {
         const size_t behind = skip_opaque(text, offset);
         const size_t end = behind > offset ? behind : piece_end(text, offset);
@@ -342,7 +342,7 @@ std::optional<Mistake> load(pugi::xml_document& document, std::string_view text)
     if (parsed) return std::nullopt;
     const auto offset = static_cast<size_t>(std::max<ptrdiff_t>(parsed.offset, 0));
     const std::string what = fmt::format("this is not XML: {}", parsed.description());
-    return Mistake{std::min(offset, text.size()), fmt::format("{}; {}", what, kMendMarkup)};
+    return Mistake{std::min(offset, text.size()), fmt::format("{}; {}", what, kFixMarkup)};
 }
 
 }  // namespace

@@ -142,12 +142,12 @@ TEST(Project, NamesHaveAtMost255Bytes) {
 }
 
 TEST(Project, BrokenXmlIsPlacedAndMended) {
-    constexpr std::string_view kMend =
+    constexpr std::string_view kFix =
         "; in a script write &lt; for < and &amp; for &, or put the script into <![CDATA[ … ]]>";
     EXPECT_EQ(error_of("<network>\n<node name=\"a\">é & 1</node></network>"),
-              "p.aesl:2:18: this & begins no character that XML knows" + std::string(kMend));
+              "p.aesl:2:18: this & begins no character that XML knows" + std::string(kFix));
     EXPECT_EQ(error_of("<network>\n<node name=\"a\">if x < 2</node></network>"),
-              "p.aesl:2:21: this < begins no whole tag" + std::string(kMend));
+              "p.aesl:2:21: this < begins no whole tag" + std::string(kFix));
     EXPECT_EQ(error_of("<network>\n<node name=\"a\">if x <y</node></network>").substr(0, 12),
               "p.aesl:2:21:");
     EXPECT_NE(error_of("<network>\n<node name=\"a\">").find("this is not XML"), std::string::npos);
@@ -168,7 +168,7 @@ TEST(Project, OnlyXmlCharactersAreRead) {
     EXPECT_EQ(error_of("<network>\n\xff</network>"),
               "p.aesl:2:1: this byte is not UTF-8; save the file as UTF-8");
     EXPECT_EQ(error_of("<network>\x01</network>"),
-              "p.aesl:1:10: a control character cannot stand in XML; remove it");
+              "p.aesl:1:10: XML cannot contain a control character; remove it");
     EXPECT_NE(error_of("<network><node name=\"a\"><![CDATA[\x1f]]></node></network>"), "no error");
     EXPECT_EQ(error_of(std::string_view("<network/>\0", 11)).substr(0, 12), "p.aesl:1:11:");
     for (const std::string bad : {"&#0;", "&#1;", "&#xd800;", "&nbsp;", "&#;", "&#x;", "&lt"})

@@ -68,7 +68,7 @@ std::string escaped(std::string_view text, std::string_view line_end) {
     return result;
 }
 
-// In a script quotes may stand as they are.
+// In a script quotes may stay as they are.
 std::string escaped_text(std::string_view text, std::string_view line_end) {
     std::string result = escaped(text, line_end);
     for (size_t at = 0; (at = result.find("&quot;", at)) != std::string::npos; ++at) {
@@ -296,7 +296,7 @@ std::string ProjectText::add_script(std::string_view node, uint16_t node_id) con
                                               node_id, escaped(node, " ")));
 }
 
-// The element, and its line if nothing else stands on it.
+// The element, and its line if nothing else is on it.
 std::string ProjectText::without(const Element& element) const {
     size_t begin = element.begin, end = element.end;
     while (begin > 0 && (text_[begin - 1] == ' ' || text_[begin - 1] == '\t')) --begin;

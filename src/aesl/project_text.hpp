@@ -1,4 +1,4 @@
-// Changes of an `.aesl` file in its text: only the bytes that are meant change, whoever wrote the
+// Changes of an `.aesl` file in its text: only the bytes that are meant change, whatever wrote the
 // rest, and however. For editors; the file must have been read by parse_project() without an error.
 //
 //     const ProjectText file(text);

@@ -22,7 +22,7 @@ TEST(ProjectText, ScriptsReadAsTheCompilerReadsThem) {
 }
 
 TEST(ProjectText, AChangeTouchesOnlyItsBytes) {
-    // "var x = 1": the 1 stands at 8; what was written as && and > stays as it was written.
+    // "var x = 1": the 1 is at 8; what was written as && and > stays as it was written.
     const std::string changed = ProjectText(kFile).replace(0, 8, 9, "a<b");
     std::string expected(kFile);
     expected.replace(expected.find("= 1") + 2, 1, "a&lt;b");

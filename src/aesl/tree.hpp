@@ -112,7 +112,7 @@ struct Tree {
     std::vector<TreeSub> subs;      // in the order of the text
     int32_t memory_words = 0;       // of variables that a program can address on this node
     int32_t variable_words = 0;     // in use by variables
-    bool is_partial = false;        // the parser gave up before the end of the text
+    bool is_partial = false;        // the parser stopped before the end of the text
 
     const Node& operator[](NodeId id) const { return nodes[id]; }
     Node& operator[](NodeId id) { return nodes[id]; }

@@ -111,8 +111,8 @@ Status write_through(const std::string& path, std::string_view content) {
     return write_all(file, content, path);
 }
 
-// A new file in the folder of another. Without a name where the system has such files: whoever is
-// killed while writing leaves nothing behind.
+// A new file in the folder of another. Without a name where the system has such files: a program
+// that is killed while writing leaves nothing behind.
 struct Beside {
     int descriptor = -1;
     std::string name;    // what it is called, or will be

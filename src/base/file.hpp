@@ -17,7 +17,7 @@ Result<std::string> read_file(const std::string& path);
 // never half of it.
 // What is no file (/dev/stdout, a pipe) is written to as it is.
 Status write_file(const std::string& path, std::string_view content);
-// The same without waiting for the disk, which sync_file() does: who reads the file gets the new
+// The same without waiting for the disk, which sync_file() does: a reader of the file gets the new
 // content from now on, but a power cut before sync_file() may leave the old one, or none.
 Status write_file_unsynced(const std::string& path, std::string_view content);
 

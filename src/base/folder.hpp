@@ -7,7 +7,7 @@
 
 namespace vagus {
 
-// Names in a folder survive a power cut from now on: those that were made, renamed and taken away.
+// Names in a folder survive a power cut from now on: those that were created, renamed and deleted.
 Status sync_folder(const std::string& path);
 
 }  // namespace vagus

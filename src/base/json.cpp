@@ -1,5 +1,5 @@
 // Reading JSON into a tree with places. The library's reader says what the tokens are and what is
-// wrong; a cursor of our own walks over the same text and says where they stand.
+// wrong; a cursor of our own walks over the same text and says where they are.
 #include "base/json.hpp"
 
 #include <cctype>
@@ -261,7 +261,7 @@ std::optional<JsonError> refuse_text(std::string_view text) {
     if (const auto bad = malformed_utf8_at(text))
         return JsonError{place_of(text, *bad), "this byte is not UTF-8; save the file as UTF-8"};
     if (const size_t zero = text.find('\0'); zero != text.npos)
-        return JsonError{place_of(text, zero), "a zero byte cannot stand in JSON; remove it"};
+        return JsonError{place_of(text, zero), "JSON cannot contain a zero byte; remove it"};
     return std::nullopt;
 }
 

@@ -27,7 +27,7 @@ struct Complaint {
 constexpr size_t kComplaintsMax = 1000;  // more are not kept
 using Complaints = std::vector<Complaint>;
 
-// The complaint that stands first in the file as an Error ("FILE:LINE:COL: sentence"); `complaints`
+// The complaint that is first in the file as an Error ("FILE:LINE:COL: sentence"); `complaints`
 // is not empty.
 Error first_complaint(const Complaints& complaints, std::string_view file);
 
@@ -75,7 +75,7 @@ public:
     std::string word(std::string_view key, const std::vector<std::string_view>& words, Need need,
                      std::string_view fallback = "");
 
-    // Complains of every key that was never asked for, except "x", of every key that stands twice,
+    // Complains of every key that was never asked for, except "x", of keys that are there twice,
     // and of those that are needed and missing, unless an unknown one seems to be meant for it.
     void finish();
 

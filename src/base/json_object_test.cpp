@@ -67,7 +67,7 @@ TEST(JsonObject, NamesMissingKeysWrongKindsAndRanges) {
               Lines{"f:1:21: \"kind\" of the world is \"sphere\"; write one of wall and box"});
 }
 
-// A needed key that is misspelt is one mistake, at the place where it stands.
+// A needed key that is misspelt is one mistake, at the place where it is.
 TEST(JsonObject, AMisspeltKeyIsNotAlsoMissing) {
     EXPECT_EQ(complaints_of(R"({"szie": 1})"),
               Lines{"f:1:2: the world has the unknown key \"szie\"; did you mean \"size\"?"});

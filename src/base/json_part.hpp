@@ -9,7 +9,7 @@
 
 namespace vagus {
 
-// `depth` objects and arrays stand around the value, `prefix` (its key) before it, `suffix` (a
+// `depth` objects and arrays are around the value, `prefix` (its key) before it, `suffix` (a
 // comma) behind it. Without indentation before the first line, without a newline at the end.
 std::string format_json_part(const JsonValue& value, size_t depth, std::string_view prefix,
                              std::string_view suffix);

@@ -72,7 +72,7 @@ private:
                 return comma();
             case Expected::Nothing:
                 if (now() == '}' || now() == ']') return wrong_bracket();
-                return refuse("the value is over, but more stands behind it; remove that");
+                return refuse("the value is over, but more follows it; remove that");
         }
     }
 
@@ -196,7 +196,7 @@ private:
         const std::string near =
             nearest(name, std::vector<std::string_view>{"true", "false", "null"});
         if (!near.empty()) return say_word(name, near);
-        refuse(fmt::format("a text stands in double quotes; write {}", quoted(name)));
+        refuse(fmt::format("a text is written in double quotes; write {}", quoted(name)));
     }
 
     void say_word(std::string_view found, std::string_view wanted) {
@@ -215,7 +215,7 @@ private:
             if (single ? point.value == c : is_typographic_quote(point.value)) break;
             end += std::max<size_t>(point.bytes, 1);
         }
-        refuse(fmt::format("{} stands in plain double quotes, not in {} ones; write {}",
+        refuse(fmt::format("{} is written in plain double quotes, not in {} ones; write {}",
                            is_key() ? "a key" : "a text", single ? "single" : "typographic",
                            quoted(text_.substr(begin, end - begin))));
         return true;
@@ -352,7 +352,7 @@ private:
         if (quotes_differ()) return;
         if (is_name(c)) {
             return refuse(
-                fmt::format("a key stands in double quotes; write {}", quoted(name_here())));
+                fmt::format("a key is written in double quotes; write {}", quoted(name_here())));
         }
         if (c == ']') return wrong_bracket();
         refuse("a key cannot begin with " + shown() + "; write it in double quotes, as \"name\"");
@@ -364,8 +364,7 @@ private:
             token_ = at_++;
             expected_ = Expected::Value;
         } else if (now() == '=') {
-            refuse(
-                fmt::format("between a key and its value stands a colon, not =; write {}: …", key));
+            refuse(fmt::format("a colon, not =, separates a key and its value; write {}: …", key));
         } else if (now() == ',' || now() == '}') {
             refuse(fmt::format("the key {} has no value; write {}: …", key, key));
         } else {
@@ -386,7 +385,7 @@ private:
             refuse("values are separated by commas, not by semicolons");
         } else if (c == ':') {
             refuse(
-                "a key and its value stand in an object, { … }, not in an array; use braces, or "
+                "a key and its value belong in an object, { … }, not in an array; use braces, or "
                 "a comma");
         } else if (at_ == value_end_ && text_[at_ - 1] == '"') {
             refuse("a quote inside of a text is written \\\"; or is a comma missing here?");

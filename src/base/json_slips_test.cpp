@@ -45,19 +45,19 @@ TEST(JsonSlips, Comments) {
 
 TEST(JsonSlips, OtherQuotes) {
     EXPECT_EQ(told("{'a': 1}"),
-              "1:2 a key stands in plain double quotes, not in single ones; write \"a\"");
+              "1:2 a key is written in plain double quotes, not in single ones; write \"a\"");
     EXPECT_EQ(told("{\"a\": 'b c'}"),
-              "1:7 a text stands in plain double quotes, not in single ones; write \"b c\"");
+              "1:7 a text is written in plain double quotes, not in single ones; write \"b c\"");
     EXPECT_EQ(told("{\"a\": “b”}"),
-              "1:7 a text stands in plain double quotes, not in typographic ones; write \"b\"");
+              "1:7 a text is written in plain double quotes, not in typographic ones; write \"b\"");
     EXPECT_EQ(told("{„a“: 1}"),
-              "1:2 a key stands in plain double quotes, not in typographic ones; write \"a\"");
+              "1:2 a key is written in plain double quotes, not in typographic ones; write \"a\"");
 }
 
 TEST(JsonSlips, WordsWithoutQuotes) {
-    EXPECT_EQ(told("{ a: 1 }"), "1:3 a key stands in double quotes; write \"a\"");
-    EXPECT_EQ(told("{ 12: 1 }"), "1:3 a key stands in double quotes; write \"12\"");
-    EXPECT_EQ(told("[blue]"), "1:2 a text stands in double quotes; write \"blue\"");
+    EXPECT_EQ(told("{ a: 1 }"), "1:3 a key is written in double quotes; write \"a\"");
+    EXPECT_EQ(told("{ 12: 1 }"), "1:3 a key is written in double quotes; write \"12\"");
+    EXPECT_EQ(told("[blue]"), "1:2 a text is written in double quotes; write \"blue\"");
     EXPECT_EQ(told("[True]"), "1:2 JSON has no True; write true");
     EXPECT_EQ(told("[False]"), "1:2 JSON has no False; write false");
     EXPECT_EQ(told("[None]"), "1:2 JSON has no None; write null");
@@ -78,12 +78,12 @@ TEST(JsonSlips, Brackets) {
 
 TEST(JsonSlips, KeysAndValues) {
     EXPECT_EQ(told("{\"a\" = 1}"),
-              "1:6 between a key and its value stands a colon, not =; write \"a\": …");
+              "1:6 a colon, not =, separates a key and its value; write \"a\": …");
     EXPECT_EQ(told("{\"a\", \"b\": 1}"), "1:5 the key \"a\" has no value; write \"a\": …");
     EXPECT_EQ(told("{\"a\":}"), "1:6 the key before this } has no value; write one");
     EXPECT_EQ(
         told("[\"a\": 1]"),
-        "1:5 a key and its value stand in an object, { … }, not in an array; use braces, or a "
+        "1:5 a key and its value belong in an object, { … }, not in an array; use braces, or a "
         "comma");
     EXPECT_EQ(told("[1; 2]"), "1:3 values are separated by commas, not by semicolons");
     EXPECT_EQ(told("[\"say \"hi\"\"]"),

@@ -73,7 +73,7 @@ TEST(JsonValue, SaysWhereAndWhyTextIsNotJson) {
         "f:1:6: this is not JSON: the text ends, but the [ of line 1, column 1 is not closed; "
         "add ]");
     EXPECT_EQ(error_of("[1] x"),
-              "f:1:5: this is not JSON: the value is over, but more stands behind it; remove that");
+              "f:1:5: this is not JSON: the value is over, but more follows it; remove that");
     EXPECT_EQ(error_of("[1,,2]").substr(0, 6), "f:1:4:");
     EXPECT_EQ(error_of("{1234: 1}").substr(0, 6), "f:1:2:");
     EXPECT_EQ(error_of("{\"a\" \"b\"}").substr(0, 6), "f:1:6:");

@@ -1,4 +1,4 @@
-// Where tests find their files. The paths of the checkout stand in test_places.cpp alone: any other
+// Where tests find their files. Only test_places.cpp contains paths of the checkout: any other
 // file compiles to the same bytes wherever the checkout lies, and the compiler cache finds it.
 //
 //     const std::string text = read_file(test::testdata("projects/rover.aesl")).value();

@@ -17,8 +17,8 @@ constexpr Duration kLookEvery = std::chrono::milliseconds(150);
 class FileWatch {
 public:
     explicit FileWatch(std::vector<std::string> paths);
-    // Those that are watched already stay as they are; true if there was another. Whoever has read
-    // a file before it was watched reads it again, to miss no save.
+    // Those that are watched already stay as they are; true if there was another. A caller that has
+    // read a file before it was watched reads it again, to miss no save.
     bool add(const std::vector<std::string>& paths);
     // Paths of files that were saved since; `now` is any steady time. Cheap between the looks.
     std::vector<std::string> changed(Time now);

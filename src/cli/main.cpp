@@ -6,7 +6,7 @@
 #include "base/line_sink.hpp"
 #include "cli/output.hpp"
 #include "cli/page.hpp"
-#include "cli/studio/run_host.hpp"
+#include "cli/studio/runner.hpp"
 #include "cli/usage.hpp"
 #include "cli/verbs.hpp"
 
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
 #include "cli/verbs.def"
 #undef VERB
     vagus::cli::add_page(app, exit_code);
-    vagus::cli::add_run_host(app, exit_code);
+    vagus::cli::add_runner(app, exit_code);
     vagus::cli::shape_help(app);
     vagus::cli::refuse_options_as_values(app);
     return vagus::cli::end_output(parse_and_run(app, argc, argv, exit_code));

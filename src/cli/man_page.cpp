@@ -8,7 +8,7 @@
 namespace vagus::cli {
 namespace {
 
-// A line as it stands: roff reads a leading dot or apostrophe as a request, a backslash as an
+// A line as it is: roff reads a leading dot or apostrophe as a request, a backslash as an
 // escape, and shows a plain minus as a hyphen that cannot be copied.
 std::string literal(std::string_view line) {
     std::string text;

@@ -38,7 +38,7 @@ std::vector<std::string> verbs_of(const CLI::App& app) {
     return names;
 }
 
-// An option stands before a word: in `--fromat json a.aesl` it is the option that is wrong.
+// An option comes before a word: in `--fromat json a.aesl` it is the option that is wrong.
 std::string first_wrong(const std::vector<std::string>& words) {
     for (const std::string& word : words) {
         if (word.starts_with("-")) return word;

@@ -158,7 +158,7 @@ void add_breakpoint_checks(Checks& checks) {
          {group, "a breakpoint on the first instruction", "3.7", "", before_the_first_instruction},
          {group, "a breakpoint in a loop stops each time", "3.7", "", in_a_loop},
          {group, "a breakpoint in the handler of an event", "3.7", "", in_a_handler},
-         {group, "BreakpointClear takes one away", "2.3", "", clear_one},
+         {group, "BreakpointClear removes one", "2.3", "", clear_one},
          {group, "BreakpointClearAll takes all away", "2.3", "", clear_all},
          {group, "breakpoints stay over SetBytecode and Reset", "2.3", "", kept_over_reset},
          {group, "16 breakpoints fit, the next is refused", "2.3", "", sixteen_fit},

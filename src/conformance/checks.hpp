@@ -1,5 +1,5 @@
 // The list of all checks, in the order in which they are made: what a node of the reference might
-// not survive stands at the end.
+// not survive comes last.
 #pragma once
 
 #include "conformance/check.hpp"

@@ -25,7 +25,7 @@ Result<Instructions> native_call(const Bench& bench, const std::string& name,
     const auto all = standard_natives();
     const auto standard = std::ranges::find(all, name, &StandardNative::name);
     Instructions code;
-    // Rising: the last template, -2, stands before -1.
+    // Rising: the last template, -2, comes before -1.
     for (const auto& [number, length] : template_sizes(standard->sizes, arguments))
         code.push(static_cast<int>(length));
     size_t address = at;

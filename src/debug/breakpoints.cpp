@@ -1,4 +1,4 @@
-// Control's breakpoints: where they stand on the node, what happens when it stops at one.
+// Control's breakpoints: where they are on the node, what happens when it stops at one.
 #include <algorithm>
 
 #include "debug/control.hpp"
@@ -25,7 +25,7 @@ Result<RequestId> Control::set_breakpoint(int line, std::string_view condition,
         (void)TRY(Condition::parse(condition, view_.program->variables, constants));
     }
     constants_ = constants;
-    const auto same = [line](const Breakpoint& breakpoint) { return breakpoint.line == line; };
+    const auto same = [line](const LineBreakpoint& breakpoint) { return breakpoint.line == line; };
     auto& all = view_.breakpoints;
     const bool fresh = std::none_of(all.begin(), all.end(), same);
     if (fresh && all.size() >= kBreakpointsMax) {
@@ -42,9 +42,9 @@ Result<RequestId> Control::set_breakpoint(int line, std::string_view condition,
 
 Status Control::clear_breakpoint(int line) {
     auto& all = view_.breakpoints;
-    const auto found = std::find_if(all.begin(), all.end(), [line](const Breakpoint& breakpoint) {
-        return breakpoint.line == line;
-    });
+    const auto found =
+        std::find_if(all.begin(), all.end(),
+                     [line](const LineBreakpoint& breakpoint) { return breakpoint.line == line; });
     if (found == all.end()) {
         return Error{Code::NotFound, who() + " has no breakpoint on line " + std::to_string(line)};
     }
@@ -64,7 +64,7 @@ void Control::clear_breakpoints() {
 // keeps its breakpoint here, not on the node.
 void Control::place_breakpoints() {
     out_.command<wire::BreakpointClearAll>(view_.id);
-    for (Breakpoint& breakpoint : view_.breakpoints) {
+    for (LineBreakpoint& breakpoint : view_.breakpoints) {
         breakpoint.on_node = false;
         const int pc = pc_of(*view_.program, breakpoint.line);
         if (pc < 0) {
@@ -77,7 +77,7 @@ void Control::place_breakpoints() {
 }
 
 // Cleared first: nodes put the same counter into their table twice (D17).
-void Control::place(Breakpoint& breakpoint) {
+void Control::place(LineBreakpoint& breakpoint) {
     auto clear = message_to<wire::BreakpointClear>(view_.id);
     auto set = message_to<wire::BreakpointSet>(view_.id);
     clear.pc = set.pc = breakpoint.pc;
@@ -95,31 +95,32 @@ void Control::forget_program() {
     view_.program.reset();
     view_.at.line = 0;
     wanted_.reset();
-    for (Breakpoint& breakpoint : view_.breakpoints) breakpoint.on_node = false;
+    for (LineBreakpoint& breakpoint : view_.breakpoints) breakpoint.on_node = false;
 }
 
-Breakpoint* Control::breakpoint_at(uint16_t pc) {
-    for (Breakpoint& breakpoint : view_.breakpoints) {
+LineBreakpoint* Control::breakpoint_at(uint16_t pc) {
+    for (LineBreakpoint& breakpoint : view_.breakpoints) {
         if (breakpoint.pc == pc && view_.program) return &breakpoint;
     }
     return nullptr;
 }
 
 void Control::receive(const wire::BreakpointSetResult& result) {
-    Breakpoint* breakpoint = breakpoint_at(result.pc);
+    LineBreakpoint* breakpoint = breakpoint_at(result.pc);
     if (breakpoint != nullptr) breakpoint->on_node = result.success != 0;
     out_.tell(view_.id, BreakpointResult{place_of(result.pc), result.success != 0});
     const Request* request = active(Kind::Break);
     if (request == nullptr || request->pc != result.pc) return;
     if (result.success != 0) return finish({});
-    std::erase_if(view_.breakpoints, [&result](const Breakpoint& b) { return b.pc == result.pc; });
+    std::erase_if(view_.breakpoints,
+                  [&result](const LineBreakpoint& b) { return b.pc == result.pc; });
     finish({Error{Code::Refused, who() + " refused the breakpoint: its table is full; remove those "
                                          "of other programs first"},
             ""});
 }
 
-// The node was running, now it stands before an instruction with a breakpoint, and nobody asked it
-// to stand.
+// The node was running, now it is before an instruction with a breakpoint, and nobody asked it
+// to pause.
 bool Control::is_hit(ProgramState before, const wire::ExecutionStateChanged& state) {
     const bool asked =
         active(Kind::Pause) || active(Kind::Reset) || active(Kind::Query) || uploading();
@@ -127,7 +128,7 @@ bool Control::is_hit(ProgramState before, const wire::ExecutionStateChanged& sta
            breakpoint_at(state.pc) != nullptr;
 }
 
-void Control::hit(Breakpoint& breakpoint) {
+void Control::hit(LineBreakpoint& breakpoint) {
     out_.tell(view_.id, BreakpointReached{view_.at});
     if (breakpoint.condition.empty()) {
         breakpoint.hits++;
@@ -159,7 +160,7 @@ void Control::condition_read(const Result<std::vector<std::vector<int16_t>>>& va
     }
     tell_state();
     if (!holds.ok()) return out_.tell(view_.id, ConditionFailed{view_.at, holds.error().what});
-    Breakpoint* breakpoint = breakpoint_at(view_.at.pc);
+    LineBreakpoint* breakpoint = breakpoint_at(view_.at.pc);
     if (breakpoint == nullptr) return;
     breakpoint->hits++;
     out_.tell(view_.id, BreakpointHit{view_.at, breakpoint->hits});

@@ -184,7 +184,7 @@ void Control::start(Request& request) {
             out_.command<wire::WriteBytecode>(view_.id);
             return out_.command<wire::GetExecutionState>(view_.id);
         case Kind::Break: {
-            Breakpoint* breakpoint = breakpoint_at(request.pc);
+            LineBreakpoint* breakpoint = breakpoint_at(request.pc);
             if (breakpoint != nullptr) return place(*breakpoint);
             return finish(
                 {Error{Code::Refused, "the breakpoint was removed before it was set"}, ""});
@@ -260,7 +260,7 @@ void Control::receive(const wire::ExecutionStateChanged& state) {
         resume_ = Resume::Running;
         out_.command<wire::Run>(view_.id);
     }
-    Breakpoint* breakpoint = is_hit(before, state) ? breakpoint_at(state.pc) : nullptr;
+    LineBreakpoint* breakpoint = is_hit(before, state) ? breakpoint_at(state.pc) : nullptr;
     Answer done;
     if (started_) done = answer(requests_.front(), state);
     const bool between = !done && (active(Kind::Load) || active(Kind::Step) || active(Kind::Run));
@@ -281,7 +281,7 @@ void Control::returned_with(uint32_t mark) {
     if (view_.program && mark != mark_of(view_.program->bytecode)) lose_program();
 }
 
-// A node that cannot tell its program, was away, and stands as after power-up (3.1), although it
+// A node that cannot tell its program, was away, and is paused as after power-up (3.1), although it
 // had run, or would have run the code before the first handler: its program is gone.
 void Control::note_restart(const wire::ExecutionStateChanged& state) {
     const bool fresh = state.pc == 0 && state.flags == 0;
@@ -434,7 +434,7 @@ void Control::connected(const std::vector<aesl::Constant>& constants) {
 void Control::disconnected(const std::string& why) {
     wanted_.reset();
     resume_ = Resume::No;
-    for (Breakpoint& breakpoint : view_.breakpoints) breakpoint.on_node = false;
+    for (LineBreakpoint& breakpoint : view_.breakpoints) breakpoint.on_node = false;
     give_up({Code::Unavailable, why});
 }
 

@@ -22,7 +22,7 @@ public:
 
     // ---- asked by the caller ----
     Result<RequestId> ask(Kind kind);
-    // Before all that was asked, which is given up: Stop, Pause.
+    // Before all that was asked, which is cancelled: Stop, Pause.
     RequestId at_once(Kind kind);
     Result<RequestId> load(const aesl::Program& program, AfterLoad then);
     void forget_program();
@@ -32,7 +32,7 @@ public:
     Status clear_breakpoint(int line);
     void clear_breakpoints();
     // As another description of the same node left them: set when a program is known.
-    void restore_breakpoints(const std::vector<Breakpoint>& breakpoints) {
+    void restore_breakpoints(const std::vector<LineBreakpoint>& breakpoints) {
         view_.breakpoints = breakpoints;
     }
 
@@ -100,8 +100,8 @@ private:
     void start_run(Request& request);
     void send_fragments(Request& request);
     void place_breakpoints();
-    void place(Breakpoint& breakpoint);
-    Breakpoint* breakpoint_at(uint16_t pc);
+    void place(LineBreakpoint& breakpoint);
+    LineBreakpoint* breakpoint_at(uint16_t pc);
 
     Answer answer(Request& request, const wire::ExecutionStateChanged& state);
     Answer answer_load(Request& request, const wire::ExecutionStateChanged& state);
@@ -109,7 +109,7 @@ private:
     Answer answer_step(Request& request, const wire::ExecutionStateChanged& state);
     Answer after_step(Request& request, const wire::ExecutionStateChanged& state);
     bool is_hit(ProgramState before, const wire::ExecutionStateChanged& state);
-    void hit(Breakpoint& breakpoint);
+    void hit(LineBreakpoint& breakpoint);
     void step_and_ask();
     void lose_program();
     void note_restart(const wire::ExecutionStateChanged& state);

@@ -1,4 +1,4 @@
-// Gets the description of one node: asks, collects, asks again for what stays away, gives up after
+// Gets the description of one node: asks, collects, asks again for what is missing, ends after
 // a bounded number of tries (wire spec, 2.6 and 2.9).
 #pragma once
 

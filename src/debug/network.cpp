@@ -88,7 +88,7 @@ private:
     // Of nodes that said good-bye: they get them back when they return under the same name.
     struct Farewell {
         std::string name;
-        std::vector<Breakpoint> breakpoints;
+        std::vector<LineBreakpoint> breakpoints;
     };
     std::map<NodeId, Farewell> farewells_;
     Time next_list_{};

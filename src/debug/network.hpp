@@ -62,7 +62,7 @@ constexpr size_t kFramesMax = 16384;       // not taken yet; the same
 constexpr uint32_t kLineStepsMax = 10000;  // instructions of one step by line
 
 // Kept by the host and set again on the node after each load and reconnection.
-struct Breakpoint {
+struct LineBreakpoint {
     int line = 0;
     std::string condition;  // empty: always
     uint16_t pc = 0;
@@ -87,7 +87,7 @@ struct NodeView {
     // Of a node with `_program`, as it told last: mark_of() what it runs (debug/program_mark.hpp).
     // None: not told yet since it was described, came back, or got words of a program.
     std::optional<uint32_t> told_program;
-    std::vector<Breakpoint> breakpoints;
+    std::vector<LineBreakpoint> breakpoints;
 };
 
 enum class AfterLoad { Run, Stay };
@@ -169,7 +169,7 @@ public:
     Result<RequestId> run(NodeId id);
     Result<RequestId> pause(NodeId id);
     Result<RequestId> stop(NodeId id);
-    // Now, before whatever waits for the node or is under way there, which is given up. Also for a
+    // Now, before what waits for the node or is under way there, which is cancelled. Also for a
     // node that is away, that has not told what it is, or that nobody has heard of: what it may
     // answer is then nobody's (nothing returned).
     std::optional<RequestId> stop_now(NodeId id);

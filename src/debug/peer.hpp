@@ -39,7 +39,7 @@ public:
     Control& control() { return control_; }
     Result<RequestId> load(const aesl::Program& program, AfterLoad then);
     size_t description_bytes() const { return describer_.description().bytes(); }
-    // kDescriptionBytesTotalMax is passed: this description is given up.
+    // kDescriptionBytesTotalMax is passed: this description is dropped.
     void refuse_description();
 
     Result<RequestId> get(const VariableRange& range);

@@ -1,8 +1,8 @@
 // Do two nodes share one id? A host cannot see links; but a node has one name, and answers a
-// question once. Who has two names within kNamesWithin is two nodes. Who tells more often that it
-// is there than was asked gives rise to a doubt, no more: it may be slow, and still answer what
-// other hosts asked before we listened. Then it is asked for words of its memory, some that nobody
-// else asks for, twice: who answers each of these questions more than once is two nodes.
+// question once. An id with two names within kNamesWithin is two nodes. One that tells more often
+// that it is there than was asked gives rise to a doubt, no more: it may be slow, and still answer
+// what other hosts asked before we listened. Then it is asked for words of its memory, some that
+// nobody else asks for, twice: an id that answers each of these more than once is two nodes.
 #pragma once
 
 #include <array>

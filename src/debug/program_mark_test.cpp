@@ -102,7 +102,7 @@ TEST_F(ProgramMark, ThatNeverComesEndsTheRequest) {
     EXPECT_TRUE(bus.told<RequestDone>()[0].error);
 }
 
-// Whoever waits for it would wait for ever.
+// A request that waits for it would wait for ever.
 TEST_F(ProgramMark, ThatNeverComesUnaskedIsSaid) {
     for (int i = 0; i < kFetchTriesMax; i++) {
         EXPECT_TRUE(bus.told<ProgramUntold>().empty());
@@ -120,7 +120,7 @@ TEST_F(ProgramMark, IsSaidToBeUntoldIfAnotherHostLoadsMeanwhile) {
     EXPECT_EQ(bus.told<ProgramUntold>().size(), 1u);
 }
 
-// Standing as after power-up proves nothing, nor does standing elsewhere.
+// Being paused as after power-up proves nothing, nor does being paused elsewhere.
 TEST_F(ProgramMark, OfTheSameProgramKeepsItWhereverTheNodeStands) {
     adopt();
     come_back();

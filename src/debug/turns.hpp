@@ -1,5 +1,5 @@
 // Who may speak now: only so many nodes are talked to at a time, the others wait for their turn. A
-// network may have a thousand nodes, and whoever asks all of them at once fills every queue on the
+// network may have a thousand nodes, and asking all of them at once fills every queue on the
 // way with answers (docs/decisions/0062-a-host-asks-in-turns.md).
 //
 //     if (turns.enter(id, now)) ask(id);                     // at once, or in its turn:

@@ -124,7 +124,7 @@ TEST(Requests, AStepIsNotAskedAgain) {
     bus.meet_robot(1);
     bus.state(1, 5, wire::kFlagStep | wire::kFlagActive);
     ASSERT_TRUE(bus.network.step(1).ok());
-    bus.state(1, 5, wire::kFlagStep | wire::kFlagActive);  // it says where it stands
+    bus.state(1, 5, wire::kFlagStep | wire::kFlagActive);  // it says where it is paused
     bus.forget();
     bus.pass(kAskAgain);
     EXPECT_EQ(bus.sent(), Dumps{});

@@ -33,7 +33,7 @@ struct Parameter {
 // its project.
 class PlanDisk final : public plan::Files {
 public:
-    // `path`: the outermost plan, which whoever runs it has named and which may stand anywhere.
+    // `path`: the outermost plan, which was named by its path and may be anywhere.
     explicit PlanDisk(const std::string& path);
     Result<std::string> read(const std::string& path) const override;
 

@@ -11,7 +11,7 @@
 #include "base/text.hpp"
 #include "debug/roll_call.hpp"
 #include "hub/hub.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "session/bus_ears.hpp"
 #include "session/rival_plans.hpp"
 #include "session/stopped_by_others.hpp"
@@ -93,7 +93,7 @@ private:
     std::optional<uint16_t> moved_to;  // our tokens are to count from here on
     debug::Network network;
     hub::Hub hub;
-    net::Network net;  // after the hub: it goes first
+    net::Links net;  // after the hub: it goes first
     hub::LinkId own;
     hub::LinkId peer;
     bool connected = false;
@@ -324,7 +324,7 @@ Status PlanBus::Insides::begin_at_rest() {
 // drive without a reflex. One that was stopped is paused as soon as an event waits for it: that is
 // what somebody said before this plan, and another Stop drops it.
 void PlanBus::Insides::run_what_is_stopped() {
-    const auto stands = [this](debug::NodeId id) {
+    const auto stopped = [this](debug::NodeId id) {
         const debug::NodeView* node = network.node(id);
         return node && node->connected &&
                (node->state == debug::ProgramState::Stopped ||
@@ -332,12 +332,12 @@ void PlanBus::Insides::run_what_is_stopped() {
     };
     std::vector<debug::NodeId> asked;
     for (const debug::NodeId id : network.nodes()) {
-        if (!stands(id)) continue;
+        if (!stopped(id)) continue;
         if (network.node(id)->state == debug::ProgramState::Paused) (void)network.stop_now(id);
         if (network.run(id).ok()) asked.push_back(id);
     }
     const Time latest = net.now() + kRunsWithin;
-    while (connected && std::any_of(asked.begin(), asked.end(), stands) && net.now() < latest) {
+    while (connected && std::any_of(asked.begin(), asked.end(), stopped) && net.now() < latest) {
         (void)turn(latest);
     }
     const Time settled = net.now() + kSettles;

@@ -11,7 +11,7 @@
 #include "base/text.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/plan_bus.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "run/execution.hpp"
 #include "run/firing.hpp"
 #include "run/traced_variables.hpp"
@@ -52,14 +52,14 @@ Status check_words(const RunWords& words) {
     if (!words.bus.empty() && words.clock == "virtual") {
         return usage(
             "--bus with --clock virtual: what is on a bus lives in real time; leave "
-            "--clock out, or let a --world stand for it");
+            "--clock out, or let a --world take its place");
     }
     if (!words.listen.empty() && words.world.empty()) {
         return usage("--listen goes with --world: it opens the bus of the world to others");
     }
     if (!words.listen.empty() && words.clock == "virtual") {
         return usage(
-            "--listen with --clock virtual: who joins a bus lives in real time; leave one "
+            "--listen with --clock virtual: programs on a bus live in real time; leave one "
             "of them out");
     }
     if (!words.project.empty() && words.bus.empty()) {
@@ -101,7 +101,7 @@ Result<LoadedPlan> start_of(const LoadedPlan& what, const std::string& actor) {
 class Pace {
 public:
     // Those who have joined the bus are served meanwhile.
-    explicit Pace(net::Network& net) : net_(net) {}
+    explicit Pace(net::Links& net) : net_(net) {}
 
     void wait(Time at) {
         const Time now = net_.now();
@@ -112,7 +112,7 @@ public:
     }
 
 private:
-    net::Network& net_;
+    net::Links& net_;
     std::optional<Duration> origin_;
 };
 
@@ -166,7 +166,7 @@ public:
     toolbox::BusNodes nodes;
     std::unique_ptr<session::PlanWorld> world;
     bool world_used = false;
-    std::unique_ptr<net::Network> hosts;  // after the world: its links leave that bus first
+    std::unique_ptr<net::Links> hosts;  // after the world: its links leave that bus first
     std::string listening;
     std::unique_ptr<PlanBus> bus;
     LineSink sink;
@@ -230,7 +230,7 @@ Status PreparedRun::Insides::open_world() {
     world_used = false;
     parts.bus = &nodes;
     parts.camera = world->camera();
-    hosts = std::make_unique<net::Network>();
+    hosts = std::make_unique<net::Links>();
     TRY(listen());
     return check_names(world->names(), what);
 }

@@ -69,8 +69,8 @@ public:
     // world cannot be opened any more.
     Result<run::Ended> run(run::Debugger* debugger = nullptr);
     // Before run(), on a bus that nobody else looks after, as a debugger would that stops nodes and
-    // lets them run again: a run whose nodes another host stops ends with an error. Whoever pauses
-    // nodes says so.
+    // lets them run again: a run whose nodes another host stops ends with an error. A host that
+    // pauses nodes says so.
     void end_when_stopped();
     // From any thread, on a bus: somebody debugs these nodes, and no others; the plan waits for
     // them.

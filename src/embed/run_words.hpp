@@ -11,7 +11,7 @@
 
 namespace vagus::embed {
 
-// As they stand on the command line; empty: not given.
+// As they are on the command line; empty: not given.
 struct RunWords {
     std::vector<std::string> toolboxes = {};
     std::vector<std::string> set = {};

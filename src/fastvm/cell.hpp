@@ -78,7 +78,7 @@ inline void go(const Cell* cell, int16_t* top, int16_t* variables, int left, Con
     return cell->handler(cell, top, variables, left, context);
 }
 
-// The end of the stretch: the machine stands at `cell`, which has not been executed.
+// The end of the stretch: the machine is at `cell`, which has not been executed.
 inline void leave(const Cell* cell, int16_t* top, int left, Context& context) {
     context.cell = cell;
     context.top = top;

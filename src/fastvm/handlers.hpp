@@ -22,7 +22,7 @@ enum class To : uint8_t {
     Branch,    // `Branch` instead of `Binary`: goes to word c unless it is taken
 };
 
-// [left] op [right], to [to]. The operands are in a and b; an immediate stands to the right only.
+// [left] op [right], to [to]. The operands are in a and b; an immediate is on the right only.
 struct Calculation {
     From left = From::Stack;
     From right = From::Stack;

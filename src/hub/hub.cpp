@@ -38,7 +38,7 @@ std::string sentence(const SharedId& shared) {
     return "node " + std::to_string(shared.node) + " is heard on two links, " + shared.first +
            " and " + shared.second +
            ": two nodes share this id, or the links make a ring; give one node another id, or "
-           "take one link away";
+           "remove one link";
 }
 
 struct Hub::NodeOrder {

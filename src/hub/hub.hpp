@@ -90,7 +90,7 @@ public:
     bool has(LinkId link) const { return find(link) != nullptr; }
 
     // Links with `only_node` for which something was queued since the last call, each once, in no
-    // order. So whoever has many such nodes need not ask each.
+    // order. So a program with many such nodes need not ask each.
     std::vector<LinkId> take_reached();
 
     // From now on only frames of these types are taken from the link; the others are lost.
@@ -124,7 +124,7 @@ private:
         OutputQueue queue;
         uint64_t frames_received = 0;
         uint64_t frames_queued = 0;
-        bool is_reached = false;  // it stands in reached_
+        bool is_reached = false;  // it is in reached_
         std::set<uint16_t> nodes;
         std::optional<std::set<uint16_t>> allowed;  // types of frames; without: all
         uint16_t last_node = wire::kHostId;  // spares the set a search while one node speaks on

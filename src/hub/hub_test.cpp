@@ -20,7 +20,7 @@ wire::Frame frame_of(const Hex& bytes) {
     return reader.frame();
 }
 
-// All that waits for a link, and takes it away.
+// All that waits for a link, which is taken from the queue.
 Hex received(Hub& hub, LinkId link) {
     Hex copy;
     for (auto bytes = hub.output(link); !bytes.empty(); bytes = hub.output(link)) {

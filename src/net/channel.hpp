@@ -1,6 +1,6 @@
 // The two ways frames leave the process: as a stream of bytes (TCP, serial) and as CAN frames. A
 // channel moves what is ready between its descriptor and its link, and never blocks.
-// Used by network.cpp only.
+// Used by links.cpp only.
 #pragma once
 
 #include <sys/socket.h>

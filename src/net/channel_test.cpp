@@ -14,7 +14,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "wire/can.hpp"
 
 namespace vagus::net {
@@ -150,7 +150,7 @@ ssize_t send_or_no_buffers(int descriptor, const void* bytes, size_t size, int f
     return -1;
 }
 
-// The original gives up there (section 1.7): here every part goes out once, in its order.
+// The original stops there (section 1.7): here every part goes out once, in its order.
 TEST_F(Can, AFullDeviceIsTriedAgainWhereItStopped) {
     can_sends = 0;
     channel_ = make_can_channel(::dup(channel_->descriptor()), send_or_no_buffers);
@@ -239,22 +239,22 @@ private:
 struct Serial : testing::Test {
     hub::Hub hub;
     hub::LinkId own = hub.add({.name = "host"}).value();
-    Network network;
+    Links links;
     Pty line;
     std::vector<EventKind> kinds;
 
     template <typename Condition>
     bool until(Condition done) {
-        const Time deadline = network.now() + 60s;
-        while (network.now() < deadline) {
+        const Time deadline = links.now() + 60s;
+        while (links.now() < deadline) {
             if (done()) return true;
-            for (const Event& each : network.poll(network.now() + 1ms)) kinds.push_back(each.kind);
+            for (const Event& each : links.poll(links.now() + 1ms)) kinds.push_back(each.kind);
         }
         return false;
     }
     bool open(Retry retry = Retry::Never) {
         const Target target = parse_target("ser:" + line.device()).value();
-        return network.connect(hub, target, {.retry = retry}).ok() &&
+        return links.connect(hub, target, {.retry = retry}).ok() &&
                until([this] { return hub.links().size() == 2; });
     }
 };
@@ -306,7 +306,7 @@ TEST_F(Serial, SetsTheBaudRateAndTheFlowControl) {
     EXPECT_EQ(settings.c_lflag & (ECHO | ICANON | ISIG), 0u);
 }
 
-TEST(SerialErrors, NameTheDeviceAndTheMend) {
+TEST(SerialErrors, NameTheDeviceAndTheFix) {
     const auto file = open_serial(SerialPlace{.device = "/dev/null", .name = ""});
     ASSERT_FALSE(file.ok());
     EXPECT_EQ(file.error().what, "ser:/dev/null: /dev/null is not a serial line");

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "hub/hub.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 
 namespace vagus::net {
 
@@ -14,10 +14,10 @@ struct Client::State {
     std::optional<hub::LinkId> peer;  // none: it has gone
     std::string name;
     std::string why_gone;
-    Network network;  // after the hub: it goes first
+    Links links;  // after the hub: it goes first
 
     void poll(Time deadline) {
-        for (const Event& event : network.poll(deadline)) {
+        for (const Event& event : links.poll(deadline)) {
             if (event.kind == EventKind::Opened) peer = event.link;
             if (event.kind != EventKind::Closed && event.kind != EventKind::Failed) continue;
             peer.reset();
@@ -30,9 +30,9 @@ struct Client::State {
 Result<Client> Client::connect(const Target& target, Duration within) {
     auto state = std::make_unique<State>();
     state->name = to_string(target);
-    TRY(state->network.connect(state->hub, target));
-    const Time deadline = state->network.now() + within;
-    while (!state->peer && state->why_gone.empty() && state->network.now() < deadline) {
+    TRY(state->links.connect(state->hub, target));
+    const Time deadline = state->links.now() + within;
+    while (!state->peer && state->why_gone.empty() && state->links.now() < deadline) {
         state->poll(deadline);
     }
     if (!state->why_gone.empty()) return state->gone();
@@ -53,10 +53,10 @@ Status Client::send(const wire::Frame& frame) {
     do {
         state_->poll(now());
         if (!state_->peer) return state_->gone();
-        if (!state_->network.has_unwritten()) return Status::done();
+        if (!state_->links.has_unwritten()) return Status::done();
         state_->poll(deadline);
     } while (now() < deadline);
-    return Error{Code::Timeout, state_->name + ": the peer takes nothing any more"};
+    return Error{Code::Timeout, state_->name + ": the peer has stopped reading"};
 }
 
 Result<std::optional<wire::Frame>> Client::receive(Time deadline) {
@@ -71,7 +71,7 @@ Result<std::optional<wire::Frame>> Client::receive(Time deadline) {
 }
 
 Time Client::now() const {
-    return state_->network.now();
+    return state_->links.now();
 }
 
 const std::string& Client::name() const {

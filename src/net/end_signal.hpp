@@ -19,8 +19,8 @@ void watch_for_end(EndBy by = EndBy::AnySignal);
 bool end_asked();
 // The name of the signal that asked: "SIGTERM"; empty if none did.
 std::string end_asked_by();
-// Can be read from once an end was asked for, for whoever waits for input: whoever asks first and
-// then waits misses a signal between the two. -1 before watch_for_end(). Not to be read from.
+// Can be read from once an end was asked for, for code that waits for input: code that asks first
+// and then waits misses a signal between the two. -1 before watch_for_end(). Not to be read from.
 int end_descriptor();
 // Ends the process by the signal that asked for its end, so that a shell script around it stops
 // too; returns `exit_code` if none did.

@@ -26,31 +26,31 @@ constexpr Duration kWaitMax = 1h;  // then it looks at the clock and waits on
 
 }  // namespace
 
-Network::Loop::Connection::Connection(asio::io_context& io, std::unique_ptr<Channel> its_channel)
+Links::Loop::Connection::Connection(asio::io_context& io, std::unique_ptr<Channel> its_channel)
     : channel(std::move(its_channel)), waiter(io) {
     waiter.assign(channel->descriptor());
 }
 
-Network::Loop::Connection::~Connection() {
+Links::Loop::Connection::~Connection() {
     waiter.release();
 }
 
-Network::Loop::Loop()
+Links::Loop::Loop()
     : io_(1),  // one thread
       stay_(io_.get_executor()),
       start_(std::chrono::steady_clock::now()),
       signals_(io_),
       retry_writes_(io_) {}
 
-Network::Loop::~Loop() {
+Links::Loop::~Loop() {
     for (auto& [number, connection] : connections_) connection.hub->remove(connection.link);
 }
 
-Time Network::Loop::now() const {
+Time Links::Loop::now() const {
     return std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - start_);
 }
 
-std::vector<Event> Network::Loop::poll(Time deadline) {
+std::vector<Event> Links::Loop::poll(Time deadline) {
     received_ = 0;
     wait_inputs();
     flush();
@@ -61,13 +61,13 @@ std::vector<Event> Network::Loop::poll(Time deadline) {
 }
 
 // The handler does nothing: that there is one ends the wait.
-void Network::Loop::wake() {
+void Links::Loop::wake() {
     woken_ = true;
     asio::post(io_, [] {});
 }
 
 // Waits for one handler, then runs those that are ready too, then writes what came of it.
-size_t Network::Loop::run_some(Time deadline) {
+size_t Links::Loop::run_some(Time deadline) {
     resume_paused();
     Time until = deadline;
     for (const auto& [number, connection] : connections_) {
@@ -87,7 +87,7 @@ size_t Network::Loop::run_some(Time deadline) {
     return ran;
 }
 
-void Network::Loop::look_at_lines() {
+void Links::Loop::look_at_lines() {
     for (auto& [number, connection] : connections_) {
         if (connection.channel->next_look() > now()) continue;
         received_ += connection.channel->look(*connection.hub, connection.link, now()).bytes;
@@ -95,7 +95,7 @@ void Network::Loop::look_at_lines() {
     }
 }
 
-void Network::Loop::tell_skipped(Connection& connection) {
+void Links::Loop::tell_skipped(Connection& connection) {
     const uint32_t skipped = connection.channel->skipped();
     if (skipped == connection.skipped_told || now() < connection.tell_skipped_after) return;
     const uint32_t more = skipped - connection.skipped_told;
@@ -107,8 +107,8 @@ void Network::Loop::tell_skipped(Connection& connection) {
                            " that belonged to no frame; bytes get lost or damaged on this line"});
 }
 
-Result<Done> Network::Loop::open_link(PlaceId place, hub::Hub& hub, hub::LinkOptions options,
-                                      std::unique_ptr<Channel> channel) {
+Result<Done> Links::Loop::open_link(PlaceId place, hub::Hub& hub, hub::LinkOptions options,
+                                    std::unique_ptr<Channel> channel) {
     const std::string name = options.name;
     const hub::LinkId link = TRY(hub.add(std::move(options)));
     const uint32_t number = ++last_number_;
@@ -123,7 +123,7 @@ Result<Done> Network::Loop::open_link(PlaceId place, hub::Hub& hub, hub::LinkOpt
     return Done{};
 }
 
-void Network::Loop::wait_readable(uint32_t number, Connection& connection) {
+void Links::Loop::wait_readable(uint32_t number, Connection& connection) {
     connection.read_paused = false;
     connection.waiter.async_wait(asio::posix::stream_descriptor::wait_read,
                                  [this, number](const SystemError& error) {
@@ -133,7 +133,7 @@ void Network::Loop::wait_readable(uint32_t number, Connection& connection) {
                                  });
 }
 
-void Network::Loop::on_readable(uint32_t number) {
+void Links::Loop::on_readable(uint32_t number) {
     const auto at = connections_.find(number);
     if (at == connections_.end()) return;
     Connection& connection = at->second;
@@ -155,7 +155,7 @@ void Network::Loop::on_readable(uint32_t number) {
     if (!connection.read_paused) wait_readable(number, connection);
 }
 
-void Network::Loop::flush() {
+void Links::Loop::flush() {
     unflushed_ = 0;
     for (auto at = connections_.begin(); at != connections_.end();) {
         auto& [number, connection] = *at++;  // the connection may be erased below
@@ -165,7 +165,7 @@ void Network::Loop::flush() {
     }
 }
 
-void Network::Loop::write(uint32_t number, Connection& connection) {
+void Links::Loop::write(uint32_t number, Connection& connection) {
     const Transfer done = connection.channel->write(*connection.hub, connection.link);
     connection.pace.took(done.bytes);
     switch (done.flow) {
@@ -185,7 +185,7 @@ void Network::Loop::write(uint32_t number, Connection& connection) {
 }
 
 // The peer may have sent something before it went.
-void Network::Loop::read_last_words(Connection& connection) {
+void Links::Loop::read_last_words(Connection& connection) {
     for (int i = 0; i < kLastReadsMax; ++i) {
         const Transfer done = connection.channel->read(*connection.hub, connection.link, now());
         received_ += done.bytes;
@@ -193,7 +193,7 @@ void Network::Loop::read_last_words(Connection& connection) {
     }
 }
 
-void Network::Loop::wait_writable(uint32_t number, Connection& connection) {
+void Links::Loop::wait_writable(uint32_t number, Connection& connection) {
     connection.write_blocked = true;
     connection.waiter.async_wait(asio::posix::stream_descriptor::wait_write,
                                  [this, number](const SystemError& error) {
@@ -204,7 +204,7 @@ void Network::Loop::wait_writable(uint32_t number, Connection& connection) {
                                  });
 }
 
-void Network::Loop::retry_writes_soon() {
+void Links::Loop::retry_writes_soon() {
     if (retrying_writes_) return;
     retrying_writes_ = true;
     retry_writes_.expires_after(kRetryWrites);
@@ -212,7 +212,7 @@ void Network::Loop::retry_writes_soon() {
     retry_writes_.async_wait([this](const SystemError&) { retrying_writes_ = false; });
 }
 
-void Network::Loop::drop(uint32_t number, const Transfer& last) {
+void Links::Loop::drop(uint32_t number, const Transfer& last) {
     const auto at = connections_.find(number);
     if (at == connections_.end()) return;
     Connection& connection = at->second;
@@ -225,7 +225,7 @@ void Network::Loop::drop(uint32_t number, const Transfer& last) {
     on_lost(place);
 }
 
-void Network::Loop::close(hub::Hub& hub, hub::LinkId link) {
+void Links::Loop::close(hub::Hub& hub, hub::LinkId link) {
     for (auto at = connections_.begin(); at != connections_.end(); ++at) {
         if (at->second.hub != &hub || at->second.link != link) continue;
         hub.remove(link);
@@ -234,7 +234,7 @@ void Network::Loop::close(hub::Hub& hub, hub::LinkId link) {
     }
 }
 
-bool Network::Loop::end_writing(hub::Hub& hub, hub::LinkId link) {
+bool Links::Loop::end_writing(hub::Hub& hub, hub::LinkId link) {
     for (auto& [number, connection] : connections_) {
         if (connection.hub == &hub && connection.link == link) {
             return connection.channel->end_writing();
@@ -245,11 +245,11 @@ bool Network::Loop::end_writing(hub::Hub& hub, hub::LinkId link) {
 
 // ---- pacing (pace.hpp) ----
 
-void Network::Loop::pause_if_ahead(Connection& connection, size_t bytes) {
+void Links::Loop::pause_if_ahead(Connection& connection, size_t bytes) {
     connection.read_paused = bytes >= kBulkBytes && somebody_to_wait_for(connection);
 }
 
-bool Network::Loop::somebody_to_wait_for(const Connection& sender) {
+bool Links::Loop::somebody_to_wait_for(const Connection& sender) {
     bool found = false;
     for (auto& [number, other] : connections_) {
         if (other.hub != sender.hub || &other == &sender) continue;
@@ -259,7 +259,7 @@ bool Network::Loop::somebody_to_wait_for(const Connection& sender) {
     return found;
 }
 
-void Network::Loop::resume_paused() {
+void Links::Loop::resume_paused() {
     for (auto& [number, connection] : connections_) {
         if (connection.read_paused && !somebody_to_wait_for(connection)) {
             wait_readable(number, connection);
@@ -267,7 +267,7 @@ void Network::Loop::resume_paused() {
     }
 }
 
-bool Network::Loop::has_unwritten() const {
+bool Links::Loop::has_unwritten() const {
     for (const auto& [number, connection] : connections_) {
         if (connection.hub->waiting(connection.link) > 0) return true;
         if (connection.channel->has_unwritten()) return true;
@@ -277,7 +277,7 @@ bool Network::Loop::has_unwritten() const {
 
 // ---- signals and inputs ----
 
-Status Network::Loop::watch_signals() {
+Status Links::Loop::watch_signals() {
     SystemError error;
     signals_.add(SIGINT, error);
     if (!error) signals_.add(SIGTERM, error);
@@ -287,7 +287,7 @@ Status Network::Loop::watch_signals() {
     return Status::done();
 }
 
-void Network::Loop::wait_signal() {
+void Links::Loop::wait_signal() {
     signals_.async_wait([this](const SystemError& error, int number) {
         if (error) return;
         events_.push_back({EventKind::Signal, {}, {}, number, strsignal(number)});
@@ -295,7 +295,7 @@ void Network::Loop::wait_signal() {
     });
 }
 
-Status Network::Loop::watch_input(int descriptor) {
+Status Links::Loop::watch_input(int descriptor) {
     const auto at = inputs_.try_emplace(descriptor, asio::posix::stream_descriptor(io_)).first;
     const int copy = ::dup(descriptor);  // the waiter closes its own
     SystemError error;
@@ -311,11 +311,11 @@ Status Network::Loop::watch_input(int descriptor) {
                                         " cannot be watched: " + error.message()};
 }
 
-void Network::Loop::unwatch_input(int descriptor) {
+void Links::Loop::unwatch_input(int descriptor) {
     inputs_.erase(descriptor);
 }
 
-void Network::Loop::wait_inputs() {
+void Links::Loop::wait_inputs() {
     for (auto& [descriptor, input] : inputs_) {
         if (input.waiting) continue;
         input.waiting = true;

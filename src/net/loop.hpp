@@ -1,4 +1,4 @@
-// The inside of Network: its connections, what makes them (places), and the one event loop.
+// The inside of Links: its connections, what makes them (places), and the one event loop.
 // Boost.Asio is known here, in loop.cpp and in places.cpp; it waits, the channels read and write.
 //
 // Nothing keeps a pointer to a connection or a place across a wait: handlers carry its number and
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "net/channel.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "net/pace.hpp"
 
 namespace vagus::net {
@@ -27,7 +27,7 @@ namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
 using SystemError = boost::system::error_code;
 
-class Network::Loop {
+class Links::Loop {
 public:
     Loop();
     ~Loop();

@@ -60,8 +60,7 @@ Error cannot_listen(const Target& target, const SystemError& error) {
 
 // ---- listening ----
 
-Result<Listening> Network::Loop::listen(hub::Hub& hub, const Target& target,
-                                        ListenOptions options) {
+Result<Listening> Links::Loop::listen(hub::Hub& hub, const Target& target, ListenOptions options) {
     if (!std::holds_alternative<TcpPlace>(target.place)) {
         return Error{Code::BadInput, to_string(target) +
                                          ": only TCP can listen; write tcp:127.0.0.1:33333, and "
@@ -87,7 +86,7 @@ Result<Listening> Network::Loop::listen(hub::Hub& hub, const Target& target,
 }
 
 // A name may have several addresses: the first of IPv4 is what peers expect.
-Result<Tcp::endpoint> Network::Loop::endpoint_to_bind(const Target& target) {
+Result<Tcp::endpoint> Links::Loop::endpoint_to_bind(const Target& target) {
     const auto& place = std::get<TcpPlace>(target.place);
     SystemError error;
     const asio::ip::address address = asio::ip::make_address(place.host, error);
@@ -101,14 +100,14 @@ Result<Tcp::endpoint> Network::Loop::endpoint_to_bind(const Target& target) {
     return found.begin()->endpoint();
 }
 
-void Network::Loop::accept(PlaceId place) {
+void Links::Loop::accept(PlaceId place) {
     listeners_.at(place).acceptor.async_accept(
         [this, place](const SystemError& error, Tcp::socket socket) {
             if (listeners_.contains(place)) on_accepted(place, error, std::move(socket));
         });
 }
 
-void Network::Loop::on_accepted(PlaceId place, const SystemError& error, Tcp::socket socket) {
+void Links::Loop::on_accepted(PlaceId place, const SystemError& error, Tcp::socket socket) {
     Listener& listener = listeners_.at(place);
     if (error) {
         accept_again_later(place, error.message());
@@ -134,7 +133,7 @@ void Network::Loop::on_accepted(PlaceId place, const SystemError& error, Tcp::so
 }
 
 // No more descriptors, say: waits a little instead of asking the system again and again.
-void Network::Loop::accept_again_later(PlaceId place, const std::string& why) {
+void Links::Loop::accept_again_later(PlaceId place, const std::string& why) {
     Listener& listener = listeners_.at(place);
     if (!listener.failing) {
         events_.push_back({EventKind::Failed,
@@ -150,7 +149,7 @@ void Network::Loop::accept_again_later(PlaceId place, const std::string& why) {
     });
 }
 
-void Network::Loop::close_clients_of(PlaceId place) {
+void Links::Loop::close_clients_of(PlaceId place) {
     std::vector<uint32_t> numbers;
     for (const auto& [number, connection] : connections_) {
         if (connection.place == place) numbers.push_back(number);
@@ -161,8 +160,7 @@ void Network::Loop::close_clients_of(PlaceId place) {
 
 // ---- connecting ----
 
-Result<PlaceId> Network::Loop::connect(hub::Hub& hub, const Target& target,
-                                       ConnectOptions options) {
+Result<PlaceId> Links::Loop::connect(hub::Hub& hub, const Target& target, ConnectOptions options) {
     const auto* tcp = std::get_if<TcpPlace>(&target.place);
     if (target.use == Use::Listen || (tcp != nullptr && tcp->port == 0)) {
         return Error{Code::BadInput, to_string(target) +
@@ -178,7 +176,7 @@ Result<PlaceId> Network::Loop::connect(hub::Hub& hub, const Target& target,
     return begun.error();
 }
 
-Result<PlaceId> Network::Loop::join(hub::Hub& hub, int descriptor, const std::string& name) {
+Result<PlaceId> Links::Loop::join(hub::Hub& hub, int descriptor, const std::string& name) {
     auto channel = make_socket_channel(descriptor);
     const int flags = ::fcntl(descriptor, F_GETFL);
     if (flags < 0 || ::fcntl(descriptor, F_SETFL, flags | O_NONBLOCK) < 0) {
@@ -190,7 +188,7 @@ Result<PlaceId> Network::Loop::join(hub::Hub& hub, int descriptor, const std::st
 }
 
 // Fails only if trying again would fail again.
-Status Network::Loop::attempt(PlaceId place) {
+Status Links::Loop::attempt(PlaceId place) {
     Connector& connector = connectors_.at(place);
     if (!std::holds_alternative<TcpPlace>(connector.target.place)) {
         return attempt_descriptor(place, connector);
@@ -199,7 +197,7 @@ Status Network::Loop::attempt(PlaceId place) {
     return Status::done();
 }
 
-Status Network::Loop::attempt_descriptor(PlaceId place, Connector& connector) {
+Status Links::Loop::attempt_descriptor(PlaceId place, Connector& connector) {
     const auto* serial = std::get_if<SerialPlace>(&connector.target.place);
     Result<std::unique_ptr<Channel>> opened =
         serial ? open_serial(*serial) : open_can(std::get<CanPlace>(connector.target.place));
@@ -212,7 +210,7 @@ Status Network::Loop::attempt_descriptor(PlaceId place, Connector& connector) {
     return Status::done();
 }
 
-void Network::Loop::attempt_tcp(PlaceId place, Connector& connector) {
+void Links::Loop::attempt_tcp(PlaceId place, Connector& connector) {
     const uint32_t attempt = ++connector.attempt;
     connector.timer.expires_after(kConnectWithin);
     connector.timer.async_wait([this, place, attempt](const SystemError& error) {
@@ -226,13 +224,13 @@ void Network::Loop::attempt_tcp(PlaceId place, Connector& connector) {
         });
 }
 
-bool Network::Loop::is_attempt(PlaceId place, uint32_t attempt) const {
+bool Links::Loop::is_attempt(PlaceId place, uint32_t attempt) const {
     const auto at = connectors_.find(place);
     return at != connectors_.end() && at->second.attempt == attempt;
 }
 
-void Network::Loop::on_resolved(PlaceId place, const SystemError& error,
-                                const Tcp::resolver::results_type& found) {
+void Links::Loop::on_resolved(PlaceId place, const SystemError& error,
+                              const Tcp::resolver::results_type& found) {
     if (error) {
         attempt_failed(place, "the host is not known (" + error.message() + ")");
         return;
@@ -248,7 +246,7 @@ void Network::Loop::on_resolved(PlaceId place, const SystemError& error,
         });
 }
 
-void Network::Loop::on_connected(PlaceId place, const SystemError& error) {
+void Links::Loop::on_connected(PlaceId place, const SystemError& error) {
     Connector& connector = connectors_.at(place);
     if (error) {
         attempt_failed(place, error.message());
@@ -259,8 +257,7 @@ void Network::Loop::on_connected(PlaceId place, const SystemError& error) {
     connected(place, connector, std::move(channel));
 }
 
-void Network::Loop::connected(PlaceId place, Connector& connector,
-                              std::unique_ptr<Channel> channel) {
+void Links::Loop::connected(PlaceId place, Connector& connector, std::unique_ptr<Channel> channel) {
     const auto opened = open_link(place, *connector.hub,
                                   {.name = to_string(connector.target),
                                    .remap = connector.target.remap,
@@ -274,7 +271,7 @@ void Network::Loop::connected(PlaceId place, Connector& connector,
     connector.wait = kRetryFirst;
 }
 
-void Network::Loop::attempt_failed(PlaceId place, const std::string& why) {
+void Links::Loop::attempt_failed(PlaceId place, const std::string& why) {
     Connector& connector = connectors_.at(place);
     end_attempt(connector);
     const std::string name = to_string(connector.target);
@@ -285,7 +282,7 @@ void Network::Loop::attempt_failed(PlaceId place, const std::string& why) {
 }
 
 // What is still under way of it has no effect any more.
-void Network::Loop::end_attempt(Connector& connector) {
+void Links::Loop::end_attempt(Connector& connector) {
     ++connector.attempt;
     connector.timer.cancel();
     connector.resolver.cancel();
@@ -295,7 +292,7 @@ void Network::Loop::end_attempt(Connector& connector) {
     connector.socket.reset();
 }
 
-void Network::Loop::attempt_later(PlaceId place, Connector& connector) {
+void Links::Loop::attempt_later(PlaceId place, Connector& connector) {
     if (connector.options.retry == Retry::Never) {
         connectors_.erase(place);
         return;
@@ -310,12 +307,12 @@ void Network::Loop::attempt_later(PlaceId place, Connector& connector) {
 }
 
 // A connection of this place has closed.
-void Network::Loop::on_lost(PlaceId place) {
+void Links::Loop::on_lost(PlaceId place) {
     const auto at = connectors_.find(place);
     if (at != connectors_.end()) attempt_later(place, at->second);
 }
 
-void Network::Loop::close(PlaceId place) {
+void Links::Loop::close(PlaceId place) {
     listeners_.erase(place);
     connectors_.erase(place);
     std::vector<uint32_t> numbers;

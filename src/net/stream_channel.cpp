@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "net/channel.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "wire/frame.hpp"
 #include "wire/line_reader.hpp"
 

@@ -45,7 +45,7 @@ Result<Target> short_tcp(std::string_view text, std::string_view rest) {
     const std::string_view host = bracket ? rest.substr(1, close - 1) : rest.substr(0, colon);
     if (host.empty()) return wrong(text, "the host is missing; write tcp:127.0.0.1:33333");
     if (!bracket && host.find(':') != std::string_view::npos) {
-        return wrong(text, "an IPv6 address stands in brackets; write tcp:[::1]:33333");
+        return wrong(text, "an IPv6 address is written in brackets; write tcp:[::1]:33333");
     }
     const auto port = number_in<uint16_t>(rest.substr(colon + 1));
     if (!port) {
@@ -178,7 +178,7 @@ constexpr std::array<std::string_view, 4> kTcpKeys{"host", "port", "connectionPo
 constexpr std::array<std::string_view, 2> kTcpinKeys{"port", "address"};
 constexpr std::array<std::string_view, 9> kSerialKeys{"device", "name", "port", "baud", "stop",
                                                       "parity", "fc",   "bits", "dtr"};
-// What stands at which place: the first is a device or a port number.
+// What is at which place: the first is a device or a port number.
 constexpr std::array<std::string_view, 6> kSerialPositions{"device", "baud", "stop",
                                                            "parity", "fc",   "bits"};
 constexpr std::array<std::string_view, 1> kCanKeys{"if"};

@@ -67,7 +67,7 @@ struct Refusal {
     const char* says;  // a part of the sentence
 };
 
-TEST(Target, ErrorsQuoteTheTextAndNameTheKeyAndTheMend) {
+TEST(Target, ErrorsQuoteTheTextAndNameTheKeyAndTheFix) {
     const Refusal refusals[] = {
         {"", "no ':'"},
         {"localhost", "no ':'"},
@@ -76,7 +76,7 @@ TEST(Target, ErrorsQuoteTheTextAndNameTheKeyAndTheMend) {
         {"tcp:", "the port is missing"},
         {"tcp:localhost", "the port is missing; write tcp:localhost:33333"},
         {"tcp::33333", "the host is missing"},
-        {"tcp:::1:33333", "an IPv6 address stands in brackets"},
+        {"tcp:::1:33333", "an IPv6 address is written in brackets"},
         {"tcp:[::1:33333", "']'"},
         {"tcp:[::1]", "the port is missing; write tcp:[::1]:33333"},
         {"tcp:[::1]33333", "the port is missing"},

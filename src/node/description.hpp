@@ -54,7 +54,7 @@ struct NativeTable {
     uint16_t count;
 };
 
-// Does a local event leave the node's own id in event.source? Robots do it; others keep what stood
+// Does a local event leave the node's own id in event.source? Robots do it; others keep what was
 // there (section 3.6).
 enum class LocalEventSource : uint8_t { Kept, OwnId };
 

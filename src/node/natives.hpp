@@ -1,5 +1,5 @@
 // The 30 standard native functions (docs/spec/aseba-wire-and-vm.md, section 4.2). The list of them
-// is natives.def; here stands what is made from it. Every one pops all its arguments and checks
+// is natives.def; here is what is made from it. Every one pops all its arguments and checks
 // every address.
 #pragma once
 

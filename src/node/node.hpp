@@ -70,8 +70,8 @@ struct Node {
 extern const vm::Host kMachineHost;
 
 // Makes a fresh node: idle, without a program, all variables 0. What it keeps a pointer to must
-// live as long as it. The node's id is variable 0 by convention (section 3.10): who wants it there
-// writes it.
+// live as long as it. The node's id is variable 0 by convention (section 3.10): a board that wants
+// it there writes it.
 void init(Node& node, const vm::Config& config, const Description& description, const Board& board,
           void* owner);
 

@@ -10,7 +10,7 @@
 namespace vagus {
 namespace node {
 
-// Pops `kCount` addresses; sizes are popped next, by whoever knows how many there are.
+// Pops `kCount` addresses; sizes are popped next, by the caller, which knows how many there are.
 template <uint8_t kCount>
 struct Addresses {
     explicit Addresses(vm::Vm& vm) {

@@ -16,7 +16,7 @@ constexpr size_t kChangesMax = 1000;
 
 // A new version of plan files: all plans again, checked together, and which files it is about.
 struct NewVersion {
-    std::shared_ptr<const Graph> graph;  // owners: whoever made it, the run, who follows its trace
+    std::shared_ptr<const Graph> graph;  // owners: its maker, the run, followers of its trace
     std::vector<std::string> files;      // as GraphPlan::file
 };
 

@@ -79,7 +79,7 @@ private:
         if (!v.access) {
             say("P5", v.name, v.access_line,
                 fmt::format("the access \"{}\" is not known; write in, out, inout or shared, or "
-                            "leave it away for a local variable",
+                            "omit it for a local variable",
                             v.access_word));
         }
         if (!v.type) {
@@ -96,7 +96,7 @@ private:
         if (v.initial && !fits_initial(v)) {
             say("P6", v.name, v.initial_line,
                 *v.type == Type::Object
-                    ? std::string("a variable of type object has no initial value; take it away")
+                    ? std::string("a variable of type object has no initial value; delete it")
                     : fmt::format("the initial value must be a constant of the type {}, but is one "
                                   "of the type {}",
                                   name_of(*v.type), name_of(v.initial->type())));
@@ -135,7 +135,7 @@ private:
         if (found && found->kind == Kind::Computation && !actor.supervisors.empty()) {
             say("P14", actor.name, actor.line,
                 fmt::format("\"{}\" is a computation ({}) and ends at once: it cannot have "
-                            "supervisors; take them away",
+                            "supervisors; delete them",
                             actor.name, found->name));
         }
         for (const Supervisor& supervisor : actor.supervisors) check_supervisor(supervisor);

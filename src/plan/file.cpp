@@ -82,7 +82,7 @@ public:
                 continue;
             }
             complain("P0", element, member.at,
-                     fmt::format("the key \"{}\" stands twice here; keep one of them", member.key));
+                     fmt::format("the key \"{}\" is here twice; delete one of them", member.key));
         }
         return kept;
     }

@@ -1,4 +1,4 @@
-// The saved form of a plan file: the format's keys in its order, names as they stand.
+// The saved form of a plan file: the format's keys in its order, names as they are.
 #include <algorithm>
 
 #include "base/json.hpp"

@@ -61,7 +61,7 @@ constexpr Foreign kForeignOperators[] = {
 
 constexpr Foreign kForeignOperands[] = {
     {"!", "write not"},
-    {"+", "a number needs no sign; leave the + away"},
+    {"+", "a number needs no sign; delete the +"},
     {".", "write a digit before the point, as 0.5"},
     {"“", "write plain quotes, \" or '"},
     {"”", "write plain quotes, \" or '"},
@@ -157,7 +157,7 @@ private:
         return Status::done();
     }
 
-    // nullptr: something else stands here.
+    // nullptr: something else is here.
     Result<const FormulaOperator*> operator_here() {
         skip_spaces();
         for (const Foreign& foreign : kForeignOperators) {

@@ -254,7 +254,7 @@ TEST(FormulaText, WhatOtherLanguagesWriteGetsAdvice) {
                          {"i – 3", "write - (a minus)"},
                          {"“a”", "plain quotes"},
                          {".5", "as 0.5"},
-                         {"+5", "leave the + away"},
+                         {"+5", "delete the +"},
                          {"i AND b", "write and"},
                          {"i Or b", "write or"}};
     for (const auto& [text, advice] : cases) {

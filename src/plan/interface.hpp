@@ -1,4 +1,4 @@
-// What an actor shows to the outside, whether a template or a sub-plan stands behind it: the
+// What an actor shows to the outside, whether it is a template or a sub-plan: the
 // checker and the graph see both alike. Internal to the module.
 #pragma once
 

@@ -81,11 +81,11 @@ struct SubPlanOver {
 };
 // After a change (P31): where each global supervisor is in its file may be another; place_of()
 // tells.
-struct RankAnew {};
+struct RankAgain {};
 using Command =
-    std::variant<StartWatch, StopWatch, Activate, StartCode, StopCode, SubPlanOver, RankAnew>;
+    std::variant<StartWatch, StopWatch, Activate, StartCode, StopCode, SubPlanOver, RankAgain>;
 
-// Where the activation of a level stands.
+// How far the activation of a level is.
 enum class Phase : uint8_t {
     Pending,   // begin() is due
     Running,   // its code, or a plan inside it, runs

@@ -51,7 +51,7 @@ std::vector<std::string> Machine::change(const NewVersion& next, Time now) {
     }
     // A plan that does not run now belongs to the outermost.
     if (!told) trace(0, now, PlanChanged{changes_.back()});
-    commands_.emplace_back(RankAnew{});
+    commands_.emplace_back(RankAgain{});
     return {};
 }
 

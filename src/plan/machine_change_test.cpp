@@ -1,5 +1,5 @@
 // P31 of docs/plans.md in the pure machine, sentence by sentence: what is refused, what takes over,
-// what the trace says. The texts stand here; the lines were worked out by hand.
+// what the trace says. The texts are here; the lines were worked out by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// A plan as values: what a plan file says, each thing with the line it stands on (docs/plans.md,
+// A plan as values: what a plan file says, each thing with its line (docs/plans.md,
 // section 2). Reading is in file.hpp, checking in check.hpp; nothing here runs.
 #pragma once
 
@@ -69,7 +69,7 @@ struct Rule {
 struct Supervisor {
     std::string name;
     Place line;
-    bool doubled = false;  // its name stood before: not checked further (P1)
+    bool doubled = false;  // its name was there before: not checked further (P1)
     std::optional<std::string> template_name;
     Place template_line;
     std::optional<Value> period_ms;  // any JSON number (P22a)
@@ -124,7 +124,7 @@ struct Plan {
 int find_variable(const Plan& plan, std::string_view name);
 int find_actor(const Plan& plan, std::string_view name);
 
-// find_actor() for whoever asks for every target of a plan: in a large one a search each time takes
+// find_actor() for each target of a plan: in a large one a search each time takes
 // minutes. The plan must outlive this, and its actors must stay as they are.
 class ActorNames {
 public:

@@ -23,7 +23,7 @@ bool compares(FormulaOp op) {
 }
 
 Error no_object_beside(FormulaOp op) {
-    return wrong(fmt::format("an object cannot stand beside {}", symbol_of(op)));
+    return wrong(fmt::format("an object cannot be an operand of {}", symbol_of(op)));
 }
 
 // ---- arithmetic ----

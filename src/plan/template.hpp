@@ -19,7 +19,7 @@ std::string_view name_of(Kind kind);
 struct Input {
     std::string name;
     std::optional<Type> type;            // empty: any
-    std::optional<Value> fallback = {};  // of `type`; empty: must be fed
+    std::optional<Value> fallback = {};  // of `type`; empty: needs a value
     std::string unit = {};
     std::string help = {};
     std::optional<double> low = {};

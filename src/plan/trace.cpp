@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/json.hpp"
+#include "base/seconds.hpp"
 
 namespace vagus::plan {
 
@@ -116,9 +117,8 @@ std::string_view name_of(PlanResult result) {
 }
 
 std::string format_trace(const TraceEvent& event) {
-    const int64_t us = event.at.count();
-    std::string line = fmt::format("{{\"t\":{}.{:06}", us / 1'000'000, us % 1'000'000);
-    line += fmt::format(",\"plan\":{}", json_quote(event.plan));
+    std::string line =
+        fmt::format("{{\"t\":{},\"plan\":{}", seconds_text(event.at), json_quote(event.plan));
     std::visit(Members(line), event.what);
     return line + "}";
 }

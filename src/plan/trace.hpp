@@ -67,7 +67,7 @@ struct ErrorFound {
     std::string_view element;
     std::string message;
 };
-// A new version of this plan was accepted (P31). Owners of the graph: the run, and whoever follows
+// A new version of this plan was accepted (P31). Owners of the graph: the run, and what follows
 // the trace.
 struct PlanChanged {
     std::shared_ptr<const Graph> graph;

@@ -164,7 +164,7 @@ private:
             read ? fmt::format("\"{}\" has no initial value and nothing writes it; it stays {}",
                                variable.name,
                                *variable.type == Type::Object ? "absent" : "as it begins")
-                 : fmt::format("nothing reads \"{}\"; take it away, or use it", variable.name));
+                 : fmt::format("nothing reads \"{}\"; delete it, or use it", variable.name));
         return true;
     }
 

@@ -154,7 +154,7 @@ std::vector<Breakpoint> Breakpoints::list() const {
     return all;
 }
 
-void Breakpoints::start_anew() {
+void Breakpoints::start_again() {
     change(first_);
     variables_ = TracedVariables(first_);
     for (Kept& kept : kept_) {

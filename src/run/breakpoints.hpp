@@ -29,7 +29,7 @@ struct Breakpoint {
         Condition  // `condition` has become true by a write; true from the start does not count
     };
     Kind kind = Kind::Actor;
-    // The plan it stands in, in each instance of it: its name or file; empty: the outermost.
+    // The plan it is in, in each instance of it: its name or file; empty: the outermost.
     std::string plan = {};
     std::string element = {};
     std::string outcome = {};
@@ -55,7 +55,7 @@ public:
     std::vector<Breakpoint> list() const;
 
     // A new run: no hits, no variables.
-    void start_anew();
+    void start_again();
     // Each line of the trace, then settle() at the end of each decision: an end or an event counts
     // with what it wrote. These give the breakpoints that stop the run, by number.
     std::vector<int> see(const plan::TraceEvent& event);

@@ -151,8 +151,9 @@ public:
     virtual ~Actor() = default;
     virtual void run(ActorContext& context) = 0;
     // In real time, around each pause of the run by a debugger while the code is at a wait; called
-    // there, on the code's thread. Whoever drives and is not stopped by its own silence brings the
-    // robot to rest in held(), and takes up again in released() (decision 0090). No waiting here.
+    // there, on the code's thread. Code that drives and is not stopped by its own silence brings
+    // the robot to rest in held(), and takes up again in released() (decision 0090). No waiting
+    // here.
     virtual void held() {}
     virtual void released() {}
 };

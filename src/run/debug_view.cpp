@@ -9,7 +9,7 @@ namespace vagus::run {
 
 namespace {
 
-std::string mend(const std::string& name, const std::vector<std::string>& known) {
+std::string hint_for(const std::string& name, const std::vector<std::string>& known) {
     const std::string near = nearest(name, known);
     if (!near.empty()) return fmt::format("did you mean {}?", near);
     return known.empty() ? "there is none" : fmt::format("there are: {}", fmt::join(known, ", "));
@@ -75,7 +75,7 @@ Result<plan::Given> make_given(const plan::Template& of, const std::string& even
     plan::Given given{.outcome = plan::find_outcome(of, event), .outputs = {}};
     if (given.outcome < 0) {
         return Error{Code::NotFound, fmt::format("{} has no event \"{}\"; {}", of.name, event,
-                                                 mend(event, names_of(of.outcomes)))};
+                                                 hint_for(event, names_of(of.outcomes)))};
     }
     given.outputs.resize(of.outputs.size());
     std::vector<std::string> known;
@@ -84,7 +84,7 @@ Result<plan::Given> make_given(const plan::Template& of, const std::string& even
         const int index = plan::find_output(of, name);
         if (index < 0) {
             return Error{Code::NotFound, fmt::format("{} has no output \"{}\"; {}", of.name, name,
-                                                     mend(name, known))};
+                                                     hint_for(name, known))};
         }
         const auto at = static_cast<size_t>(index);
         const auto type = of.outputs[at].type;
@@ -125,7 +125,7 @@ Result<int> find_variable(const plan::Machine& machine, int level, const std::st
         known.push_back(variable.name);
     }
     return Error{Code::NotFound, fmt::format("the plan {} has no variable \"{}\"; {}", plan.name,
-                                             name, mend(name, known))};
+                                             name, hint_for(name, known))};
 }
 
 Result<Raised> find_raised(const plan::Machine& machine, const std::string& supervisor,
@@ -146,13 +146,13 @@ Result<Raised> find_raised(const plan::Machine& machine, const std::string& supe
     }
     if (!found) {
         return Error{Code::NotFound, fmt::format("no supervisor \"{}\" watches now; {}", supervisor,
-                                                 mend(supervisor, known))};
+                                                 hint_for(supervisor, known))};
     }
     const int stopping = machine.stopping_level();
     if (stopping >= 0 && at.level >= stopping) {
-        return Error{Code::Refused,
-                     fmt::format("what {} watches is being stopped already; let it go on first",
-                                 supervisor)};
+        return Error{
+            Code::Refused,
+            fmt::format("what {} watches is being stopped already; continue first", supervisor)};
     }
     plan::Given given = TRY(make_given(*found->of, event, outputs));
     return Raised{machine.watch_at(at), std::move(given)};

@@ -310,7 +310,7 @@ void Debugger::attach(plan::Machine& machine, EventGate& gate, std::function<voi
     core.machine_ = &machine;
     core.gate_ = &gate;
     core.now_ = Time{0};
-    core.breakpoints_.start_anew();
+    core.breakpoints_.start_again();
     core.met_.clear();
     core.waiting_.clear();
     core.step_ = core.stepped_ = core.abort_asked_ = false;
@@ -328,7 +328,7 @@ bool Debugger::serve(Time now) {
     core.now_ = now;
     const bool was_paused = core.paused_;
     core.stop_if_met();
-    if (core.paused_ && !was_paused) return true;  // the executor first makes all stand still
+    if (core.paused_ && !was_paused) return true;  // the executor first pauses everything
     if (core.abort_asked_ || core.machine_->over()) return false;
     std::optional<Posted> posted = core.next_request();
     if (!posted) return false;

@@ -51,7 +51,7 @@ public:
     // detach().
     void attach(plan::Machine& machine, EventGate& gate, std::function<void()> wake);
     // Answers one request, or pauses for what was met; blocks while paused. Between two decisions:
-    // call it until it gives false, each time obeying the machine, and make code and clock stand
+    // call it until it gives false, each time obeying the machine, and pause code and clock
     // still once paused().
     bool serve(Time now);
     bool paused() const;

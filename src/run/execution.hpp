@@ -1,4 +1,4 @@
-// One run of a plan, in real or in virtual time: whoever starts it chooses the clock, and all else
+// One run of a plan, in real or in virtual time: its caller chooses the clock, and all else
 // is the same.
 //
 //     Execution run(graph, library, options, Clock::Real);

@@ -23,13 +23,13 @@ constexpr size_t kHeldEventsMax = 1000;
 
 struct HeldEvent {
     uint64_t number = 0;  // never used twice in a run
-    Duration after{};     // in real time: so long after the plan came to stand
+    Duration after{};     // in real time: so long after the plan paused
     BusEvent event = {};
 };
 
 struct HeldNow {
     std::vector<HeldEvent> events = {};
-    uint64_t dropped = 0;  // for want of room, since the plan came to stand
+    uint64_t dropped = 0;  // for want of room, since the plan paused
 };
 
 class HeldEvents {
@@ -60,7 +60,7 @@ public:
     // What waits goes to the plan, in its order, before anything that comes later.
     virtual void open_gate() = 0;
     virtual HeldNow held() = 0;
-    // That one goes to the plan as soon as it goes on, or is taken away. False if it does not wait.
+    // That one goes to the plan as soon as it continues, or is dropped. False if it does not wait.
     virtual bool let_go(uint64_t number) = 0;
     virtual bool drop(uint64_t number) = 0;
 };

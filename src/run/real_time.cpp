@@ -45,7 +45,7 @@ private:
     void obey(plan::Activate& command);
     void obey(plan::StartCode& command);
     void obey(plan::StopCode& command);
-    void obey(plan::RankAnew&) {}  // ties are as they arrive (P21)
+    void obey(plan::RankAgain&) {}  // ties are as they arrive (P21)
     void obey(plan::SubPlanOver& command) { machine_.end_sub_plan(command.activation, now()); }
 
     void take(CodeOver& message);
@@ -129,7 +129,7 @@ Ended RealTime::Engine::decide() {
         let_debug();
         begin_if_checked();
         let_debug();
-        begin_if_checked();  // it stood before that, and events that came meanwhile come after it
+        begin_if_checked();  // paused before that; events that came meanwhile come after it
         start_due_checks();
         obey();
         taken_ = inbox_.take();
@@ -188,16 +188,16 @@ void RealTime::Engine::finish() {
 // message is taken, no check starts, code is held at its waits, and the run's clock is stopped.
 void RealTime::Engine::let_debug() {
     if (!options_.debugger) return;
-    bool standing = false;
+    bool paused = false;
     for (bool more = true; more;) {
-        if (options_.debugger->paused() && !standing) {
-            standing = true;
+        if (options_.debugger->paused() && !paused) {
+            paused = true;
             stand_still();
         }
         more = options_.debugger->serve(now());
         if (more) obey();
     }
-    if (standing) go_on();
+    if (paused) go_on();
 }
 
 void RealTime::Engine::stand_still() {

@@ -42,7 +42,7 @@ public:
 private:
     mutable std::mutex mutex_;            // over the two: a time is read of both at once
     SteadyClock::time_point start_{};     // where a run without pauses would have started
-    std::optional<Time> halted_at_ = {};  // the time at which it stands
+    std::optional<Time> halted_at_ = {};  // the time at which it is paused
 };
 
 inline Duration read_clock(clockid_t clock) {

@@ -242,7 +242,7 @@ void VirtualTime::obey(plan::SubPlanOver& command) {
     begin_due_.reset();
 }
 
-void VirtualTime::obey(plan::RankAnew&) {
+void VirtualTime::obey(plan::RankAgain&) {
     for (const auto& watching : watching_) {
         if (watching->global) watching->index = machine_.place_of(watching->id).index;
     }

@@ -49,7 +49,7 @@ private:
     void obey(plan::StartCode& command);
     void obey(plan::StopCode& command);
     void obey(plan::SubPlanOver& command);
-    void obey(plan::RankAnew& command);
+    void obey(plan::RankAgain& command);
 
     bool take_first_due();
     bool may_check(const Watching& watching) const;

@@ -1,4 +1,4 @@
-// Tokens: who has one may look, or drive. Made of 128 random bits, kept in files that only their
+// Tokens: one lets a client look, or drive. Made of 128 random bits, kept in files that only their
 // owner reads, compared in a time that does not tell how much was right.
 #pragma once
 

@@ -228,10 +228,10 @@ std::optional<ChildEnd> Child::ended() {
         end.what = "ended; the system does not tell how";
     } else if (WIFSIGNALED(status)) {
         end.signal = WTERMSIG(status);
-        end.what = fmt::format("ended by signal {} ({})", end.signal, strsignal(end.signal));
+        end.what = fmt::format("was ended by signal {} ({})", end.signal, strsignal(end.signal));
     } else {
         end.good = WEXITSTATUS(status) == 0;
-        end.what = fmt::format("exit status {}", WEXITSTATUS(status));
+        end.what = fmt::format("exited with status {}", WEXITSTATUS(status));
     }
     end_ = std::move(end);
     return end_;

@@ -1,6 +1,6 @@
 // A child process and the socket pair that joins it to its parent: the only place of serve that
 // calls the system. A run is such a child, so that what crashes, hangs or eats memory in it ends
-// the run and not the studio (docs: serve.md, processes).
+// the run and not the studio (docs/decisions/0111-a-run-is-a-process.md).
 //
 //     auto child = Child::start({.program = "/usr/bin/vagus", .arguments = {"run-host"}});
 //     child.value().pipe().send(talk::encode(talk::StepPlan{}));
@@ -71,7 +71,7 @@ struct ChildOptions {
     size_t memory_max = kRunMemoryMax;
 };
 
-// How a child ended: "exit status 1", "ended by signal 11 (Segmentation fault)".
+// How a child ended: "exited with status 1", "was ended by signal 11 (Segmentation fault)".
 struct ChildEnd {
     bool good = false;  // exit status 0
     int signal = 0;
@@ -123,7 +123,7 @@ private:
 // Starts a program that goes on by itself: a browser. False if there is none of that name.
 bool start_beside(const std::vector<std::string>& words);
 
-// The program that runs, for a child: also when another version stands at its path by now.
+// The program that runs, for a child: also when another version is at its path by now.
 constexpr const char* kThisProgram = "/proc/self/exe";
 // Its path.
 std::string own_program();

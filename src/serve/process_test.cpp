@@ -74,7 +74,7 @@ TEST(Child, SpeaksOverItsDescriptorAndEnds) {
     child.value().pipe().send('J', "\n");
     heard.clear();
     wait_for(child.value(), heard);
-    EXPECT_EQ(child.value().ended()->what, "exit status 7");
+    EXPECT_EQ(child.value().ended()->what, "exited with status 7");
     EXPECT_FALSE(child.value().ended()->good);
 }
 
@@ -104,7 +104,7 @@ TEST(Child, HasNothingOpenButItsDescriptor) {
         Child::start({"/bin/sh", {"-c", "[ -e /proc/$$/fd/3 ] && [ ! -e /proc/$$/fd/50 ]"}});
     std::vector<Packet> heard;
     wait_for(child.value(), heard);
-    EXPECT_EQ(child.value().ended()->what, "exit status 0");
+    EXPECT_EQ(child.value().ended()->what, "exited with status 0");
     auto printing =
         Printing::start({"sh", "-c", "[ -e /proc/$$/fd/50 ] && echo open || echo closed"});
     ASSERT_TRUE(printing.ok());
@@ -130,7 +130,7 @@ TEST(Child, AProgramThatIsNotThereEndsAtOnce) {
     auto child = Child::start({"/nonexistent/program", {}});
     std::vector<Packet> heard;
     wait_for(child.value(), heard);
-    EXPECT_EQ(child.value().ended()->what, "exit status 127");
+    EXPECT_EQ(child.value().ended()->what, "exited with status 127");
 }
 
 TEST(Random, TokensDiffer) {

@@ -2,7 +2,7 @@
 // never late. A piece of work shares nothing with the loop: it gets values, and gives back what the
 // loop does with its result.
 //
-//     Worker worker([&] { network.wake(); });
+//     Worker worker([&] { links.wake(); });
 //     worked<Result<Trace>>(worker.poster(), [text] { return read_trace(text); },  // there
 //                           [&](Result<Trace> trace) { show(trace); });            // in tick()
 //     worker.tick();

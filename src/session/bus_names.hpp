@@ -49,7 +49,7 @@ bool uses_bus(const std::vector<plan::Plan>& plans, const plan::Library& library
 // Whether they send events of their own (`Send`): then nobody knows on which nodes they work.
 bool sends_events(const std::vector<plan::Plan>& plans);
 
-// Events that the plans wait for, as far as their names stand in them; those by which a template
+// Events that the plans wait for, as far as they contain their names; those by which a template
 // works are among them, whichever way they go.
 std::set<std::string> events_heard(const std::vector<plan::Plan>& plans,
                                    const plan::Library& library);

@@ -21,7 +21,7 @@ std::string_view line_of(std::string_view source, int number) {
     return source;
 }
 
-// One code point on the page for each of the text: a tab is a space, so that the marks stand right.
+// One code point on the page for each of the text: a tab is a space, so that the marks are in line.
 std::string flat(std::string_view line) {
     std::string text;
     size_t shown = 0;

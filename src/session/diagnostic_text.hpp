@@ -1,4 +1,4 @@
-// What the compiler finds in a script, placed in the file where the script stands. As text
+// What the compiler finds in a script, placed in the file that contains the script. As text
 // (base/diagnostic.hpp):
 //
 //     explore.aesl:12:5: error: There is no speeed; did you mean speed? [VARIABLE_NOT_DEFINED]
@@ -15,7 +15,7 @@
 
 namespace vagus::session {
 
-// Where a script's text comes from: its line 1 stands on `first_line` of `file`.
+// Where a script's text comes from: its line 1 is `first_line` of `file`.
 struct SourceText {
     std::string file;
     std::string_view source;  // borrowed for the call

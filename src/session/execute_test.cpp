@@ -23,7 +23,7 @@ aesl::NodeFile node_file() {
     return file;
 }
 
-// The code stands on line 10, 11, 12 … one word a line, the table on line 0.
+// The code is on line 10, 11, 12 … one word a line, the table on line 0.
 aesl::Program program_of(std::vector<uint16_t> bytecode) {
     aesl::Program program;
     program.lines.assign(bytecode.size(), 0);

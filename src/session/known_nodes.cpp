@@ -11,7 +11,7 @@ namespace {
 
 constexpr Duration kAnswerWithin = std::chrono::seconds(5);  // simulated
 
-// A robot says what it is when it is asked over the bus: that is the one place where it stands.
+// A robot says what it is when it is asked over the bus: it is not written elsewhere.
 aesl::Target describe(sim::RobotType type, uint16_t place) {
     sim::WorldDefinition world;
     sim::RobotDefinition& robot_definition = world.robots.emplace_back();

@@ -3,10 +3,10 @@
 //
 //     auto made = session::LiveNode::make(target, {.id = 3, .flash = "three.abo", .transmit = …});
 //     session::LiveNode& node = *made.value();
-//     Time next = node.step(network.now());
+//     Time next = node.step(links.now());
 //     for (;;) {
 //         for (const wire::Frame& frame : arrived) node.receive(frame);  // what came until `next`
-//         next = node.step(network.now());
+//         next = node.step(links.now());
 //     }
 #pragma once
 

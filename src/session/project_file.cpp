@@ -56,7 +56,7 @@ std::vector<std::string> read_paths(Reading& reading, JsonObject& in, std::strin
     const std::vector<JsonValue>& items = in.items(key, Need::Optional);
     if (items.size() > kProjectPathsMax) {
         in.complain(in.find(key, Need::Optional)->at,
-                    fmt::format("\"{}\" of {}: expected at most {} paths, found {}; take some away",
+                    fmt::format("\"{}\" of {}: expected at most {} paths, found {}; remove some",
                                 key, in.name(), kProjectPathsMax, items.size()));
         return paths;
     }
@@ -96,7 +96,7 @@ void read_set(Reading& reading, JsonObject& start) {
     if (set->members.size() > kProjectVariablesMax) {
         start.complain(set->at,
                        fmt::format("\"set\" of {}: expected at most {} variables, found "
-                                   "{}; take some away",
+                                   "{}; remove some",
                                    start.name(), kProjectVariablesMax, set->members.size()));
         return;
     }

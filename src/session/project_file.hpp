@@ -41,7 +41,7 @@ struct ProjectFile {
     std::string path_of(const std::string& named) const;
 };
 
-// Text in, values out, or the Error that stands first in the file. Paths are not looked at.
+// Text in, values out, or the Error that is first in the file. Paths are not looked at.
 Result<ProjectFile> read_project_file(std::string_view text, const std::string& file);
 
 // Everything that keeps the text from being read, in the order of the file: the first is the Error

@@ -114,10 +114,10 @@ TEST(ProjectFile, IsLimited) {
     }
     EXPECT_EQ(error_of(with("\"scripts\": [" + paths + "]")),
               "vagus.json:1:43: \"scripts\" of the project: expected at most 256 paths, found 257; "
-              "take some away");
+              "remove some");
     EXPECT_EQ(error_of(with("\"start\": { \"set\": {" + set + "} }")),
               "vagus.json:1:50: \"set\" of \"start\": expected at most 256 variables, found 257; "
-              "take some away");
+              "remove some");
     EXPECT_EQ(
         error_of(with("\"name\": \"" + std::string(kProjectBytesMax, 'x') + "\"")).substr(0, 20),
         "vagus.json: has 1048");

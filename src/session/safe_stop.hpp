@@ -24,7 +24,7 @@ const SafeStop& shipped_safe_stop();
 Result<SafeStop> safe_stop_of(const std::vector<std::string>& toolboxes, const SafeStop& project);
 
 // For a file that is in a project, or in none: with what the innermost vagus.json around it and
-// its toolboxes say; `toolboxes` stand above these, the project above all.
+// its toolboxes say; `toolboxes` override these, the project overrides all.
 Result<SafeStop> safe_stop_around(const std::string& file,
                                   const std::vector<std::string>& toolboxes);
 

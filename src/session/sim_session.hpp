@@ -1,7 +1,7 @@
 // One simulated world with its bus and the scripts of its robots, on one clock. Scripts go to the
 // robots as from any host: the session is a host of its own on the bus, waits for the robots'
 // descriptions, compiles, and sends the bytecode. It is told how much time passes and opens no
-// socket; whoever has sockets adds links to world().bus().
+// socket; a program with sockets adds links to world().bus().
 //
 //     Result<SimSession> opened = open_sim("arena.world.json", {});
 //     SimSession& session = opened.value();
@@ -108,11 +108,11 @@ public:
 
     // Lets `span` pass: whole milliseconds, the rest is kept.
     void step(Duration span);
-    // One sim::kNodeStep in two halves, as those of sim::World: for a plan beside it, which stands
+    // One sim::kNodeStep in two halves, as those of sim::World: for a plan beside it, which comes
     // between the nodes and the bodies.
     void begin_instant();
     void end_instant();
-    // At time 0: loads the scripts while the world stands still (docs/decisions/0083). False if not
+    // At time 0: loads the scripts while the world is paused (docs/decisions/0083). False if not
     // all of them are settled() after settles_within().
     bool settle();
     // By then everything is settled() that ever will be: kSettleWithin and kSettleWithinMore.
@@ -164,7 +164,7 @@ public:
     std::vector<EventCount> events() const;
     // What runs: the sources that were compiled for the nodes, by node.
     std::map<uint16_t, std::string> running_scripts() const;
-    // The mistakes of the scripts as they stand now.
+    // The mistakes of the scripts as they are now.
     std::vector<Diagnostic> mistakes() const;
     // Names of the nodes that are to have a script and do not run it.
     std::vector<std::string> without_script() const;

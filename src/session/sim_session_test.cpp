@@ -74,7 +74,7 @@ int16_t value(const SimSession& session, size_t index, const std::string& name) 
 
 TEST(SimSession, EachScriptGoesToTheNodeOfItsNameAndNumber) {
     SimSession session = two_robots();
-    // The second robot's script stands first: the number decides, not the order.
+    // The second robot's script comes first: the number decides, not the order.
     session.load("a.aesl", project("", node("thymio-II", 7, "var x = 70") +
                                            node("thymio-II", 3, "var x = 30")));
     settle(session);
@@ -176,7 +176,7 @@ TEST(SimSession, NodesThatOthersBroughtAreStoppedAndReadBack) {
     EXPECT_EQ(describe(session.guests()), "at rest: thymio-II (5)");
 }
 
-// What a project says of a node stands above what ships with the program.
+// What a project says of a node overrides what ships with the program.
 TEST(SimSession, NodesThatOthersBroughtAreStoppedAsTheProjectSays) {
     SimOptions options;
     options.guests["thymio-II"] = {{{"motor.left.target", {7}}}, {}};

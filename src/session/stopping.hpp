@@ -40,7 +40,7 @@ public:
                // safe stop does not name are left out.
         Stop,  // the same behind Stop, for every node
     };
-    // When a node is given up.
+    // When a node is waited for no longer.
     enum class Until {
         Away,       // it is gone as soon as it is away, and asked again when it is back
         Forgotten,  // only forget() and acknowledge() end the asking, also of one that is away

@@ -5,16 +5,10 @@
 #include <cmath>
 
 #include "base/json.hpp"
+#include "base/seconds.hpp"
 
 namespace vagus::session {
 namespace {
-
-// Seconds with six decimals.
-std::string seconds(Time at) {
-    std::string fraction = std::to_string(at.count() % 1000000);
-    fraction.insert(0, 6 - fraction.size(), '0');
-    return std::to_string(at.count() / 1000000) + "." + fraction;
-}
 
 // The fewest digits that read back as the same number (plans.md P10); after rounding to millionths
 // and below 1e16 always in plain form.
@@ -30,7 +24,7 @@ std::string shortest(double value) {
 }  // namespace
 
 TraceLine::TraceLine(Time at, std::string_view kind)
-    : line_("{\"t\":" + seconds(at) + ",\"kind\":" + json_quote(kind)) {}
+    : line_("{\"t\":" + seconds_text(at) + ",\"kind\":" + json_quote(kind)) {}
 
 void TraceLine::key(std::string_view name) {
     line_ += "," + json_quote(name) + ":";

@@ -106,7 +106,7 @@ TEST(Arena, NothingPassesThroughAWallOfAMillimetre) {
     const BodyId robot = add_square(arena, {{0.5, 0.5}, 0});
     arena.drive(robot, {.forward = 0.2, .turn = 0});
     run(arena, 20);
-    // Its front is 0.05 m ahead; bodies stand a skin of a millimetre apart.
+    // Its front is 0.05 m ahead; bodies are a skin of a millimetre apart.
     EXPECT_NEAR(arena.pose(robot).at.x, 0.95, 0.003);
 }
 

@@ -25,7 +25,7 @@ protected:
         arena_.add_object(object);
         colours_.push_back(object.colour);
     }
-    // A box whose front stands across the view at this depth.
+    // A box whose front is across the view at this depth.
     void add_box(double depth, double width, double height, const Colour& colour, double left = 0) {
         add({.kind = ObjectKind::Box,
              .at = {1 + depth + 0.1, 5 + left},
@@ -143,7 +143,7 @@ TEST_F(Camera, ANearBodyHidesAFarOneAsFarAsItReaches) {
     add_box(1, 0.4, 0.1, kRed);
     add_box(3, 2.0, 0.4, kGreen);
     const Picture picture = take();
-    // Column 80: red from 72 to 87. The green box stands from 60 - 0.2 / 3 * 138.564 = 50.76 down
+    // Column 80: red from 72 to 87. The green box reaches from 60 - 0.2 / 3 * 138.564 = 50.76 down
     // to 60 + 0.2 / 3 * 138.564 = 69.24, and the floor shows in rows 69 to 71.
     EXPECT_TRUE(is_green(pixel(picture, 80, 51)));
     EXPECT_TRUE(is_green(pixel(picture, 80, 68)));

@@ -3,7 +3,7 @@
 // the cells of its rim, so that nothing is ever lost.
 //
 //     CellGrid grid(2.0, 1.0);
-//     grid.build(boxes);                                  // numbered 0, 1, 2 … as they stand
+//     grid.build(boxes);                                  // numbered 0, 1, 2 … in their order
 //     grid.visit({0.4, 0.4, 0.6, 0.6}, [&](uint32_t number) { … });   // some may come twice
 #pragma once
 

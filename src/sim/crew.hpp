@@ -41,7 +41,7 @@ public:
                 const std::function<void(size_t)>& part);
 
 private:
-    // Parts of a round that begin as those of one thread; whoever takes some moves `next` on.
+    // Parts of a round that begin as those of one thread; a thread that takes some moves `next` on.
     struct alignas(64) Share {
         std::atomic<size_t> next = 0;
         size_t end = 0;

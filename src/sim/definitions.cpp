@@ -47,7 +47,7 @@ bool sees_colours(RobotType type) {
 }
 
 std::span<const std::string_view> buttons_of(RobotType type) {
-    // Variables and local events of a Thymio stand in this order (docs/spec, section 5.2).
+    // Variables and local events of a Thymio are in this order (docs/spec, section 5.2).
     static constexpr std::array<std::string_view, 5> kThymio2 = {"backward", "left", "center",
                                                                  "forward", "right"};
     static constexpr std::array<std::string_view, 1> kCarbot = {"escape"};

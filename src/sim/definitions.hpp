@@ -90,7 +90,7 @@ struct RobotDefinition {
     std::optional<uint16_t> port =
         {};  // a TCP port of its own beside the common bus; 0: a free one
     std::string script =
-        {};  // an .aesl that whoever opens the world loads over the bus; empty: none
+        {};  // an .aesl that the opener of the world loads over the bus; empty: none
     Colour paint = {0.95, 0.95, 0.95};
     bool operator==(const RobotDefinition&) const = default;
 };
@@ -107,7 +107,7 @@ struct RemoveObject {
 struct MoveObject {
     std::string id;  // of an object, or the name of a robot
     Point at;
-    std::optional<double> angle;  // empty: as it stands
+    std::optional<double> angle;  // empty: as it is
     bool operator==(const MoveObject&) const = default;
 };
 struct PressButton {

@@ -1,5 +1,5 @@
 // What robots show beside their shape: lights, and where their sensors look. Plain values for
-// whoever draws a world.
+// code that draws a world.
 #pragma once
 
 #include <string_view>

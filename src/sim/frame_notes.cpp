@@ -9,7 +9,7 @@ std::optional<Emitted> emitted_in(const wire::Frame& frame) {
     return Emitted{wire::arguments_of<std::vector<int16_t>>(frame), frame.type};
 }
 
-// Of a script that stands still: one of which an event was killed goes on.
+// Of a script that is paused: one of which an event was killed continues.
 std::optional<Fault> fault_in(const wire::Frame& frame) {
     wire::Fault fault;
     if (!wire::read_fault(frame, fault)) return std::nullopt;

@@ -76,11 +76,11 @@ public:
     int16_t& variable(uint16_t address) { return variables_[address]; }
     int16_t variable(uint16_t address) const { return variables_[address]; }
     const std::vector<int16_t>& variables() const { return variables_; }
-    // Frames sent since it was last cleared, by whoever carries them away.
+    // Frames sent since it was last cleared, by the code that carries them on.
     std::vector<wire::Frame>& sent() { return sent_; }
     const vm::Vm& vm() const { return node_.vm; }
 
-    // For natives: what stands as `robot` in the definition of the machine that the node belongs
+    // For natives: what is `robot` in the definition of the machine that the node belongs
     // to.
     static void* robot_of(const node::Node& node) {
         return static_cast<const Machine*>(node.owner)->definition_.robot;

@@ -1,5 +1,5 @@
 // The broad phase for what moves: points in cells, each moved on its own and rarely, instead of a
-// grid that is built again after each step. It is told where a point is listed; who looks for it
+// grid that is built again after each step. It is told where a point is listed; a search for it
 // adds how far it may have got since.
 //
 //     MovingGrid grid(2.0, 1.0);

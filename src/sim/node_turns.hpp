@@ -58,7 +58,7 @@ public:
     std::optional<BusLoad> load() const;
     hub::Hub* private_bus(size_t robot) { return private_buses_[robot].get(); }
     void host_left(size_t robot);
-    // As they stand at `now`; empty if there is no such node.
+    // As they are at `now`; empty if there is no such node.
     std::span<const int16_t> variables_of(uint16_t node, Time now);
     // How often a robot had its turn since the first one moved in.
     uint64_t turns_taken() const { return turns_taken_; }

@@ -59,7 +59,7 @@ public:
         (void)pressed;
     }
     virtual std::vector<Lamp> lamps() const = 0;
-    // Its distance sensors as they stand.
+    // Its distance sensors as they are.
     virtual std::vector<Beam> beams(const Arena& arena) const = 0;
     // The colour that cameras see.
     virtual Colour colour() const = 0;

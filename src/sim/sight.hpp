@@ -45,7 +45,7 @@ public:
     // One that moves must not get farther than kStrayMax from where it was listed last.
     void put(uint32_t index, const Stand& stand) { stands_[index] = stand; }
     const Stand& stand(uint32_t index) const { return stands_[index]; }
-    // Lists a body that moves where it stands now.
+    // Lists a body that moves where it is now.
     void anchor(uint32_t index) { moving_grid_.put(index, {stands_[index].x, stands_[index].y}); }
     // A fixed body has been put somewhere else.
     void fixed_moved() { fixed_current_ = false; }

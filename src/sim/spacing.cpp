@@ -29,8 +29,8 @@ std::vector<uint32_t> Spacing::take_changed() {
     return std::exchange(changed_, {});
 }
 
-// How far `index`, which stands at its anchor, may go until `other` could touch it. Where the leash
-// of the other one is in the way, it is shortened: around where it stands now, inside of what it
+// How far `index`, which is at its anchor, may go until `other` could touch it. Where the leash
+// of the other one is in the way, it is shortened: around where it is now, inside of what it
 // was.
 double Spacing::room_beside(uint32_t index, uint32_t other) {
     const Place& place = places_[index];

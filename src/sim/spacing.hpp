@@ -1,7 +1,7 @@
 // Which bodies can touch anything soon? A body that nothing can reach for some steps needs no
 // solver: it moves as its wheels say. Most bodies of a wide world are alone most of the time.
 //
-// Each body that moves has an anchor, a place where it stood, and a leash, how far it may go from
+// Each body that moves has an anchor, a place where it was, and a leash, how far it may go from
 // there. A body is alone while the discs around all anchors, as wide as body, leash and kSkin,
 // do not reach its own, nor do walls. So nobody has to look around before the leash is used up.
 //
@@ -28,7 +28,7 @@ enum class Company : uint8_t { MayBeAlone, Never };
 
 class Spacing {
 public:
-    // `sight` knows where bodies stand and how wide they are; it must outlive this.
+    // `sight` knows where bodies are and how wide they are; it must outlive this.
     explicit Spacing(Sight& sight) : sight_(sight) {}
 
     // A body that moves, known to sight. It has company until it is settled.
@@ -43,7 +43,7 @@ public:
         const double y = at.y - place.y;
         return x * x + y * y > place.leash * place.leash;
     }
-    // Anchors it where it stands now. Others may lose their solitude by that.
+    // Anchors it where it is now. Others may no longer be alone then.
     void settle(uint32_t index);
     // Those of which is_alone() has changed since.
     std::vector<uint32_t> take_changed();

@@ -76,8 +76,8 @@ TEST(Spacing, WallsAndTheBorderAreCompany) {
     EXPECT_FALSE(field.spacing.is_alone(2));
 }
 
-// The promise on which the arena builds: who is alone is beside nothing, however all have moved,
-// although only those that strayed have looked around.
+// The promise on which the arena builds: a body that is alone is beside nothing, however all have
+// moved, although only those that strayed have looked around.
 TEST(Spacing, WhoIsAloneTouchesNothingAfterAnySteps) {
     constexpr uint64_t kSeed = 20;
     SCOPED_TRACE("seed " + std::to_string(kSeed));

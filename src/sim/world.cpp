@@ -226,7 +226,7 @@ size_t index_of(const WorldDefinition& definition, std::string_view robot) {
 
 }  // namespace
 
-// What a hand from outside has taken away before its entry came is left alone.
+// What was deleted from outside before its entry came is left alone.
 void World::Insides::act(const Action& action) {
     Inhabitants& all = *inhabitants;
     const auto with_object = [&all](const std::string& id, const auto& act_on) {
@@ -476,7 +476,7 @@ Status World::move(RobotId robot, const Pose& to) {
     };
     if (is_far(to.at.x) || is_far(to.at.y) || !(to.angle >= -kAngleMax && to.angle <= kAngleMax)) {
         return Error{Code::BadInput,
-                     "the robot would stand outside of every world; places are in "
+                     "the robot would be outside of every world; places are in "
                      "metres, angles in radians"};
     }
     insides_->inhabitants->move_robot(*index, to);

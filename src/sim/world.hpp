@@ -13,7 +13,7 @@
 // instant: the timeline, then deliveries of the bus, then the nodes by ascending id, then the
 // bodies (architecture, decision 2).
 //
-// The world does not know: files, sockets, projects. Whoever opens it loads the robots' scripts
+// The world does not know: files, sockets, projects. Its opener loads the robots' scripts
 // over the bus, gives the bus its listeners, and puts names to the numbers of events.
 #pragma once
 
@@ -95,7 +95,7 @@ struct Emitted {
     std::vector<int16_t> arguments;
     uint16_t event = 0;
 };
-// A script did what it must not, and stands still.
+// A script did what it must not, and is paused.
 struct Fault {
     std::string what;  // "division by zero at 12"
     uint16_t pc = 0;
@@ -139,7 +139,7 @@ public:
 
     // Lets `span` pass. Whole kNodeStep are simulated; the rest is kept for the next call.
     void step(Duration span);
-    // One kNodeStep in two halves, for whoever has something of its own at each instant after the
+    // One kNodeStep in two halves, for code with something of its own at each instant after the
     // nodes and before the bodies: a plan. Call them in turn; happenings() are those of both.
     //
     //     world.begin_instant();   // time + 1 ms, timeline, deliveries, nodes, what they sent
@@ -148,10 +148,10 @@ public:
     void begin_instant();
     void end_instant();
     // A kNodeStep in which no time passes: frames are delivered and scripts run, while timeline,
-    // sensors, timers and bodies stand. So scripts can be loaded before the time 0 of a run.
+    // sensors, timers and bodies are paused. So scripts can be loaded before the time 0 of a run.
     void hold_instant();
     Time now() const;
-    // Whoever steps this world does not step it while a node is paused, but for the moment that it
+    // Its owner does not step it while a node is paused, but for the moment that it
     // takes to notice: so a pause ends no driving command (sim/carbot/gate.hpp).
     void stops_with_nodes();
     // Everything as at the start, time 0; the links of the bus stay, scripts and variables are
@@ -190,7 +190,7 @@ public:
     std::vector<RobotView> robots() const;      // in the order of the file
     std::vector<ObjectView> objects() const;    // in the order of their adding
     std::vector<Lamp> lamps(RobotId robot) const;
-    std::vector<Beam> beams(RobotId robot) const;  // distance sensors as they stand now
+    std::vector<Beam> beams(RobotId robot) const;  // distance sensors as they are now
     bool has_camera(RobotId robot) const;
     // What the robot's camera sees now (camera.hpp). Fails with NotFound if it has none.
     Result<Picture> render(RobotId robot) const;

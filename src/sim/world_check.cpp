@@ -291,7 +291,7 @@ Found check_among_others(const RobotDefinition& robot, const std::string& elemen
                          const WorldDefinition& world, Taken& taken) {
     if (auto found = check_robot(robot, element, world)) return found;
     if (const auto solid = stands_in(robot, world)) {
-        return Problem{element + ".at", "robot " + robot.name + " would stand in " + *solid};
+        return Problem{element + ".at", "robot " + robot.name + " would overlap " + *solid};
     }
     if (!taken.names.insert(robot.name).second)
         return Problem{element + ".name", "\"" + robot.name + "\" is taken; choose another"};

@@ -85,7 +85,7 @@ TEST(WorldFile, EveryKeyArrivesWhereItBelongs) {
     EXPECT_EQ(std::get<AddObject>(w.timeline[4].action).object.kind, ObjectKind::Wall);
 }
 
-TEST(WorldFile, ErrorsNamePlaceElementAndMend) {
+TEST(WorldFile, ErrorsNamePlaceElementAndFix) {
     const std::string mass =
         error_of(with(R"("objects":[{"kind":"box","at":[1,1],"size":[1,1],"mass":-1}])"));
     EXPECT_EQ(mass,
@@ -133,13 +133,13 @@ TEST(WorldFile, WhatIsWrongIsSaid) {
         {R"("objects":[{"id":"a","kind":"light","at":[1,1]},{"id":"a","kind":"light","at":[1,1]}])",
          "objects[1].id: \"a\" is the id of an earlier object"},
         {R"("robots":[{"name":"a","type":"carbot","at":[0.19,0.5]}])",
-         "robots[0].at: robot a would stand in the border of the world; place it further inside"},
+         "robots[0].at: robot a would overlap the border of the world; place it further inside"},
         {R"("objects":[{"id":"north","kind":"wall","at":[0.5,0.74],"size":[1,0.15]}],)"
          R"("robots":[{"name":"a","type":"carbot","at":[0.5,0.5]}])",
-         "robots[0].at: robot a would stand in the wall \"north\"; place one of them"},
+         "robots[0].at: robot a would overlap the wall \"north\"; place one of them"},
         {R"("objects":[{"kind":"cylinder","at":[0.75,0.5],"radius":0.06}],)"
          R"("robots":[{"name":"a","type":"carbot","at":[0.5,0.5]}])",
-         "would stand in the cylinder objects[0]"},
+         "would overlap the cylinder objects[0]"},
         {R"("robots":[{"name":"a","type":"carport","at":[1,1]}])", "type"},
         {R"("robots":[{"name":"a","type":"carbot","at":[0.5,0.5],"node":65532}])",
          "node: expected a number from 1 to 65531"},

@@ -1,4 +1,4 @@
-// Which nodes are on the bus of a run, and whose programs were stopped, by name: told by whoever
+// Which nodes are on the bus of a run, and whose programs were stopped, by name: told by what
 // has the bus, asked by templates whose work is done on nodes. From any thread.
 //
 //     BusNodes nodes;
@@ -47,7 +47,7 @@ public:
         count_.erase(found);
         return true;
     }
-    // Its program was stopped, or runs again. Whoever begins to work with it later asks
+    // Its program was stopped, or runs again. Code that begins to work with it later asks
     // is_stopped(): what was told before is not told again.
     void stopped(const std::string& name) {
         const std::lock_guard lock(mutex_);

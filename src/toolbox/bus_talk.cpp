@@ -14,7 +14,7 @@ using run::CodeError;
 
 namespace {
 
-// So much longer than its grace time code waits for an answer: it must not give up first.
+// So much longer than its grace time code waits for an answer: it must not stop waiting first.
 constexpr Duration kBeyondGrace = std::chrono::milliseconds(100);
 
 std::string has_ended(const std::vector<std::string>& nodes) {

@@ -40,9 +40,9 @@ std::string has_left(std::string_view node);
 // "the node "drive", which does the work, was stopped by somebody else, …"
 std::string was_stopped(std::string_view node);
 
-// A node whose program was stopped does no work. Whoever stopped it may be about to stop the plan,
-// too, or to let the node run again; after this nobody does. That it was stopped before the code
-// began, BusNodes tells.
+// A node whose program was stopped does no work. The host that stopped it may be about to stop the
+// plan, too, or to let the node run again; after this nobody does. That it was stopped before the
+// code began, BusNodes tells.
 constexpr Duration kStoppedMax = std::chrono::seconds(3);
 
 class BusTalk {

@@ -206,7 +206,7 @@ TEST_F(BusTemplates, AnActorThatIsStoppedIsOverWhenItsNodeHasEndedTheWork) {
 
 // ---- interruption ----
 
-// The touch comes at 50 ms; the wheels stand 30 ms after they were told. Only then the next actor
+// The touch comes at 50 ms; the wheels rest 30 ms after they were told. Only then the next actor
 // starts (P14). Tokens: the supervisor started first and is 1; having raised, it stops first (P23).
 TEST_F(BusTemplates, AnInterruptedActorIsOverWhenItsNodeHasStopped) {
     ScriptedNodes nodes([](ScriptedNodes& bus, const BusEvent& event) {

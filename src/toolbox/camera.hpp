@@ -1,4 +1,4 @@
-// What templates that look through a camera need of it. Whoever has one (a simulated world, a
+// What templates that look through a camera need of it. An owner of one (a simulated world, a
 // driver) implements this and puts it into Parts.
 //
 //     class WorldCamera final : public toolbox::Camera {

@@ -265,7 +265,7 @@ std::vector<Coded> computations() {
          .kind = Kind::Computation,
          .help = "Counts a variable on while it is not beyond the last value.",
          .icon = "M5 12a7 7 0 1 1 7 7M12 19l3-3M12 19l3 3",
-         .inputs = {{.name = "counter", .type = Type::Int, .help = "where the counter stands"},
+         .inputs = {{.name = "counter", .type = Type::Int, .help = "the value of the counter"},
                     {.name = "last", .type = Type::Int, .help = "the last value that counts"},
                     {.name = "step",
                      .type = Type::Int,

@@ -1,4 +1,4 @@
-// What the templates of robots reach the robot through, besides events. Whoever makes the library
+// What the templates of robots reach the robot through, besides events. The maker of the library
 // fills it in, at the latest before a run starts; what is missing stays null.
 #pragma once
 

@@ -36,7 +36,7 @@ private:
 
 bool Reader::fits(Place at, size_t found, size_t max, const std::string& what) {
     if (found <= max) return true;
-    complain(at, fmt::format("{}, found {}; take some away", what, found));
+    complain(at, fmt::format("{}, found {}; remove some", what, found));
     return false;
 }
 

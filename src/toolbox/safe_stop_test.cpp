@@ -88,23 +88,23 @@ TEST(SafeStop, EachListHasItsLimit) {
     const auto node = [](size_t i) { return quoted(i) + ": {}"; };
     EXPECT_EQ(error_of(list(kSafeStopNodesMax, "{", node, "}")), "no error");
     EXPECT_EQ(error_of(list(kSafeStopNodesMax + 1, "{", node, "}")),
-              "f:1:16: \"safe_stop\": expected at most 64 nodes, found 65; take some away");
+              "f:1:16: \"safe_stop\": expected at most 64 nodes, found 65; remove some");
     const auto set = [](size_t i) { return quoted(i) + ": 0"; };
     EXPECT_EQ(error_of(list(kSafeStopVariablesMax, "{\"a\": {\"set\": {", set, "}}}")), "no error");
     EXPECT_EQ(error_of(list(kSafeStopVariablesMax + 1, "{\"a\": {\"set\": {", set, "}}}")),
               "f:1:30: \"set\" of \"a\" in \"safe_stop\": expected at most 64 variables, found 65; "
-              "take some away");
+              "remove some");
     EXPECT_EQ(error_of(list(kSafeStopVariablesMax, "{\"a\": {\"read\": [", quoted, "]}}")),
               "no error");
     EXPECT_EQ(
         error_of(list(kSafeStopVariablesMax + 1, "{\"a\": {\"read\": [", quoted, "]}}")),
         "f:1:31: \"read\" of \"a\" in \"safe_stop\": expected at most 64 variables, found 65; "
-        "take some away");
+        "remove some");
     const auto zero = [](size_t) { return std::string("0"); };
     EXPECT_EQ(error_of(list(kSafeStopValuesMax, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
               "no error");
     EXPECT_EQ(error_of(list(kSafeStopValuesMax + 1, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
-              "f:1:36: \"v\" in \"safe_stop\": expected 1 to 64 values, found 65; take some away");
+              "f:1:36: \"v\" in \"safe_stop\": expected 1 to 64 values, found 65; remove some");
     const std::string longest(kSafeStopNameBytesMax, 'n');
     EXPECT_EQ(error_of("{\"" + longest + "\": {}}"), "no error");
     EXPECT_NE(error_of("{\"" + longest + "n\": {}}"), "no error");

@@ -25,7 +25,7 @@ std::string place_of(const plan::Toolbox& toolbox, const plan::Template& one) {
     return one.line > 0 ? fmt::format("{}:{}", toolbox.file, one.line) : toolbox.file;
 }
 
-// What of `later` the toolbox before it takes away: "\"Forward\" (mine.toolbox.json:7; drive: built
+// What of `later` the toolbox before it replaces: "\"Forward\" (mine.toolbox.json:7; drive: built
 // in)".
 std::vector<std::string> taken(const plan::Toolbox& before, const plan::Toolbox& later) {
     std::vector<std::string> names;

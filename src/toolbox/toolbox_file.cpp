@@ -135,7 +135,7 @@ void read_default(Reading& reading, JsonObject& in, const std::string& name, Fie
     field.declared.fallback = value;
 }
 
-// What makes no sense for this type or direction is complained of where it stands.
+// What makes no sense for this type or direction is complained of where it is.
 void refuse(Reading& reading, JsonObject& in, const std::string& name, std::string_view key,
             std::string_view why) {
     if (const JsonValue* json = in.find(key, Need::Optional)) {

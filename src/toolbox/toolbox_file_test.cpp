@@ -118,7 +118,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
 
 class Mistakes : public testing::TestWithParam<Mistake> {};
 
-TEST_P(Mistakes, AreToldWithTheirPlaceAndMend) {
+TEST_P(Mistakes, AreToldWithTheirPlaceAndFix) {
     const Mistake& mistake = GetParam();
     const std::string error = error_of(lamp_with(mistake.from, mistake.to));
     EXPECT_TRUE(error.starts_with("box/lamp.toolbox.json:" + std::string(mistake.place) + ": "))
@@ -127,7 +127,7 @@ TEST_P(Mistakes, AreToldWithTheirPlaceAndMend) {
 }
 
 constexpr Mistake kMistakes[] = {
-    {"{\n", "[\n", "2:11", "stand in an object, { … }, not in an array"},
+    {"{\n", "[\n", "2:11", "belong in an object, { … }, not in an array"},
     {"vagus-toolbox/1", "vagus-toolbox/2", "2:13",
      "\"format\" is \"vagus-toolbox/2\"; write \"vagus-toolbox/1\""},
     {"\"lamp\",\n  \"project\"", "\"la mp\",\n  \"project\"", "3:11",

@@ -1,4 +1,4 @@
-// What hosts can ask of the machine (section 2.3). The dumps of section 2.10 stand here word for
+// What hosts can ask of the machine (section 2.3). The dumps of section 2.10 are here word for
 // word.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -55,7 +55,7 @@ struct Host {
     // event.
     void (*send)(Vm& vm, uint16_t type, const uint16_t* words, uint16_t count);
     // Sends Variables: `start`, then the `count` variables from there, in as many messages as
-    // needed (D22); at least one, so that whoever asks gets an answer.
+    // needed (D22); at least one, so that each question gets an answer.
     void (*send_variables)(Vm& vm, uint16_t start, uint16_t count);
     // Sends NodeSpecificError: vm.pc, then `text`, which ends with '\0' and is in flash on an AVR:
     // see flash_read().

@@ -104,7 +104,7 @@ uint16_t bit_of(uint16_t source) {
     return static_cast<uint16_t>(static_cast<uint16_t>(source * 40503u) >> 7);
 }
 
-// Six zeros look like event 0 of a host, stand inside of many a frame, and are what a broken line
+// Six zeros look like event 0 of a host, are inside of many frames, and are what a broken line
 // sends.
 bool is_zero(const uint8_t* header) {
     for (uint16_t i = 0; i < kHeaderSize; ++i) {

@@ -14,7 +14,7 @@
 // What is only possible waits for a witness, the header behind it or silence: a user event of a
 // source from which no message of section 2 has come, and a type that we do not know. Where no
 // frame can begin, where a frame stops halfway for kLineQuiet_ms, or takes longer than any frame
-// can, the boundary is lost. It is found where two good headers stand one behind the other, or four
+// can, the boundary is lost. It is found where two good headers follow each other, or four
 // possible ones, or where frames end with the last byte before a silence.
 //
 // What is damaged inside of a frame cannot be seen: there is no checksum.

@@ -15,10 +15,10 @@ constexpr uint32_t kStepsPerEvent = 2'000'000;
 constexpr uint64_t kLongFactor = 20;
 const std::string kGoldenFolder = test::testdata("golden/aesl/");
 
-FaultKind converted(session::StopKind kind) {
-    if (kind == session::StopKind::DivisionByZero) return FaultKind::DivisionByZero;
-    if (kind == session::StopKind::ArrayOutOfBounds) return FaultKind::ArrayOutOfBounds;
-    return FaultKind::NodeSpecific;
+FaultCause converted(session::StopKind kind) {
+    if (kind == session::StopKind::DivisionByZero) return FaultCause::DivisionByZero;
+    if (kind == session::StopKind::ArrayOutOfBounds) return FaultCause::ArrayOutOfBounds;
+    return FaultCause::NodeSpecific;
 }
 
 Outcome converted(const session::Execution& execution, const Target& target) {
@@ -31,7 +31,7 @@ Outcome converted(const session::Execution& execution, const Target& target) {
         outcome.emitted.push_back(
             {static_cast<size_t>(emission.during), emission.event, emission.arguments});
     if (!execution.error) return outcome;
-    outcome.gave_up = execution.error->kind == session::StopKind::StepLimit;
+    outcome.out_of_steps = execution.error->kind == session::StopKind::StepLimit;
     outcome.fault = Fault{converted(execution.error->kind),
                           static_cast<size_t>(execution.error->during), execution.error->line};
     return outcome;

@@ -8,7 +8,7 @@
 
 #include "aesl/compile.hpp"
 #include "aesl/node_file.hpp"
-#include "aesl/reference/outcome.hpp"
+#include "reference/outcome.hpp"
 
 namespace vagus::aesl {
 

@@ -4,10 +4,10 @@
 
 #include "aesl/compile.hpp"
 #include "aesl/project.hpp"
-#include "aesl/reference/evaluate.hpp"
 #include "base/file.hpp"
 #include "base/test_places.hpp"
 #include "our_run.hpp"
+#include "reference/evaluate.hpp"
 
 namespace vagus::aesl {
 namespace {

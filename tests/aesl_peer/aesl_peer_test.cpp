@@ -2,9 +2,9 @@
 // Debian's. VAGUS_LONG runs 20 times as many; VAGUS_SEED=N one.
 #include <gtest/gtest.h>
 
-#include "aesl/reference/generate.hpp"
 #include "our_run.hpp"
 #include "peer.hpp"
+#include "reference/generate.hpp"
 
 namespace vagus::aesl {
 namespace {
@@ -33,9 +33,9 @@ TEST(AeslPeer, MadeUpProgramsRunAsOnThePeer) {
     for (const uint64_t seed : chosen) {
         const Case program = generate(seed, node, Avoid::DefectsOfTheReference);
         const OurRun ours = run_ours(program, node);
-        if (ours.outcome.gave_up || ours.bytecode_words > kPeerWordsMax) continue;
+        if (ours.outcome.out_of_steps || ours.bytecode_words > kPeerWordsMax) continue;
         const Outcome expected = run_peer(peer, program, node);
-        if (expected.gave_up || is_want_of_room(expected)) continue;
+        if (expected.out_of_steps || is_want_of_room(expected)) continue;
         ++compared;
         ASSERT_EQ(ours.outcome, expected)
             << explain(seed, program, to_string(expected), to_string(ours.outcome));

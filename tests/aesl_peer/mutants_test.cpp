@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <regex>
 
-#include "aesl/reference/generate.hpp"
 #include "base/text.hpp"
 #include "mutate.hpp"
 #include "our_run.hpp"
 #include "peer.hpp"
+#include "reference/generate.hpp"
 #include "survive.hpp"
 
 namespace vagus::aesl {
@@ -75,7 +75,7 @@ std::string_view excuse(const Mutant& made, const OurRun& ours, const Outcome& t
     if (has("return") && has("sub ")) return "4.8: a return in an if at the end of a sub";
     const auto& fault = ours.outcome.fault;
     const bool is_deque =
-        fault && fault->kind == FaultKind::ArrayOutOfBounds &&
+        fault && fault->kind == FaultCause::ArrayOutOfBounds &&
         line_of(made.program.source, fault->line).find("deque.") != std::string_view::npos;
     return is_deque ? "A.2: an array of fewer than three words holds no deque" : "";
 }
@@ -87,10 +87,10 @@ std::string compared(uint64_t seed, const Sources& sources, PeerCompiler& small,
     const Mutant made = mutant(seed, sources);
     // The header colons of 2007 are errors to the peer.
     const OurRun ours = run_ours(made.program, made.node, Dialect::Modern);
-    if (ours.outcome.gave_up || ours.bytecode_words > kPeerWordsMax) return {};
+    if (ours.outcome.out_of_steps || ours.bytecode_words > kPeerWordsMax) return {};
     PeerCompiler& peer = &made.node == &sources.node ? small : large;
     const Outcome theirs = run_peer(peer, made.program, made.node);
-    if (theirs.gave_up || ours.outcome == theirs) return {};
+    if (theirs.out_of_steps || ours.outcome == theirs) return {};
     if (const std::string_view reason = excuse(made, ours, theirs); !reason.empty())
         return kExcused + std::string(reason);
     return explain(seed, made.program, to_string(theirs), to_string(ours.outcome));

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "aesl/reference/generate_expression.hpp"
+#include "reference/generate_expression.hpp"
 
 namespace vagus::aesl {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "aesl/node_file.hpp"
-#include "aesl/reference/outcome.hpp"
+#include "reference/outcome.hpp"
 
 namespace vagus::aesl {
 

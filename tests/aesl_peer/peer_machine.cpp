@@ -46,14 +46,14 @@ public:
         if (AsebaVMSetupEvent(&vm_, event) == 0) return;
         for (int i = 0; i < kRunsMax && (vm_.flags & kFlagActive) != 0; ++i)
             AsebaVMRun(&vm_, kRunSteps);
-        if ((vm_.flags & kFlagActive) != 0) outcome_.gave_up = true;
+        if ((vm_.flags & kFlagActive) != 0) outcome_.out_of_steps = true;
     }
 
     void set(size_t address, const Words& words) {
         std::copy(words.begin(), words.end(), variables_.begin() + static_cast<ptrdiff_t>(address));
     }
 
-    bool has_stopped() const { return outcome_.fault || outcome_.gave_up; }
+    bool has_stopped() const { return outcome_.fault || outcome_.out_of_steps; }
 
     void store_memory() {
         for (const auto& [name, place] : program_.variables) {
@@ -69,11 +69,11 @@ public:
         if (type < node_.common.events.size()) {
             outcome_.emitted.push_back({during_, node_.common.events[type].name, words});
         } else if (type == kOutOfBounds) {
-            fault(FaultKind::ArrayOutOfBounds, words);
+            fault(FaultCause::ArrayOutOfBounds, words);
         } else if (type == kDivisionByZero) {
-            fault(FaultKind::DivisionByZero, words);
+            fault(FaultCause::DivisionByZero, words);
         } else if (type == kNodeSpecific) {
-            fault(FaultKind::NodeSpecific, words);
+            fault(FaultCause::NodeSpecific, words);
         } else {
             // Reports of state: nobody asked.
         }
@@ -96,7 +96,7 @@ public:
 private:
     uint16_t pop() { return static_cast<uint16_t>(stack_[static_cast<size_t>(vm_.sp--)]); }
 
-    void fault(FaultKind kind, const Words& words) {
+    void fault(FaultCause kind, const Words& words) {
         const auto pc = static_cast<uint16_t>(words[0]);
         outcome_.fault = Fault{kind, during_, program_.lines[pc]};
     }

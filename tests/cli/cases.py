@@ -676,7 +676,7 @@ class Cli(unittest.TestCase):
             screen.wait_page("thymio-II")
             screen.wait_page("count")
             screen.type(" ")
-            screen.wait_page("go on")
+            screen.wait_page("continue")
             screen.type(" ")
             screen.wait_page("x1")
             screen.type("+")
@@ -753,7 +753,7 @@ class Cli(unittest.TestCase):
             self.assertEqual(screen.wait_end(), 0)
             left = self.after_the_screen(screen)
             self.assertIn("0.100 s  the plan is over: OK", left)
-            self.assertIn("rob stands at", left)
+            self.assertIn("rob is at", left)
 
     def test_a_plan_that_is_over_stays_until_any_key(self):
         with Screen("plan", "run", self.plan_that_waits(0.1), "--world", self.world) as screen:
@@ -855,7 +855,7 @@ class Cli(unittest.TestCase):
         # Beside a world, too.
         done = self.run_vagus(*run, "--world", self.world, "--trace", "-")
         self.assertIn("only: hello", done.stderr)
-        self.assertIn("rob stands at", done.stderr)
+        self.assertIn("rob is at", done.stderr)
         self.assertTrue(all(line.startswith("{") for line in done.stdout.splitlines()), done.stdout)
 
     def test_the_error_that_ends_a_plan_stands_on_the_normal_screen(self):

@@ -264,7 +264,7 @@ TEST(ConformanceFaults, ACommandThatIsNotObeyedIsFoundByItsCheck) {
         {MessageType::Stop, "Stop abandons the event"},
         {MessageType::GetExecutionState, "GetExecutionState changes nothing"},
         {MessageType::BreakpointSet, "a breakpoint stops, Step leaves it"},
-        {MessageType::BreakpointClear, "BreakpointClear takes one away"},
+        {MessageType::BreakpointClear, "BreakpointClear removes one"},
         {MessageType::BreakpointClearAll, "BreakpointClearAll takes all away"},
         {MessageType::SetVariables, "SetVariables and GetVariables agree"},
         {MessageType::GetNodeDescription, "the parts of the description come whole and in order"},
@@ -289,7 +289,7 @@ TEST(ConformanceFaults, ACommandTakenForAnotherIsFound) {
         {MessageType::Reset, MessageType::Stop, "Reset starts init, paused, and keeps variables"},
         {MessageType::Step, MessageType::Run, "Step executes one instruction"},
         {MessageType::BreakpointClear, MessageType::BreakpointClearAll,
-         "BreakpointClear takes one away"},
+         "BreakpointClear removes one"},
         {MessageType::BootloaderReset, MessageType::Reset, "commands to a boot loader are ignored"},
     };
     for (const Mixed& each : all) {
@@ -326,7 +326,7 @@ TEST(ConformanceFaults, ANodeThatSleepsIsToldFromOneThatCannot) {
     EXPECT_EQ(sent_to_sleep(tells).count(Verdict::Failed), 1u);
 }
 
-// Whoever is meant, the node feels meant.
+// The node obeys what is meant for any node.
 TEST(ConformanceFaults, ANodeThatObeysForAnotherIsFound) {
     const Fault vain{.to_node = [](wire::Frame frame) {
         if (wire::is_command(frame.type) && frame.size >= 2) frame.payload[0] = 1;

@@ -334,7 +334,7 @@ TEST(Carbot, WhoWatchesTheWayHearsEachTimeThatItStays) {
     EXPECT_EQ(pilot.count("way.none"), 3u);
 }
 
-// 60 cm at 20 cm/s, 20 cm within 2 s each; then it stands.
+// 60 cm at 20 cm/s, 20 cm within 2 s each; then it is at rest.
 TEST(Carbot, WhatGetsOnHasMadeItsWay) {
     Pilot pilot(room(), kScript);
     pilot.send("way.watch", {9, 200, 20});

@@ -50,8 +50,8 @@ void TraceRules::note_raised(const plan::TraceEvent& event, const plan::EventRai
     const auto found = resting.find(supervisor);
     if (raised.global && found != resting.end()) {
         const Rest& rest = found->second;
-        const bool anew = rest.remedy != 0 && raised.activation > rest.remedy;
-        if (!anew) complain(event, "a global supervisor raised while it rests");
+        const bool is_later = rest.remedy != 0 && raised.activation > rest.remedy;
+        if (!is_later) complain(event, "a global supervisor raised while it rests");
         resting.erase(found);
     }
     const bool rests = raised.global && raised.target != plan::kIgnore;

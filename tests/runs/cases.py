@@ -319,7 +319,7 @@ class BesideAWorld(Runs):
             for line in ("pause 0.000001", "run", "where", "quit"):
                 program.type(line)
             self.assertEqual(program.wait_end(), 3)
-            self.assertEqual(program.lines.count("carbot stands at 1.00, 1.00 m, 0 deg"), 2, program.lines)
+            self.assertEqual(program.lines.count("carbot is at 1.00, 1.00 m, 0 deg"), 2, program.lines)
 
 
 if __name__ == "__main__":

@@ -52,7 +52,7 @@ TEST(Rooms, CarbotGoesToEveryRoom) {
     }
 }
 
-// The box in the office's door is taken away after a minute.
+// The box in the office's door is removed after a minute.
 TEST(Rooms, CarbotWaitsUntilABoxInTheDoorIsGone) {
     go_to(kOffice, example("rooms/flat.world.json"), [](const Trial& trial) {
         EXPECT_THAT(trial.ran.states, Contains("drive! LaneNotFree"));

@@ -14,7 +14,7 @@ from harness import Missing, listening, simulated
 from protocol import COMMANDS, invented_fields
 
 # What these do is what is done to the others; folder.list reads folders that are nobody's business here.
-# Who leaves the wheel is refused all the rest.
+# A page that has released control is refused all the rest.
 MOMENTS = ("run.end", "target.choose", "target.leave", "project.open", "project.close", "project.example", "project.new",
            "driver.leave")
 OTHERS = [command for command in COMMANDS if command not in ("hello", "watch", "unwatch", "folder.list", *MOMENTS)]

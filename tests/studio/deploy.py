@@ -181,7 +181,7 @@ class Deploy(Robots):
         page.do("driver.ask")
         project = self.make(1)
         waiting = self.enterContext(vagus(*self.words(project)))
-        self.wait(lambda: (self.people.value.get("asked") or {}).get("name") == "vagus deploy", "the question for the wheel")
+        self.wait(lambda: (self.people.value.get("asked") or {}).get("name") == "vagus deploy", "the request for control")
         page.do("driver.answer", give=False)
         self.wait(lambda: not self.people.value.get("asked") or self.people.value["asked"]["until_wall"], "the next question")
         page.do("driver.leave")

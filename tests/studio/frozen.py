@@ -35,7 +35,7 @@ class Frozen(Case):
         # At once: what is known is that nobody has answered.
         self.assertEqual(page.do("stop")["nodes"], [{"node": 1, "name": "thymio-II", "state": "silent"}])
         self.wait(lambda: self.robot.value["state"] == "lost", "the loss of the link")
-        self.assertIn("nobody on this link has answered", self.robot.value["why"])
+        self.assertIn("no answer on this link for 3 s", self.robot.value["why"])
         answer = page.do("stop")
         self.assertEqual(answer, {"stood": [], "nodes": [{"node": 1, "name": "thymio-II", "state": "silent"}]})
         self.wait_node(stop="silent")

@@ -32,7 +32,7 @@ class People(Case):
         self.refused_on(second, "not_driver", "run.start")
         second.do("driver.ask")
         first.do("driver.answer", give=True)
-        second.wait(lambda: seen.value["driver"] == second.greeting["number"], "the wheel")
+        second.wait(lambda: seen.value["driver"] == second.greeting["number"], "control")
         second.do("run.start")
         self.refused_on(first, "not_driver", "run.pause")
         first.do("stop")

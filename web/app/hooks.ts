@@ -15,7 +15,7 @@ export const StudioContext = createContext<Studio | null>(null);
 
 export function useStudio(): Studio {
   const studio = useContext(StudioContext);
-  if (!studio) throw new Error('a component stands outside of the studio');
+  if (!studio) throw new Error('a component is outside of the studio');
   return studio;
 }
 

@@ -1,5 +1,5 @@
 // What lives as long as the window: the watch table and the plot are kept with the project, and nodes
-// that stand keep the marks of what has changed.
+// that are paused keep the marks of what has changed.
 
 import { useEffect, useRef } from 'react';
 import type { Json } from '../protocol/messages';
@@ -62,6 +62,6 @@ function useStanding(): void {
   // A simulation whose clock is stopped holds all its nodes, whatever their own state is.
   const held = usePart('clock', {}, (is) => is?.state === 'paused');
   useEffect(() => {
-    for (const node of nodes ?? []) words.stands(node.id, held || node.state === 'paused');
+    for (const node of nodes ?? []) words.pause(node.id, held || node.state === 'paused');
   }, [words, nodes, held]);
 }

@@ -327,8 +327,8 @@ export const text = {
     agoShort: (seconds: string) => `${seconds} s ago`,
     everything: (at: string) => `Everything shows ${at} s.`,
     meanwhile: {
-      goes: 'The run continues; nothing here changes it.',
-      stands: 'The run is paused; nothing here changes it.',
+      runs: 'The run continues; nothing here changes it.',
+      paused: 'The run is paused; nothing here changes it.',
       over: 'Nothing runs now.',
     },
     trace: (name: string) => `Trace ${name}.`,
@@ -346,7 +346,7 @@ export const text = {
     noPlan: (path: string) =>
       `${path}: no plan of this project has the name of its plan, so only the timeline is shown.`,
     refused: (path: string, count: number) =>
-      `${path}: ${count} lines are none of a trace and were left out.`,
+      `${path}: ${count} lines could not be read as trace lines and were left out.`,
   },
   timeline: {
     cursor: 'Instant that is shown',
@@ -388,7 +388,7 @@ export const text = {
     world: 'No world. Press F5 to start the simulator.',
     network: 'No bus. Choose a target at the top.',
     documents: 'Open a file from the project, or press Ctrl+K.',
-    files: 'No file yet. Press + to make one.',
+    files: 'No file yet. Press + to create one.',
     search: 'Type what you look for. Enter searches all files.',
     nothingFound: (what: string) => `“${what}” is nowhere in the project.`,
     handlersLater: 'They come back when the script has no error.',
@@ -425,7 +425,7 @@ export const text = {
         `The script of ${node} has an error and was not loaded. ${
           time === null
             ? `${node} runs no script.`
-            : `${node} still runs ${time === '' ? 'the earlier one' : `the one of ${time}`}.`
+            : `${node} is still running ${time === '' ? 'the earlier one' : `the one of ${time}`}.`
         }`,
     },
   },
@@ -513,7 +513,7 @@ export const text = {
     older: 'the robot has an older one',
     notLoaded: 'not on the robot',
     runs: 'running',
-    stands: 'paused',
+    paused: 'paused',
     stopped: 'stopped',
   },
   documents: {
@@ -652,7 +652,7 @@ export const text = {
     noDefinition: 'Nothing is declared under this name.',
     references: (name: string) => `Where “${name}” is used`,
     address: 'Address',
-    standsAt: (line: number) => `paused at line ${line}`,
+    pausedLineOf: (line: number) => `paused at line ${line}`,
     loaded: (name: string) => `${name} is on the robot.`,
     kept: 'The node keeps its program for its next start.',
     keptAll: (nodes: number) =>
@@ -945,9 +945,9 @@ export const text = {
     notRunningHelp: 'Press F5 to start the simulator; or edit the world as its file says.',
     editIt: 'Edit',
     noWorld: 'No world',
-    noWorldHelp: 'This project has no world. Make one with + at the project’s files.',
-    broken: 'This text is no JSON that can be shown',
-    locked: 'The text is no JSON at the moment. This is how it was last, and cannot be changed.',
+    noWorldHelp: 'This project has no world. Create one with + at the project’s files.',
+    broken: 'This text is not valid JSON',
+    locked: 'The text is not valid JSON. The last valid version is shown and cannot be edited.',
     showText: 'Show the text',
     showIt: 'Show it',
     failed: 'This world cannot be opened.',
@@ -1046,8 +1046,8 @@ export const text = {
   draw: {
     canvas: (name: string) => `Plan ${name}, drawn`,
     failed: 'The plan cannot be opened.',
-    broken: 'The text is no JSON. Fix it as text; the drawing follows.',
-    locked: 'The text is no JSON at the moment. This is how it was last, and cannot be changed.',
+    broken: 'The text is not valid JSON. Fix it as text; the drawing follows.',
+    locked: 'The text is not valid JSON. The last valid version is shown and cannot be edited.',
     empty: 'Drag an actor here, or type its name in the palette and press Enter.',
     map: 'The whole plan, small',
     start: 'Start',
@@ -1166,7 +1166,7 @@ export const text = {
     noteText: 'Text of the note',
     emptyNote: 'Double-click to write',
     noteLabel: (text: string) => `Note: ${text.split('\n')[0] || 'empty'}`,
-    noNotes: 'This file keeps something else under "x.notes", where notes would stand.',
+    noNotes: 'This file keeps something else under "x.notes", where notes would be.',
     width: 'Width',
     height: 'Height',
     connectTo: 'Connect to',
@@ -1273,7 +1273,7 @@ export const text = {
         'The running plan cannot take this change; it continues unchanged until the next start:',
       refused: 'The running plan could not take what was saved; it continues unchanged:',
       save: 'Save',
-      anew: 'Stop and start again',
+      again: 'Stop and start again',
     },
     from: {
       menu: 'Run from here…',

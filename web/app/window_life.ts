@@ -69,7 +69,7 @@ function typesIn(target: EventTarget | null): boolean {
 /** Draws nothing: what it follows changes with each key, and the window is not drawn again for it. */
 export function WindowLife(): null {
   const studio = useStudio();
-  useAskForWheel();
+  useAskForControl();
   useUnsentWork();
   useFirstLayout(studio);
   useLayoutName();
@@ -132,10 +132,10 @@ function useLayoutName(): void {
 }
 
 /**
- * A page that may drive takes the wheel if nobody holds it, and when it opens as the only page: the server
- * keeps the wheel a while for a page that was closed.
+ * A page that may drive takes control if no page has it, and when it opens as the only page: the server
+ * keeps control a while for a page that was closed.
  */
-function useAskForWheel(): void {
+function useAskForControl(): void {
   const studio = useStudio();
   const link = useLink();
   const driver = usePart('studio', {}, (is) => is?.driver);

@@ -39,7 +39,7 @@ export type Link =
       number: number;
       role: 'drive' | 'look';
       version: string;
-      /** The connection stands, but the server has said nothing for kSilentMs. */
+      /** The connection is open, but the server has said nothing for kSilentMs. */
       silentSince?: number;
     }
   | { state: 'lost'; since: number }

@@ -1,4 +1,4 @@
-// The named layouts of the window: which panel stands where when a layout is opened first, in pixels.
+// The named layouts of the window: which panel is where when a layout is opened first, in pixels.
 // What a person makes of it is kept under the layout's name.
 
 export const layoutNames = ['Draw', 'Script', 'Debug', 'Present'] as const;

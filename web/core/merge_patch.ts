@@ -1,5 +1,5 @@
 // JSON merge patch (RFC 7396) on values that are never changed in place: what a patch does not touch
-// keeps its identity, so that whoever shows it need not draw again.
+// keeps its identity, so that a view need not draw it again.
 
 import type { Json } from '../protocol/messages';
 

@@ -96,7 +96,7 @@ export class Registry {
   }
 
   private refresh(): void {
-    // Newest first: what a panel adds stands before what the window offers for the same key.
+    // Newest first: what a panel adds comes before what the window offers for the same key.
     this.snapshot = [...this.commands.values()].reverse();
     this.changed.emit();
   }

@@ -444,11 +444,11 @@ describe('words on the screen', () => {
     pass(kSettleMs);
     const watch = Number(watches()[0]?.in['watch']);
     frame(watch, 0, [7]);
-    studio.words.stands(1, true);
-    studio.words.stands(1, false);
+    studio.words.pause(1, true);
+    studio.words.pause(1, false);
     frame(watch, 0, [8]);
     pass(50);
-    studio.words.stands(1, true);
+    studio.words.pause(1, true);
     pass(kMarkMs * 3);
     expect(seen.at(-1)).toEqual({ values: [8], changed: [true], before: [7] });
   });

@@ -35,9 +35,9 @@ test('of a simulator the clock alone says whether it runs', () => {
   const runs = robot('simulator', node('running', 'a.aesl#1'));
   expect(runStateOf(runs, clock('none'), undefined)).toBe('none');
   expect(runStateOf(runs, clock('paused'), undefined)).toBe('held');
-  const stands = robot('simulator', node('paused', 'a.aesl#1'));
-  expect(runStateOf(stands, clock('running'), undefined)).toBe('running');
-  expect(runStateOf(stands, clock('ended'), undefined)).toBe('none');
+  const paused = robot('simulator', node('paused', 'a.aesl#1'));
+  expect(runStateOf(paused, clock('running'), undefined)).toBe('running');
+  expect(runStateOf(paused, clock('ended'), undefined)).toBe('none');
 });
 
 test('on a bus nodes with a script of the project say it', () => {

@@ -1,5 +1,5 @@
 // What the run controls offer. For a simulator its clock alone says whether it runs: nodes run in a world that
-// stands, too. On a bus it is what nodes with scripts of ours, and the plan, do.
+// is paused, too. On a bus it is what nodes with scripts of ours, and the plan, do.
 
 import type { Node, Topics } from '../protocol/messages';
 
@@ -19,8 +19,8 @@ export function runStateOf(
 }
 
 /** The line where a node is paused: asked to, at a breakpoint, or because of a fault. */
-export function standsAt(node: Node | undefined): number | undefined {
-  const stands =
+export function pausedLineOf(node: Node | undefined): number | undefined {
+  const paused =
     node?.state === 'paused' || (node?.state === 'stopped' && node.fault !== undefined);
-  return stands && node.program !== 'older' ? node.at?.line : undefined;
+  return paused && node.program !== 'older' ? node.at?.line : undefined;
 }

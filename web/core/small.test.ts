@@ -52,7 +52,7 @@ describe('keys', () => {
     expect(control('Z', 'KeyZ', { shiftKey: true })).toEqual(['Ctrl+Shift+Z']);
     expect(control('?', 'Minus', { shiftKey: true })).toEqual(['Ctrl+Shift+?', 'Ctrl+?']);
   });
-  // The key for z stands where English keyboards have y, and the other way round.
+  // The key for z is where English keyboards have y, and the other way round.
   test('OnAGermanOrSwissKeyboardTheLetterCountsAndNotItsPlace', () => {
     expect(control('z', 'KeyY')).toEqual(['Ctrl+Z']);
     expect(control('y', 'KeyZ')).toEqual(['Ctrl+Y']);
@@ -226,12 +226,12 @@ describe('findings', () => {
     ]).toEqual([0, 0, 2, -1]);
   });
   test('AFixIsLookedUpAgainWhereItsFindingHasMovedTo', () => {
-    const mended = (line: number, label: string): Finding => ({
+    const fixable = (line: number, label: string): Finding => ({
       ...finding('error', 'b', line),
       fixes: [{ label, edits: [] }],
     });
-    const meant = mended(9, 'add end');
-    const now = [mended(2, 'add end'), mended(10, 'declare x'), mended(12, 'add end')];
+    const meant = fixable(9, 'add end');
+    const now = [fixable(2, 'add end'), fixable(10, 'declare x'), fixable(12, 'add end')];
     expect(sameFinding(meant, 'add end', now)?.at.line).toBe(12);
     expect(sameFinding(meant, 'declare y', now)).toBeUndefined();
     expect(sameFinding({ ...meant, doc: 'a' }, 'add end', now)).toBeUndefined();

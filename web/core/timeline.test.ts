@@ -45,7 +45,7 @@ describe('the span of a timeline', () => {
     expect(spanWith(span, 2)).toEqual({ from: 0, to: 20 });
   });
 
-  it('knows where a second stands, and back', () => {
+  it('knows where a second is, and back', () => {
     expect(placeIn({ from: 10, to: 30 }, 15, 800)).toBe(200);
     expect(timeAt({ from: 10, to: 30 }, 200, 800)).toBe(15);
   });

@@ -1,4 +1,4 @@
-// The arithmetic of a timeline: which seconds are in sight, where a second stands, what its ruler
+// The arithmetic of a timeline: which seconds are in sight, where a second is, what its ruler
 // says. Pure.
 
 import type { Commands } from '../protocol/messages';
@@ -75,7 +75,7 @@ export function curvePath(
   low: readonly unknown[],
   high: readonly unknown[],
   height: number,
-  /** Where the middle of a column stands. */
+  /** Where the middle of a column is. */
   placeOf: (column: number) => number,
 ): CurvePath | null {
   const numbers = [...low, ...high].filter((one) => typeof one === 'number');

@@ -1,4 +1,4 @@
-// The picture of the network: who stands where around the bus, who talks to whom, how much.
+// The picture of the network: who is where around the bus, who talks to whom, how much.
 
 import type { Node, NodeId, Traffic } from '../protocol/messages';
 
@@ -98,9 +98,9 @@ export interface Picture {
   width: number;
   height: number;
   centre: { x: number; y: number };
-  /** Boxes with names in them, or signs with names that stand outwards like rays. */
+  /** Boxes with names in them, or signs with names that point outwards like rays. */
   form: 'boxes' | 'rays';
-  /** The bus, on which they stand. */
+  /** The bus, on which they are. */
   ring: { x: number; y: number };
   spots: Map<NodeId, Spot>;
 }
@@ -123,7 +123,7 @@ function boxes(nodes: readonly NodeId[], area: { width: number; height: number }
   const rows = Math.ceil(nodes.length / 2);
   let width = Math.max(360, Math.min(area.width, 240 + nodes.length * 64));
   let height = Math.max(nodes.length <= 2 ? 120 : 200, Math.min(area.height, 130 + rows * 56));
-  // On an ellipse some stand closer than others: it grows until no box touches another.
+  // On an ellipse some are closer than others: it grows until no box touches another.
   for (let turn = 0; turn < kGrowthsMax; turn++) {
     const picture = ellipse(nodes, width, height);
     if (boxesApart([...picture.spots.values()])) return picture;
@@ -147,7 +147,7 @@ function ellipse(nodes: readonly NodeId[], width: number, height: number): Pictu
       ];
     }),
   );
-  // Two stand at the ends of a line.
+  // Two are at the ends of a line.
   const ring = { x: rx, y: nodes.length <= 2 ? 0.5 : ry };
   return { width, height, centre, form: 'boxes', ring, spots };
 }
@@ -165,7 +165,7 @@ function boxesApart(spots: readonly Spot[]): boolean {
 }
 const kBoxGap = 12;
 
-/** Two nodes are drawn left and right; from three on the first one stands at the top left. */
+/** Two nodes are drawn left and right; from three on the first one is at the top left. */
 function startAt(count: number): number {
   return count <= 2 ? Math.PI : -Math.PI / 2 - Math.PI / count;
 }
@@ -196,7 +196,7 @@ function rays(nodes: readonly NodeId[], area: { width: number; height: number })
   return { width: size, height: size, centre, form: 'rays', ring: { x: radius, y: radius }, spots };
 }
 
-/** An arrow between two spots, bent towards the middle, ending before what stands there. */
+/** An arrow between two spots, bent towards the middle, ending before what is there. */
 export function arrowPath(
   from: Spot,
   to: Spot,
@@ -231,7 +231,7 @@ export function boxGap(spot: { x: number; y: number }, towards: { x: number; y: 
   return Math.min(across, down);
 }
 
-/** All that stand on the bus: nodes by number, and the host if it has said something. */
+/** All that are on the bus: nodes by number, and the host if it has said something. */
 export function partners(
   nodes: readonly Pick<Node, 'id'>[],
   traffic: readonly Traffic[],

@@ -29,9 +29,9 @@ export interface Look {
 
 export interface Seen {
   values: (number | undefined)[];
-  /** Changed within the last second; while the node is paused: since it stood last. */
+  /** Changed within the last second; while the node is paused: since it was paused last. */
   changed: boolean[];
-  /** While the node is paused: what it was when it stood last. */
+  /** While the node is paused: what it was when it was paused last. */
   before: (number | undefined)[];
   /** The values are those of an instant of the past; before: what they are now. */
   past?: true;
@@ -49,7 +49,7 @@ interface NodeWords {
   changedAt: Map<number, number>;
   /** The words when the node went on last. */
   base: Map<number, number> | null;
-  stands: boolean;
+  paused: boolean;
   lookers: Set<Looker>;
   asked: string;
   end: () => void;
@@ -93,12 +93,12 @@ export class LiveWords {
     };
   }
 
-  /** A node that stands keeps its marks; when it goes on, what its words are then is the base. */
-  stands(id: NodeId, stands: boolean): void {
+  /** A paused node keeps its marks; when it continues, what its words are then is the base. */
+  pause(id: NodeId, paused: boolean): void {
     const node = this.nodeOf(id);
-    if (node.stands === stands) return;
-    node.stands = stands;
-    if (!stands) node.base = new Map(node.words);
+    if (node.paused === paused) return;
+    node.paused = paused;
+    if (!paused) node.base = new Map(node.words);
     for (const looker of node.lookers) this.dirty.add(looker);
     this.paint();
   }
@@ -132,7 +132,7 @@ export class LiveWords {
       words: new Map(),
       changedAt: new Map(),
       base: null,
-      stands: false,
+      paused: false,
       lookers: new Set(),
       asked: '',
       end: () => {},
@@ -236,11 +236,11 @@ export class LiveWords {
     const seen: Seen = { values: [], changed: [], before: [] };
     for (let address = look.first; address < look.first + look.count; address++) {
       const value = node.words.get(address);
-      const base = node.stands ? node.base?.get(address) : undefined;
+      const base = node.paused ? node.base?.get(address) : undefined;
       seen.values.push(value);
       seen.before.push(base);
       seen.changed.push(
-        node.stands
+        node.paused
           ? base !== undefined && base !== value
           : now - (node.changedAt.get(address) ?? -Infinity) < kMarkMs,
       );

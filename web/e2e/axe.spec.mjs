@@ -39,7 +39,7 @@ for (const theme of /** @type {const} */ (['dark', 'light'])) {
       await seen(page.getByRole('heading', { name: 'followWall' }));
       for (const shown of ['All data arrows', 'Text', 'What it does'])
         await page.getByRole('switch', { name: shown }).click();
-      await look(studio, 'a plan with all that stands beside it');
+      await look(studio, 'a plan with all that is beside it');
       await layout('Script');
       for (const panel of [
         'Palette',

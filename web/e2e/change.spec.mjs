@@ -89,7 +89,7 @@ test(
 );
 
 test(
-  'what cannot take over is refused with every reason, and runs when it starts anew',
+  'what cannot take over is refused with every reason, and runs when it starts again',
   project,
   async (studio) => {
     const { page, press } = studio;

@@ -78,7 +78,7 @@ const wordOf = (/** @type {string[]} */ typed) =>
 const drawn = (/** @type {Page} */ page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done))));
 
-/** Whoever comes within ten seconds of a death asks for the wheel. */
+/** A page that comes within ten seconds of a death requests control. */
 async function drive(/** @type {Page} */ page) {
   const wheel = page.getByRole('button', { name: 'Request control' });
   await wheel

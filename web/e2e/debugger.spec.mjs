@@ -32,7 +32,7 @@ const mark = (
 const stateOf = (/** @type {Page} */ page, /** @type {string} */ name) =>
   row(page, name).getByRole('cell').nth(1);
 
-test('each node runs, stands, steps and stops by itself, and all together', two, async (studio) => {
+test('each node runs, pauses, steps and stops by itself, and all together', two, async (studio) => {
   const { page, press, button, command } = studio;
   await seen(studio.editor('left'));
   await command('Show Network');
@@ -78,7 +78,7 @@ test(
     await reads(page.locator('.cm-values'), /args(\[0\])? = \d*0\b/);
     await studio.layout('Debug');
     await seen(page.getByRole('list', { name: 'Breakpoints' }).getByText(/[1-9]\d* hits?/));
-    // The other one was not asked to stand.
+    // The other one was not asked to pause.
     await seen(mark(studio, 'left', /, running$/));
 
     // Unplugged: it is said, and nothing has to be answered.
@@ -87,7 +87,7 @@ test(
     assert.equal(await page.getByRole('alertdialog').count(), 0);
     const again = await startNode(studio.t, 'right', 2, right.port);
     assert.equal(again.port, right.port);
-    // Plugged in: script and breakpoint are back; it stands until someone lets it run.
+    // Plugged in: script and breakpoint are back; it is paused until a page lets it run.
     await seen(mark(studio, 'right', /[^t] on the robot, (paused|stopped)/));
     await tab(/right 2/).click();
     await button('Run this node').click();

@@ -142,7 +142,7 @@ test('a plan of two actors is drawn from nothing by the keyboard', empty, async 
   assert.deepEqual(Object.keys(saved.places), ['greet', 'wait']);
 });
 
-test('supervisors, variables and findings: added, marked, taken away', empty, async (studio) => {
+test('supervisors, variables and findings: added, marked, deleted', empty, async (studio) => {
   const { page, layout, press, button } = studio;
   await layout('Draw');
   await button('Wait, actor').click();

@@ -29,14 +29,14 @@ async function open(/** @type {Studio} */ studio, node = 'left') {
 const textOf = async (/** @type {Studio} */ studio, /** @type {string} */ node) =>
   (await studio.editor(node).innerText()).replaceAll('\u200b', '');
 
-test('what can stand here is offered, with help and signature', two, async (studio) => {
+test('what can be written here is offered, with help and signature', two, async (studio) => {
   const { page, press, type } = studio;
   await open(studio);
   await press('Control+End');
   await type('call math.st');
   await seen(page.getByRole('option', { name: /math\.stat/ }));
   await press('Tab');
-  await until('it stands there', async () => /call math\.stat/.test(await textOf(studio, 'left')));
+  await until('it is there', async () => /call math\.stat/.test(await textOf(studio, 'left')));
   await press('End', 'Enter');
   await type('speed = LIM');
   await seen(page.getByRole('option', { name: /LIMIT/ }));
@@ -46,7 +46,7 @@ test('what can stand here is offered, with help and signature', two, async (stud
   await seen(page.locator('.hover').getByText(/LIMIT/));
 });
 
-test('mistakes are told while typing, and mended by their fixes', two, async (studio) => {
+test('mistakes are told while typing, and fixed by their buttons', two, async (studio) => {
   const { page, press, type, button } = studio;
   await open(studio);
   await press('Control+End');

@@ -51,12 +51,12 @@ async function breakAndStep(/** @type {Studio} */ studio, /** @type {string} */ 
   const n = await page.getByTitle('Change n').innerText();
   await press('F10', 'F10');
   await reads(page.getByTitle('Change leds'), n);
-  // Goes on: the breakpoint is taken away.
+  // Continues: the breakpoint is deleted.
   await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'F9', 'F5');
   await seen(mark(/on the robot, running/));
 }
 
-test('two emulated boards are programmed, stand and step', boards, async (studio) => {
+test('two emulated boards are programmed, pause and step', boards, async (studio) => {
   await seen(studio.editor('microbit'));
   await studio.press('F5');
   await breakAndStep(studio, 'microbit');

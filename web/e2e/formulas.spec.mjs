@@ -1,5 +1,5 @@
 // Formulas in the form of an element: completed at the caret, checked with each key, marked where
-// they stand.
+// they are.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -57,7 +57,7 @@ test('a formula is completed by the keyboard', plan, async (studio) => {
   await press('ArrowDown', 'Tab');
   await until('the function is written', async () => (await field.inputValue()) === 'sqrt()');
   await gone(list);
-  // The caret stands between the parentheses.
+  // The caret is between the parentheses.
   await press('Control+Space');
   await seen(list.getByRole('option', { name: 'speed float, cm/s', selected: true }));
   await press('ArrowDown', 'ArrowUp', 'Enter');
@@ -92,7 +92,7 @@ test('what is wrong with a formula is said while it is typed', plan, async (stud
   await properties.getByRole('button', { name: 'Write "speed"' }).click();
   await gone(properties.getByText('does not exist'));
   await press('Control+s');
-  await until('it is mended', () => seconds(place) === 'speed * 2');
+  await until('it is fixed', () => seconds(place) === 'speed * 2');
 });
 
 test('the place of a mistake is marked in its field and in the text', plan, async (studio) => {
@@ -117,7 +117,7 @@ test('the place of a mistake is marked in its field and in the text', plan, asyn
   await until('nothing is marked', async () => (await marked()) === '');
 });
 
-test('what is wrong with a state stands at its row, with its mend', slip, async (studio) => {
+test('what is wrong with a state is at its row, with its fix', slip, async (studio) => {
   const states = (await form(studio)).getByRole('region', { name: 'States' });
   await reads(states, /leads to "@termnate", which does not exist/);
   await states.getByRole('button', { name: 'Write "@terminate"' }).click();

@@ -66,7 +66,7 @@ async function send(/** @type {Studio} */ { page, command }, /** @type {string[]
   await command('Breakpoints');
 }
 
-/** The plan has heard go, and stands before its second actor; the held events are shown. */
+/** The plan has heard go, and is paused before its second actor; the held events are shown. */
 async function standAtSecond(/** @type {Studio} */ studio) {
   const { page, press, layout } = studio;
   await layout('Draw');
@@ -103,7 +103,7 @@ test('held events are dropped, let go and stepped with, by the keyboard', three,
   await gone(page.getByRole('heading', { name: 'Held events' }));
 });
 
-test('a node that stands says how many events it has dropped', three, async (studio) => {
+test('a paused node says how many events it has dropped', three, async (studio) => {
   const { page, press, layout, editor } = studio;
   await layout('Script');
   await seen(editor('thymio-II'));

@@ -26,7 +26,7 @@ test('a robot is programmed without a mouse', {}, async (studio) => {
     await type(line);
     await press('Enter');
   }
-  await until('every line stands there', async () => {
+  await until('every line is there', async () => {
     const lines = (await editor('thymio-II').innerText()).split('\n').map((line) => line.trim());
     return script.split('\n').every((line) => lines.some((shown) => shown.startsWith(line)));
   });

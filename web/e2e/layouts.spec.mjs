@@ -49,7 +49,7 @@ test(
     await page.getByRole('tab', { name: 'Project' }).click();
     await page.getByRole('treeitem', { name: /^notes/ }).dblclick();
     await seen(tab(/^notes/));
-    // Palette and Properties share a column, and no longer stand on both sides.
+    // Palette and Properties share a column, and are no longer on both sides.
     const shown = page.getByRole('tab', { name: /^(Palette|Project|Properties)/, selected: true });
     await until('two columns of panels', async () => (await shown.count()) === 2);
     await page.setViewportSize({ width: 720, height: 450 });

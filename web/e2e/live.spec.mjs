@@ -1,4 +1,4 @@
-// A plan that runs, on its drawing: breakpoints, what it counts, what it stands at.
+// A plan that runs, on its drawing: breakpoints, what it counts, where it is paused.
 import assert from 'node:assert/strict';
 import { makeProject } from './support/robots.mjs';
 import { gone, reads, seen, test } from './support/studio.mjs';
@@ -53,7 +53,7 @@ test('a breakpoint by the keyboard stops the plan, which says so', rounds, async
   await seen(element(page, 'count, computation For').getByRole('img', { name: 'Breakpoint' }));
   await press('F5');
   await seen(page.getByText('Paused by the breakpoint count'));
-  // It stands before its third actor: one say, one rest, and no count yet.
+  // It is paused before its third actor: one say, one rest, and no count yet.
   await reads(element(page, 'say, actor Log'), /×1 0\.0 s/);
   await reads(element(page, 'rest, actor Wait'), /×1 0\.1 s/);
   await command('Breakpoints');
@@ -124,7 +124,7 @@ test('a condition stops the plan, and an event is raised by hand', rounds, async
   await reads(late, /×1/);
 });
 
-test('what the formulas gave stands below the drawing', rounds, async (studio) => {
+test('what the formulas gave is below the drawing', rounds, async (studio) => {
   const { page, press, layout } = studio;
   await layout('Draw');
   await element(page, 'rest, actor Wait').focus();

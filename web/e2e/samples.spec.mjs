@@ -110,7 +110,7 @@ class Drawing {
     }
   }
 
-  /** The element of that name, wherever it stands. */
+  /** The element of that name, wherever it is. */
   async choose(/** @type {string} */ name) {
     await this.page.locator('.pcanvas').click({ position: { x: 300, y: 4 } });
     await this.press('Control+f');
@@ -221,7 +221,7 @@ const kCore = new Set(
 );
 
 for (const [folder, name] of samples) {
-  test(`${folder}/${name} is drawn anew`, { prepare: emptied(folder, name) }, async (studio) => {
+  test(`${folder}/${name} is drawn again`, { prepare: emptied(folder, name) }, async (studio) => {
     const { page, layout, press, here, file } = studio;
     const original = join(root, 'examples', folder, `${name}.plan.json`);
     const plan = readJson(original);

@@ -68,7 +68,7 @@ test(
 );
 
 test(
-  'a template is asked for from wherever one is, and its script stands where it is filled in',
+  'a template is asked for from wherever one is, and its script is where it is filled in',
   { words: ['--example', 'follow-wall'] },
   async (studio) => {
     const { page, press, type, layout, command } = studio;

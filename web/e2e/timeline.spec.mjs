@@ -119,7 +119,7 @@ test(
 );
 
 test(
-  'at its start the robot stands where the world file puts it, and its wheel does not turn',
+  'at its start the robot is where the world file puts it, and its wheel does not turn',
   wall,
   async (studio) => {
     const { page, press } = studio;
@@ -144,11 +144,11 @@ test(
     for (let t = await time(page); t > 0; t = await time(page)) await press('ArrowLeft');
     await reads(row.locator('.value__now'), /^(0|not recorded)$/);
     await until(
-      'now stands beside it',
+      'now is beside it',
       async () => Number(await row.locator('.value__before').innerText()) > 100,
     );
     const things = page.getByRole('table', { name: 'Things' });
-    await until('it stands at its start', async () => {
+    await until('it is at its start', async () => {
       const cells = things.getByRole('row', { name: /carbot/i }).getByRole('cell');
       return (await cells.allInnerTexts()).join(' ') === kStart;
     });

@@ -76,7 +76,7 @@ test(
 );
 
 test(
-  'a tap beside a line sets its breakpoint, another one takes it away',
+  'a tap beside a line sets its breakpoint, another one deletes it',
   {
     ...tablet,
     prepare: (/** @type {TestContext} */ t) =>

@@ -36,7 +36,7 @@ test('a robot drives in it; hands move, press, put down', thymio, async (studio)
   await until('it drives', async () => (await pose(page, 'thymio'))[0] > before[0] + 0.02);
   await button('Pause').first().click();
   await seen(page.getByRole('button', { name: /Paused/ }));
-  const stood = await pose(page, 'thymio');
+  const placed = await pose(page, 'thymio');
   await command('Step');
   await until('an instant passes', async () =>
     /\d\.\d{3} s/.test(await page.getByRole('button', { name: /Paused/ }).innerText()),
@@ -60,7 +60,7 @@ test('a robot drives in it; hands move, press, put down', thymio, async (studio)
     'it is back',
     async () => Math.abs((await pose(page, 'thymio'))[0] - before[0]) < 0.005,
   );
-  assert.ok(Math.abs(stood[0] - before[0]) > 0.02);
+  assert.ok(Math.abs(placed[0] - before[0]) > 0.02);
 });
 
 test('the mouse drags the robot, its form presses its buttons', thymio, async (studio) => {

@@ -28,7 +28,7 @@ export const limits = {
   hello_bytes: 4096,
   /** time for the first message */
   hello_ms: 5000,
-  /** a page that takes nothing for so long is dropped and may return */
+  /** a page that stops reading for so long is disconnected */
   silent_ms: 10000,
   /** a text that is edited */
   document_bytes: 2097152,
@@ -244,7 +244,7 @@ export interface HeldEvent {
   number: number;
   /** the time of the run's clock */
   t: number;
-  /** so many seconds after the plan came to stand; 0 where time stands with it */
+  /** seconds after the plan paused; 0 where the clock is paused with it */
   after: number;
   /** who emitted it; 0: a host */
   node: number;
@@ -277,7 +277,7 @@ export interface Node {
   fault?: string;
   /** what is under way */
   busy?: string;
-  /** events for its script that came since it stands at a line: a node that stands drops them; missing while it runs, or if its script is not known */
+  /** events for its script that were dropped since it paused at a line: a paused node drops them; missing while it runs, or if its script is not known */
   dropped?: number;
 }
 
@@ -408,7 +408,7 @@ export interface HistoryWords {
   words: Json[];
 }
 
-/** What a node did, and where it stood. */
+/** What a node did, and where it was paused. */
 export interface HistoryNode {
   node: NodeId;
   state: string;
@@ -423,7 +423,7 @@ export interface Line {
   text: string;
 }
 
-/** Something that may stand at the cursor. */
+/** Something that may be written at the cursor. */
 export interface Suggestion {
   label: string;
   kind: 'variable' | 'constant' | 'event' | 'native' | 'sub' | 'keyword' | 'function' | 'actor' | 'supervisor' | 'template' | 'value';
@@ -483,7 +483,7 @@ export interface PlanInput {
   type: 'any' | 'bool' | 'int' | 'float' | 'string' | 'object';
   unit: string;
   help: string;
-  /** without it, it must be fed */
+  /** without it the input needs a value */
   default?: Json;
   low?: number;
   high?: number;
@@ -759,7 +759,7 @@ export interface Commands {
   'unwatch': { in: {
     watch: number;
   }; out: Record<never, never> };
-  /** Stops the robot, whoever asks: ends the plan, sends Stop to every node, brings the wheels to rest. */
+  /** Stops the robot, from any page: ends the plan, sends Stop to every node, brings the wheels to rest. */
   'stop': { in: Record<never, never>; out: {
     /** nodes that were read back as stopped */
     stood: NodeId[];
@@ -967,7 +967,7 @@ export interface Commands {
   }; out: {
     version: number;
   } };
-  /** What may stand at a place. */
+  /** What may be written at a place. */
   'script.complete': { in: {
     doc: Doc;
     at: Place;
@@ -976,7 +976,7 @@ export interface Commands {
     from: Place;
     items: Suggestion[];
   } };
-  /** What stands at a place. */
+  /** What is at a place. */
   'script.hover': { in: {
     doc: Doc;
     at: Place;
@@ -1197,7 +1197,7 @@ export interface Commands {
     ignore?: number;
     enabled?: boolean;
   }; out: {
-    /** where it stands: the next line with code */
+    /** where it is: the next line with code */
     line: number;
     /** what it does to a robot that is alive */
     note?: string;
@@ -1274,7 +1274,7 @@ export interface Commands {
     event: Name;
     outputs?: Record<string, Json>;
   }; out: Record<never, never> };
-  /** Hands an event that waits to the plan, before all others; it takes it up when it goes on. Without a number all, in their order. */
+  /** Hands an event that waits to the plan, before all others; the plan handles it when it continues. Without a number all, in their order. */
   'plan.held.go': { in: {
     number?: number;
   }; out: Record<never, never> };
@@ -1282,7 +1282,7 @@ export interface Commands {
   'plan.held.step': { in: {
     number?: number;
   }; out: Record<never, never> };
-  /** Takes an event away that waits for the plan; without a number all. */
+  /** Drops an event that waits for the plan; without a number all. */
   'plan.held.drop': { in: {
     number?: number;
   }; out: Record<never, never> };
@@ -1409,7 +1409,7 @@ export interface Commands {
   }; out: {
     number: number;
   } };
-  /** Takes an object out of the running world. */
+  /** Deletes an object from the running world. */
   'world.take': { in: {
     object: number;
   }; out: Record<never, never> };

@@ -1,4 +1,4 @@
-// The layers of the pages: protocol <- core <- app; aesl stands alone. The help of app shows pages of ../docs as they are.
+// The layers of the pages: protocol <- core <- app; aesl imports none of them. The help of app shows pages of ../docs as they are.
 // An arrow means "may import". Inside app no arrow leads upwards: storeys, below. Packages that draw stay out of core.
 // A class is styled in one file of app/look: most of them come with what is first shown, and the last one would win everywhere.
 import { readFileSync, readdirSync } from 'node:fs';
@@ -17,7 +17,7 @@ const packages = {
   aesl: /^(@lezer\/|@codemirror\/(language|state)$)/,
 };
 
-/** Of app, from above to below: a folder may import what stands behind it; files beside the folders are for all. */
+/** Of app, from above to below: a folder may import what follows it; files beside the folders are for all. */
 const storeys = [
   'phone',
   'dock',

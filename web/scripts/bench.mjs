@@ -189,7 +189,7 @@ async function typing(browser) {
     await page.keyboard.press('End');
     await pause(2000);
     for (let turn = 0; turn < seconds * 3; turn++) {
-      // A digit more makes a constant that nobody has declared; its mark stays until findings say that it is mended.
+      // A digit more makes a constant that nobody has declared; its mark stays until findings say that it is fixed.
       await page.keyboard.press(turn % 2 ? 'Backspace' : '9');
       const marks = await until('the findings', () =>
         page.evaluate(() => (window.marks.seen ? { ...window.marks } : null)),

@@ -1,4 +1,4 @@
-// Makes app/start/pictures.json: what stands in the worlds of the examples, and the way that the
+// Makes app/start/pictures.json: what is in the worlds of the examples, and the way that the
 // robot takes, for the pictures of the start screen. Ways are in metres, drawn by hand.
 import { readFileSync, writeFileSync } from 'node:fs';
 

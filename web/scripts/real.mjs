@@ -5,7 +5,7 @@ export { until } from '../e2e/support/until.mjs';
 
 export const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
-/** Does something with an owner of programs and folders, as a test is one, and takes them away at the end. */
+/** Does something with an owner of programs and folders, as a test is one, and deletes them at the end. */
 export async function owning(act) {
   const ends = [];
   try {

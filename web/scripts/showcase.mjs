@@ -1,5 +1,5 @@
 // The pictures of README.md, from the running program: node scripts/showcase.mjs [view…]
-// Each view in both themes as WebP in docs/pictures. A simulation is run by its own clock to a fixed time and stands
+// Each view in both themes as WebP in docs/pictures. A simulation is run by its own clock to a fixed time and is paused
 // there, so that a picture changes when the program does.
 import { mkdirSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -176,7 +176,7 @@ async function shoot(page, name) {
   console.log(`${name}.webp: ${(bytes.length / 1000).toFixed(0)} kB`);
 }
 
-/** Commands on the page's own connection, so that it keeps the wheel: their numbers are dealt between the page's. */
+/** Commands on the page's own connection, so that it keeps control: their numbers are dealt between the page's. */
 async function talkTo(page) {
   let socket;
   let next = 1;
@@ -256,7 +256,7 @@ function handsOf(page, { tell, follow }) {
     }
   };
   let clock;
-  /** The simulation at that second of its clock, paused; a node that stands at a breakpoint ends it earlier. */
+  /** The simulation at that second of its clock, paused; a node that is paused at a breakpoint ends it earlier. */
   const runTo = async (seconds, breaks = false) => {
     clock ??= await follow('clock');
     const robot = breaks && (await follow('robot'));

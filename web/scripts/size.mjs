@@ -1,8 +1,8 @@
-// What the browser fetches until the first view stands, as it goes over the wire: node scripts/size.mjs
+// What the browser fetches until the first view is shown, as it goes over the wire: node scripts/size.mjs
 // The figures are bytes, not seconds: the test web.size.
 import { launchBrowser, owning, startServer } from './real.mjs';
 
-/** What is fetched until the start screen or the window of a project stands still; by address: bytes. */
+/** What is fetched until the start screen or the window of a project is complete; by address: bytes. */
 export async function fetched(page, address, seen) {
   const session = await page.context().newCDPSession(page);
   await session.send('Network.enable');

@@ -13,7 +13,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/process.hpp"
 #include "serve/workbench/door.hpp"
 
@@ -66,15 +66,15 @@ private:
 
     hub::Hub hub_;
     std::vector<EmulatorProcess> boards_;
-    net::Network network_;          // behind the hub: it goes first
+    net::Links links_;              // behind the hub: it goes first
     std::set<net::PlaceId> lines_;  // of the boards
 };
 
 Status Desk::open(const EmulateOptions& options) {
     const auto emulations = TRY(emulations_of(options));
-    TRY(network_.watch_signals());
+    TRY(links_.watch_signals());
     const net::Target target = TRY(net::parse_target(options.listen));
-    const net::Listening listening = TRY(network_.listen(hub_, target));
+    const net::Listening listening = TRY(links_.listen(hub_, target));
     std::string text = "listening " + net::to_string(listening.target) + "\n";
     for (const Emulation& emulation : emulations) {
         TRY(join(emulation));
@@ -86,13 +86,13 @@ Status Desk::open(const EmulateOptions& options) {
 
 Status Desk::join(const Emulation& emulation) {
     boards_.push_back(TRY(EmulatorProcess::start(emulation)));
-    lines_.insert(TRY(network_.join(hub_, boards_.back().take_line(), emulation.name)));
+    lines_.insert(TRY(links_.join(hub_, boards_.back().take_line(), emulation.name)));
     return Status::done();
 }
 
 int Desk::run() {
     for (;;) {
-        for (const net::Event& event : network_.poll(Time::max())) {
+        for (const net::Event& event : links_.poll(Time::max())) {
             if (event.kind == net::EventKind::Signal) return kExitDone;
             if (event.kind == net::EventKind::Failed) complain(event.what);
             if (event.kind == net::EventKind::Closed && lines_.contains(event.place)) {

@@ -1,7 +1,7 @@
 // An emulator as a child process, and the pair of sockets that is the serial line of its board.
 //
 //     auto started = EmulatorProcess::start(emulation);
-//     network.join(hub, started.value().take_line(), emulation.name);
+//     links.join(hub, started.value().take_line(), emulation.name);
 //
 // It is killed when its object goes, and when this process ends in whatever way.
 #pragma once

@@ -1,6 +1,6 @@
 // vagus net TARGET VERB …: looks at the nodes of a live network and works with them. Here is the
-// command line; what the verbs do stands in net_nodes.cpp, net_variables.cpp, net_load.cpp and
-// net_break.cpp.
+// command line; what the verbs do is in nodes.cpp, variables.cpp, load.cpp, break.cpp and
+// show.cpp.
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <functional>
@@ -91,7 +91,7 @@ int run(const Call& call, const Act& act) {
 CLI::App* add_verb(CLI::App& net, const char* name, const char* what, const char* footer) {
     CLI::App* verb = net.add_subcommand(name, what);
     verb->footer(footer);
-    verb->fallthrough();  // --json, --project and --wait may stand behind the verb, too
+    verb->fallthrough();  // --json, --project and --wait may follow the verb, too
     return verb;
 }
 

@@ -8,7 +8,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "session/live_node.hpp"
 #include "session/standard_target.hpp"
 
@@ -39,7 +39,7 @@ Result<aesl::Target> target_of(const NodeOptions& options) {
     return target;
 }
 
-// A hub with two sides: the node, and whoever is connected.
+// A hub with two sides: the node, and what is connected.
 class NodeProgram {
 public:
     Status make_node(const NodeOptions& options);
@@ -53,7 +53,7 @@ private:
     bool notice(const net::Event& event);
 
     hub::Hub hub_;
-    net::Network network_;  // behind the hub: it goes first
+    net::Links links_;  // behind the hub: it goes first
     hub::LinkId own_;
     std::unique_ptr<session::LiveNode> node_;
 };
@@ -69,28 +69,28 @@ Status NodeProgram::make_node(const NodeOptions& options) {
 }
 
 Status NodeProgram::open_network(const NodeOptions& options) {
-    TRY(network_.watch_signals());
+    TRY(links_.watch_signals());
     if (!options.connect.empty()) {
         const net::Target target = TRY(net::parse_target(options.connect));
-        TRY(network_.connect(hub_, target, {.retry = net::Retry::Forever}));
+        TRY(links_.connect(hub_, target, {.retry = net::Retry::Forever}));
         return Status::done();
     }
     const net::Target target = TRY(net::parse_target(options.listen));
     const net::Listening listening =
-        TRY(network_.listen(hub_, target, {.clients = net::Clients::One}));
+        TRY(links_.listen(hub_, target, {.clients = net::Clients::One}));
     (void)print("listening " + net::to_string(listening.target) + "\n");
     return Status::done();
 }
 
 void NodeProgram::run() {
-    Time next = node_->step(network_.now());
+    Time next = node_->step(links_.now());
     for (;;) {
-        for (const net::Event& event : network_.poll(next)) {
+        for (const net::Event& event : links_.poll(next)) {
             if (!notice(event)) return;
         }
         const bool more = answer();
-        next = node_->step(network_.now());
-        if (more) next = network_.now();
+        next = node_->step(links_.now());
+        if (more) next = links_.now();
     }
 }
 

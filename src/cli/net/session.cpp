@@ -6,7 +6,7 @@
 #include "base/text.hpp"
 #include "cli/output.hpp"
 #include "hub/hub.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "session/diagnostic_text.hpp"
 
 namespace vagus::cli {
@@ -26,7 +26,7 @@ std::optional<debug::NodeId> id_of(const std::string& name) {
 
 struct NetSession::Bus {
     hub::Hub hub;
-    net::Network net;  // after the hub: it goes first
+    net::Links net;  // after the hub: it goes first
     hub::LinkId own, peer;
     bool closed = false;
     bool signalled = false;

@@ -21,8 +21,8 @@ const char* program_of(const debug::NodeView& node) {
 // makes it one that is paused inside an event: one word for both.
 std::string state_of(const debug::NodeView& node) {
     if (!node.connected) return "disconnected";
-    const bool stands = node.state == debug::ProgramState::Stopped;
-    return debug::name_of(stands ? debug::ProgramState::Paused : node.state);
+    const bool stopped = node.state == debug::ProgramState::Stopped;
+    return debug::name_of(stopped ? debug::ProgramState::Paused : node.state);
 }
 
 std::string array_of(const std::string& name, uint16_t size) {

@@ -1,5 +1,5 @@
 // `vagus switch`: a hub, the connections that people name, and this loop. All rules of routing
-// stand in hub/hub.hpp, all care for slow and broken peers in net/network.hpp.
+// are in hub/hub.hpp, all care for slow and broken peers in net/links.hpp.
 #include "cli/net/switch.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 #include "base/time.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "wire/reports.hpp"
 
 namespace vagus::cli {
@@ -54,8 +54,8 @@ public:
     int run() {
         if (const auto failed = begin()) return *failed;
         while (!ended_) {
-            const Time next = network_.now() + kReportEvery;
-            for (const net::Event& event : network_.poll(next)) on(event);
+            const Time next = links_.now() + kReportEvery;
+            for (const net::Event& event : links_.poll(next)) on(event);
             for (const hub::SharedId& shared : hub_.take_shared_ids()) tell(sentence(shared));
             show_frames();
             report_losses();
@@ -80,7 +80,7 @@ private:
             (listens ? listen : connect).push_back(target.value());
         }
         if (listen.empty()) listen.push_back(net::parse_target(kDefaultListen).value());
-        const Status watched = network_.watch_signals();
+        const Status watched = links_.watch_signals();
         if (!watched.ok()) return complain(watched.error());
         if (options_.verbose) monitor_ = hub_.add({.name = "monitor"}).value();
         return open(listen, connect);
@@ -92,7 +92,7 @@ private:
         std::string text;
         std::vector<net::Target> listening;
         for (const net::Target& target : listen) {
-            const auto place = network_.listen(hub_, target, {.echo = options_.echo});
+            const auto place = links_.listen(hub_, target, {.echo = options_.echo});
             if (!place.ok()) return complain(place.error(), exit_code(place.error()));
             listening.push_back(place.value().target);
             text += "listening " + net::to_string(listening.back()) + "\n";
@@ -101,8 +101,8 @@ private:
             for (const net::Target& own : listening) {
                 if (is_ourselves(target, own)) return complain_of_ring(target);
             }
-            const auto place = network_.connect(
-                hub_, target, {.retry = net::Retry::Forever, .echo = options_.echo});
+            const auto place =
+                links_.connect(hub_, target, {.retry = net::Retry::Forever, .echo = options_.echo});
             if (!place.ok()) return complain(place.error(), exit_code(place.error()));
             targets_.insert(place.value());
         }
@@ -161,7 +161,7 @@ private:
         while (takes_text(STDOUT_FILENO)) {
             text.clear();
             while (text.size() < kPipeBytes / 2 && hub_.take(*monitor_, frame)) {
-                text += frame_line(network_.now(), frame);
+                text += frame_line(links_.now(), frame);
             }
             if (text.empty()) return;
             if (!print(text)) ended_ = true;
@@ -169,8 +169,8 @@ private:
     }
 
     void report_losses() {
-        if (network_.now() < next_report_) return;
-        next_report_ = network_.now() + kReportEvery;
+        if (links_.now() < next_report_) return;
+        next_report_ = links_.now() + kReportEvery;
         for (const hub::LinkId link : hub_.links()) {
             const hub::Dropped dropped = hub_.stats(link).dropped;
             hub::Dropped& told = told_[link];
@@ -192,7 +192,7 @@ private:
 
     const Options& options_;
     hub::Hub hub_;
-    net::Network network_;  // after the hub: it goes first
+    net::Links links_;  // after the hub: it goes first
     std::set<net::PlaceId> targets_;
     std::optional<hub::LinkId> monitor_;
     std::map<hub::LinkId, hub::Dropped> told_;

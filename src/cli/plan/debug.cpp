@@ -51,7 +51,7 @@ PromptWords words_of(const plan::Graph& graph, std::vector<std::string> commands
 
 class Prompt {
 public:
-    explicit Prompt(PlanRun& run);
+    explicit Prompt(TerminalRun& run);
     int run();
 
 private:
@@ -97,7 +97,7 @@ private:
     void take(const run::Report& report);
     void start_run();
 
-    PlanRun& run_;
+    TerminalRun& run_;
     run::Debugger debugger_;
     PromptLines lines_;
     std::thread runner_;
@@ -154,7 +154,7 @@ std::vector<std::string> Prompt::command_names() {
     return names;
 }
 
-Prompt::Prompt(PlanRun& run)
+Prompt::Prompt(TerminalRun& run)
     : run_(run),
       debugger_(run.graph(), run::Debugger::At::Start),
       lines_(words_of(run.graph(), command_names())) {
@@ -487,7 +487,7 @@ Status Prompt::quit(std::string_view) {
 }  // namespace
 
 int debug_plan(const PlanRunOptions& options) {
-    const std::unique_ptr<PlanRun> run = PlanRun::prepare(options);
+    const std::unique_ptr<TerminalRun> run = TerminalRun::prepare(options);
     if (!run) return kExitUsage;
     net::watch_for_end(net::EndBy::AnyButCtrlC);
     return Prompt(*run).run();

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "base/nearest.hpp"
+#include "base/seconds.hpp"
 #include "base/text.hpp"
 #include "cli/screen/degrees.hpp"
 
@@ -14,10 +15,6 @@ namespace {
 using Kind = run::Breakpoint::Kind;
 
 const std::vector<std::string> kKinds = {"actor", "state", "event", "when"};
-
-std::string seconds_of(Time at) {
-    return fmt::format("{}.{:06}", at.count() / 1'000'000, at.count() % 1'000'000);
-}
 
 std::string_view words_of(plan::Phase phase) {
     switch (phase) {
@@ -178,12 +175,12 @@ std::string text_of(const run::Stopped& stopped) {
         case run::Stopped::Why::Step:
             break;
     }
-    return fmt::format("{}paused at {}, {}\n", why, seconds_of(where.at),
+    return fmt::format("{}paused at {}, {}\n", why, seconds_text(where.at),
                        line_of(where.levels.back()));
 }
 
 std::string text_of(const run::RunOver& over) {
-    return fmt::format("the run is over at {}: {}{}\n", seconds_of(over.at),
+    return fmt::format("the run is over at {}: {}{}\n", seconds_text(over.at),
                        plan::name_of(over.result), over.message.empty() ? "" : ", " + over.message);
 }
 
@@ -197,14 +194,14 @@ std::string variables_of(const run::LevelNow& level) {
 }
 
 std::string text_of(const sim::RobotView& robot) {
-    return fmt::format("{} stands at {:.2f}, {:.2f} m, {} deg\n", robot.name, robot.pose.at.x,
+    return fmt::format("{} is at {:.2f}, {:.2f} m, {} deg\n", robot.name, robot.pose.at.x,
                        robot.pose.at.y, degrees_shown(robot.pose.angle));
 }
 
 std::string text_of(const run::Where& where) {
     if (where.levels.empty()) return "before the start\n";
     std::string text =
-        fmt::format("{} at {}\n", where.paused ? "paused" : "runs", seconds_of(where.at));
+        fmt::format("{} at {}\n", where.paused ? "paused" : "runs", seconds_text(where.at));
     for (size_t i = 0; i < where.levels.size(); ++i) {
         text += fmt::format("{} {}\n", i, line_of(where.levels[i]));
         for (const run::SupervisorNow& supervisor : where.levels[i].supervisors) {

@@ -26,7 +26,7 @@ std::string text_of(const run::Stopped& stopped);
 std::string text_of(const run::RunOver& over);
 std::string text_of(const run::Where& where);
 std::string text_of(const run::HeldNow& held);
-// "carbot stands at 1.20, 0.50 m, 90 deg"
+// "carbot is at 1.20, 0.50 m, 90 deg"
 std::string text_of(const sim::RobotView& robot);
 // "name = value (type)", one a line.
 std::string variables_of(const run::LevelNow& level);

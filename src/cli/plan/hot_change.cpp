@@ -25,7 +25,7 @@ std::optional<Result<run::Reply>> wait_answer(run::Debugger& debugger, run::Requ
 
 }  // namespace
 
-HotChange::HotChange(const PlanRun& run, const std::string& file,
+HotChange::HotChange(const TerminalRun& run, const std::string& file,
                      std::function<void(const std::string&)> say)
     : versions_(run.loaded(), file),
       debugger_(run.graph(), run::Debugger::At::Run),

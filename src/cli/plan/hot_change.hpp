@@ -18,7 +18,7 @@ namespace vagus::cli {
 class HotChange {
 public:
     // Borrowed. `say` is told lines for people.
-    HotChange(const PlanRun& run, const std::string& file,
+    HotChange(const TerminalRun& run, const std::string& file,
               std::function<void(const std::string&)> say);
 
     run::Debugger& debugger() { return debugger_; }

@@ -61,7 +61,7 @@ int check(const CheckOptions& options) {
 // ---- run ----
 
 // To the end of the plan, or of the watching; gives the exit code.
-int show_run(PlanRun& run, const PlanRunOptions& options) {
+int show_run(TerminalRun& run, const PlanRunOptions& options) {
     run.prepared().end_when_stopped();
     const PlanShown shown = how_to_show(options);
     switch (shown) {
@@ -79,7 +79,7 @@ int show_run(PlanRun& run, const PlanRunOptions& options) {
 }
 
 int run_once(const PlanRunOptions& options) {
-    const std::unique_ptr<PlanRun> run = PlanRun::prepare(options);
+    const std::unique_ptr<TerminalRun> run = TerminalRun::prepare(options);
     if (!run) return kExitUsage;
     net::watch_for_end();
     const net::EndWatcher end_watcher([&run] { run->prepared().abort(net::end_asked_by()); });
@@ -88,7 +88,7 @@ int run_once(const PlanRunOptions& options) {
 
 // What the watcher of one run does when files are saved: a plan takes over, all else ends the run.
 // False: it has ended it.
-bool take_save(const std::vector<std::string>& saved, FileWatch& watch, PlanRun& run,
+bool take_save(const std::vector<std::string>& saved, FileWatch& watch, TerminalRun& run,
                HotChange& change) {
     if (change.is_for(saved) && change.hand_in(saved, watch)) return true;
     run.prepared().abort();
@@ -105,7 +105,7 @@ int run_watched(const PlanRunOptions& options) {
     while (!net::end_asked()) {
         // Made before they are read: what is saved meanwhile is not missed.
         FileWatch watch(files);
-        const std::unique_ptr<PlanRun> run = PlanRun::prepare(options);
+        const std::unique_ptr<TerminalRun> run = TerminalRun::prepare(options);
         if (run && run->files() != files) {
             files = run->files();
             watch = FileWatch(files);
@@ -197,8 +197,9 @@ void add_run(CLI::App& plan, int& exit_code) {
     CLI::App* verb = plan.add_subcommand("run", "runs a plan");
     verb->footer(
         "Exit codes: 0 the plan ended well, 3 it was interrupted, 4 it failed, 5 --max-time came, "
-        "2 it is not valid.\n\nBeside a world, on a terminal, it shows the plan and the world; the "
-        "keys stand at the bottom. At the\nend the view stays until a key. Otherwise it prints a "
+        "2 it is not valid.\n\nBeside a world, on a terminal, it shows the plan and the world; "
+        "keys are listed at the bottom. At the\nend the view stays until a key. Otherwise it "
+        "prints a "
         "line "
         "for each thing that happens: on stdout, or on\nstderr where stdout carries a trace. "
         "--quiet "

@@ -13,11 +13,12 @@ void show_findings(const plan::Findings& findings) {
     say(embed::format_findings(findings));
 }
 
-PlanRun::PlanRun() = default;
-PlanRun::~PlanRun() = default;
+TerminalRun::TerminalRun() = default;
+TerminalRun::~TerminalRun() = default;
 
-std::unique_ptr<PlanRun> PlanRun::prepare(const PlanRunOptions& options) {
-    std::unique_ptr<PlanRun> made(new PlanRun());  // make_unique cannot reach the constructor
+std::unique_ptr<TerminalRun> TerminalRun::prepare(const PlanRunOptions& options) {
+    std::unique_ptr<TerminalRun> made(
+        new TerminalRun());  // make_unique cannot reach the constructor
     const embed::RunWords& words = options.words;
     const Status added = session::add_toolboxes(made->library_, made->parts_, words.toolboxes);
     if (!added.ok()) {
@@ -40,13 +41,13 @@ std::unique_ptr<PlanRun> PlanRun::prepare(const PlanRunOptions& options) {
     return made;
 }
 
-std::vector<std::string> PlanRun::files() const {
+std::vector<std::string> TerminalRun::files() const {
     std::vector<std::string> files = prepared_->files();
     for (const plan::Plan& one : plan_->plans()) files.push_back(one.file);
     return files;
 }
 
-run::Ended PlanRun::run() {
+run::Ended TerminalRun::run() {
     Result<run::Ended> ended = prepared_->run(debugger_);
     if (ended.ok()) return ended.value();
     complain(ended.error());

@@ -37,11 +37,11 @@ struct PlanRunOptions {
 void add_plan_file(CLI::App& verb, std::string& file);
 void add_run_options(CLI::App& verb, PlanRunOptions& options);
 
-class PlanRun {
+class TerminalRun {
 public:
     // Nothing if it cannot run; it has complained then.
-    static std::unique_ptr<PlanRun> prepare(const PlanRunOptions& options);
-    ~PlanRun();
+    static std::unique_ptr<TerminalRun> prepare(const PlanRunOptions& options);
+    ~TerminalRun();
 
     const embed::LoadedPlan& loaded() const { return *plan_; }
     const plan::Graph& graph() const { return plan_->graph(); }
@@ -56,7 +56,7 @@ public:
     void set_debugger(run::Debugger& debugger) { debugger_ = &debugger; }
 
 private:
-    PlanRun();
+    TerminalRun();
 
     toolbox::Parts parts_;  // before the library, whose code looks at them
     run::CodeLibrary library_;

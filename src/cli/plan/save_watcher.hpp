@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "cli/file_watch.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 
 namespace vagus::cli {
 
@@ -36,7 +36,7 @@ private:
 
     FileWatch watch_;
     OnSave on_save_;
-    net::Network clock_;
+    net::Links clock_;
     std::atomic<bool> over_ = false;
     std::string saved_;  // read when the thread has been joined
     std::thread thread_;

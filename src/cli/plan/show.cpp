@@ -12,7 +12,7 @@
 #include "cli/screen/pace.hpp"
 #include "cli/sim/hands.hpp"
 #include "cli/sim/view.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "run/options.hpp"
 #include "session/plan_world.hpp"
 
@@ -24,7 +24,7 @@ namespace {
 // meanwhile looks at the keys and paints.
 class PlanScreen {
 public:
-    PlanScreen(PlanRun& run, std::unique_ptr<LiveScreen> screen)
+    PlanScreen(TerminalRun& run, std::unique_ptr<LiveScreen> screen)
         : run_(run), screen_(std::move(screen)) {}
 
     // To the end of the plan, and until nobody looks any more; again where a person restarts it.
@@ -52,11 +52,11 @@ private:
     void paint();
     PlanPanelView panel();
 
-    PlanRun& run_;
+    TerminalRun& run_;
     std::unique_ptr<LiveScreen> screen_;
     std::optional<PlanStory> story_;
     std::optional<SimView> view_;  // of the world of this run
-    net::Network clock_;
+    net::Links clock_;
     Pace pace_;
     Hands hands_;
     std::string notice_;
@@ -191,7 +191,7 @@ PlanPanelView PlanScreen::panel() {
 std::vector<KeyHelp> PlanScreen::key_help() {
     const KeyHelp scroll{"PgUp PgDn", "scroll"};
     if (last_word_) return {{"q", "quit"}, {"r", "restart"}, scroll};
-    std::vector<KeyHelp> keys = {{"space", pace_.paused() ? "go on" : "pause"}, {"q", "quit"}};
+    std::vector<KeyHelp> keys = {{"space", pace_.paused() ? "continue" : "pause"}, {"q", "quit"}};
     for (KeyHelp& key : Hands::keys_beside_a_plan(type_of_robot())) keys.push_back(std::move(key));
     keys.insert(keys.end(), {{"+ -", "speed"}, {"r", "restart"}, scroll});
     return keys;
@@ -235,8 +235,8 @@ private:
 
 void tell_summary(const session::SimSession& session, const Lines& tell) {
     for (const sim::RobotView& robot : session.world().robots()) {
-        tell(session.now(), fmt::format("{} stands at {:.2f}, {:.2f} m", robot.name,
-                                        robot.pose.at.x, robot.pose.at.y));
+        tell(session.now(), fmt::format("{} is at {:.2f}, {:.2f} m", robot.name, robot.pose.at.x,
+                                        robot.pose.at.y));
     }
     const auto load = session.world().bus_load();
     if (!load) return;
@@ -248,7 +248,7 @@ void tell_summary(const session::SimSession& session, const Lines& tell) {
 }
 
 // Gives the exit code.
-int tell_end(PlanRun& run, const run::Ended& ended, const Lines& tell) {
+int tell_end(TerminalRun& run, const run::Ended& ended, const Lines& tell) {
     if (run.prepared().world() != nullptr) tell_summary(run.prepared().world()->session(), tell);
     if (!ended.message.empty()) complain(ended.message);
     return run.prepared().exit_status(ended);
@@ -266,14 +266,14 @@ PlanShown how_to_show(const PlanRunOptions& options) {
     return screen ? PlanShown::Screen : PlanShown::Lines;
 }
 
-int run_on_screen(PlanRun& run, const std::string& theme) {
+int run_on_screen(TerminalRun& run, const std::string& theme) {
     auto live = LiveScreen::open(theme);
     if (!live.ok()) return complain(live.error());
     auto screen = std::make_unique<PlanScreen>(run, std::move(live.value()));
     const run::Ended ended = screen->run();
     const auto last_word = screen->last_word();
     const auto notices = screen->notices();
-    // What is said from here on stands on the normal screen.
+    // What is said from here on is printed on the normal screen.
     screen.reset();
     run.prepared().tell([](const std::string& sentence) { complain(sentence); });
     for (const std::string& sentence : notices) complain(sentence);
@@ -282,7 +282,7 @@ int run_on_screen(PlanRun& run, const std::string& theme) {
     return tell_end(run, ended, tell);
 }
 
-int run_in_lines(PlanRun& run, PlanShown shown) {
+int run_in_lines(TerminalRun& run, PlanShown shown) {
     const Lines tell(shown);
     run.prepared().listen([&tell](const plan::TraceEvent& event) {
         if (const auto sentence = sentence_of(event)) tell(event.at, *sentence);

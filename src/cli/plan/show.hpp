@@ -14,7 +14,7 @@ enum class PlanShown { Nowhere, Lines, LinesOnStderr, Screen };
 PlanShown how_to_show(const PlanRunOptions& options);
 
 // To the end of the plan; gives the exit code.
-int run_on_screen(PlanRun& run, const std::string& theme);
-int run_in_lines(PlanRun& run, PlanShown shown);
+int run_on_screen(TerminalRun& run, const std::string& theme);
+int run_in_lines(TerminalRun& run, PlanShown shown);
 
 }  // namespace vagus::cli

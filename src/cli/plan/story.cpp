@@ -125,7 +125,7 @@ void PlanStory::start_actor(size_t depth, std::string_view actor, Time at) {
     for (auto& [name, rest] : level.resting) rest = Rest::Remedy;
 }
 
-// Beginnings and writes stand in lists of their own.
+// Beginnings and writes are in lists of their own.
 void PlanStory::note(const plan::TraceEvent& event) {
     if (std::holds_alternative<plan::ActorStarted>(event.what)) return;
     if (std::holds_alternative<plan::VariableWritten>(event.what)) return;

@@ -94,7 +94,7 @@ char32_t arrow(double angle, Charset charset) {
     return charset == Charset::Ascii ? kLetters[index] : kArrows[index];
 }
 
-// Where a robot is only a few cells wide, its form does not tell how it stands: an arrow does.
+// Where a robot is only a few cells wide, its form does not tell where it points: an arrow does.
 void mark_direction(Grid& grid, const Canvas& canvas, const RobotPicture& robot, const Look& look) {
     const Point centre = middle(robot.outline);
     const int column = canvas.column_of(centre);
@@ -121,7 +121,7 @@ void paint_shapes(Canvas& canvas, std::span<const ShapeView> shapes) {
     }
 }
 
-// Marks lie under the walls around the world, all else stands before them.
+// Marks lie under the walls around the world, all else is in front of them.
 void paint_things(Canvas& canvas, const View& view) {
     const auto standing =
         std::find_if(view.shapes.begin(), view.shapes.end(),

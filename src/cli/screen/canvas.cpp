@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kQuadrants = 4;  // upper left, upper right, lower left, lower right
 constexpr int kThinThing = 2;  // samples of the 8 in a quadrant that make it solid: walls are thin
-constexpr double kEdgeContrast = 60;  // below this a cell counts as plain, and dots may stand on it
+constexpr double kEdgeContrast = 60;  // below this a cell counts as plain, and dots may be on it
 
 // The block for each set of quadrants, bit 0 the upper left.
 constexpr std::array<char32_t, 16> kQuarterBlocks = {
@@ -54,7 +54,7 @@ double difference(const Mix& a, const Mix& b) {
 // A cell as four quadrants, with what most of its samples show.
 struct Quarters {
     std::array<Mix, kQuadrants> colour;
-    std::array<int, kQuadrants> things{};  // samples that stand up from the floor
+    std::array<int, kQuadrants> things{};  // samples of things higher than the floor
     int marks = 0;
     int things_all = 0;
     int seen = 0;
@@ -125,7 +125,7 @@ Cell coloured_block(const Quarters& quarters) {
             {sum(quarters, best).colour(), sum(quarters, 15u & ~best).colour(), false}};
 }
 
-// Without colour: what stands up is solid, marks on the floor are a light shade.
+// Without colour: what is higher than the floor is solid, marks on the floor are a light shade.
 Cell plain_block(const Quarters& quarters) {
     unsigned set = 0;
     for (unsigned i = 0; i < kQuadrants; i++) {

@@ -19,7 +19,7 @@ TEST(Grid, WideCharactersTakeTwoColumnsAndCombiningMarksNone) {
     EXPECT_EQ(grid.text(0, 0, 8, "機e\u0301x", {}), 4);
     EXPECT_EQ(grid.row_text(0), "機ex");
     EXPECT_EQ(text_width("機e\u0301x"), 4);
-    // The right half would stand outside: the character is left out.
+    // The right half would be outside: the character is left out.
     EXPECT_EQ(grid.text(7, 0, 8, "機", {}), 7);
 }
 

@@ -244,7 +244,7 @@ TEST(Screen, APlanThatIsOverHasNoSpeed) {
     EXPECT_THAT(page.row_text(0), testing::Not(HasSubstr("x1")));
 }
 
-// The needed ones stand first. A blank, three keys and their blanks take 33 columns of 60.
+// The needed ones come first. A blank, three keys and their blanks take 33 columns of 60.
 TEST(Screen, KeysThatDoNotFitWholeAreLeftOut) {
     View view;
     view.keys = {

@@ -7,6 +7,7 @@
 
 #include "base/file.hpp"
 #include "base/line_sink.hpp"
+#include "base/seconds.hpp"
 #include "base/text.hpp"
 #include "cli/file_watch.hpp"
 #include "cli/live_screen.hpp"
@@ -16,7 +17,7 @@
 #include "cli/sim/lines.hpp"
 #include "cli/sim/view.hpp"
 #include "net/end_signal.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "session/safe_stop.hpp"
 #include "session/sim_session.hpp"
 
@@ -28,10 +29,6 @@ using namespace std::chrono_literals;
 constexpr Duration kTurn = 10ms;        // of the loop, in real time
 constexpr Duration kHeadlessFor = 20s;  // simulated, unless --duration says otherwise
 constexpr Duration kGuestsWithin = 3s;  // for nodes on the bus to be read back at rest
-
-Duration seconds(double value) {
-    return Duration(std::llround(value * 1e6));
-}
 
 // A robot's own port.
 struct Port {
@@ -79,7 +76,7 @@ private:
 
     const SimRunOptions& options_;
     session::SimSession session_;
-    net::Network network_;  // after the session: its links leave the session's bus first
+    net::Links links_;  // after the session: its links leave the session's bus first
     SimLines lines_;
     SimView view_;
     FileWatch watch_;
@@ -99,7 +96,7 @@ private:
 Status SimRun::listen() {
     if (!options_.listen.empty()) {
         const auto target = TRY(net::parse_target(options_.listen));
-        const auto listening = TRY(network_.listen(session_.world().bus(), target));
+        const auto listening = TRY(links_.listen(session_.world().bus(), target));
         listening_ = net::to_string(listening.target);
         print("listening " + listening_ + "\n");
     }
@@ -109,7 +106,7 @@ Status SimRun::listen() {
         hub::Hub* hub = session_.world().private_bus(views[i].id);
         if (hub == nullptr) continue;
         const net::Target target{net::TcpPlace{"127.0.0.1", *robots[i].port}};
-        const auto listening = TRY(network_.listen(*hub, target, {.clients = net::Clients::One}));
+        const auto listening = TRY(links_.listen(*hub, target, {.clients = net::Clients::One}));
         ports_.push_back({listening.place, views[i].id});
         print("listening " + net::to_string(listening.target) + " " + robots[i].name + "\n");
     }
@@ -117,7 +114,7 @@ Status SimRun::listen() {
 }
 
 Status SimRun::open_trace() {
-    // On stdout its lines stand between the plain ones, as they happen.
+    // On stdout its lines are between the plain ones, as they happen.
     const auto when =
         options_.trace == "-" ? LineSink::When::AtOnce : LineSink::When::WithinASecond;
     trace_ = TRY(LineSink::open(options_.trace, when));
@@ -140,7 +137,7 @@ bool SimRun::settle() {
 }
 
 Duration SimRun::end() const {
-    if (options_.duration) return seconds(*options_.duration);
+    if (options_.duration) return from_seconds(*options_.duration);
     return on_terminal() ? Duration::max() : kHeadlessFor;
 }
 
@@ -153,7 +150,7 @@ int SimRun::run() {
         screen_ = std::move(opened.value());
     }
     running_ = true;
-    real_before_ = network_.now();
+    real_before_ = links_.now();
     while (!ended()) turn();
     tell_notes();
     write_trace();
@@ -167,18 +164,18 @@ int SimRun::run() {
 // Real nodes on this bus may do what robots of this world tell them: nobody does any more.
 void SimRun::stop_guests() {
     if (listening_.empty() || !session_.stop_guests()) return;
-    const Time latest = network_.now() + kGuestsWithin;
-    while (!session_.guests_rest() && network_.now() < latest) {
-        (void)network_.poll(network_.now() + sim::kNodeStep);
+    const Time latest = links_.now() + kGuestsWithin;
+    while (!session_.guests_rest() && links_.now() < latest) {
+        (void)links_.poll(links_.now() + sim::kNodeStep);
         session_.step(sim::kNodeStep);
     }
-    (void)network_.poll(network_.now());
+    (void)links_.poll(links_.now());
     say("the nodes that had joined this bus were stopped; " + session::describe(session_.guests()) +
         "\n");
 }
 
 void SimRun::turn() {
-    const Time now = network_.now();
+    const Time now = links_.now();
     pass_time(now);
     hands_.release(session_);
     look_at_files();
@@ -187,11 +184,11 @@ void SimRun::turn() {
     write_trace();
     if (on_terminal()) {
         keys();
-        if (screen_->is_due(network_.now())) show();
+        if (screen_->is_due(links_.now())) show();
     }
     const bool late = pace_.owes() >= sim::kNodeStep;
     const bool hurry = !pace_.paused() && (pace_.hurries() || late);
-    for (const net::Event& event : network_.poll(hurry ? now : now + kTurn)) notice(event);
+    for (const net::Event& event : links_.poll(hurry ? now : now + kTurn)) notice(event);
 }
 
 void SimRun::notice(const net::Event& event) {
@@ -212,12 +209,12 @@ void SimRun::pass_time(Time real) {
     if (pace_.paused()) return;
     if (pace_.hurries()) {
         // As much as fits between two looks at keys and sockets.
-        while (!ended() && network_.now() - real < kTurn) advance(to_next_step());
+        while (!ended() && links_.now() - real < kTurn) advance(to_next_step());
         return;
     }
     Duration due = pace_.due(passed);
     const Time deadline = real + kTurn;  // hosts want an answer, too
-    while (due >= sim::kNodeStep && !ended() && network_.now() < deadline) {
+    while (due >= sim::kNodeStep && !ended() && links_.now() < deadline) {
         const Duration span = std::min(due - due % sim::kNodeStep, to_next_step());
         advance(span);
         pace_.pay(span);
@@ -237,7 +234,7 @@ void SimRun::advance(Duration span) {
 }
 
 void SimRun::look_at_files() {
-    for (const std::string& path : watch_.changed(network_.now())) {
+    for (const std::string& path : watch_.changed(links_.now())) {
         const auto text = read_file(path);
         // Gone again already: the next look finds what replaces it.
         if (text.ok()) session_.reload(path, text.value());
@@ -259,7 +256,7 @@ void SimRun::tell_notes() {
 void SimRun::write_trace() {
     if (!trace_) return;
     trace_.write(session_.take_trace());
-    trace_.pass(network_.now());
+    trace_.pass(links_.now());
     // A run that is traced is made for its trace.
     closed_ = !trace_.state().ok() || trace_.abandoned() || closed_;
 }
@@ -312,7 +309,7 @@ void SimRun::restart() {
 
 std::vector<KeyHelp> SimRun::key_help() const {
     const auto nodes = session_.nodes();
-    std::vector<KeyHelp> keys = {{"space", pace_.paused() ? "go on" : "pause"},
+    std::vector<KeyHelp> keys = {{"space", pace_.paused() ? "continue" : "pause"},
                                  {"q", "quit"},
                                  {"r", "restart"},
                                  {"+ -", "speed"}};
@@ -334,7 +331,7 @@ void SimRun::show() {
     view.listening = listening_;
     view.notice = notice_;
     view.keys = key_help();
-    closed_ = !screen_->paint(std::move(view), network_.now()) || closed_;
+    closed_ = !screen_->paint(std::move(view), links_.now()) || closed_;
 }
 
 Result<session::SimSession> open_session(const SimRunOptions& options) {

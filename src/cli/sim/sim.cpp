@@ -87,7 +87,7 @@ void add_sim(CLI::App& app, int& exit_code) {
         {});
     add_dialect_options(*verb, options->compile);
     verb->footer(
-        "On a terminal it shows the arena from above; the keys stand at the bottom. Without a "
+        "On a terminal it shows the arena from above; keys are listed at the bottom. Without a "
         "terminal it\n"
         "prints plain lines and ends by itself after 20 simulated seconds, unless --duration says "
         "otherwise.\n"

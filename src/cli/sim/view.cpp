@@ -246,7 +246,7 @@ View SimView::view(const session::SimSession& session, size_t selected) const {
     view.height = definition.height;
     view.ground = rgb(definition.ground);
     view.image = image_;
-    // Marks lie under all that stands.
+    // Marks lie under all else.
     std::vector<ShapeView> standing;
     for (const sim::ObjectView& object : world.objects()) {
         ShapeView shape = shape_of(object, view.ground);

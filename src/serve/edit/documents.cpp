@@ -38,8 +38,8 @@ std::string format_name(const std::string& path, const std::string& language) {
 
 Documents::Documents(Desk& desk, Files& files, const EditListeners& listeners, std::string epoch)
     : desk_(desk), files_(files), listeners_(listeners), epoch_(std::move(epoch)) {
-    desk_.board().document("doc", [this](const Json& of) { return doc_document(of); });
-    desk_.board().document("files", [this](const Json&) { return files_document(); });
+    desk_.topics().document("doc", [this](const Json& of) { return doc_document(of); });
+    desk_.topics().document("files", [this](const Json&) { return files_document(); });
     declare_commands();
 }
 
@@ -240,17 +240,17 @@ Json Documents::files_document() {
 
 // Typing into one file changes nothing in the list of all, once it is marked there.
 void Documents::text_changed(const std::string& path) {
-    desk_.board().touch("doc");
+    desk_.topics().touch("doc");
     const auto listed = unsaved_.find(path);
     const bool same = listed != unsaved_.end() && listed->second && files_.is_unsaved(path);
-    if (!same) desk_.board().touch("files");
+    if (!same) desk_.topics().touch("files");
 }
 
 void Documents::project_changed() {
     unsaved_.clear();
     sizes_ = sizes();
-    desk_.board().touch("doc");
-    desk_.board().touch("files");
+    desk_.topics().touch("doc");
+    desk_.topics().touch("files");
 }
 
 std::map<std::string, uintmax_t> Documents::sizes() const {
@@ -263,7 +263,7 @@ std::map<std::string, uintmax_t> Documents::sizes() const {
 std::vector<std::string> Documents::tick(Time now) {
     if (now < next_list_) return {};
     next_list_ = now + kListEvery;
-    const bool watched = desk_.board().watched("files") || desk_.board().watched("findings");
+    const bool watched = desk_.topics().watched("files") || desk_.topics().watched("findings");
     if (!watched || !files_.is_open()) return {};
     auto found = sizes();
     if (found == sizes_) return {};
@@ -275,7 +275,7 @@ std::vector<std::string> Documents::tick(Time now) {
         if (!found.contains(path)) changed.push_back(path);
     }
     sizes_ = std::move(found);
-    desk_.board().touch("files");
+    desk_.topics().touch("files");
     return changed;
 }
 

@@ -14,7 +14,7 @@ struct EditedProject {
     std::vector<std::string> toolboxes = {};
 };
 
-// Who is told what happens to texts and files.
+// What is told about changes of texts and files.
 struct EditListeners {
     std::function<void(const std::string& path)> text_changed = [](auto&) {};
     std::function<void(const std::string& path)> saved = [](auto&) {};
@@ -32,7 +32,7 @@ std::string folder_of_path(const std::string& path);
 std::string path_from(const std::string& file, const std::string& named);
 // The way back: how `file` names that document.
 std::string name_from(const std::string& file, const std::string& path);
-// Whether `path` is the folder or stands in it; the empty folder holds everything.
+// Whether `path` is the folder or is in it; the empty folder holds everything.
 bool is_below(const std::string& folder, const std::string& path);
 
 }  // namespace vagus::serve

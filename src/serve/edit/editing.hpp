@@ -1,5 +1,5 @@
 // The part of the studio's server that edits: texts, files, scripts, what is wrong with them. It
-// declares their commands and topics at the desk; whoever joins the studio together tells it which
+// declares their commands and topics at the desk; the owner of the studio tells it which
 // project is open and when time passes.
 //
 //     Editing editing(desk, files, scripts, epoch);
@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "serve/edit/doc_finding.hpp"
 #include "serve/edit/documents.hpp"
 #include "serve/edit/edited_project.hpp"
 #include "serve/edit/file_desk.hpp"
-#include "serve/edit/finding.hpp"
 #include "serve/edit/findings.hpp"
 #include "serve/edit/plan_desk.hpp"
 #include "serve/edit/script_desk.hpp"
@@ -51,7 +51,7 @@ public:
     }
 
     // Everything that is wrong now; checks first what was not checked since the last change.
-    std::vector<Finding> findings() { return findings_.all(); }
+    std::vector<DocFinding> findings() { return findings_.all(); }
 
     // What the plans of the project can be made of, as of now.
     const plan::Library& templates() { return findings_.toolboxes().library->templates(); }

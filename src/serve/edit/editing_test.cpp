@@ -180,7 +180,7 @@ TEST_F(EditTest, RandomEditsGiveWhatAPlainStringGives) {
             ASSERT_EQ(units(text(doc)), model) << i;
         }
     }
-    // What stands around the scripts is as it was.
+    // What is around the scripts is as it was.
     EXPECT_THAT(text("a.aesl"), StartsWith(kTwoNodes.substr(0, kTwoNodes.find("var x"))));
 }
 
@@ -256,7 +256,7 @@ TEST_F(EditTest, ANewScriptIsForANodeThatHasNone) {
     EXPECT_THAT(on_disk("w.world.json"), Not(HasSubstr("c.aesl")));
 }
 
-// A script that vagus.json does not name stands behind those that it does.
+// A script that vagus.json does not name comes after those that it does.
 TEST_F(EditTest, ANewScriptTakesNoNodeFromAnother) {
     write("vagus.json", "{ \"format\": \"vagus-project/1\", \"world\": \"w.world.json\" }\n");
     write("a.aesl", "<network><node nodeId=\"1\" name=\"drive\"></node></network>");
@@ -311,7 +311,7 @@ TEST_F(EditTest, WhatNamesAFileFollowsItsRenaming) {
               "{ \"format\": \"vagus-project/1\", \"plan\":\"plans/P.plan.json\",\n"
               "\"scripts\": [\"scripts/first.aesl\"], \"world\": \"w.world.json\"}\n");
     EXPECT_THAT(on_disk("w.world.json"), HasSubstr("\"script\": \"scripts/first.aesl\" }]\n}\n"));
-    // A folder: what is in it keeps its ways inside, what stands outside follows.
+    // A folder: what is in it keeps its paths inside, what is outside follows.
     const Json folder = ask("file.rename", {{"path", "plans"}, {"to", "all/plans"}});
     EXPECT_EQ(folder["followed"], Json({"vagus.json"}));
     EXPECT_THAT(on_disk("vagus.json"), HasSubstr("\"plan\":\"all/plans/P.plan.json\""));

@@ -63,7 +63,7 @@ private:
             element(one.value, below(below(path, "supervisors"), one.key));
         }
     }
-    // A formula: its text stands in quotes of either kind.
+    // A formula: its text is in quotes of either kind.
     void element(const JsonValue& json, const Path& path) {
         const JsonValue* of = json.find("template");
         const JsonValue* in = json.find("in");

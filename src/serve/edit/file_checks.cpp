@@ -85,8 +85,8 @@ void check_named(const Subject& subject) {
         const std::string path = path_from(subject.path, named.text);
         const bool inside = check_path(path).ok();
         if (inside && subject.files.exists(path)) continue;
-        Finding finding{subject.path, Severity::Error, "named_file", {},
-                        named.place,  named.place,     {},           {}};
+        DocFinding finding{subject.path, Severity::Error, "named_file", {},
+                           named.place,  named.place,     {},           {}};
         finding.end = end_of_word(subject.text, named.place);
         finding.what = inside
                            ? fmt::format(

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "run/code.hpp"
+#include "serve/edit/doc_finding.hpp"
 #include "serve/edit/edited_project.hpp"
-#include "serve/edit/finding.hpp"
 #include "serve/project/files.hpp"
 #include "session/bus_names.hpp"
 
@@ -19,7 +19,7 @@ namespace vagus::serve {
 // What a check has found, and the documents that it read with their versions (0: not there): it
 // holds as long as these are the same.
 struct Checkup {
-    std::vector<Finding> findings;
+    std::vector<DocFinding> findings;
     std::map<std::string, uint32_t> read;
 };
 

@@ -17,9 +17,9 @@ bool is_checked(const std::string& kind) {
     return kind == "plan" || kind == "world" || kind == "toolbox" || kind == "project";
 }
 
-Json list_of_findings(const std::vector<Finding>& findings) {
+Json list_of_findings(const std::vector<DocFinding>& findings) {
     Json list = Json::array();
-    for (const Finding& finding : findings) list.push_back(json_of(finding));
+    for (const DocFinding& finding : findings) list.push_back(json_of(finding));
     return list;
 }
 
@@ -27,14 +27,14 @@ Json list_of_findings(const std::vector<Finding>& findings) {
 
 Findings::Findings(Desk& desk, Files& files, Scripts& scripts, const EditedProject& project)
     : desk_(desk), files_(files), scripts_(scripts), project_(project) {
-    desk_.board().document("findings", [this](const Json&) { return document(); });
-    desk_.board().document("templates", [this](const Json&) {
+    desk_.topics().document("findings", [this](const Json&) { return document(); });
+    desk_.topics().document("templates", [this](const Json&) {
         return template_list(toolboxes().library->templates());
     });
 }
 
 void Findings::text_changed(const std::string& path) {
-    desk_.board().touch("findings");
+    desk_.topics().touch("findings");
     if (!concerns_files(path)) return;
     due_at_last_ = due_ ? due_at_last_ : std::optional(now_ + kCheckWithin);
     due_ = std::min(now_ + kCheckAfter, *due_at_last_);
@@ -42,7 +42,7 @@ void Findings::text_changed(const std::string& path) {
 
 // A script concerns others by what it declares only; names of files by whether they are there.
 bool Findings::concerns_files(const std::string& path) {
-    if (kind_of_file(path) == "other") return list_anew();  // a folder, perhaps
+    if (kind_of_file(path) == "other") return list_again();  // a folder, perhaps
     const bool there = files_.exists(path);
     const bool known = listed_.contains(path);
     if (there != known) {
@@ -65,7 +65,7 @@ bool Findings::concerns_files(const std::string& path) {
 }
 
 // Whether there are others than before.
-bool Findings::list_anew() {
+bool Findings::list_again() {
     std::set<std::string> listed;
     bool more = false;
     for (const FileInfo& file : files_.list(more)) {
@@ -84,11 +84,11 @@ void Findings::project_changed() {
     of_scripts_.clear();
     of_files_.clear();
     left_.clear();
-    list_anew();
+    list_again();
     due_ = due_at_last_ = now_;
     find_scope();
-    desk_.board().touch("findings");
-    desk_.board().touch("templates");
+    desk_.topics().touch("findings");
+    desk_.topics().touch("templates");
 }
 
 // ---- which files ----
@@ -135,10 +135,10 @@ const std::set<std::string>& Findings::files_of_project() {
     return scope_;
 }
 
-// What somebody looks at is checked wherever it stands.
+// What a page watches is checked wherever it is.
 std::set<std::string> Findings::wanted() const {
     std::set<std::string> paths = scope_;
-    for (const Json& of : desk_.board().subjects("doc")) {
+    for (const Json& of : desk_.topics().subjects("doc")) {
         const std::string doc = of["doc"];
         paths.insert(doc.substr(0, doc.rfind('#')));
     }
@@ -169,9 +169,9 @@ void Findings::refresh_scripts() {
     of_scripts_ = std::move(kept);
 }
 
-std::vector<Finding> Findings::broken_files() {
+std::vector<DocFinding> Findings::broken_files() {
     const std::set<std::string> paths = wanted();
-    std::vector<Finding> findings;
+    std::vector<DocFinding> findings;
     for (const BrokenFile& broken : scripts_.broken()) {
         if (!paths.contains(broken.file)) continue;
         const Result<std::string> text = files_.text(broken.file);
@@ -192,7 +192,7 @@ void Findings::refresh_toolboxes() {
     toolbox_paths_ = project_.toolboxes;
     toolboxes_ = load_toolboxes(files_, toolbox_paths_);
     ++toolboxes_generation_;
-    desk_.board().touch("templates");
+    desk_.topics().touch("templates");
 }
 
 void Findings::begin_round() {
@@ -242,12 +242,12 @@ void Findings::check_next() {
         done_.insert(path);
     }
     if (left_.empty()) end_round();
-    desk_.board().touch("findings");
+    desk_.topics().touch("findings");
 }
 
 void Findings::end_round() {
     std::erase_if(of_files_, [&](const auto& entry) { return !done_.contains(entry.first); });
-    desk_.board().touch("findings");
+    desk_.topics().touch("findings");
 }
 
 Checkup Findings::check(const std::string& path) {
@@ -295,15 +295,15 @@ void Findings::tick(Time now) {
     now_ = now;
     if (targets_ != scripts_.generation()) {
         targets_ = scripts_.generation();
-        desk_.board().touch("findings");
+        desk_.topics().touch("findings");
     }
-    if (!desk_.board().watched("findings")) return;
+    if (!desk_.topics().watched("findings")) return;
     if (due_ && now >= *due_) return begin_round();
     if (!left_.empty()) check_next();
 }
 
 Time Findings::next_tick() const {
-    if (!desk_.board().watched("findings")) return Time::max();
+    if (!desk_.topics().watched("findings")) return Time::max();
     if (due_) return left_.empty() ? *due_ : std::min(*due_, now_);
     return left_.empty() ? Time::max() : now_;
 }
@@ -315,12 +315,12 @@ const Toolboxes& Findings::toolboxes() {
 
 // ---- all of them ----
 
-std::vector<Finding> Findings::all() {
+std::vector<DocFinding> Findings::all() {
     if (due_) begin_round();
     while (!left_.empty()) check_next();
     refresh_scripts();
-    std::vector<Finding> found = broken_files();
-    const auto add = [&](const std::vector<Finding>& more) {
+    std::vector<DocFinding> found = broken_files();
+    const auto add = [&](const std::vector<DocFinding>& more) {
         found.insert(found.end(), more.begin(), more.end());
     };
     for (const auto& [doc, of] : of_scripts_) add(of.findings);

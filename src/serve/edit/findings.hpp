@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "serve/edit/doc_finding.hpp"
 #include "serve/edit/edited_project.hpp"
 #include "serve/edit/file_checks.hpp"
-#include "serve/edit/finding.hpp"
 #include "serve/json.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
@@ -32,7 +32,7 @@ public:
     void text_changed(const std::string& path);
     void project_changed();
     // Everything as of now: what is due is checked first.
-    std::vector<Finding> all();
+    std::vector<DocFinding> all();
     // What plans can be made of, and what the nodes of the project declare, both as of now.
     const Toolboxes& toolboxes();
     std::optional<session::BusNames> bus_names();
@@ -46,7 +46,7 @@ private:
     struct OfScript {
         uint64_t compilation = 0;
         uint32_t version = 0;
-        std::vector<Finding> findings;
+        std::vector<DocFinding> findings;
         Json json;
     };
     struct OfFile {
@@ -56,13 +56,13 @@ private:
     };
 
     bool concerns_files(const std::string& path);
-    bool list_anew();
+    bool list_again();
     std::vector<std::string> named_in(const std::string& file);
     void find_scope();
     std::set<std::string> wanted() const;
 
     void refresh_scripts();
-    std::vector<Finding> broken_files();
+    std::vector<DocFinding> broken_files();
 
     void refresh_toolboxes();
     void begin_round();

@@ -57,7 +57,7 @@ TEST_F(EditTest, EveryErrorAndWarningOfAScriptIsAFinding) {
 TEST_F(EditTest, DidYouMeanIsOneClick) {
     write("a.aesl", project("var speed\nonevent buttons\n  speed = 1\n# 😀\n  sped = 2\n"));
     enter();
-    const Finding guess = finding("VARIABLE_NOT_DEFINED_GUESS");
+    const DocFinding guess = finding("VARIABLE_NOT_DEFINED_GUESS");
     ASSERT_EQ(guess.fixes.size(), 1u);
     EXPECT_EQ(guess.fixes[0].label, "Write \"speed\"");
     apply(guess.fixes[0]);
@@ -68,7 +68,7 @@ TEST_F(EditTest, DidYouMeanIsOneClick) {
 TEST_F(EditTest, AnEventIsDeclaredByOneClick) {
     write("a.aesl", project("onevent zebra\n  motor.left.target = 1\n"));
     enter();
-    const Finding unknown = finding("EVENT_NOT_DEFINED");
+    const DocFinding unknown = finding("EVENT_NOT_DEFINED");
     ASSERT_EQ(unknown.fixes.size(), 1u);
     EXPECT_EQ(unknown.fixes[0].label, "Declare the event \"zebra\"");
     EXPECT_EQ(unknown.fixes[0].edits.at(0).doc, "a.aesl");
@@ -80,7 +80,7 @@ TEST_F(EditTest, AnEventIsDeclaredByOneClick) {
 TEST_F(EditTest, AnEventIsDeclaredWithAsManyArgumentsAsItIsEmittedWith) {
     write("a.aesl", project("var n\nonevent buttons\n  emit beat n\n"));
     enter();
-    const Finding unknown = finding("EVENT_NOT_DEFINED");
+    const DocFinding unknown = finding("EVENT_NOT_DEFINED");
     ASSERT_EQ(unknown.fixes.size(), 1u);
     apply(unknown.fixes[0]);
     EXPECT_THAT(text("a.aesl"), HasSubstr("<event size=\"1\" name=\"beat\"/>"));
@@ -91,7 +91,7 @@ TEST_F(EditTest, TheMissingEndIsAddedByOneClick) {
     write("a.aesl",
           project("onevent buttons\nif button.left == 1 then\n  motor.left.target = 5\n"));
     enter();
-    const Finding open = finding("EXPECTING");
+    const DocFinding open = finding("EXPECTING");
     ASSERT_EQ(open.fixes.size(), 1u);
     apply(open.fixes[0]);
     EXPECT_THAT(findings(), IsEmpty());
@@ -102,7 +102,7 @@ TEST_F(EditTest, AProjectFileThatCannotBeReadIsAFinding) {
     enter();
     EXPECT_THAT(findings(), IsEmpty());
     put("a.aesl", "</network>", "</netwrk>");
-    const Finding broken = finding("aesl_file");
+    const DocFinding broken = finding("aesl_file");
     EXPECT_EQ(broken.doc, "a.aesl");
     EXPECT_GT(broken.at.line, 1);
     put("a.aesl", "</netwrk>", "</network>");
@@ -114,7 +114,7 @@ TEST_F(EditTest, PlansAreCheckedAsTheyAreEdited) {
     enter({.plan = "P.plan.json"});
     EXPECT_THAT(findings(), IsEmpty());
     put("P.plan.json", "\"seconds\": \"speed\"", "\"seconds\": \"sped * 2 + sped\"");
-    const Finding unknown = finding("P8");
+    const DocFinding unknown = finding("P8");
     EXPECT_EQ(unknown.doc, "P.plan.json");
     EXPECT_EQ(unknown.element, "a");
     EXPECT_EQ(unknown.at, (aesl::Position{11, 40}));  // "seconds"
@@ -124,7 +124,7 @@ TEST_F(EditTest, PlansAreCheckedAsTheyAreEdited) {
     EXPECT_THAT(findings(), IsEmpty());
 }
 
-// A page marks the row of a form by it: the words of the sentence say nothing of where it stands.
+// A page marks the row of a form by it: the words of the sentence say nothing of where it is.
 TEST_F(EditTest, FindingsOfPlansSayWhichMemberIsMeant) {
     write("P.plan.json", plan(kGoodActor));
     enter({.plan = "P.plan.json"});
@@ -140,10 +140,10 @@ TEST_F(EditTest, FindingsOfPlansSayWhichMemberIsMeant) {
 TEST_F(EditTest, FindingsOfPlansSayWhichMemberIsMissing) {
     write("P.plan.json", bare_plan(R"(    "a": { "template": "Wait" })"));
     enter({.plan = "P.plan.json"});
-    const Finding value = finding("P3");
+    const DocFinding value = finding("P3");
     EXPECT_EQ(value.keys, Json({"actors", "a", "in", "seconds"}));
     EXPECT_EQ(value.what, "the input \"seconds\" of \"a\" needs a value: it has no default");
-    const Finding next = finding("P17");
+    const DocFinding next = finding("P17");
     EXPECT_EQ(next.keys, Json({"actors", "a", "states", "Done"}));
     EXPECT_EQ(
         next.what,
@@ -210,7 +210,7 @@ TEST_F(EditTest, MistypedNamesOfPlansAreMendedByOneClick) {
     };
     for (const auto& [right, wrong, rule] : slips) {
         put("P.plan.json", right, wrong);
-        const Finding slip = finding(rule);
+        const DocFinding slip = finding(rule);
         ASSERT_EQ(slip.fixes.size(), 1u) << wrong << slip.what;
         apply(slip.fixes[0]);
         EXPECT_EQ(text("P.plan.json"), good) << wrong;
@@ -266,7 +266,7 @@ TEST_F(EditTest, PlansKnowTheToolboxesOfTheProjectAsTheyAreEdited) {
     EXPECT_THAT(findings(), IsEmpty());
     // An event that the toolbox needs is gone from its project.
     ask("define.remove", {{"file", "arm.aesl"}, {"kind", "event"}, {"name", "lifted"}});
-    const Finding missing = finding("toolbox");
+    const DocFinding missing = finding("toolbox");
     EXPECT_EQ(missing.doc, "arm.toolbox.json");
     EXPECT_THAT(missing.what, HasSubstr("lifted"));
     EXPECT_THAT(missing.what, testing::Not(HasSubstr(root.string())));
@@ -328,7 +328,7 @@ TEST_F(EditTest, EventsOfAPlanMustBeDeclaredByTheWorldsScripts) {
     write("P.plan.json", bare_plan(R"(    "a": { "template": "Send", "in": { "event": "'helo'" }, )"
                                    R"("states": { "Sent": "@terminate" } })"));
     enter({.plan = "P.plan.json", .world = "w.world.json"});
-    const Finding unknown = finding("bus");
+    const DocFinding unknown = finding("bus");
     EXPECT_THAT(unknown.what, HasSubstr("did you mean \"hello\"?"));
     ASSERT_EQ(unknown.fixes.size(), 1u);
     apply(unknown.fixes[0]);
@@ -352,7 +352,7 @@ TEST_F(EditTest, WorldsAndProjectFilesAreChecked) {
     put("w.world.json", "[0.5, 0.5]", "[0.5, 5]");
     EXPECT_THAT(finding("world").what, HasSubstr("outside of the walls"));
     put("w.world.json", "[0.5, 5]", "[0.5, 0.5], \"angle\": 90");
-    const Finding hint = finding("world");
+    const DocFinding hint = finding("world");
     EXPECT_EQ(hint.severity, Severity::Warning);
     EXPECT_THAT(hint.what, HasSubstr("radians"));
     put("vagus.json", "\"world\"", "\"wrld\"");

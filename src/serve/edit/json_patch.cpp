@@ -134,20 +134,20 @@ private:
     static Result<size_t> index_of(JsonText& holder, const JsonStep::Key& key) {
         if (const auto* name = std::get_if<std::string>(&key)) {
             if (holder.kind != JsonText::Kind::Object) {
-                return Error{Code::BadInput, name_of(key) + " is a key, but stands in no object"};
+                return Error{Code::BadInput, name_of(key) + " is a key, but is not in an object"};
             }
             const JsonText::Part* part = holder.find(*name);
             return part ? static_cast<size_t>(part - holder.parts.data()) : holder.parts.size();
         }
         if (holder.kind != JsonText::Kind::Array) {
-            return Error{Code::BadInput, name_of(key) + " is an index, but stands in no list"};
+            return Error{Code::BadInput, name_of(key) + " is an index, but is not in a list"};
         }
         const size_t index = std::get<size_t>(key);
         if (index > holder.parts.size()) return not_there(key);
         return index;
     }
 
-    // The text of a new value as it stands in that holder, with its key.
+    // The text of a new value as it is in that holder, with its key.
     JsonText value_text(const JsonText& holder, const JsonStep& step) {
         JsonValue value = step.value;
         path_.push_back(std::holds_alternative<std::string>(step.at.back())

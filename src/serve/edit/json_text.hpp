@@ -25,11 +25,11 @@ struct JsonText {
 
     // The first part of that key.
     Part* find(std::string_view key);
-    // Whether its parts stand in lines of their own.
+    // Whether its parts are in lines of their own.
     bool is_open() const;
     // Takes the part away, or puts it before that index; blanks follow.
     Part take(size_t index);
-    // `depth`: how many values stand around this one.
+    // `depth`: how many values are around this one.
     void insert(size_t index, Part part, size_t depth);
 };
 

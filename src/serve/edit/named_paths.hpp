@@ -13,7 +13,7 @@ namespace vagus::serve {
 
 struct NamedPath {
     std::vector<JsonStep::Key> at;  // the way to it
-    std::string text;               // as it stands there
+    std::string text;               // as it is there
     aesl::Position place;
 };
 

@@ -1,6 +1,6 @@
 // What text.search looks for: a text or a regular expression, in one line at a time. Expressions
 // are those of RE2, whose time grows with their size times the length of the line, however they are
-// made; who searches gives a number of such steps that must do.
+// made; the caller gives how many such steps must do.
 //
 //     auto pattern = Pattern::make("speed(.*)", {.regex = true});
 //     size_t steps = kSearchStepsMax;

@@ -40,9 +40,9 @@ private:
     serve::Files& files_;
 };
 
-nlohmann::json errors_of(const std::vector<Finding>& findings) {
+nlohmann::json errors_of(const std::vector<DocFinding>& findings) {
     auto list = nlohmann::json::array();
-    for (const Finding& one : findings) {
+    for (const DocFinding& one : findings) {
         if (one.severity == Severity::Error && list.size() < kFindingsMax) {
             list.push_back(json_of(one));
         }
@@ -87,7 +87,7 @@ void PlanDesk::check(const Call& call) {
     const Checkup checkup =
         check_plan_as(files_, doc, text.value(), findings_.toolboxes(), findings_.bus_names());
     auto list = nlohmann::json::array();
-    for (const Finding& one : checkup.findings) {
+    for (const DocFinding& one : checkup.findings) {
         if (one.doc == doc && list.size() < kFindingsMax) list.push_back(json_of(one));
     }
     call.done({{"findings", std::move(list)}});

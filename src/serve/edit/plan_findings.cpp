@@ -17,7 +17,7 @@ bool is_name_letter(char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_';
 }
 
-// Where in a text a name stands as a word of its own; npos if it does not.
+// Where in a text a name is a word of its own; npos if it does not.
 size_t find_word(std::string_view text, std::string_view name, size_t from) {
     for (size_t at = text.find(name, from); at != text.npos; at = text.find(name, at + 1)) {
         const bool begins = at == 0 || !is_name_letter(text[at - 1]);
@@ -34,7 +34,7 @@ public:
 
     const std::string& text() const { return text_; }
 
-    FindingFix mend(const std::string& doc, plan::Finding const& finding) {
+    FindingFix fix_of(const std::string& doc, plan::Finding const& finding) {
         FindingFix fix{"Write \"" + finding.meant->name + "\"", {}};
         if (!read_) read();
         const auto [from, to] = strings_.equal_range({finding.line, finding.column});
@@ -95,9 +95,9 @@ private:
             walk(member.value, {member.at});
         }
     }
-    void add(Place at, Place stands, const std::string& raw, bool is_key) {
+    void add(Place at, Place begin, const std::string& raw, bool is_key) {
         strings_.emplace(PlaceKey(at.line, at.column),
-                         Found{places_.byte_of({stands.line, stands.column}), raw, is_key});
+                         Found{places_.byte_of({begin.line, begin.column}), raw, is_key});
     }
 
     // The whole string, or the name wherever it is in a formula.
@@ -137,16 +137,16 @@ void add_warnings(const plan::Checked& checked, const std::optional<session::Bus
     if (names) add(names->check(checked.plans, *checked.library));
 }
 
-std::vector<Finding> plan_findings(const plan::Findings& findings, const TextOf& text_of) {
+std::vector<DocFinding> plan_findings(const plan::Findings& findings, const TextOf& text_of) {
     std::map<std::string, PlanText> texts;
-    std::vector<Finding> all;
+    std::vector<DocFinding> all;
     for (const plan::Finding& one : findings) {
         auto text = texts.find(one.file);
         if (text == texts.end()) {
             const auto read = text_of(one.file);
             text = texts.try_emplace(one.file, read.ok() ? read.value() : "").first;
         }
-        Finding finding{
+        DocFinding finding{
             one.file, one.severity, one.rule, one.element, {one.line, std::max(one.column, 1)},
             {},       one.message,  {}};
         finding.keys = text->second.keys_to(one.line, one.column);
@@ -157,7 +157,7 @@ std::vector<Finding> plan_findings(const plan::Findings& findings, const TextOf&
         }
         finding.end = end_of_word(text->second.text(), finding.at);
         if (one.meant) {
-            FindingFix fix = text->second.mend(one.file, one);
+            FindingFix fix = text->second.fix_of(one.file, one);
             if (!fix.edits.empty()) finding.fixes.push_back(std::move(fix));
         }
         all.push_back(std::move(finding));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "plan/check.hpp"
-#include "serve/edit/finding.hpp"
+#include "serve/edit/doc_finding.hpp"
 #include "session/bus_names.hpp"
 
 namespace vagus::serve {
@@ -17,6 +17,6 @@ void add_warnings(const plan::Checked& checked, const std::optional<session::Bus
                   plan::Findings& findings);
 
 using TextOf = std::function<Result<std::string>(const std::string& file)>;
-std::vector<Finding> plan_findings(const plan::Findings& findings, const TextOf& text_of);
+std::vector<DocFinding> plan_findings(const plan::Findings& findings, const TextOf& text_of);
 
 }  // namespace vagus::serve

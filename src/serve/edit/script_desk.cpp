@@ -9,8 +9,8 @@
 #include "aesl/limits.hpp"
 #include "aesl/listing.hpp"
 #include "aesl/mentions.hpp"
+#include "serve/edit/doc_finding.hpp"
 #include "serve/edit/edited_project.hpp"
-#include "serve/edit/finding.hpp"
 #include "serve/edit/seen.hpp"
 #include "serve/edit/text_places.hpp"
 #include "serve/json.hpp"
@@ -103,8 +103,8 @@ ScriptDesk::ScriptDesk(Desk& desk, Files& files, Scripts& scripts, std::string e
       scripts_(scripts),
       epoch_(std::move(epoch)),
       files_of_project_(std::move(files_of_project)) {
-    desk_.board().document("script", [this](const Json& of) { return script_document(of); });
-    desk_.board().document("scripts", [this](const Json&) { return scripts_document(); });
+    desk_.topics().document("script", [this](const Json& of) { return script_document(of); });
+    desk_.topics().document("scripts", [this](const Json&) { return scripts_document(); });
     declare_questions();
     declare_changes();
 }
@@ -144,21 +144,21 @@ void ScriptDesk::declare_changes() {
 }
 
 void ScriptDesk::text_changed(const std::string& path) {
-    desk_.board().touch("script");
+    desk_.topics().touch("script");
     if (kind_of_file(path) == "script" || kind_of_file(path) == "other") {
-        desk_.board().touch("scripts");
+        desk_.topics().touch("scripts");
     }
 }
 
 void ScriptDesk::project_changed() {
-    desk_.board().touch("script");
-    desk_.board().touch("scripts");
+    desk_.topics().touch("script");
+    desk_.topics().touch("scripts");
 }
 
 void ScriptDesk::tick() {
     if (targets_ == scripts_.generation()) return;
     targets_ = scripts_.generation();
-    desk_.board().touch("script");
+    desk_.topics().touch("script");
 }
 
 // ---- questions ----

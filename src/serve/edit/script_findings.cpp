@@ -34,13 +34,13 @@ FindingFix fix_of(const ScriptPart& part, const aesl::Fix& fix, const TextPlaces
 
 }  // namespace
 
-std::vector<Finding> findings_of_script(const ScriptPart& part, const CompiledScript& script,
-                                        const std::string& file) {
+std::vector<DocFinding> findings_of_script(const ScriptPart& part, const CompiledScript& script,
+                                           const std::string& file) {
     const TextPlaces places(script.source);
-    std::vector<Finding> findings;
+    std::vector<DocFinding> findings;
     const auto add = [&](const aesl::Diagnostic& diagnostic, Severity severity) {
-        Finding finding{part.doc,      severity,       diagnostic.code,    {},
-                        diagnostic.at, diagnostic.end, diagnostic.message, {}};
+        DocFinding finding{part.doc,      severity,       diagnostic.code,    {},
+                           diagnostic.at, diagnostic.end, diagnostic.message, {}};
         if (diagnostic.fix) {
             FindingFix fix = fix_of(part, *diagnostic.fix, places, file);
             if (!fix.edits.empty()) finding.fixes.push_back(std::move(fix));

@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "serve/edit/finding.hpp"
+#include "serve/edit/doc_finding.hpp"
 #include "serve/script/scripts.hpp"
 
 namespace vagus::serve {
 
 // `file` is the text of the file around the script: events that a fix declares go there. Empty: it
 // cannot be changed now.
-std::vector<Finding> findings_of_script(const ScriptPart& part, const CompiledScript& script,
-                                        const std::string& file);
+std::vector<DocFinding> findings_of_script(const ScriptPart& part, const CompiledScript& script,
+                                           const std::string& file);
 
 }  // namespace vagus::serve

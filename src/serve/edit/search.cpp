@@ -5,8 +5,8 @@
 
 #include "aesl/project.hpp"
 #include "base/text.hpp"
+#include "serve/edit/doc_finding.hpp"
 #include "serve/edit/edited_project.hpp"
-#include "serve/edit/finding.hpp"
 #include "serve/edit/seen.hpp"
 #include "serve/edit/text_places.hpp"
 #include "serve/json.hpp"

@@ -1,5 +1,5 @@
 // Searching and replacing in all texts of the project, as they are edited: text.search and
-// text.replace. The script of a node is a text of its own; what stands around it in its file is
+// text.replace. The script of a node is a text of its own; what is around it in its file is
 // found in the file.
 #pragma once
 

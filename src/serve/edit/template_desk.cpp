@@ -9,7 +9,7 @@
 #include "aesl/project_text.hpp"
 #include "base/json.hpp"
 #include "plan/formula.hpp"
-#include "serve/edit/finding.hpp"
+#include "serve/edit/doc_finding.hpp"
 #include "serve/edit/json_patch.hpp"
 #include "serve/edit/seen.hpp"
 #include "toolbox/toolbox_file.hpp"

@@ -56,7 +56,7 @@ TEST_F(OwnTemplateTest, AnActorGetsItsToolboxItsEventsAndItsHandlers) {
 )");
     EXPECT_THAT(on_disk("vagus.json"), HasSubstr("\"toolboxes\": [\"own.toolbox.json\"]"));
     const std::string script = text("a.aesl#1");
-    // What there was stays; the variables stand where variables may.
+    // What there was stays; the variables are where variables may be.
     EXPECT_THAT(script,
                 StartsWith("# Counts.\nvar blink_token = 0\nvar blink_signs = 0\nvar n = 0\n"
                            "onevent ping\n\tn += 1\n"));

@@ -143,7 +143,7 @@ protected:
                 {"by", "page"},
                 {"changes", changes}};
     }
-    // Replaces the one place where a text stands, which is plain ASCII before it.
+    // Replaces the one place that has a text, which is plain ASCII before it.
     void put(const std::string& doc, const std::string& what, const std::string& with) {
         const std::string before = text(doc);
         const size_t at = before.find(what);
@@ -155,7 +155,7 @@ protected:
     // "error CODE DOC:LINE:COLUMN" of each finding.
     std::vector<std::string> findings() {
         std::vector<std::string> lines;
-        for (const Finding& one : editing.findings()) {
+        for (const DocFinding& one : editing.findings()) {
             EXPECT_EQ(one.what.empty(), false);
             lines.push_back(std::string(name_of(one.severity)) + " " + one.code + " " + one.doc +
                             ":" + std::to_string(one.at.line) + ":" +
@@ -163,8 +163,8 @@ protected:
         }
         return lines;
     }
-    Finding finding(const std::string& code) {
-        for (Finding& one : last_findings = editing.findings()) {
+    DocFinding finding(const std::string& code) {
+        for (DocFinding& one : last_findings = editing.findings()) {
             if (one.code == code) return one;
         }
         ADD_FAILURE() << "no finding " << code;
@@ -200,7 +200,7 @@ private:
     }
 
     std::map<std::string, aesl::Target> targets;
-    std::vector<Finding> last_findings;
+    std::vector<DocFinding> last_findings;
     uint64_t id = 0;
     uint32_t watch = 0;
 };

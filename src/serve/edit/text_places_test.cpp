@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "serve/edit/finding.hpp"
+#include "serve/edit/doc_finding.hpp"
 
 namespace vagus::serve {
 namespace {
@@ -48,18 +48,18 @@ TEST(TextPlaces, TextsAreCutBetweenCharacters) {
     EXPECT_EQ(line_of("a\tb\n", 9), "a b ");
 }
 
-TEST(Finding, SentencesOfReadersAreTakenApart) {
+TEST(DocFinding, SentencesOfReadersAreTakenApart) {
     const std::string text = "{\n  \"seed\": 12x\n}\n";
-    const Finding one =
+    const DocFinding one =
         finding_of_sentence("a/w.json", text, Severity::Error, "world", "a/w.json:2:11: wrong: b");
     EXPECT_EQ(one.at, (Position{2, 11}));
     EXPECT_EQ(one.end, (Position{2, 14}));
     EXPECT_EQ(one.what, "wrong: b");
-    const Finding key =
+    const DocFinding key =
         finding_of_sentence("w", text, Severity::Warning, "world", "w:2:3: warning: key");
     EXPECT_EQ(key.end, (Position{2, 9}));
     EXPECT_EQ(key.what, "key");
-    const Finding none = finding_of_sentence("w", text, Severity::Error, "x", "no place");
+    const DocFinding none = finding_of_sentence("w", text, Severity::Error, "x", "no place");
     EXPECT_EQ(none.at, (Position{1, 1}));
     EXPECT_EQ(none.what, "no place");
 }

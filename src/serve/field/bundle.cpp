@@ -97,7 +97,7 @@ Result<BundleFile> described(const Files& files, const std::string& path) {
     if (!inside.ok()) return inside.error();
     std::error_code failed;
     if (!fs::is_regular_file(inside.value(), failed)) {
-        return Error{Code::BadInput, path + ": expected a file; it is none that can be sent"};
+        return Error{Code::BadInput, path + ": not a regular file; only files can be sent"};
     }
     const std::string bytes = TRY(read_file(inside.value().string()));
     return BundleFile{path, bytes.size(), sha256_of(bytes)};

@@ -10,7 +10,7 @@ namespace vagus::serve {
 
 namespace {
 
-Finding finding_about(const std::string& doc, const std::string& what) {
+DocFinding finding_about(const std::string& doc, const std::string& what) {
     return {.doc = doc,
             .code = "project",
             .element = {},
@@ -22,8 +22,8 @@ Finding finding_about(const std::string& doc, const std::string& what) {
 
 }  // namespace
 
-std::vector<Finding> check_project(const std::filesystem::path& folder,
-                                   const Scripts::TargetOf& target_of) {
+std::vector<DocFinding> check_project(const std::filesystem::path& folder,
+                                      const Scripts::TargetOf& target_of) {
     const auto opened = open_path(folder.string());
     if (!opened.ok()) return {finding_about("vagus.json", opened.error().what)};
     const OpenedProject& project = opened.value();
@@ -42,9 +42,9 @@ std::vector<Finding> check_project(const std::filesystem::path& folder,
                          .world = project.world,
                          .project_file = project.project_file,
                          .toolboxes = project.toolboxes});
-    std::vector<Finding> findings = editing.findings();
+    std::vector<DocFinding> findings = editing.findings();
     const auto read = session::open_project(folder.string());
-    const bool told = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+    const bool told = std::any_of(findings.begin(), findings.end(), [](const DocFinding& finding) {
         return finding.severity == Severity::Error;
     });
     if (!read.ok() && !told) {

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <vector>
 
-#include "serve/edit/finding.hpp"
+#include "serve/edit/doc_finding.hpp"
 #include "serve/script/scripts.hpp"
 
 namespace vagus::serve {
 
-std::vector<Finding> check_project(const std::filesystem::path& folder,
-                                   const Scripts::TargetOf& target_of);
+std::vector<DocFinding> check_project(const std::filesystem::path& folder,
+                                      const Scripts::TargetOf& target_of);
 
 }  // namespace vagus::serve

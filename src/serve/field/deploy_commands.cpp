@@ -29,7 +29,7 @@ const char* word_of_result(DeployOutcome::Result result) {
 
 Json json_of(const DeployOutcome& outcome) {
     Json findings = Json::array();
-    for (const Finding& finding : outcome.findings) {
+    for (const DocFinding& finding : outcome.findings) {
         if (findings.size() < kFindingsTold) findings.push_back(serve::json_of(finding));
     }
     Json json = {{"result", word_of_result(outcome.result)},

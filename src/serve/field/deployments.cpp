@@ -15,9 +15,10 @@ namespace {
 constexpr const char* kNothingBegun = "no deployment was begun; begin with the list of its files";
 constexpr const char* kBusy = "another version is just being put in force; wait for it";
 
-bool has_error(const std::vector<Finding>& findings) {
-    return std::any_of(findings.begin(), findings.end(),
-                       [](const Finding& finding) { return finding.severity == Severity::Error; });
+bool has_error(const std::vector<DocFinding>& findings) {
+    return std::any_of(findings.begin(), findings.end(), [](const DocFinding& finding) {
+        return finding.severity == Severity::Error;
+    });
 }
 
 // A robot that was set up and waits for its first project.
@@ -125,7 +126,7 @@ void Deployments::add_file(Taken taken) {
         });
 }
 
-void Deployments::refuse(const std::string& why, std::vector<Finding> findings) {
+void Deployments::refuse(const std::string& why, std::vector<DocFinding> findings) {
     ++counts_.refused;
     bundle_.reset();
     versions_.forget_incoming();
@@ -140,13 +141,13 @@ void Deployments::commit(Done done) {
     if (file_ < bundle_->files.size()) {
         return refuse(bundle_->files[file_].path + ": it was not fully received");
     }
-    using Found = vagus::Result<std::vector<Finding>>;
+    using Found = vagus::Result<std::vector<DocFinding>>;
     work<Found>([check = call_.check(),
                  folder = versions_.incoming(*bundle_)]() -> Found { return check(folder); },
                 [this](const Found& found) { checked(found); });
 }
 
-void Deployments::checked(const vagus::Result<std::vector<Finding>>& found) {
+void Deployments::checked(const vagus::Result<std::vector<DocFinding>>& found) {
     if (!found.ok()) return refuse(found.error().what);
     if (has_error(found.value())) {
         return refuse("it has mistakes; nothing was changed", found.value());

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "base/time.hpp"
-#include "serve/edit/finding.hpp"
+#include "serve/edit/doc_finding.hpp"
 #include "serve/field/starter.hpp"
 #include "serve/field/versions.hpp"
 #include "serve/worker.hpp"
@@ -32,7 +32,7 @@ struct DeployOutcome {
     enum class Result { Started, Stopped, Refused, RolledBack, Waiting };
     Result result = Result::Refused;
     uint32_t version = 0;  // that is in force now
-    std::vector<Finding> findings = {};
+    std::vector<DocFinding> findings = {};
     std::string why = {};  // a sentence; of Started, how its plan is by then
 };
 
@@ -44,7 +44,7 @@ class Deployments {
 public:
     struct Callbacks {
         // What finds, on another thread, what is wrong with the project in a folder.
-        using Check = std::function<std::vector<Finding>(const std::filesystem::path&)>;
+        using Check = std::function<std::vector<DocFinding>(const std::filesystem::path&)>;
         std::function<Check()> check;
         // The robot is at rest when `done` is called.
         std::function<void(std::function<void()> done)> stop;
@@ -71,7 +71,7 @@ public:
     void commit(Done done);
     // Back to the version before.
     void back(Done done);
-    // Somebody has pressed Stop: what is in force stays so, and stands.
+    // Stop was pressed: what is in force stays so, and is stopped.
     void stopped();
 
     bool busy() const { return done_ != nullptr || working_ > 0; }
@@ -94,9 +94,9 @@ private:
     void work(std::function<Outcome()> act, std::function<void(Outcome)> then);
     Status check_part(const std::string& path, size_t from, size_t size) const;
     void add_file(Taken taken);
-    void checked(const vagus::Result<std::vector<Finding>>& found);
+    void checked(const vagus::Result<std::vector<DocFinding>>& found);
     void received(const vagus::Result<uint32_t>& number);
-    void refuse(const std::string& why, std::vector<Finding> findings = {});
+    void refuse(const std::string& why, std::vector<DocFinding> findings = {});
     void stop_for(Trying next);
     void put_in_force(Trying next);
     void in_force(Trying next, const Status& switched);

@@ -73,7 +73,7 @@ protected:
     std::vector<std::string> missing, log;
     std::vector<std::function<void(const std::string&)>> starts;
     std::vector<std::function<void()>> stops;
-    std::vector<Finding> findings;
+    std::vector<DocFinding> findings;
     std::string opened;
     std::optional<DeployOutcome> outcome;
     Versions versions{project};

@@ -57,7 +57,7 @@ void add_bus(Text& text, const Figures& figures) {
              "Frames that were dropped, since the target was connected.", target.lost);
     text.family("vagus_nodes", "gauge", "Nodes that are there, by what they do.");
     text.sample("vagus_nodes{state=\"running\"}", target.running);
-    text.sample("vagus_nodes{state=\"standing\"}", target.nodes - target.running);
+    text.sample("vagus_nodes{state=\"paused\"}", target.nodes - target.running);
     if (!figures.bus_load) return;
     text.one("vagus_bus_load_ratio", "gauge", "Load of the bus in the last second, 0 to 1.",
              *figures.bus_load);

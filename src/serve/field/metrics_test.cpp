@@ -27,7 +27,7 @@ TEST(Metrics, EachFigureHasItsHelpItsTypeAndItsValue) {
                                 "vagus_runs_total 3\n"));
     EXPECT_THAT(text, HasSubstr("\nvagus_info{version=\"0.1.0\"} 1\n"));
     EXPECT_THAT(text, HasSubstr("\nvagus_nodes{state=\"running\"} 3\n"
-                                "vagus_nodes{state=\"standing\"} 1\n"));
+                                "vagus_nodes{state=\"paused\"} 1\n"));
     EXPECT_THAT(text, HasSubstr("\nvagus_bus_load_ratio 0.25\n"));
     EXPECT_THAT(text, HasSubstr("\nvagus_lateness_seconds 0.002\n"));
     EXPECT_THAT(text, HasSubstr("\nvagus_deployed_version 5\n"));

@@ -14,8 +14,8 @@ namespace vagus::serve {
 namespace {
 
 // Only the driver may send another version; control is requested as by a page.
-Status take_wheel(LiveClient& robot) {
-    const auto attempts = kAskForWheelWithin / kAskAgainEvery;
+Status take_control(LiveClient& robot) {
+    const auto attempts = kAskForControlWithin / kAskAgainEvery;
     for (long i = 0; i < attempts; ++i) {
         const Json asked = TRY(robot.ask("driver.ask", Json::object()));
         if (asked.at("driver")) return Status::done();
@@ -23,8 +23,8 @@ Status take_wheel(LiveClient& robot) {
     }
     return Error{
         Code::Refused,
-        "somebody drives this robot in a browser and did not release control; ask them, or "
-        "close that page"};
+        "another page has control of this robot and did not release it; ask them, or close that "
+        "page"};
 }
 
 Status send_file(LiveClient& robot, const BundleFile& file, const std::string& bytes) {
@@ -75,7 +75,7 @@ bool say_outcome(const Json& outcome, const Say& say) {
     return result == "started";
 }
 
-// The wheel goes back to whoever wants it, whatever came of the deployment.
+// Control is released, whatever came of the deployment.
 Result<bool> obey(LiveClient& robot, const char* command, const Say& say) {
     const auto outcome = robot.ask(command, Json::object());
     (void)robot.ask("driver.leave", Json::object()).ok();
@@ -107,7 +107,7 @@ std::string day_and_time(double wall_ms) {
 
 Result<bool> deploy_it(LiveClient& robot, const std::string& project, const Say& say) {
     const CollectedBundle collected = TRY(collect_bundle(project));
-    TRY(take_wheel(robot));
+    TRY(take_control(robot));
     Json begun = to_json(collected.bundle);
     for (const char* key : {"format", "before", "when_wall"}) begun.erase(key);
     (void)TRY(robot.ask("deploy.begin", std::move(begun)));
@@ -135,7 +135,7 @@ Result<bool> deploy(LiveClient& robot, const std::string& project, const Say& sa
 
 Result<bool> roll_back(LiveClient& robot, const Say& say) {
     return guarded([&]() -> Result<bool> {
-        TRY(take_wheel(robot));
+        TRY(take_control(robot));
         return obey(robot, "deploy.back", say);
     });
 }

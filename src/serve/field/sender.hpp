@@ -9,7 +9,7 @@
 
 namespace vagus::serve {
 
-constexpr auto kAskForWheelWithin = std::chrono::seconds(12);  // who drives has 10 s to answer
+constexpr auto kAskForControlWithin = std::chrono::seconds(12);  // the driver has 10 s to answer
 constexpr auto kAskAgainEvery = std::chrono::milliseconds(250);
 
 // The folder of the project goes there.

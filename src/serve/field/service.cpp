@@ -64,16 +64,16 @@ private:
         bench().on_end([this](const life::End& end) {
             if (end.cause.why == life::Why::Error) starter_.failed(end.message);
         });
-        bench().on_death([this] { starter_.died(server_.network().now()); });
+        bench().on_death([this] { starter_.died(server_.links().now()); });
         server_.desk().allow_only_on_robot(kServesOneProject);
         declare_deploy_commands(server_.desk(), versions_, deployments_);
         TRY(check_folder());
-        TRY(deployments_.boot(options_.start, server_.network().now()));
+        TRY(deployments_.boot(options_.start, server_.links().now()));
         tell_address();
         return Status::done();
     }
 
-    // Other versions of a file that stands alone would have no place.
+    // Other versions of a single file would have no place.
     Status check_folder() const {
         std::error_code failed;
         if (fs::is_directory(options_.project, failed)) return Status::done();
@@ -95,7 +95,7 @@ private:
                     },
                 .open =
                     [this](const fs::path& folder) {
-                        return bench().open(folder.string(), server_.network().now());
+                        return bench().open(folder.string(), server_.links().now());
                     },
                 .log = talk_.log,
                 .wall_ms = [this] { return server_.desk().wall_ms(); },
@@ -191,7 +191,7 @@ private:
     Starter starter_;
     Versions versions_;
     Deployments deployments_;
-    Worker worker_{[this] { server_.network().wake(); }};  // ends before what its work uses
+    Worker worker_{[this] { server_.links().wake(); }};  // ends before what its work uses
     bool was_ready_ = false;
     std::string told_;
     Time figures_at_{}, watchdog_at_{};

@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr Duration kLookForNodesEvery = 200ms;
 constexpr Duration kStartAgainAfter = 1s;  // of a start that failed, or of a death
-constexpr size_t kDeathsMax = 5;           // so many within kDeathsWithin, and it stands
+constexpr size_t kDeathsMax = 5;           // so many within kDeathsWithin, and it stays stopped
 constexpr Duration kDeathsWithin = 60s;
 
 class Starter {
@@ -39,7 +39,7 @@ public:
     explicit Starter(Callbacks calls) : call_(std::move(calls)) {}
 
     void begin(Time now);
-    // Somebody wants it to stand.
+    // It is to stay stopped.
     void give_up();
     // Its run has died.
     void died(Time now);

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "debug/network.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/field/versions.hpp"
 #include "serve/target/bus_carrier.hpp"
 #include "serve/target/stopping.hpp"
@@ -20,7 +20,7 @@ namespace {
 // The nodes of one target, for as long as it takes to stop them.
 class Bus {
 public:
-    Bus(net::Network& net, BusCarrier& carrier) : net_(net), carrier_(carrier) {}
+    Bus(net::Links& net, BusCarrier& carrier) : net_(net), carrier_(carrier) {}
 
     // True as soon as it is so, false when the time is over.
     template <typename IsSo>
@@ -60,7 +60,7 @@ private:
         for (const net::Event& event : net_.poll(next)) carrier_.hear(event);
     }
 
-    net::Network& net_;
+    net::Links& net_;
     BusCarrier& carrier_;
     debug::Network nodes_;
     Stopping stopping_;
@@ -88,7 +88,7 @@ Status stop_only(const ServiceOptions& options, const ServiceTalk& talk) {
     std::vector<std::string> toolboxes;
     for (const std::string& one : project.toolboxes) toolboxes.push_back(project.real(one));
     const auto safe = session::safe_stop_of(toolboxes, project.safe_stop);
-    net::Network net;
+    net::Links net;
     const auto carrier = TRY(BusCarrier::connect(net, target));
     Bus bus(net, *carrier);
     if (!bus.wait(kReachWithin, [&bus] { return bus.connected(); })) {

@@ -34,7 +34,7 @@ class Versions {
 public:
     explicit Versions(std::filesystem::path project);
 
-    // Takes away what a deployment has left that was interrupted. Once, at the boot.
+    // Deletes what an interrupted deployment has left. Once, at the boot.
     void tidy_up();
 
     uint32_t current() const;

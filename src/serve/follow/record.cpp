@@ -4,17 +4,14 @@
 #include <cstring>
 #include <utility>
 
+#include "serve/bytes.hpp"
+
 namespace vagus::serve {
 
 namespace {
 
 // The size of a record counts what follows it.
 using Size = uint32_t;
-
-template <typename T>
-void append(std::string& bytes, T value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 // Takes values from the front of bytes; `ok` turns false at what is not there.
 struct Taker {

@@ -1,4 +1,4 @@
-// What changed in a world between two instants, as bytes: words of nodes, and where things stand.
+// What changed in a world between two instants, as bytes: words of nodes, and where things are.
 // The runner writes them, the history keeps them as they are.
 //
 //     RecordWriter writer;
@@ -19,7 +19,7 @@ namespace vagus::serve {
 
 // What has a pose: a robot by its index in the scene, an object by its number.
 constexpr uint32_t kRobotKey = 0x8000'0000;
-// How busy the bus is stands among the words of nodes: those of this number, which no node has, by
+// How busy the bus is counts among the words of nodes: those of this number, which no node has, by
 // node, in hundredths of a percent.
 constexpr uint16_t kLoadNode = 0xffff;
 constexpr uint16_t kLoadUnit = 100;

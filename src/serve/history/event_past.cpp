@@ -78,21 +78,21 @@ std::vector<Json> EventPast::lanes(const LaneWindow& window, size_t& left_out) c
     return found;
 }
 
-void EventPast::stand(double t, uint16_t node, const std::string& state, int line) {
-    if (!stood_.contains(node) && stood_.size() >= kNodesKept) return;
-    std::deque<Stood>& stood = stood_[node];
-    stood.push_back({t, state, line});
-    if (stood.size() > kNodeStatesKept) stood.pop_front();
+void EventPast::node_state(double t, uint16_t node, const std::string& state, int line) {
+    if (!states_.contains(node) && states_.size() >= kNodesKept) return;
+    std::deque<NodeState>& states = states_[node];
+    states.push_back({t, state, line});
+    if (states.size() > kNodeStatesKept) states.pop_front();
 }
 
 Json EventPast::nodes_at(double t) const {
     Json nodes = Json::array();
-    for (const auto& [node, stood] : stood_) {
+    for (const auto& [node, states] : states_) {
         const auto after =
-            std::upper_bound(stood.begin(), stood.end(), t,
-                             [](double instant, const Stood& one) { return instant < one.t; });
-        if (after == stood.begin()) continue;
-        const Stood& last = *std::prev(after);
+            std::upper_bound(states.begin(), states.end(), t,
+                             [](double instant, const NodeState& one) { return instant < one.t; });
+        if (after == states.begin()) continue;
+        const NodeState& last = *std::prev(after);
         Json one = {{"node", node}, {"state", last.state}};
         if (last.line > 0) one["line"] = last.line;
         nodes.push_back(std::move(one));

@@ -1,4 +1,4 @@
-// What happened on the bus during a run, and where nodes stood: the newest that fit.
+// What happened on the bus during a run, and where nodes were paused: the newest that fit.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ public:
     // One lane for each source of events: HistoryLane. What has no room is counted.
     std::vector<nlohmann::json> lanes(const LaneWindow& window, size_t& left_out) const;
 
-    void stand(double t, uint16_t node, const std::string& state, int line);
+    void node_state(double t, uint16_t node, const std::string& state, int line);
     // HistoryNode of the protocol, of the nodes that had said something by then.
     nlohmann::json nodes_at(double t) const;
 
@@ -50,7 +50,7 @@ public:
     uint64_t dropped() const { return first_; }
 
 private:
-    struct Stood {
+    struct NodeState {
         double t = 0;
         std::string state;
         int line = 0;
@@ -59,7 +59,7 @@ private:
     uint64_t first_ = 0;  // number of the oldest one kept
     size_t bytes_ = 0;
     double to_ = 0;
-    std::map<uint16_t, std::deque<Stood>> stood_;
+    std::map<uint16_t, std::deque<NodeState>> states_;
 };
 
 }  // namespace vagus::serve

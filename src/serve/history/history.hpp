@@ -1,5 +1,5 @@
 // All that is kept of a run, or of a trace that was opened: what the plan did, what happened on the
-// bus, what variables were, where things stood. It is told the time with everything it is told, and
+// bus, what variables were, where things were. It is told the time with everything it is told, and
 // answers for any instant and for any window of time.
 //
 //     History history;
@@ -51,8 +51,8 @@ public:
     // over. One that was told already changes nothing.
     void plan(uint64_t version, PlanPast::Plans plans);
     void happen(PastEvent event) { events_.add(std::move(event)); }
-    void stand(double t, uint16_t node, const std::string& state, int line) {
-        events_.stand(t, node, state, line);
+    void node_state(double t, uint16_t node, const std::string& state, int line) {
+        events_.node_state(t, node, state, line);
     }
     void words(double t, uint16_t node, uint16_t address, std::span<const int16_t> values);
     void forget(double t, uint16_t node, uint16_t address, uint16_t count);

@@ -215,7 +215,7 @@ TEST(EventPast, TheOldestGoFirstAndAreCounted) {
 
 TEST(EventPast, DenseEventsAreARunAndFewAreMarks) {
     EventPast past;
-    // 100 s on 100 pixels: a pixel is a second. Three at 10, 12, 14 stand closer than 6 pixels.
+    // 100 s on 100 pixels: a pixel is a second. Three at 10, 12, 14 are closer than 6 pixels.
     for (const double t : {10.0, 12.0, 14.0, 50.0, 80.0, 80.5}) {
         past.add({.t = t, .kind = "event", .source = "drive", .name = t > 80 ? "b" : "a"});
     }
@@ -232,8 +232,8 @@ TEST(EventPast, DenseEventsAreARunAndFewAreMarks) {
 
 TEST(EventPast, ANodeStandsWhereItSaidLast) {
     EventPast past;
-    past.stand(1, 3, "running", 0);
-    past.stand(2, 3, "paused", 12);
+    past.node_state(1, 3, "running", 0);
+    past.node_state(2, 3, "paused", 12);
     EXPECT_EQ(past.nodes_at(0.5), Json::array());
     EXPECT_EQ(past.nodes_at(1.5), Json::array({{{"node", 3}, {"state", "running"}}}));
     EXPECT_EQ(past.nodes_at(2), Json::array({{{"node", 3}, {"state", "paused"}, {"line", 12}}}));

@@ -12,7 +12,7 @@
 namespace vagus::serve {
 
 constexpr size_t kLaneItemsKept = 20'000;  // bars of a lane, and marks; the oldest go first
-constexpr double kMarksApart = 6;          // pixels; marks that stand closer become a bar
+constexpr double kMarksApart = 6;          // pixels; marks that are closer become a bar
 
 struct LaneWindow {
     double from = 0, to = 0;
@@ -48,7 +48,7 @@ struct Lane {
     bool is_open() const { return !bars.empty() && bars.back().open(); }
     // HistoryLane of the protocol.
     nlohmann::json shown(const LaneWindow& window) const;
-    // The same, with marks that stand close to each other as bars.
+    // The same, with marks that are close to each other as bars.
     nlohmann::json shown_in_runs(const LaneWindow& window) const;
 };
 

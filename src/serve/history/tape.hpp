@@ -1,4 +1,4 @@
-// What the words of nodes were, and where things stood, at any instant of a run: changes in blocks
+// What the words of nodes were, and where things were, at any instant of a run: changes in blocks
 // of some seconds, each of which begins with the whole. The newest are kept as they came; older
 // ones are thinned out, the oldest dropped: by age, and by bytes.
 //

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
+#include "base/seconds.hpp"
 #include "serve/json.hpp"
 #include "serve/plan_value.hpp"
 
@@ -79,7 +78,7 @@ Result<TraceLine> TraceLine::read(std::string_view text) {
 std::optional<plan::TraceEvent> TraceLine::event() const {
     const std::string_view kind = text_in(json_, "kind");
     plan::TraceEvent event;
-    event.at = Time(Duration(std::llround(t() * 1e6)));
+    event.at = from_seconds(t());
     event.plan = std::string(text_in(json_, "plan"));
     if (kind == "plan-start") {
         event.what = plan::PlanStarted{};

@@ -1,4 +1,4 @@
-// How a run ends: every end takes this path, whoever asked for it.
+// How a run ends: every end takes this path, whatever asked for it.
 #include <algorithm>
 #include <utility>
 
@@ -154,7 +154,7 @@ void Life::on(const Died& died) {
     if (lived) tell_end_by_itself({"plan", Why::Died}, {plan ? "Error" : "", died.why});
 }
 
-// The wheels have come to rest. A plan that waits for nodes that stand is given up. A process that
+// The wheels have come to rest. A plan that waits for paused nodes is abandoned. A process that
 // hangs is left as it is: what it did until then is what people look for.
 void Life::come_to_rest(bool silent) {
     if (silent) return;

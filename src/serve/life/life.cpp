@@ -124,7 +124,7 @@ void Life::open_world(CallNumber call, bool go) {
     open_runner(OpenRunner::What::World);
 }
 
-// The world alone, with its robots where they stand. Nobody waits for it.
+// The world alone, with its robots where they are. Nobody waits for it.
 void Life::reopen_world() {
     begin(What::World, Phase::Opening, false, 0);
     open_runner(OpenRunner::What::WorldAgain);
@@ -156,7 +156,7 @@ bool Life::joins(const Start& start, bool goes_on) const {
 }
 
 void Life::start_now(const Start& start) {
-    const bool goes_on = plan_ == Plan::Runs && !start.anew;
+    const bool goes_on = plan_ == Plan::Runs && !start.again;
     if (starting_ && joins(start, goes_on)) {
         starting_->go = true;
         if (start.call != 0) starting_->calls.push_back(start.call);
@@ -180,7 +180,7 @@ void Life::start_now(const Start& start) {
         begin(What::Plan, Phase::Opening, start.go, start.call);
         return open_runner(OpenRunner::What::Plan);
     }
-    if (target_ != Target::Bus && start.world_anew) return open_world(start.call, true);
+    if (target_ != Target::Bus && start.world_again) return open_world(start.call, true);
     begin(What::Scripts, Phase::Loading, true, start.call);
     act(LoadNodes{starts_, false});
 }
@@ -189,10 +189,10 @@ void Life::on(const Opened&) {
     const auto opened = std::exchange(runner_opens_, std::nullopt);
     if (!opened) return;
     if (target_ == Target::Bus) return opened_on_bus();
-    // Stopped while its world opened: the plan is given up, the world stays.
+    // Stopped while its world opened: the plan is abandoned, the world stays.
     if (*opened == OpenRunner::What::Plan && !starting_) return reopen_world();
     if (!starting_) begin(What::World, Phase::Opening, false, 0);
-    if (*opened == OpenRunner::What::Plan) plan_ = Plan::Stands;
+    if (*opened == OpenRunner::What::Plan) plan_ = Plan::Paused;
     world_open_ = true;
     act(ConnectWorld{});
     starting_->phase = Phase::Describing;
@@ -200,13 +200,13 @@ void Life::on(const Opened&) {
     state_ = State::Loading;
 }
 
-// It stands before its first actor.
+// It is paused before its first actor.
 void Life::opened_on_bus() {
     if (!starting_ || starting_->phase != Phase::Opening) {  // Stop came meanwhile
         plan_ = Plan::Ending;
         return act(EndPlan{});
     }
-    plan_ = Plan::Stands;
+    plan_ = Plan::Paused;
     starting_->phase = Phase::Going;
     state_ = State::Loading;
     act(LetNodesGo{starting_->number, true});
@@ -261,7 +261,7 @@ void Life::nodes_have_scripts() {
 }
 
 void Life::world_is_ready() {
-    if (plan_ == Plan::Stands) plan_ = Plan::Runs;
+    if (plan_ == Plan::Paused) plan_ = Plan::Runs;
     if (!starting_->go) {
         return finish_start(plan_ == Plan::Runs ? State::Paused : State::Ready);
     }
@@ -286,7 +286,7 @@ void Life::nodes_go() {
         act(ContinueRun{});
     }
     if (first) {
-        if (plan_ == Plan::Stands) plan_ = Plan::Runs;
+        if (plan_ == Plan::Paused) plan_ = Plan::Runs;
         act(CountStart{});
     }
     const bool paused = first ? !starting_->go : halted_;

@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 constexpr Duration kDescribeWithin = 3s;     // nodes of a world; then it is loaded without the rest
 constexpr Duration kIntoWithin = 1s;         // nodes get breakpoints; then a plan goes on without
 constexpr Duration kPlanEndsWithin = 300ms;  // in a world; its nodes are stopped behind it
-constexpr Duration kReportWithin = 1500ms;   // for what becomes of the nodes; who waits is answered
+constexpr Duration kReportWithin = 1500ms;   // for what becomes of the nodes; then it is answered
 constexpr Duration kRollOut = 500ms;         // a world goes on so long after Stop
 constexpr Duration kResultWithin = 3s;       // of a plan that was told to end
 
@@ -63,7 +63,7 @@ public:
 
 private:
     enum class Target { None, World, Bus };
-    enum class Plan { None, Stands, Runs, Ending };
+    enum class Plan { None, Paused, Runs, Ending };
     enum class What { World, Plan, Scripts, GoOn };
     enum class Phase { Opening, Describing, Loading, Going };
     struct Starting {

@@ -140,7 +140,7 @@ TEST(Life, ASecondStartOfAPlanIsRefusedWhileTheFirstIsUnderWay) {
     bench.take(Opened{});
     bench.take(Described{});
     EXPECT_EQ(bench.take(Loaded{bench.load}), "begin count answer ");
-    // From then on it goes on with what stands.
+    // From then on it continues what is paused.
     EXPECT_EQ(bench.take(Start{bench.call(), true, true}), "load ");
     EXPECT_EQ(bench.take(Loaded{bench.load}), "let-go ");
     EXPECT_EQ(bench.take(Went{bench.go}), "continue answer ");
@@ -207,7 +207,7 @@ TEST(Life, InAWorldThePlanEndsFirstButHasNoMoreThanAMoment) {
         }
         EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), ends ? "stood tell " : "stood ");
         EXPECT_EQ(bench.life.state(), State::ComingToRest);
-        // One that did not end is given up, with its world.
+        // One that did not end is abandoned, with its world.
         EXPECT_EQ(bench.pass(kRollOut), ends ? "rest " : "tell open-runner ");
     }
 }

@@ -46,13 +46,13 @@ struct Open {
     CallNumber call = 0;
     bool go = false;
 };
-// Run: what stands goes on, or everything begins.
+// Run: what is paused continues, or everything begins.
 struct Start {
     CallNumber call = 0;
-    bool plan = false;        // there is one to run
-    bool world_anew = false;  // the world does not stand there, or is another by now
-    bool go = true;           // otherwise the plan is paused before its first actor
-    bool anew = false;        // also if it runs
+    bool plan = false;         // there is one to run
+    bool world_again = false;  // the world is not open, or is another by now
+    bool go = true;            // otherwise the plan is paused before its first actor
+    bool again = false;        // also if it runs
 };
 // The process of the run has opened what it was told to open, or cannot.
 struct Opened {};
@@ -121,7 +121,7 @@ using Input = std::variant<Joined, Open, Start, Opened, Failed, Described, Loade
 
 // ---- what is to be done ----
 
-// The process of the run is to open the world alone, again with its robots where they stand, or
+// The process of the run is to open the world alone, again with its robots where they are, or
 // the plan (in its world, or on the bus).
 struct OpenRunner {
     enum class What { World, WorldAgain, Plan };
@@ -135,7 +135,7 @@ struct LoadNodes {
     uint64_t start = 0;
     bool fresh = false;  // the world has just been opened: they get their breakpoints, too
 };
-// All of them, or those that stand. Went{start} follows.
+// All of them, or those that are paused. Went{start} follows.
 struct LetNodesGo {
     uint64_t start = 0;
     bool all = false;
@@ -162,7 +162,7 @@ struct StopNodes {
 struct MakeSafe {};
 // The process of the run ends, and nobody is talked to any more.
 struct Disconnect {};
-// Whoever wanted to leave can: what is behind `call` is done now.
+// Leaving is possible now: what waits behind `call` is done.
 struct GoOnLeaving {
     CallNumber call = 0;
 };

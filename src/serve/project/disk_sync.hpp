@@ -1,4 +1,4 @@
-// Waits for the disk on a thread of its own, so that whoever writes need not: a disk can take
+// Waits for the disk on a thread of its own, so that writers need not: a disk can take
 // seconds. Files are handed over by name, and waited for in the order in which they came.
 //
 //     DiskSync sync;

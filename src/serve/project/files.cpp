@@ -79,7 +79,7 @@ void Files::recover(const std::string& path, File& file, Unsaved unsaved) {
         return journal_.forget(path);
     }
     // The file changed meanwhile: what both did is put together, or both are shown. The journal
-    // gets it with the next change: whoever only reads a project writes nothing.
+    // gets it with the next change: reading a project writes nothing.
     if (!file.gone && take_disk(file, std::move(disk), CameBack::No)) {
         file.unsaved = file.text.bytes() != file.saved;
     }
@@ -178,7 +178,7 @@ Result<Files::Place> Files::place_of(const std::string& doc) const {
 }
 
 // A file that was renamed is found under its old name, too, until there is another one of that
-// name: whoever typed into it while it moved has lost nothing.
+// name: what was typed into it while it moved is not lost.
 std::string Files::path_now(const std::string& path) const {
     std::string now = path;
     for (size_t steps = 0; steps <= moved_.size() && !files_.contains(now); ++steps) {
@@ -508,7 +508,7 @@ void Files::tick(Time now) {
 
 void Files::write_journal(const std::string& path, File& file) {
     file.journal_due.reset();
-    // What somebody else took away is on no disk.
+    // What somebody else deleted is on no disk.
     const bool taken = file.gone && !file.deleted && !file.text.bytes().empty();
     if (!file.unsaved && !taken && file.sync == 0) {
         if (std::exchange(file.journaled, false)) journal_.forget(path);

@@ -82,7 +82,7 @@ public:
     // What cannot be listed is passed over, and told as trouble.
     std::vector<FileInfo> list(bool& more) const;
     const std::vector<std::string>& recovered() const { return recovered_; }
-    // Called with the path of each file whose text changed, whoever did it.
+    // Called with the path of each file whose text changed, whatever changed it.
     void on_change(std::function<void(const std::string& path)> changed) {
         changed_ = std::move(changed);
     }

@@ -21,8 +21,8 @@ Error conflict_of(const std::string& path) {
                 "keep one of them, then save"};
 }
 
-// Line by line. The first line of a script stands behind the tag of its node, in one line of the
-// file: so scripts are put together by themselves, then what stands around them.
+// Line by line. The first line of a script follows the tag of its node, in one line of the
+// file: so scripts are put together by themselves, then what is around them.
 std::string both_texts(const std::string& path, std::string_view saved, std::string_view mine,
                        std::string_view disk) {
     OpenText base(path, saved, 1);

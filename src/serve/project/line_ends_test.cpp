@@ -67,7 +67,7 @@ TEST(LineEnds, RandomEditsKeepTheBytesOfAllOtherLines) {
         }
         FileText file = FileText::read(bytes);
         const auto places = lines_of(file.text());
-        // Inside of the lines [first, last]: what stands before and behind them stays.
+        // Inside of the lines [first, last]: what is before and after them stays.
         const size_t first = below(8);
         const size_t last = first + below(8 - first);
         const auto at = static_cast<size_t>(places[first].data() - file.text().data());
@@ -156,7 +156,7 @@ TEST(Merge, BothStayWhereSomebodyHasChosenThat) {
     EXPECT_EQ(with_both("a\n", "a1\n", "a\n"), "a1\n");
 }
 
-// Mine and theirs as changes of other lines: none is lost, whoever comes first.
+// Mine and theirs as changes of other lines: none is lost, whichever comes first.
 TEST(Merge, RandomChangesOfOtherLinesAreAllThere) {
     const unsigned seed = 99;
     std::printf("seed: %u\n", seed);

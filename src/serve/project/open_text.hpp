@@ -1,4 +1,4 @@
-// One file while it is edited, without its disk: its text, the scripts that stand in it (those of
+// One file while it is edited, without its disk: its text, the scripts in it (those of
 // an .aesl, documents of their own), and the last steps of each. A change of a script is a change
 // of the file and the other way round; each sees it as a step of its own.
 //

@@ -37,7 +37,7 @@ struct ScanTest : testing::Test {
         for (const ScanFault& fault : scan.passed_over) found.push_back(fault.path);
         return found;
     }
-    // As the disk is, but one folder may not be read: whoever runs this may be root.
+    // As the disk is, but one folder may not be read: this test may run as root.
     static ReadFolder locked(const std::string& name) {
         return [name](const fs::path& folder, std::error_code& failed) {
             if (folder.filename() != name) return entries_of(folder, failed);

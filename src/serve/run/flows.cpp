@@ -41,10 +41,10 @@ struct Flows::PictureWatch final : BinaryWatch {
     uint64_t sent = 0;
 };
 
-Flows::Flows(Board& board) {
-    board.binary("poses", [this](const Json&) { return std::make_unique<FlowWatch>(poses_); });
-    board.binary("rays", [this](const Json&) { return std::make_unique<FlowWatch>(rays_); });
-    board.binary("picture", [this](const Json& of) {
+Flows::Flows(Topics& topics) {
+    topics.binary("poses", [this](const Json&) { return std::make_unique<FlowWatch>(poses_); });
+    topics.binary("rays", [this](const Json&) { return std::make_unique<FlowWatch>(rays_); });
+    topics.binary("picture", [this](const Json& of) {
         return std::make_unique<PictureWatch>(*this, of["robot"]);
     });
 }

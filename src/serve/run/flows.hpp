@@ -1,7 +1,7 @@
 // What flows from a run to pages as it is: poses, rays, pictures of cameras. Each page is sent the
 // latest bytes of each kind once.
 //
-//     Flows flows(desk.board());
+//     Flows flows(desk.topics());
 //     flows.show(poses);
 //     open.poses = flows.poses_now();
 #pragma once
@@ -13,15 +13,15 @@
 #include <string>
 #include <vector>
 
-#include "serve/studio/board.hpp"
+#include "serve/studio/topics.hpp"
 #include "serve/talk/news.hpp"
 
 namespace vagus::serve {
 
 class Flows {
 public:
-    // Declares the topics poses, rays, picture. The board is borrowed.
-    explicit Flows(Board& board);
+    // Declares the topics poses, rays, picture. `topics` are borrowed.
+    explicit Flows(Topics& topics);
 
     void show(talk::Poses poses);
     void show(talk::Rays rays);

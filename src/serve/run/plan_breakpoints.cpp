@@ -83,9 +83,9 @@ void PlanBreakpoints::rename(const std::string& from, const std::string& to) {
     }
 }
 
-std::vector<talk::Breakpoint> PlanBreakpoints::orders(
+std::vector<talk::BreakpointOrder> PlanBreakpoints::orders(
     const std::function<std::string(const std::string& doc)>& path_of) const {
-    std::vector<talk::Breakpoint> list;
+    std::vector<talk::BreakpointOrder> list;
     for (const PlanBreakpoint& one : all_) {
         list.push_back({.number = one.number,
                         .plan = path_of(one.doc),

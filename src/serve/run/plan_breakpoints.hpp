@@ -38,7 +38,7 @@ public:
     const std::vector<PlanBreakpoint>& all() const { return all_; }
     // A new one, or the one there is: by its number, else by place (a condition by its text).
     Result<PlanBreakpoint*> set(const PlanBreakpoint& wanted);
-    // Whether one stands at that place already: what is there may have been deleted since.
+    // Whether one is at that place already: what is there may have been deleted since.
     bool stands_at(const PlanBreakpoint& place) const;
     // Without a number all of the document, without a document all.
     void clear(std::optional<uint64_t> number, const std::optional<std::string>& doc);
@@ -46,7 +46,7 @@ public:
     void rename(const std::string& from, const std::string& to);
 
     // What the runner is told; `path_of` gives the file of a document.
-    std::vector<talk::Breakpoint> orders(
+    std::vector<talk::BreakpointOrder> orders(
         const std::function<std::string(const std::string& doc)>& path_of) const;
     // What it told; those that are not in the list are not set any more, and keep their hits. True
     // if that is news.

@@ -38,7 +38,7 @@ StartRunProcess start_runner(std::string program) {
 }
 
 Run::Run(Desk& desk, StartRunProcess start)
-    : desk_(desk), start_(std::move(start)), flows_(desk.board()) {
+    : desk_(desk), start_(std::move(start)), flows_(desk.topics()) {
     forget_held();
     declare_topics();
 }
@@ -57,12 +57,12 @@ Status Run::open(const RunOrder& order, Time now) {
     heard_ = now_ = now;
     pace(order.paused, speed_);
     tell(open_order(order));
-    desk_.board().touch("clock");
-    desk_.board().touch("plan");
+    desk_.topics().touch("clock");
+    desk_.topics().touch("plan");
     return Status::done();
 }
 
-// All but what stands there: that is shown until the next world stands.
+// All but the scene: that is shown until the next world is open.
 void Run::forget_run() {
     forget_asked("the run was started again");
     forget_held();
@@ -110,9 +110,9 @@ void Run::close() {
     scene_.reset();
     plan_.reset();
     flows_.forget();
-    desk_.board().touch("clock");
-    desk_.board().touch("plan");
-    desk_.board().touch("scene");
+    desk_.topics().touch("clock");
+    desk_.topics().touch("plan");
+    desk_.topics().touch("scene");
 }
 
 int Run::descriptor() {
@@ -133,7 +133,7 @@ void Run::tick(Time now) {
     const bool silent = now > heard_ + kHangingAfter;
     if (silent && state_ != State::Hanging) {
         state_ = State::Hanging;
-        desk_.board().touch("clock");
+        desk_.topics().touch("clock");
         say_("warning", "the run does not answer; End run ends it");
     }
     show_what_is_watched();
@@ -160,19 +160,19 @@ void Run::pace(bool paused, double speed) {
         state_ = paused ? State::Paused : State::Running;
     }
     tell(talk::SetPace{paused, speed});
-    desk_.board().touch("clock");
+    desk_.topics().touch("clock");
 }
 
 void Run::step(int milliseconds) {
     rests_ = false;
     tell(talk::LetTimePass{static_cast<uint32_t>(milliseconds)});
-    desk_.board().touch("clock");
+    desk_.topics().touch("clock");
 }
 
 void Run::begin() {
     if (!plan_ || plan_->stands_at.empty()) return go_on();
     rests_ = false;
-    desk_.board().touch("clock");
+    desk_.topics().touch("clock");
 }
 
 void Run::rest() {
@@ -183,8 +183,8 @@ void Run::rest() {
 // Rays and pictures cost time: only while somebody looks.
 void Run::show_what_is_watched() {
     talk::Show show;
-    for (const Json& of : desk_.board().subjects("picture")) show.pictures.insert(of["robot"]);
-    show.rays = desk_.board().watched("rays");
+    for (const Json& of : desk_.topics().subjects("picture")) show.pictures.insert(of["robot"]);
+    show.rays = desk_.topics().watched("rays");
     if (show == shown_) return;
     shown_ = show;
     flows_.keep_pictures_of(show.pictures);
@@ -235,7 +235,7 @@ void Run::hold_nodes(std::vector<uint16_t> nodes) {
     tell(talk::HoldNodes{held_nodes_});
 }
 
-void Run::set_breakpoints(const std::vector<talk::Breakpoint>& list) {
+void Run::set_breakpoints(const std::vector<talk::BreakpointOrder>& list) {
     tell(talk::SetBreakpoints{list});
 }
 
@@ -258,7 +258,7 @@ void Run::handle_held(talk::HeldAct act, std::optional<uint64_t> number, SetDone
 // What waited for a plan that has ended waits no more.
 void Run::forget_held() {
     held_ = {{"stands", false}, {"events", Json::array()}, {"more", 0}, {"dropped", 0}};
-    desk_.board().touch("held");
+    desk_.topics().touch("held");
 }
 
 // ---- a new version of the plan (P31) ----
@@ -279,9 +279,9 @@ void Run::keep_change(const std::vector<std::string>& files, const talk::Answer&
                {"state", taken ? "taken" : "refused"},
                {"docs", docs},
                {"reasons", *reasons}};
-    desk_.board().touch("plan");
+    desk_.topics().touch("plan");
     if (taken) return;
-    std::string text = "the plan that runs cannot change so; it goes on as it was:";
+    std::string text = "the running plan cannot take this change; it continues unchanged:";
     for (const std::string& reason : *reasons) text += "\n" + reason;
     say_("warning", text);
 }

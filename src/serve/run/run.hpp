@@ -37,10 +37,10 @@ struct RunOrder {
     std::vector<std::string> toolboxes;
     nlohmann::json set = nlohmann::json::object();
     std::string from;  // the actor that the plan begins with; empty: its start
-    std::vector<talk::Breakpoint> breakpoints;  // as PlanBreakpoints::orders()
+    std::vector<talk::BreakpointOrder> breakpoints;  // as PlanBreakpoints::orders()
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
-    bool keep_poses = false;   // robots are at rest where they stood before
+    bool keep_poses = false;   // robots are at rest where they were before
     bool paused = true;        // at first
 };
 
@@ -74,7 +74,7 @@ public:
     void set_short(std::function<std::string(const std::string& text)> shorten) {
         short_ = std::move(shorten);
     }
-    // The world stands and its nodes can be talked to.
+    // The world is open and its nodes can be talked to.
     void on_opened(std::function<void()> opened) { opened_ = std::move(opened); }
     // It cannot be opened: a sentence, or several lines of the checker.
     void on_failed(std::function<void(const std::string& why)> failed) {
@@ -107,7 +107,7 @@ public:
     Status open(const RunOrder& order, Time now);
     void close();
     bool is_open() const { return child_ != nullptr; }
-    // A simulated world stands and can be talked to.
+    // A simulated world is open and can be talked to.
     bool has_world() const { return has_world_ && is_open(); }
     State state() const { return state_; }
     // To be watched for reading; -1 without a runner. Another runner may have the same number:
@@ -120,7 +120,7 @@ public:
     void go_on() { pace(false, speed_); }
     void step(int milliseconds);
     void set_speed(double speed) { pace(paused_, speed); }
-    // Time stands, and nobody waits for it to go on: before the start, after Stop.
+    // The clock is paused, and nobody waits for it to continue: before the start, after Stop.
     void rest();
     // Ends the process, as for one that hangs.
     void kill();
@@ -142,7 +142,7 @@ public:
     // ---- the plan ----
     void step_plan();  // to the next actor that begins
     void stop_plan();
-    void set_breakpoints(const std::vector<talk::Breakpoint>& list);
+    void set_breakpoints(const std::vector<talk::BreakpointOrder>& list);
     // A hand from above: `done` gets the number of an object that was put, or why it was not done.
     using HandDone = std::function<void(std::optional<uint32_t> number, const std::string& why)>;
     void lend_hand(HandOrder order, HandDone done);

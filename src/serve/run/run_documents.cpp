@@ -6,11 +6,11 @@
 namespace vagus::serve {
 
 void Run::declare_topics() {
-    Board& board = desk_.board();
-    board.document("clock", [this](const Json&) { return clock_document(); });
-    board.document("plan", [this](const Json&) { return plan_document(); });
-    board.document("held", [this](const Json&) { return held_; });
-    board.document("scene", [this](const Json&) { return scene_document(); });
+    Topics& topics = desk_.topics();
+    topics.document("clock", [this](const Json&) { return clock_document(); });
+    topics.document("plan", [this](const Json&) { return plan_document(); });
+    topics.document("held", [this](const Json&) { return held_; });
+    topics.document("scene", [this](const Json&) { return scene_document(); });
 }
 
 Json Run::clock_document() const {

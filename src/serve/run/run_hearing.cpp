@@ -19,7 +19,7 @@ void Run::hear_all() {
     hear_end(*fault);
 }
 
-// Gives why it cannot go on: the beginning of a sentence. Whoever hears of one thing may close the
+// Gives why it cannot go on: the beginning of a sentence. A listener of one thing may close the
 // run, or open another.
 std::optional<std::string> Run::hear_packets() {
     const RunProcess* const process = child_.get();
@@ -60,7 +60,7 @@ void Run::hear(talk::Opened& opened) {
     }
     hears_ = std::move(opened.hears);
     stops_work_ = std::move(opened.stops);
-    desk_.board().touch("scene");
+    desk_.topics().touch("scene");
     opened_();
 }
 
@@ -70,7 +70,7 @@ void Run::hear(const talk::OpenFailed& failure) {
     state_ = State::None;
     say_("error", why_);
     failed_(why_);
-    desk_.board().touch("clock");
+    desk_.topics().touch("clock");
 }
 
 // ---- the plan ----
@@ -85,14 +85,14 @@ void Run::hear(talk::PlanNow& plan) {
     // One that fails at once is over the first time that it is told.
     const bool was_over = plan_ && plan_->state == talk::PlanState::Ended;
     plan_ = std::move(plan);
-    desk_.board().touch("plan");
+    desk_.topics().touch("plan");
     if (was_over || plan_->state != talk::PlanState::Ended) return;
     plan_ended_({plan_->result.value_or(""), plan_->message});
 }
 
 void Run::hear(talk::HeldNow& held) {
     held_ = std::move(held.document.json);
-    desk_.board().touch("held");
+    desk_.topics().touch("held");
 }
 
 // ---- answers and sentences ----
@@ -123,12 +123,12 @@ void Run::hear(const talk::Clock& clock) {
     if (state_ != State::Dead) state_ = paused_ ? State::Paused : State::Running;
     if (told() == before && now_ < clock_told_ + kClockAgainAfter) return;
     clock_told_ = now_;
-    desk_.board().touch("clock");
+    desk_.topics().touch("clock");
 }
 
 void Run::hear(talk::SceneNow& scene) {
     scene_ = std::move(scene.scene);
-    desk_.board().touch("scene");
+    desk_.topics().touch("scene");
 }
 
 void Run::hear(const talk::FrameSeen& seen) {
@@ -142,8 +142,8 @@ void Run::hear(const talk::FrameSeen& seen) {
 void Run::hear_end(const std::string& what) {
     const std::string last = last_actor_.empty() ? "" : "; the active actor was " + last_actor_;
     why_ = fmt::format(
-        "{} at {:.3f} s{}. Everything that was recorded is kept; run it again to start over", what,
-        t_, last);
+        "{} after {:.1f} s{}. Everything that was recorded is kept; run it again to start over",
+        what, t_, last);
     state_ = State::Dead;
     has_world_ = false;
     child_.reset();
@@ -152,15 +152,15 @@ void Run::hear_end(const std::string& what) {
         plan_->state = talk::PlanState::Ended;
         plan_->result = "Error";
         plan_->message = why_;
-        desk_.board().touch("plan");
+        desk_.topics().touch("plan");
     }
     forget_asked(why_);
     forget_held();
     breakpoints_told_({});
     say_("error", why_);
     died_(why_);
-    desk_.board().touch("clock");
-    desk_.board().touch("robot");
+    desk_.topics().touch("clock");
+    desk_.topics().touch("robot");
 }
 
 }  // namespace vagus::serve

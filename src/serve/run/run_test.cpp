@@ -78,7 +78,7 @@ protected:
     void flush(int times = 10) {
         frames.clear();
         for (int i = 0; i < times; ++i) {
-            desk.board().flush(
+            desk.topics().flush(
                 now += 100ms, [](ClientId) { return true; },
                 [this](ClientId, bool, const std::string& bytes) { frames.push_back(bytes); });
         }
@@ -163,10 +163,12 @@ TEST_F(RunTest, ADeathAnswersWhatWasAskedAndSaysWhereItWas) {
     say(talk::Traced{.line = R"({"kind":"actor-start","actor":"go"})", .actor = "go"});
     std::vector<std::string> answers;
     run.set_variable(0, "n", 1, [&](const std::string& why) { answers.push_back(why); });
-    end = ChildEnd{false, 9, "ended by signal 9 (Killed)"};
+    end = ChildEnd{false, 9, "was ended by signal 9 (Killed)"};
     run.tick(now += 1ms);
     ASSERT_EQ(deaths.size(), 1u);
-    EXPECT_THAT(deaths[0], HasSubstr("signal 9 (Killed) at 0.000 s; the active actor was go."));
+    EXPECT_THAT(
+        deaths[0],
+        HasSubstr("the run was ended by signal 9 (Killed) after 0.0 s; the active actor was go."));
     EXPECT_EQ(answers, deaths);
     EXPECT_EQ(run.state(), serve::Run::State::Dead);
     EXPECT_EQ(run.deaths(), 1u);
@@ -318,7 +320,7 @@ TEST_F(RunTest, ThePlanOfPagesHasTheirDocuments) {
     plan.levels = {{"b", {{{"path", "A/b"}, {"doc", "b"}}}}};
     plan.stands_at = {4};
     say(plan);
-    ASSERT_FALSE(desk.board().watch(ClientId{1}, {{"watch", 1}, {"topic", "plan"}}, now));
+    ASSERT_FALSE(desk.topics().watch(ClientId{1}, {{"watch", 1}, {"topic", "plan"}}, now));
     flush();
     ASSERT_FALSE(frames.empty());
     const Json shown = Json::parse(frames.back())["whole"];
@@ -333,7 +335,7 @@ TEST_F(RunTest, AClockThatSaysNothingNewIsNotSentAgain) {
     open();
     say(opened_answer(number));
     const Json watch = {{"watch", 1}, {"topic", "clock"}};
-    ASSERT_FALSE(desk.board().watch(ClientId{1}, watch, now).has_value());
+    ASSERT_FALSE(desk.topics().watch(ClientId{1}, watch, now).has_value());
     talk::Clock told = clock(3);
     told.paused = true;
     const auto tell = [&] {
@@ -357,7 +359,7 @@ TEST_F(RunTest, APictureIsSentOnceToEachWhoWatches) {
     say(opened_answer(number));
     const ClientId page{1};
     const Json watch = {{"watch", 1}, {"topic", "picture"}, {"of", {{"robot", "alice"}}}};
-    ASSERT_FALSE(desk.board().watch(page, watch, now).has_value());
+    ASSERT_FALSE(desk.topics().watch(page, watch, now).has_value());
     const auto look = [this] {
         flush();
         return frames.size();

@@ -1,5 +1,5 @@
 // The clock of a plan on a bus, as pages see it: that of the wall since the run began, but it
-// stands while the plan is held.
+// is paused while the plan is held.
 #pragma once
 
 #include "base/time.hpp"

@@ -1,5 +1,5 @@
 // A plan on a bus runs in real time, on a thread of its own. What it does comes as values, to
-// whoever asks now and then.
+// a caller that asks now and then.
 //
 //     BusRun running(prepared, debugger);
 //     while (!running.over()) for (const plan::TraceEvent& event : running.take()) see(event);

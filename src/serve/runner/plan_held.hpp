@@ -3,7 +3,7 @@
 //
 //     PlanHeld held;
 //     held.tend(*talk);                        // now and then
-//     held.tell(standing_since, document);     // true: the document is news
+//     held.tell(paused_since, document);       // true: the document is news
 //     held.act(*talk, order, answered);
 #pragma once
 
@@ -30,7 +30,7 @@ public:
     void forget();
     // `since`: the plan is paused, since that second of the run's clock.
     bool tell(std::optional<double> since, Json& document);
-    // For a plan that stands; without a number it is the first that steps, and all that go or are
+    // For a paused plan; without a number it is the first that steps, and all that go or are
     // dropped.
     static void act(PlanTalk& talk, const talk::HandleHeld& order, PlanTalk::Answered answered);
 

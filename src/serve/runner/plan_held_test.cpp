@@ -47,25 +47,25 @@ private:
     Time next_ = 1ms;
 };
 
-// Runs the plan with a breakpoint at b; `standing` is called again and again while it is paused.
-struct Standing {
-    Standing() {
+// Runs the plan with a breakpoint at b; `when_paused` is called again and again while it is paused.
+struct PausedPlan {
+    PausedPlan() {
         toolbox::add_core(library);
         checked = plan::check("two.plan.json", files, library.templates());
         graph = plan::make_graph(checked);
         talk.emplace(graph);
         stops.want({{.number = 1, .plan = "two.plan.json", .element = "b"}});
     }
-    run::Ended run(std::function<void()> standing) {
+    run::Ended run(std::function<void()> when_paused) {
         run::RunOptions options;
         options.debugger = &talk->debugger();
         options.surroundings = &bus;
         options.max_time = 1s;
-        talk->debugger().while_paused([this, standing = std::move(standing)] {
+        talk->debugger().while_paused([this, when_paused = std::move(when_paused)] {
             (void)talk->hear();
             held.tend(*talk);
             news = held.tell(0.002, document) || news;
-            if (talk->stands()) standing();
+            if (talk->is_paused()) when_paused();
         });
         stops.tend(*talk);
         const run::Ended ended = run::VirtualTime(graph, library, options).run();
@@ -87,7 +87,7 @@ struct Standing {
 };
 
 TEST(PlanHeld, TellsWhatWaitsWithItsNodeAndArguments) {
-    Standing plan;
+    PausedPlan plan;
     plan.bus.meanwhile = {{"on", {3, -4}, 5}};
     plan.run([&] {
         if (plan.count() == 0) return;
@@ -104,7 +104,7 @@ TEST(PlanHeld, TellsWhatWaitsWithItsNodeAndArguments) {
 }
 
 TEST(PlanHeld, ThoseBeyondWhatIsShownAreCounted) {
-    Standing plan;
+    PausedPlan plan;
     plan.bus.meanwhile.assign(run::kHeldEventsMax + 2, {"other", {}});
     plan.run([&] {
         if (plan.count() == 0) return;
@@ -116,7 +116,7 @@ TEST(PlanHeld, ThoseBeyondWhatIsShownAreCounted) {
 }
 
 TEST(PlanHeld, OneIsDroppedAndWithTheOtherThePlanSteps) {
-    Standing plan;
+    PausedPlan plan;
     plan.bus.meanwhile = {{"other", {}}, {"on", {}}};
     bool dropped = false;
     int steps = 0;
@@ -134,12 +134,12 @@ TEST(PlanHeld, OneIsDroppedAndWithTheOtherThePlanSteps) {
         }
     });
     EXPECT_EQ(said, "ds");
-    // b has heard it and was the last: the plan is over before it could stand again.
+    // b has heard it and was the last: the plan is over before it could pause again.
     EXPECT_EQ(ended.result, plan::PlanResult::Ok);
 }
 
 TEST(PlanHeld, AStepWithoutAnEventIsRefusedAndThePlanStaysWhereItIs) {
-    Standing plan;
+    PausedPlan plan;
     std::string why;
     bool asked = false;
     plan.run([&] {
@@ -148,7 +148,7 @@ TEST(PlanHeld, AStepWithoutAnEventIsRefusedAndThePlanStaysWhereItIs) {
                           [&](const auto& reply) { why = reply.ok() ? "" : reply.error().what; });
         }
         if (why.empty()) return;
-        EXPECT_TRUE(plan.talk->stands());
+        EXPECT_TRUE(plan.talk->is_paused());
         plan.talk->abort();
     });
     EXPECT_EQ(why, "no event of the bus waits for the plan");

@@ -127,7 +127,7 @@ void PlanRunner::tell_stops() {
 
 // ---- what it is told ----
 
-void PlanRunner::want(std::vector<talk::Breakpoint> breakpoints) {
+void PlanRunner::want(std::vector<talk::BreakpointOrder> breakpoints) {
     stops_.want(std::move(breakpoints));
 }
 
@@ -155,12 +155,12 @@ void PlanRunner::let_time_pass() {
 
 // By its debugger, not by the clock of its world.
 bool PlanRunner::is_held() const {
-    return talk_->stands() || (is_on_bus() && pacer_.held());
+    return talk_->is_paused() || (is_on_bus() && pacer_.held());
 }
 
 // A run answers between two decisions.
 void PlanRunner::let_an_instant_pass() {
-    if (!is_on_bus() && !talk_->stands() && pacer_.paused()) {
+    if (!is_on_bus() && !talk_->is_paused() && pacer_.paused()) {
         pacer_.step(std::chrono::milliseconds(1));
     }
 }

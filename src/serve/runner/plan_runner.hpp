@@ -52,7 +52,7 @@ public:
     bool runs() const { return talk_.has_value(); }
     bool is_on_bus() const { return runs() && on_ == On::Bus; }
     // It has come to a breakpoint or to the end of a step.
-    bool stands() const { return runs() && talk_->stands(); }
+    bool is_paused() const { return runs() && talk_->is_paused(); }
     // Only while it runs.
     run::Debugger& debugger() { return talk_->debugger(); }
 
@@ -65,7 +65,7 @@ public:
     bool take_haste() { return std::exchange(haste_, false); }
 
     // ---- what it is told ----
-    void want(std::vector<talk::Breakpoint> breakpoints);
+    void want(std::vector<talk::BreakpointOrder> breakpoints);
     void tend_stops();
     void hold() { talk_->hold(); }
     void abort() { talk_->abort(); }

@@ -22,7 +22,7 @@ run::Breakpoint::Kind kind_of(talk::BreakpointKind kind) {
     return Kind::Condition;
 }
 
-run::Breakpoint breakpoint_of(const talk::Breakpoint& wanted) {
+run::Breakpoint breakpoint_of(const talk::BreakpointOrder& wanted) {
     return {.kind = kind_of(wanted.kind),
             .plan = wanted.plan,
             .element = wanted.element,
@@ -49,7 +49,7 @@ void PlanStops::forget() {
 void PlanStops::post_differences(PlanTalk& talk) {
     posted_ = wanted_;
     std::set<uint64_t> there;
-    for (const talk::Breakpoint& wanted : posted_) {
+    for (const talk::BreakpointOrder& wanted : posted_) {
         const uint64_t number = wanted.number;
         there.insert(number);
         const auto known = known_.find(number);
@@ -63,7 +63,7 @@ void PlanStops::post_differences(PlanTalk& talk) {
     std::erase_if(known_, [&](const auto& one) { return !there.contains(one.first); });
 }
 
-void PlanStops::add(PlanTalk& talk, const talk::Breakpoint& wanted) {
+void PlanStops::add(PlanTalk& talk, const talk::BreakpointOrder& wanted) {
     const uint64_t number = wanted.number;
     known_[number] = {.wanted = wanted, .id = std::nullopt, .why = "", .hits = 0};
     ++waiting_;

@@ -22,7 +22,7 @@ namespace vagus::serve {
 class PlanStops {
 public:
     // What the server told.
-    void want(std::vector<talk::Breakpoint> list) { wanted_ = std::move(list); }
+    void want(std::vector<talk::BreakpointOrder> list) { wanted_ = std::move(list); }
     // Posts what differs, and asks for the hits, once what was asked before is answered.
     void tend(PlanTalk& talk);
     // A run has begun or ended: nothing is set.
@@ -35,18 +35,18 @@ public:
 
 private:
     struct Known {
-        talk::Breakpoint wanted;  // as it was posted
-        std::optional<int> id;    // at the debugger, once it is set
-        std::string why;          // why it is not, or why its condition cannot be evaluated
+        talk::BreakpointOrder wanted;  // as it was posted
+        std::optional<int> id;         // at the debugger, once it is set
+        std::string why;               // why it is not, or why its condition cannot be evaluated
         uint64_t hits = 0;
     };
     void post_differences(PlanTalk& talk);
-    void add(PlanTalk& talk, const talk::Breakpoint& wanted);
+    void add(PlanTalk& talk, const talk::BreakpointOrder& wanted);
     void drop(PlanTalk& talk, const Known& known);
     void ask_for_hits(PlanTalk& talk);
     void note(const std::vector<run::Breakpoint>& list);
 
-    std::vector<talk::Breakpoint> wanted_, posted_;
+    std::vector<talk::BreakpointOrder> wanted_, posted_;
     std::optional<std::vector<talk::BreakpointNow>> told_;
     std::map<uint64_t, Known> known_;
     int waiting_ = 0;  // answers

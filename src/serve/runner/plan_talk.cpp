@@ -12,7 +12,7 @@ void PlanTalk::hold() {
 
 void PlanTalk::go_on() {
     if (stepping_) hold();  // a debugger ends a step by a pause only
-    stands_ = false;
+    paused_ = false;
     (void)debugger_.post(run::Continue{}).ok();
 }
 
@@ -20,7 +20,7 @@ void PlanTalk::step() {
     hold();  // a debugger steps from a pause
     (void)debugger_.post(run::Step{}).ok();
     stepping_ = true;
-    stands_ = false;
+    paused_ = false;
 }
 
 void PlanTalk::step_event(std::optional<uint64_t> number, Answered answered) {
@@ -28,7 +28,7 @@ void PlanTalk::step_event(std::optional<uint64_t> number, Answered answered) {
         [this, answered = std::move(answered)](const Result<run::Reply>& reply) {
             if (reply.ok()) {
                 stepping_ = true;
-                stands_ = false;
+                paused_ = false;
             }
             answered(reply);
         });
@@ -39,7 +39,7 @@ void PlanTalk::give_up_step() {
 }
 
 void PlanTalk::abort() {
-    stands_ = false;
+    paused_ = false;
     (void)debugger_.post(run::Abort{}).ok();
 }
 
@@ -51,9 +51,9 @@ void PlanTalk::ask(run::Request request, Answered answered) {
 
 void PlanTalk::ask_held(run::Request request, Answered answered, Then then) {
     const bool steps = stepping_;
-    if (!stands_) hold();
+    if (!paused_) hold();
     ask(std::move(request), std::move(answered));
-    if (stands_ || then == Then::Hold) return;
+    if (paused_ || then == Then::Hold) return;
     if (steps) return step();
     // It may have come to a breakpoint meanwhile: then it stays there.
     (void)debugger_.post(run::Continue{.from_met = false}).ok();
@@ -65,11 +65,11 @@ PlanTalk::Heard PlanTalk::hear() {
         if (const auto* stopped = std::get_if<run::Stopped>(&*report)) {
             if (stopped->why == run::Stopped::Why::Step && std::exchange(stepping_, false)) {
                 heard.stepped = stopped->where;
-                stands_ = true;
+                paused_ = true;
             } else if (stopped->why == run::Stopped::Why::Breakpoint) {
                 heard.broken = *stopped;
                 stepping_ = false;
-                stands_ = true;
+                paused_ = true;
             }
             continue;
         }

@@ -29,16 +29,16 @@ public:
     void step();
     void give_up_step();
     // On with one event of those that wait, without a number the first, and held again at the next
-    // thing that the plan does. Refused, it stays where it stands.
+    // thing that the plan does. Refused, it stays where it is.
     using Answered = std::function<void(const Result<run::Reply>& reply)>;
     void step_event(std::optional<uint64_t> number, Answered answered);
     void abort();
     // Held by what it came to: a breakpoint, or the end of a step.
-    bool stands() const { return stands_; }
+    bool is_paused() const { return paused_; }
 
     // At once, also while it runs.
     void ask(run::Request request, Answered answered);
-    // What a debugger does for a plan that is held only. A plan that stands by itself stays so.
+    // What a debugger does for a plan that is held only. A plan that paused by itself stays so.
     enum class Then { Hold, GoOn };
     void ask_held(run::Request request, Answered answered, Then then);
 
@@ -59,7 +59,7 @@ public:
 private:
     run::Debugger debugger_;
     bool stepping_ = false;
-    bool stands_ = false;
+    bool paused_ = false;
     std::map<uint64_t, Answered> asked_;  // by number at the debugger
 };
 

@@ -28,7 +28,7 @@ constexpr const char* kCount = R"({
   }
 })";
 
-// Runs the plan to its end; `standing` is called with what it stands for, each time it stands.
+// Runs the plan to its end; `when_paused` is called with why, each time it pauses.
 struct OneThread {
     OneThread() {
         toolbox::add_core(library);
@@ -36,13 +36,13 @@ struct OneThread {
         graph = plan::make_graph(checked);
         talk.emplace(graph);
     }
-    run::Ended run(std::function<void(const PlanTalk::Heard&)> standing) {
+    run::Ended run(std::function<void(const PlanTalk::Heard&)> when_paused) {
         run::RunOptions options;
         options.debugger = &talk->debugger();
-        talk->debugger().while_paused([this, standing = std::move(standing)] {
+        talk->debugger().while_paused([this, when_paused = std::move(when_paused)] {
             const PlanTalk::Heard heard = talk->hear();
             stops.tend(*talk);
-            if (heard.broken || heard.stepped) standing(heard);
+            if (heard.broken || heard.stepped) when_paused(heard);
         });
         stops.tend(*talk);
         const run::Ended ended = run::VirtualTime(graph, library, options).run();
@@ -58,21 +58,21 @@ struct OneThread {
     PlanStops stops;
 };
 
-talk::Breakpoint at_step(uint64_t stop_at) {
+talk::BreakpointOrder at_step(uint64_t stop_at) {
     return {.number = 7, .plan = "count.plan.json", .element = "step", .stop_at = stop_at};
 }
 
 TEST(PlanTalk, APlanOnTheSameThreadStandsAtABreakpointAndGoesOn) {
     OneThread plan;
     plan.stops.want({at_step(4)});
-    std::vector<Time> stood;
+    std::vector<Time> paused;
     const run::Ended ended = plan.run([&](const PlanTalk::Heard& heard) {
-        stood.push_back(heard.broken->where.at);
+        paused.push_back(heard.broken->where.at);
         EXPECT_EQ(plan.stops.numbers(heard.broken->breakpoints), std::vector<uint64_t>{7});
         plan.talk->go_on();
     });
     EXPECT_EQ(ended.result, plan::PlanResult::Ok);
-    EXPECT_EQ(stood, (std::vector<Time>{4s, 5s, 6s}));
+    EXPECT_EQ(paused, (std::vector<Time>{4s, 5s, 6s}));
 }
 
 TEST(PlanTalk, TheHitsOfABreakpointAreToldWhileThePlanStands) {
@@ -88,7 +88,7 @@ TEST(PlanTalk, TheHitsOfABreakpointAreToldWhileThePlanStands) {
 
 TEST(PlanTalk, ABreakpointThatDoesNotFitSaysWhy) {
     OneThread plan;
-    talk::Breakpoint wrong = at_step(1);
+    talk::BreakpointOrder wrong = at_step(1);
     wrong.element = "stepp";
     plan.stops.want({wrong});
     (void)plan.run([&](const PlanTalk::Heard&) { plan.talk->go_on(); });
@@ -110,7 +110,7 @@ TEST(PlanTalk, WhatIsSetWhileItStandsIsDoneAndItStaysThere) {
             run::SetVariable{0, "n", plan::Value(int64_t{4})},
             [&](const Result<run::Reply>& reply) {
                 why = reply.ok() ? "" : reply.error().what;
-                EXPECT_TRUE(plan.talk->stands());
+                EXPECT_TRUE(plan.talk->is_paused());
                 plan.talk->go_on();
             },
             PlanTalk::Then::GoOn);
@@ -124,13 +124,13 @@ TEST(PlanTalk, WhatIsSetWhileItStandsIsDoneAndItStaysThere) {
 TEST(PlanTalk, StepsFromABreakpointToTheNextActor) {
     OneThread plan;
     plan.stops.want({at_step(5)});
-    std::vector<std::string> stood;
+    std::vector<std::string> paused;
     (void)plan.run([&](const PlanTalk::Heard& heard) {
         const run::Where& where = heard.stepped ? *heard.stepped : heard.broken->where;
-        stood.push_back(where.levels.back().actor);
-        stood.size() == 1 ? plan.talk->step() : plan.talk->go_on();
+        paused.push_back(where.levels.back().actor);
+        paused.size() == 1 ? plan.talk->step() : plan.talk->go_on();
     });
-    EXPECT_EQ(stood, (std::vector<std::string>{"step", "wait", "step"}));
+    EXPECT_EQ(paused, (std::vector<std::string>{"step", "wait", "step"}));
 }
 
 }  // namespace

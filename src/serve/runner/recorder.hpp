@@ -1,5 +1,5 @@
 // Writes down what changes in a simulated world, for the history of the run: words of all nodes,
-// where things stand, how busy the bus is. Changes only, at instants of simulated time; what the
+// where things are, how busy the bus is. Changes only, at instants of simulated time; what the
 // server has no time for is left out, and the next record tells the whole again.
 #pragma once
 
@@ -29,7 +29,7 @@ public:
     // What was written since; may be empty.
     std::string take() { return writer_.take(); }
     // The whole of a large world is more than what waits otherwise, and counts for nothing here: it
-    // would be given up before it was ever sent, and written again at once.
+    // would be dropped before it was ever sent, and written again at once.
     bool overflows() const { return writer_.size() >= whole_ + kRecordsMax; }
     // The server did not take it: nothing of it counts.
     void forget();

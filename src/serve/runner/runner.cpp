@@ -119,7 +119,7 @@ private:
 
     void stop_plan() {
         // A plan that is held hears nothing but its debugger.
-        if (plan_.is_on_bus() || plan_.stands()) plan_.abort();
+        if (plan_.is_on_bus() || plan_.is_paused()) plan_.abort();
         if (prepared_ && !plan_.is_on_bus()) prepared_->abort();
     }
 
@@ -183,7 +183,7 @@ private:
     void run_in_world(const talk::Open& order) {
         prepared_->listen([this](const plan::TraceEvent& event) { plan_.see(event); });
         prepared_->pace([this](Time) { instant(); });
-        plan_.debugger().while_paused([this] { stand(); });
+        plan_.debugger().while_paused([this] { serve_paused(); });
         begin_session(prepared_->world()->session(), order);
         plan_.tell_version();
         const auto ended = prepared_->run(&plan_.debugger());
@@ -212,7 +212,7 @@ private:
                     teller_.line(line.kind, line.text);
                 }
                 for (const plan::TraceEvent& event : running.take()) plan_.see(event);
-                hear_plan();  // where it stands, after what led there
+                hear_plan();  // where it is paused, after what led there
                 tell_bus_clock();
             }
         }
@@ -263,7 +263,7 @@ private:
 
     // In a world the plan has no thread of its own: while it is paused the runner hears and tells
     // from here, and the nodes answer.
-    void stand() {
+    void serve_paused() {
         hear_plan();
         const Time wall = wall_now();
         if (wall >= next_tell_ || wall >= next_poses_) look_around(wall);
@@ -318,7 +318,7 @@ private:
         if (++instants_ % 8 == 0) take_packets();
     }
 
-    // Time stands, and the nodes still answer.
+    // The clock is paused, and the nodes still answer.
     void wait_paused() {
         pipe_.wait(holds_ > 0 ? 1 : kPausedWaitMs);
         take_packets();

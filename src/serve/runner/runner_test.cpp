@@ -24,15 +24,15 @@ using testing::HasSubstr;
 
 constexpr int kLooksMax = 200'000;  // a process that talks much is read in small pieces
 
-class RunHostTest : public testing::Test {
+class RunnerTest : public testing::Test {
 protected:
-    RunHostTest() {
+    RunnerTest() {
         int pair[2];
         EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
         server.emplace(pair[0]);
         thread = std::thread([this, end = pair[1]] { ended = run_runner(Pipe(end)); });
     }
-    ~RunHostTest() override { leave(); }
+    ~RunnerTest() override { leave(); }
     int leave() {
         server.reset();
         if (thread.joinable()) thread.join();
@@ -110,7 +110,7 @@ protected:
     std::deque<talk::News> heard;
 };
 
-TEST_F(RunHostTest, AWorldIsOpenedStandsAndGoes) {
+TEST_F(RunnerTest, AWorldIsOpenedStandsAndGoes) {
     say(talk::SetPace{true, 1});
     say(order(7, world()));
     EXPECT_EQ(wait<talk::Opening>().order, 7u);
@@ -119,16 +119,16 @@ TEST_F(RunHostTest, AWorldIsOpenedStandsAndGoes) {
     ASSERT_TRUE(opened.scene.has_value());
     EXPECT_EQ(opened.scene->robots.at(0).name, "alice");
     EXPECT_EQ(opened.scene->document.json["robots"][0]["name"], "alice");
-    const auto stands = wait<talk::Clock>();
-    EXPECT_EQ(stands.t, 0);
-    EXPECT_TRUE(stands.paused);
+    const auto paused = wait<talk::Clock>();
+    EXPECT_EQ(paused.t, 0);
+    EXPECT_TRUE(paused.paused);
     say(talk::SetPace{false, 0});
     (void)wait<talk::Clock>([](const talk::Clock& clock) { return clock.t > 1; });
     EXPECT_EQ(leave(), 0);
     EXPECT_EQ(ended.why, "");
 }
 
-TEST_F(RunHostTest, WhatCannotBeOpenedIsToldAndAnotherOrderIsServed) {
+TEST_F(RunnerTest, WhatCannotBeOpenedIsToldAndAnotherOrderIsServed) {
     say(order(1, (folder / "nowhere.world.json").string()));
     const auto failed = wait<talk::OpenFailed>();
     EXPECT_EQ(failed.order, 1u);
@@ -139,7 +139,7 @@ TEST_F(RunHostTest, WhatCannotBeOpenedIsToldAndAnotherOrderIsServed) {
     EXPECT_EQ(wait<talk::Opened>().order, 3u);
 }
 
-TEST_F(RunHostTest, APlanRunsToItsEndAndSaysHowItEnded) {
+TEST_F(RunnerTest, APlanRunsToItsEndAndSaysHowItEnded) {
     const std::string plan = write("fail.plan.json", R"({
         "format": "vagus-plan/1", "name": "P", "start": {"actor": "a"}, "actors": {
         "a": {"template": "Fail", "in": {"message": "'it is broken'"}, "states": {}}}})");
@@ -152,7 +152,7 @@ TEST_F(RunHostTest, APlanRunsToItsEndAndSaysHowItEnded) {
     EXPECT_THAT(over.message, HasSubstr("it is broken"));
 }
 
-TEST_F(RunHostTest, EachRequestIsAnsweredWhateverRuns) {
+TEST_F(RunnerTest, EachRequestIsAnsweredWhateverRuns) {
     say(talk::SetPace{true, 1});
     say(order(1, world()));
     (void)wait<talk::Opened>();
@@ -179,7 +179,7 @@ TEST_F(RunHostTest, EachRequestIsAnsweredWhateverRuns) {
     }
 }
 
-TEST_F(RunHostTest, AHandPutsMovesAndTakesAnObject) {
+TEST_F(RunnerTest, AHandPutsMovesAndTakesAnObject) {
     say(talk::SetPace{true, 1});
     say(order(1, world()));
     (void)wait<talk::Opened>();
@@ -198,8 +198,8 @@ TEST_F(RunHostTest, AHandPutsMovesAndTakesAnObject) {
     EXPECT_EQ(wait<talk::Answer>().why, "");
 }
 
-// What a hand took away can be put back as it was: Undo of a page.
-TEST_F(RunHostTest, AHandPutsALampWithAllThatItHas) {
+// What a hand deleted can be put back as it was: Undo of a page.
+TEST_F(RunnerTest, AHandPutsALampWithAllThatItHas) {
     say(talk::SetPace{true, 1});
     say(order(1, world()));
     (void)wait<talk::Opened>();
@@ -224,7 +224,7 @@ TEST_F(RunHostTest, AHandPutsALampWithAllThatItHas) {
 }
 
 // The text of its editor counts, not the file on the disk.
-TEST_F(RunHostTest, AWorldIsOpenedFromATextThatIsNotSaved) {
+TEST_F(RunnerTest, AWorldIsOpenedFromATextThatIsNotSaved) {
     talk::Open open = order(1, world());
     open.world_text = R"({"format": "vagus-world/1", "size": [2, 1]})";
     say(open);
@@ -233,7 +233,7 @@ TEST_F(RunHostTest, AWorldIsOpenedFromATextThatIsNotSaved) {
 
 // ---- what is no order ----
 
-TEST_F(RunHostTest, AServerThatSpeaksNonsenseIsLeft) {
+TEST_F(RunnerTest, AServerThatSpeaksNonsenseIsLeft) {
     ASSERT_TRUE(server->send('J', "not JSON"));
     wait_end();
     EXPECT_EQ(leave(), kExitNonsense);
@@ -242,7 +242,7 @@ TEST_F(RunHostTest, AServerThatSpeaksNonsenseIsLeft) {
               "is ended");
 }
 
-TEST_F(RunHostTest, AMalformedOrderEndsAPlanThatRuns) {
+TEST_F(RunnerTest, AMalformedOrderEndsAPlanThatRuns) {
     say(talk::SetPace{false, 1});
     say(order(1, world(), waiting_plan()));
     (void)wait<talk::Traced>();
@@ -258,7 +258,7 @@ TEST_F(RunHostTest, AMalformedOrderEndsAPlanThatRuns) {
 
 // ---- two orders, one behind the other ----
 
-TEST_F(RunHostTest, OfTwoOrdersOneBehindTheOtherTheSecondIsServed) {
+TEST_F(RunnerTest, OfTwoOrdersOneBehindTheOtherTheSecondIsServed) {
     say(talk::SetPace{false, 0});
     say(order(1, world(), waiting_plan()));
     say(talk::SetVariable{1, 0, "n", plan::Value(true)});
@@ -271,7 +271,7 @@ TEST_F(RunHostTest, OfTwoOrdersOneBehindTheOtherTheSecondIsServed) {
     EXPECT_EQ(leave(), 0);
 }
 
-TEST_F(RunHostTest, AnOrderEndsThePlanThatRuns) {
+TEST_F(RunnerTest, AnOrderEndsThePlanThatRuns) {
     say(talk::SetPace{false, 0});
     say(order(1, world(), waiting_plan()));
     (void)wait<talk::Traced>();
@@ -289,7 +289,7 @@ TEST_F(RunHostTest, AnOrderEndsThePlanThatRuns) {
 
 // ---- the plan changes ----
 
-TEST_F(RunHostTest, AVersionThatTakesOverIsToldOnceAfterItsLineWithItsNumber) {
+TEST_F(RunnerTest, AVersionThatTakesOverIsToldOnceAfterItsLineWithItsNumber) {
     say(talk::SetPace{false, 1});
     const std::string plan = waiting_plan();
     say(order(1, world(), plan));
@@ -313,7 +313,7 @@ TEST_F(RunHostTest, AVersionThatTakesOverIsToldOnceAfterItsLineWithItsNumber) {
 }
 
 // Two plans of the run change at one instant: two lines, one version.
-TEST_F(RunHostTest, AVersionOfTwoFilesIsToldOnce) {
+TEST_F(RunnerTest, AVersionOfTwoFilesIsToldOnce) {
     const auto outer = [this](const std::string& help) {
         return write("outer.plan.json", R"({"format": "vagus-plan/1", "name": "Outer",
             "help": ")" + help + R"(", "start": {"actor": "a"}, "actors": {
@@ -347,7 +347,7 @@ TEST_F(RunHostTest, AVersionOfTwoFilesIsToldOnce) {
 }
 
 // The plan has ended and its world goes on: nothing of it is left that could be asked.
-TEST_F(RunHostTest, AVersionForAPlanThatHasEndedIsRefused) {
+TEST_F(RunnerTest, AVersionForAPlanThatHasEndedIsRefused) {
     say(talk::SetPace{false, 1});
     const std::string plan = waiting_plan();
     say(order(1, world(), plan));

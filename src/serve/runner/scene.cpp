@@ -3,17 +3,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "serve/bytes.hpp"
 #include "serve/json.hpp"
 #include "sim/camera.hpp"
 
 namespace vagus::serve {
 
 namespace {
-
-template <typename T>
-void append(std::string& bytes, T value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 void append_point(std::string& bytes, sim::Point point) {
     append(bytes, static_cast<float>(point.x));

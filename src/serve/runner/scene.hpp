@@ -1,4 +1,4 @@
-// A world as pages draw it: what stands in it (JSON, when it changes), and where (bytes, as it
+// A world as pages draw it: what is in it (JSON, when it changes), and where (bytes, as it
 // flows). The layouts are those of protocol.json: scene, poses, rays, picture.
 #pragma once
 
@@ -15,7 +15,7 @@ std::string poses_of(const sim::World& world);
 std::string rays_of(const sim::World& world);
 // What the robot's camera sees; empty without a camera.
 std::string picture_of(const sim::World& world, sim::RobotId robot);
-// Robots where they stood before a run, if a hand put them there: in their order.
+// Robots where they were before a run, if a hand put them there: in their order.
 void put_robots(sim::World& world, const std::vector<talk::Pose>& poses);
 
 }  // namespace vagus::serve

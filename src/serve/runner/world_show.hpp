@@ -1,5 +1,5 @@
 // What the server is told of a world, without being asked: frames of its bus, records for the
-// history, what stands where, what sensors and cameras see.
+// history, what is where, what sensors and cameras see.
 //
 //     WorldShow show(teller);
 //     show.begin();

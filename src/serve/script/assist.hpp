@@ -1,4 +1,4 @@
-// What an editor asks about a script: what may stand here, what is this, where is it declared and
+// What an editor asks about a script: what may be here, what is this, where is it declared and
 // used. Values in, values out; scripts that do not compile are answered, too.
 #pragma once
 

@@ -102,7 +102,7 @@ void Scripts::collect_parts() {
     });
 }
 
-// Among the files that the project names; all others stand behind them.
+// Among the files that the project names; all others come after them.
 size_t Scripts::place_of(const std::string& file) const {
     const auto found = std::find(preferred_.begin(), preferred_.end(), file);
     return static_cast<size_t>(found - preferred_.begin());

@@ -48,7 +48,7 @@ struct BrokenFile {
     std::string sentence;  // "FILE:LINE:COLUMN: …"
 };
 
-// A place in a document where a name stands.
+// A place in a document where a name is.
 struct Spot {
     std::string doc;
     aesl::Position at, end;
@@ -75,7 +75,7 @@ public:
     const std::vector<ScriptPart>& parts() const { return parts_; }
     std::vector<BrokenFile> broken() const;
     bool is_broken(const std::string& file) const;
-    // As the text stands now; nullptr if there is no such script.
+    // As the text is now; nullptr if there is no such script.
     const CompiledScript* compiled(const std::string& doc);
     // Events and constants of a file.
     const aesl::CommonDefinitions* common(const std::string& file) const;

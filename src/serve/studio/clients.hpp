@@ -1,6 +1,6 @@
-// Who is connected, what each may do, and who has control (serve.md, who may do what). A client
+// Who is connected, what each may do, and who has control (docs/protocol.md). A client
 // is known by the key that its page made, so that it may lose its connection and come back: its
-// wheel and the answers that it missed wait for it.
+// control and the answers that it missed wait for it.
 #pragma once
 
 #include <cstdint>
@@ -72,9 +72,9 @@ public:
     // The text of the answer, kept for a repetition.
     void finish(Member& member, uint64_t id, const std::string& answer);
 
-    // ---- the wheel ----
-    // True: it is theirs now, as nobody holds it who is here. False: the driver is asked; one whose
-    // page closes meanwhile has given it.
+    // ---- control ----
+    // True: the page has it now, as no connected page had it. False: the driver is asked; if its
+    // page closes meanwhile, control is released.
     bool ask(Member& member, Time now);
     void answer(bool give);
     void let_go() { driver_ = 0; }

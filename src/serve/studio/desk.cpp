@@ -148,7 +148,7 @@ void Desk::on_took(const ClientTook& took) {
 
 void Desk::on_closed(ClientId client, Time now) {
     connections_.erase(client);
-    board_.drop(client);
+    topics_.drop(client);
     clients_.leave(client, now);
     settle_twins(client, std::nullopt, now);
     people_changed_();
@@ -309,13 +309,13 @@ bool Desk::is_here(const std::string& name) const {
 
 void Desk::obey_here(Clients::Member& member, ClientId client, const Request& request, Time now) {
     if (request.name == "watch") {
-        const auto problem = board_.watch(client, request.in, now);
+        const auto problem = topics_.watch(client, request.in, now);
         return send(
             client, false,
             problem ? answer_text(request.id, *problem) : answer_text(request.id, Json::object()));
     }
     if (request.name == "unwatch") {
-        board_.unwatch(client, request.in["watch"]);
+        topics_.unwatch(client, request.in["watch"]);
         return send(client, false, answer_text(request.id, Json::object()));
     }
     if (request.name == "access.renew") return renew_access(member, client, request.id);
@@ -342,7 +342,7 @@ void Desk::send(ClientId client, bool binary, std::string bytes) {
     found->second.unsent += bytes.size();
     outside_.send(client, binary, std::move(bytes));
     if (found->second.unsent > Protocol::get().limit("unsent_bytes")) {
-        drop(client, "this page asks for more than it takes; it may return");
+        drop(client, "this page read too slowly and was disconnected; reload it");
     }
 }
 
@@ -365,7 +365,7 @@ void Desk::tick(Time now) {
     const auto to_page = [this](ClientId client, bool binary, std::string bytes) {
         send(client, binary, std::move(bytes));
     };
-    for (const std::string& fault : board_.flush(now, has_room, to_page)) {
+    for (const std::string& fault : topics_.flush(now, has_room, to_page)) {
         log("a document cannot be shown: " + fault);
     }
     const Duration passed = since < kOnTime ? since : Duration{};
@@ -375,7 +375,7 @@ void Desk::tick(Time now) {
 }
 
 Time Desk::next_tick(Time now) const {
-    Time next = std::min(board_.next_due(now), clients_.next_tick());
+    Time next = std::min(topics_.next_due(now), clients_.next_tick());
     if (!connections_.empty()) next = std::min(next, std::max(now, next_ping_));
     for (const auto& [client, connection] : connections_) {
         if (connection.twin) next = std::min(next, connection.twin->until);

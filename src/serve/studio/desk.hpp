@@ -3,7 +3,7 @@
 //
 //     Desk desk(access, {.send = …, .close = …, .log = …, .wall_ms = …});
 //     desk.command("node.run", [&](const Call& call) { call.done(run(call.in)); });
-//     desk.board().document("robot", [&](const Json&) { return robot_document(); });
+//     desk.topics().document("robot", [&](const Json&) { return target_document(); });
 //     desk.hear(event, now);                       // of the web server
 //     desk.tick(now);
 #pragma once
@@ -18,9 +18,9 @@
 #include "base/result.hpp"
 #include "serve/access.hpp"
 #include "serve/json.hpp"
-#include "serve/studio/board.hpp"
 #include "serve/studio/calm_log.hpp"
 #include "serve/studio/clients.hpp"
+#include "serve/studio/topics.hpp"
 #include "serve/web/server.hpp"
 
 namespace vagus::serve {
@@ -59,7 +59,7 @@ private:
 class Desk {
 public:
     struct Outside {
-        Board::Send send;
+        Topics::Send send;
         std::function<void(ClientId, std::string reason)> close;
         std::function<void(const std::string&)> log;
         std::function<double()> wall_ms;  // milliseconds since 1970
@@ -76,7 +76,7 @@ public:
     // A robot that serves itself: only commands that protocol.json marks are obeyed, others hear
     // why.
     void allow_only_on_robot(std::string why_not) { only_on_robot_ = std::move(why_not); }
-    Board& board() { return board_; }
+    Topics& topics() { return topics_; }
     double wall_ms() const { return outside_.wall_ms(); }
     const std::string& epoch() const { return epoch_; }
     const Clients& clients() const { return clients_; }
@@ -159,7 +159,7 @@ private:
     CalmLog log_;
     const std::string epoch_;  // of this life of the server
     std::string only_on_robot_;
-    Board board_;
+    Topics topics_;
     Clients clients_;
     std::map<ClientId, Connection> connections_;
     std::map<std::string, std::function<void(const Call&)>> commands_;

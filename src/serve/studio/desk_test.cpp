@@ -101,7 +101,7 @@ TEST(Desk, ARightTokenDoesNotWaitForWrongOnes) {
     EXPECT_TRUE(f.hello(21, kDrive, "b").contains("ok"));
 }
 
-// As long as one that says nothing: who guesses cannot fill all the places for longer.
+// As long as one that says nothing: a guesser cannot fill all the places for longer.
 TEST(Desk, NoWrongTokenStaysLongerThanAPageWithoutAHello) {
     Fixture f;
     for (uint32_t i = 1; i <= 20; ++i) f.hello(i, "wrong", "a");
@@ -186,7 +186,7 @@ TEST(Desk, APageThatClosesGivesTheWheelToWhoAskedForIt) {
 
 TEST(Desk, WhoReadsNothingIsSentAwayAndOthersAreServed) {
     Fixture f;
-    f.desk.board().document("clock", [&](const Json&) {
+    f.desk.topics().document("clock", [&](const Json&) {
         return Json{{"t", static_cast<double>(f.now.count())}, {"why", std::string(100'000, 'x')}};
     });
     f.hello(1, kDrive, "a");
@@ -194,7 +194,7 @@ TEST(Desk, WhoReadsNothingIsSentAwayAndOthersAreServed) {
     size_t largest = 0;
     for (int i = 0; i < 100; ++i) {
         f.now += 101ms;
-        f.desk.board().touch("clock");
+        f.desk.topics().touch("clock");
         f.desk.tick(f.now);
         size_t bytes = 0;
         for (const Json& message : f.got[ClientId{1}]) bytes += message.dump().size();

@@ -29,7 +29,7 @@ BusFrame frame() {
     return frame;
 }
 
-Breakpoint breakpoint() {
+BreakpointOrder breakpoint() {
     return {4, "W.plan.json", BreakpointKind::State, "go", "Done", "n > 2", 3, false};
 }
 

@@ -28,7 +28,7 @@ struct Words<BreakpointKind> {
     static constexpr std::string_view kAll[] = {"actor", "state", "event", "condition"};
 };
 
-struct Breakpoint {
+struct BreakpointOrder {
     uint64_t number = 0;    // as pages know it
     std::string plan = {};  // its file
     BreakpointKind kind = BreakpointKind::Actor;
@@ -47,7 +47,7 @@ struct Breakpoint {
         each("stop_at", it.stop_at);
         each("enabled", it.enabled);
     }
-    bool operator==(const Breakpoint&) const = default;
+    bool operator==(const BreakpointOrder&) const = default;
 };
 
 struct Open {
@@ -57,7 +57,7 @@ struct Open {
     std::string plan = {};                       // empty: the world alone
     std::vector<std::string> toolboxes = {};
     std::map<std::string, std::string> set = {};  // variables of the plan, as texts
-    std::vector<Breakpoint> breakpoints = {};
+    std::vector<BreakpointOrder> breakpoints = {};
     std::string robot = {};  // that the plan drives; empty: the only one
     std::string from = {};   // the actor that it begins with; empty: its start
     std::string bus = {},
@@ -141,7 +141,7 @@ struct HoldNodes {
 
 // The whole list, each time it changes.
 struct SetBreakpoints {
-    std::vector<Breakpoint> list = {};
+    std::vector<BreakpointOrder> list = {};
     static constexpr std::string_view kName = "plan.breakpoints";
     static void layout(auto& each, auto& it) { each("list", it.list); }
     bool operator==(const SetBreakpoints&) const = default;

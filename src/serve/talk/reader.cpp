@@ -73,7 +73,7 @@ std::string_view Reader::next_kind() const {
     return bytes_.empty() ? "its end" : name_of(static_cast<Kind>(bytes_.front()));
 }
 
-// ---- what stands before values ----
+// ---- what comes before values ----
 
 bool Reader::take_field(std::string_view name) {
     if (fault_) return false;

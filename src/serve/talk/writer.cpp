@@ -30,7 +30,7 @@ bool BusFrame::operator==(const BusFrame& other) const {
 }
 
 void Writer::put_size(size_t size) {
-    put_raw(static_cast<uint32_t>(size));
+    append(bytes_, static_cast<uint32_t>(size));
 }
 
 void Writer::put(bool value) {
@@ -40,7 +40,7 @@ void Writer::put(bool value) {
 
 void Writer::put(double value) {
     put_kind(Kind::Number);
-    put_raw(value);
+    append(bytes_, value);
 }
 
 void Writer::put(const std::string& text) {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "plan/value.hpp"
+#include "serve/bytes.hpp"
 #include "serve/talk/values.hpp"
 
 namespace vagus::serve::talk {
@@ -72,7 +73,7 @@ public:
     requires std::is_integral_v<T>
     void put(T value) {
         put_kind(std::is_signed_v<T> ? Kind::Whole : Kind::Count);
-        put_raw(static_cast<uint64_t>(value));
+        append(bytes_, static_cast<uint64_t>(value));
     }
     template <typename T>
     requires std::is_enum_v<T>
@@ -104,10 +105,6 @@ public:
 private:
     void put_kind(Kind kind) { bytes_.push_back(static_cast<char>(kind)); }
     void put_size(size_t size);
-    template <typename T>
-    void put_raw(T value) {
-        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    }
     template <typename List>
     void put_list(const List& list) {
         put_kind(Kind::List);

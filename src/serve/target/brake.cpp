@@ -40,7 +40,7 @@ void Target::brake(uint16_t cause) {
         if (node != cause) brake_one(node);
         make_safe(node);
     }
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 // One that is being loaded is paused behind that: half a program helps nobody.
@@ -92,7 +92,7 @@ void Target::release_all() {
     for (const uint16_t node : std::exchange(braked_, {})) {
         if (network_) (void)network_->run(node).ok();
     }
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 // ---- who debugs: a plan waits for that ----

@@ -8,7 +8,7 @@ namespace {
 
 using Type = wire::MessageType;
 
-struct BrakeTest : RobotTest {
+struct BrakeTest : TargetTest {
     static constexpr const char* kBumperScript = "robot.aesl#2";
 
     void break_at_bumper(const std::string& condition, int ignore = 0) {

@@ -23,7 +23,7 @@ bool can_move(const wire::Frame& frame) {
 
 }  // namespace
 
-Result<std::unique_ptr<BusCarrier>> BusCarrier::connect(net::Network& network,
+Result<std::unique_ptr<BusCarrier>> BusCarrier::connect(net::Links& links,
                                                         const std::string& text) {
     const net::Target target = TRY(net::parse_target(text));
     if (target.use == net::Use::Listen) {
@@ -31,21 +31,21 @@ Result<std::unique_ptr<BusCarrier>> BusCarrier::connect(net::Network& network,
                                          ": this waits for others to connect; give a target "
                                          "that can be connected to"};
     }
-    auto carrier = std::unique_ptr<BusCarrier>(new BusCarrier(network));
+    auto carrier = std::unique_ptr<BusCarrier>(new BusCarrier(links));
     carrier->own_ = TRY(carrier->hub_.add({.name = "studio"}));
-    carrier->place_ = TRY(network.connect(carrier->hub_, target, {.retry = net::Retry::Forever}));
+    carrier->place_ = TRY(links.connect(carrier->hub_, target, {.retry = net::Retry::Forever}));
     return carrier;
 }
 
 BusCarrier::~BusCarrier() {
-    if (door_) network_.close(door_->place);
-    network_.close(place_);
+    if (door_) links_.close(door_->place);
+    links_.close(place_);
 }
 
 Result<std::string> BusCarrier::open_door() {
     if (!door_) {
         const net::Target here = TRY(net::parse_target("tcp:127.0.0.1:0"));
-        door_ = TRY(network_.listen(hub_, here, {.clients = net::Clients::One}));
+        door_ = TRY(links_.listen(hub_, here, {.clients = net::Clients::One}));
     }
     guest_sends_.reset();
     return net::to_string(door_->target);

@@ -8,15 +8,15 @@
 #include <string>
 
 #include "hub/hub.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/target/carrier.hpp"
 
 namespace vagus::serve {
 
 class BusCarrier final : public Carrier {
 public:
-    // The network is borrowed; its events go to hear().
-    static Result<std::unique_ptr<BusCarrier>> connect(net::Network& network,
+    // `links` are borrowed; their events go to hear().
+    static Result<std::unique_ptr<BusCarrier>> connect(net::Links& links,
                                                        const std::string& target);
     ~BusCarrier() override;
 
@@ -37,10 +37,10 @@ public:
     std::vector<LinkView> links() const override;
 
 private:
-    explicit BusCarrier(net::Network& network) : network_(network) {}
+    explicit BusCarrier(net::Links& links) : links_(links) {}
     void hear_door(const net::Event& event);
 
-    net::Network& network_;
+    net::Links& links_;
     hub::Hub hub_;
     hub::LinkId own_;
     net::PlaceId place_;

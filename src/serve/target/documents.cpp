@@ -38,11 +38,11 @@ void describe(Json& variable, const KnownVariable* known) {
 }  // namespace
 
 void Target::declare_topics() {
-    Board& board = desk_.board();
-    board.document("robot", [this](const Json&) { return robot_document(); });
-    board.document("node", [this](const Json& of) { return node_document(of); });
-    board.document("network", [this](const Json&) { return network_document(); });
-    board.stream("happenings", Protocol::get().limit("events_kept"));
+    Topics& topics = desk_.topics();
+    topics.document("robot", [this](const Json&) { return target_document(); });
+    topics.document("node", [this](const Json& of) { return node_document(of); });
+    topics.document("network", [this](const Json&) { return network_document(); });
+    topics.stream("happenings", Protocol::get().limit("events_kept"));
     declare_watches();
 }
 
@@ -58,10 +58,10 @@ Json Target::node_line(uint16_t id) const {
     if (!doc.empty()) node["doc"] = doc;
     const auto found = known_.find(id);
     const Known known = found == known_.end() ? Known{} : found->second;
-    // Events make a stopped node stand at their first line; it is stopped all the same.
+    // Events pause a stopped node at their first line; it is stopped all the same.
     const bool stopped = known.stopped && view->connected;
     if (stopped) node["state"] = "stopped";
-    // Paused between two events: it stands, but at no line.
+    // Paused between two events: at no line.
     const bool waits = view->connected && view->state == debug::ProgramState::Stopped && !stopped &&
                        known.fault.empty();
     if (waits) node["state"] = "paused";
@@ -71,13 +71,13 @@ Json Target::node_line(uint16_t id) const {
                       : script && script->source == known.loaded ? "current"
                                                                  : "older";
     if (known.loaded_wall > 0) node["loaded_wall"] = known.loaded_wall;
-    const bool stands =
+    const bool paused =
         view->state == debug::ProgramState::Paused || view->state == debug::ProgramState::Stopped;
     // After a fault the next event is begun and waits: its line is not that of the mistake.
     const bool faulty = known.why == "fault" && known.fault_line > 0;
     const int line = faulty ? known.fault_line : view->at.line;
-    if (stands && !stopped && !waits && line > 0) node["at"] = {{"line", line}, {"column", 1}};
-    if (stands && !known.why.empty()) node["why"] = known.why;
+    if (paused && !stopped && !waits && line > 0) node["at"] = {{"line", line}, {"column", 1}};
+    if (paused && !known.why.empty()) node["why"] = known.why;
     if (!known.fault.empty()) node["fault"] = known.fault;
     if (const auto dropped = dropped_.of(id)) node["dropped"] = *dropped;
     if (!known.busy.empty()) node["busy"] = known.busy;
@@ -88,7 +88,7 @@ Json Target::node_line(uint16_t id) const {
     return node;
 }
 
-Json Target::robot_document() const {
+Json Target::target_document() const {
     Json nodes = Json::array();
     Json twins = Json::array();
     if (network_) {

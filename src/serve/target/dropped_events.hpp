@@ -1,7 +1,7 @@
 // How many events a node has dropped while it is paused at a line of its script: a machine that is
 // paused inside an event takes no other (docs/spec/aseba-wire-and-vm.md, 3.6), and nobody tells it
 // again. Nodes do not count them, so a host counts what comes over the bus for a node that it knows
-// to stand, and whose program it knows.
+// to pause, and whose program it knows.
 //
 //     DroppedEvents dropped;
 //     dropped.state(2, ProgramState::Paused);
@@ -23,13 +23,13 @@ bool handles(const aesl::Program& program, uint16_t event);
 
 class DroppedEvents {
 public:
-    // From one line to the next it still stands: what it has dropped is counted on.
+    // From one line to the next it is still paused: what it has dropped is counted on.
     void state(uint16_t node, debug::ProgramState state);
     // An event came that the node did not emit itself; `handled` by its script, if that is known.
     void came(uint16_t node, std::optional<bool> handled);
-    // Since it came to stand; nothing: it does not stand, or nobody knows what its script handles.
+    // Since it paused; nothing: it is not paused, or nobody knows what its script handles.
     std::optional<uint64_t> of(uint16_t node) const;
-    bool stands(uint16_t node) const { return counts_.contains(node); }
+    bool is_paused(uint16_t node) const { return counts_.contains(node); }
     void forget() { counts_.clear(); }
 
 private:
@@ -37,7 +37,7 @@ private:
         uint64_t dropped = 0;
         bool known = true;
     };
-    std::map<uint16_t, Count> counts_;  // of nodes that stand
+    std::map<uint16_t, Count> counts_;  // of paused nodes
 };
 
 }  // namespace vagus::serve

@@ -36,7 +36,7 @@ TEST(DroppedEvents, OnlyWhatComesWhileTheNodeStandsInsideAnEventIsCounted) {
     EXPECT_EQ(dropped.of(2), 0u);
 }
 
-// Paused between two events, it takes the next one and stands at its first line.
+// Paused between two events, it takes the next one and pauses at its first line.
 TEST(DroppedEvents, ANodeThatStandsBetweenTwoEventsDropsNone) {
     DroppedEvents dropped;
     dropped.state(2, ProgramState::Stopped);
@@ -49,7 +49,7 @@ TEST(DroppedEvents, WhatAnUnknownScriptDropsIsNotKnown) {
     dropped.state(2, ProgramState::Paused);
     dropped.came(2, true);
     dropped.came(2, std::nullopt);
-    EXPECT_TRUE(dropped.stands(2));
+    EXPECT_TRUE(dropped.is_paused(2));
     EXPECT_FALSE(dropped.of(2));
 }
 

@@ -16,15 +16,15 @@ void Target::happen(const char* kind, uint16_t node, const std::string& name,
         {"kind", kind},       {"node", node}, {"source", node == 0 ? "main" : name_of(node)},
         {"name", name},       {"args", args}, {"text", text}};
     told_.happening(happening);
-    desk_.board().add("happenings", happening);
+    desk_.topics().add("happenings", happening);
 }
 
 void Target::hear(const debug::Event& event, const debug::NodeDescribed& described) {
     scripts_.targets_changed();
-    desk_.board().touch("scripts");
-    desk_.board().touch("script");
-    desk_.board().touch("findings");
-    desk_.board().touch("node");
+    desk_.topics().touch("scripts");
+    desk_.topics().touch("script");
+    desk_.topics().touch("findings");
+    desk_.topics().touch("node");
     happen("appeared", event.node, described.name, "");
     Known& known = known_[event.node];
     const auto loaded = hints_.loaded_already(event.node);
@@ -47,11 +47,11 @@ void Target::hear(const debug::Event& event, const debug::StateChanged& state) {
     } else if (known.why.empty()) {
         known.why = "asked";
     }
-    const bool stands = state.state != debug::ProgramState::Running && state.at.line > 0;
+    const bool paused = state.state != debug::ProgramState::Running && state.at.line > 0;
     dropped_.state(event.node, state.state);
-    told_.stands(time(), event.node, debug::name_of(state.state), stands ? state.at.line : 0);
+    told_.node_state(time(), event.node, debug::name_of(state.state), paused ? state.at.line : 0);
     happen("state", event.node, debug::name_of(state.state),
-           stands ? fmt::format("line {}", state.at.line) : "");
+           paused ? fmt::format("line {}", state.at.line) : "");
 }
 
 // Another program on the bus may have paused it, too.
@@ -78,7 +78,7 @@ void Target::hear(const debug::Event& event, const debug::Fault& fault) {
 void Target::hear(const debug::Event& event, const debug::BreakpointHit& hit) {
     ScriptBreakpoint* breakpoint = breakpoint_of(event.node, hit.at.line);
     if (breakpoint) breakpoint->hits = hit.hits;
-    desk_.board().touch("breakpoints");
+    desk_.topics().touch("breakpoints");
     if (breakpoint && hit.hits <= breakpoint->ignore) {
         (void)network_->run(event.node).ok();
         return release(event.node);
@@ -91,7 +91,7 @@ void Target::hear(const debug::Event& event, const debug::BreakpointHit& hit) {
 
 void Target::hear_place(const debug::Event& event, const debug::BreakpointResult& result) {
     ScriptBreakpoint* breakpoint = breakpoint_of(event.node, result.at.line);
-    desk_.board().touch("breakpoints");
+    desk_.topics().touch("breakpoints");
     if (!breakpoint) return;
     breakpoint->set = result.success;
     breakpoint->why = result.success ? "" : "the node refused it: its table of breakpoints is full";
@@ -107,18 +107,18 @@ void Target::hear(const debug::Event& event, const debug::UserEvent& sent) {
     count_dropped(event.node, sent.number);
 }
 
-// All nodes that stand take the event for nothing; the one that emitted it does not hear it.
+// All paused nodes discard the event; the one that emitted it does not hear it.
 void Target::count_dropped(uint16_t from, uint16_t event) {
     for (const uint16_t id : live_nodes()) {
-        if (id == from || !dropped_.stands(id)) continue;
+        if (id == from || !dropped_.is_paused(id)) continue;
         const auto& program = network_->node(id)->program;
         dropped_.came(id, program ? std::optional(handles(*program, event)) : std::nullopt);
-        desk_.board().touch("robot");
+        desk_.topics().touch("robot");
     }
 }
 
 void Target::hear(const debug::Event& event) {
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
     // A node that was just being started may have said meanwhile that it runs.
     if (const auto stopped = stopping_.hear(event)) known_[*stopped].stopped = true;
     (void)resting_.hear(event);

@@ -1,4 +1,4 @@
-// Direct driving is a lease: who sets a variable that the safe stop names drives that node for as
+// Direct driving is a lease: a page that sets a variable of the safe stop drives that node for as
 // long as the connection lasts.
 #include <algorithm>
 
@@ -27,7 +27,7 @@ void Target::end_leases() {
         for (const uint16_t node : lease->second) {
             make_safe(node);
             say_("note",
-                 name_of(node) + " was stopped: who drove it by hand has lost the connection");
+                 name_of(node) + " was stopped: the page that drove it lost the connection");
         }
         lease = leases_.erase(lease);
     }

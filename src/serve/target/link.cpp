@@ -12,8 +12,8 @@ Connection Target::state() const {
 std::string Target::why_lost() const {
     if (!carrier_) return {};
     if (mute_ && carrier_->connection() == Connection::Connected) {
-        return "nobody on this link has answered for 3 s: a program or a cable on the way holds "
-               "what is sent; the nodes may be driving";
+        return "no answer on this link for 3 s: a program or cable is holding back what is sent; "
+               "the nodes may be driving";
     }
     return carrier_->why();
 }
@@ -22,7 +22,7 @@ void Target::link_changed() {
     if (connection_ == Connection::Connected) network_->link_lost();
     connection_ = state();
     if (connection_ == Connection::Connected) network_->list_nodes();
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 // Nodes are asked each second who is there. A link without nodes may be silent, and so may one of a

@@ -28,7 +28,7 @@ LineMap Target::lines_between(uint16_t node, Direction direction) const {
 }
 
 void Target::place_breakpoints() {
-    desk_.board().touch("breakpoints");
+    desk_.topics().touch("breakpoints");
     remember_lines();
     if (!network_) return;
     for (const uint16_t node : live_nodes()) {
@@ -40,7 +40,7 @@ void Target::place_breakpoints(uint16_t node) {
     const std::string doc = doc_of(node);
     const LineMap to_text = lines_between(node, Direction::ToText);
     const LineMap to_node = lines_between(node, Direction::ToNode);
-    for (const debug::Breakpoint& there : std::vector(network_->node(node)->breakpoints)) {
+    for (const debug::LineBreakpoint& there : std::vector(network_->node(node)->breakpoints)) {
         const auto here = to_text.after(there.line);
         const ScriptBreakpoint* wanted = here ? breakpoints_.find(doc, *here) : nullptr;
         if (!wanted || !wanted->enabled || wanted->condition != there.condition) {

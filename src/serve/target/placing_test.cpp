@@ -9,7 +9,7 @@ namespace {
 using testing::HasSubstr;
 using Type = wire::MessageType;
 
-struct PlacingTest : RobotTest {
+struct PlacingTest : TargetTest {
     static constexpr const char* kDoc = "robot.aesl#2";
     static constexpr const char* kText = "var n\nonevent tick\n  n = n + 1\n";
 
@@ -104,7 +104,7 @@ TEST_F(PlacingTest, AFaultIsShownAtItsLine) {
 // Else the clock of a simulation runs on, and the page says Running beside a node that is paused.
 TEST_F(PlacingTest, AFaultPausesTheClockAsABreakpointDoes) {
     int paused = 0;
-    RobotHints hints;
+    TargetHints hints;
     hints.stopped_at_breakpoint = [&paused] { ++paused; };
     target.set_hints(hints);
     type("var n\nonevent tick\n  n = 0\n  n = 5 / n\n");

@@ -13,8 +13,8 @@ void Target::restore(uint16_t node) {
     network_->set_common(script->common);
     if (known.loaded == script->source) (void)network_->adopt(node, script->result.program).ok();
     place_breakpoints();
-    desk_.board().touch("robot");
-    desk_.board().touch("node");
+    desk_.topics().touch("robot");
+    desk_.topics().touch("node");
 }
 
 // In a simulation it was its process that was slow: nothing has changed there. Elsewhere nobody
@@ -65,7 +65,7 @@ void Target::told_program(uint16_t node, uint32_t mark) {
     make_safe(node);
 }
 
-// It gets it again, and stands.
+// Its script is loaded again, and it stays paused.
 void Target::load_lost_programs() {
     std::vector<uint16_t> nodes;
     for (auto& [node, known] : known_) {
@@ -76,10 +76,10 @@ void Target::load_lost_programs() {
     }
     for (const uint16_t node : nodes) {
         const bool tells = debug::mark_address(network_->node(node)->target).has_value();
-        say_("note", name_of(node) + (tells ? " came back without its script; it gets it again "
-                                              "and stays paused"
-                                            : " came back and cannot tell with which script; it "
-                                              "gets its own again and stays paused"));
+        say_("note", name_of(node) + (tells ? " came back without its script; its script is "
+                                              "loaded again and it stays paused"
+                                            : " came back and cannot tell which script it has; "
+                                              "its script is loaded again and it stays paused"));
         load({node}, false, [](Batch&) {});
     }
 }

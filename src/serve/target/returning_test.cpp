@@ -8,9 +8,9 @@ namespace {
 
 using Type = wire::MessageType;
 
-// A cable was pulled and put back; meanwhile the node was started again, and stands where the
-// program before it stood.
-TEST_F(RobotTest, ANodeThatWasStartedAgainGetsItsScriptAndStands) {
+// A cable was pulled and put back; meanwhile the node was started again, and is where the
+// program before it was.
+TEST_F(TargetTest, ANodeThatWasStartedAgainGetsItsScriptAndStaysPaused) {
     run();
     bus.state = Connection::Lost;
     pass(100ms);
@@ -34,7 +34,7 @@ TEST_F(RobotTest, ANodeThatWasStartedAgainGetsItsScriptAndStands) {
 }
 
 // One that cannot tell what it runs, although it is what it was.
-TEST_F(RobotTest, InDoubtANodeGetsItsScriptAgain) {
+TEST_F(TargetTest, InDoubtANodeGetsItsScriptAgain) {
     run();
     bus.mute(kDrive);
     pass(4s);
@@ -47,7 +47,7 @@ TEST_F(RobotTest, InDoubtANodeGetsItsScriptAgain) {
 }
 
 // One that can tell, and says all else: nobody may wait for that for ever.
-struct DoubtTest : RobotTest {
+struct DoubtTest : TargetTest {
     // It was away, is back, and does not tell what it runs.
     void leave_in_doubt() {
         run();
@@ -93,7 +93,7 @@ TEST_F(DoubtTest, RunLoadsWhatNobodyKnows) {
 }
 
 // In a simulation its process was slow, and nothing else has happened.
-TEST_F(RobotTest, ANodeOfASimulationKeepsItsScript) {
+TEST_F(TargetTest, ANodeOfASimulationKeepsItsScript) {
     run("simulator");
     bus.mute(kDrive);
     pass(4s);

@@ -1,5 +1,5 @@
 // Stop as people press it in the studio. session/stopping.hpp brings the nodes to rest; this tells
-// whoever waits, once, and asks on afterwards until each node has stopped, is forgotten or
+// the caller, once, and asks on afterwards until each node has stopped, is forgotten or
 // acknowledged (design: safe stop, S6 and S9).
 //
 //     Stopping stopping;

@@ -12,7 +12,7 @@ using State = StopNode::State;
 using Type = wire::MessageType;
 using testing::Contains;
 
-TEST_F(RobotTest, StopTellsAllBeforeItWritesAndReadsBackWhatItWrote) {
+TEST_F(TargetTest, StopTellsAllBeforeItWritesAndReadsBackWhatItWrote) {
     run();
     stop();
     pass(200ms);
@@ -38,7 +38,7 @@ TEST_F(RobotTest, StopTellsAllBeforeItWritesAndReadsBackWhatItWrote) {
 }
 
 // What was written is 0, and the wheel still turns.
-TEST_F(RobotTest, ANodeThatAnsweredMovesUntilItsSpeedReadsZero) {
+TEST_F(TargetTest, ANodeThatAnsweredMovesUntilItsSpeedReadsZero) {
     run();
     bus.word(kDrive, "wheel.speed") = 30;
     stop();
@@ -55,7 +55,7 @@ TEST_F(RobotTest, ANodeThatAnsweredMovesUntilItsSpeedReadsZero) {
     EXPECT_EQ(node_document(kDrive)["stop"], "stopped");
 }
 
-TEST_F(RobotTest, ASilentNodeIsAskedEachSecondUntilItAnswers) {
+TEST_F(TargetTest, ASilentNodeIsAskedEachSecondUntilItAnswers) {
     run();
     bus.mute(kDrive);
     stop();
@@ -77,7 +77,7 @@ TEST_F(RobotTest, ASilentNodeIsAskedEachSecondUntilItAnswers) {
     EXPECT_EQ(count_sent(kDrive, Type::Stop), before);
 }
 
-TEST_F(RobotTest, ASilentNodeThatAPersonKnowsOfIsAskedNoMore) {
+TEST_F(TargetTest, ASilentNodeThatAPersonKnowsOfIsAskedNoMore) {
     run();
     bus.mute(kDrive);
     stop();
@@ -90,7 +90,7 @@ TEST_F(RobotTest, ASilentNodeThatAPersonKnowsOfIsAskedNoMore) {
 }
 
 // It was seen, and has not told what it is.
-TEST_F(RobotTest, ANodeWithoutADescriptionIsToldToStop) {
+TEST_F(TargetTest, ANodeWithoutADescriptionIsToldToStop) {
     run();
     bus.add(3, "late");
     wire::Frame present;
@@ -107,7 +107,7 @@ TEST_F(RobotTest, ANodeWithoutADescriptionIsToldToStop) {
 }
 
 // Another program's events show that it is there; nobody has told that it answers.
-TEST_F(RobotTest, AnIdThatWasOnlyHeardIsToldToStop) {
+TEST_F(TargetTest, AnIdThatWasOnlyHeardIsToldToStop) {
     run();
     wire::Frame event;
     event.source = 77;
@@ -121,7 +121,7 @@ TEST_F(RobotTest, AnIdThatWasOnlyHeardIsToldToStop) {
     EXPECT_TRUE(report.has_value());
 }
 
-TEST_F(RobotTest, NothingThatWasAskedBeforeFollowsStop) {
+TEST_F(TargetTest, NothingThatWasAskedBeforeFollowsStop) {
     connect();
     bus.mute(kDrive);
     std::vector<std::string> failed;
@@ -140,7 +140,7 @@ TEST_F(RobotTest, NothingThatWasAskedBeforeFollowsStop) {
 }
 
 // 100,000 events in a second under the id of a node, from another program.
-TEST_F(RobotTest, NoFloodUnderAnyIdKeepsStopFromANode) {
+TEST_F(TargetTest, NoFloodUnderAnyIdKeepsStopFromANode) {
     for (const uint16_t id : {kDrive, kBumper, uint16_t{77}, uint16_t{0}}) {
         if (target.connected()) target.disconnect();
         run();
@@ -160,7 +160,7 @@ TEST_F(RobotTest, NoFloodUnderAnyIdKeepsStopFromANode) {
     }
 }
 
-TEST_F(RobotTest, StopOfARobotThatWasLeftIsAnswered) {
+TEST_F(TargetTest, StopOfARobotThatWasLeftIsAnswered) {
     run();
     bus.mute(kDrive);
     stop();
@@ -171,7 +171,7 @@ TEST_F(RobotTest, StopOfARobotThatWasLeftIsAnswered) {
 
 // ---- the link ----
 
-TEST_F(RobotTest, ALinkThatIsHeldIsLostAndItsNodesAreSilent) {
+TEST_F(TargetTest, ALinkThatIsHeldIsLostAndItsNodesAreSilent) {
     run();
     bus.frozen = true;
     pass(kLinkSilentMax - 1100ms);  // the last answer may be a second old
@@ -189,7 +189,7 @@ TEST_F(RobotTest, ALinkThatIsHeldIsLostAndItsNodesAreSilent) {
 }
 
 // We were suspended, or held by something else: nothing was asked meanwhile.
-TEST_F(RobotTest, TimeInWhichWeWereLateIsNotTheSilenceOfALink) {
+TEST_F(TargetTest, TimeInWhichWeWereLateIsNotTheSilenceOfALink) {
     run();
     bus.frozen = true;
     pass(1s);
@@ -201,7 +201,7 @@ TEST_F(RobotTest, TimeInWhichWeWereLateIsNotTheSilenceOfALink) {
     EXPECT_EQ(target.state(), Connection::Connected);
 }
 
-TEST_F(RobotTest, ALinkWithoutNodesMayBeSilent) {
+TEST_F(TargetTest, ALinkWithoutNodesMayBeSilent) {
     bus.frozen = true;
     target.connect(bus, "tcp:x", "x", "bus", now);
     pass(10s);

@@ -52,7 +52,7 @@ void Target::connect(Carrier& carrier, const std::string& target, const std::str
     now_ = due_ = looked_at_ = now;
     connection_ = Connection::Connecting;
     network_ = std::make_unique<debug::Network>();
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 void Target::disconnect() {
@@ -81,8 +81,8 @@ void Target::disconnect() {
         }
         batch->finish(*batch);
     }
-    desk_.board().touch("robot");
-    desk_.board().touch("network");
+    desk_.topics().touch("robot");
+    desk_.topics().touch("network");
 }
 
 std::vector<DescribedNode> Target::described() const {
@@ -176,7 +176,7 @@ void Target::start_batch(const std::vector<uint16_t>& nodes, const Ask& ask,
         known_[node].busy = busy;
     }
     batches_.push_back(std::move(batch));
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 void Target::finish_batches() {
@@ -200,7 +200,7 @@ void Target::hear(const debug::RequestDone& done) {
         // The line that it stepped over may have set what drives.
         if (known_[node].busy == "stepping" && !brake_causes_.empty()) make_safe(node);
         known_[node].busy.clear();
-        desk_.board().touch("robot");
+        desk_.topics().touch("robot");
         if (done.error) {
             batch->failed.emplace_back(node, done.error->what);
         } else {
@@ -272,7 +272,7 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
             }
             note_failed_loads(batch);
             batch.failed.insert(batch.failed.end(), failed.begin(), failed.end());
-            desk_.board().touch("node");  // it has the variables of its new program
+            desk_.topics().touch("node");  // it has the variables of its new program
             place_breakpoints();
             finish(batch);
         },
@@ -329,17 +329,17 @@ void Target::pause_all(std::function<void(std::vector<std::string>)> done) {
         [done = std::move(done)](Batch& batch) { done(sentences(batch.failed)); }, "pausing");
 }
 
-void Target::run_standing(std::function<void(std::vector<std::string>)> done) {
-    let_run(standing_nodes(), std::move(done));
+void Target::run_paused(std::function<void(std::vector<std::string>)> done) {
+    let_run(paused_nodes(), std::move(done));
 }
 
-void Target::step_standing(std::function<void(std::vector<std::string>)> done) {
+void Target::step_paused(std::function<void(std::vector<std::string>)> done) {
     start_batch(
-        standing_nodes(), [this](uint16_t node) { return step(node); },
+        paused_nodes(), [this](uint16_t node) { return step(node); },
         [done = std::move(done)](Batch& batch) { done(sentences(batch.failed)); }, "stepping");
 }
 
-// Why it stood before is no longer why it stands.
+// Why it was paused before is no longer why it is paused.
 Result<debug::RequestId> Target::step(uint16_t node) {
     in_charge_ = true;
     end_rest();
@@ -350,17 +350,17 @@ Result<debug::RequestId> Target::step(uint16_t node) {
 }
 
 // Those that were stopped or paused and have a program.
-std::vector<uint16_t> Target::standing_nodes() const {
-    std::vector<uint16_t> standing = live_nodes();
-    std::erase_if(standing, [this](uint16_t node) {
+std::vector<uint16_t> Target::paused_nodes() const {
+    std::vector<uint16_t> paused = live_nodes();
+    std::erase_if(paused, [this](uint16_t node) {
         return network_->node(node)->state == debug::ProgramState::Running;
     });
-    return standing;
+    return paused;
 }
 
-bool Target::stands_inside() const {
-    const auto standing = standing_nodes();
-    return std::any_of(standing.begin(), standing.end(), [this](uint16_t node) {
+bool Target::is_paused_inside() const {
+    const auto paused = paused_nodes();
+    return std::any_of(paused.begin(), paused.end(), [this](uint16_t node) {
         const debug::NodeView* view = network_->node(node);
         return view->state == debug::ProgramState::Paused && view->at.line > 0 && !is_stopped(node);
     });
@@ -386,12 +386,12 @@ void Target::stop_all(std::function<void(const StopReport&)> done) {
     stopping_.begin(*network_, safe_stop_, heard, state() == Connection::Connected, now_,
                     std::move(done));
     send_frames();
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 void Target::acknowledge_stop() {
     stopping_.acknowledge();
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 Result<debug::RequestId> Target::stop(uint16_t node) {
@@ -410,7 +410,7 @@ void Target::note_stopped(const Batch& batch) {
 }
 
 void Target::script_changed(const std::string& file) {
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
     follow_lines(file);
     const aesl::CommonDefinitions* common = scripts_.common(file);
     // What nodes have loaded tells numbers of events by its own list.
@@ -470,8 +470,8 @@ void Target::count_rates(Time now) {
     events_a_second_ = static_cast<double>(events_ - events_before_) / seconds;
     events_before_ = events_;
     rates_at_ = now;
-    desk_.board().touch("robot");
-    desk_.board().touch("network");
+    desk_.topics().touch("robot");
+    desk_.topics().touch("network");
 }
 
 }  // namespace vagus::serve

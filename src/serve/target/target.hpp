@@ -6,11 +6,11 @@
 //     target.tick(now);
 //
 // A node that was away comes back without anybody doing anything: one that says that it kept its
-// program goes on with its breakpoints; any other gets it again and stands until someone lets it
+// program goes on with its breakpoints; any other gets it again and is paused until a page lets it
 // run.
 //
 // What moves is stopped wherever nobody watches it (safe stop): stop_all() reads back whether nodes
-// are at rest; of a live robot, one node that stands brakes all (brake.cpp); who drives by hand and
+// are at rest; of a live robot, one paused node brakes all (brake.cpp); a page that drives and
 // loses the connection drives no more (lease.cpp).
 #pragma once
 
@@ -49,7 +49,7 @@ constexpr size_t kSamplesKept = 20'000;    // of each plotted word
 constexpr size_t kSamplesAtOnce = 10'000;  // in one frame; the rest comes with the next
 
 // What a simulation adds to what nodes tell of themselves.
-struct RobotHints {
+struct TargetHints {
     std::function<std::string(uint16_t node)> robot_of = [](uint16_t) { return std::string(); };
     // The plan waits for an event of that name.
     std::function<bool(const std::string& event)> plan_hears = [](auto&) { return false; };
@@ -72,12 +72,12 @@ struct TargetCounts {
 
 // For the history: what happened, a Happening of the protocol; where a node is paused; words that
 // were seen, and words that nobody looks at any more.
-struct RobotTold {
+struct TargetTold {
     using Words = std::span<const int16_t>;
     std::function<void(const nlohmann::json& happening)> happening = [](auto&) {};
     // The number of the run that it belongs to.
     std::function<uint64_t()> run = [] { return uint64_t{0}; };
-    std::function<void(double t, uint16_t node, const std::string& state, int line)> stands =
+    std::function<void(double t, uint16_t node, const std::string& state, int line)> node_state =
         [](double, uint16_t, auto&, int) {};
     std::function<void(double t, uint16_t node, uint16_t address, Words values)> words =
         [](double, uint16_t, uint16_t, Words) {};
@@ -100,8 +100,8 @@ public:
     Target(Desk& desk, Files& files, Scripts& scripts, ScriptBreakpoints& breakpoints);
     ~Target();
 
-    void set_hints(RobotHints hints) { hints_ = std::move(hints); }
-    void on_told(RobotTold told) { told_ = std::move(told); }
+    void set_hints(TargetHints hints) { hints_ = std::move(hints); }
+    void on_told(TargetTold told) { told_ = std::move(told); }
     // What is told to the people: a line of the console.
     void on_say(std::function<void(const std::string& kind, const std::string& text)> say) {
         say_ = std::move(say);
@@ -147,15 +147,15 @@ public:
     void load_changed(bool run, std::function<void(std::vector<std::string>)> done);
     void run_all(std::function<void(std::vector<std::string>)> done);
     void pause_all(std::function<void(std::vector<std::string>)> done);
-    // Of the nodes that stand only.
-    void run_standing(std::function<void(std::vector<std::string>)> done);
-    void step_standing(std::function<void(std::vector<std::string>)> done);
+    // Of the paused nodes only.
+    void run_paused(std::function<void(std::vector<std::string>)> done);
+    void step_paused(std::function<void(std::vector<std::string>)> done);
     // A node is paused at a line of its script.
-    bool stands_inside() const;
+    bool is_paused_inside() const;
     // Empty if it is not there or has not told what it is.
     std::string described_name(uint16_t node) const;
     // Nodes that somebody debugs: paused, reset, stepped or loaded from here, at a breakpoint of
-    // whoever, or paused because of such a one. In ascending order.
+    // a host, or paused because of such a one. In ascending order.
     std::vector<uint16_t> held_nodes() const;
     // Nodes that the project has no script for.
     std::vector<uint16_t> without_script() const;
@@ -184,7 +184,7 @@ private:
         std::string loaded;  // the source that was loaded
         bool has_program = false;
         double loaded_wall = 0;
-        std::string why;  // it stands
+        std::string why;  // it is paused
         std::string fault;
         int fault_line = 0;  // 0: not known
         std::string busy;
@@ -261,7 +261,7 @@ private:
     void load_lost_programs();
     std::vector<uint16_t> nodes_of(const Json& node) const;
     std::vector<uint16_t> live_nodes() const;
-    std::vector<uint16_t> standing_nodes() const;
+    std::vector<uint16_t> paused_nodes() const;
     bool is_stopped(uint16_t node) const {
         const auto known = known_.find(node);
         return known != known_.end() && known->second.stopped;
@@ -304,7 +304,7 @@ private:
     std::string doc_of(uint16_t node) const;
     std::string name_of(uint16_t node) const;
 
-    Json robot_document() const;
+    Json target_document() const;
     Json node_document(const Json& of) const;
     Json node_line(uint16_t id) const;
     Json network_document() const;
@@ -313,8 +313,8 @@ private:
     Files& files_;
     Scripts& scripts_;
     ScriptBreakpoints& breakpoints_;
-    RobotHints hints_;
-    RobotTold told_;
+    TargetHints hints_;
+    TargetTold told_;
     std::function<void(const std::string&, const std::string&)> say_ = [](auto&, auto&) {};
     std::function<void()> breakpoints_changed_ = [] {};
 
@@ -331,7 +331,7 @@ private:
     session::Stopping resting_;  // while scripts run on
     Time rest_until_{};
     bool in_charge_ = false;                         // somebody has acted on the robot from here
-    std::set<uint16_t> brake_causes_;                // nodes that stand, or are away
+    std::set<uint16_t> brake_causes_;                // nodes that are paused, or away
     std::set<uint16_t> braked_;                      // nodes that were paused because of them
     std::map<uint32_t, std::set<uint16_t>> leases_;  // what each client drives by hand
     std::unique_ptr<debug::Network> network_;
@@ -344,7 +344,7 @@ private:
     // Values of watched variables as they were told last: by node and address.
     std::map<uint16_t, std::map<uint16_t, int16_t>> values_;
     std::map<uint16_t, WordRanges> wanted_;  // that pages look at, by node
-    uint64_t wanted_of_ = 0;                 // Board::subscriptions()
+    uint64_t wanted_of_ = 0;                 // Topics::subscriptions()
     uint64_t watched_made_ = 0;
     std::map<uint16_t, std::set<std::string>> watched_;  // names that we watch at the network
     struct Sample {

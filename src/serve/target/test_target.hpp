@@ -129,11 +129,11 @@ private:
     std::vector<std::pair<hub::LinkId, wire::Frame>> said_;
 };
 
-class RobotTest : public testing::Test {
+class TargetTest : public testing::Test {
 protected:
     static constexpr uint16_t kDrive = 1, kBumper = 2;
 
-    RobotTest()
+    TargetTest()
         : desk(Access(kPageToken, "fedcba9876543210"),
                {.send = [this](ClientId, bool,
                                std::string bytes) { got_.push_back(Json::parse(bytes)); },

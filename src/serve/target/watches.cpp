@@ -6,18 +6,10 @@
 
 #include "serve/target/target.hpp"
 
+#include "serve/bytes.hpp"
 #include "serve/json.hpp"
 
 namespace vagus::serve {
-
-namespace {
-
-template <typename T>
-void append(std::string& bytes, T value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-}  // namespace
 
 // The words of some ranges of a node, sent when they differ from what was sent.
 struct Target::VariableWatch final : BinaryWatch {
@@ -128,26 +120,26 @@ struct Target::SampleWatch final : BinaryWatch {
 };
 
 void Target::declare_watches() {
-    desk_.board().binary(
+    desk_.topics().binary(
         "variables", [this](const Json& of) { return std::make_unique<VariableWatch>(*this, of); },
         [](const Json& of) { return VariableWatch::fault_of(of); });
-    desk_.board().binary(
+    desk_.topics().binary(
         "samples", [this](const Json& of) { return std::make_unique<SampleWatch>(*this, of); });
 }
 
 // What pages look at is another only when a page asks for something else.
 void Target::put_watched_together() {
-    if (wanted_of_ == desk_.board().subscriptions()) return;
-    wanted_of_ = desk_.board().subscriptions();
+    if (wanted_of_ == desk_.topics().subscriptions()) return;
+    wanted_of_ = desk_.topics().subscriptions();
     ++watched_made_;
     wanted_.clear();
-    for (const Json& of : desk_.board().subjects("variables")) {
+    for (const Json& of : desk_.topics().subjects("variables")) {
         const WordRanges ranges = VariableWatch::ranges_of(of);
         WordRanges& all = wanted_[of["node"].get<uint16_t>()];
         all.insert(all.end(), ranges.begin(), ranges.end());
     }
     std::set<std::pair<uint16_t, uint16_t>> plotted;
-    for (const Json& of : desk_.board().subjects("samples")) {
+    for (const Json& of : desk_.topics().subjects("samples")) {
         for (const auto& word : SampleWatch::words_of(of)) {
             wanted_[word.first].push_back({word.second, uint32_t{word.second} + 1});
             plotted.insert(word);

@@ -24,7 +24,7 @@ TEST(WordRanges, WhatOverlapsIsOne) {
     EXPECT_FALSE(has_some(ranges, 11, 99));
 }
 
-class WatchedTest : public RobotTest {
+class WatchedTest : public TargetTest {
 protected:
     Json watch(uint32_t number, uint32_t node, const Json& ranges) {
         return say("watch", {{"watch", number},

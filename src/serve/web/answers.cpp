@@ -73,7 +73,7 @@ Answer without_token(const Asking& asked, const Shown& shown) {
 Answer stop_answer(const Asking& asked, const Shown& shown) {
     if (!shown.may_look(token_of(asked))) return without_token(asked, shown);
     shown.stop();
-    return plain(asked, http::status::accepted, "Stop is given");
+    return plain(asked, http::status::accepted, "Stop sent");
 }
 
 Answer metrics_answer(const Asking& asked, const Shown& shown) {

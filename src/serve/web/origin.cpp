@@ -19,10 +19,6 @@ std::string in_brackets(const std::string& address) {
     return address.find(':') == std::string::npos ? address : "[" + address + "]";
 }
 
-bool is_loopback(const std::string& address) {
-    return address == "::1" || address.starts_with("127.");
-}
-
 std::vector<std::string> allowed_hosts(const Asked& asked, const std::vector<std::string>& names) {
     std::vector<std::string> hosts = {in_brackets(asked.local_address)};
     if (is_loopback(asked.local_address)) hosts.emplace_back("localhost");
@@ -36,6 +32,10 @@ std::vector<std::string> allowed_hosts(const Asked& asked, const std::vector<std
 }
 
 }  // namespace
+
+bool is_loopback(std::string_view address) {
+    return address == "::1" || address.starts_with("127.");
+}
 
 std::optional<std::string> refusal_of(const Asked& asked, const std::vector<std::string>& names) {
     const std::vector<std::string> hosts = allowed_hosts(asked, names);

@@ -9,6 +9,9 @@
 
 namespace vagus::serve {
 
+// An address of this computer that no other one reaches: 127.0.0.1, ::1.
+bool is_loopback(std::string_view address);
+
 struct Asked {
     std::string host;                   // the header, "localhost:8080"; empty: missing
     std::optional<std::string> origin;  // the header

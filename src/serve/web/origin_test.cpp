@@ -39,5 +39,14 @@ TEST(Origin, UsualPortsMayBeMissing) {
     EXPECT_FALSE(refusal_of({"[::1]:9", "http://[::1]:9", "::1", 9, false}, {}));
 }
 
+TEST(Origin, LoopbackIsThisComputerOnly) {
+    EXPECT_TRUE(is_loopback("127.0.0.1"));
+    EXPECT_TRUE(is_loopback("127.1.2.3"));
+    EXPECT_TRUE(is_loopback("::1"));
+    EXPECT_FALSE(is_loopback("0.0.0.0"));
+    EXPECT_FALSE(is_loopback("::"));
+    EXPECT_FALSE(is_loopback("192.168.0.12"));
+}
+
 }  // namespace
 }  // namespace vagus::serve

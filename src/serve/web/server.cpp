@@ -214,7 +214,7 @@ private:
         co_await socket_.async_close(why, as_tuple(use_awaitable));
     }
 
-    // In pieces: who takes a long message slowly is seen to take it.
+    // In pieces: a page that takes a long message slowly is seen to take it.
     awaitable<bool> write(const Outgoing& message) {
         socket_.binary(message.binary);
         size_t at = 0;

@@ -2,16 +2,16 @@
 // own. It knows bytes, addresses and limits, not what messages are for: they come out as values,
 // read by the protocol's list, and what is sent goes in as text or bytes.
 //
-//     auto started = WebServer::start({.pages = "share/pages"}, [&] { network.wake(); });
+//     auto started = WebServer::start({.pages = "share/pages"}, [&] { links.wake(); });
 //     WebServer& web = *started.value();
 //     for (WebEvent& event : web.take()) hear(event);              // the thread that asks
 //     web.send(client, R"({"id":1,"ok":{}})");
 //
-// What a browser may do here (serve.md, who may do what): GET and HEAD of the pages, /healthz,
+// What a browser may do here (docs/protocol.md): GET and HEAD of the pages, /healthz,
 // /metrics with a token, POST /stop with a token, and the WebSocket at /live. Host must name this
 // machine and Origin, if there is one, the same host: other pages in the same browser and names
-// that point here get nothing. Who is whom is decided by the token, in the first message, by
-// whoever takes the events. Until know() says so a connection is a stranger: it may say one short
+// that point here get nothing. The token in the first message says who a client is; the taker
+// of the events checks it. Until know() says so a connection is a stranger: it may say one short
 // message, and above the limits the stranger that is silent the longest makes room for the next.
 #pragma once
 

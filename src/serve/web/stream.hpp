@@ -5,7 +5,7 @@
 //     if (co_await stream.accept_tls(context) != TlsBegins::Yes) co_return;
 //     websocket::stream<Stream> socket(std::move(stream));
 //
-// For one thread: what waits is called by whoever runs the executor of the connection.
+// For one thread: what waits is called by the thread of the executor of the connection.
 #pragma once
 
 #include <array>

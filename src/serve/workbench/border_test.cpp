@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "base/test_folder.hpp"
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/json.hpp"
 #include "serve/workbench/workbench.hpp"
 
@@ -121,7 +121,7 @@ protected:
                                        .close = [this](ClientId, const std::string&) { ++closed; },
                                        .log = [](const std::string&) {},
                                        .wall_ms = [] { return 1e12; }}),
-          bench(network, desk,
+          bench(links, desk,
                 {.library = {root / "data", root / "examples"},
                  .settings = (root / "settings.json").string(),
                  .program = "/bin/false",
@@ -173,7 +173,7 @@ protected:
     size_t unread = 0;
     int closed = 0;
     std::vector<Json> got;
-    net::Network network;
+    net::Links links;
     Desk desk;
     Workbench bench;
 };

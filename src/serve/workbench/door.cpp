@@ -9,6 +9,7 @@
 
 #include "base/file.hpp"
 #include "serve/process.hpp"
+#include "serve/web/origin.hpp"
 
 namespace vagus::serve {
 
@@ -20,10 +21,6 @@ double wall_ms() {
     return std::chrono::duration<double, std::milli>(
                std::chrono::system_clock::now().time_since_epoch())
         .count();
-}
-
-bool is_loopback(const std::string& address) {
-    return address == "::1" || address.starts_with("127.");
 }
 
 std::string random_token() {

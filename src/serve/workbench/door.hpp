@@ -1,7 +1,7 @@
 // How a server is reached: its tokens, its pages and its address on this computer. The same for the
 // studio on a desk and for a robot that serves itself.
 //
-//     Door door = TRY(Door::open(options, data, [&] { network.wake(); }));
+//     Door door = TRY(Door::open(options, data, [&] { links.wake(); }));
 //     Desk desk(door.access(), door.outside(log));
 //     for (const WebEvent& event : door.web().take()) desk.hear(event, now);
 #pragma once

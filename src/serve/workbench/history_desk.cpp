@@ -89,7 +89,7 @@ HistoryDesk::HistoryDesk(Desk& desk, Files& files, Worker::Post post)
 }
 
 void HistoryDesk::declare() {
-    desk_.board().document("history", [this](const Json&) { return now_->document(); });
+    desk_.topics().document("history", [this](const Json&) { return now_->document(); });
     desk_.command("history.at", [this](const Call& call) {
         const auto instant = instant_of(call.in);
         if (!instant.ok()) return call.fail(instant.error());
@@ -143,7 +143,7 @@ void HistoryDesk::begin(History::Beginning beginning) {
     next_ = std::make_unique<History>();
     next_->begin(std::move(beginning));
     if (now_->empty()) now_ = std::move(next_);
-    desk_.board().touch("history");
+    desk_.topics().touch("history");
 }
 
 void HistoryDesk::forget() {
@@ -155,7 +155,7 @@ void HistoryDesk::forget() {
             one.call.fail("unavailable", path + ": the project was closed while it was read");
         }
     }
-    desk_.board().touch("history");
+    desk_.topics().touch("history");
 }
 
 // What was opened goes as soon as time passes: then it takes the place of what ran before.
@@ -163,7 +163,7 @@ History& HistoryDesk::told_at(double t) {
     if (next_ && t <= 0) return *next_;
     if (next_) {
         now_ = std::move(next_);
-        desk_.board().touch("history");
+        desk_.topics().touch("history");
     }
     return *now_;
 }
@@ -188,8 +188,8 @@ void HistoryDesk::happening(const Json& happening, double t) {
                        happening["args"].get<std::vector<int16_t>>()});
 }
 
-void HistoryDesk::stands(double t, uint16_t node, const std::string& state, int line) {
-    told_at(t).stand(t, node, state, line);
+void HistoryDesk::node_state(double t, uint16_t node, const std::string& state, int line) {
+    told_at(t).node_state(t, node, state, line);
 }
 
 void HistoryDesk::words(double t, uint16_t node, uint16_t address,
@@ -206,7 +206,7 @@ void HistoryDesk::tick(double t) {
     const double to = now_->to();
     if (std::abs(to - told_to_) < kTellEvery) return;
     told_to_ = to;
-    desk_.board().touch("history");
+    desk_.topics().touch("history");
 }
 
 // ---- traces as files ----

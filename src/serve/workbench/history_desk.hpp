@@ -1,5 +1,5 @@
 // The history of the run, and traces that were opened as files, for pages: the topic history, and
-// the commands history.at, history.lanes, history.open, history.save. Told what happens by whoever
+// the commands history.at, history.lanes, history.open, history.save. Told what happens by what
 // has the run and the robot.
 //
 //     HistoryDesk histories(desk, files);
@@ -73,10 +73,10 @@ public:
     void trace(const std::string& line);
     void records(const std::string& bytes);
     void happening(const Json& happening, double t);
-    void stands(double t, uint16_t node, const std::string& state, int line);
+    void node_state(double t, uint16_t node, const std::string& state, int line);
     void words(double t, uint16_t node, uint16_t address, std::span<const int16_t> values);
     void unwatched(double t, uint16_t node, uint16_t address, uint16_t count);
-    // The clock of what runs, whether it goes or stands.
+    // The clock of what runs, whether it runs or is paused.
     void tick(double t);
 
 private:

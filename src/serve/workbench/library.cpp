@@ -23,7 +23,7 @@ namespace {
 constexpr const char* kRobotMark = "robot";  // the same: made for the nodes of a target
 constexpr const char* kMark = "example";     // of .vagus/, in a copy: which one it is of
 
-// As they stand on the start screen; others follow.
+// As they are on the start screen; others follow.
 constexpr const char* kOrder[] = {"follow-wall", "thymio",        "find-object", "rooms",
                                   "obstacle",    "infrared",      "patterns",    "follow-object",
                                   "carbot",      "traffic-light", "epuck"};

@@ -115,7 +115,7 @@ Status Workbench::open_world(RunOrder order, bool keep_poses) {
 void Workbench::perform(const life::ConnectWorld&) {
     loaded_by_world_ = run_.programs();
     target_.connect(run_, "sim", "Simulator", "simulator", now_);
-    desk_.board().touch("robot");
+    desk_.topics().touch("robot");
 }
 
 void Workbench::perform(const life::LoadNodes& load) {
@@ -133,7 +133,7 @@ void Workbench::perform(const life::LetNodesGo& go) {
         if (!stayed.empty()) say("warning", joined_lines(stayed));
         tell_life(life::Went{start});
     };
-    go.all ? target_.run_all(went) : target_.run_standing(went);
+    go.all ? target_.run_all(went) : target_.run_paused(went);
 }
 
 void Workbench::perform(const life::BeginRun&) {
@@ -235,7 +235,7 @@ void Workbench::perform(const life::AnswerStop& answer) {
 }
 
 void Workbench::perform(const life::Tell& told) {
-    desk_.board().touch("end");
+    desk_.topics().touch("end");
     if (told.again) return ends_.renew(told.end);
     ends_.add(told.end, clock(), desk_.wall_ms());
     say(ends_.kind(), ends_.sentence());

@@ -69,8 +69,8 @@ Result<OpenedProject> open_file(const fs::path& file) {
     } else if (kind == "world") {
         opened.world = path;
     } else {
-        return Error{Code::BadInput, fmt::format("{}: this is nothing that can be opened; {}",
-                                                 file.string(), kWhatOpens)};
+        return Error{Code::BadInput,
+                     fmt::format("{}: cannot be opened; {}", file.string(), kWhatOpens)};
     }
     return opened;
 }

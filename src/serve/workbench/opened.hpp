@@ -34,7 +34,7 @@ struct OpenedProject {
 
     // A path of the project as one of this computer.
     std::string real(const std::string& path) const { return (root / path).string(); }
-    // The document of a file of this computer; the path itself if it stands elsewhere.
+    // The document of a file of this computer; the path itself if it is elsewhere.
     std::string doc_of(const std::string& file) const;
     nlohmann::json to_json() const;  // Project of the protocol
 };

@@ -42,13 +42,13 @@ Json place(const aesl::Position& at) {
 }  // namespace
 
 // Before a run and during it the host has the same list.
-std::vector<talk::Breakpoint> Workbench::plan_breakpoint_orders() const {
+std::vector<talk::BreakpointOrder> Workbench::plan_breakpoint_orders() const {
     return plan_breakpoints_.orders(
         [this](const std::string& doc) { return project_ ? project_->real(doc) : doc; });
 }
 
 void Workbench::plan_breakpoints_changed() {
-    desk_.board().touch("breakpoints");
+    desk_.topics().touch("breakpoints");
     keep_breakpoints();
     run_.set_breakpoints(plan_breakpoint_orders());
 }

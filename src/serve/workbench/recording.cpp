@@ -24,8 +24,8 @@ void Workbench::record_history() {
     target_.on_told({
         .happening = [this, at](const Json& one) { history_.happening(one, at(one["t"])); },
         .run = [this] { return history_.run(); },
-        .stands = [this, at](double t, uint16_t node, const std::string& state,
-                             int line) { history_.stands(at(t), node, state, line); },
+        .node_state = [this, at](double t, uint16_t node, const std::string& state,
+                                 int line) { history_.node_state(at(t), node, state, line); },
         // Of a simulation the records tell all words.
         .words =
             [this](double, uint16_t node, uint16_t address, std::span<const int16_t> values) {

@@ -3,7 +3,7 @@
 //     RunEnds ends;
 //     ends.add(end, t, wall_ms);
 //     say(ends.kind(), ends.sentence());
-//     board.document("end", [&](const Json&) { return ends.document(); });
+//     topics.document("end", [&](const Json&) { return ends.document(); });
 #pragma once
 
 #include <cstdint>

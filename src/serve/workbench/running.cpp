@@ -44,14 +44,14 @@ void Workbench::leave(const life::Cause& cause, std::function<void()> then) {
 
 Status Workbench::join_target(const std::string& target) {
     project_->target = target;
-    desk_.board().touch("studio");
+    desk_.topics().touch("studio");
     if (target == "sim") {
         if (project_->world.empty()) return Error{Code::Unavailable, kNoWorld};
         tell_life(life::Open{});
         live();
         return Status::done();
     }
-    auto connected = BusCarrier::connect(network_, target);
+    auto connected = BusCarrier::connect(links_, target);
     if (!connected.ok()) return connected.error();
     bus_ = std::move(connected.value());
     bus_since_ = now_;
@@ -80,7 +80,7 @@ RunOrder Workbench::order_of(const std::string& plan, const Json& set) const {
     return order;
 }
 
-// The file says something else than what stands there.
+// The file says something else than what is shown.
 bool Workbench::world_has_changed() const {
     const auto text = files_.text(project_->world);
     return text.ok() && (text.value() != opened_world_ || picture_now_ != picture_then_);
@@ -95,7 +95,7 @@ void Workbench::note_opened_world(const std::string& text) {
         picture_ = project_->real(path_from(project_->world, named.text));
     }
     picture_now_ = picture_then_ = state_of_file(picture_);
-    desk_.board().touch("studio");
+    desk_.topics().touch("studio");
 }
 
 // Another image in the file of the ground makes it another world.
@@ -134,7 +134,7 @@ void Workbench::check_change(const Call& call) {
     });
 }
 
-// A world that only stands there shows at once what was saved.
+// A world that does not run shows at once what was saved.
 void Workbench::world_saved(const std::string& path) {
     if (!project_ || path != project_->world || !simulates() || !run_.rests()) return;
     if (life_.state() != Life::State::Ready || !world_has_changed()) return;
@@ -145,7 +145,7 @@ void Workbench::world_saved(const std::string& path) {
 void Workbench::world_edited(const std::string& path) {
     if (!project_ || path != project_->world) return;
     world_edited_ = now_;
-    desk_.board().touch("studio");
+    desk_.topics().touch("studio");
 }
 
 bool Workbench::is_being_opened() const {
@@ -161,8 +161,8 @@ void Workbench::follow_world_text() {
     const bool failed = life_.state() == Life::State::None;  // to open: a picture that is none
     const bool stands = run_.is_open() && !bus_ && (failed || (simulates() && at_start));
     if (!project_ || !stands || world_touched_ || !world_has_changed()) return;
-    const std::vector<Finding> found = check_world_file(files_, project_->world).findings;
-    const auto is_error = [](const Finding& one) { return one.severity == Severity::Error; };
+    const std::vector<DocFinding> found = check_world_file(files_, project_->world).findings;
+    const auto is_error = [](const DocFinding& one) { return one.severity == Severity::Error; };
     if (std::any_of(found.begin(), found.end(), is_error)) return;
     tell_life(life::Open{});
     live();
@@ -203,10 +203,10 @@ void Workbench::start_with(const Call& call, const std::string& plan, life::Star
     }
     start.call = keep(call);
     start.plan = !plan.empty();
-    start.world_anew = !bus_ && (!simulates() || world_has_changed());
+    start.world_again = !bus_ && (!simulates() || world_has_changed());
     if (start.plan) {
         // What begins does so with what is saved.
-        if (!life_.plan_runs() || start.anew) saved_plans_.clear();
+        if (!life_.plan_runs() || start.again) saved_plans_.clear();
         RunOrder order = order_of(plan, call.in.value("set", Json::object()));
         order.from = call.in.value("from", "");
         orders_.emplace(start.call, std::move(order));
@@ -216,8 +216,8 @@ void Workbench::start_with(const Call& call, const std::string& plan, life::Star
 }
 
 void Workbench::step(const Call& call) {
-    if (bus_ || target_.stands_inside()) {
-        return target_.step_standing([call](const std::vector<std::string>& failed) {
+    if (bus_ || target_.is_paused_inside()) {
+        return target_.step_paused([call](const std::vector<std::string>& failed) {
             if (failed.empty()) return call.done();
             call.fail("failed", joined_lines(failed));
         });
@@ -241,7 +241,7 @@ void Workbench::end_by(const std::string& by, life::Why why) {
 
 // Nobody looks any more, and the project says that it does not work alone.
 void Workbench::people_changed() {
-    desk_.board().touch("studio");
+    desk_.topics().touch("studio");
     const size_t people = desk_.clients().connected();
     const bool left = std::exchange(people_, people) > 0 && people == 0;
     if (left && project_ && project_->stops_alone) end_by("nobody", life::Why::Alone);
@@ -257,7 +257,7 @@ void Workbench::declare_run_commands() {
             return call.fail("not_found", "another end was told since");
         }
         target_.acknowledge_stop();
-        desk_.board().touch("end");
+        desk_.topics().touch("end");
         call.done();
     });
     desk_.command("run.start", [this](const Call& call) { start(call); });
@@ -317,7 +317,7 @@ void Workbench::declare_plan_commands() {
         const std::string plan = call.in.value("doc", project_->plan);
         if (plan.empty()) return call.fail("not_found", "the project has no plan");
         if (!save_all(call)) return;
-        start_with(call, plan, {.go = true, .anew = true});
+        start_with(call, plan, {.go = true, .again = true});
     });
     const auto while_it_runs = [this](const char* name, std::function<void(const Call&)> act) {
         desk_.command(name, [this, act = std::move(act)](const Call& call) {
@@ -354,7 +354,7 @@ void Workbench::declare_plan_commands() {
             return call.fail("not_found", "the project has no plan");
         }
         if (!save_all(call)) return;
-        start_with(call, project_->plan, {.go = false, .anew = true});
+        start_with(call, project_->plan, {.go = false, .again = true});
     });
 }
 

@@ -1,9 +1,9 @@
-// What `vagus studio` and `vagus serve` have in common: the network, the door, the desk and the
+// What `vagus studio` and `vagus serve` have in common: the links, the door, the desk and the
 // workbench, the loop until a signal comes, and an end after which nothing moves.
 //
 //     ServerLoop server;
 //     TRY(server.open(options.door, data, log, places));
-//     TRY(server.bench().open("examples/follow-wall", server.network().now()));
+//     TRY(server.bench().open("examples/follow-wall", server.links().now()));
 //     server.run({.next_tick = …, .tick = …});
 #pragma once
 
@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/studio/calm_log.hpp"
 #include "serve/workbench/door.hpp"
 #include "serve/workbench/workbench.hpp"
@@ -34,7 +34,7 @@ public:
     // Listens for pages, and for signals.
     Status open(const DoorOptions& options, const std::filesystem::path& data,
                 const std::function<void(const std::string&)>& log, const WorkbenchPlaces& places);
-    net::Network& network() { return network_; }
+    net::Links& links() { return links_; }
     Door& door() { return *door_; }
     Desk& desk() { return *desk_; }
     Workbench& bench() { return *bench_; }
@@ -51,7 +51,7 @@ private:
     void guarded(const std::function<void()>& part);
     void end();
 
-    net::Network network_;
+    net::Links links_;
     std::optional<Door> door_;
     std::unique_ptr<Desk> desk_;
     std::unique_ptr<Workbench> bench_;

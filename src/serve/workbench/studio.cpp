@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A page of a file leads on: what stands on a command line every user of the computer can read.
+// A page of a file leads on: every user of the computer can read a command line.
 std::string page_that_leads_to(const std::string& address) {
     return fmt::format(
         "<!doctype html><meta charset=\"utf-8\"><title>Vagus</title>"
@@ -32,7 +32,7 @@ WorkbenchPlaces places_of(const StudioOptions& options, const fs::path& data) {
 }
 
 Status open_first(const StudioOptions& options, ServerLoop& server) {
-    const Time now = server.network().now();
+    const Time now = server.links().now();
     if (!options.example.empty()) return server.bench().open_example(options.example, now);
     if (!options.project.empty()) return server.bench().open(options.project, now);
     return Status::done();

@@ -21,8 +21,8 @@ constexpr size_t kEntriesMax = 2000;  // of a folder that is shown for choosing
 
 }  // namespace
 
-Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& places)
-    : network_(network),
+Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& places)
+    : links_(links),
       desk_(desk),
       places_(places),
       library_(places.library),
@@ -32,9 +32,9 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
       editing_(desk, files_, scripts_, desk.epoch()),
       target_(desk, files_, scripts_, breakpoints_),
       run_(desk, start_runner(places.program)),
-      worker_([&network] { network.wake(); }),
+      worker_([&links] { links.wake(); }),
       history_(desk, files_, worker_.poster()) {
-    files_.on_wake([&network] { network.wake(); });
+    files_.on_wake([&links] { links.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
         say(kind, with_short_paths(text));
     };
@@ -71,7 +71,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
     run_.set_short([this](const std::string& text) { return with_short_paths(text); });
     hear_run();
     run_.on_breakpoints([this](const Run::BreakpointsNow& list) {
-        if (plan_breakpoints_.note(list)) desk_.board().touch("breakpoints");
+        if (plan_breakpoints_.note(list)) desk_.topics().touch("breakpoints");
     });
     record_history();
     desk.on_people([this] { people_changed(); });
@@ -87,7 +87,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
 Workbench::~Workbench() = default;
 
 void Workbench::say(const std::string& kind, const std::string& text) {
-    desk_.board().add("console", {{"t", clock()}, {"kind", kind}, {"text", text}});
+    desk_.topics().add("console", {{"t", clock()}, {"kind", kind}, {"text", text}});
     line_(kind, text);
 }
 
@@ -100,21 +100,21 @@ double Workbench::clock() const {
 // ---- documents ----
 
 void Workbench::declare_topics() {
-    Board& board = desk_.board();
-    board.document("studio", [this](const Json&) { return studio_document(); });
-    board.document("start", [this](const Json&) {
+    Topics& topics = desk_.topics();
+    topics.document("studio", [this](const Json&) { return studio_document(); });
+    topics.document("start", [this](const Json&) {
         return Json{{"examples", library_.examples()}, {"recent", library_.recent()}};
     });
-    board.document("targets", [this](const Json&) { return targets_.document(); });
-    board.document("state", [this](const Json&) {
+    topics.document("targets", [this](const Json&) { return targets_.document(); });
+    topics.document("state", [this](const Json&) {
         return Json{{"values", state_.object("window")}};
     });
-    board.document("breakpoints", [this](const Json&) {
+    topics.document("breakpoints", [this](const Json&) {
         return Json{{"breakpoints", target_.breakpoints_list()},
                     {"plans", plan_breakpoints_.list()}};
     });
-    board.document("end", [this](const Json&) { return ends_.document(); });
-    board.stream("console", Protocol::get().limit("lines_kept"));
+    topics.document("end", [this](const Json&) { return ends_.document(); });
+    topics.stream("console", Protocol::get().limit("lines_kept"));
 }
 
 Json Workbench::studio_document() const {
@@ -155,7 +155,7 @@ void Workbench::declare_project_commands() {
     });
     desk_.command("project.forget", [this](const Call& call) {
         library_.forget(call.in["path"]);
-        desk_.board().touch("start");
+        desk_.topics().touch("start");
         call.done();
     });
     desk_.command("script.add", [this](const Call& call) {
@@ -240,7 +240,7 @@ void Workbench::enter(OpenedProject project) {
     for (const std::string& path : files_.recovered()) {
         say("warning", path + ": this text was not saved when the studio ended; here it is again");
     }
-    for (const char* topic : {"studio", "state", "start"}) desk_.board().touch(topic);
+    for (const char* topic : {"studio", "state", "start"}) desk_.topics().touch(topic);
     // What the project is for; a robot that is not there is looked for until it is.
     const bool nothing =
         project_->target.empty() || (project_->target == "sim" && project_->world.empty());
@@ -264,7 +264,7 @@ void Workbench::close() {
 
 void Workbench::forget_project() {
     history_.forget();
-    desk_.board().forget("happenings");
+    desk_.topics().forget("happenings");
     files_.leave();
     scripts_.reread();
     breakpoints_ = {};
@@ -273,7 +273,7 @@ void Workbench::forget_project() {
     project_.reset();
     editing_.set_project({});
     for (const char* topic : {"studio", "state", "start", "breakpoints"}) {
-        desk_.board().touch(topic);
+        desk_.topics().touch(topic);
     }
 }
 
@@ -296,7 +296,7 @@ void Workbench::project_file_changed() {
     scripts_.prefer(project_->scripts);
     editing_.set_project(edited_project());
     take_safe_stop();
-    desk_.board().touch("studio");
+    desk_.topics().touch("studio");
 }
 
 // ---- scripts for nodes that have none ----
@@ -347,7 +347,7 @@ std::string Workbench::with_short_paths(std::string text) const {
 void Workbench::declare_kept_commands() {
     desk_.command("settings.put", [this](const Call& call) {
         const Status kept = settings_.put(call.in["key"], call.in["value"]);
-        desk_.board().touch("studio");
+        desk_.topics().touch("studio");
         call.answer(kept);
     });
     desk_.command("state.put", [this](const Call& call) {
@@ -357,7 +357,7 @@ void Workbench::declare_kept_commands() {
         Json window = state_.object("window");
         window[call.in["key"].get<std::string>()] = call.in["value"];
         const Status kept = state_.put("window", std::move(window));
-        desk_.board().touch("state");
+        desk_.topics().touch("state");
         call.answer(kept);
     });
 }
@@ -391,21 +391,21 @@ void Workbench::tick(Time now) {
     change_plan();
     look_at_picture();
     follow_world_text();
-    if (desk_.board().watched("targets") && targets_.look(now)) desk_.board().touch("targets");
+    if (desk_.topics().watched("targets") && targets_.look(now)) desk_.topics().touch("targets");
 }
 
 void Workbench::watch_run() {
     const std::pair now_there(run_.descriptor(), run_.generation());
     if (now_there == watched_run_) return;
-    if (watched_run_.first >= 0) network_.unwatch_input(watched_run_.first);
+    if (watched_run_.first >= 0) links_.unwatch_input(watched_run_.first);
     watched_run_ = now_there;
     // One that cannot be watched is asked at each tick all the same.
-    if (now_there.first >= 0) (void)network_.watch_input(now_there.first).ok();
+    if (now_there.first >= 0) (void)links_.watch_input(now_there.first).ok();
 }
 
 Time Workbench::next_tick(Time now) const {
     Time next = std::min({run_.next_tick(), target_.next_tick(), editing_.next_tick()});
-    if (desk_.board().watched("targets")) next = std::min(next, now + kLookEvery);
+    if (desk_.topics().watched("targets")) next = std::min(next, now + kLookEvery);
     if (project_ && !picture_.empty()) next = std::min(next, next_picture_look_);
     if (world_edited_ && !is_being_opened()) {
         next = std::min(next, *world_edited_ + kWorldFollowsAfter);

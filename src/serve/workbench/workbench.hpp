@@ -1,12 +1,12 @@
 // The studio without its door: the open project with its files, scripts and breakpoints, the robot
-// and the run, and the commands that join them. One thread, told the time; whoever has the web
+// and the run, and the commands that join them. One thread, told the time; the loop with the web
 // server hands its events to the desk.
 //
-//     Workbench bench(network, desk, places);
-//     bench.open("examples/follow-wall", network.now());
+//     Workbench bench(links, desk, places);
+//     bench.open("examples/follow-wall", links.now());
 //     for (;;) {
-//         for (const net::Event& event : network.poll(next)) bench.hear(event);
-//         bench.tick(network.now());
+//         for (const net::Event& event : links.poll(next)) bench.hear(event);
+//         bench.tick(links.now());
 //     }
 #pragma once
 
@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "net/network.hpp"
+#include "net/links.hpp"
 #include "serve/edit/editing.hpp"
 #include "serve/json.hpp"
 #include "serve/life/life.hpp"
@@ -70,7 +70,7 @@ struct Figures {
 
 class Workbench {
 public:
-    Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& places);
+    Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& places);
     ~Workbench();
 
     // Opens what a path names, in place of what is open, as soon as its robot has stopped; what is
@@ -112,7 +112,7 @@ public:
     void on_end(std::function<void(const life::End& end)> ended) { ended_ = std::move(ended); }
 
     // If anything runs, or was sent that can move a node: the plan ends, and all nodes stop. Until
-    // that is over, or given up, is_stopping().
+    // that is over, or waited for no longer, is_stopping().
     void end_by(const std::string& by, life::Why why);
     bool is_stopping() const { return life_.is_stopping(); }
 
@@ -142,7 +142,7 @@ private:
     Status is_in_plan(const PlanBreakpoint& wanted);
     void set_plan_breakpoint(const Call& call);
     void plan_breakpoints_changed();
-    std::vector<talk::Breakpoint> plan_breakpoint_orders() const;
+    std::vector<talk::BreakpointOrder> plan_breakpoint_orders() const;
     Json handlers_of(const std::vector<std::string>& events);
     void step_into_script(const Call& call);
 
@@ -211,7 +211,7 @@ private:
     void perform(const life::AnswerStop& answer);
     void perform(const life::Tell& told);
 
-    net::Network& network_;
+    net::Links& links_;
     Desk& desk_;
     WorkbenchPlaces places_;
     Library library_;

@@ -86,7 +86,7 @@ TEST(Motion, OneMetreEndsAfterOneMetre) {
     const Ended end = ended(motion, Ending::Arrived);
     EXPECT_NEAR(end.pose.at.x, 1, 0.002);
     EXPECT_NEAR(end.pose.at.y, 0, 1e-9);
-    EXPECT_EQ(motion.state(), MotionState::Stands);
+    EXPECT_EQ(motion.state(), MotionState::AtRest);
     EXPECT_LE(end.wheel_max, 0.2 + 1e-9);
     // 5 s at full speed, and less than a second more for speeding up, slowing down and standing.
     EXPECT_GT(end.steps, 500);
@@ -156,7 +156,7 @@ TEST(Motion, ABrakeForgetsTheCommandAndAnswersAtOnceWhenNothingRolls) {
     EXPECT_TRUE(motion.take(Ending::Halted));
     EXPECT_FALSE(motion.take(Ending::Halted));
     motion.resume();
-    EXPECT_EQ(motion.state(), MotionState::Stands);
+    EXPECT_EQ(motion.state(), MotionState::AtRest);
 }
 
 TEST(Motion, SteeringGoesOnUntilAnotherCommand) {

@@ -13,7 +13,7 @@ namespace {
 constexpr double kScaleFlaw = 0.001;
 constexpr double kAngleFlaw = 0.03 * trig::kPi / 180;
 constexpr double kSlip = 0.005;    // of the speed, again in every step
-constexpr double kSticks = 0.001;  // m/s: friction holds a slower wheel that shall stand
+constexpr double kSticks = 0.001;  // m/s: friction holds a slower wheel that is to be at rest
 
 // 1 - exp(-step / response) by its Padé approximation, which has the same bits everywhere
 // (sim/wheels.hpp).

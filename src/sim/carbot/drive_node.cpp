@@ -171,14 +171,14 @@ void DriveNode::sense(const Surroundings& around) {
 }
 
 // A program that does not run would miss them: they wait until it does. That the node has ended a
-// command is told when the wheels stand, or when they have another command before that; to the next
+// command is told when the wheels rest, or when they have another command before that; to the next
 // program if this one would not hear it, for it may be an empty one.
 void DriveNode::raise_endings() {
     Motion& motion = driver_.motion;
     if (motion.take(Ending::Arrived)) machine_.raise(kArrived);
     if (motion.take(Ending::Turned)) machine_.raise(kTurned);
-    const bool stand = motion.take(Ending::Halted);
-    if (stand && !driver_.owes_halted) machine_.raise(kHalted);
+    const bool rests = motion.take(Ending::Halted);
+    if (rests && !driver_.owes_halted) machine_.raise(kHalted);
     if (!driver_.owes_halted || motion.state() == MotionState::Brakes) return;
     if (!machine_.hears(kHalted)) return;
     machine_.raise(kHalted);

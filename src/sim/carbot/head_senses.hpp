@@ -1,5 +1,5 @@
 // What the head of a Carbot perceives: where the strongest infrared beacon is, and the colour of
-// what stands right before it. Numbers as its node counts them.
+// what is right before it. Numbers as its node counts them.
 #pragma once
 
 #include <array>

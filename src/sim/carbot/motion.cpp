@@ -13,16 +13,15 @@ namespace {
 constexpr double kFaster = 0.8 * kArenaStep;  // m/s in a step, of a wheel
 constexpr double kSlower = 0.6;               // m/s^2 of a wheel
 constexpr double kCreep = 0.01;               // m/s: the slowest approach
-constexpr double kStandSpeed = 0.001;         // m/s: a slower wheel stands
+constexpr double kRestSpeed = 0.001;          // m/s: a slower wheel is at rest
 constexpr double kClose = 0.0003;             // m: so near is there
 // Between what a servo does and shall do: within the first a path may be followed exactly, beyond
 // the second the wheels do not roll.
 constexpr double kAimed = 0.5 * trig::kPi / 180;
 constexpr double kFarOff = 20 * trig::kPi / 180;
 
-bool stand(const WheelPair& wheels) {
-    return std::fabs(wheels.front.speed) < kStandSpeed &&
-           std::fabs(wheels.rear.speed) < kStandSpeed;
+bool at_rest(const WheelPair& wheels) {
+    return std::fabs(wheels.front.speed) < kRestSpeed && std::fabs(wheels.rear.speed) < kRestSpeed;
 }
 
 double way_of_servos(const WheelPair& from, const WheelPair& to) {
@@ -36,9 +35,9 @@ WheelPair scaled(WheelPair wheels, double factor) {
     return wheels;
 }
 
-// Servos swing only under wheels that stand: under way they would drag the robot aside.
+// Servos swing only under wheels at rest: under way they would drag the robot aside.
 WheelPair swing(const WheelPair& wheels, const WheelPair& wanted) {
-    return scaled(stand(wheels) ? wanted : wheels, 0);
+    return scaled(at_rest(wheels) ? wanted : wheels, 0);
 }
 
 // How fast the wheels roll in the direction that is wanted.
@@ -132,7 +131,7 @@ bool Motion::take(Ending what) {
 WheelPair Motion::step(const WheelPair& wheels) {
     count_way(wheels);
     switch (state_) {
-        case MotionState::Stands:
+        case MotionState::AtRest:
             return scaled(wheels, 0);
         case MotionState::Brakes:
         case MotionState::Paused:
@@ -154,10 +153,10 @@ void Motion::count_way(const WheelPair& wheels) {
 
 WheelPair Motion::halt(const WheelPair& wheels) {
     speed_ = 0;
-    if (halting_ && stand(wheels)) {
+    if (halting_ && at_rest(wheels)) {
         halting_ = false;
         note(Ending::Halted);
-        if (state_ == MotionState::Brakes) state_ = MotionState::Stands;
+        if (state_ == MotionState::Brakes) state_ = MotionState::AtRest;
     }
     return scaled(wheels, 0);
 }
@@ -165,19 +164,19 @@ WheelPair Motion::halt(const WheelPair& wheels) {
 void Motion::finish() {
     note(kind_ == MotionKind::Turn ? Ending::Turned : Ending::Arrived);
     kind_ = MotionKind::None;
-    state_ = MotionState::Stands;
+    state_ = MotionState::AtRest;
     path_ = {};
 }
 
 // The speed grows no quicker than the tyres like, and stays slow enough to stop in time, counting
-// the way that the wheels roll on after they were told to stand.
+// the way that the wheels roll on after they were told to stop.
 WheelPair Motion::follow_path(const WheelPair& wheels) {
     const double rolling = speed_along(wheels, path_.aim);
     const double rest = path_.left - std::max(0.0, rolling) * kResponse;
     if (ending_ || rest <= kClose) {
         speed_ = 0;
         ending_ = true;
-        if (stand(wheels)) finish();
+        if (at_rest(wheels)) finish();
         return scaled(wheels, 0);
     }
     if (way_of_servos(wheels, path_.aim) > kAimed) {
@@ -198,7 +197,7 @@ WheelPair Motion::steady(const WheelPair& wheels) {
         return scaled(wheels, 0);
     }
     const double off = way_of_servos(wheels, path_.aim);
-    const bool wrong_way = speed_along(wheels, path_.aim) < 0 && !stand(wheels);
+    const bool wrong_way = speed_along(wheels, path_.aim) < 0 && !at_rest(wheels);
     if (off > kFarOff || wrong_way) {
         speed_ = 0;
         return swing(wheels, path_.aim);

@@ -1,5 +1,5 @@
 // The driving commands of a Carbot: what its drive node's firmware makes of "one metre ahead".
-// Told in each step how the wheels stand, it says where they shall go. Knows nothing of nodes and
+// Told in each step how the wheels are, it says where they shall go. Knows nothing of nodes and
 // ground.
 //
 //     Motion motion;
@@ -15,7 +15,7 @@
 namespace vagus::sim::carbot {
 
 enum class MotionKind : int16_t { None, Move, Turn, Curve, Steer };
-enum class MotionState : int16_t { Stands, Drives, Brakes, Paused };
+enum class MotionState : int16_t { AtRest, Drives, Brakes, Paused };
 
 // What has come to its end.
 enum class Ending : uint8_t { Arrived = 1, Turned = 2, Halted = 4 };
@@ -31,10 +31,10 @@ public:
     void brake();
     void pause();   // keeps the command
     void resume();  // of a paused one
-    // As brake(), because whoever commands is gone. False, and nothing done, without a command.
+    // As brake(), because the commander is gone. False, and nothing done, without a command.
     bool cut();
 
-    // One step of kArenaStep: where the wheels shall go, given how they stand.
+    // One step of kArenaStep: where the wheels shall go, given how they are.
     WheelPair step(const WheelPair& wheels);
 
     MotionKind kind() const { return kind_; }
@@ -71,7 +71,7 @@ private:
     void note(Ending what) { done_ = static_cast<uint8_t>(done_ | static_cast<uint8_t>(what)); }
 
     MotionKind kind_ = MotionKind::None;
-    MotionState state_ = MotionState::Stands;
+    MotionState state_ = MotionState::AtRest;
     Path path_;
     bool ending_ = false;   // the way is done, the wheels still roll
     bool halting_ = false;  // someone waits for Halted

@@ -10,7 +10,7 @@ namespace {
 static_assert(sizeof(Layout) == 39 * kWord, "docs/carbot.md: 39 words are described");
 
 enum Event : uint8_t { kReached, kEcho, kTickEvent, kHalted };
-constexpr node::LocalEvent kEvents[] = {{"reached", "The rotator stands where it was told"},
+constexpr node::LocalEvent kEvents[] = {{"reached", "The rotator is where it was told to go"},
                                         {"echo", "sonar.distance has a new value"},
                                         {"tick", "Every 20 ms"},
                                         {"halted", "The node itself has stopped the rotator"}};

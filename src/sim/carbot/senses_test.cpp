@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegree = trig::kPi / 180;
 
-// A robot at (5, 5) of an open field, looking along x: its rotator stands at (5.18, 5).
+// A robot at (5, 5) of an open field, looking along x: its rotator is at (5.18, 5).
 class Senses : public testing::Test {
 protected:
     Senses()
@@ -164,7 +164,7 @@ TEST_F(Sounding, AnAngleThatItHasIsReachedAtOnce) {
     EXPECT_EQ(until([this] { return sonar_.take_reached(); }), 1);
 }
 
-// The wall stands 1.0 m to the left of the rotator.
+// The wall is 1.0 m to the left of the rotator.
 TEST_F(Sounding, LooksWhereTheRotatorPoints) {
     add({.kind = ObjectKind::Wall, .at = {5, 6.05}, .width = 4, .length = 0.1, .height = 0.3});
     EXPECT_FALSE(sonar_.look({{5, 5}, 0}));

@@ -1,4 +1,4 @@
-// Two steered wheels on the middle line of a body: what they do to it, and how they must stand for
+// Two steered wheels on the middle line of a body: what they do to it, how they must turn for
 // what is wanted of it. Plain geometry; docs/carbot.md has the picture in words.
 #pragma once
 
@@ -28,7 +28,7 @@ struct Twist {
 Twist twist_of(const WheelPair& wheels);
 
 // The wheels for a motion without a sideways part, angles from -90 to 90 degrees. In place both
-// stand at 90 degrees and roll against each other.
+// are at 90 degrees and roll against each other.
 WheelPair wheels_for(double ahead, double turn);
 
 }  // namespace vagus::sim::carbot

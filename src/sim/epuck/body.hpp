@@ -1,4 +1,4 @@
-// The body of an e-puck: hull, wheels, distance sensors, camera. Every number here stands in
+// The body of an e-puck: hull, wheels, distance sensors, camera. Every number here is from
 // docs/sensors.md with its source.
 #pragma once
 

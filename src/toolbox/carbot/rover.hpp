@@ -50,7 +50,7 @@ public:
 
     // Drives so until told otherwise.
     void steer(const Steering& steering);
-    // Stops and waits until the wheels stand.
+    // Stops and waits until the wheels are at rest.
     void halt();
     // After Stop: takes back what is still asked for; stops as halt() does, if the wheels may turn.
     void stop();

@@ -10,7 +10,7 @@
 namespace vagus::toolbox::carbot {
 namespace {
 
-// By hand: a wall 50 cm to the right of the sensor, which stands 18 cm ahead of the middle. The
+// By hand: a wall 50 cm to the right of the sensor, which is 18 cm ahead of the middle. The
 // looks at -100, -90 and -80 hear 50: one spot in the middle of them, at (18, -50). That at -60 is
 // 18 degrees off the cone: 50 / cos 18 = 52.57, heard at the edge of the cone, at -72 degrees.
 TEST(Spots, LieOnTheWall) {

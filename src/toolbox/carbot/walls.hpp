@@ -35,7 +35,7 @@ struct Sector {
 };
 
 // The wall that the nearest echo in the sector belongs to: it and its neighbours, as far as they
-// are one surface. Nothing where there is no echo, or the nearest one stands alone.
+// are one surface. Nothing where there is no echo, or the nearest one is alone.
 std::optional<Wall> nearest_wall(const std::vector<Echo>& echoes, const Sector& sector = {});
 
 // The same direction, above -180 to 180.

@@ -17,7 +17,7 @@ export function focusRegion(by: 1 | -1): void {
   }
 }
 
-/** The panel of a region's chosen tab stands elsewhere in the page than its tabs. */
+/** The panel of a region's chosen tab is elsewhere in the page than its tabs. */
 function panelOf(region: HTMLElement): HTMLElement | null {
   const id = region
     .querySelector('[role="tab"][aria-selected="true"]')

@@ -23,7 +23,7 @@ export function shownNode(studio: Studio): Node | undefined {
   return doc === null ? undefined : robotOf(studio)?.nodes.find((node) => node.doc === doc);
 }
 
-/** Keeps a part of the window; whoever only looks on has it until the page is closed, as has the start screen. */
+/** Keeps a part of the window; a page that may only view has it until it is closed, as has the start screen. */
 export function keepState(studio: Studio, key: string, value: Json): void {
   if (drives(studio) && projectOf(studio)) studio.order('state.put', { key, value });
 }

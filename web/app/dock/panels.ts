@@ -37,7 +37,7 @@ export interface Panel {
   view: ComponentType;
   /** Buttons at the right of the panel's head. */
   tools?: ComponentType;
-  /** Said in grey beside the title where the panel stands alone. */
+  /** Said in grey beside the title where the panel is alone. */
   subtitle?: ComponentType;
 }
 

@@ -7,7 +7,7 @@ import {
 } from '@tabler/icons-react';
 import { countsOf } from '../../core/findings';
 import { shownTime } from '../../core/numbers';
-import { standsAt } from '../../core/run_state';
+import { pausedLineOf } from '../../core/run_state';
 import { kindOf } from '../documents';
 import { useIsGone, usePart, useStudio, useTopic, useUnsent, useWindow } from '../hooks';
 import { Kbd } from '../parts/kbd';
@@ -19,7 +19,7 @@ import { text } from '../text';
 const words = text.status.keys;
 type Hint = readonly [keys: string, word: string];
 
-/** What stands, what is unsaved, what runs; and the keys that help now. */
+/** What is paused, what is unsaved, what runs; and the keys that help now. */
 export function StatusBar() {
   const project = useTopic('studio', {})?.project;
   return (
@@ -69,7 +69,7 @@ function Runs() {
         {text.status.looksBack(shownTime(at), shownTime(end))}
       </span>
     );
-  const standing = nodes.find((node) => standsAt(node) !== undefined);
+  const standing = nodes.find((node) => pausedLineOf(node) !== undefined);
   if (standing?.at)
     return (
       <span className="status__part">

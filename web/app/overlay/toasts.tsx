@@ -21,7 +21,7 @@ const icons = {
 /** An error stays longer; a person may want to read it twice. */
 const kShownMs = { error: 12_000, warning: 9_000, ok: 4_000, note: 6_000 };
 
-/** Messages that never block: they go by themselves, and stand over nothing that is used. */
+/** Messages that never block: they go by themselves, and cover nothing that is used. */
 export function Toasts() {
   const toasts = useWindow((state) => state.toasts);
   return (

@@ -1,4 +1,4 @@
-// Which tip is shown: that of the element on which the pointer rests or the keyboard's focus stands.
+// Which tip is shown: that of the element on which the pointer rests or that has the keyboard's focus.
 
 import { useEffect, useState } from 'react';
 import type { World } from '../../core/socket';

@@ -1,4 +1,4 @@
-/** As they stand on the keys. */
+/** As they are on the keys. */
 const arrows: Readonly<Record<string, string>> = {
   ArrowLeft: '←',
   ArrowRight: '→',

@@ -44,7 +44,7 @@ interface GuardProps {
   children(): ReactNode;
 }
 
-/** Other failures than those of loading go on to whoever shows them. */
+/** Other failures than those of loading go on to the part that shows them. */
 class Guard extends Component<GuardProps, { failed: Error | null }> {
   override state: { failed: Error | null } = { failed: null };
 

@@ -7,7 +7,7 @@ export interface MarksState {
   runs: 'none' | 'runs' | 'held';
 }
 
-/** How a script stands with the file, with the robot and with the run. */
+/** The state of a script: saved, loaded, running. */
 export function marksOf(unsaved: boolean, node: Node | undefined): MarksState {
   const loaded = node?.program === 'current' || node?.program === 'older' ? node.program : 'none';
   const runs = node?.state === 'running' ? 'runs' : node?.state === 'paused' ? 'held' : 'none';
@@ -20,7 +20,7 @@ export function Marks({ saved, loaded, runs }: MarksState) {
   const label = [
     saved ? words.saved : words.unsaved,
     { none: words.notLoaded, older: words.older, current: words.loaded }[loaded],
-    { none: words.stopped, runs: words.runs, held: words.stands }[runs],
+    { none: words.stopped, runs: words.runs, held: words.paused }[runs],
   ].join(', ');
   return (
     <span className="marks" role="img" aria-label={label} title={label}>

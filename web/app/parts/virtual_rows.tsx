@@ -11,7 +11,7 @@ export interface VirtualRowsProps<Row> {
   children(row: Row): ReactNode;
   className?: string;
   height?: number;
-  /** The newest row stands first: what is read stays where it is while others come above it. */
+  /** The newest row is first: what is read stays where it is while others come above it. */
   newestFirst?: boolean;
   onRowKey?(row: Row, event: KeyboardEvent<HTMLElement>): void;
 }

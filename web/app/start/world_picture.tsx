@@ -1,4 +1,4 @@
-// A small picture of a world from above: its walls, what stands in it, the robot and its way.
+// A small picture of a world from above: its walls, what is in it, the robot and its way.
 
 import pictures from './pictures.json';
 

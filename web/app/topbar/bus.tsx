@@ -5,7 +5,7 @@ import { text } from '../text';
 
 const kBarsMax = 12;
 
-/** A bar for each node, how loaded the bus is, what was lost. A node that stands is a red disc. */
+/** A bar for each node, how loaded the bus is, what was lost. A paused node is a red disc. */
 export function Bus() {
   const { registry } = useStudio();
   const robot = useTopic('robot', {});
@@ -53,7 +53,7 @@ function describe(node: Node): string {
   return `${node.name} ${text.target.nodeState[node.state]}`;
 }
 
-/** "97 runs, 3 stands": of many nodes only how many are in which state. */
+/** "97 running, 3 paused": of many nodes only how many are in which state. */
 function counted(nodes: readonly Node[]): string {
   const counts = new Map<Node['state'], number>();
   for (const { state } of nodes) counts.set(state, (counts.get(state) ?? 0) + 1);

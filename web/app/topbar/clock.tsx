@@ -24,7 +24,7 @@ export function Clock() {
   const drives = useMayAct();
   const past = usePastTime();
   const end = useEnd();
-  // In parts: a clock that stands comes ten times a second, too, with another time of the wall.
+  // In parts: a paused clock comes ten times a second, too, with another time of the wall.
   const state = usePart('clock', {}, (is) => is?.state ?? 'none');
   const t = usePart('clock', {}, (is) => is?.t ?? 0);
   const speed = usePart('clock', {}, (is) => is?.speed ?? 1);

@@ -49,7 +49,7 @@ function Bar({ at }: { at: number }) {
   );
 }
 
-function stateOf(state: Topics['clock']['is']['state'] | undefined): 'goes' | 'stands' | 'over' {
-  if (state === 'running') return 'goes';
-  return state === 'paused' ? 'stands' : 'over';
+function stateOf(state: Topics['clock']['is']['state'] | undefined): 'runs' | 'paused' | 'over' {
+  if (state === 'running') return 'runs';
+  return state === 'paused' ? 'paused' : 'over';
 }

@@ -49,7 +49,7 @@ export interface Drawing {
   routes: ReadonlyMap<string, Routed>;
   /** Some ways are only sketched: goOn() finds more of them. */
   isSketch: boolean;
-  /** The side on which each row of an element stands, by id of its arrow. */
+  /** The side on which each row of an element is, by id of its arrow. */
   sides: ReadonlyMap<string, Side>;
 }
 
@@ -122,7 +122,7 @@ interface Row {
   box: Box;
   /** Below the top of the box. */
   down: number;
-  /** Where its target stands, if it is an element. */
+  /** Where its target is, if it is an element. */
   aim: Box | undefined;
 }
 

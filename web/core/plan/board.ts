@@ -54,8 +54,8 @@ export class PlanBoard {
   drawing: Drawing;
   private chosen = new Set<string>();
   private held = new Map<string, Point>();
-  /** Where elements stand that have no place in the file. */
-  private stood: Places = new Map();
+  /** Where elements are that have no place in the file. */
+  private found: Places = new Map();
   private finishing = false;
   private heldSizes = new Map<string, notes.Size>();
 
@@ -68,7 +68,7 @@ export class PlanBoard {
   ) {
     this.model = planModel(file.value, toolboxes, subPlans);
     this.scene = sceneOf(this.model);
-    this.stood = found(this.model, this.scene, this.stood);
+    this.found = found(this.model, this.scene, this.found);
     this.drawing = drawingOf(this.model, this.scene, { isTime: this.within(kAtOnceMs) });
     this.finish();
   }
@@ -76,7 +76,7 @@ export class PlanBoard {
   /** The file or the templates are others now. */
   refresh(toolboxes: Toolboxes = this.toolboxes, subPlans: SubPlans = this.subPlans): void {
     // Other templates make other boxes, which need another room.
-    if (toolboxes !== this.toolboxes) this.stood = new Map();
+    if (toolboxes !== this.toolboxes) this.found = new Map();
     this.toolboxes = toolboxes;
     this.subPlans = subPlans;
     this.model = planModel(this.file.value, toolboxes, subPlans);
@@ -145,7 +145,7 @@ export class PlanBoard {
     return this.model.notes.find((one) => notes.noteKey(one.index) === key);
   }
 
-  /** As they are drawn: one that is held stands where it is held. */
+  /** As they are drawn: one that is held is where it is held. */
   get notes(): readonly Note[] {
     return this.model.notes.map((one) => {
       const key = notes.noteKey(one.index);
@@ -215,7 +215,7 @@ export class PlanBoard {
   private moved(key: string, at: Point): JsonStep[] {
     const note = this.note(key);
     if (note) return notes.moveNote(note, at);
-    return this.stands(key, at) ? [] : edit.placeSteps(this.file.value, key, at);
+    return this.isAt(key, at) ? [] : edit.placeSteps(this.file.value, key, at);
   }
 
   /** Several at new places, as one change. */
@@ -229,7 +229,7 @@ export class PlanBoard {
     this.commit(draft.steps);
   }
 
-  private stands(name: string, { x, y }: Point): boolean {
+  private isAt(name: string, { x, y }: Point): boolean {
     const place = this.model.places.get(name);
     return place !== undefined && place[0] === x && place[1] === y;
   }
@@ -325,7 +325,7 @@ export class PlanBoard {
     if (part) this.paste(part, { x: (first?.x ?? 0) + 24, y: (first?.y ?? 0) + 24 });
   }
 
-  /** Where an element stands. */
+  /** Where an element is. */
   boxOf(key: string): Box | undefined {
     const { start, actors, pills } = this.scene;
     if (key === kStart) return start.box;
@@ -380,8 +380,8 @@ export class PlanBoard {
   rename(key: string, to: string): boolean {
     const { value, broken } = this.file;
     if (broken !== null) return false;
-    const stood = this.stood.get(key);
-    if (stood) this.stood = new Map([...this.stood, [to, stood]]);
+    const place = this.found.get(key);
+    if (place) this.found = new Map([...this.found, [to, place]]);
     const supervisor = this.supervisor(key);
     const variable = this.variable(key);
     const steps = this.actor(key)
@@ -412,8 +412,8 @@ export class PlanBoard {
     for (const [name, { x, y }] of this.held) places.set(name, [x, y]);
     const isHeld = this.held.size + this.heldSizes.size > 0;
     const model = isHeld ? { ...this.model, places, notes: this.notes } : this.model;
-    this.scene = sceneOf(model, this.stood);
-    this.stood = found(model, this.scene, this.stood);
+    this.scene = sceneOf(model, this.found);
+    this.found = found(model, this.scene, this.found);
     this.drawing = drawingOf(model, this.scene, {
       isTime: this.within(isHeld ? kWhileHeldMs : kAtOnceMs),
       before: this.drawing,

@@ -33,7 +33,7 @@ export class ChangeQuestion {
     this.again = false;
     this.ask().then(
       (answer) => this.take(answer),
-      // Who asks is told otherwise that the server is gone.
+      // The asker is told otherwise that the server is gone.
       () => this.take(null),
     );
   }

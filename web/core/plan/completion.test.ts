@@ -16,7 +16,7 @@ const words: FormulaWord[] = [
   { name: '<=', is: 'operator', form: 'a <= b', help: '' },
 ];
 
-test('the word at the caret is the one it stands in or behind', () => {
+test('the word at the caret is the one it is in or behind', () => {
   expect(wordAt('speed * 2', 5)).toEqual({ from: 0, to: 5 });
   expect(wordAt('2 * speed', 6)).toEqual({ from: 4, to: 9 });
   expect(wordAt('2 * ', 4)).toEqual({ from: 4, to: 4 });
@@ -55,7 +55,7 @@ test('a chosen word replaces the one at the caret', () => {
     text: '2 * sqrt() + 1',
     caret: 9,
   });
-  // Its parentheses stand there already.
+  // Its parentheses are there already.
   expect(completed('sq(4)', { from: 0, to: 2 }, sqrt)).toEqual({ text: 'sqrt(4)', caret: 5 });
   const [speed] = offersFor(variables, [], 'sp');
   if (!speed) throw new Error('speed is not offered');

@@ -12,7 +12,7 @@ export interface Offer {
   help: string;
 }
 
-/** A place in a text: the word that the caret stands in or behind. */
+/** A place in a text: the word that the caret is in or behind. */
 export interface WordAt {
   from: number;
   to: number;
@@ -35,7 +35,7 @@ function isQuoted(text: string): boolean {
   return quote !== '';
 }
 
-/** What begins with the typed part of the word first, then what contains it; what stands there already only if a person asks. */
+/** What begins with the typed part of the word first, then what contains it; what is there already only if a person asks. */
 export function offersFor(
   variables: readonly Variable[],
   words: readonly FormulaWord[],

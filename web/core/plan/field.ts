@@ -1,4 +1,4 @@
-// What is on a canvas, found by where it stands, so that a search looks only at what is near.
+// What is on a canvas, found by where it is, so that a search looks only at what is near.
 
 import { Cells } from './cells';
 import { Grid } from './grid';

@@ -40,7 +40,7 @@ export class Grid {
     this.closed = new Uint8Array(count * 4);
   }
 
-  /** -1: no line goes there, or a box stands there. */
+  /** -1: no line goes there, or a box is there. */
   node({ x, y }: Point): number {
     const column = this.columnOf.get(x);
     const row = this.rowOf.get(y);

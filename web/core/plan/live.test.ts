@@ -70,7 +70,7 @@ test('turns are by element, inputs are what the formulas gave', () => {
     ['text', 'so'],
   ]);
   expect([...live.watching]).toEqual(['@start/esc']);
-  expect(live.standsAt).toEqual([7]);
+  expect(live.pausedLineOf).toEqual([7]);
 });
 
 test('a plan that is over has no active actor, and keeps its counts', () => {

@@ -29,7 +29,7 @@ export interface LivePlan {
   /** By key of an element. */
   turns: ReadonlyMap<string, Turns>;
   /** Numbers of the breakpoints that hold it. */
-  standsAt: readonly number[];
+  pausedLineOf: readonly number[];
 }
 
 export const noPlan: LivePlan = {
@@ -44,7 +44,7 @@ export const noPlan: LivePlan = {
   taken: null,
   takenNumber: 0,
   turns: new Map(),
-  standsAt: [],
+  pausedLineOf: [],
 };
 
 export function livePlan(plan: Topics['plan']['is'], level: PlanLevel, model: PlanModel): LivePlan {
@@ -65,7 +65,7 @@ export function livePlan(plan: Topics['plan']['is'], level: PlanLevel, model: Pl
     taken: takenArrow(level, model),
     takenNumber: level.taken?.number ?? 0,
     turns: turnsOf(level, model),
-    standsAt: plan.stands_at ?? [],
+    pausedLineOf: plan.stands_at ?? [],
   };
 }
 

@@ -10,7 +10,7 @@ const withNotes = (...notes: Json[]): Json => ({ format: 'vagus-plan/1', x: { no
 const notesOf = (file: Json) => planModel(file, []).notes;
 const done = (file: Json, steps: Parameters<typeof applySteps>[1]) => applySteps(file, steps).value;
 
-test('the first note makes its list, the next one stands behind it', () => {
+test('the first note makes its list, the next one comes after it', () => {
   const first = addNote(plan, { x: 8, y: 16 }, 'one');
   expect(first?.key).toBe('note:0');
   const once = done(plan, first?.steps ?? []);

@@ -1,4 +1,4 @@
-// Notes on the canvas, kept in the file under x.notes. What else stands in that list stays.
+// Notes on the canvas, kept in the file under x.notes. What else is in that list stays.
 
 import type { Json, JsonStep } from '../../protocol/messages';
 import { setSteps, valueAt } from './edit';
@@ -24,7 +24,7 @@ export function noteIndex(key: string): number | null {
   return digits === undefined ? null : Number(digits);
 }
 
-/** null: something else stands where notes are kept. */
+/** null: something else is where notes are kept. */
 export function addNote(
   file: Json,
   { x, y }: Point,

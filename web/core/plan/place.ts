@@ -1,4 +1,4 @@
-// Where elements stand: where the file says, else where there is room. What the user placed stays.
+// Where elements are: where the file says, else where there is room. What the user placed stays.
 
 import { kConfiguration, kStart, type Actor, type PlanModel } from './model';
 import {
@@ -32,7 +32,7 @@ export const kSnap = 8;
 export const snapped = (value: number) => Math.round(value / kSnap) * kSnap;
 
 /**
- * What has a place in the file stands there; the rest where it stood `before`, if it did and nothing covers it now:
+ * What has a place in the file is there; the rest where it was `before`, if it did and nothing covers it now:
  * nothing moves because something else was dropped or deleted.
  */
 export function sceneOf(file: PlanModel, before: Places = new Map()): Scene {
@@ -77,14 +77,14 @@ function fits(model: PlanModel, at: Point, blocks: readonly Block[]): boolean {
   return !pillBoxes(model, at).some(({ box }) => blocks.some(({ whole }) => overlaps(whole, box)));
 }
 
-/** Where those stand that have no place in the file, beside what was known of them before. */
+/** Where those are that have no place in the file, beside what was known of them before. */
 export function found(file: PlanModel, scene: Scene, before: Places): Places {
   const known = new Map(before);
   const keep = (name: string, { x, y }: Point) => {
     if (!file.places.has(name)) known.set(name, [x, y]);
   };
   for (const { name, box } of scene.actors) keep(name, box);
-  // An empty drawing has no places yet: Start stands where the first actor wants it.
+  // An empty drawing has no places yet: Start is where the first actor wants it.
   if (scene.actors.length > 0) keep(kStart, scene.start.box);
   if (scene.actors.length > 0 && scene.pills.length > 0) keep(kConfiguration, scene.configuration);
   return known;
@@ -95,7 +95,7 @@ function placeOf(model: PlanModel, name: string): Point | undefined {
   return at && { x: at[0], y: at[1] };
 }
 
-/** Those without a place stand in columns, by how many arrows lead to them from the start. */
+/** Those without a place are in columns, by how many arrows lead to them from the start. */
 function placeActors(model: PlanModel): Block[] {
   const known = new Map<string, Block>();
   for (const actor of model.actors) {

@@ -134,7 +134,7 @@ describe('places', () => {
   const model = planModel(small, toolboxes);
   const scene = sceneOf(model);
 
-  it('are those of the file, else where nothing stands', () => {
+  it('are those of the file, else where nothing is', () => {
     const go = scene.actors[0];
     // Head 44, two states of 22, foot 4; below it, after 4, the supervisor of 40.
     expect(go?.box).toEqual({ x: 80, y: 160, width: 168, height: 92 });

@@ -47,7 +47,7 @@ const kMany = 40;
 /** How much the way that is left counts: less than it costs finds the best one, more one soon. */
 const kCareful = kShared;
 const kHasty = 1.6;
-/** Places that are looked at before a search is given up. */
+/** Places that are looked at before a search ends without a way. */
 const kLooksMax = 12_000;
 /** Where there is no room an arrow runs beside others, as little as can be found soon. */
 const kBeside = 4;
@@ -94,7 +94,7 @@ export class Routing {
     return this.left.length === 0;
   }
 
-  /** Keeps a way as it is, if its ends are the same and no box stands on it. */
+  /** Keeps a way as it is, if its ends are the same and no box is on it. */
   keep({ id, points }: Routed): void {
     const at = this.left.findIndex((way) => way.id === id);
     const way = this.left[at];

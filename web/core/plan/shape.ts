@@ -1,4 +1,4 @@
-// How large the elements of a plan are drawn, and where the rows of their states and events stand.
+// How large the elements of a plan are drawn, and where the rows of their states and events are.
 // All in pixels of the canvas (docs: look, "Measures").
 
 import type { Actor, PlanModel, Supervisor } from './model';

@@ -52,7 +52,7 @@ it('an actor that is dropped moves no other', () => {
   const dropped = plan({ c: actor('a') }, { c: [80, -400] });
   const { before, after } = drawnAfter(plan(), dropped);
   expect(after).toEqual({ ...before, c: [80, -400] });
-  // Without what was known they would stand elsewhere: the test means something.
+  // Without what was known they would be elsewhere: the test means something.
   expect(placesIn(sceneOf(model(dropped)))).not.toEqual(after);
 });
 

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { nameSpot } from './strokes';
 
-test('the name of an arrow stands in the middle of its longest stretch', () => {
+test('the name of an arrow is in the middle of its longest stretch', () => {
   const points = [
     { x: 0, y: 0 },
     { x: 40, y: 0 },

@@ -21,7 +21,7 @@ export function shortened({ points }: Routed): readonly Point[] {
   return [...points.slice(0, -1), { x, y }];
 }
 
-/** Where the name of an arrow stands: in the middle of its longest stretch. */
+/** Where the name of an arrow is: in the middle of its longest stretch. */
 export function nameSpot({ points }: Routed): Point | null {
   let spot: Point | null = null;
   let longest = 0;
@@ -48,7 +48,7 @@ export function gapPath({ x, y, isLevel }: Crossing): string {
 
 const kApart = 22;
 
-/** From a variable to an element or back; several of one element stand apart. */
+/** From a variable to an element or back; several of one element are apart. */
 export function dataPath(
   arrow: DataArrow,
   box: Box,

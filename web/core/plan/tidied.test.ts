@@ -50,7 +50,7 @@ describe('a tidied plan', () => {
     for (let plan = 0; plan < 50; plan++) {
       const value = randomPlan(random) as { [key: string]: Json };
       const layout = value['layout'] as { [key: string]: Json };
-      // The variables were placed by hand where elements come to stand.
+      // The variables were placed by hand where elements are put.
       if (random(2)) layout[kConfiguration] = [80 + random(400), 80 + random(400)];
       // Notes that were written where elements come to stand.
       const notes = Array.from({ length: random(4) }, (_one, at) => ({

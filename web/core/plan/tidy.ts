@@ -9,7 +9,7 @@ import { overlaps, type Block, type Box, type Point } from './shape';
 export interface LayoutGraph {
   boxes: { id: string; width: number; height: number }[];
   edges: { from: string; to: string }[];
-  /** Their upper left corner, where they stood or where there is room. */
+  /** Their upper left corner, where they were or where there is room. */
   corner: Point;
 }
 
@@ -81,7 +81,7 @@ const kGap = 48;
 /** Room for arrows between a note and an element. */
 const kNoteGap = 24;
 
-/** Where the first of them stand; below all others if those are in the way. */
+/** Where the first of them are; below all others if those are in the way. */
 function cornerOf(blocks: readonly Block[], moved: readonly Block[]): Point {
   const kept = blocks.filter((block) => !moved.includes(block));
   const x = Math.min(...moved.map(({ whole }) => whole.x));
@@ -92,7 +92,7 @@ function cornerOf(blocks: readonly Block[], moved: readonly Block[]): Point {
 }
 
 /**
- * Where they stand if nobody has placed any: in columns, by how many arrows lead to them from the start. For plans of
+ * Where they are if nobody has placed any: in columns, by how many arrows lead to them from the start. For plans of
  * which a layout would take minutes.
  */
 export function inColumns(model: PlanModel): [string, Point][] {
@@ -100,7 +100,7 @@ export function inColumns(model: PlanModel): [string, Point][] {
   return [start, ...actors].map(({ name, box: { x, y } }) => [name, { x, y }]);
 }
 
-/** With a place above all for the variables, if elements would stand on them or close to them. */
+/** With a place above all for the variables, if elements would be on them or close to them. */
 export function besideVariables(
   model: PlanModel,
   places: readonly [string, Point][],

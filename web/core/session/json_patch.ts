@@ -42,7 +42,7 @@ export function patch(text: string, language: string, steps: readonly JsonStep[]
 /** Whole scalars: "15" and "16" are two values, and not one with another digit. */
 function tokenDiff(before: string, after: string): { from: number; to: number; insert: string }[] {
   return textDiff(before, after).map(({ from, to, insert }) => {
-    // What stood, and what will stand, at the two ends.
+    // What was, and what will be, at the two ends.
     const first = isWord(before[from]) || isWord(insert[0] ?? before[to]);
     const last = isWord(before[to - 1]) || isWord(insert.at(-1) ?? before[from - 1]);
     let start = from;
@@ -139,7 +139,7 @@ class Patcher {
     return order.length === 0 || behind < 0 ? holder.parts.length : behind;
   }
 
-  /** A new value as it stands in that holder. */
+  /** A new value as it is in that holder. */
   private value(holder: Tree, key: Key, value: Json): Tree {
     const path = [...this.path, typeof key === 'string' ? key : '[]'];
     const tree = this.formed(value, path);

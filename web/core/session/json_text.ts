@@ -25,7 +25,7 @@ export interface Part {
   after: string;
 }
 
-/** The text must be JSON: who calls has parsed it. */
+/** The text must be JSON: the caller has parsed it. */
 export function readTree(text: string): Tree {
   return new Reader(text).whole();
 }
@@ -104,7 +104,7 @@ export function textOfTree(tree: Tree): string {
   return open + parts.join(',') + tree.tail + close;
 }
 
-/** Whether its parts stand in lines of their own. */
+/** Whether its parts are in lines of their own. */
 export function isOpen({ parts }: Tree): boolean {
   return parts[0]?.before.includes('\n') ?? false;
 }
@@ -125,7 +125,7 @@ export function takePart(tree: Tree, index: number): Part | undefined {
   return taken;
 }
 
-/** `depth`: how many values stand around this one. */
+/** `depth`: how many values are around this one. */
 export function insertPart(tree: Tree, index: number, part: Part, depth: number): void {
   const { parts } = tree;
   const [first, second] = parts;

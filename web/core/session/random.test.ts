@@ -65,7 +65,7 @@ class Game {
   readonly waits: { ended: boolean }[] = [];
   /** Every character that was typed is another one. */
   private next = 0x4e00;
-  /** What somebody has taken away, or brought back: that it is there once is not sure. */
+  /** What somebody has deleted, or brought back: that it is there once is not sure. */
   readonly touched = new Set<string>();
   readonly typed = new Set<string>([...this.server.text].filter((one) => one !== '\n'));
 

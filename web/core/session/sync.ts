@@ -228,7 +228,7 @@ const kInDoubt: ReadonlySet<string> = new Set(['timeout', 'unavailable']);
 
 const kHeld: Problem = {
   code: 'bad_input',
-  what: 'The text is no JSON at the moment: what was drawn waits until it is.',
+  what: 'The text is not valid JSON: what was drawn waits until it is.',
 };
 
 function composed({ unsent, confirmed }: TextSession, count: number): ChangeSet {

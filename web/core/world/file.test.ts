@@ -140,7 +140,7 @@ describe('the file of a world', () => {
     expect(timed && entryOf(after(timed.steps), 'timeline/1')).toMatchObject({ t: 100, do: 'add' });
   });
   test('AFindingLeadsToItsThing', () => {
-    expect(keyMeant('robots[0].at: robot carbot would stand in the wall')).toBe('robots/0');
+    expect(keyMeant('robots[0].at: robot carbot would overlap the wall')).toBe('robots/0');
     expect(keyMeant('timeline[12].t')).toBe('timeline/12');
     expect(keyMeant('size: too large')).toBeNull();
   });

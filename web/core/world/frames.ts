@@ -54,7 +54,7 @@ export function readPoses(bytes: DataView): PosesFrame {
   return frame;
 }
 
-/** Where things stood at an instant of the past, as the server tells it. */
+/** Where things were at an instant of the past, as the server tells it. */
 export function posesThen(instant: {
   robots: readonly Json[];
   objects: readonly Json[];

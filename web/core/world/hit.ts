@@ -9,7 +9,7 @@ export interface Standing {
 }
 
 /**
- * The thing at a place: what lies higher wins, robots over all; of the ground only if nothing stands
+ * The thing at a place: what lies higher wins, robots over all; of the ground only if nothing is
  * there. slack: metres beside a thing that still count.
  */
 export function thingAt(

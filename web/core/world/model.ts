@@ -47,7 +47,7 @@ export class WorldModel {
   readonly drawn = new Emitter<void>();
   /** Stage, selection or what is being placed changed: forms and lists. */
   readonly changed = new Emitter<void>();
-  /** Said to those who listen: where something stands now. */
+  /** Said to those who listen: where something is now. */
   readonly spoken = new Emitter<string>();
   /** Counts up with changed, for useSyncExternalStore. */
 
@@ -79,7 +79,7 @@ export class WorldModel {
   private order: Standing[] | null = null;
   private robots: Thing[] = [];
 
-  // ---- what stands where ----
+  // ---- what is where ----
 
   setStage(stage: Stage): void {
     const { width, height } = this.stage;
@@ -129,7 +129,7 @@ export class WorldModel {
     return this.poses.get(thing.key);
   }
 
-  /** Things as they stood then, while those of now are remembered; null: now again. */
+  /** Things as they were then, while those of now are remembered; null: now again. */
   showThen(frame: PosesFrame | null): void {
     if (!frame && this.then.size === 0) return;
     this.then.clear();

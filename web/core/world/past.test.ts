@@ -1,4 +1,4 @@
-// The world of an instant: where things stood, beside where they are.
+// The world of an instant: where things were, beside where they are.
 import { describe, expect, test } from 'vitest';
 import type { Topics } from '../../protocol/messages';
 import { posesThen } from './frames';

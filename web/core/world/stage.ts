@@ -7,13 +7,13 @@ export type RobotType = Robot['type'];
 export type ObjectKind = SceneObject['kind'];
 
 export interface Thing {
-  /** One thing keeps its key as long as it stands there. */
+  /** One thing keeps its key as long as it is there. */
   key: string;
   name: string;
   kind: ObjectKind | 'robot';
   type?: RobotType;
   shape: Shape;
-  /** Where it stands unless a frame of poses says otherwise. */
+  /** Where it is unless a frame of poses says otherwise. */
   pose: Pose;
   height: number;
   colour: Colour;
@@ -100,7 +100,7 @@ export function shapeOf(size: readonly number[] | undefined, radius: number): Sh
   return size ? rectangle(size[0] ?? 0, size[1] ?? 0) : disc(kLampRadius);
 }
 
-/** A running world; where things stand comes by frames of poses. */
+/** A running world; where things are comes by frames of poses. */
 export function stageOfScene(scene: Topics['scene']['is']): Stage {
   const [width = 1, height = 1] = scene.size;
   return {

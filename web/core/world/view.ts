@@ -71,7 +71,7 @@ export function lengthText(metres: number): string {
   return metres >= 0.01 ? `${round(metres * 100)} cm` : `${round(metres * 1000)} mm`;
 }
 
-/** Where the handle that turns a thing stands: ahead of it, clear of its body. */
+/** Where the handle that turns a thing is: ahead of it, clear of its body. */
 export function handleOf(pose: Pose, reach: number, scale: number): Point {
   const away = reach + 22 / scale;
   return { x: pose.x + Math.cos(pose.angle) * away, y: pose.y + Math.sin(pose.angle) * away };

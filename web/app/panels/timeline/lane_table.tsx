@@ -3,7 +3,7 @@ import { text } from '../../text';
 import type { Row } from './rows';
 
 const words = text.timeline;
-/** So many rows; who wants more looks at fewer seconds. */
+/** So many rows; for more, look at fewer seconds. */
 const kRowsMax = 200;
 
 interface Line {

@@ -1,4 +1,4 @@
-// The rows of a timeline: what stands in which, how high it is, what it is called.
+// The rows of a timeline: what is in which, how high it is, what it is called.
 
 import type { Lanes } from '../../../core/timeline';
 import { text } from '../../text';

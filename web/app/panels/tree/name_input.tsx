@@ -33,7 +33,7 @@ export function NameInput({
   const [name, setName] = useState(rename ? baseName(rename) : `new${endings[kind]}`);
   const why = badName(name);
   const field = useRef<HTMLInputElement>(null);
-  // The panel may stand behind another tab until it has come to the front.
+  // The panel may be behind another tab until it has come to the front.
   useEffect(() => {
     takeFocus(() => {
       field.current?.focus();
@@ -49,7 +49,7 @@ export function NameInput({
     if (rename) return;
     await studio.send('file.new', { path, kind });
     if (kind === 'folder') return;
-    // Whoever names the next file already stays in its field.
+    // If the next file is being named already, its field keeps the focus.
     const free = studio.window.getState().naming === null;
     revealDoc(studio.window, documentsIn(studio, path)[0] ?? path, null, free);
   };

@@ -36,7 +36,7 @@ export function VariableLine({
   const [edits, setEdits] = useState(false);
   const { variable } = place;
   const may = drives && variable.writable;
-  // Below its unfolded array; elsewhere an element stands by itself.
+  // Below its unfolded array; elsewhere an element is by itself.
   const isElement = name.startsWith('[');
   useEditKey(row, may, () => setEdits(true));
   return (

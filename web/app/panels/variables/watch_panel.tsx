@@ -31,7 +31,7 @@ interface WatchedRow {
   pick: Pick;
 }
 
-/** Variables picked from all nodes, side by side. While a node is paused: what changed since it stood last. */
+/** Variables picked from all nodes, side by side. While a node is paused: what changed since it was paused last. */
 export default function WatchPanel() {
   const studio = useStudio();
   const frame = useRef<HTMLDivElement>(null);

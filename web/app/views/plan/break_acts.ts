@@ -14,7 +14,7 @@ export function breakAt(
   return all.find((one) => one.doc === doc && isAt(one, place));
 }
 
-/** Sets one at an element or arrow, or takes it away. */
+/** Sets one at an element or arrow, or deletes it. */
 export function toggleBreak(studio: Studio, board: PlanBoard, key: string): void {
   const place = placeOf(board.model, key);
   if (!place) return;

@@ -50,7 +50,7 @@ export function PlanChange({ doc }: { doc: Doc }) {
             studio.order('plan.start', plan.doc === undefined ? {} : { doc: plan.doc })
           }
         >
-          {words.anew}
+          {words.again}
         </Button>
       }
     />

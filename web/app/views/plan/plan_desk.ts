@@ -25,7 +25,7 @@ export class PlanDesk extends Desk<ShownPlan> {
   private asked = false;
   private readonly renames = new Emitter<void>();
 
-  /** The name of what is chosen is to be changed, by whoever shows it or comes to show it. */
+  /** The name of what is chosen is to be changed, by the view that shows it or comes to show it. */
   rename(): void {
     this.asked = true;
     this.renames.emit();

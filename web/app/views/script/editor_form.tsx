@@ -34,7 +34,7 @@ export function EditorForm({ doc, view }: { doc: Doc; view: EditorView }) {
   );
 }
 
-/** Stands below its line. */
+/** Is below its line. */
 function Frame({
   view,
   line,

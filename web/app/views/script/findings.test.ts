@@ -40,7 +40,7 @@ it('it comes when the caret leaves the line', () => {
   expect(linesWithSentence(state.update({ selection: { anchor: 0 } }).state)).toEqual([2]);
 });
 
-it('one that stands there does not go while its line is typed', () => {
+it('one that is there does not go while its line is typed', () => {
   const { state: shown } = typing().update({ selection: { anchor: 0 }, effects: told(2) });
   expect(linesWithSentence(shown)).toEqual([2]);
   const { state: again } = shown.update({

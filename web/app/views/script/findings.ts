@@ -85,7 +85,7 @@ function leavesLine({ startState, state, docChanged, selection }: Transaction): 
   return !docChanged && selection !== undefined && line(startState) !== line(state);
 }
 
-/** New sentences, but at the caret's line those that stood there. */
+/** New sentences, but at the caret's line those that were there. */
 function heldAtCaret(state: EditorState, old: DecorationSet, news: DecorationSet): DecorationSet {
   const { from, to } = state.doc.lineAt(state.selection.main.head);
   const isAtCaret = (at: number) => at >= from && at <= to;
@@ -111,7 +111,7 @@ const settling = ViewPlugin.define((view) => {
 
 export const findingsExtension: Extension = [field, settling];
 
-/** Numbers of the lines below which a sentence stands. */
+/** Numbers of the lines below which a sentence is. */
 export function linesWithSentence(state: EditorState): number[] {
   const found: number[] = [];
   state.field(field).blocks.between(0, state.doc.length, (at) => {

@@ -1,5 +1,5 @@
-// What stands at lines: words of a handler, breakpoints with their conditions, the line where the
-// node stands, and the values of what that line names.
+// What is at lines: words of a handler, breakpoints with their conditions, the line where the
+// node is paused, and the values of what that line names.
 
 import {
   RangeSet,

@@ -1,5 +1,5 @@
 // Keeps what is wrong with the line of the caret in sight: the sentence below it comes after the key,
-// and at the lower end of the editor it would stand out of sight.
+// and at the lower end of the editor it would be out of sight.
 
 import type { Extension } from '@codemirror/state';
 import { EditorView, ViewPlugin, type ViewUpdate } from '@codemirror/view';

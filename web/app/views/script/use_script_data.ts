@@ -8,7 +8,7 @@ import { useCallback, useEffect, useMemo, useState } from 'react';
 import type { Breakpoint, Doc, Handler, HistoryNode, Node } from '../../../protocol/messages';
 import { wordAt } from '../../../core/help/entries';
 import { mentionedIn, readWords, valueText } from '../../../core/values';
-import { standsAt } from '../../../core/run_state';
+import { pausedLineOf } from '../../../core/run_state';
 import type { Settings } from '../../../core/settings';
 import { update } from '../../../core/window_state';
 import { addEditor } from '../../commands/editor_handles';
@@ -111,7 +111,7 @@ function useStandingIn(doc: Doc, isScript: boolean, view: EditorView | null): vo
   const robot = useTopic('robot', {});
   const node = isScript ? robot?.nodes.find((one) => one.doc === doc) : undefined;
   const then = useNodeThen(node?.id);
-  const line = then ? lineThen(then) : standsAt(node);
+  const line = then ? lineThen(then) : pausedLineOf(node);
   const code =
     line !== undefined && view && line <= view.state.doc.lines
       ? view.state.doc.line(line).text

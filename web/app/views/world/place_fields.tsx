@@ -4,7 +4,7 @@ import { NumberField } from './number_field';
 
 const words = text.world;
 
-/** Where something stands: metres, and an angle in radians that may be left open. */
+/** Where something is: metres, and an angle in radians that may be left open. */
 export function PlaceFields(props: {
   x: number;
   y: number;

@@ -2,7 +2,7 @@ import type { Placing } from '../../../core/world/model';
 import { disc, rectangle, type Shape } from '../../../core/world/geometry';
 import { bodies, kLampRadius } from '../../../core/world/stage';
 
-/** What is about to be put down, as it will stand there (core/world/file.ts, newObject). */
+/** What is about to be put down, as it will be there (core/world/file.ts, newObject). */
 export function shapeOfPlacing(placing: Placing): { shape: Shape } {
   if (placing.what === 'robot') return { shape: bodies[placing.type].shape };
   switch (placing.kind) {

@@ -12,7 +12,7 @@ import { Segments } from '../../parts/segments';
 import { text } from '../../text';
 
 const words = text.world;
-/** In which it can be run, paused, set back; "none": it stands at its start, or after Stop. */
+/** In which it can be run, paused, set back; "none": it is at its start, or after Stop. */
 const kStates: readonly string[] = ['none', 'running', 'paused'];
 const speeds = [0.1, 0.5, 1, 2, 5, 10, 0].map((value) => ({
   value: value,
@@ -30,7 +30,7 @@ export function SpeedBar() {
   const simulates = usePart('robot', {}, (is) => is?.kind === 'simulator');
   if (!state || !simulates || !kStates.includes(state)) return null;
   const runs = state === 'running';
-  const stands = state === 'none';
+  const atStart = state === 'none';
   const run = (id: string) => () => void studio.registry.run(id);
   return (
     <div className="speedbar" role="group" aria-label={words.speeds}>
@@ -38,7 +38,7 @@ export function SpeedBar() {
         kind="plain"
         small
         disabled={!drives}
-        tip={runs ? words.pause : stands ? text.run.run : text.run.continue}
+        tip={runs ? words.pause : atStart ? text.run.run : text.run.continue}
         icon={runs ? <IconPlayerPause {...size} /> : <IconPlayerPlay {...size} />}
         onClick={run(runs ? 'run.pause' : 'run.start')}
       />

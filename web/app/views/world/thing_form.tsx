@@ -107,7 +107,7 @@ function Head({ world, entry }: { world: ShownWorld; entry: string | null }) {
   );
 }
 
-/** Forms show each change of the file, whoever made it. */
+/** Forms show each change of the file, no matter who made it. */
 function useFile({ file, model }: ShownWorld): void {
   const [, redraw] = useReducer((count: number) => count + 1, 0);
   useEffect(

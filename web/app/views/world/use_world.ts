@@ -20,7 +20,7 @@ export function useWorldModel(): WorldModel {
   return useState(() => new WorldModel())[0];
 }
 
-/** Whether a world runs, or stands at its start. */
+/** Whether a world runs, or is at its start. */
 export function useHasScene(): boolean {
   return (useTopic('scene', {})?.robots.length ?? 0) > 0;
 }

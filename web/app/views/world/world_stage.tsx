@@ -17,7 +17,7 @@ import { nameOfThing } from './words';
 
 const SolidView = late(() => import('./solid_view'));
 
-/** The picture of a world, with what stands over it. All that can be done with it has keys, too. */
+/** The picture of a world, with what is over it. All that can be done with it has keys, too. */
 export function WorldStage({
   model,
   file,

@@ -12,7 +12,7 @@ export interface Dot {
   label: string;
 }
 
-/** Breakpoints by the key of what they stand at. */
+/** Breakpoints by the key of what they are at. */
 export const DotsContext = createContext<ReadonlyMap<string, Dot>>(new Map());
 
 /** The same map as long as nothing is drawn otherwise: hits do not draw the plan again. */
@@ -37,7 +37,7 @@ export function BreakDot({ at }: { at: string }) {
 }
 
 function Shown({ number, disc, label }: Dot) {
-  const holds = useLive((live) => live.standsAt.includes(number));
+  const holds = useLive((live) => live.pausedLineOf.includes(number));
   const classes = ['disc', 'pdot', `disc--${disc}`];
   if (holds) classes.push('is-hit');
   return <span className={classes.join(' ')} role="img" aria-label={label} title={label} />;

@@ -57,7 +57,7 @@ function choose(board: PlanBoard, changes: readonly NodeChange<PlanNode>[]): voi
   board.selectAll([...kept, ...come]);
 }
 
-/** Moves what is seen if an element stands outside of it. */
+/** Moves what is seen if an element is outside of it. */
 function reveal(
   flow: ReturnType<typeof useReactFlow>,
   box: Box | undefined,
@@ -146,7 +146,7 @@ export function useOnDesk(
         properties,
         rename() {
           const { board } = shown;
-          // A note is written where it stands.
+          // A note is written where it is.
           if (!board.note(board.selected)) revealPanel(studio.window, 'properties', false);
           planDeskOf(studio).rename();
         },

@@ -6,7 +6,7 @@ import { elkGraph, type LayoutGraph } from '../../../../core/plan/tidy';
 import { text } from '../../../text';
 import type { Point } from '../../../../core/plan/shape';
 
-/** A layout that takes longer is given up. */
+/** A layout that takes longer is cancelled. */
 export const kLayoutMs = 10_000;
 
 export class TooLong extends Error {}

@@ -90,7 +90,7 @@ export const SupervisorHexagon = memo(function SupervisorHexagon(props: NodeProp
   const raised = useLive((live) =>
     rows.some((row) => row.id === live.taken) ? live.takenNumber : 0,
   );
-  const held = useLive((live) => live.standsAt.length > 0);
+  const held = useLive((live) => live.pausedLineOf.length > 0);
   const times = useLive((live) => live.turns.get(supervisorKey(supervisor))?.times ?? 0);
   const classes = [rows.length > 1 ? 'psup psup--many' : 'psup'];
   if (selected) classes.push('is-selected');

@@ -13,7 +13,7 @@ import { Findings, isWrong, useFindingsAt } from './row_findings';
 import { useCompletion } from './use_completion';
 import { useDraftFindings } from './use_draft_findings';
 
-/** One input: its formula; what counts without one stands there in grey, what is wrong below it. */
+/** One input: its formula; what counts without one is there in grey, what is wrong below it. */
 export function FormulaField(props: {
   board: PlanBoard;
   element: Actor | Supervisor;

@@ -3,7 +3,7 @@ import { useEffect, useRef, type ReactElement } from 'react';
 import type { Offer } from '../../../../core/plan/completion';
 import { text } from '../../../text';
 
-/** What may stand at the caret, below the field that is typed into. */
+/** What may be written at the caret, below the field that is typed into. */
 export function Offers(props: {
   id: string;
   field: ReactElement;

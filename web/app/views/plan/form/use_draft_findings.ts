@@ -22,7 +22,7 @@ export function useDraftFindings(doc: Doc, keys: Keys, steps: JsonStep[] | null)
     const cancel = studio.world.later(kPauseMs, () => {
       studio.send('plan.check', { doc, steps: JSON.parse(asked) as JsonStep[] }).then(
         ({ findings }) => isLate || setFound(findingsAt(findings, way.split('\n'))),
-        // Others changed the plan meanwhile: what was found there before still stands.
+        // Others changed the plan meanwhile: what was found there before is still true.
         () => {},
       );
     });

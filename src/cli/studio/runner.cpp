@@ -1,4 +1,4 @@
-#include "cli/studio/run_host.hpp"
+#include "cli/studio/runner.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace vagus::cli {
 
-void add_run_host(CLI::App& app, int& exit_code) {
+void add_runner(CLI::App& app, int& exit_code) {
     CLI::App* verb = app.add_subcommand("run-host", "a run of the studio");
     verb->group("");
     verb->footer("Example:\n  vagus run-host 3<>socket");

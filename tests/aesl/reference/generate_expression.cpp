@@ -1,5 +1,5 @@
 // Expressions made up from a seed: see generate.hpp.
-#include "aesl/reference/generate_expression.hpp"
+#include "reference/generate_expression.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 // Programs made up from a seed: see generate.hpp.
-#include "aesl/reference/generate.hpp"
+#include "reference/generate.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "aesl/reference/generate_expression.hpp"
+#include "reference/generate_expression.hpp"
 
 namespace vagus::aesl {
 namespace {

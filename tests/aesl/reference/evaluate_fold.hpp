@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "aesl/reference/outcome.hpp"
 #include "aesl/tree.hpp"
+#include "reference/outcome.hpp"
 
 namespace vagus::aesl {
 

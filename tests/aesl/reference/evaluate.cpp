@@ -1,12 +1,12 @@
 // The evaluator: see evaluate.hpp. Statement by statement, element by element.
-#include "aesl/reference/evaluate.hpp"
+#include "reference/evaluate.hpp"
 
 #include <bit>
 #include <cassert>
 
 #include "aesl/parse.hpp"
-#include "aesl/reference/evaluate_fold.hpp"
-#include "aesl/reference/evaluate_natives.hpp"
+#include "reference/evaluate_fold.hpp"
+#include "reference/evaluate_natives.hpp"
 
 namespace vagus::aesl {
 namespace {
@@ -43,7 +43,7 @@ public:
         for (size_t i = 0; i < words.size(); ++i) memory_[address + i] = words[i];
     }
 
-    bool has_stopped() const { return outcome_.fault || outcome_.gave_up; }
+    bool has_stopped() const { return outcome_.fault || outcome_.out_of_steps; }
 
     void store_memory() {
         for (const TreeVariable& variable : tree_.variables) {
@@ -55,13 +55,13 @@ public:
 private:
     NodeId child(NodeId id, int position) const { return tree_.child(id, position); }
 
-    void fault(NodeId id, FaultKind kind) {
+    void fault(NodeId id, FaultCause kind) {
         if (!outcome_.fault) outcome_.fault = Fault{kind, during_, tree_.line_of(id)};
     }
 
     bool has_step_left() {
-        if (++steps_ > kEvaluateStepsMax) outcome_.gave_up = true;
-        return !outcome_.gave_up;
+        if (++steps_ > kEvaluateStepsMax) outcome_.out_of_steps = true;
+        return !outcome_.out_of_steps;
     }
 
     // ---- expressions ----
@@ -112,7 +112,7 @@ private:
         const TreeVariable& variable = tree_.variables[static_cast<size_t>(tree_[id].value)];
         if (*index >= 0 && *index < variable.size)
             return static_cast<size_t>(variable.address + *index);
-        fault(id, FaultKind::ArrayOutOfBounds);
+        fault(id, FaultCause::ArrayOutOfBounds);
         return std::nullopt;
     }
 
@@ -135,7 +135,7 @@ private:
         const Value b = value(right, k);
         if (!b) return std::nullopt;
         const Value result = run_binary(op, *a, *b);
-        if (!result) fault(id, FaultKind::DivisionByZero);
+        if (!result) fault(id, FaultCause::DivisionByZero);
         return result;
     }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "aesl/reference/outcome.hpp"
+#include "reference/outcome.hpp"
 
 namespace vagus::aesl {
 
@@ -17,7 +17,7 @@ using NativeArguments = std::vector<std::span<int16_t>>;
 
 // Calls the function of that name; the 30 standard ones, `sys.nop` and `sys.sum` exist. Gives what
 // went wrong in it, if anything did. `random_state` is that of math.rand.
-std::optional<FaultKind> call_native(std::string_view name, const NativeArguments& arguments,
-                                     uint16_t& random_state);
+std::optional<FaultCause> call_native(std::string_view name, const NativeArguments& arguments,
+                                      uint16_t& random_state);
 
 }  // namespace vagus::aesl

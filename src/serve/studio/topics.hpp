@@ -1,11 +1,11 @@
-// What pages watch: documents that change, streams that grow, binary frames that flow. Whoever has
-// something to show declares it once and says when it may have changed; the board computes only
-// what somebody watches, sends what differs from what that page has, no faster than it asked for,
-// and nothing to a page without room: what it missed is merged or counted, never queued.
+// What pages watch: documents that change, streams that grow, binary frames that flow. A part with
+// something to show declares it once and says when it may have changed. Only what somebody watches
+// is computed. A page is sent what differs from what it has, no faster than it asked for, and
+// nothing while it has no room: what it missed is merged or counted, not queued.
 //
-//     board.document("clock", [&](const Json&) { return clock_document(); });
-//     board.touch("clock");
-//     board.flush(now, has_room, send);
+//     topics.document("clock", [&](const Json&) { return clock_document(); });
+//     topics.touch("clock");
+//     topics.flush(now, has_room, send);
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ public:
     virtual std::optional<std::pair<double, std::string>> next() = 0;
 };
 
-class Board {
+class Topics {
 public:
     using MakeDocument = std::function<Json(const Json& of)>;
     using OpenBinary = std::function<std::unique_ptr<BinaryWatch>(const Json& of)>;

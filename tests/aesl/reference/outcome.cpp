@@ -1,5 +1,5 @@
 // Comparing and reading outcomes: see outcome.hpp.
-#include "aesl/reference/outcome.hpp"
+#include "reference/outcome.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -51,7 +51,7 @@ Emission emission_of(const JsonValue& json) {
 
 Fault fault_of(const JsonValue& json) {
     const auto* kind = std::find(kFaultNames.begin(), kFaultNames.end(), text_in(json, "kind"));
-    return {static_cast<FaultKind>(kind - kFaultNames.begin()),
+    return {static_cast<FaultCause>(kind - kFaultNames.begin()),
             static_cast<size_t>(integer_in(json, "during")),
             static_cast<int>(integer_in(json, "line"))};
 }
@@ -59,7 +59,7 @@ Fault fault_of(const JsonValue& json) {
 }  // namespace
 
 std::string to_string(const Outcome& outcome) {
-    if (outcome.gave_up) return "gave up\n";
+    if (outcome.out_of_steps) return "out of steps\n";
     if (outcome.error)
         return fmt::format("error {} in line {}\n", outcome.error->code, outcome.error->line);
     std::string text;

@@ -1,4 +1,4 @@
-#include "serve/studio/board.hpp"
+#include "serve/studio/topics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,31 +22,31 @@ struct Sent {
     Json json() const { return Json::parse(bytes); }
 };
 
-// A board with a clock that tests turn, and what it has sent.
+// Topics with a clock that tests turn, and what it has sent.
 struct Fixture {
-    Board board;
+    Topics topics;
     std::vector<Sent> sent;
     double clock = 0;
     int made = 0;
     ClientId full{0};  // a page without room
 
     Fixture() {
-        board.document("clock", [this](const Json&) {
+        topics.document("clock", [this](const Json&) {
             ++made;
             return Json{{"t", clock}, {"state", "running"}};
         });
-        board.stream("console", 3);
+        topics.stream("console", 3);
     }
     std::vector<std::string> flush(Time now) {
         sent.clear();
-        return board.flush(
+        return topics.flush(
             now, [this](ClientId client) { return client != full; },
             [this](ClientId client, bool binary, std::string bytes) {
                 sent.push_back({client, binary, std::move(bytes)});
             });
     }
     void watch(ClientId client, Json in) {
-        ASSERT_FALSE(board.watch(client, in, Time{}).has_value());
+        ASSERT_FALSE(topics.watch(client, in, Time{}).has_value());
     }
 };
 
@@ -61,7 +61,7 @@ TEST(MergePatch, HoldsWhatChangedAndNullForWhatWent) {
     EXPECT_EQ(merge_patch(to, to), Json::object());
 }
 
-TEST(Board, ADocumentComesWholeThenInPatches) {
+TEST(Topics, ADocumentComesWholeThenInPatches) {
     Fixture f;
     f.watch(kPage, {{"watch", 5}, {"topic", "clock"}});
     f.flush(0s);
@@ -71,35 +71,35 @@ TEST(Board, ADocumentComesWholeThenInPatches) {
     f.clock = 1.5;
     f.flush(1s);
     EXPECT_TRUE(f.sent.empty());  // nobody said that it changed
-    f.board.touch("clock");
+    f.topics.touch("clock");
     f.flush(1s);
     ASSERT_EQ(f.sent.size(), 1u);
     EXPECT_EQ(f.sent[0].json(), (Json{{"watch", 5}, {"patch", {{"t", 1.5}}}}));
-    f.board.touch("clock");
+    f.topics.touch("clock");
     f.flush(2s);
     EXPECT_TRUE(f.sent.empty());  // made again, and the same
 }
 
-TEST(Board, NoFasterThanAskedAndNothingThatNobodyWatches) {
+TEST(Topics, NoFasterThanAskedAndNothingThatNobodyWatches) {
     Fixture f;
-    f.board.touch("clock");
+    f.topics.touch("clock");
     f.flush(0s);
     EXPECT_EQ(f.made, 0);
     f.watch(kPage, {{"watch", 1}, {"topic", "clock"}, {"rate", 10}});
     f.flush(0s);
     f.clock = 1;
-    f.board.touch("clock");
+    f.topics.touch("clock");
     f.flush(99ms);
     EXPECT_TRUE(f.sent.empty());
-    EXPECT_EQ(f.board.next_due(99ms), 100ms);
+    EXPECT_EQ(f.topics.next_due(99ms), 100ms);
     f.flush(100ms);
     EXPECT_EQ(f.sent.size(), 1u);
-    f.board.unwatch(kPage, 1);
-    EXPECT_FALSE(f.board.watched("clock"));
-    EXPECT_EQ(f.board.next_due(100ms), Time::max());
+    f.topics.unwatch(kPage, 1);
+    EXPECT_FALSE(f.topics.watched("clock"));
+    EXPECT_EQ(f.topics.next_due(100ms), Time::max());
 }
 
-TEST(Board, APageWithoutRoomGetsWhatItMissedInOne) {
+TEST(Topics, APageWithoutRoomGetsWhatItMissedInOne) {
     Fixture f;
     f.watch(kPage, {{"watch", 1}, {"topic", "clock"}});
     f.watch(kOther, {{"watch", 1}, {"topic", "clock"}});
@@ -107,7 +107,7 @@ TEST(Board, APageWithoutRoomGetsWhatItMissedInOne) {
     f.full = kPage;
     for (int i = 1; i <= 10; ++i) {
         f.clock = i;
-        f.board.touch("clock");
+        f.topics.touch("clock");
         f.flush(std::chrono::seconds(i));
         ASSERT_EQ(f.sent.size(), 1u);
         EXPECT_EQ(f.sent[0].client, kOther);
@@ -119,18 +119,18 @@ TEST(Board, APageWithoutRoomGetsWhatItMissedInOne) {
 }
 
 // Else the server would turn round in circles for as long as a page does not read.
-TEST(Board, APageWithoutRoomIsNotDueAtOnce) {
+TEST(Topics, APageWithoutRoomIsNotDueAtOnce) {
     Fixture f;
     f.watch(kPage, {{"watch", 1}, {"topic", "clock"}});
     f.full = kPage;
     f.flush(5s);
-    EXPECT_EQ(f.board.next_due(5s), 5s + 50ms);
+    EXPECT_EQ(f.topics.next_due(5s), 5s + 50ms);
 }
 
-TEST(Board, AStreamTellsWhatItLeftOut) {
+TEST(Topics, AStreamTellsWhatItLeftOut) {
     Fixture f;
     f.watch(kPage, {{"watch", 1}, {"topic", "console"}});
-    for (int i = 0; i < 5; ++i) f.board.add("console", {{"kind", "note"}, {"text", i}});
+    for (int i = 0; i < 5; ++i) f.topics.add("console", {{"kind", "note"}, {"text", i}});
     f.flush(0s);
     ASSERT_EQ(f.sent.size(), 1u);
     const Json message = f.sent[0].json();
@@ -141,12 +141,12 @@ TEST(Board, AStreamTellsWhatItLeftOut) {
     EXPECT_TRUE(f.sent.empty());
 }
 
-TEST(Board, AStreamThatWasForgottenGoesOnCounting) {
+TEST(Topics, AStreamThatWasForgottenGoesOnCounting) {
     Fixture f;
     f.watch(kPage, {{"watch", 1}, {"topic", "console"}});
-    for (int i = 0; i < 3; ++i) f.board.add("console", {{"kind", "note"}, {"text", i}});
-    f.board.forget("console");
-    f.board.add("console", {{"kind", "note"}, {"text", 3}});
+    for (int i = 0; i < 3; ++i) f.topics.add("console", {{"kind", "note"}, {"text", i}});
+    f.topics.forget("console");
+    f.topics.add("console", {{"kind", "note"}, {"text", 3}});
     f.flush(0s);
     ASSERT_EQ(f.sent.size(), 1u);
     const Json message = f.sent[0].json();
@@ -155,16 +155,16 @@ TEST(Board, AStreamThatWasForgottenGoesOnCounting) {
     EXPECT_EQ(message["items"][0]["number"], 3);
 }
 
-TEST(Board, AStreamBeginsWithTheLastOnesAskedFor) {
+TEST(Topics, AStreamBeginsWithTheLastOnesAskedFor) {
     Fixture f;
-    for (int i = 0; i < 3; ++i) f.board.add("console", {{"kind", "note"}, {"text", i}});
+    for (int i = 0; i < 3; ++i) f.topics.add("console", {{"kind", "note"}, {"text", i}});
     f.watch(kPage, {{"watch", 1}, {"topic", "console"}, {"of", {{"last", 1}}}});
     f.flush(0s);
     ASSERT_EQ(f.sent.size(), 1u);
     EXPECT_EQ(f.sent[0].json()["items"].size(), 1u);
 }
 
-TEST(Board, BinaryFramesHaveTheirHead) {
+TEST(Topics, BinaryFramesHaveTheirHead) {
     struct Once final : BinaryWatch {
         bool told = false;
         std::optional<std::pair<double, std::string>> next() override {
@@ -173,7 +173,7 @@ TEST(Board, BinaryFramesHaveTheirHead) {
         }
     };
     Fixture f;
-    f.board.binary("poses", [](const Json&) { return std::make_unique<Once>(); });
+    f.topics.binary("poses", [](const Json&) { return std::make_unique<Once>(); });
     f.watch(kPage, {{"watch", 258}, {"topic", "poses"}});
     f.flush(0s);
     ASSERT_EQ(f.sent.size(), 1u);
@@ -188,23 +188,23 @@ TEST(Board, BinaryFramesHaveTheirHead) {
     EXPECT_TRUE(f.sent.empty());
 }
 
-TEST(Board, WrongSubscriptionsAreRefused) {
+TEST(Topics, WrongSubscriptionsAreRefused) {
     Fixture f;
-    EXPECT_EQ(f.board.watch(kPage, {{"watch", 1}, {"topic", "clocks"}}, 0s)->code, "not_found");
-    EXPECT_EQ(f.board.watch(kPage, {{"watch", 1}, {"topic", "doc"}}, 0s)->code, "bad_message");
+    EXPECT_EQ(f.topics.watch(kPage, {{"watch", 1}, {"topic", "clocks"}}, 0s)->code, "not_found");
+    EXPECT_EQ(f.topics.watch(kPage, {{"watch", 1}, {"topic", "doc"}}, 0s)->code, "bad_message");
     for (uint32_t i = 0; i < Protocol::get().limit("watches"); ++i) {
-        ASSERT_FALSE(f.board.watch(kPage, {{"watch", i + 1}, {"topic", "clock"}}, 0s));
+        ASSERT_FALSE(f.topics.watch(kPage, {{"watch", i + 1}, {"topic", "clock"}}, 0s));
     }
-    EXPECT_EQ(f.board.watch(kPage, {{"watch", 1000}, {"topic", "clock"}}, 0s)->code, "limit");
-    f.board.drop(kPage);
-    EXPECT_FALSE(f.board.watch(kPage, {{"watch", 1000}, {"topic", "clock"}}, 0s));
+    EXPECT_EQ(f.topics.watch(kPage, {{"watch", 1000}, {"topic", "clock"}}, 0s)->code, "limit");
+    f.topics.drop(kPage);
+    EXPECT_FALSE(f.topics.watch(kPage, {{"watch", 1000}, {"topic", "clock"}}, 0s));
 }
 
 // What was seen: one document that threw kept all that come after it from every page.
-TEST(Board, ADocumentThatCannotBeMadeKeepsNoOtherBack) {
+TEST(Topics, ADocumentThatCannotBeMadeKeepsNoOtherBack) {
     Fixture f;
     int tried = 0;
-    f.board.document("breakpoints", [&](const Json&) -> Json {
+    f.topics.document("breakpoints", [&](const Json&) -> Json {
         ++tried;
         throw std::runtime_error("no such line");
     });
@@ -215,7 +215,7 @@ TEST(Board, ADocumentThatCannotBeMadeKeepsNoOtherBack) {
     EXPECT_EQ(f.sent[0].json()["watch"], 2);
     // It is tried again later, not at each turn.
     EXPECT_TRUE(f.flush(1s + kThrownAgain / 2).empty());
-    EXPECT_EQ(f.board.next_due(1s), 1s + kThrownAgain);
+    EXPECT_EQ(f.topics.next_due(1s), 1s + kThrownAgain);
     EXPECT_EQ(f.flush(1s + kThrownAgain).size(), 1u);
     EXPECT_EQ(tried, 2);
 }

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "aesl/node_file.hpp"
-#include "aesl/reference/outcome.hpp"
+#include "reference/outcome.hpp"
 
 namespace vagus::aesl {
 

@@ -8,6 +8,6 @@ class App;
 
 namespace vagus::cli {
 
-void add_run_host(CLI::App& app, int& exit_code);
+void add_runner(CLI::App& app, int& exit_code);
 
 }  // namespace vagus::cli

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "aesl/node_file.hpp"
-#include "aesl/reference/outcome.hpp"
+#include "reference/outcome.hpp"
 
 namespace vagus::aesl {
 
-// Statements and loop rounds of a whole case; then the evaluator gives up.
+// Statements and loop rounds of a whole case; then the evaluator stops.
 constexpr int kEvaluateStepsMax = 50'000;
 
 // Runs the initialisation, then the stimuli in order. Errors of the text are those of the

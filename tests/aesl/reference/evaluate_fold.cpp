@@ -1,5 +1,5 @@
 // Constant folding by the rules of section 3.6: see evaluate_fold.hpp.
-#include "aesl/reference/evaluate_fold.hpp"
+#include "reference/evaluate_fold.hpp"
 
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-#include "serve/edit/finding.hpp"
+#include "serve/edit/doc_finding.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -53,7 +53,7 @@ Position position_of(const Json& place) {
     return {place["line"].get<int>(), place["column"].get<int>()};
 }
 
-Json json_of(const Finding& finding) {
+Json json_of(const DocFinding& finding) {
     Json fixes = Json::array();
     for (const FindingFix& fix : finding.fixes) {
         if (fixes.size() < kFixesMax && fix.edits.size() <= kEditsMax)
@@ -86,9 +86,9 @@ Position end_of_word(std::string_view text, Position at) {
     return places.position_of(end);
 }
 
-Finding finding_of_sentence(const std::string& doc, std::string_view text, Severity severity,
-                            const std::string& code, std::string_view sentence) {
-    Finding finding{doc, severity, code, {}, {1, 1}, {1, 1}, {}, {}};
+DocFinding finding_of_sentence(const std::string& doc, std::string_view text, Severity severity,
+                               const std::string& code, std::string_view sentence) {
+    DocFinding finding{doc, severity, code, {}, {1, 1}, {1, 1}, {}, {}};
     std::string_view rest = sentence;
     if (rest.starts_with(doc + ":")) {
         rest.remove_prefix(doc.size() + 1);

@@ -1,7 +1,7 @@
 // Real sockets on the loopback interface, port 0, everything in one thread: each step polls until
 // what it waits for has happened. The deadline is only there so that a broken build fails instead
 // of hanging.
-#include "net/network.hpp"
+#include "net/links.hpp"
 
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -36,16 +36,16 @@ wire::Frame event_from(uint16_t source, uint16_t number, uint16_t payload = 8) {
 // A switch with one listener, and what has happened so far.
 struct Switch {
     hub::Hub hub;
-    Network network;
-    Listening listening = network.listen(hub, kAnyPort).value();
+    Links links;
+    Listening listening = links.listen(hub, kAnyPort).value();
     std::vector<Event> events;
 
     void step(Duration most = 1ms) {
-        for (Event& each : network.poll(network.now() + most)) events.push_back(std::move(each));
+        for (Event& each : links.poll(links.now() + most)) events.push_back(std::move(each));
     }
     [[nodiscard]] bool until(const std::function<bool()>& done) {
-        const Time deadline = network.now() + kPatience;
-        while (network.now() < deadline) {
+        const Time deadline = links.now() + kPatience;
+        while (links.now() < deadline) {
             if (done()) return true;
             step();
         }
@@ -129,13 +129,13 @@ Hex receive(Switch& net, const Peer& peer, size_t size) {
     return all;
 }
 
-TEST(Network, GivesTheRealPortOfPort0) {
+TEST(Links, GivesTheRealPortOfPort0) {
     Switch net;
     EXPECT_NE(std::get<TcpPlace>(net.listening.target.place).port, 0);
     EXPECT_EQ(to_string(net.listening.target).rfind("tcp:127.0.0.1:", 0), 0u);
 }
 
-TEST(Network, PassesAFrameFromOneClientToTheOther) {
+TEST(Links, PassesAFrameFromOneClientToTheOther) {
     Switch net;
     const Peer a(net.listening.target), b(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 2; }));
@@ -146,7 +146,7 @@ TEST(Network, PassesAFrameFromOneClientToTheOther) {
     EXPECT_EQ(a.take(), Hex{});
 }
 
-TEST(Network, PassesAFrameThatComesByteByByte) {
+TEST(Links, PassesAFrameThatComesByteByByte) {
     Switch net;
     const Peer a(net.listening.target), b(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 2; }));
@@ -158,23 +158,23 @@ TEST(Network, PassesAFrameThatComesByteByByte) {
     EXPECT_EQ(receive(net, b, 14), whole);
 }
 
-// Without wake() the poll would last until the test is given up.
-TEST(Network, AnotherThreadWakesAPoll) {
+// Without wake() the poll would last until the test times out.
+TEST(Links, AnotherThreadWakesAPoll) {
     Switch host;
-    std::thread other([&host] { host.network.wake(); });
-    EXPECT_TRUE(host.network.poll(Time::max()).empty());
+    std::thread other([&host] { host.links.wake(); });
+    EXPECT_TRUE(host.links.poll(Time::max()).empty());
     other.join();
     // Also one that comes before the poll.
-    host.network.wake();
-    EXPECT_TRUE(host.network.poll(Time::max()).empty());
+    host.links.wake();
+    EXPECT_TRUE(host.links.poll(Time::max()).empty());
 }
 
 // The line of a process that this one has started.
-TEST(Network, JoinsOneEndOfAPairOfSockets) {
+TEST(Links, JoinsOneEndOfAPairOfSockets) {
     Switch net;
     int ends[2];
     ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
-    const auto place = net.network.join(net.hub, ends[0], "board 7");
+    const auto place = net.links.join(net.hub, ends[0], "board 7");
     ASSERT_TRUE(place.ok());
     const Peer host(net.listening.target);
     {
@@ -190,7 +190,7 @@ TEST(Network, JoinsOneEndOfAPairOfSockets) {
     EXPECT_NE(net.events.back().what.find("board 7"), std::string::npos);
 }
 
-TEST(Network, ServesAPlaceInThisProcess) {
+TEST(Links, ServesAPlaceInThisProcess) {
     Switch net;
     const hub::LinkId own = net.hub.add({.name = "node"}).value();
     const Peer a(net.listening.target);
@@ -203,7 +203,7 @@ TEST(Network, ServesAPlaceInThisProcess) {
     EXPECT_EQ(receive(net, a, 14), bytes_of(event_from(1, 5)));
 }
 
-TEST(Network, TellsTheOthersThatANodeLeft) {
+TEST(Links, TellsTheOthersThatANodeLeft) {
     Switch net;
     const Peer host(net.listening.target);
     {
@@ -217,7 +217,7 @@ TEST(Network, TellsTheOthersThatANodeLeft) {
     EXPECT_NE(net.events.back().what.find("the other side closed it"), std::string::npos);
 }
 
-TEST(Network, WhatAClientSaidBeforeItLeftArrives) {
+TEST(Links, WhatAClientSaidBeforeItLeftArrives) {
     Switch net;
     const Peer host(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 1; }));
@@ -229,7 +229,7 @@ TEST(Network, WhatAClientSaidBeforeItLeftArrives) {
     EXPECT_EQ(receive(net, host, 50 * 6).size(), 50u * 6);
 }
 
-TEST(Network, AClientThatNeverReadsCostsTheOthersNothing) {
+TEST(Links, AClientThatNeverReadsCostsTheOthersNothing) {
     Switch net;
     const Peer sender(net.listening.target), reader(net.listening.target);
     const Peer stuck(net.listening.target);
@@ -250,7 +250,7 @@ TEST(Network, AClientThatNeverReadsCostsTheOthersNothing) {
 
 // One sends as fast as it can, the other reads as fast as it can: nothing may be lost between them,
 // though the sender is faster.
-TEST(Network, AFloodReachesAReceiverThatKeepsUp) {
+TEST(Links, AFloodReachesAReceiverThatKeepsUp) {
     Switch net;
     const Peer sender(net.listening.target), reader(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 2; }));
@@ -275,7 +275,7 @@ TEST(Network, AFloodReachesAReceiverThatKeepsUp) {
     EXPECT_EQ(net.hub.stats(net.hub.links()[1]).dropped, hub::Dropped{});
 }
 
-TEST(Network, ServesHundredsOfClients) {
+TEST(Links, ServesHundredsOfClients) {
     Switch net;
     const size_t count = 300;
     std::vector<Peer> peers;
@@ -292,7 +292,7 @@ TEST(Network, ServesHundredsOfClients) {
     ASSERT_TRUE(net.until([&] { return net.hub.links().empty(); }));
 }
 
-TEST(Network, ClosesAPeerThatDoesNotSpeakTheProtocol) {
+TEST(Links, ClosesAPeerThatDoesNotSpeakTheProtocol) {
     Switch net;
     const Peer good(net.listening.target);
     ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 1; }));
@@ -310,40 +310,40 @@ TEST(Network, ClosesAPeerThatDoesNotSpeakTheProtocol) {
     EXPECT_EQ(net.hub.links().size(), 1u);
 }
 
-TEST(Network, RemapsALinkAsItsTargetSays) {
+TEST(Links, RemapsALinkAsItsTargetSays) {
     Switch node_side;
     const hub::LinkId node = node_side.hub.add({.name = "node"}).value();
     hub::Hub hub;
     const hub::LinkId host = hub.add({.name = "host"}).value();
-    Network network;
+    Links links;
     Target target = node_side.listening.target;
     target.remap = hub::Remap{5, 1};
-    ASSERT_TRUE(network.connect(hub, target).ok());
+    ASSERT_TRUE(links.connect(hub, target).ok());
     wire::Frame frame;
     ASSERT_TRUE(node_side.until([&] {
-        network.poll(network.now());
+        links.poll(links.now());
         return hub.links().size() == 2 && node_side.hub.links().size() == 2;
     }));
     node_side.hub.receive(node, event_from(1, 4));
     ASSERT_TRUE(node_side.until([&] {
-        network.poll(network.now());
+        links.poll(links.now());
         return hub.take(host, frame);
     }));
     EXPECT_EQ(frame.source, 5);
 }
 
-TEST(Network, ReconnectsALostTarget) {
+TEST(Links, ReconnectsALostTarget) {
     hub::Hub hub;
-    Network network;
+    Links links;
     std::vector<Event> events;
     auto first = std::make_unique<Switch>();
     const Target target = first->listening.target;
-    ASSERT_TRUE(network.connect(hub, target, {.retry = Retry::Forever}).ok());
+    ASSERT_TRUE(links.connect(hub, target, {.retry = Retry::Forever}).ok());
     const auto until = [&](Switch* other, EventKind kind) {
-        const Time deadline = network.now() + kPatience;
-        while (network.now() < deadline) {
+        const Time deadline = links.now() + kPatience;
+        while (links.now() < deadline) {
             if (other) other->step();
-            for (Event& each : network.poll(network.now() + 1ms)) events.push_back(each);
+            for (Event& each : links.poll(links.now() + 1ms)) events.push_back(each);
             if (!events.empty() && events.back().kind == kind) return true;
         }
         return false;
@@ -353,7 +353,7 @@ TEST(Network, ReconnectsALostTarget) {
     ASSERT_TRUE(until(nullptr, EventKind::Failed));
     EXPECT_NE(events.back().what.find(to_string(target) + ": cannot connect"), std::string::npos);
     Switch second;
-    const auto again = second.network.listen(second.hub, target);
+    const auto again = second.links.listen(second.hub, target);
     ASSERT_TRUE(again.ok()) << again.error().what;
     ASSERT_TRUE(until(&second, EventKind::Opened));
     std::vector<EventKind> kinds;
@@ -363,62 +363,62 @@ TEST(Network, ReconnectsALostTarget) {
                                              EventKind::Failed, EventKind::Opened}));
 }
 
-TEST(Network, ASingleClientListenerReplacesItsClient) {
+TEST(Links, ASingleClientListenerReplacesItsClient) {
     hub::Hub hub;
-    Network network;
-    const Listening at = network.listen(hub, kAnyPort, {.clients = Clients::One}).value();
+    Links links;
+    const Listening at = links.listen(hub, kAnyPort, {.clients = Clients::One}).value();
     Switch clock;  // only for its until()
     const Peer first(at.target);
     ASSERT_TRUE(clock.until([&] {
-        network.poll(network.now());
+        links.poll(links.now());
         return hub.links().size() == 1;
     }));
     const hub::LinkId first_link = hub.links()[0];
     const Peer second(at.target);
     ASSERT_TRUE(clock.until([&] {
-        network.poll(network.now());
+        links.poll(links.now());
         return hub.links().size() == 1 && hub.links()[0] != first_link;
     }));
     ASSERT_TRUE(clock.until([&] { return !first.take().has_value(); }));
     EXPECT_TRUE(second.take().has_value());
 }
 
-TEST(Network, NamesWhatCannotBeDone) {
+TEST(Links, NamesWhatCannotBeDone) {
     Switch net;
-    const auto taken = net.network.listen(net.hub, net.listening.target);
+    const auto taken = net.links.listen(net.hub, net.listening.target);
     ASSERT_FALSE(taken.ok());
     EXPECT_NE(taken.error().what.find(to_string(net.listening.target) + ": cannot listen"),
               std::string::npos);
     EXPECT_NE(taken.error().what.find("0 takes a free one"), std::string::npos);
-    const auto serial = net.network.listen(net.hub, parse_target("ser:/dev/ttyS0").value());
+    const auto serial = net.links.listen(net.hub, parse_target("ser:/dev/ttyS0").value());
     ASSERT_FALSE(serial.ok());
     EXPECT_NE(serial.error().what.find("only TCP can listen"), std::string::npos);
-    const auto port0 = net.network.connect(net.hub, kAnyPort);
+    const auto port0 = net.links.connect(net.hub, kAnyPort);
     ASSERT_FALSE(port0.ok());
     EXPECT_EQ(port0.error().code, Code::BadInput);
-    const auto rate = net.network.connect(net.hub, parse_target("ser:/dev/ptmx:12345").value());
+    const auto rate = net.links.connect(net.hub, parse_target("ser:/dev/ptmx:12345").value());
     ASSERT_FALSE(rate.ok());
     EXPECT_NE(rate.error().what.find("12345 is no baud rate"), std::string::npos);
 }
 
-TEST(Network, AMissingDeviceIsAFailedAttempt) {
+TEST(Links, AMissingDeviceIsAFailedAttempt) {
     Switch net;
-    ASSERT_TRUE(net.network.connect(net.hub, parse_target("ser:/dev/no-such-line").value()).ok());
+    ASSERT_TRUE(net.links.connect(net.hub, parse_target("ser:/dev/no-such-line").value()).ok());
     ASSERT_TRUE(net.until([&] { return net.count(EventKind::Failed) == 1; }));
     EXPECT_NE(net.events[0].what.find("ser:/dev/no-such-line: cannot open it: No such file"),
               std::string::npos);
 }
 
-TEST(Network, PollEndsAtItsDeadline) {
+TEST(Links, PollEndsAtItsDeadline) {
     Switch net;
-    const Time before = net.network.now();
-    EXPECT_TRUE(net.network.poll(before + 20ms).empty());
-    EXPECT_GE(net.network.now(), before + 20ms);
+    const Time before = net.links.now();
+    EXPECT_TRUE(net.links.poll(before + 20ms).empty());
+    EXPECT_GE(net.links.now(), before + 20ms);
 }
 
-TEST(Network, TellsOfSignalsAndOfInput) {
+TEST(Links, TellsOfSignalsAndOfInput) {
     Switch net;
-    ASSERT_TRUE(net.network.watch_signals().ok());
+    ASSERT_TRUE(net.links.watch_signals().ok());
     ::raise(SIGTERM);
     ASSERT_TRUE(net.until([&] { return net.count(EventKind::Signal) == 1; }));
     EXPECT_EQ(net.events[0].number, SIGTERM);
@@ -428,20 +428,20 @@ TEST(Network, TellsOfSignalsAndOfInput) {
 
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
-    ASSERT_TRUE(net.network.watch_input(ends[0]).ok());
+    ASSERT_TRUE(net.links.watch_input(ends[0]).ok());
     ASSERT_EQ(::write(ends[1], "q", 1), 1);
     ASSERT_TRUE(net.until([&] { return net.count(EventKind::Readable) > 0; }));
     EXPECT_EQ(net.events.back().number, ends[0]);
-    net.network.unwatch_input(ends[0]);
+    net.links.unwatch_input(ends[0]);
     ::close(ends[0]);
     ::close(ends[1]);
-    EXPECT_FALSE(net.network.watch_input(ends[0]).ok());
+    EXPECT_FALSE(net.links.watch_input(ends[0]).ok());
 }
 
 // Time::max() in nanoseconds is no number: a wait for it once was a busy loop.
-TEST(Network, WaitsWithoutAnEndAndWithoutWork) {
-    Network network;
-    ASSERT_TRUE(network.watch_signals().ok());
+TEST(Links, WaitsWithoutAnEndAndWithoutWork) {
+    Links links;
+    ASSERT_TRUE(links.watch_signals().ok());
     sigevent tell{};
     tell.sigev_notify = SIGEV_SIGNAL;
     tell.sigev_signo = SIGTERM;
@@ -449,25 +449,25 @@ TEST(Network, WaitsWithoutAnEndAndWithoutWork) {
     ASSERT_EQ(timer_create(CLOCK_MONOTONIC, &tell, &timer), 0);
     const itimerspec once{{0, 0}, {0, 100'000'000}};
     ASSERT_EQ(timer_settime(timer, 0, &once, nullptr), 0);
-    const Time begun = network.now();
+    const Time begun = links.now();
     const std::clock_t worked_before = std::clock();
-    const std::vector<Event> events = network.poll(Time::max());
+    const std::vector<Event> events = links.poll(Time::max());
     const double worked = static_cast<double>(std::clock() - worked_before) / CLOCKS_PER_SEC;
-    const double waited = std::chrono::duration<double>(network.now() - begun).count();
+    const double waited = std::chrono::duration<double>(links.now() - begun).count();
     timer_delete(timer);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].kind, EventKind::Signal);
     EXPECT_LT(worked, waited / 4);
 }
 
-TEST(Network, TakesItsLinksAlongWhenItGoes) {
+TEST(Links, TakesItsLinksAlongWhenItGoes) {
     hub::Hub hub;
     const hub::LinkId own = hub.add({.name = "own"}).value();
     {
-        Network network;
-        const Listening at = network.listen(hub, kAnyPort).value();
+        Links links;
+        const Listening at = links.listen(hub, kAnyPort).value();
         const Peer peer(at.target);
-        while (hub.links().size() < 2) network.poll(network.now() + 1ms);
+        while (hub.links().size() < 2) links.poll(links.now() + 1ms);
     }
     EXPECT_EQ(hub.links(), std::vector<hub::LinkId>{own});
 }
@@ -491,7 +491,7 @@ TEST(Client, SendsWaitsAndSaysWhenThePeerHasGone) {
     EXPECT_EQ(client->receive(client->now() + kPatience).value().value().type, 5);
     net.hub.receive(node, event_from(1, 6));
     net.step();
-    net.network.close(net.hub, net.hub.links()[1]);
+    net.links.close(net.hub, net.hub.links()[1]);
     EXPECT_EQ(client->receive(client->now() + kPatience).value().value().type, 6);
     // The hub says that node 1, which spoke on that connection, cannot be reached any more.
     EXPECT_EQ(client->receive(client->now() + kPatience).value().value().type, 0x9004);
@@ -515,7 +515,7 @@ TEST(Client, SaysThatNobodyIsThere) {
 
 // A thousand steps of coming, going, garbage and silence. Two clients behave and must never miss a
 // frame.
-TEST(Network, RandomPeersNeverDisturbTheGoodOnes) {
+TEST(Links, RandomPeersNeverDisturbTheGoodOnes) {
     const uint64_t seed = 1000;
     SCOPED_TRACE("seed " + std::to_string(seed));
     SplitMix64 random(seed);

@@ -1,5 +1,5 @@
 // Reference natives: see evaluate_natives.hpp. Letters in comments are those of appendix A.
-#include "aesl/reference/evaluate_natives.hpp"
+#include "reference/evaluate_natives.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@ namespace vagus::aesl {
 namespace {
 
 using Block = std::span<int16_t>;
-using Ending = std::optional<FaultKind>;
+using Ending = std::optional<FaultCause>;
 
 constexpr Ending kFine = std::nullopt;
 constexpr std::array<int32_t, 129> kSine = {
@@ -136,7 +136,7 @@ Ending larger(const NativeArguments& p) {
 
 Ending divide(const NativeArguments& p) {
     for (size_t i = 0; i < p[0].size(); ++i) {
-        if (p[2][i] == 0) return FaultKind::DivisionByZero;
+        if (p[2][i] == 0) return FaultCause::DivisionByZero;
         p[0][i] = wrap(p[1][i] / p[2][i]);
     }
     return kFine;
@@ -197,7 +197,7 @@ Ending sort(const NativeArguments& p) {
 
 Ending multiply_divide(const NativeArguments& p) {
     for (size_t i = 0; i < p[0].size(); ++i) {
-        if (p[3][i] == 0) return FaultKind::DivisionByZero;
+        if (p[3][i] == 0) return FaultCause::DivisionByZero;
         p[0][i] = wrap(int64_t{p[1][i]} * p[2][i] / p[3][i]);
     }
     return kFine;
@@ -225,7 +225,7 @@ Ending rotate(const NativeArguments& p) {
 
 Ending square_root(const NativeArguments& p) {
     for (size_t i = 0; i < p[0].size(); ++i) {
-        if (p[1][i] < 0) return FaultKind::NodeSpecific;
+        if (p[1][i] < 0) return FaultCause::NodeSpecific;
         int32_t root = 0;
         while ((root + 1) * (root + 1) <= p[1][i]) ++root;
         p[0][i] = wrap(root);
@@ -309,13 +309,13 @@ Ending deque_size(const NativeArguments& p) {
 
 Ending deque_get_at(Deque deque, int index, Block to) {
     if (!deque.is_usable() || !deque.has_range(index, static_cast<int>(to.size())))
-        return FaultKind::ArrayOutOfBounds;
+        return FaultCause::ArrayOutOfBounds;
     deque.get(index, to);
     return kFine;
 }
 
 Ending deque_erase_at(Deque deque, int index, int length) {
-    if (!deque.is_usable() || !deque.has_range(index, length)) return FaultKind::ArrayOutOfBounds;
+    if (!deque.is_usable() || !deque.has_range(index, length)) return FaultCause::ArrayOutOfBounds;
     deque.erase(index, length);
     return kFine;
 }
@@ -323,7 +323,7 @@ Ending deque_erase_at(Deque deque, int index, int length) {
 // `index` is checked by the caller, where it is checked at all.
 Ending deque_insert_at(Deque deque, int index, Block from) {
     if (static_cast<int>(from.size()) > deque.capacity() - deque.count())
-        return FaultKind::ArrayOutOfBounds;
+        return FaultCause::ArrayOutOfBounds;
     deque.insert(index, from);
     return kFine;
 }
@@ -335,7 +335,7 @@ Ending deque_get(const NativeArguments& p) {
 Ending deque_set(const NativeArguments& p) {
     Deque deque(p[0]);
     if (!deque.is_usable() || !deque.has_range(p[2][0], static_cast<int>(p[1].size())))
-        return FaultKind::ArrayOutOfBounds;
+        return FaultCause::ArrayOutOfBounds;
     deque.set(p[2][0], p[1]);
     return kFine;
 }
@@ -344,7 +344,7 @@ Ending deque_insert(const NativeArguments& p) {
     const Deque deque(p[0]);
     const int16_t index = p[2][0];
     if (!deque.is_usable() || index < 0 || index >= deque.capacity())
-        return FaultKind::ArrayOutOfBounds;
+        return FaultCause::ArrayOutOfBounds;
     return deque_insert_at(deque, index, p[1]);
 }
 
@@ -354,13 +354,13 @@ Ending deque_erase(const NativeArguments& p) {
 
 Ending deque_push_front(const NativeArguments& p) {
     const Deque deque(p[0]);
-    if (!deque.is_usable()) return FaultKind::ArrayOutOfBounds;
+    if (!deque.is_usable()) return FaultCause::ArrayOutOfBounds;
     return deque_insert_at(deque, 0, p[1]);
 }
 
 Ending deque_push_back(const NativeArguments& p) {
     const Deque deque(p[0]);
-    if (!deque.is_usable()) return FaultKind::ArrayOutOfBounds;
+    if (!deque.is_usable()) return FaultCause::ArrayOutOfBounds;
     return deque_insert_at(deque, deque.count(), p[1]);
 }
 
@@ -417,8 +417,8 @@ constexpr Entry kFunctions[] = {
 
 }  // namespace
 
-std::optional<FaultKind> call_native(std::string_view name, const NativeArguments& arguments,
-                                     uint16_t& random_state) {
+std::optional<FaultCause> call_native(std::string_view name, const NativeArguments& arguments,
+                                      uint16_t& random_state) {
     if (name == "math.rand") {
         for (int16_t& word : arguments[0]) {
             random_state = static_cast<uint16_t>(25173u * random_state + 13849u);

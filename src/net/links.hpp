@@ -2,11 +2,11 @@
 // thread that calls poll(); what happened comes back as values, nothing is called back.
 //
 //     hub::Hub hub;
-//     net::Network network;                                        // after the hub: it goes first
+//     net::Links links;                                        // after the hub: it goes first
 //     const hub::LinkId own = hub.add({.name = "node"}).value();   // a place in this process
-//     const auto listening = network.listen(hub, net::parse_target("tcp:127.0.0.1:0").value());
+//     const auto listening = links.listen(hub, net::parse_target("tcp:127.0.0.1:0").value());
 //     for (;;) {
-//         for (const net::Event& event : network.poll(next_deadline)) show(event);
+//         for (const net::Event& event : links.poll(next_deadline)) show(event);
 //         wire::Frame frame;
 //         while (hub.take(own, frame)) answer(frame);               // hub.receive(own, reply)
 //     }
@@ -92,14 +92,14 @@ struct Listening {
     Target target;  // with the real port; "listening " + to_string(target) is what to print
 };
 
-class Network {
+class Links {
 public:
-    Network();
-    ~Network();  // closes everything and takes its links out of their hubs
-    Network(const Network&) = delete;
-    Network& operator=(const Network&) = delete;
+    Links();
+    ~Links();  // closes everything and takes its links out of their hubs
+    Links(const Links&) = delete;
+    Links& operator=(const Links&) = delete;
 
-    // Only TCP. The hub must live longer than the network; so in connect().
+    // Only TCP. The hub must live longer than these; so in connect().
     Result<Listening> listen(hub::Hub& hub, const Target& target, ListenOptions options = {});
     // Begins to connect; Opened or Failed comes from poll(). Errors are those of a target that can
     // never work.
@@ -133,15 +133,15 @@ public:
     // From any other thread: the poll() that waits, or the next one, returns at once.
     void wake();
 
-    // Since this network was made; steady.
+    // Since this was made; steady.
     Time now() const;
 
-    // True while something for a connection of this network waits to be written: poll() on before
+    // True while something for one of these connections waits to be written: poll() on before
     // closing, if it must arrive.
     bool has_unwritten() const;
 
 private:
-    class Loop;  // Asio stays in network.cpp
+    class Loop;  // Asio stays in links.cpp
     std::unique_ptr<Loop> loop_;
 };
 

@@ -1,4 +1,4 @@
-#include "serve/studio/board.hpp"
+#include "serve/studio/topics.hpp"
 
 #include <fmt/format.h>
 
@@ -31,23 +31,23 @@ Duration period_of(const Json& in) {
 
 }  // namespace
 
-void Board::document(const std::string& topic, MakeDocument make) {
+void Topics::document(const std::string& topic, MakeDocument make) {
     documents_[topic] = {std::move(make), false};
 }
 
-void Board::stream(const std::string& topic, size_t kept) {
+void Topics::stream(const std::string& topic, size_t kept) {
     streams_[topic].kept = kept;
 }
 
-void Board::binary(const std::string& topic, OpenBinary open, CheckSubject check) {
+void Topics::binary(const std::string& topic, OpenBinary open, CheckSubject check) {
     binaries_[topic] = {std::move(open), std::move(check)};
 }
 
-void Board::touch(const std::string& topic) {
+void Topics::touch(const std::string& topic) {
     for (auto& [key, subject] : subjects_[topic]) subject.stale = true;
 }
 
-void Board::add(const std::string& topic, Json item) {
+void Topics::add(const std::string& topic, Json item) {
     Stream& stream = streams_[topic];
     item["number"] = stream.first + stream.items.size();
     stream.items.push_back(std::move(item));
@@ -56,7 +56,7 @@ void Board::add(const std::string& topic, Json item) {
     ++stream.first;
 }
 
-void Board::forget(const std::string& topic) {
+void Topics::forget(const std::string& topic) {
     Stream& stream = streams_[topic];
     stream.first += stream.items.size();
     stream.items.clear();
@@ -65,11 +65,11 @@ void Board::forget(const std::string& topic) {
     }
 }
 
-bool Board::is_served(const std::string& topic) const {
+bool Topics::is_served(const std::string& topic) const {
     return documents_.contains(topic) || streams_.contains(topic) || binaries_.contains(topic);
 }
 
-std::optional<Problem> Board::watch(ClientId client, const Json& in, Time now) {
+std::optional<Problem> Topics::watch(ClientId client, const Json& in, Time now) {
     const std::string topic = in["topic"];
     const TopicType* type = Protocol::get().topic(topic);
     if (!type) return Problem{"not_found", "there is no topic “" + topic + "”", "in.topic"};
@@ -109,17 +109,17 @@ std::optional<Problem> Board::watch(ClientId client, const Json& in, Time now) {
     return std::nullopt;
 }
 
-void Board::unwatch(ClientId client, uint32_t number) {
+void Topics::unwatch(ClientId client, uint32_t number) {
     ++subscriptions_;
     watches_.erase({client, number});
 }
 
-void Board::drop(ClientId client) {
+void Topics::drop(ClientId client) {
     ++subscriptions_;
     std::erase_if(watches_, [&](const auto& entry) { return entry.first.first == client; });
 }
 
-std::vector<Json> Board::subjects(const std::string& topic) const {
+std::vector<Json> Topics::subjects(const std::string& topic) const {
     std::map<std::string, Json> found;
     for (const auto& [place, watch] : watches_) {
         if (watch.topic == topic) found.emplace(watch.key, watch.of);
@@ -129,12 +129,12 @@ std::vector<Json> Board::subjects(const std::string& topic) const {
     return list;
 }
 
-std::vector<std::string> Board::flush(Time now, const std::function<bool(ClientId)>& has_room,
-                                      const Send& send) {
+std::vector<std::string> Topics::flush(Time now, const std::function<bool(ClientId)>& has_room,
+                                       const Send& send) {
     std::vector<std::string> faults;
     for (auto& [place, watch] : watches_) {
         if (watch.due > now) continue;
-        // Asked again at its own pace, not at once: who does not read costs nothing.
+        // Asked again at its own pace, not at once: a page that does not read costs nothing.
         if (!has_room(place.first)) {
             watch.due = now + watch.every;
             continue;
@@ -159,7 +159,7 @@ std::vector<std::string> Board::flush(Time now, const std::function<bool(ClientI
     return faults;
 }
 
-bool Board::flush_one(const Place& place, Watch& watch, const Send& send) {
+bool Topics::flush_one(const Place& place, Watch& watch, const Send& send) {
     switch (watch.kind) {
         case TopicType::Kind::Document:
             return flush_document(place, watch, send);
@@ -171,7 +171,7 @@ bool Board::flush_one(const Place& place, Watch& watch, const Send& send) {
     return false;
 }
 
-bool Board::flush_document(const Place& place, Watch& watch, const Send& send) {
+bool Topics::flush_document(const Place& place, Watch& watch, const Send& send) {
     Subject& subject = subjects_[watch.topic][watch.key];
     if (subject.stale || !subject.made) {
         Json made = documents_.at(watch.topic).make(watch.of);
@@ -192,7 +192,7 @@ bool Board::flush_document(const Place& place, Watch& watch, const Send& send) {
     return true;
 }
 
-bool Board::flush_stream(const Place& place, Watch& watch, const Send& send) {
+bool Topics::flush_stream(const Place& place, Watch& watch, const Send& send) {
     const Stream& stream = streams_[watch.topic];
     if (watch.next < stream.first) {
         watch.left_out += stream.first - watch.next;
@@ -215,7 +215,7 @@ bool Board::flush_stream(const Place& place, Watch& watch, const Send& send) {
     return true;
 }
 
-bool Board::flush_binary(const Place& place, Watch& watch, const Send& send) {
+bool Topics::flush_binary(const Place& place, Watch& watch, const Send& send) {
     auto next = watch.source ? watch.source->next() : std::nullopt;
     if (!next) return false;
     const uint8_t kind = Protocol::get().topic(watch.topic)->number;
@@ -223,7 +223,7 @@ bool Board::flush_binary(const Place& place, Watch& watch, const Send& send) {
     return true;
 }
 
-bool Board::pending(const Watch& watch) const {
+bool Topics::pending(const Watch& watch) const {
     switch (watch.kind) {
         case TopicType::Kind::Document: {
             const auto topic = subjects_.find(watch.topic);
@@ -242,7 +242,7 @@ bool Board::pending(const Watch& watch) const {
     return true;
 }
 
-Time Board::next_due(Time now) const {
+Time Topics::next_due(Time now) const {
     Time next = Time::max();
     for (const auto& [place, watch] : watches_) {
         if (pending(watch)) next = std::min(next, std::max(now, watch.due));

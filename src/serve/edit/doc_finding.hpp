@@ -22,7 +22,7 @@ struct FindingFix {
     std::vector<TextEdit> edits;
 };
 
-struct Finding {
+struct DocFinding {
     std::string doc;
     Severity severity = Severity::Error;
     std::string code;     // of the catalogue, or the rule
@@ -35,15 +35,15 @@ struct Finding {
 };
 
 // As the protocol has it, within its limits.
-nlohmann::json json_of(const Finding& finding);
+nlohmann::json json_of(const DocFinding& finding);
 nlohmann::json json_of(aesl::Position at);
 // A Place of the protocol.
 aesl::Position position_of(const nlohmann::json& place);
 
 // A finding from a sentence that begins with its place, "FILE:LINE:COLUMN: …", where FILE is `doc`;
 // what is marked is the word there.
-Finding finding_of_sentence(const std::string& doc, std::string_view text, Severity severity,
-                            const std::string& code, std::string_view sentence);
+DocFinding finding_of_sentence(const std::string& doc, std::string_view text, Severity severity,
+                               const std::string& code, std::string_view sentence);
 
 // The end of the JSON value, key or word that begins at a place.
 aesl::Position end_of_word(std::string_view text, aesl::Position at);

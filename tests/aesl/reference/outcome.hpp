@@ -28,10 +28,10 @@ struct Emission {
     friend bool operator==(const Emission&, const Emission&) = default;
 };
 
-enum class FaultKind { DivisionByZero, ArrayOutOfBounds, NodeSpecific };
+enum class FaultCause { DivisionByZero, ArrayOutOfBounds, NodeSpecific };
 
 struct Fault {
-    FaultKind kind = FaultKind::DivisionByZero;
+    FaultCause kind = FaultCause::DivisionByZero;
     size_t during = 0;
     int line = 0;
     friend bool operator==(const Fault&, const Fault&) = default;
@@ -49,7 +49,7 @@ struct Outcome {
     std::map<std::string, Words> memory;  // every variable of the node and of the user
     std::vector<Emission> emitted;
     std::optional<Fault> fault;
-    bool gave_up = false;  // more steps than the runner allows; the rest means nothing then
+    bool out_of_steps = false;  // more steps than the runner allows; the rest means nothing then
     friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 

@@ -100,8 +100,8 @@ bool Parser::belongs_to(const Symbol& known, NameSpace space) const {
     return false;
 }
 
-// The known name that is closest to a token, or nothing. One that differs only in capitals is meant,
-// however many they are.
+// The known name that is closest to a token, or nothing. One that differs only in capitals is
+// meant, however many they are.
 std::string Parser::guess(TokenId name, NameSpace space) const {
     if (diagnostics_.full()) return {};
     std::vector<std::string_view> candidates;

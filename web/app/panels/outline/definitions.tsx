@@ -86,8 +86,7 @@ function Row({
   if (form === 'send') return <SendForm definition={definition} onEnd={end} />;
   const send = () =>
     value === 0 ? studio.order('event.send', { name, args: [] }) : setForm('send');
-  const tell = (done: Promise<unknown>) =>
-    void done.catch((problem: unknown) => studio.tell(problem));
+  const tell = (done: Promise<unknown>) => void done.catch((why: unknown) => studio.tell(why));
   const move = (by: number) =>
     tell(studio.change('define.move', { file: file.path, kind, name, to: index + by }));
   const moveKey = (event: KeyboardEvent) => {

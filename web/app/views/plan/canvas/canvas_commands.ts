@@ -94,13 +94,13 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     make(
       'draw.undo',
       ['Ctrl+Z'],
-      ({ board }) => withBreaks(studio, board, () => board.file.undo()),
+      ({ board }) => void withBreaks(studio, board, () => board.file.undo()),
       ({ board }) => edits() && board.file.canUndo,
     ),
     make(
       'draw.redo',
       ['Ctrl+Y', 'Ctrl+Shift+Z'],
-      ({ board }) => withBreaks(studio, board, () => board.file.redo()),
+      ({ board }) => void withBreaks(studio, board, () => board.file.redo()),
       ({ board }) => edits() && board.file.canRedo,
     ),
     make(

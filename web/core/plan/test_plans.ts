@@ -90,6 +90,25 @@ export function packedPlan(random: (below: number) => number): Json {
   };
 }
 
+/** A long program: each actor leads to one near it, and has a supervisor that leads back a little. */
+export function longPlan(random: (below: number) => number, count: number): Json {
+  const near = (at: number, by: number) => `a${Math.min(count - 1, Math.max(0, at + by))}`;
+  const actor = (at: number): Json => ({
+    template: 'For',
+    states: { Loop: near(at, -random(4)), Done: near(at, 1 + random(3)) },
+    supervisors: random(3)
+      ? {}
+      : { [`s${at}`]: { template: 'Timeout', events: { Timeout: near(at, -random(8)) } } },
+  });
+  const names = Array.from({ length: count }, (_one, at) => `a${at}`);
+  return {
+    format: 'vagus-plan/1',
+    name: 'R',
+    start: { actor: 'a0' },
+    actors: Object.fromEntries(names.map((name, at) => [name, actor(at)])),
+  };
+}
+
 /** Blocks of which one stands on another. */
 export function covered(scene: Scene): [Box, Box][] {
   const boxes = [scene.start, ...scene.actors].map((block) => block.whole);

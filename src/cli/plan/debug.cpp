@@ -25,7 +25,7 @@ using namespace std::chrono_literals;
 using run::Reply;
 
 // How often a wait looks whether Ctrl-C was pressed.
-constexpr Duration kLookEvery = 100ms;
+constexpr Duration kPromptLooksEvery = 100ms;
 
 PromptWords words_of(const plan::Graph& graph, std::vector<std::string> commands) {
     std::set<std::string> words = {"actor", "state", "event", "when", "in",
@@ -194,7 +194,7 @@ void Prompt::start_run() {
 Result<Reply> Prompt::ask(run::Request request) {
     const uint64_t number = TRY(debugger_.post(std::move(request)));
     for (;;) {
-        std::optional<run::Report> report = debugger_.wait_report(kLookEvery);
+        std::optional<run::Report> report = debugger_.wait_report(kPromptLooksEvery);
         if (!report) continue;
         auto* answer = std::get_if<run::Answer>(&*report);
         if (answer && answer->request == number) return std::move(answer->reply);
@@ -217,7 +217,7 @@ void Prompt::take(const run::Report& report) {
 
 Status Prompt::wait_for_stop() {
     while (running_ && !quit_) {
-        const std::optional<run::Report> report = debugger_.wait_report(kLookEvery);
+        const std::optional<run::Report> report = debugger_.wait_report(kPromptLooksEvery);
         if (report) take(*report);
         if (lines_.take_interrupt()) interrupt();
         if (net::end_asked()) quit_ = true;

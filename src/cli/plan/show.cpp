@@ -220,7 +220,7 @@ public:
     explicit Lines(PlanShown shown) : beside_(shown == PlanShown::LinesOnStderr) {}
 
     void operator()(Time at, const std::string& text) const {
-        const double seconds = seconds_of(at);
+        const double seconds = vagus::seconds_of(at);
         const std::string line = fmt::format("{:9.3f} s  {}\n", seconds, text);
         if (beside_) {
             say(line);

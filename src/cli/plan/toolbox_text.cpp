@@ -9,7 +9,6 @@
 
 namespace vagus::cli {
 
-using plan::Kind;
 using plan::Template;
 
 namespace {
@@ -72,7 +71,7 @@ std::string outputs_text(const Template& of) {
 }
 
 std::string outcomes_text(const Template& of) {
-    const std::string word = of.kind == Kind::Supervisor ? "events" : "states";
+    const std::string word = of.kind == plan::Kind::Supervisor ? "events" : "states";
     std::vector<Row> rows;
     for (const plan::Outcome& outcome : of.outcomes) {
         rows.push_back({rows.empty() ? word : "", outcome.name, outcome.help});
@@ -81,7 +80,7 @@ std::string outcomes_text(const Template& of) {
 }
 
 std::string period_text(const Template& of) {
-    if (of.kind != Kind::Supervisor) return "";
+    if (of.kind != plan::Kind::Supervisor) return "";
     if (of.period_ms == 0) return "  period  none: it waits for events\n";
     return fmt::format("  period  {} ms\n", of.period_ms);
 }
@@ -155,7 +154,7 @@ JsonValue array_of(const List& list, Make make) {
 }
 
 JsonValue template_json(const Template& of, Detail detail) {
-    const bool supervisor = of.kind == Kind::Supervisor;
+    const bool supervisor = of.kind == plan::Kind::Supervisor;
     std::vector<JsonMember> members = {json_member("name", of.name),
                                        json_member("kind", plan::name_of(of.kind)),
                                        json_member("help", of.help)};

@@ -152,8 +152,8 @@ bool Workbench::is_being_opened() const {
     return life_.state() == Life::State::Opening || life_.state() == Life::State::Loading;
 }
 
-// A world in which nothing has run yet shows its file as it is edited, saved or not. What a hand has
-// done there is not lost by that, and a file with errors waits until it has none.
+// A world in which nothing has run yet shows its file as it is edited, saved or not. What a hand
+// has done there is not lost by that, and a file with errors waits until it has none.
 void Workbench::follow_world_text() {
     if (!world_edited_ || now_ < *world_edited_ + kWorldFollowsAfter || is_being_opened()) return;
     world_edited_.reset();

@@ -14,8 +14,8 @@ namespace vagus::debug {
 
 constexpr Duration kQuiet = std::chrono::milliseconds(300);  // after the last answer: all are known
 constexpr Duration kFirstAnswerWithin = std::chrono::milliseconds(2000);
-// One that is asked for by its number, after the last that was heard of it while it cannot be worked
-// with yet.
+// One that is asked for by its number, after the last that was heard of it while it cannot be
+// worked with yet.
 constexpr Duration kWantedWithin = std::chrono::milliseconds(5000);
 // Nodes that have not described themselves are waited for as long as others still do.
 constexpr Duration kNodesWithin = std::chrono::milliseconds(3000);

@@ -360,6 +360,18 @@ class Rest(unittest.TestCase):
             run_vagus("net", self.target, "set", "thymio-II", *words)
         self.assertEqual(self.targets(), [80, 0])
 
+    def test_net_pause_of_a_sensor_brakes_what_moves(self):
+        script = self.folder / "carbot.aesl"
+        shutil.copy(EXAMPLES / "carbot/carbot.aesl", script)
+        self.simulate("carbot", script)
+        for verb in ("pause", "reset", "stop"):
+            with self.subTest(verb):
+                said = run_vagus("net", self.target, verb, "2")
+                self.assertIn("paused too, and made safe: drive (1)", said)
+                self.assertRegex(run_vagus("net", self.target, "list"), r"1  drive +paused[^\n]*\n2  bumper +paused")
+                run_vagus("net", self.target, "run", "all")
+        self.assertNotIn("made safe", run_vagus("net", self.target, "pause", "all"))
+
     def test_net_stop_reads_back_and_fails_if_a_node_still_moves(self):
         self.thymio()
         run_vagus("net", self.target, "set", "thymio-II", "motor.left.target", "100", "--leave")

@@ -102,13 +102,14 @@ int run_with(MakePlan make, const run::CodeLibrary& library, toolbox::Parts& par
         const std::string& name = plan.graph().plans.front().name;
         return print_help(program, fmt::format(kHelp, name, program, describe_run_options()));
     }
+    net::watch_for_end();
     const auto prepared = PreparedRun::prepare(plan, words.run, parts);
     if (!prepared.ok()) return complain(program, prepared.error().what);
     const std::string listening = prepared.value()->listening();
     if (!listening.empty()) std::printf("listening %s\n", listening.c_str());
     std::fflush(stdout);
     prepared.value()->end_when_stopped();
-    net::watch_for_end();
+    prepared.value()->brake_as_a_whole();
     const net::EndWatcher end_watcher(
         [&prepared] { prepared.value()->abort(net::end_asked_by()); });
     const Result<run::Ended> ended = prepared.value()->run();

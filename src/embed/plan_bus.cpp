@@ -11,7 +11,9 @@
 #include "base/text.hpp"
 #include "debug/roll_call.hpp"
 #include "hub/hub.hpp"
+#include "net/end_signal.hpp"
 #include "net/links.hpp"
+#include "session/brake.hpp"
 #include "session/bus_ears.hpp"
 #include "session/rival_plans.hpp"
 #include "session/stopped_by_others.hpp"
@@ -56,6 +58,8 @@ public:
         network.set_common(options.common);
     }
 
+    // Wakes whoever waits here: an end was asked for.
+    void wake() { net.wake(); }
     Status connect();
     void discover();
     void emit(const run::BusEvent& event);
@@ -64,8 +68,10 @@ public:
     Status begin_at_rest();
     void stop_robot();
     std::vector<session::StopNode> leave(How how);
+    void abandon();
     uint16_t first_token() { return rivals.random_token(); }
     void end_when_stopped() { ends_when_stopped = true; }
+    void brake_as_a_whole() { brakes = true; }
     void hold_nodes(std::set<debug::NodeId> nodes);
 
     session::BusNames names;
@@ -75,6 +81,9 @@ private:
     std::vector<run::BusEvent> turn(Time deadline);
     void look_for_held(run::RealTime& run);
     void look_for_stopped(run::RealTime& run);
+    void look_for_missing(const debug::Event& event);
+    void hold_what_brakes(run::RealTime& run);
+    bool is_known_at_rest(const std::vector<session::StopNode>& read) const;
     void look_for_rivals(const debug::Event& event);
     void note(const std::vector<net::Event>& happened);
     void take_unsent();
@@ -90,7 +99,12 @@ private:
     session::RivalPlans rivals;
     session::StoppedByOthers stopped_by_others{kStoppedByOthersMax};
     bool ends_when_stopped = false;
-    std::optional<uint16_t> moved_to;  // our tokens are to count from here on
+    session::Brake brake;
+    bool brakes = false;                  // nobody else does it
+    bool is_working = false;              // a run is under way
+    std::set<debug::NodeId> held_braked;  // the plan waits for them
+    bool has_let_run = false;             // scripts, for a plan that has not begun
+    std::optional<uint16_t> moved_to;     // our tokens are to count from here on
     debug::Network network;
     hub::Hub hub;
     net::Links net;  // after the hub: it goes first
@@ -113,14 +127,18 @@ private:
 Status PlanBus::Insides::connect() {
     const net::Target target = TRY(net::parse_target(options.target));
     (void)TRY(net.connect(hub, target, {.retry = net::Retry::Forever}));
-    while (!connected && lost.empty()) note(net.poll(Time::max()));
-    if (!connected) return Error{Code::Unavailable, lost};
-    return Status::done();
+    while (!connected && lost.empty() && !net::end_asked()) note(net.poll(Time::max()));
+    if (connected) return Status::done();
+    if (!lost.empty()) return Error{Code::Unavailable, lost};
+    return Error{Code::Unavailable, net::end_asked_by() + " came before " + options.target +
+                                        " was there; the plan was not begun"};
 }
 
 void PlanBus::Insides::discover() {
     roll_call.emplace(network, net.now(), debug::RollCallOptions());
-    while (connected && !roll_call->over(network, net.now())) (void)turn(roll_call->next());
+    while (connected && !net::end_asked() && !roll_call->over(network, net.now())) {
+        (void)turn(roll_call->next());
+    }
     roll_call.reset();
 }
 
@@ -141,6 +159,7 @@ std::vector<run::BusEvent> PlanBus::Insides::turn(Time deadline) {
         look_for_rivals(event);
         if (is_stopping) stopping.hear(event);
         stopped_by_others.hear(event);
+        look_for_missing(event);
         if (auto one = ears.hear(event)) heard.push_back(std::move(*one));
     }
     return heard;
@@ -228,14 +247,19 @@ bool PlanBus::Insides::may_send(const run::BusEvent& event) const {
 }
 
 void PlanBus::Insides::work(run::RealTime& run) {
+    brake.begin(network);
+    is_working = true;
     while (!leaving) {
         if (stop_asked && !is_stopping) begin_to_stop(How::Stop);
         const Time due = stop_asked ? Time::max() : stopped_by_others.next();
         for (run::BusEvent& event : turn(due)) run.hear(std::move(event));
         look_for_held(run);
+        hold_what_brakes(run);
         look_for_stopped(run);
         if (const auto token = std::exchange(moved_to, std::nullopt)) run.move_tokens(*token);
     }
+    is_working = false;
+    has_let_run = false;
     const bool stop = stop_asked;
     if (!is_stopping) begin_to_stop(stop ? How::Stop : leaving_how);
     left = await_rest();
@@ -267,6 +291,35 @@ void PlanBus::Insides::look_for_stopped(run::RealTime& run) {
         const bool ends = ends_when_stopped && !stop_asked && is_worked_on(id);
         if (ends) run.fail(toolbox::was_stopped(network.node(id)->name));
     }
+}
+
+// While a node is missing, a reflex is: the others that move wait for it.
+void PlanBus::Insides::look_for_missing(const debug::Event& event) {
+    if (!brakes || !is_working || stop_asked || is_stopping) return;
+    const auto orders = brake.hear(network, options.safe_stop, event);
+    std::vector<std::string> paused;
+    for (const debug::NodeId id : orders.pause) {
+        (void)network.pause_now(id);
+        paused.push_back(session::name_with_id(network, id));
+    }
+    for (const debug::NodeId id : orders.make_safe) {
+        session::make_safe(network, options.safe_stop, id);
+    }
+    for (const debug::NodeId id : orders.run) (void)network.run(id).ok();
+    if (paused.empty()) return;
+    const std::string cause = session::name_with_id(network, *orders.cause);
+    options.tell(cause + " does not run: what moves is paused until it does: " +
+                 list_of({paused.begin(), paused.end()}));
+}
+
+// At a breakpoint somebody looks for a mistake, which may take long.
+void PlanBus::Insides::hold_what_brakes(run::RealTime& run) {
+    if (!brakes) return;
+    auto held_now = brake.at_breakpoint() ? brake.braked() : std::set<debug::NodeId>();
+    if (held_now == held_braked) return;
+    held_braked = held_now;
+    stopped_by_others.hold(held_now, net.now());
+    for (run::BusEvent& event : ears.hold(std::move(held_now))) run.hear(std::move(event));
 }
 
 // ---- coming to rest ----
@@ -301,7 +354,8 @@ std::vector<session::StopNode> PlanBus::Insides::await_rest() {
 Status PlanBus::Insides::begin_at_rest() {
     begin_to_stop(How::Look);
     const auto before = await_rest();
-    if (!is_at_rest(before)) {
+    if (net::end_asked()) return Status::done();
+    if (!is_known_at_rest(before)) {
         begin_to_stop(How::Stop);
         const auto nodes = await_rest();
         const std::string found = session::describe(nodes);
@@ -320,6 +374,14 @@ Status PlanBus::Insides::begin_at_rest() {
     return Status::done();
 }
 
+// A node of which nothing can be read may do what it likes while its program runs.
+bool PlanBus::Insides::is_known_at_rest(const std::vector<session::StopNode>& read) const {
+    const auto ids = network.nodes();
+    return is_at_rest(read) && std::none_of(ids.begin(), ids.end(), [this](debug::NodeId id) {
+               return session::may_move_unread(*network.node(id), options.safe_stop);
+           });
+}
+
 // Scripts keep their variables. Without them the plan would wait for nodes that hear nothing, or
 // drive without a reflex. One that was stopped is paused as soon as an event waits for it: that is
 // what somebody said before this plan, and another Stop drops it.
@@ -331,17 +393,20 @@ void PlanBus::Insides::run_what_is_stopped() {
                 node->state == debug::ProgramState::Paused);
     };
     std::vector<debug::NodeId> asked;
+    if (net::end_asked()) return;
     for (const debug::NodeId id : network.nodes()) {
         if (!stopped(id)) continue;
+        has_let_run = true;
         if (network.node(id)->state == debug::ProgramState::Paused) (void)network.stop_now(id);
         if (network.run(id).ok()) asked.push_back(id);
     }
+    const auto goes_on = [this] { return connected && !net::end_asked(); };
     const Time latest = net.now() + kRunsWithin;
-    while (connected && std::any_of(asked.begin(), asked.end(), stopped) && net.now() < latest) {
+    while (goes_on() && std::any_of(asked.begin(), asked.end(), stopped) && net.now() < latest) {
         (void)turn(latest);
     }
     const Time settled = net.now() + kSettles;
-    while (!asked.empty() && connected && net.now() < settled) (void)turn(settled);
+    while (!asked.empty() && goes_on() && net.now() < settled) (void)turn(settled);
 }
 
 void PlanBus::Insides::stop_robot() {
@@ -358,6 +423,15 @@ std::vector<session::StopNode> PlanBus::Insides::leave(How how) {
     stop_asked = false;
     leaving = false;
     return left;
+}
+
+// Scripts were let run for a plan that never began: they may drive.
+void PlanBus::Insides::abandon() {
+    if (!std::exchange(has_let_run, false) || !connected) return;
+    begin_to_stop(How::Stop);
+    const auto nodes = await_rest();
+    options.tell("the plan was not begun; the robot was stopped; " + session::describe(nodes));
+    farewell();
 }
 
 // Without it, what the peer sends meanwhile could make its system throw away our last frames.
@@ -377,20 +451,19 @@ PlanBus::PlanBus(std::unique_ptr<Insides> insides) : insides_(std::move(insides)
 
 PlanBus::~PlanBus() {
     (void)leave(How::Stop);
+    insides_->abandon();
 }
 
 Result<std::unique_ptr<PlanBus>> PlanBus::open(PlanBusOptions options, toolbox::BusNodes& nodes) {
     auto insides = std::make_unique<Insides>(std::move(options), nodes);
+    // Before scripts run: who asks for the end must not be too early.
+    const net::EndWatcher end_watcher([&insides = *insides] { insides.wake(); });
     TRY(insides->connect());
     insides->discover();
     TRY(insides->check_single());
     TRY(insides->begin_at_rest());
     // make_unique cannot reach the constructor.
     return std::unique_ptr<PlanBus>(new PlanBus(std::move(insides)));
-}
-
-const session::BusNames& PlanBus::names() const {
-    return insides_->names;
 }
 
 void PlanBus::join(run::RunOptions& options) {
@@ -404,6 +477,10 @@ void PlanBus::join(run::RunOptions& options) {
 
 void PlanBus::end_when_stopped() {
     insides_->end_when_stopped();
+}
+
+void PlanBus::brake_as_a_whole() {
+    insides_->brake_as_a_whole();
 }
 
 void PlanBus::hold_nodes(std::set<debug::NodeId> nodes) {

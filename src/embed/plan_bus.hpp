@@ -53,11 +53,13 @@ public:
     // two (a robot has a bus of its own), or that the robot does not come to rest: if a node on
     // which the plan works moves, or does not say so, the robot is stopped first, for nobody knows
     // who drives it.
-    // Scripts that were stopped or paused, by this or before, run again then.
+    // Scripts that were stopped or paused, by this or before, run again then. If an end is asked
+    // for meanwhile (net/end_signal.hpp), nothing is waited for any more, and what has not begun is
+    // left out: the run that follows is to be aborted.
     static Result<std::unique_ptr<PlanBus>> open(PlanBusOptions options, toolbox::BusNodes& nodes);
+    // A plan that never began leaves the robot stopped, if scripts were let run for it.
     ~PlanBus();
 
-    const session::BusNames& names() const;
     // The run emits on this bus, with tokens from a random place on. Borrowed for the run.
     void join(run::RunOptions& options);
 
@@ -65,6 +67,9 @@ public:
     // nobody lets it run again soon, the run ends with an error. Not for a host that pauses nodes
     // itself and does not say so by hold_nodes().
     void end_when_stopped();
+    // Before start(). If a node is paused, stopped, faulted or lost, the others that move are
+    // paused and made safe until it runs again. Not for who shares the bus with a host that does.
+    void brake_as_a_whole();
     // From any thread: these nodes, and no others, are held by somebody who debugs them. The plan
     // waits for them as long as that takes.
     void hold_nodes(std::set<debug::NodeId> nodes);

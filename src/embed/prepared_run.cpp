@@ -127,11 +127,17 @@ class PreparedRun::Insides {
 public:
     Insides(const LoadedPlan& its_what, RunWords its_words, toolbox::Parts& its_parts)
         : what(its_what), words(std::move(its_words)), parts(its_parts) {}
+    // As it goes, the bus may have something to tell.
+    ~Insides() { bus.reset(); }
+    Insides(const Insides&) = delete;
+    Insides& operator=(const Insides&) = delete;
 
     Status take_options();
     Status open_world();
     Status listen();
-    Status open_bus();
+    Status open_sinks();
+    Result<PlanBusOptions> bus_options();
+    Status open_bus(PlanBusOptions options);
     Status check_alone() const;
     void trace(const plan::TraceEvent& event);
     void stop_after_error(const plan::TraceEvent& event);
@@ -200,8 +206,16 @@ Status PreparedRun::Insides::take_options() {
     }
     how.on_trace = [this](const plan::TraceEvent& event) { trace(event); };
     if (!words.world.empty()) TRY(open_world());
-    if (!words.bus.empty()) TRY(open_bus());
-    if (!world && !bus) TRY(check_alone());
+    if (words.world.empty() && words.bus.empty()) TRY(check_alone());
+    // On a bus scripts begin to run: all that may be wrong with the command is found before.
+    PlanBusOptions on_bus;
+    if (!words.bus.empty()) on_bus = TRY(bus_options());
+    TRY(open_sinks());
+    if (!words.bus.empty()) TRY(open_bus(std::move(on_bus)));
+    return Status::done();
+}
+
+Status PreparedRun::Insides::open_sinks() {
     // In real time what a run did is there even if the process is killed.
     const auto when =
         words.clock == "virtual" ? LineSink::When::WithinASecond : LineSink::When::AtOnce;
@@ -244,7 +258,7 @@ Status PreparedRun::Insides::listen() {
     return Status::done();
 }
 
-Status PreparedRun::Insides::open_bus() {
+Result<PlanBusOptions> PreparedRun::Insides::bus_options() {
     PlanBusOptions options;
     options.target = words.bus;
     options.tell = [this](const std::string& sentence) { tell(sentence); };
@@ -265,9 +279,14 @@ Status PreparedRun::Insides::open_bus() {
             "their numbers; name the one that the nodes were loaded with, as --project "
             "arm.aesl");
     }
+    TRY(check_names(session::BusNames(options.common, options.project), what));
+    return options;
+}
+
+Status PreparedRun::Insides::open_bus(PlanBusOptions options) {
     bus = TRY(PlanBus::open(std::move(options), nodes));
     parts.bus = &nodes;
-    return check_names(bus->names(), what);
+    return Status::done();
 }
 
 Status PreparedRun::Insides::check_alone() const {
@@ -465,6 +484,10 @@ void PreparedRun::abort(const std::string& by) {
 
 void PreparedRun::end_when_stopped() {
     if (insides_->bus) insides_->bus->end_when_stopped();
+}
+
+void PreparedRun::brake_as_a_whole() {
+    if (insides_->bus) insides_->bus->brake_as_a_whole();
 }
 
 void PreparedRun::hold_nodes(std::set<uint16_t> nodes) {

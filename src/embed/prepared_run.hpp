@@ -72,6 +72,9 @@ public:
     // lets them run again: a run whose nodes another host stops ends with an error. A host that
     // pauses nodes says so.
     void end_when_stopped();
+    // Before run(), on a bus on which no other host does so: where a node does not run any more,
+    // the others that move are paused until it does.
+    void brake_as_a_whole();
     // From any thread, on a bus: somebody debugs these nodes, and no others; the plan waits for
     // them.
     void hold_nodes(std::set<uint16_t> nodes);

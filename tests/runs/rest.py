@@ -1,6 +1,7 @@
 """A robot is at rest, however a plan that drives it ends: signals, an error, its own end; and `net stop`, `net set`."""
 import json
 import pathlib
+import re
 import shutil
 import signal
 import socket
@@ -12,7 +13,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from harness import (DESCRIPTION, GET_EXECUTION_STATE, GET_NODE_DESCRIPTION, GET_VARIABLES, LIST_NODES, NAMED_VARIABLE,
-                     NODE_PRESENT, RUN, STATE, STOP, VARIABLES, Bus, Missing, listening, patiently, run_vagus, vagus, wait_until)
+                     NODE_PRESENT, PAUSE, RUN, STATE, STOP, VARIABLES, Bus, Missing, listening, patiently, run_vagus, vagus, wait_until)
 
 EXAMPLES = pathlib.Path(__file__).resolve().parent.parent.parent / "examples"
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -49,9 +50,10 @@ def send_then(after):
 class MuteThymio:
     """Node 1, "thymio-II". Until it is told to stop, it answers everybody but who asks for its variables."""
 
-    def __init__(self, port):
+    def __init__(self, port, on_run=lambda: None):
         self.bus = Bus(port)
         self.commands = []
+        self.on_run = on_run
         self.stopped = False
         self.thread = threading.Thread(target=self.serve, daemon=True)
 
@@ -83,6 +85,8 @@ class MuteThymio:
                 self.say(NAMED_VARIABLE, struct.pack("<H", 1) + text(name))
         elif kind in (RUN, GET_EXECUTION_STATE, STOP):
             self.stopped |= kind == STOP
+            if kind == RUN:
+                self.on_run()
             self.bus.send(1, STATE, 3, 2 if kind == STOP else 0)
         elif kind == GET_VARIABLES and self.stopped:
             _, first, count = struct.unpack("<3H", payload)
@@ -235,6 +239,50 @@ class Rest(unittest.TestCase):
             self.assertIn("at rest: thymio-II (1)", "\n".join(program.lines))
             self.assertEqual(self.targets(), [0, 0])
 
+    def drives_when_it_runs(self):
+        """A stopped Thymio whose script drives as soon as it runs."""
+        self.thymio(WHEELS.replace("onevent wheels", "timer.period[0] = 5\nonevent timer0\n  motor.left.target = 90\nonevent wheels"))
+        self.wait_moving("thymio-II", "motor.left.target")
+        run_vagus("net", self.target, "stop", "all")
+        self.assertEqual(self.targets(), [0, 0])
+
+    def test_a_plan_that_cannot_begin_lets_nothing_run(self):
+        self.drives_when_it_runs()
+        plan = self.write("plan.plan.json", send_then("forever"))
+        wrong = self.write("wrong.plan.json", json.dumps(send_then("forever")).replace("'wheels'", "'wheel'"))
+        for name, words in ((plan, ["--trace", self.folder / "no/such/folder"]), (wrong, [])):
+            with self.subTest(name.name):
+                run_vagus("plan", "run", name, "--bus", self.target, "--project", self.script, *words, status=2)
+                self.assertIn("paused", run_vagus("net", self.target, "list"))
+                self.assertEqual(self.targets(), [0, 0])
+
+    def test_a_signal_right_behind_the_scripts_start_stops_them(self):
+        self.script = self.write("wheels.aesl", WHEELS)
+        port = listening(self.enterContext(vagus("switch", "--listen", "tcp:127.0.0.1:0")))
+        self.target = f"tcp:127.0.0.1:{port}"
+        for number in SIGNALS:
+            with self.subTest(number), MuteThymio(port, lambda number=number: program.signal(number)) as node:
+                program = self.run_plan(send_then("forever"))
+                self.assertEqual(program.wait_end(), 3, program.lines)
+                self.assertIn(f"{number.name} has ended the plan", "\n".join(program.lines))
+                self.assertIn(STOP, node.commands[node.commands.index(RUN):])
+
+    def test_a_paused_sensor_stops_a_robot_that_a_plan_drives(self):
+        script = self.folder / "carbot.aesl"
+        shutil.copy(EXAMPLES / "carbot/carbot.aesl", script)
+        self.simulate("carbot", script)
+        program = self.run_plan(DRIVE)
+        self.wait_moving("drive", "wheel.front.speed")
+        with Bus(int(self.target.rsplit(":", 1)[1])) as other:
+            other.send(0, PAUSE, 2)  # the bumper, by somebody who looks after nothing
+            program.wait_line(r"bumper \(2\) does not run: what moves is paused until it does: drive \(1\)")
+            wait_until("Carbot never came to rest", lambda: self.read("drive", "wheel.front.speed", "wheel.rear.speed") == [0, 0])
+            self.assertRegex(run_vagus("net", self.target, "list"), r"1  drive +paused")
+            other.send(0, RUN, 2)
+            wait_until("drive was never let run again",
+                       lambda: re.search(r"1  drive +running", run_vagus("net", self.target, "list")) or not program.running())
+        program.stop()
+
     def test_the_project_says_what_brings_its_robot_to_rest(self):
         self.thymio()
         self.write("vagus.json", {"format": "vagus-project/1", "safe_stop": {"thymio-II": {
@@ -311,6 +359,18 @@ class Rest(unittest.TestCase):
         for words in (["motor.left.target", "0"], ["timer.period", "9"], ["motor.left.target", "80", "--leave"]):
             run_vagus("net", self.target, "set", "thymio-II", *words)
         self.assertEqual(self.targets(), [80, 0])
+
+    def test_net_pause_of_a_sensor_brakes_what_moves(self):
+        script = self.folder / "carbot.aesl"
+        shutil.copy(EXAMPLES / "carbot/carbot.aesl", script)
+        self.simulate("carbot", script)
+        for verb in ("pause", "reset", "stop"):
+            with self.subTest(verb):
+                said = run_vagus("net", self.target, verb, "2")
+                self.assertIn("paused too, and made safe: drive (1)", said)
+                self.assertRegex(run_vagus("net", self.target, "list"), r"1  drive +paused[^\n]*\n2  bumper +paused")
+                run_vagus("net", self.target, "run", "all")
+        self.assertNotIn("made safe", run_vagus("net", self.target, "pause", "all"))
 
     def test_net_stop_reads_back_and_fails_if_a_node_still_moves(self):
         self.thymio()

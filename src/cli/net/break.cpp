@@ -2,6 +2,7 @@
 // condition is evaluated here, so a breakpoint lasts as long as the command, unless it is to be
 // kept.
 #include <algorithm>
+#include <utility>
 
 #include "cli/net/show.hpp"
 #include "cli/net/verbs.hpp"
@@ -41,12 +42,30 @@ Result<int> script_line(const NetSession& session, const aesl::Script& script, d
                                                : "")};
 }
 
+// Every hit brakes the robot, even one whose condition turns out to be false: whether it is, is
+// known only here, and until then there is no reflex.
+Status brake_at_hit(NetSession& session, const debug::Event& event,
+                    std::vector<debug::NodeId>& braked) {
+    if (std::holds_alternative<debug::BreakpointReached>(event.what) ||
+        std::holds_alternative<debug::Fault>(event.what)) {
+        const auto paused = TRY(brake_others(session, {event.node}));
+        braked.insert(braked.end(), paused.begin(), paused.end());
+    } else if (std::holds_alternative<debug::BreakpointPassed>(event.what)) {
+        for (const debug::NodeId id : std::exchange(braked, {})) {
+            (void)session.network().run(id).ok();
+        }
+    }
+    return Status::done();
+}
+
 // True at the first stop; false if the time is over or the user interrupts.
 Result<bool> wait_for_hit(NetSession& session, debug::NodeId id) {
     const Time deadline =
         session.options().wait_s ? session.now() + session.wait_or(0) : Time::max();
+    std::vector<debug::NodeId> braked;
     while (!session.interrupted() && session.now() < deadline) {
         for (const debug::Event& event : session.take_events()) {
+            if (event.node == id) TRY(brake_at_hit(session, event, braked));
             const bool hit = std::holds_alternative<debug::BreakpointHit>(event.what);
             const bool failed = std::holds_alternative<debug::ConditionFailed>(event.what);
             const bool fault = std::holds_alternative<debug::Fault>(event.what);
@@ -78,7 +97,7 @@ Result<bool> set_and_wait(NetSession& session, debug::NodeId id, int line,
 }  // namespace
 
 Verdict net_break(NetSession& session, const BreakOptions& options) {
-    const debug::NodeId id = TRY(session.node(options.node));
+    const debug::NodeId id = TRY(session.node(options.node, NetSession::Until::Everybody));
     if (options.clear) (void)TRY(session.network().clear_breakpoints(id));
     if (options.file.empty()) return kExitDone;
     const aesl::Script* script = TRY(script_in(session, options.file, id));

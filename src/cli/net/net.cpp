@@ -185,19 +185,22 @@ constexpr ControlVerb kControlVerbs[] = {
     {debug::Control::Kind::Run, "run", "lets nodes run, or go on from a breakpoint",
      "Example:\n  vagus net tcp:127.0.0.1:33333 run all"},
     {debug::Control::Kind::Pause, "pause", "stops nodes where they are",
+     "Other nodes of the robot that move are paused too, and made safe; `run all` goes on.\n"
      "Example:\n  vagus net tcp:127.0.0.1:33333 pause thymio-II"},
     {debug::Control::Kind::Step, "step", "lets a paused node execute one line",
      "Without --project one instruction: lines are known from the script only.\n"
      "Example:\n  vagus net tcp:127.0.0.1:33333 step thymio-II --project explore.aesl"},
     {debug::Control::Kind::Reset, "reset",
      "restarts the programs of nodes, paused before the first line",
-     "Variables keep their values. `run` goes on.\nExample:\n  vagus net tcp:127.0.0.1:33333 reset "
+     "Variables keep their values. `run` goes on. Other nodes of the robot that move are paused.\n"
+     "Example:\n  vagus net tcp:127.0.0.1:33333 reset "
      "all"},
     {debug::Control::Kind::Stop, "stop",
      "ends what nodes are doing and brings them to rest; they ignore events until `run`",
      "Writes what `safe_stop` of the --project or of the program says, and reads back whether the "
      "nodes\nare at rest, for 5 seconds (--wait: another time). Exit code 1 if one is not, or does "
-     "not answer.\nExample:\n  vagus net tcp:127.0.0.1:33333 stop all"},
+     "not answer.\nOther nodes of the robot that move are paused.\n"
+     "Example:\n  vagus net tcp:127.0.0.1:33333 stop all"},
     {debug::Control::Kind::Save, "save", "makes nodes store their programs for their next start",
      "Nodes without flash ignore it and cannot say so.\nExample:\n  vagus net tcp:127.0.0.1:33333 "
      "save 1"},
@@ -269,7 +272,7 @@ void add_break(CLI::App& net, const SharedCall& call, int& exit_code) {
         "FILE is the project or script that the node runs, LINE a line of that file. The condition "
         "is an\nexpression of AESL over the node's variables. Ends at the first hit, after --wait "
         "seconds (exit 1)\nor with Ctrl-C, and removes the breakpoint again. Then `step` or "
-        "`run`.\n"
+        "`run`.\nAt each hit the other nodes of the robot that move are paused, and made safe.\n"
         "Example:\n  vagus net tcp:127.0.0.1:33333 break thymio-II explore.aesl:12 if 'speed > "
         "100'");
     verb->add_option("NODE", call->node, "number or name of a node")->required();

@@ -142,11 +142,14 @@ void say_notes(const NetSession& session, const std::vector<debug::Event>& event
 
 Verdict net_control(NetSession& session, debug::Control::Kind act,
                     const std::vector<std::string>& named) {
-    std::vector<debug::NodeId> ids = TRY(session.nodes(named));
+    const bool halts = act == debug::Control::Kind::Pause || act == debug::Control::Kind::Reset;
+    std::vector<debug::NodeId> ids =
+        TRY(session.nodes(named, halts ? NetSession::Until::Everybody : NetSession::Until::Named));
     session.take_events();
     std::vector<Asked> asked;
     for (const debug::NodeId id : ids) asked.push_back({id, TRY(ask(session.network(), act, id))});
     const std::vector<debug::Event> events = TRY(wait_all(session, asked));
+    if (halts) (void)TRY(brake_others(session, ids));
     say_notes(session, events);
     const int failed = complain_failed(asked, events).code;
     const int code = std::max(failed, complain_unreached(session, named));

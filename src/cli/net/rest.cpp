@@ -2,9 +2,11 @@
 // read back.
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "cli/net/show.hpp"
 #include "cli/net/verbs.hpp"
 #include "cli/output.hpp"
+#include "session/brake.hpp"
 #include "session/stopping.hpp"
 
 namespace vagus::cli {
@@ -70,6 +72,28 @@ Duration rest_within() {
 
 }  // namespace
 
+Result<std::vector<debug::NodeId>> brake_others(NetSession& session,
+                                                const std::vector<debug::NodeId>& causes) {
+    const session::SafeStop safe = TRY(safe_stop_for(session));
+    debug::Network& network = session.network();
+    for (const debug::NodeId id : causes) session::make_safe(network, safe, id);
+    const auto others = session::others_that_move(network, safe, {causes.begin(), causes.end()});
+    std::vector<Asked> asked;
+    std::vector<std::string> names;
+    for (const debug::NodeId id : others) {
+        if (const auto request = network.pause_now(id)) asked.push_back({id, *request});
+        session::make_safe(network, safe, id);
+        names.push_back(session::name_with_id(network, id));
+    }
+    if (asked.empty()) return others;
+    std::vector<debug::Event> events = TRY(wait_all(session, asked));
+    (void)complain_failed(asked, events);
+    session.put_back(std::move(events));
+    say("a robot moves only while all its nodes run: paused too, and made safe: " +
+        list_of({names.begin(), names.end()}) + "; `run all` lets them run again\n");
+    return others;
+}
+
 Verdict net_stop(NetSession& session, const std::vector<std::string>& named) {
     const session::SafeStop safe = TRY(safe_stop_for(session));
     Result<std::vector<debug::NodeId>> found = session.nodes(named);
@@ -82,6 +106,11 @@ Verdict net_stop(NetSession& session, const std::vector<std::string>& named) {
     const auto nodes =
         TRY(bring_to_rest(session, safe, Stopping::How::Stop, ids, session.wait_or(kRestWithin_s)));
     const int code = std::max(complain_moving(nodes), complain_unreached(session, named));
+    // Those that were named do not wait for the others to be found.
+    if (!all) {
+        (void)TRY(session.nodes(named, NetSession::Until::Everybody));
+        (void)TRY(brake_others(session, ids));
+    }
     std::erase_if(ids,
                   [&session](debug::NodeId id) { return session.network().node(id) == nullptr; });
     print(session.options().json ? show_nodes_json(session, ids) : show_nodes(session, ids));

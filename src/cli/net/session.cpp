@@ -1,6 +1,7 @@
 #include "cli/net/session.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/file.hpp"
 #include "base/text.hpp"
@@ -122,6 +123,11 @@ std::vector<debug::Event> NetSession::take_events() {
     return std::exchange(events_, {});
 }
 
+void NetSession::put_back(std::vector<debug::Event> events) {
+    events_.insert(events_.begin(), std::make_move_iterator(events.begin()),
+                   std::make_move_iterator(events.end()));
+}
+
 Status NetSession::wait_for(const std::function<bool()>& ready, Time deadline) {
     while (!ready()) {
         if (interrupted()) return Error{Code::Timeout, "interrupted"};
@@ -216,13 +222,14 @@ Result<std::vector<debug::NodeId>> NetSession::find_all(
 
 // A number is enough as soon as its node is there. A name might be that of two nodes: all must have
 // answered.
-Result<std::vector<debug::NodeId>> NetSession::nodes(const std::vector<std::string>& named) {
+Result<std::vector<debug::NodeId>> NetSession::nodes(const std::vector<std::string>& named,
+                                                     Until until) {
     const Time deadline = now() + wait_or(0);
     debug::RollCallOptions how;
     for (const std::string& name : named) {
         if (const auto id = id_of(name)) how.wanted.push_back(*id);
     }
-    how.only_wanted = how.wanted.size() == named.size();
+    how.only_wanted = until == Until::Named && how.wanted.size() == named.size();
     (void)TRY(discover(how));
     const auto found = [this, &named] { return find_all(named).ok(); };
     while (!found() && !interrupted() && now() < deadline) (void)TRY(turn(deadline));
@@ -244,8 +251,8 @@ Error NetSession::no_answer(debug::NodeId id) const {
     return {Code::Timeout, sentence + "; if it is slow, give it more time (--wait SECONDS)"};
 }
 
-Result<debug::NodeId> NetSession::node(const std::string& named) {
-    return TRY(nodes({named})).front();
+Result<debug::NodeId> NetSession::node(const std::string& named, Until until) {
+    return TRY(nodes({named}, until)).front();
 }
 
 // ---- scripts ----

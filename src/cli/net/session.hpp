@@ -62,6 +62,8 @@ public:
     // to events.
     Status turn(Time deadline);
     std::vector<debug::Event> take_events();
+    // What was taken on the way is for somebody else: take_events() gives it again.
+    void put_back(std::vector<debug::Event> events);
     bool interrupted() const;  // by Ctrl-C
     // Until `ready` says so. Code::Timeout if the deadline passes or the user interrupts.
     Status wait_for(const std::function<bool()>& ready, Time deadline);
@@ -80,8 +82,11 @@ public:
     // Discovers, then finds each by number or name, if need be for --wait seconds; "all" stands for
     // every connected node. Where the project has a script for a node, its names and lines are
     // known from then on.
-    Result<std::vector<debug::NodeId>> nodes(const std::vector<std::string>& named);
-    Result<debug::NodeId> node(const std::string& named);
+    // With Everybody, those that were not named are known as well then.
+    enum class Until { Named, Everybody };
+    Result<std::vector<debug::NodeId>> nodes(const std::vector<std::string>& named,
+                                             Until until = Until::Named);
+    Result<debug::NodeId> node(const std::string& named, Until until = Until::Named);
     // The node as it is known now. Nodes may leave at any time; one that said good-bye is a view
     // without a name, neither connected nor described. Borrowed until the next wait.
     const debug::NodeView& view(debug::NodeId id) const;

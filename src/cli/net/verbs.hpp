@@ -53,6 +53,11 @@ Verdict net_log(NetSession& session, const std::vector<std::string>& nodes);
 // ---- rest.cpp ----
 // Stops scripts, makes nodes safe, reads back. The exit code tells whether all are at rest.
 Verdict net_stop(NetSession& session, const std::vector<std::string>& nodes);
+// Where these nodes do not run, the others of their robot that move are paused and made safe, and
+// so is what moves of these nodes. Says so in a line. Gives those that were paused; a node that
+// does not answer is complained of.
+Result<std::vector<debug::NodeId>> brake_others(NetSession& session,
+                                                const std::vector<debug::NodeId>& causes);
 // Whether these values of the variable are other than those of the node's safe stop.
 Result<bool> is_driving(const NetSession& session, debug::NodeId id,
                         const debug::VariableRange& range, const std::vector<int16_t>& values);

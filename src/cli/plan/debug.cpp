@@ -487,9 +487,10 @@ Status Prompt::quit(std::string_view) {
 }  // namespace
 
 int debug_plan(const PlanRunOptions& options) {
+    net::watch_for_end();  // Ctrl-C means something else from the prompt on
     const std::unique_ptr<TerminalRun> run = TerminalRun::prepare(options);
-    if (!run) return kExitUsage;
-    net::watch_for_end(net::EndBy::AnyButCtrlC);
+    if (!run || net::end_asked()) return kExitUsage;
+    run->prepared().brake_as_a_whole();
     return Prompt(*run).run();
 }
 

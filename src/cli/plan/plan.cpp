@@ -63,6 +63,7 @@ int check(const CheckOptions& options) {
 // To the end of the plan, or of the watching; gives the exit code.
 int show_run(TerminalRun& run, const PlanRunOptions& options) {
     run.prepared().end_when_stopped();
+    run.prepared().brake_as_a_whole();
     const PlanShown shown = how_to_show(options);
     switch (shown) {
         case PlanShown::Screen:
@@ -79,9 +80,9 @@ int show_run(TerminalRun& run, const PlanRunOptions& options) {
 }
 
 int run_once(const PlanRunOptions& options) {
+    net::watch_for_end();
     const std::unique_ptr<TerminalRun> run = TerminalRun::prepare(options);
     if (!run) return kExitUsage;
-    net::watch_for_end();
     const net::EndWatcher end_watcher([&run] { run->prepared().abort(net::end_asked_by()); });
     return show_run(*run, options);
 }

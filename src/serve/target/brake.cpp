@@ -6,13 +6,15 @@
 // A world whose clock stops with a breakpoint needs none of this.
 #include <algorithm>
 
+#include "session/brake.hpp"
+
 #include "serve/target/target.hpp"
 
 namespace vagus::serve {
 
-// The safe stop names it.
 bool Target::moves(uint16_t node) const {
-    return safe_stop_.contains(described_name(node));
+    const debug::NodeView* view = network_ ? network_->node(node) : nullptr;
+    return view && session::moves(*view, safe_stop_);
 }
 
 void Target::make_safe(uint16_t node) {

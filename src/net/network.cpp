@@ -37,6 +37,9 @@ void Network::unwatch_input(int descriptor) {
 std::vector<Event> Network::poll(Time deadline) {
     return loop_->poll(deadline);
 }
+void Network::flush() {
+    loop_->flush();
+}
 void Network::wake() {
     loop_->wake();
 }

@@ -33,7 +33,8 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
       target_(desk, files_, scripts_, breakpoints_),
       run_(desk, start_runner(places.program)),
       worker_([&network] { network.wake(); }),
-      history_(desk, files_, worker_.poster()) {
+      history_(desk, files_, worker_.poster()),
+      sleep_({.slept = places.slept}) {
     files_.on_wake([&network] { network.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
         say(kind, with_short_paths(text));
@@ -376,6 +377,7 @@ void Workbench::hear(const net::Event& event) {
 
 void Workbench::tick(Time now) {
     now_ = now;
+    watch_sleep();
     run_.tick(now);
     live();
     watch_run();

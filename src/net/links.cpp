@@ -37,6 +37,9 @@ void Links::unwatch_input(int descriptor) {
 std::vector<Event> Links::poll(Time deadline) {
     return loop_->poll(deadline);
 }
+void Links::flush() {
+    loop_->flush();
+}
 void Links::wake() {
     loop_->wake();
 }

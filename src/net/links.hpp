@@ -130,6 +130,10 @@ public:
     // deadline in the past: what is ready now.
     std::vector<Event> poll(Time deadline);
 
+    // Writes at once what hubs have for their links, as far as peers take it; the next poll() tells
+    // what came of that. For what must not wait for the rest of a turn.
+    void flush();
+
     // From any other thread: the poll() that waits, or the next one, returns at once.
     void wake();
 

@@ -169,6 +169,27 @@ TEST(Links, AnotherThreadWakesAPoll) {
     EXPECT_TRUE(host.links.poll(Time::max()).empty());
 }
 
+// What must not wait for the rest of a turn: without a poll().
+TEST(Links, FlushWritesWhatAHubHasAtOnce) {
+    Switch net;
+    const hub::LinkId own = net.hub.add({.name = "host"}).value();
+    int ends[2];
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+    ASSERT_TRUE(net.links.join(net.hub, ends[0], "board 7").ok());
+    ASSERT_TRUE(net.until([&] { return net.hub.links().size() == 2; }));
+    wire::Frame frame;
+    frame.source = 0;
+    frame.type = 5;
+    frame.size = 0;
+    net.hub.receive(own, frame);
+    uint8_t bytes[6] = {};
+    EXPECT_EQ(::recv(ends[1], bytes, sizeof bytes, MSG_DONTWAIT), -1);
+    net.network.flush();
+    EXPECT_EQ(::recv(ends[1], bytes, sizeof bytes, MSG_DONTWAIT), 6);
+    EXPECT_EQ(Hex(bytes, bytes + 6), (Hex{0, 0, 0, 0, 5, 0}));
+    ::close(ends[1]);
+}
+
 // The line of a process that this one has started.
 TEST(Links, JoinsOneEndOfAPairOfSockets) {
     Switch net;

@@ -42,6 +42,7 @@ public:
     Status watch_input(int descriptor);
     void unwatch_input(int descriptor);
     std::vector<Event> poll(Time deadline);
+    void flush();
     void wake();
     Time now() const;
     bool has_unwritten() const;
@@ -95,7 +96,6 @@ private:
 
     // loop.cpp
     size_t run_some(Time deadline);
-    void flush();
     void write(uint32_t number, Connection& connection);
     void read_last_words(Connection& connection);
     Result<Done> open_link(PlaceId place, hub::Hub& hub, hub::LinkOptions options,

@@ -145,7 +145,7 @@ void Stopping::judge(debug::NodeId id, Node& node) {
     node.read_once = false;
     node.state = State::Moving;
     node.next = now_ + moves_every_;
-    if (manner_.how == How::Look) return;
+    if (manner_.how == How::Look || node.known_of) return;
     for (const Check& check : checks) {
         const bool again = check.written && !*check.good;
         if (again) (void)network_->write(id, check.range, check.wanted).ok();
@@ -230,6 +230,10 @@ void Stopping::forget(debug::NodeId node) {
 
 void Stopping::acknowledge() {
     for (auto& [id, node] : nodes_) node.known_of = node.state != State::Stopped;
+}
+
+void Stopping::let_move() {
+    for (auto& [id, node] : nodes_) node.known_of = node.known_of || node.state == State::Moving;
 }
 
 bool Stopping::has_come_to_rest(const Node& node) const {

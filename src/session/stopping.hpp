@@ -73,6 +73,8 @@ public:
     void forget(debug::NodeId node);
     // A person knows of those that are not at rest: they are asked no more.
     void acknowledge();
+    // Those that move do so by their scripts, which may: what they write stays.
+    void let_move();
 
     // All are at rest, or are not there any more; with Look: all have been read.
     bool settled() const;

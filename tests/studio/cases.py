@@ -13,8 +13,8 @@ from projects import DOC, EMIT_LINE, LAST_LINE, N_LINE, PLAN, ROBOT
 class Case(unittest.TestCase):
     """A studio with folders of its own, and one page."""
 
-    def open(self, make=projects.thymio, **options):
-        self.studio = self.enterContext(Studio())
+    def open(self, make=projects.thymio, studio=None, **options):
+        self.studio = self.enterContext(studio or Studio())
         self.folder = self.studio.folder / "project"
         make(self.folder, **options)
         self.page = self.enterContext(self.studio.page())

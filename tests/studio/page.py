@@ -365,8 +365,8 @@ class Page:
 class Studio:
     """`vagus studio` with folders of its own, which outlive the program."""
 
-    def __init__(self, *arguments, folder=None):
-        self.arguments = arguments
+    def __init__(self, *arguments, folder=None, **options):
+        self.arguments, self.options = arguments, options
         self.own = tempfile.TemporaryDirectory(prefix="vagus-studio-")
         self.folder = pathlib.Path(folder or self.own.name)
         pages = self.folder / "pages"
@@ -379,7 +379,7 @@ class Studio:
     def start(self, *arguments):
         """Again, after it was killed."""
         self.program = vagus("studio", *(arguments or self.arguments), "--port", 0, "--data", self.folder / "data", "--config",
-                             self.folder / "config", "--pages", self.folder / "pages", "--no-browser", cwd=self.folder)
+                             self.folder / "config", "--pages", self.folder / "pages", "--no-browser", cwd=self.folder, **self.options)
         found = self.program.wait_line(r"^studio (http://127\.0\.0\.1:(\d+)/#token=(\w+))$")
         self.address, self.port, self.token = found.group(1), int(found.group(2)), found.group(3)
 

@@ -36,11 +36,11 @@ class Missing(Exception):
 class Program:
     """A running program whose output is read line by line. Use it in a with statement."""
 
-    def __init__(self, *arguments, env=None, cwd=None, typing=False):
+    def __init__(self, *arguments, env=None, cwd=None, typing=False, stderr=subprocess.STDOUT):
         self.arguments = [str(argument) for argument in arguments]
         self.lines = []
         self._queue = queue.Queue()
-        self.process = subprocess.Popen(self.arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        self.process = subprocess.Popen(self.arguments, stdout=subprocess.PIPE, stderr=stderr, text=True,
                                         errors="replace", stdin=subprocess.PIPE if typing else subprocess.DEVNULL, cwd=cwd,
                                         env={**os.environ, **(env or {})})
         self._reader = threading.Thread(target=self._read, daemon=True)

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "cli/log_lines.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "net/links.hpp"
@@ -37,14 +38,10 @@ struct Options {
     bool echo = false;
 };
 
-// The switch must go on when nobody reads what it says.
+// The switch must go on when nobody reads the frames that it prints.
 bool takes_text(int descriptor) {
     pollfd asked{descriptor, POLLOUT, 0};
     return ::poll(&asked, 1, 0) == 1;
-}
-
-void tell(const std::string& sentence) {
-    if (takes_text(STDERR_FILENO)) complain(sentence);
 }
 
 class Switch {
@@ -65,6 +62,8 @@ public:
     }
 
 private:
+    void tell(const std::string& sentence) { lines_.complain(sentence); }
+
     // An exit code if the switch cannot work.
     std::optional<int> begin() {
         std::vector<net::Target> listen, connect;
@@ -191,6 +190,7 @@ private:
     }
 
     const Options& options_;
+    LogLines lines_;
     hub::Hub hub_;
     net::Links links_;  // after the hub: it goes first
     std::set<net::PlaceId> targets_;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "base/text.hpp"
+#include "cli/log_lines.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/studio/door_options.hpp"
@@ -19,15 +20,18 @@ std::string grade_for_journal(const std::string& kind) {
     return kind == "error" ? "<3>" : kind == "warning" ? "<4>" : "<6>";
 }
 
-void log(const std::string& kind, const std::string& text) {
+void log(LogLines& lines, const std::string& kind, const std::string& text) {
     for (const std::string_view line : split(text, '\n')) {
-        say(grade_for_journal(kind) + kind + ": " + std::string(line) + "\n");
+        lines.add(grade_for_journal(kind) + kind + ": " + std::string(line) + "\n");
     }
 }
 
 int run(const serve::ServiceOptions& options) {
-    const serve::ServiceTalk talk{.print = [](const std::string& line) { print(line + "\n"); },
-                                  .log = log};
+    LogLines lines;
+    const serve::ServiceTalk talk{
+        .print = [](const std::string& line) { print(line + "\n"); },
+        .log = [&lines](const std::string& kind,
+                        const std::string& text) { log(lines, kind, text); }};
     const Status served = serve::run_service(options, talk);
     if (served.ok()) return kExitDone;
     const Code code = served.error().code;

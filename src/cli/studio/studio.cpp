@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "cli/log_lines.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/studio/door_options.hpp"
@@ -24,14 +25,15 @@ bool has_screen() {
 }
 
 int run(const serve::StudioOptions& options, bool browser) {
-    const Status served =
-        serve::run_studio(options, {.print = [](const std::string& line) { print(line + "\n"); },
-                                    .log = [](const std::string& line) { complain(line); },
-                                    .show =
-                                        [browser](const std::string& file) {
-                                            if (browser && has_screen())
-                                                (void)serve::start_beside({"xdg-open", file});
-                                        }});
+    LogLines lines;
+    const Status served = serve::run_studio(
+        options, {.print = [](const std::string& line) { print(line + "\n"); },
+                  .log = [&lines](const std::string& line) { lines.complain(line); },
+                  .show =
+                      [browser](const std::string& file) {
+                          if (browser && has_screen())
+                              (void)serve::start_beside({"xdg-open", file});
+                      }});
     if (served.ok()) return kExitDone;
     return complain(served.error(),
                     served.error().code == Code::BadInput || served.error().code == Code::NotFound

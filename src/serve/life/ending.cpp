@@ -1,4 +1,6 @@
 // How a run ends: every end takes this path, whatever asked for it.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -12,9 +14,24 @@ namespace {
 
 constexpr const char* kStopped = "it was stopped";
 constexpr const char* kLeft = "the target was left";
+constexpr const char* kWaited =
+    "the plan before it took too long to end; nothing was started. Run it again";
 
 bool has_stopped(const StopNode& node) {
     return node.state == StopNode::State::Stopped;
+}
+
+// One that is gone may be none of the robot's any more; one that is silent may do anything.
+bool may_move(const StopNode& node) {
+    return !has_stopped(node) && node.state != StopNode::State::Gone;
+}
+
+std::string not_at_rest(const StopNode& node) {
+    const bool moves = node.state == StopNode::State::Moving;
+    return fmt::format(
+        "node {} ({}) {}, so nothing was started. Look after the robot, then run it "
+        "again",
+        node.node, node.name, moves ? "did not come to rest" : "did not answer Stop");
 }
 
 }  // namespace
@@ -64,8 +81,13 @@ void Life::ask_nodes() {
 
 void Life::on(const Stopped& stopped) {
     if (stopping_ && stopping_->number == stopped.number) return finish_stop(stopped.report);
+    if (last_stop_ != stopped.number || stopping_) return;
+    if (untold_ && untold_->rests) {
+        untold_->end.nodes = stopped.report.nodes;
+        return tell_end();
+    }
     // Another node has answered since it was told.
-    if (last_stop_ != stopped.number || told_.number == 0 || stopping_ || is_live()) return;
+    if (told_.number == 0) return;
     told_.nodes = stopped.report.nodes;
     act(Tell{told_, true});
 }
@@ -75,6 +97,10 @@ void Life::finish_stop(const StopReport& report) {
     last_stop_ = stopping_->number;
     stopping_.reset();
     for (const CallNumber call : calls) act(AnswerStop{call, report});
+    const auto moving = std::find_if(report.nodes.begin(), report.nodes.end(), may_move);
+    if (next_ && moving != report.nodes.end()) {
+        refuse(std::exchange(next_, std::nullopt)->call, "failed", not_at_rest(*moving));
+    }
     known_ = std::all_of(report.nodes.begin(), report.nodes.end(), has_stopped);
     if (untold_) untold_->end.nodes = report.nodes;
     if (target_ == Target::World) {
@@ -92,7 +118,21 @@ void Life::after_stop() {
         if (next_) refuse(std::exchange(next_, std::nullopt)->call, "failed", kLeft);
         return leave_now();
     }
-    if (next_) start_now(*std::exchange(next_, std::nullopt));
+    start_next();
+}
+
+// On a bus: its process still talks. A world is opened again for the next one.
+bool Life::plan_is_ending() const {
+    return target_ == Target::Bus && untold_ && plan_ == Plan::Ending;
+}
+
+// What waited behind a stop: not before the plan that was told to end has done so, and not long
+// after it was asked for.
+void Life::start_next() {
+    if (!next_ || stopping_ || plan_is_ending()) return;
+    const Start start = *std::exchange(next_, std::nullopt);
+    if (now_ <= next_until_) return start_now(start);
+    refuse(start.call, "late", kWaited);
 }
 
 // Once: with the plan's result, or without if that does not come.
@@ -101,6 +141,11 @@ void Life::tell_end() {
     told_ = std::move(untold_->end);
     untold_.reset();
     act(Tell{told_, false});
+}
+
+// A plan that another one, or the world alone, takes the place of.
+void Life::tell_replaced(const std::string& by) {
+    if (plan_ == Plan::Runs) tell_end_by_itself({by, Why::Stop}, {"Interrupted", ""});
 }
 
 void Life::tell_end_by_itself(const Cause& cause, const PlanEnded& ended) {
@@ -120,7 +165,7 @@ void Life::on(const PlanEnded& ended) {
         }
         if (stopping_ && !stopping_->asked) ask_nodes();
         if (untold_ && !stopping_) tell_end();
-        return;
+        return start_next();
     }
     if (into_) refuse(*std::exchange(into_, std::nullopt), "failed", "the plan has ended");
     if (ended.result == "Error") {
@@ -128,8 +173,16 @@ void Life::on(const PlanEnded& ended) {
         return begin_stop({"plan", Why::Error}, ended.result, ended.message);
     }
     // Its scripts go on; what it had begun does not.
-    act(MakeSafe{});
-    tell_end_by_itself({by.empty() ? "plan" : by, Why::Plan}, ended);
+    const Cause cause = {by.empty() ? "plan" : by, Why::Plan};
+    if (target_ != Target::Bus) {
+        act(MakeSafe{});
+        return tell_end_by_itself(cause, ended);
+    }
+    tell_end();
+    untold_.emplace(
+        Untold{{++ends_, cause, ended.result, ended.message, {}}, now_ + kRestReportWithin, true});
+    last_stop_ = ++starts_;
+    act(MakeSafe{last_stop_});
 }
 
 void Life::on(const Died& died) {

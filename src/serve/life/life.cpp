@@ -10,6 +10,7 @@ using namespace life;
 namespace {
 
 constexpr const char* kBeingStarted = "the run is just being started";
+constexpr const char* kReplaced = "the world was opened again meanwhile";
 
 }  // namespace
 
@@ -55,10 +56,14 @@ Actions Life::tick(Time now, bool silent) {
     now_ = now;
     if (starting_ && starting_->phase == Phase::Describing && now >= starting_->until) load(true);
     if (into_ && now >= into_until_) go_into();
+    watch_opening(silent);
     if (stopping_ && !stopping_->asked && now >= stopping_->until) ask_nodes();
     if (stopping_ && stopping_->asked && now >= stopping_->until) finish_stop({});
     if (state_ == State::ComingToRest && now >= rest_until_) come_to_rest(silent);
-    if (untold_ && !stopping_ && now >= untold_->until) tell_end();
+    if (untold_ && !stopping_ && now >= untold_->until) {
+        tell_end();
+        start_next();
+    }
     return std::exchange(actions_, {});
 }
 
@@ -70,6 +75,7 @@ Time Life::next_tick() const {
     // A process that is silent is asked again.
     if (state_ == State::ComingToRest) next = std::min(next, std::max(rest_until_, now_ + 20ms));
     if (untold_ && !stopping_) next = std::min(next, untold_->until);
+    if (runner_opens_) next = std::min({next, open_until_, word_until_});
     return next;
 }
 
@@ -89,6 +95,7 @@ void Life::refuse(CallNumber call, const char* code, const std::string& why) {
 // ---- beginning ----
 
 void Life::begin(What what, Phase phase, bool go, CallNumber call) {
+    last_stop_ = 0;  // from here on nodes do something else
     starting_.emplace(Starting{++starts_, what, phase, go});
     if (call != 0) starting_->calls.push_back(call);
     state_ = phase == Phase::Opening ? State::Opening : State::Loading;
@@ -97,6 +104,8 @@ void Life::begin(What what, Phase phase, bool go, CallNumber call) {
 
 void Life::open_runner(OpenRunner::What what) {
     runner_opens_ = what;
+    open_until_ = now_ + kOpenWithin;
+    word_until_ = target_ == Target::Bus ? now_ + kOpenSilentMax : open_until_;
     plan_ = Plan::None;  // what ran there is replaced
     world_open_ = false;
     const bool waited_for = starting_ && !starting_->calls.empty();
@@ -114,7 +123,19 @@ void Life::on(const Open& open) {
         return refuse(open.call, "conflict", kBeingStarted);
     }
     if (stopping_) finish_stop_unseen();
+    if (next_) refuse(std::exchange(next_, std::nullopt)->call, "failed", kReplaced);
+    tell_replaced(open.by);
     open_world(open.call, open.go);
+}
+
+// One that is frozen would begin whenever it is let go on.
+void Life::watch_opening(bool silent) {
+    if (!runner_opens_) return;
+    if (!silent) word_until_ = std::max(word_until_, now_ + kOpenSilentMax);
+    if (now_ < open_until_ && now_ < word_until_) return;
+    const std::string why = "did not open what it was to run in time";
+    act(EndRunner{why});
+    on(Failed{"the run " + why + "; its process was ended. Run it again"});
 }
 
 void Life::open_world(CallNumber call, bool go) {
@@ -141,11 +162,21 @@ bool Life::waits_its_turn(const Start& start) {
         refuse(start.call, "conflict", kBeingStarted);
         return true;
     }
-    const bool unknown = target_ == Target::Bus && !known_ && !starting_;
-    if (!stopping_ && unknown) begin_stop({"server", Why::Before}, "", "");
-    if (!stopping_) return false;
+    if (!stopping_ && !starting_ && target_ == Target::Bus) {
+        const bool replaces = start.plan && start.again && plan_ == Plan::Runs;
+        if (replaces) begin_stop({start.by, Why::Stop}, "", "");
+        if (!replaces && needs_rest(start)) begin_stop({"server", Why::Before}, "", "");
+    }
+    if (!stopping_ && !plan_is_ending()) return false;
     next_ = start;
+    next_until_ = now_ + kRunWaitsMax;
     return true;
+}
+
+// What goes on moves as it did; what begins does so with a robot that is known to be at rest.
+bool Life::needs_rest(const Start& start) const {
+    const bool begins = start.plan ? plan_ != Plan::Runs : state_ == State::Ready;
+    return !known_ || (begins && !start.quiet);
 }
 
 // What is under way is just what it asks for.
@@ -175,6 +206,7 @@ void Life::start_now(const Start& start) {
         return act(LoadNodes{starts_, false});
     }
     if (start.plan) {
+        tell_replaced(start.by);
         tell_end();
         target_ = Target::World;
         begin(What::Plan, Phase::Opening, start.go, start.call);

@@ -27,6 +27,12 @@ constexpr Duration kPlanEndsWithin = 300ms;  // in a world; its nodes are stoppe
 constexpr Duration kReportWithin = 1500ms;   // for what becomes of the nodes; then it is answered
 constexpr Duration kRollOut = 500ms;         // a world goes on so long after Stop
 constexpr Duration kResultWithin = 3s;       // of a plan that was told to end
+constexpr Duration kRestReportWithin = 1s;   // of nodes behind a plan that has ended
+constexpr Duration kRunWaitsMax = 3s;        // Run waits no longer behind a stop
+// The process of a run opens a world within the first, a plan on a bus within the second since its
+// last word: a robot must not begin to drive long after Run.
+constexpr Duration kOpenWithin = 30s;
+constexpr Duration kOpenSilentMax = 3s;
 
 class Life {
 public:
@@ -84,6 +90,7 @@ private:
     struct Untold {
         life::End end;
         Time until{};
+        bool rests = false;  // its nodes are made safe, and read
     };
 
     void on(const life::Joined& joined);
@@ -133,8 +140,13 @@ private:
     void finish_stop(const StopReport& report);
     void finish_stop_unseen();
     void tell_end();
+    void tell_replaced(const std::string& by);
     void tell_end_by_itself(const life::Cause& cause, const life::PlanEnded& ended);
     void after_stop();
+    void start_next();
+    bool plan_is_ending() const;
+    void watch_opening(bool silent);
+    bool needs_rest(const life::Start& start) const;
     void leave_now();
     void come_to_rest(bool silent);
 
@@ -148,12 +160,14 @@ private:
     bool halted_ = false;       // a node came to a breakpoint while nodes were let go
     std::string plan_stop_by_;  // who told the plan alone to end
     std::optional<life::OpenRunner::What> runner_opens_;
+    Time open_until_{}, word_until_{};  // of that
     std::optional<Starting> starting_;
     std::optional<Stopping> stopping_;
     std::optional<Untold> untold_;
     life::End told_;  // the last one
     Time rest_until_{};
-    std::optional<life::Start> next_;       // waits until the stop under way is over
+    std::optional<life::Start> next_;  // waits until the stop under way is over
+    Time next_until_{};
     std::vector<life::Leave> leaves_;       // wait for it, too
     std::optional<life::CallNumber> into_;  // a step into a script
     Time into_until_{};

@@ -1,99 +1,10 @@
-// The rules: every command is answered exactly once; after Stop nothing is let go until somebody
-// asks; what was opened is closed.
-#include "serve/life/life.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <functional>
-#include <map>
-#include <random>
-#include <string>
-
-#include "base/rng.hpp"
+// What becomes of what: beginnings and ends of runs, one by one.
+#include "serve/life/test_life.hpp"
 
 namespace vagus::serve {
 namespace {
 
-using namespace life;
-using State = Life::State;
-
-std::string word(const Action& action) {
-    static constexpr const char* kWords[] = {
-        "open-runner", "connect", "load",        "let-go", "begin",    "continue",   "step",
-        "pause",       "rest",    "pause-nodes", "count",  "end-plan", "stop-nodes", "make-safe",
-        "disconnect",  "leaving", "answer",      "stood",  "tell"};
-    return kWords[action.index()];
-}
-
-// A life with everything around it scripted: runners open and nodes answer when they are told to.
-struct Bench {
-    Life life;
-    Time now{};
-    CallNumber calls = 0;
-    std::map<CallNumber, int> answers;  // of each command
-    std::map<CallNumber, Answer> said;
-    std::vector<End> ends;
-    uint64_t load = 0, go = 0, stop = 0;  // what was asked for last
-    bool runner = false;
-    bool asked = true;  // somebody wants that something runs
-    std::string did;    // words of what was done since the last look
-
-    std::string take(const Input& input) {
-        std::string all;
-        for (const Action& action : life.take(input, now)) all += note(action);
-        return all;
-    }
-    std::string pass(Duration time, bool silent = false) {
-        now += time;
-        std::string all;
-        for (const Action& action : life.tick(now, silent)) all += note(action);
-        return all;
-    }
-    CallNumber call() {
-        answers[++calls] = 0;
-        return calls;
-    }
-    // A start of the scripts in a world, to its end.
-    void run_world(bool plan = false) {
-        take(Start{call(), plan, true});
-        take(Opened{});
-        take(Described{});
-        take(Loaded{load});
-        ASSERT_EQ(life.state(), State::Running);
-    }
-    void run_bus_plan() {
-        take(Joined{});
-        take(Start{call(), true});
-        take(Stopped{stop, {{{1, "drive", StopNode::State::Stopped}}}});
-        take(Loaded{load});
-        take(Opened{});
-        take(Went{go});
-        ASSERT_EQ(life.state(), State::Running);
-    }
-
-    std::string note(const Action& action) {
-        if (const auto* answer = std::get_if<Answer>(&action)) {
-            ++answers[answer->call];
-            said[answer->call] = *answer;
-        }
-        if (const auto* stood = std::get_if<AnswerStop>(&action)) ++answers[stood->call];
-        if (const auto* leaving = std::get_if<GoOnLeaving>(&action)) ++answers[leaving->call];
-        if (const auto* told = std::get_if<Tell>(&action)) {
-            if (!told->again) ends.push_back(told->end);
-        }
-        if (const auto* loads = std::get_if<LoadNodes>(&action)) load = loads->start;
-        if (const auto* goes = std::get_if<LetNodesGo>(&action)) go = goes->start;
-        if (const auto* stops = std::get_if<StopNodes>(&action)) stop = stops->number;
-        if (std::holds_alternative<OpenRunner>(action)) runner = true;
-        if (std::holds_alternative<Disconnect>(action)) runner = false;
-        return word(action) + " ";
-    }
-};
-
-StopReport stood() {
-    return {{{1, "drive", StopNode::State::Stopped}}};
-}
+using namespace test;
 
 // ---- beginning ----
 
@@ -239,10 +150,34 @@ TEST(Life, APlanThatEndsWellLeavesItsScriptsRunning) {
     for (const char* result : {"OK", "Interrupted"}) {
         Bench bench;
         bench.run_bus_plan();
-        EXPECT_EQ(bench.take(PlanEnded{result}), "make-safe tell ");
+        EXPECT_EQ(bench.take(PlanEnded{result}), "make-safe ");
         EXPECT_EQ(bench.life.state(), State::Running);
+        EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "tell ");
         EXPECT_EQ(bench.ends[0].cause.why, Why::Plan);
+        EXPECT_EQ(bench.ends[0].result, result);
+        EXPECT_EQ(bench.ends[0].nodes.size(), 1U);
     }
+}
+
+TEST(Life, AnEndIsToldAlsoIfNodesDoNotSayThatTheyAreSafeAndAgainWhenTheyDo) {
+    Bench bench;
+    bench.run_bus_plan();
+    EXPECT_EQ(bench.take(PlanEnded{"OK"}), "make-safe ");
+    EXPECT_EQ(bench.pass(kRestReportWithin - 1ms), "");
+    EXPECT_EQ(bench.pass(1ms), "tell ");
+    EXPECT_EQ(bench.ends.size(), 1U);
+    EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "tell ");
+    EXPECT_EQ(bench.ends.size(), 1U);  // once
+    // Once something runs again they do what that wants.
+    const uint64_t before = bench.stop;
+    bench.take(Start{bench.call(), true});
+    EXPECT_EQ(bench.take(Stopped{before, stood()}), "");
+}
+
+TEST(Life, AWorldIsNotWaitedForBehindItsPlan) {
+    Bench bench;
+    bench.run_world(true);
+    EXPECT_EQ(bench.take(PlanEnded{"OK"}), "make-safe tell ");
 }
 
 TEST(Life, APlanThatFailsStopsTheRobot) {
@@ -317,7 +252,121 @@ TEST(Life, RunAfterStopWaitsForItAndIsVoidAfterAnother) {
     EXPECT_EQ(bench.take(Stop{bench.call(), {"Ann"}}), "answer ");
     EXPECT_EQ(bench.said[run].why, "it was stopped");
     EXPECT_EQ(bench.take(Start{bench.call(), true}), "");
-    EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "stood stood tell load ");
+    EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "stood stood ");
+    // The plan before it ends first.
+    EXPECT_EQ(bench.take(PlanEnded{"Interrupted"}), "tell load ");
+}
+
+TEST(Life, APlanThatIsStartedOverOneThatRunsOnABusEndsThatAsStopDoes) {
+    Bench bench;
+    bench.run_bus_plan();
+    const CallNumber call = bench.call();
+    EXPECT_EQ(bench.take(Start{call, true, false, true, true, "Ann"}), "end-plan stop-nodes ");
+    EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "");
+    EXPECT_EQ(bench.take(PlanEnded{"Interrupted"}), "tell load ");
+    ASSERT_EQ(bench.ends.size(), 1U);
+    EXPECT_EQ(bench.ends[0].cause.by, "Ann");
+    EXPECT_EQ(bench.ends[0].result, "Interrupted");
+    EXPECT_EQ(bench.ends[0].nodes.size(), 1U);
+    EXPECT_EQ(bench.answers[call], 0);  // it is just being started
+}
+
+TEST(Life, AStartThatWaitedTooLongForTheEndOfAnotherPlanIsLate) {
+    for (const bool late : {false, true}) {
+        Bench bench;
+        bench.run_bus_plan();
+        bench.take(Stop{bench.call(), {"Ann"}});
+        bench.take(Stopped{bench.stop, stood()});
+        const CallNumber call = bench.call();
+        EXPECT_EQ(bench.take(Start{call, true}), "");
+        EXPECT_EQ(bench.pass(kRunWaitsMax + (late ? 1ms : 0ms)),
+                  late ? "tell answer " : "tell load ");
+        if (late) {
+            EXPECT_EQ(bench.said[call].code, "late");
+        }
+    }
+}
+
+TEST(Life, APlanInAWorldThatIsReplacedIsToldFirst) {
+    for (const bool plan : {true, false}) {
+        Bench bench;
+        bench.run_world(true);
+        const std::string did =
+            plan ? bench.take(Start{bench.call(), true, false, true, true, "Ann"})
+                 : bench.take(Open{bench.call(), false, "Ann"});
+        EXPECT_EQ(did, "tell open-runner ");
+        ASSERT_EQ(bench.ends.size(), 1U);
+        EXPECT_EQ(bench.ends[0].cause.by, "Ann");
+        EXPECT_EQ(bench.ends[0].result, "Interrupted");
+    }
+}
+
+// ---- a robot that somebody has moved meanwhile ----
+
+TEST(Life, WhatWasDrivenByHandIsStoppedBeforeARunBegins) {
+    Bench bench;
+    bench.run_bus_plan();
+    bench.take(Stop{bench.call(), {"Ann"}});
+    bench.take(Stopped{bench.stop, stood()});
+    bench.take(PlanEnded{"Interrupted"});
+    Start start{bench.call(), true};
+    start.quiet = false;
+    EXPECT_EQ(bench.take(start), "stop-nodes ");
+    EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "load ");
+}
+
+TEST(Life, WhatGoesOnIsNotStopped) {
+    Bench bench;
+    bench.run_bus_plan();
+    bench.take(HoldPlan{bench.call()});
+    Start start{bench.call(), true};
+    start.quiet = false;
+    EXPECT_EQ(bench.take(start), "load ");
+}
+
+TEST(Life, NothingIsStartedOnARobotThatDoesNotComeToRest) {
+    using Is = StopNode::State;
+    for (const auto& [is, starts] : {std::pair(Is::Moving, false),
+                                     {Is::Silent, false},
+                                     {Is::Asked, false},
+                                     {Is::Gone, true}}) {
+        Bench bench;
+        bench.take(Joined{});
+        const CallNumber call = bench.call();
+        bench.take(Start{call, true});
+        EXPECT_EQ(bench.take(Stopped{bench.stop, {{{1, "drive", is}}}}),
+                  starts ? "load " : "answer ");
+        if (starts) continue;
+        EXPECT_TRUE(bench.said[call].why.starts_with("node 1 (drive) did not "))
+            << bench.said[call].why;
+    }
+}
+
+// ---- a process that does not open what it was told to ----
+
+TEST(Life, AProcessThatIsSilentInsteadOfOpeningIsEndedAndWhoStartsIsTold) {
+    Bench bench;
+    bench.take(Joined{});
+    const CallNumber call = bench.call();
+    bench.take(Start{call, true});
+    bench.take(Stopped{bench.stop, stood()});
+    EXPECT_EQ(bench.take(Loaded{bench.load}), "open-runner ");
+    EXPECT_EQ(bench.pass(1s, false), "");
+    EXPECT_EQ(bench.pass(kOpenSilentMax - 1ms, true), "");
+    EXPECT_EQ(bench.pass(1ms, true), "end-runner answer stop-nodes ");
+    EXPECT_EQ(bench.answers[call], 1);
+    EXPECT_NE(bench.said[call].why.find("did not open"), std::string::npos);
+    EXPECT_EQ(bench.take(Opened{}), "");  // of a process that is gone
+}
+
+TEST(Life, AWorldHasLongerToOpenButNotForEver) {
+    Bench bench;
+    const CallNumber call = bench.call();
+    bench.take(Open{call, true});
+    EXPECT_EQ(bench.pass(kOpenWithin - 1ms, true), "");
+    EXPECT_EQ(bench.pass(1ms, true), "end-runner answer ");
+    EXPECT_EQ(bench.said[call].code, "failed");
+    EXPECT_EQ(bench.life.state(), State::None);
 }
 
 TEST(Life, WhatComesLateForAStartThatIsVoidSaysNothing) {
@@ -327,6 +376,7 @@ TEST(Life, WhatComesLateForAStartThatIsVoidSaysNothing) {
     const uint64_t load = bench.load, go = bench.go;
     bench.take(Stop{bench.call(), {"Ann"}});
     bench.take(Stopped{bench.stop, stood()});
+    bench.take(PlanEnded{"Interrupted"});
     bench.take(Start{bench.call(), false});
     EXPECT_EQ(bench.take(Loaded{load}), "");
     EXPECT_EQ(bench.take(Loaded{bench.load}), "count let-go ");
@@ -356,206 +406,6 @@ TEST(Life, AStepIntoAScriptIsVoidAfterStop) {
     EXPECT_EQ(bench.take(Stop{bench.call(), {"Ann"}}), "answer end-plan stop-nodes ");
     EXPECT_EQ(bench.pass(kIntoWithin), "");
     EXPECT_EQ(bench.answers[into], 1);
-}
-
-// ---- the rules, over everything that can happen ----
-
-// One input of each kind. Answers of nodes and runners are to what was asked last.
-using Make = std::function<Input(Bench&)>;
-const std::vector<Make>& inputs() {
-    static const std::vector<Make> kInputs = {
-        [](Bench&) { return Joined{}; },
-        [](Bench& b) {
-            return Open{b.call(), false};
-        },
-        [](Bench& b) {
-            return Open{b.call(), true};
-        },
-        [](Bench& b) {
-            return Start{b.call(), false, false};
-        },
-        [](Bench& b) {
-            return Start{b.call(), false, true};
-        },
-        [](Bench& b) {
-            return Start{b.call(), true, true};
-        },
-        [](Bench& b) {
-            return Start{b.call(), true, false, false, true};
-        },
-        [](Bench&) { return Opened{}; },
-        [](Bench&) { return Failed{"it cannot"}; },
-        [](Bench&) { return Described{}; },
-        [](Bench& b) { return Loaded{b.load}; },
-        [](Bench& b) { return Went{b.go}; },
-        [](Bench&) { return Halted{}; },
-        [](Bench& b) { return Pause{b.call()}; },
-        [](Bench& b) {
-            return NodesPaused{b.calls, ""};
-        },
-        [](Bench& b) { return HoldPlan{b.call()}; },
-        [](Bench& b) { return ContinuePlan{b.call()}; },
-        [](Bench& b) {
-            return EndThePlan{b.call(), "Ann"};
-        },
-        [](Bench& b) { return StepInto{b.call()}; },
-        [](Bench&) { return BreakpointsSet{}; },
-        [](Bench&) { return PlanEnded{"OK"}; },
-        [](Bench&) {
-            return PlanEnded{"Error", "why"};
-        },
-        [](Bench&) { return Died{"killed"}; },
-        [](Bench& b) {
-            return Stop{b.call(), {"Ann"}};
-        },
-        [](Bench& b) {
-            return Stopped{b.stop, stood()};
-        },
-        [](Bench& b) {
-            return Leave{b.call(), {"Ann", Why::Target}, false};
-        },
-        [](Bench& b) {
-            return Leave{b.call(), {"Ann", Why::Target}, true};
-        },
-    };
-    return kInputs;
-}
-
-bool asks_for_a_run(const Input& input) {
-    return std::holds_alternative<Start>(input) || std::holds_alternative<ContinuePlan>(input) ||
-           std::holds_alternative<StepInto>(input) ||
-           (std::holds_alternative<Open>(input) && std::get<Open>(input).go);
-}
-
-bool lets_run(const std::string& words) {
-    for (const char* one : {"let-go", "begin", "continue", "step "}) {
-        if (words.find(one) != std::string::npos) return true;
-    }
-    return false;
-}
-
-// A bus is joined only where nothing is connected: the server leaves one target first.
-bool may_come(const Bench& bench, const Input& input) {
-    return !std::holds_alternative<Joined>(input) || bench.life.state() == State::None;
-}
-
-void feed(Bench& bench, const Make& make, const std::string& where) {
-    const Input input = make(bench);
-    if (!may_come(bench, input)) return;
-    if (asks_for_a_run(input)) bench.asked = true;
-    if (std::holds_alternative<Stop>(input)) bench.asked = false;
-    const std::string did = bench.take(input);
-    EXPECT_TRUE(bench.asked || !lets_run(did)) << where << did;
-    for (const auto& [call, times] : bench.answers) EXPECT_LE(times, 1) << where << call;
-}
-
-// Callers that still wait are answered by the end of everything: the nodes are silent, the pause is
-// answered by the nodes or by leaving.
-void finish(Bench& bench, const std::string& where) {
-    bench.take(Leave{bench.call(), {"Ann", Why::Project}, true});
-    bench.pass(kPlanEndsWithin);
-    bench.pass(kReportWithin);
-    for (const auto& [call, times] : bench.answers) {
-        EXPECT_EQ(times, 1) << where << "command " << call;
-    }
-    EXPECT_FALSE(bench.runner) << where;
-    EXPECT_EQ(bench.life.state(), State::None) << where;
-    EXPECT_EQ(bench.life.next_tick(), Time::max()) << where;
-}
-
-// Ways to each of the states.
-const std::vector<std::pair<State, std::function<void(Bench&)>>>& ways() {
-    using Way = std::pair<State, std::function<void(Bench&)>>;
-    static const std::vector<Way> kWays = {
-        {State::None, [](Bench&) {}},
-        {State::Opening,
-         [](Bench& b) {
-             b.take(Start{b.call(), true, true});
-         }},
-        {State::Opening, [](Bench& b) { b.take(Open{b.call()}); }},
-        {State::Loading,
-         [](Bench& b) {
-             b.take(Start{b.call(), true, true});
-             b.take(Opened{});
-         }},
-        {State::Loading,
-         [](Bench& b) {
-             b.run_world();
-             b.take(Start{b.call()});
-         }},
-        {State::Ready, [](Bench& b) { b.take(Joined{}); }},
-        {State::Running, [](Bench& b) { b.run_world(); }},
-        {State::Running, [](Bench& b) { b.run_world(true); }},
-        {State::Running, [](Bench& b) { b.run_bus_plan(); }},
-        {State::Paused,
-         [](Bench& b) {
-             b.run_world();
-             b.take(Halted{});
-         }},
-        {State::Stopping,
-         [](Bench& b) {
-             b.run_bus_plan();
-             b.take(Stop{b.call(), {"Ann"}});
-             b.asked = false;
-         }},
-        {State::Stopping,
-         [](Bench& b) {
-             b.run_world(true);
-             b.take(Stop{b.call(), {"Ann"}});
-             b.asked = false;
-         }},
-        {State::ComingToRest,
-         [](Bench& b) {
-             b.run_world();
-             b.take(Stop{b.call(), {"Ann"}});
-             b.asked = false;
-             b.take(Stopped{b.stop, stood()});
-         }},
-        {State::Dead,
-         [](Bench& b) {
-             b.run_world();
-             b.take(Died{"killed"});
-         }},
-    };
-    return kWays;
-}
-
-TEST(LifeRules, HoldForAllPairsOfInputsInEveryState) {
-    for (size_t way = 0; way < ways().size(); ++way) {
-        for (size_t first = 0; first < inputs().size(); ++first) {
-            for (size_t second = 0; second < inputs().size(); ++second) {
-                const std::string where = "way " + std::to_string(way) + ", inputs " +
-                                          std::to_string(first) + " and " + std::to_string(second) +
-                                          ": ";
-                Bench bench;
-                ways()[way].second(bench);
-                ASSERT_EQ(bench.life.state(), ways()[way].first) << where;
-                feed(bench, inputs()[first], where);
-                feed(bench, inputs()[second], where);
-                finish(bench, where);
-                ASSERT_FALSE(testing::Test::HasFailure()) << where;
-            }
-        }
-    }
-}
-
-TEST(LifeRules, HoldForAnySequence) {
-    const char* given = std::getenv("VAGUS_SEED");
-    const uint64_t seed = given ? std::strtoull(given, nullptr, 10) : std::random_device()();
-    SCOPED_TRACE("VAGUS_SEED=" + std::to_string(seed));
-    SplitMix64 dice(seed);
-    for (int round = 0; round < 3000; ++round) {
-        Bench bench;
-        const std::string where = "round " + std::to_string(round) + ": ";
-        for (int step = 0; step < 60; ++step) {
-            feed(bench, inputs()[dice.next() % inputs().size()], where);
-            const std::string did =
-                bench.pass(std::chrono::milliseconds(dice.next() % 700), dice.next() % 8 == 0);
-            ASSERT_TRUE(bench.asked || !lets_run(did)) << where << did;
-        }
-        finish(bench, where);
-        ASSERT_FALSE(testing::Test::HasFailure()) << where;
-    }
 }
 
 }  // namespace

@@ -45,14 +45,18 @@ struct Joined {};
 struct Open {
     CallNumber call = 0;
     bool go = false;
+    std::string by = {};
 };
 // Run: what is paused continues, or everything begins.
 struct Start {
     CallNumber call = 0;
     bool plan = false;         // there is one to run
-    bool world_again = false;  // the world is not open, or is another by now
+    bool world_again = false;  // the world does not stand there, or is another by now
     bool go = true;            // otherwise the plan is paused before its first actor
     bool again = false;        // also if it runs
+    std::string by = {};
+    // Nothing has happened since the last Stop that can move a node of a bus.
+    bool quiet = true;
 };
 // The process of the run has opened what it was told to open, or cannot.
 struct Opened {};
@@ -103,7 +107,7 @@ struct Stop {
     CallNumber call = 0;
     Cause cause;
 };
-// What became of the nodes; again whenever that changes.
+// What became of the nodes that were stopped or made safe; again whenever that changes.
 struct Stopped {
     uint64_t number = 0;
     StopReport report;
@@ -158,8 +162,14 @@ struct EndPlan {
 struct StopNodes {
     uint64_t number = 0;
 };
-// What makes nodes safe is written while their scripts run.
-struct MakeSafe {};
+// What makes nodes safe is written while their scripts run. Of a bus, Stopped{number} follows.
+struct MakeSafe {
+    uint64_t number = 0;
+};
+// The process of the run does not open what it was told to open: it is killed.
+struct EndRunner {
+    std::string why;  // the end of "the run …"
+};
 // The process of the run ends, and nobody is talked to any more.
 struct Disconnect {};
 // Leaving is possible now: what waits behind `call` is done.
@@ -181,7 +191,7 @@ struct Tell {
 
 using Action = std::variant<OpenRunner, ConnectWorld, LoadNodes, LetNodesGo, BeginRun, ContinueRun,
                             StepPlan, PauseRun, RestRun, PauseNodes, CountStart, EndPlan, StopNodes,
-                            MakeSafe, Disconnect, GoOnLeaving, Answer, AnswerStop, Tell>;
+                            MakeSafe, Disconnect, GoOnLeaving, Answer, AnswerStop, Tell, EndRunner>;
 using Actions = std::vector<Action>;
 
 }  // namespace vagus::serve::life

@@ -46,7 +46,8 @@ Run::Run(Desk& desk, StartRunProcess start)
 // ---- its life ----
 
 Status Run::open(const RunOrder& order, Time now) {
-    if (!child_ || child_->ended()) {
+    const bool hangs = child_ && now > heard_ + kHangingAfter;
+    if (!child_ || hangs || child_->ended()) {
         child_ = TRY(start_());
         ++generation_;
     }
@@ -113,6 +114,10 @@ void Run::close() {
     desk_.topics().touch("clock");
     desk_.topics().touch("plan");
     desk_.topics().touch("scene");
+}
+
+void Run::give_up(const std::string& what) {
+    if (child_) be_over(what);
 }
 
 int Run::descriptor() {

@@ -124,6 +124,8 @@ public:
     void rest();
     // Ends the process, as for one that hangs.
     void kill();
+    // Ends the process at once, without a word to on_death(): "the run " + why.
+    void give_up(const std::string& what);
     double speed() const { return speed_; }
     bool paused() const { return paused_; }
     bool rests() const { return rests_; }
@@ -184,6 +186,7 @@ public:
     // ---- Carrier ----
     void send(const wire::Frame& frame) override;
     std::vector<Carried> take() override { return std::exchange(frames_, {}); }
+    uint64_t heard() const override { return frames_in_; }
     Connection connection() const override;
     std::string why() const override { return why_; }
     std::vector<LinkView> links() const override;
@@ -227,6 +230,7 @@ private:
     void hear(talk::Picture& picture) { flows_.show(std::move(picture)); }
     void hear(const talk::Records& records) { told_.records(records.bytes.bytes); }
     void hear_end(const std::string& what);
+    void be_over(const std::string& what);
 
     // ---- run_documents.cpp: what pages see of it ----
     void declare_topics();

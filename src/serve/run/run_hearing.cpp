@@ -140,6 +140,11 @@ void Run::hear(const talk::FrameSeen& seen) {
 
 // What it told last is known to the moment, but for the clock: that is a tenth of a second old.
 void Run::hear_end(const std::string& what) {
+    be_over(what);
+    died_(why_);
+}
+
+void Run::be_over(const std::string& what) {
     const std::string last = last_actor_.empty() ? "" : "; the active actor was " + last_actor_;
     why_ = fmt::format(
         "{} after {:.1f} s{}. Everything that was recorded is kept; run it again to start over",
@@ -158,7 +163,6 @@ void Run::hear_end(const std::string& what) {
     forget_held();
     breakpoints_told_({});
     say_("error", why_);
-    died_(why_);
     desk_.topics().touch("clock");
     desk_.topics().touch("robot");
 }

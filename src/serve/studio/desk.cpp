@@ -120,15 +120,16 @@ bool Desk::is_stop(const WebEvent& event) const {
     });
 }
 
-// Of someone without a page: what comes of it is in the log.
+// Of someone without a page: what comes of it is in the log, once it is obeyed.
 void Desk::on_stop_asked(const StopAsked& asked) {
-    log(asked.address + ": POST /stop");
     const auto found = commands_.find("stop");
-    if (found == commands_.end()) return;
-    const Call call(Json::object(), 0, [this](const Call::Outcome& outcome) {
-        if (const auto* problem = std::get_if<Problem>(&outcome)) log("stop: " + problem->what);
-    });
-    if (const auto thrown = thrown_by([&] { found->second(call); })) log("stop: " + *thrown);
+    if (found != commands_.end()) {
+        const Call call(Json::object(), 0, [this](const Call::Outcome& outcome) {
+            if (const auto* problem = std::get_if<Problem>(&outcome)) log("stop: " + problem->what);
+        });
+        if (const auto thrown = thrown_by([&] { found->second(call); })) log("stop: " + *thrown);
+    }
+    log(asked.address + ": POST /stop");
 }
 
 void Desk::on_opened(const ClientOpened& opened, Time now) {
@@ -144,6 +145,7 @@ void Desk::on_took(const ClientTook& took) {
     if (found == connections_.end()) return;
     found->second.unsent -= std::min(found->second.unsent, took.bytes);
     found->second.silent = {};
+    found->second.took = true;
 }
 
 void Desk::on_closed(ClientId client, Time now) {
@@ -158,6 +160,7 @@ void Desk::on_message(ClientId client, const Message& message, Time now) {
     const auto found = connections_.find(client);
     if (found == connections_.end() || found->second.dropped) return;
     if (found->second.refuse_at || found->second.twin) return;
+    hear_life(found->second);
     take(client, found->second, message, now);
 }
 

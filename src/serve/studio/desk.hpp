@@ -26,10 +26,12 @@
 namespace vagus::serve {
 
 constexpr size_t kRoomBytes = 256 * 1024;  // unsent to a page, above which it gets nothing new
-constexpr uint64_t kPingsMissedMax = 3;    // a page that left so many unanswered is silent
+constexpr uint64_t kPingsMissedMax = 3;    // a client that left so many unanswered is silent
+constexpr size_t kSlowBytes = 64 * 1024;   // unsent to a client: our ping waits behind that
 constexpr Duration kTwinWithin = 1s;       // a page that may have a twin answers a ping
-constexpr Duration kOnTime = 2s;         // a tick so long after the last one: our own loop was late
-constexpr double kUntilAheadMax = 1000;  // ms by which a page may take our clock to be ahead
+constexpr Duration kOnTime = 2s;           // a tick so long after the last: our own loop was late
+constexpr Duration kPingLateMax = 500ms;   // so was it for a ping that left this much behind time
+constexpr double kUntilAheadMax = 1000;    // ms by which a page may take our clock to be ahead
 
 // One command under way. Its answer may come later; it is kept for a client that lost its
 // connection meanwhile.
@@ -80,9 +82,14 @@ public:
     double wall_ms() const { return outside_.wall_ms(); }
     const std::string& epoch() const { return epoch_; }
     const Clients& clients() const { return clients_; }
+    // Is it connected, and does it answer? Slow is not gone: what we did not send it in time, and a
+    // ping behind much that it is just taking, is not its silence.
+    bool is_there(uint32_t member) const;
+    // How many are.
+    size_t present() const;
     // Version, driver, who asks, how many: what the topic studio says of them.
     Json people() const;
-    // Called when the driver or who is connected changes.
+    // Called when the driver, who is connected or who is there changes.
     void on_people(std::function<void()> changed) { people_changed_ = std::move(changed); }
 
     void hear(const WebEvent& event, Time now);
@@ -106,6 +113,7 @@ private:
         std::string nonce = {};  // of the page load
         std::optional<Twin> twin = {};
         uint64_t pings_missed = 0;
+        bool took = false;  // something of what was unsent, since the last ping
         Time opened{};
         bool known = false;                  // said hello
         bool dropped = false;                // sent away; what it says is not heard any more
@@ -135,6 +143,8 @@ private:
     void refuse(ClientId client, Connection& connection);
     void refuse_hello(ClientId client, uint64_t id, Problem problem);
     void on_pong(ClientId client, const Pong& pong, Time now);
+    void hear_life(Connection& connection);
+    static bool is_silent(const Connection& connection);
     void ping(Time now);
     void send_ping(ClientId client, Time now);
     void look_after(ClientId client, Connection& connection, Duration passed, Time now);

@@ -136,18 +136,48 @@ void Desk::welcome(ClientId client, const Request& request, Role role, Time now)
 // ---- signs of life ----
 
 void Desk::on_pong(ClientId client, const Pong& pong, Time now) {
-    connections_.at(client).pings_missed = 0;
     settle_twins(client, pong.number, now);
+}
+
+// Whatever a client says shows that it is there.
+void Desk::hear_life(Connection& connection) {
+    const bool was_silent = is_silent(connection);
+    connection.pings_missed = 0;
+    if (was_silent) people_changed_();
+}
+
+bool Desk::is_silent(const Connection& connection) {
+    return connection.pings_missed > kPingsMissedMax;  // the last one may still be answered
+}
+
+bool Desk::is_there(uint32_t member) const {
+    const Clients::Member* const client = clients_.find(member);
+    if (!client || !client->connection) return false;
+    const auto found = connections_.find(*client->connection);
+    return found != connections_.end() && !found->second.dropped && !is_silent(found->second);
+}
+
+size_t Desk::present() const {
+    return static_cast<size_t>(
+        std::count_if(connections_.begin(), connections_.end(), [](const auto& entry) {
+            return entry.second.known && !entry.second.dropped && !is_silent(entry.second);
+        }));
 }
 
 void Desk::ping(Time now) {
     if (now < next_ping_) return;
+    const bool on_time = now <= next_ping_ + kPingLateMax;
     next_ping_ = now + limit_ms("ping_ms");
+    bool changed = false;
     for (auto& [client, connection] : connections_) {
         if (!connection.known || connection.dropped) continue;
-        ++connection.pings_missed;
+        const bool slow = std::exchange(connection.took, false) && connection.unsent > kSlowBytes;
+        const bool was_silent = is_silent(connection);
+        if (on_time && !slow) ++connection.pings_missed;
+        changed = changed || is_silent(connection) != was_silent;
         send_ping(client, now);
     }
+    if (changed) people_changed_();
 }
 
 void Desk::send_ping(ClientId client, Time now) {

@@ -26,10 +26,58 @@ void Target::make_safe(uint16_t node) {
     }
 }
 
-void Target::make_safe() {
-    if (!network_) return;
-    resting_.begin(*network_, safe_stop_, session::Stopping::How::Rest, now_);
+void Target::make_safe(std::function<void(const StopReport&)> done) {
+    if (!network_) return done({});
+    using How = session::Stopping::How;
+    std::vector<debug::NodeId> nodes;
+    for (const debug::NodeId node : network_->nodes()) {
+        if (moves(node)) nodes.push_back(node);
+    }
+    const session::Stopping::Manner manner{.how = How::Rest,
+                                           .until = session::Stopping::Until::Forgotten,
+                                           .link = state() == Connection::Connected};
+    resting_.begin(*network_, safe_stop_, manner, now_, nodes);
     rest_until_ = now_ + kRestWithin;
+    rested_ = std::move(done);
+    rests_ = true;
+}
+
+void Target::end_rest() {
+    resting_.end();
+    rested_ = nullptr;
+}
+
+// Who moves by then does so by a script of its own; who did not answer is asked on.
+void Target::tick_rest(Time now) {
+    const bool over = now >= rest_until_;
+    if (over) resting_.let_move();
+    resting_.tick(now);
+    if (!rested_ || !(over || resting_.settled())) return;
+    if (!resting_.settled()) resting_.note_silence();
+    std::exchange(rested_, nullptr)({resting_.nodes()});
+}
+
+// As it is now, for as long as nobody lets the nodes run; empty while nobody has been told yet.
+StopReport Target::stop_report() const {
+    if (!rests_) return stopping_.report();
+    return rested_ ? StopReport() : StopReport{resting_.nodes()};
+}
+
+void Target::note_move() {
+    moved_ = true;
+    quiet_ = false;
+}
+
+void Target::will_move() {
+    end_rest();
+    note_move();
+}
+
+// Outputs stay closed until Run, also where nothing else is paused: the node of a real robot keeps
+// what the line has set, although its script does not run.
+void Target::after_step(uint16_t node) {
+    const debug::NodeView* const view = network_->node(node);
+    if (live() && view && view->state != debug::ProgramState::Running) make_safe(node);
 }
 
 // A host that has only looked so far does not interfere.
@@ -91,6 +139,7 @@ void Target::release(uint16_t cause) {
 
 void Target::release_all() {
     brake_causes_.clear();
+    if (!braked_.empty()) note_move();
     for (const uint16_t node : std::exchange(braked_, {})) {
         if (network_) (void)network_->run(node).ok();
     }

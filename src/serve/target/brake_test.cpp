@@ -1,6 +1,7 @@
 // A live robot brakes as a whole; direct driving is a lease.
 #include <gmock/gmock.h>
 
+#include "serve/studio/answer_text.hpp"
 #include "serve/target/test_target.hpp"
 
 namespace vagus::serve {
@@ -25,6 +26,10 @@ struct BrakeTest : TargetTest {
         const auto types = sent_to(kDrive);
         const auto pause = std::find(types.begin(), types.end(), Type::Pause);
         EXPECT_NE(std::find(pause, types.end(), Type::SetVariables), types.end());
+    }
+    void rest() {
+        report.reset();
+        target.make_safe([this](const StopReport& it) { report = it; });
     }
     Json answer;
 };
@@ -133,6 +138,29 @@ TEST_F(BrakeTest, WhatAStepWritesDoesNotDrive) {
     }
 }
 
+TEST_F(BrakeTest, WhatAStepWritesBehindStopDoesNotDriveEither) {
+    run();
+    stop();
+    pass(200ms);
+    for (int i = 0; i < 5; ++i) {
+        ask("node.step", {{"node", kDrive}});
+        pass(50ms);
+        EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0) << i;
+    }
+}
+
+// A robot that drives by itself, or was driven from elsewhere, when the page opens.
+TEST_F(BrakeTest, StopOfANodeAsTheFirstCommandStopsTheWheels) {
+    for (const uint16_t node : {kDrive, kBumper}) {
+        if (target.connected()) target.disconnect();
+        connect();
+        bus.word(kDrive, "wheel.target") = 100;
+        ask("node.stop", {{"node", node}});
+        pass(100ms);
+        EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0) << node;
+    }
+}
+
 TEST_F(BrakeTest, WhoOnlyLooksDoesNotInterfere) {
     connect();
     bus.sent.clear();
@@ -220,10 +248,47 @@ TEST_F(BrakeTest, WhatBeginsNextIsNotTakenBack) {
     connect();
     target.make_safe();
     pass(30ms);
-    target.end_rest();
+    target.will_move();
     bus.word(kDrive, "wheel.target") = 70;
     pass(1s);
     EXPECT_EQ(bus.word(kDrive, "wheel.target"), 70);
+}
+
+TEST_F(BrakeTest, BehindAPlanItIsToldWhichNodesAreAtRest) {
+    connect();
+    bus.word(kDrive, "wheel.target") = 70;
+    rest();
+    pass(kRestWithin);
+    EXPECT_EQ(state_of(kDrive), StopNode::State::Stopped);
+    EXPECT_EQ(report->nodes.size(), 1u);  // bumper only senses
+    EXPECT_FALSE(node_document(kDrive).contains("stop"));
+}
+
+TEST_F(BrakeTest, OneThatIsSilentBehindAPlanIsAskedOnUntilItAnswers) {
+    connect();
+    bus.word(kDrive, "wheel.target") = 70;
+    bus.mute(kDrive);
+    rest();
+    pass(kRestWithin);
+    EXPECT_EQ(state_of(kDrive), StopNode::State::Silent);
+    EXPECT_EQ(node_document(kDrive)["stop"], "silent");
+    const size_t before = count_sent(kDrive, Type::SetVariables);
+    pass(2s);
+    EXPECT_GT(count_sent(kDrive, Type::SetVariables), before);
+    bus.mute(kDrive, false);
+    pass(3s);
+    ASSERT_EQ(target.stop_report().nodes.size(), 1u);
+    EXPECT_EQ(target.stop_report().nodes.front().state, StopNode::State::Stopped);
+}
+
+TEST_F(BrakeTest, OneWhoseScriptDrivesBehindAPlanIsToldAndLetDrive) {
+    run();
+    rest();
+    pass(kRestWithin + 20ms);
+    EXPECT_EQ(state_of(kDrive), StopNode::State::Moving);
+    const size_t before = count_sent(kDrive, Type::SetVariables);
+    pass(3s);
+    EXPECT_EQ(count_sent(kDrive, Type::SetVariables), before);
 }
 
 // ---- direct driving ----
@@ -235,6 +300,34 @@ TEST_F(BrakeTest, WhoDrivesByHandAndLosesTheConnectionDrivesNoMore) {
     pass(5s);
     EXPECT_EQ(bus.word(kDrive, "wheel.target"), 70);
     close_page();
+    pass(50ms);
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
+}
+
+TEST_F(BrakeTest, ByWhateverNameTheVariableWasSet) {
+    connect();
+    ask("variable.set",
+        {{"node", kDrive}, {"name", "wheel.target[0]"}, {"first", 0}, {"values", {70}}});
+    pass(50ms);
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 70);
+    close_page();
+    pass(50ms);
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
+}
+
+// Its process was stopped, or its Wi-Fi is cut: the connection stays for minutes.
+TEST_F(BrakeTest, SoDoesOneThatIsConnectedAndDoesNotAnswer) {
+    connect();
+    ask("variable.set",
+        {{"node", kDrive}, {"name", "wheel.target"}, {"first", 0}, {"values", {70}}});
+    desk.tick(now);
+    for (int missed = 1; missed <= 3; ++missed) {
+        pass(limit_ms("ping_ms"));
+        desk.tick(now);
+        EXPECT_EQ(bus.word(kDrive, "wheel.target"), 70) << missed;
+    }
+    pass(limit_ms("ping_ms"));
+    desk.tick(now);
     pass(50ms);
     EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
 }

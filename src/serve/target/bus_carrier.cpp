@@ -4,25 +4,6 @@
 
 namespace vagus::serve {
 
-namespace {
-
-// Events, programs, and what lets programs run or sets their variables.
-bool can_move(const wire::Frame& frame) {
-    using wire::MessageType;
-    if (wire::is_user_event(frame.type)) return true;
-    switch (static_cast<MessageType>(frame.type)) {
-        case MessageType::SetBytecode:
-        case MessageType::Run:
-        case MessageType::Step:
-        case MessageType::SetVariables:
-            return true;
-        default:
-            return false;
-    }
-}
-
-}  // namespace
-
 Result<std::unique_ptr<BusCarrier>> BusCarrier::connect(net::Links& links,
                                                         const std::string& text) {
     const net::Target target = TRY(net::parse_target(text));
@@ -67,9 +48,12 @@ void BusCarrier::hear(const net::Event& event) {
     if (event.place != place_) return;
     if (event.kind == net::EventKind::Opened) {
         connection_ = Connection::Connected;
+        robot_ = event.link;
         why_.clear();
     } else if (event.kind == net::EventKind::Closed) {
         connection_ = Connection::Lost;
+        heard_before_ += event.stats.frames_received;
+        robot_.reset();
         why_ = event.what;
     } else if (event.kind == net::EventKind::Failed) {
         connection_ = Connection::Failed;
@@ -80,7 +64,6 @@ void BusCarrier::hear(const net::Event& event) {
 }
 
 void BusCarrier::send(const wire::Frame& frame) {
-    moved_ = moved_ || can_move(frame);
     hub_.receive(own_, frame);
 }
 
@@ -89,6 +72,10 @@ std::vector<Carried> BusCarrier::take() {
     wire::Frame frame;
     while (frames.size() < kTakenAtOnce && hub_.take(own_, frame)) frames.push_back({frame});
     return frames;
+}
+
+uint64_t BusCarrier::heard() const {
+    return heard_before_ + (robot_ ? hub_.stats(*robot_).frames_received : 0);
 }
 
 std::vector<LinkView> BusCarrier::links() const {

@@ -28,10 +28,8 @@ public:
     void close_door_but_for(std::set<uint16_t> events);
 
     void send(const wire::Frame& frame) override;
-    // Something was sent that can move a node, since the beginning or since it was forgotten.
-    bool moved() const { return moved_; }
-    void forget_moves() { moved_ = false; }
     std::vector<Carried> take() override;
+    uint64_t heard() const override;
     Connection connection() const override { return connection_; }
     std::string why() const override { return why_; }
     std::vector<LinkView> links() const override;
@@ -49,7 +47,8 @@ private:
     std::optional<std::set<uint16_t>> guest_sends_;  // events; without: all that it likes
     Connection connection_ = Connection::Connecting;
     std::string why_;
-    bool moved_ = false;
+    std::optional<hub::LinkId> robot_;  // while it is connected
+    uint64_t heard_before_ = 0;         // on links that are gone
 };
 
 }  // namespace vagus::serve

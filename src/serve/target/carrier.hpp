@@ -35,6 +35,9 @@ public:
     virtual void send(const wire::Frame& frame) = 0;
     // What came since; a carrier may keep what is behind the first kTakenAtOnce for the next time.
     virtual std::vector<Carried> take() = 0;
+    // Frames that came from the nodes' side so far; who is on this side of the link, as a plan's
+    // process that came by a door, does not count.
+    virtual uint64_t heard() const = 0;
     virtual Connection connection() const = 0;
     // Why it is lost or failed: a sentence.
     virtual std::string why() const = 0;

@@ -75,8 +75,8 @@ void Target::set_variable(const Call& call) {
     auto range = network_->variable(node, text);
     if (!range.ok()) return call.fail(range.error());
     range.value().count = static_cast<uint16_t>(values.size());
-    end_rest();
-    note_lease(call.member, node, call.in["name"]);
+    will_move();
+    note_lease(call.member, node, range.value());
     start_batch(
         {node}, [&](uint16_t id) { return network_->set(id, range.value(), values); },
         [call](Batch& batch) {
@@ -148,7 +148,7 @@ void Target::declare_commands() {
         if (!network_) return call.fail("unavailable", kNoRobot);
         const std::vector<int16_t> args = call.in["args"];
         const std::string name = call.in["name"];
-        end_rest();
+        will_move();
         const Status sent = network_->emit(name, args);
         if (!sent.ok()) return call.fail(sent.error());
         happen("event", 0, name, "", args);

@@ -85,6 +85,11 @@ Json Target::node_line(uint16_t id) const {
         node["stop"] = word_of(*stop);
         if (*stop == StopNode::State::Asked) node["busy"] = "stopping";
     }
+    // Its script runs on behind a plan; nobody has said that it is at rest.
+    const auto rest = resting_.state_of(id);
+    if (rest == StopNode::State::Silent || rest == StopNode::State::Gone) {
+        node["stop"] = word_of(*rest);
+    }
     return node;
 }
 

@@ -26,6 +26,7 @@ void Target::hear(const debug::Event& event, const debug::NodeDescribed& describ
     desk_.topics().touch("findings");
     desk_.topics().touch("node");
     happen("appeared", event.node, described.name, "");
+    if (!stopping_.state_of(event.node)) quiet_ = false;
     Known& known = known_[event.node];
     const auto loaded = hints_.loaded_already(event.node);
     if (loaded && !known.has_program) {
@@ -39,6 +40,9 @@ void Target::hear(const debug::Event& event, const debug::NodeDescribed& describ
 void Target::hear(const debug::Event& event, const debug::StateChanged& state) {
     Known& known = known_[event.node];
     note_state(event.node, state.state);
+    // It was let run from elsewhere.
+    const bool runs = state.state == debug::ProgramState::Running;
+    if (runs && stopping_.state_of(event.node) == StopNode::State::Stopped) quiet_ = false;
     note_held(event.node, state);
     if (state.state == debug::ProgramState::Running) {
         known.why.clear();
@@ -80,6 +84,7 @@ void Target::hear(const debug::Event& event, const debug::BreakpointHit& hit) {
     if (breakpoint) breakpoint->hits = hit.hits;
     desk_.topics().touch("breakpoints");
     if (breakpoint && hit.hits <= breakpoint->ignore) {
+        note_move();
         (void)network_->run(event.node).ok();
         return release(event.node);
     }
@@ -158,6 +163,7 @@ void Target::hear(const debug::Event& event) {
         went_away(event.node);
     } else if (std::get_if<debug::NodeReconnected>(what)) {
         happen("appeared", event.node, name_of(event.node), "");
+        quiet_ = false;  // it may have been switched on again, and run what it keeps
         place_breakpoints();
     } else if (const auto* told = std::get_if<debug::ProgramTold>(what)) {
         told_program(event.node, told->mark);

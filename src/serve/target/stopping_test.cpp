@@ -169,6 +169,46 @@ TEST_F(TargetTest, StopOfARobotThatWasLeftIsAnswered) {
     EXPECT_EQ(state_of(kDrive), State::Asked);
 }
 
+// ---- what was done behind Stop ----
+
+// While the first node is still asked: what a person does then has to be stopped at the end.
+TEST_F(TargetTest, WhatIsDoneWhileTheReportIsStillToComeIsNotForgottenByIt) {
+    run();
+    EXPECT_TRUE(target.moved());
+    bus.mute(kBumper);
+    stop();
+    EXPECT_FALSE(target.moved());
+    EXPECT_TRUE(target.quiet());
+    pass(100ms);
+    ask("node.run", {{"node", kDrive}});
+    pass(kStopWithin);
+    ASSERT_TRUE(report.has_value());
+    EXPECT_TRUE(target.moved());
+    EXPECT_FALSE(target.quiet());
+}
+
+// What makes nodes safe moves nothing, as often as it is written.
+TEST_F(TargetTest, ARobotThatIsAskedOnWasNotMoved) {
+    run();
+    bus.mute(kDrive);
+    stop();
+    pass(5s);
+    EXPECT_GE(count_sent(kDrive, Type::SetVariables), 2u);
+    EXPECT_FALSE(target.moved());
+}
+
+TEST_F(TargetTest, ANodeThatComesBackIsNotKnownToBeAtRest) {
+    run();
+    stop();
+    pass(200ms);
+    EXPECT_TRUE(target.quiet());
+    bus.mute(kDrive);
+    pass(5s);
+    bus.mute(kDrive, false);
+    pass(3s);
+    EXPECT_FALSE(target.quiet());
+}
+
 // ---- the link ----
 
 TEST_F(TargetTest, ALinkThatIsHeldIsLostAndItsNodesAreSilent) {
@@ -186,6 +226,21 @@ TEST_F(TargetTest, ALinkThatIsHeldIsLostAndItsNodesAreSilent) {
     pass(2s);
     EXPECT_EQ(target.state(), Connection::Connected);
     EXPECT_EQ(node_document(kDrive)["stop"], "stopped");
+}
+
+// It is on our side of the link, and speaks each second.
+TEST_F(TargetTest, WhatThePlansProcessSaysIsNoAnswerOfTheRobot) {
+    run();
+    wire::Frame alive;
+    alive.source = wire::kHostId;
+    alive.type = 5;
+    alive.size = 0;
+    bus.frozen = true;
+    for (Duration passed{}; passed < kLinkSilentMax + 100ms; passed += 100ms) {
+        bus.guest_says(alive);
+        pass(100ms);
+    }
+    EXPECT_EQ(target.state(), Connection::Lost);
 }
 
 // We were suspended, or held by something else: nothing was asked meanwhile.

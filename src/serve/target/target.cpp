@@ -50,6 +50,7 @@ void Target::connect(Carrier& carrier, const std::string& target, const std::str
     name_ = name;
     kind_ = kind;
     now_ = due_ = looked_at_ = now;
+    heard_ = carrier.heard();
     connection_ = Connection::Connecting;
     network_ = std::make_unique<debug::Network>();
     desk_.topics().touch("robot");
@@ -61,7 +62,7 @@ void Target::disconnect() {
     brake_causes_.clear();
     braked_.clear();
     leases_.clear();
-    in_charge_ = mute_ = more_ = false;
+    in_charge_ = moved_ = quiet_ = rests_ = mute_ = more_ = false;
     silence_ = {};
     carrier_ = nullptr;
     target_.clear();
@@ -198,7 +199,7 @@ void Target::hear(const debug::RequestDone& done) {
         const uint16_t node = found->second;
         batch->waiting.erase(found);
         // The line that it stepped over may have set what drives.
-        if (known_[node].busy == "stepping" && !brake_causes_.empty()) make_safe(node);
+        if (known_[node].busy == "stepping") after_step(node);
         known_[node].busy.clear();
         desk_.topics().touch("robot");
         if (done.error) {
@@ -256,7 +257,7 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
             auto asked = network_->load(node, script->result.program, then);
             if (!asked.ok()) return asked;
             Known& known = known_[node];
-            end_rest();
+            will_move();
             if (run) stopping_.forget(node);
             known.loaded = script->source;
             known.has_program = true;
@@ -303,7 +304,7 @@ void Target::load_changed(bool run, std::function<void(std::vector<std::string>)
 // Restart what was stopped.
 Result<debug::RequestId> Target::let_run(uint16_t node) {
     in_charge_ = true;
-    end_rest();
+    will_move();
     stopping_.forget(node);
     if (std::exchange(known_[node].stopped, false)) (void)network_->reset(node).ok();
     braked_.erase(node);
@@ -342,7 +343,7 @@ void Target::step_paused(std::function<void(std::vector<std::string>)> done) {
 // Why it was paused before is no longer why it is paused.
 Result<debug::RequestId> Target::step(uint16_t node) {
     in_charge_ = true;
-    end_rest();
+    will_move();
     stopping_.forget(node);
     known_[node].why = "step";
     known_[node].held = true;
@@ -383,19 +384,24 @@ void Target::stop_all(std::function<void(const StopReport&)> done) {
         heard.insert(heard.end(), link.nodes.begin(), link.nodes.end());
     }
     end_rest();
+    rests_ = false;
     stopping_.begin(*network_, safe_stop_, heard, state() == Connection::Connected, now_,
                     std::move(done));
     send_frames();
+    moved_ = false;  // what is done from here on is done behind Stop
+    quiet_ = true;
     desk_.topics().touch("robot");
 }
 
 void Target::acknowledge_stop() {
     stopping_.acknowledge();
+    resting_.acknowledge();
     desk_.topics().touch("robot");
 }
 
 Result<debug::RequestId> Target::stop(uint16_t node) {
     if (!network_->node(node)) return network_->stop(node);  // there is none: says so
+    in_charge_ = true;
     known_[node].why = "asked";
     known_[node].stopped = true;
     known_[node].held = false;
@@ -433,12 +439,13 @@ void Target::tick(Time now) {
         hear_all();
     }
     heard_t_.reset();
-    watch_link(now, !taken.empty());
+    const uint64_t heard = carrier_->heard();
+    watch_link(now, std::exchange(heard_, heard) != heard);
     watch_what_is_shown();
     network_->tick(now);
     hear_all();
     stopping_.tick(now);
-    now < rest_until_ ? resting_.tick(now) : end_rest();
+    tick_rest(now);
     end_leases();
     load_lost_programs();
     finish_batches();
@@ -461,7 +468,7 @@ Time Target::next_tick() const {
     if (finished || more_) return now_;
     if (!network_) return Time::max();
     return std::min({network_->next_tick(), stopping_.next_tick(), resting_.next_tick(),
-                     rates_at_ + kRatesEvery});
+                     rested_ ? rest_until_ : Time::max(), rates_at_ + kRatesEvery});
 }
 
 void Target::count_rates(Time now) {

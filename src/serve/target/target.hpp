@@ -134,15 +134,25 @@ public:
     // else that is asked of nodes. `done` gets the report once, at the latest after kStopWithin.
     // Nodes that are not at rest then are asked on, until they are or acknowledge_stop().
     void stop_all(std::function<void(const StopReport&)> done);
-    // As it is now, for as long as nobody lets the nodes run; empty while a Stop is not answered.
-    StopReport stop_report() const { return stopping_.report(); }
+    // Of the last of stop_all() and make_safe(): as it is now, for as long as nobody lets the nodes
+    // run; empty while that is not answered.
+    StopReport stop_report() const;
     void acknowledge_stop();
     // What makes nodes safe, while their scripts run.
     // What a handler under way writes over that is written again, for kRestWithin at most: then a
     // script that drives by itself does so.
-    void make_safe();
+    // `done` gets the report of the nodes that the safe stop names, once, unless something is to
+    // move before that; nodes that did not answer are asked on.
+    void make_safe(std::function<void(const StopReport&)> done = [](const StopReport&) {});
     // Something is to move from now on: what made nodes safe before is over.
-    void end_rest() { resting_.end(); }
+    void will_move();
+    // Something was done since Stop was sent, or ever, that can move a node.
+    bool moved() const { return moved_; }
+    // All nodes were told to stop, and nothing has happened since that can move one: nothing was
+    // done, and none has come, or come back.
+    bool quiet() const { return quiet_; }
+    // Clients that drove by hand and are not there any more: what they drove is made safe.
+    void end_leases();
     // Loads what differs from the texts; `done` gets sentences for what failed.
     void load_changed(bool run, std::function<void(std::vector<std::string>)> done);
     void run_all(std::function<void(std::vector<std::string>)> done);
@@ -245,13 +255,16 @@ private:
     // It does not any more: when no other does, the nodes that were paused for it run again.
     void release(uint16_t cause);
     void release_all();
+    void end_rest();
+    void tick_rest(Time now);
+    void note_move();
+    void after_step(uint16_t node);
     void brake_one(uint16_t node);
     void note_held(uint16_t node, const debug::StateChanged& state);
     bool is_held(uint16_t node) const;
 
     // ---- direct driving (lease.cpp) ----
-    void note_lease(uint32_t member, uint16_t node, const std::string& variable);
-    void end_leases();
+    void note_lease(uint32_t member, uint16_t node, const debug::VariableRange& range);
 
     // ---- nodes that were away (returning.cpp) ----
     void went_away(uint16_t node);
@@ -322,6 +335,7 @@ private:
     std::string target_, name_, kind_ = "none";
     Connection connection_ = Connection::Connecting;
     Duration silence_{};  // since something was heard, of a link with nodes
+    uint64_t heard_ = 0;  // frames by then
     bool mute_ = false;   // for too long
     bool more_ = false;   // frames wait that were not taken
     Time due_{};          // when this asked to be called
@@ -330,8 +344,12 @@ private:
     Stopping stopping_;
     session::Stopping resting_;  // while scripts run on
     Time rest_until_{};
+    std::function<void(const StopReport&)> rested_;  // is told of that
+    bool rests_ = false;                             // it was asked for behind the last Stop
     bool in_charge_ = false;                         // somebody has acted on the robot from here
-    std::set<uint16_t> brake_causes_;                // nodes that are paused, or away
+    bool moved_ = false;                             // … by what can move it, since Stop
+    bool quiet_ = false;
+    std::set<uint16_t> brake_causes_;                // nodes that stand, or are away
     std::set<uint16_t> braked_;                      // nodes that were paused because of them
     std::map<uint32_t, std::set<uint16_t>> leases_;  // what each client drives by hand
     std::unique_ptr<debug::Network> network_;

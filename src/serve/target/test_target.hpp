@@ -74,6 +74,8 @@ public:
     // It answers no question for its variables.
     void tells_nothing(uint16_t id, bool on = true) { places_.at(id).tells_nothing = on; }
     void others_say(const wire::Frame& frame) { hub_.receive(others_, frame); }
+    // Who is on our side of a link that is held, as a plan's process is.
+    void guest_says(const wire::Frame& frame) { guest_said_.push_back({frame}); }
 
     // Each node looks at 16 frames, as a simulated one in a millisecond, and hears its tick.
     void step() {
@@ -81,14 +83,17 @@ public:
         for (auto& [id, place] : places_) {
             wire::Frame frame;
             for (int i = 0; i < 16 && hub_.take(place.link, frame); ++i) {
-                heard.push_back({id, frame});
+                by_nodes.push_back({id, frame});
                 place.node->receive(frame);
                 place.node->run(1000);
             }
             place.node->local_event(0);
             place.node->run(1000);
         }
-        for (const auto& [link, frame] : std::exchange(said_, {})) hub_.receive(link, frame);
+        for (const auto& [link, frame] : std::exchange(said_, {})) {
+            ++heard_from_nodes_;
+            hub_.receive(link, frame);
+        }
     }
 
     void send(const wire::Frame& frame) override {
@@ -96,13 +101,14 @@ public:
         if (state == Connection::Connected) hub_.receive(own_, frame);
     }
     std::vector<Carried> take() override {
-        std::vector<Carried> frames;
+        std::vector<Carried> frames = std::exchange(guest_said_, {});
         wire::Frame frame;
         while (!held() && frames.size() < kTakenAtOnce && hub_.take(own_, frame)) {
             frames.push_back({frame});
         }
         return frames;
     }
+    uint64_t heard() const override { return heard_from_nodes_; }
     Connection connection() const override { return state; }
     std::string why() const override { return {}; }
     std::vector<LinkView> links() const override {
@@ -112,7 +118,7 @@ public:
     Connection state = Connection::Connected;
     bool frozen = false;  // as a switch that is held: what is said waits
     std::vector<wire::Frame> sent;
-    std::vector<std::pair<uint16_t, wire::Frame>> heard;  // by a node
+    std::vector<std::pair<uint16_t, wire::Frame>> by_nodes;  // heard
 
 private:
     bool held() const { return frozen || state != Connection::Connected; }
@@ -127,6 +133,8 @@ private:
     hub::LinkId own_, others_;
     std::map<uint16_t, Place> places_;
     std::vector<std::pair<hub::LinkId, wire::Frame>> said_;
+    std::vector<Carried> guest_said_;
+    uint64_t heard_from_nodes_ = 0;
 };
 
 class TargetTest : public testing::Test {
@@ -209,7 +217,7 @@ protected:
         pass(500ms);
         ASSERT_EQ(bus.word(kDrive, "wheel.target"), 100);
         bus.sent.clear();
-        bus.heard.clear();
+        bus.by_nodes.clear();
     }
     // What comes of Stop, once it is answered.
     void stop() {

@@ -9,8 +9,6 @@
 
 namespace vagus::serve {
 
-namespace {}  // namespace
-
 // ---- in ----
 
 life::CallNumber Workbench::keep(const Call& call) {
@@ -37,8 +35,10 @@ void Workbench::live() {
         for (const life::Action& action : life_.take(input, now_)) perform(action);
     }
     lives_ = false;
-    // What nodes were told is on its way at once.
-    if (std::exchange(send_at_once_, false)) target_.tick(now_);
+    // What nodes were told is on its way at once, before all else that this turn has to do.
+    if (!std::exchange(send_at_once_, false)) return;
+    target_.tick(now_);
+    network_.flush();
 }
 
 void Workbench::tick_life() {
@@ -54,6 +54,12 @@ void Workbench::tick_life() {
     for (const life::Action& action : life_.tick(now_, run_.is_silent())) perform(action);
     lives_ = false;
     live();
+}
+
+// A plan that wakes does not know what its robot has done meanwhile. Its process notices, too, and
+// says how long it was; here it is told why everything was stopped.
+void Workbench::watch_sleep() {
+    if (sleep_.has_slept() && bus_ && life_.plan_runs()) end_by("server", life::Why::Slept);
 }
 
 // Nodes that were silent, or moved, when the end was told are asked on.
@@ -137,17 +143,17 @@ void Workbench::perform(const life::LetNodesGo& go) {
 }
 
 void Workbench::perform(const life::BeginRun&) {
-    target_.end_rest();
+    target_.will_move();
     run_.begin();
 }
 
 void Workbench::perform(const life::ContinueRun&) {
-    target_.end_rest();
+    target_.will_move();
     run_.go_on();
 }
 
 void Workbench::perform(const life::StepPlan&) {
-    target_.end_rest();
+    target_.will_move();
     run_.step_plan();
 }
 
@@ -194,13 +200,21 @@ void Workbench::perform(const life::StopNodes& stop) {
     send_at_once_ = true;
     stop_number_ = stop.number;
     target_.stop_all([this, number = stop.number](const StopReport& report) {
-        if (bus_) bus_->forget_moves();
         tell_life(life::Stopped{number, report});
     });
 }
 
-void Workbench::perform(const life::MakeSafe&) {
-    target_.make_safe();
+void Workbench::perform(const life::MakeSafe& safe) {
+    send_at_once_ = true;
+    if (safe.number == 0) return target_.make_safe();
+    stop_number_ = safe.number;
+    target_.make_safe([this, number = safe.number](const StopReport& report) {
+        tell_life(life::Stopped{number, report});
+    });
+}
+
+void Workbench::perform(const life::EndRunner& end) {
+    run_.give_up("the run " + end.why);
 }
 
 void Workbench::perform(const life::Disconnect&) {

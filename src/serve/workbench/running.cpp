@@ -38,7 +38,7 @@ constexpr const char* kNoProject = "no project is open; open one first";
 void Workbench::leave(const life::Cause& cause, std::function<void()> then) {
     const life::CallNumber number = ++calls_;
     leaving_.emplace(number, std::move(then));
-    tell_life(life::Leave{number, cause, bus_ && bus_->moved()});
+    tell_life(life::Leave{number, cause, bus_ && target_.moved()});
     live();
 }
 
@@ -204,6 +204,9 @@ void Workbench::start_with(const Call& call, const std::string& plan, life::Star
     start.call = keep(call);
     start.plan = !plan.empty();
     start.world_again = !bus_ && (!simulates() || world_has_changed());
+    start.by = who_asks(call);
+    // A node that is paused inside its script goes on there.
+    start.quiet = !bus_ || target_.quiet() || (plan.empty() && target_.is_paused_inside());
     if (start.plan) {
         // What begins does so with what is saved.
         if (!life_.plan_runs() || start.again) saved_plans_.clear();
@@ -234,15 +237,17 @@ void Workbench::stop(const Call& call, life::Cause cause) {
 }
 
 void Workbench::end_by(const std::string& by, life::Why why) {
-    if (!life_.is_live() && !(bus_ && bus_->moved())) return;
+    if (!life_.is_live() && !(bus_ && target_.moved())) return;
     tell_life(life::Stop{0, {by, why}});
     live();
 }
 
-// Nobody looks any more, and the project says that it does not work alone.
+// Nobody looks any more, and the project says that it does not work alone. A page that is connected
+// and does not answer is nobody.
 void Workbench::people_changed() {
     desk_.topics().touch("studio");
-    const size_t people = desk_.clients().connected();
+    target_.end_leases();
+    const size_t people = desk_.present();
     const bool left = std::exchange(people_, people) > 0 && people == 0;
     if (left && project_ && project_->stops_alone) end_by("nobody", life::Why::Alone);
 }
@@ -290,7 +295,7 @@ void Workbench::reset(const Call& call) {
     }
     if (project_->world.empty()) return call.fail("unavailable", kNoWorld);
     if (!save_all(call)) return;
-    tell_life(life::Open{keep(call), false});
+    tell_life(life::Open{keep(call), false, who_asks(call)});
     live();
 }
 

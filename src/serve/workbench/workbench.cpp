@@ -33,7 +33,8 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
       target_(desk, files_, scripts_, breakpoints_),
       run_(desk, start_runner(places.program)),
       worker_([&links] { links.wake(); }),
-      history_(desk, files_, worker_.poster()) {
+      history_(desk, files_, worker_.poster()),
+      sleep_({.slept = places.slept}) {
     files_.on_wake([&links] { links.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
         say(kind, with_short_paths(text));
@@ -378,6 +379,7 @@ void Workbench::hear(const net::Event& event) {
 
 void Workbench::tick(Time now) {
     now_ = now;
+    watch_sleep();
     run_.tick(now);
     live();
     watch_run();

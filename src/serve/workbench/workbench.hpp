@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "net/links.hpp"
+#include "run/real_time_parts.hpp"
 #include "serve/edit/editing.hpp"
 #include "serve/json.hpp"
 #include "serve/life/life.hpp"
@@ -52,6 +53,8 @@ struct WorkbenchPlaces {
     std::string home;         // where choosing a folder begins
     std::string target = {};  // of every project that is opened; empty: its own
     bool serves = false;      // one project on one target; pages offer no other
+    // How long this computer has slept so far.
+    std::function<Duration()> slept = run::slept_by_clocks;
 };
 
 // What can be counted of a robot that works, since the server began.
@@ -186,6 +189,7 @@ private:
     void live();
     void tick_life();
     void watch_stop();
+    void watch_sleep();
     void hear_run();
     Status open_plan(RunOrder order);
     Status open_world(RunOrder order, bool keep_poses);
@@ -204,7 +208,8 @@ private:
     void perform(const life::CountStart&);
     void perform(const life::EndPlan& end);
     void perform(const life::StopNodes& stop);
-    void perform(const life::MakeSafe&);
+    void perform(const life::MakeSafe& safe);
+    void perform(const life::EndRunner& end);
     void perform(const life::Disconnect&);
     void perform(const life::GoOnLeaving& leaving);
     void perform(const life::Answer& answer);
@@ -244,6 +249,7 @@ private:
     std::string failed_loads_;                        // of the start under way
     std::pair<int, uint64_t> watched_run_ = {-1, 0};  // descriptor, generation
     Life life_;
+    run::SleepWatch sleep_;
     std::deque<life::Input> told_life_;  // not taken yet
     bool lives_ = false;                 // it is at work
     bool send_at_once_ = false;

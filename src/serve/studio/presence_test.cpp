@@ -1,0 +1,65 @@
+// Who is there, of those that are connected.
+#include "serve/studio/test_desk.hpp"
+
+namespace vagus::serve {
+namespace {
+
+using namespace test;
+
+// A client that was stopped, or whose Wi-Fi is gone: its connection stays.
+TEST(Desk, AClientThatLeavesThreePingsUnansweredIsNotThere) {
+    Fixture f;
+    f.hello(1, kDrive, "a");
+    int changes = 0;
+    f.desk.on_people([&] { ++changes; });
+    const auto pass = [&f](int seconds) {
+        for (int i = 0; i < seconds; ++i) f.desk.tick(f.now += 1s);
+    };
+    f.desk.tick(f.now);
+    pass(3);
+    EXPECT_EQ(f.desk.present(), 1u);
+    EXPECT_EQ(changes, 0);
+    pass(1);  // three are unanswered, and the fourth was sent
+    EXPECT_EQ(f.desk.present(), 0u);
+    EXPECT_FALSE(f.desk.is_there(1));
+    EXPECT_EQ(changes, 1);
+    pass(5);
+    EXPECT_EQ(changes, 1);
+    f.say_as_it_is(1, {{"pong", 1}});
+    EXPECT_EQ(f.desk.present(), 1u);
+    EXPECT_TRUE(f.desk.is_there(1));
+    EXPECT_EQ(changes, 2);
+}
+
+TEST(Desk, WhatACommandShowsIsThereToo) {
+    Fixture f;
+    f.hello(1, kDrive, "a");
+    f.desk.tick(f.now);
+    for (int i = 0; i < 6; ++i) {  // who takes nothing for longer is sent away
+        f.desk.tick(f.now += 1s);
+        f.run(1, 2 + static_cast<uint64_t>(i));
+    }
+    EXPECT_EQ(f.desk.present(), 1u);
+}
+
+// Our own loop was late, or it is just taking what was before the ping.
+TEST(Desk, SlowIsNotGone) {
+    Fixture f;
+    f.hello(1, kDrive, "a");
+    f.desk.tick(f.now);
+    for (int i = 0; i < 5; ++i) f.desk.tick(f.now += 1s + kPingLateMax + 1ms);
+    EXPECT_EQ(f.desk.present(), 1u);
+    // Its document is on its way, and comes through piece by piece.
+    f.desk.command("doc.open", [](const Call& call) {
+        call.done({{"text", std::string(3 * kSlowBytes, 'x')}});
+    });
+    f.say(1, {{"id", 99}, {"do", "doc.open"}, {"in", {{"doc", "a"}}}});
+    for (int i = 0; i < 10; ++i) {
+        f.desk.hear(ClientTook{{1}, 1000}, f.now);
+        f.desk.tick(f.now += 1s);
+    }
+    EXPECT_EQ(f.desk.present(), 1u);
+}
+
+}  // namespace
+}  // namespace vagus::serve

@@ -92,7 +92,9 @@ test('a name that cannot be stays in its field, marked', plan, async (studio) =>
   await layout('Draw');
   await page.getByRole('group', { name: 'wait, actor Wait', exact: false }).focus();
   await press('F2');
-  const field = page.getByRole('region', { name: 'Properties' }).getByLabel('Name');
+  const field = page
+    .getByRole('region', { name: 'Properties' })
+    .getByRole('textbox', { name: 'Name' });
   await seen(field);
   await press('Control+a');
   await type('1 no name');

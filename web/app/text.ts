@@ -873,7 +873,7 @@ export const text = {
       `${s(count, 'thing is', 'things are')} kept in ${file}. Not saved yet.`,
     cannotKeep: 'The text of the world is no JSON at the moment. Fix it first.',
     forget: 'Dismiss',
-    fileChanged: 'The world file has changed; a restart shows it.',
+    fileChanged: 'The world file has changed.',
     restart: 'Restart',
     nothingToUndo: 'Nothing was changed by hand in this run.',
     nothingToRedo: 'Nothing was undone in this run.',

@@ -89,7 +89,10 @@ export function handsIn(view, [width, height]) {
         (one, [left, top]) => {
           if (!(one instanceof HTMLCanvasElement)) return [];
           const ratio = one.width / one.clientWidth;
-          const pixel = one.getContext('2d')?.getImageData(left * ratio, top * ratio, 1, 1).data;
+          // Read from a copy: the browser complains of a canvas that is read often.
+          const pen = new OffscreenCanvas(1, 1).getContext('2d');
+          pen?.drawImage(one, -Math.round(left * ratio), -Math.round(top * ratio));
+          const pixel = pen?.getImageData(0, 0, 1, 1).data;
           return [...(pixel ?? [])].slice(0, 3);
         },
         /** @type {[number, number]} */ ([place.x - box.x, place.y - box.y]),

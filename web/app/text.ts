@@ -1383,6 +1383,7 @@ export const text = {
   page: {
     failed: 'This page has failed.',
     help: 'What you typed is kept. Reload the page to go on; the robot can be stopped from here.',
+    sends: 'What you typed is sent to the server; then the page reloads.',
   },
   late: {
     failed: 'This part of the page could not be loaded.',

@@ -109,6 +109,8 @@ export class Connection {
   private cancelSilence: () => void = ignore;
   private closed = false;
   private client: string;
+  /** For requests beside the socket, too. */
+  token: string;
   /** By how much the server's clock was ahead of ours, as the last messages that told it say. */
   private ahead: number[] = [];
 
@@ -118,11 +120,7 @@ export class Connection {
   ) {
     this.nextId = options.firstId ?? 1;
     this.client = options.client;
-  }
-
-  /** For requests beside the socket. */
-  get token(): string {
-    return this.options.token;
+    this.token = options.token;
   }
 
   start(): void {
@@ -208,8 +206,8 @@ export class Connection {
 
   private sayHello(): void {
     this.helloId = this.takeId();
-    const { token, name, nonce } = this.options;
-    const input = { token, client: this.client, name, nonce };
+    const { name, nonce } = this.options;
+    const input = { token: this.token, client: this.client, name, nonce };
     this.socket?.send(JSON.stringify({ id: this.helloId, do: 'hello', in: input }));
   }
 

@@ -30,7 +30,8 @@ export interface WindowState {
   doc: Doc | null;
   node: NodeId | null;
   cursor: Readonly<{ doc: Doc; line: number; column: number }> | null;
-  overlay: 'palette' | 'keys' | 'folder' | 'project' | 'runFrom' | 'newTemplate' | null;
+  overlay:
+    'palette' | 'keys' | 'folder' | 'project' | 'runFrom' | 'newTemplate' | 'newToken' | null;
   /** A new file is being named in the tree, or a file renamed. */
   naming:
     | { kind: 'folder' | 'script' | 'plan' | 'world' | 'toolbox' | 'text' }

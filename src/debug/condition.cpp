@@ -18,6 +18,9 @@ public:
                     const std::vector<aesl::Constant>& constants)
         : text_(text), variables_(variables), constants_(constants) {}
 
+    // Of variables and constants that nobody knows.
+    void take_any_name() { any_name_ = true; }
+
     Result<Condition> parse() {
         if (text_.size() > kConditionBytesMax) {
             return Error{Code::Limit, "the condition has " + std::to_string(text_.size()) +
@@ -169,6 +172,7 @@ private:
         const size_t first = at_;
         const std::string_view found = word();
         if (found.empty()) return fail("a variable, a constant or a number");
+        if (any_name_) return add({.kind = Kind::Variable, .left = take("[") ? index() : -1});
         for (const aesl::VariablePlace& variable : variables_) {
             if (variable.name == found) return variable_term(variable);
         }
@@ -193,15 +197,19 @@ private:
         const size_t place = place_of(variable);
         int index = -1;
         if (take("[")) {
-            if (++depth_ > kConditionDepthMax) return fail("less nesting");
-            index = level(3);  // an `expr`: comparisons only in parentheses
-            depth_--;
-            if (!failed() && !take("]")) return fail("\"]\"");
+            index = this->index();
         } else if (variable.size != 1) {
             return fail("\"[\" and an index, because " + variable.name + " has " +
                         std::to_string(variable.size) + " words");
         }
         return add({.kind = Kind::Variable, .variable = place, .left = index});
+    }
+    // Behind its bracket: an `expr`, with comparisons only in parentheses.
+    int index() {
+        if (++depth_ > kConditionDepthMax) return fail("less nesting");
+        const int index = level(3);
+        depth_--;
+        return failed() || take("]") ? index : fail("\"]\"");
     }
     size_t place_of(const aesl::VariablePlace& variable) {
         auto& used = condition_.variables_;
@@ -223,6 +231,7 @@ private:
     size_t at_ = 0;
     int depth_ = 0;
     size_t words_ = 0;
+    bool any_name_ = false;
     Condition condition_;
     std::string error_;
 };
@@ -231,6 +240,15 @@ Result<Condition> Condition::parse(std::string_view text,
                                    const std::vector<aesl::VariablePlace>& variables,
                                    const std::vector<aesl::Constant>& constants) {
     return ConditionParser(text, variables, constants).parse();
+}
+
+Status Condition::check_form(std::string_view text) {
+    const std::vector<aesl::VariablePlace> no_variables;
+    const std::vector<aesl::Constant> no_constants;
+    ConditionParser parser(text, no_variables, no_constants);
+    parser.take_any_name();
+    const auto parsed = parser.parse();
+    return parsed.ok() ? Status::done() : Status(parsed.error());
 }
 
 namespace {

@@ -30,6 +30,10 @@ public:
                                    const std::vector<aesl::VariablePlace>& variables,
                                    const std::vector<aesl::Constant>& constants);
 
+    // Whether it is one at all, where it is not known which names there are: of a script that does
+    // not compile, for instance.
+    static Status check_form(std::string_view text);
+
     // The variables that must be read before evaluate(), each once.
     const std::vector<aesl::VariablePlace>& variables() const { return variables_; }
     // With the values of variables(), in the same order. Fails on a division by zero and an index

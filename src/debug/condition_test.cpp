@@ -106,6 +106,17 @@ TEST(Condition, SaysWhatIsWrongAndWhere) {
         "condition, column 1: expected a variable, a constant or a number, found nothing more");
 }
 
+TEST(Condition, HasAFormWhateverTheNamesAre) {
+    for (const char* text : {"x", "x[y + 1] > 3 and not z", "abs (x - 1) == FAR"}) {
+        EXPECT_TRUE(Condition::check_form(text).ok()) << text;
+    }
+    EXPECT_EQ(Condition::check_form("token >").error().what,
+              "condition, column 8: expected a variable, a constant or a number, found nothing "
+              "more");
+    EXPECT_EQ(Condition::check_form("x[1").error().what,
+              "condition, column 4: expected \"]\", found nothing more");
+}
+
 TEST(Condition, FailsWhereTheNodeWouldFault) {
     EXPECT_EQ(error_of("1 / (n - 5)"), "the condition divides by zero");
     EXPECT_EQ(error_of("1 % 0"), "the condition divides by zero");

@@ -14,7 +14,7 @@ import './look/frame.css';
 import './look/dock.css';
 import { StrictMode } from 'react';
 import { createRoot } from 'react-dom/client';
-import { identityOf, tokenIn } from '../core/identity';
+import { identityOf, keepToken, keptToken, tokenIn } from '../core/identity';
 import { browserWorld } from '../core/socket';
 import { Studio } from '../core/studio';
 import { App } from './app';
@@ -33,8 +33,6 @@ import { worldCommands } from './views/world/world_commands';
 import { StudioContext } from './hooks';
 import { PageGuard } from './page_guard';
 import { keptTheme } from './window_life';
-
-const kTokenKey = 'vagus.token';
 
 function start(): void {
   const theme = keptTheme();
@@ -82,10 +80,10 @@ function start(): void {
 function takeToken(): string {
   const given = tokenIn(location.hash);
   if (given) {
-    sessionStorage.setItem(kTokenKey, given);
+    keepToken(sessionStorage, given);
     history.replaceState(null, '', location.pathname + location.search);
   }
-  return given || (sessionStorage.getItem(kTokenKey) ?? '');
+  return given || keptToken(sessionStorage);
 }
 
 start();

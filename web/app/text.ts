@@ -68,6 +68,7 @@ export const text = {
     'help.keys': 'Keys',
     'theme.next': 'Change the theme: system, dark, light',
     'settings.open': 'Settings',
+    'access.renew': 'New token…',
     'layout.Draw': 'Layout Draw',
     'layout.Script': 'Layout Script',
     'layout.Debug': 'Layout Debug',
@@ -1011,6 +1012,15 @@ export const text = {
     default: (value: string) => `${value} unless set`,
     inFile: 'in the file',
     driverOnly: 'View only.',
+  },
+  newToken: {
+    title: 'New token',
+    what: 'Whoever has the token of the printed address may take control. A new one makes the old one void: other pages that used it are disconnected, and must open the new address.',
+    make: 'Make a new token',
+    made: 'This page has the new token already. Other pages open this address:',
+    address: 'New address',
+    cancel: 'Cancel',
+    close: 'Close',
   },
   templates: {
     search: (count: number) => `Search ${s(count, 'template', 'templates')}`,

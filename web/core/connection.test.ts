@@ -60,6 +60,16 @@ test('AnUnansweredCommandIsRepeatedWithItsNumberAfterALostConnection', async () 
   expect(await answer).toEqual({ stood: [1], nodes: [] });
 });
 
+test('WithANewTokenAPageComesBackAfterALostConnection', () => {
+  const { world, connection } = make();
+  world.welcome();
+  connection.token = 'another';
+  world.last.events.closed();
+  world.pass(kFirstRetryMs * 2);
+  world.last.events.open();
+  expect(world.last.sent[0]?.in).toMatchObject({ token: 'another', client: 'me' });
+});
+
 test('AnActHasADeadlineInTheServersTimeAsItWasToldLast', () => {
   const { world, connection, time } = make();
   time.own = 500;

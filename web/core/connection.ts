@@ -115,6 +115,8 @@ export class Connection {
   private closed = false;
   private client: string;
   private epoch: string | null = null;
+  /** For requests beside the socket, too. */
+  token: string;
   /** By how much the server's clock was ahead of ours, as the last messages that told it say. */
   private ahead: number[] = [];
 
@@ -124,11 +126,7 @@ export class Connection {
   ) {
     this.nextId = options.firstId ?? 1;
     this.client = options.client;
-  }
-
-  /** For requests beside the socket. */
-  get token(): string {
-    return this.options.token;
+    this.token = options.token;
   }
 
   start(): void {
@@ -216,8 +214,8 @@ export class Connection {
 
   private sayHello(): void {
     this.helloId = this.takeId();
-    const { token, name, nonce } = this.options;
-    const input = { token, client: this.client, name, nonce };
+    const { name, nonce } = this.options;
+    const input = { token: this.token, client: this.client, name, nonce };
     this.socket?.send(JSON.stringify({ id: this.helloId, do: 'hello', in: input }));
   }
 

@@ -37,6 +37,17 @@ export function identityOf(keep: Keep, make: () => string): Identity {
   };
 }
 
+const kTokenKey = 'vagus.token';
+
+/** A reload of this tab has it again. */
+export function keepToken(keep: Keep, token: string): void {
+  keep.setItem(kTokenKey, token);
+}
+
+export function keptToken(keep: Keep): string {
+  return keep.getItem(kTokenKey) ?? '';
+}
+
 /** The token in the fragment of the printed address: "#token=…" or the token alone. */
 export function tokenIn(fragment: string): string {
   const text = fragment.replace(/^#/, '');

@@ -124,6 +124,13 @@ export class Studio {
     this.documents.enter(folder);
   }
 
+  /** Makes a new token of those who drive; whoever has the old one is sent away. */
+  async renewToken(): Promise<string> {
+    const { token } = await this.send('access.renew', {});
+    this.connection.token = token;
+    return token;
+  }
+
   /** This page may change things. */
   get drives(): boolean {
     return answers(this.connection.link) && this.mayEdit;

@@ -30,7 +30,8 @@ export interface WindowState {
   doc: Doc | null;
   node: NodeId | null;
   cursor: Readonly<{ doc: Doc; line: number; column: number }> | null;
-  overlay: 'palette' | 'help' | 'folder' | 'project' | 'runFrom' | 'newTemplate' | null;
+  overlay:
+    'palette' | 'help' | 'folder' | 'project' | 'runFrom' | 'newTemplate' | 'newToken' | null;
   /** Which part of the help is shown first, and what is looked for there. */
   help: Readonly<{ tab: 'help' | 'keys'; query: string }>;
   /** A new file is being named in the tree, or a file renamed. */

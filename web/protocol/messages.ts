@@ -1641,7 +1641,7 @@ export interface Topics {
   'console': { kind: 'stream'; of: {
     last?: number;
   }; is: Line };
-  /** Values of variables of a node, when they change. Payload: records of u16 address, u16 count, count times i16. */
+  /** Values of variables of a node, when they change; of at most 4096 words, ranges that overlap being one. Payload: records of u16 address, u16 count, count times i16. */
   'variables': { kind: 'binary'; of: {
     node: NodeId;
     /** [address, count] */

@@ -76,15 +76,16 @@ ${scripts.join('\n')}
   });
 }
 
-/** A script of a thousand lines that just fits into a Thymio. */
-export function longScript(folder) {
+/** A script of so many lines, at least 1,000, that just fits into a Thymio. */
+export function longScript(folder, length) {
   const text = [
-    ...lines(150, (i) => `# remark ${i}, as scripts have them`),
+    // What a node holds is full with 850 lines: the rest is remarks.
+    ...lines(length - 850, (i) => `# remark ${i}, as scripts have them`),
     ...lines(100, (i) => `const C${i} = ${i}`),
     ...lines(100, (i) => `var v${i}`),
   ];
   const handlers = ['timer0', 'timer1', 'prox', 'button.center', 'tap', 'acc', 'buttons', 'mic'];
-  while (text.length < 1000) {
+  while (text.length < length) {
     if (text.length % 80 === 30 && handlers.length > 0) text.push(`onevent ${handlers.shift()}`);
     else text.push(`v${text.length % 100} = C${(text.length * 7) % 100}`);
   }

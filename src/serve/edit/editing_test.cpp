@@ -196,7 +196,8 @@ TEST_F(EditTest, NewFilesWorkAtOnce) {
     ask("file.new", {{"path", "arm.toolbox.json"}, {"kind", "toolbox"}});
     ask("file.new", {{"path", "read me.md"}, {"kind", "text"}});
     EXPECT_EQ(on_disk("vagus.json"),
-              "{\n  \"format\": \"vagus-project/1\",\n  \"world\": \"room.world.json\",\n"
+              "{\n  \"format\": \"vagus-project/1\",\n  \"plan\": \"go to.plan.json\",\n"
+              "  \"world\": \"room.world.json\",\n"
               "  \"toolboxes\": [\"arm.toolbox.json\"]\n}\n");
     editing.set_project({.plan = "go to.plan.json",
                          .world = "room.world.json",
@@ -230,6 +231,21 @@ TEST_F(EditTest, NewFilesWorkAtOnce) {
     EXPECT_THAT(findings(), IsEmpty());
     put("go to.plan.json", "\"Work\"", "\"Wok\"");
     EXPECT_THAT(finding("P2").what, HasSubstr("did you mean \"Work\"?"));
+}
+
+// What was seen: after "+ Plan" in a project that names none, Run still ran none.
+TEST_F(EditTest, TheFirstPlanIsThatOfTheProject) {
+    write("vagus.json", "{\n  \"format\": \"vagus-project/1\"\n}\n");
+    enter({.project_file = "vagus.json"});
+    ask("file.new", {{"path", "a.plan.json"}, {"kind", "plan"}});
+    EXPECT_EQ(on_disk("vagus.json"),
+              "{\n  \"format\": \"vagus-project/1\",\n  \"plan\": \"a.plan.json\"\n}\n");
+    editing.set_project({.plan = "a.plan.json", .project_file = "vagus.json"});
+    ask("file.new", {{"path", "b.plan.json"}, {"kind", "plan"}});
+    EXPECT_THAT(on_disk("vagus.json"), HasSubstr("a.plan.json"));
+    ask("file.delete", {{"path", "a.plan.json"}});
+    ask("file.new", {{"path", "c.plan.json"}, {"kind", "plan"}});
+    EXPECT_THAT(on_disk("vagus.json"), HasSubstr("c.plan.json"));
 }
 
 // A second script for node 1 would be one that is never loaded.

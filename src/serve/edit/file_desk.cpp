@@ -64,8 +64,8 @@ Status FileDesk::make_file(const std::string& path, const std::string& kind) {
     }
     const std::string name = name_of_file(path);
     if (kind == "script") return make_script(path);
-    if (kind == "plan") return files_.make(path, new_plan(name));
-    if (kind == "world") return make_world(path);
+    if (kind == "plan") return make_first("plan", project_.plan, path, new_plan(name));
+    if (kind == "world") return make_first("world", project_.world, path, new_world(name));
     if (kind == "toolbox") return make_toolbox(path);
     return files_.make(path, "");
 }
@@ -109,17 +109,20 @@ Status FileDesk::give_to_robot(size_t robot, const std::string& path) {
                   "server");
 }
 
-// The first one is that of the project: else nothing would run in it.
-Status FileDesk::make_world(const std::string& path) {
-    TRY(files_.make(path, new_world(name_of_file(path))));
+// The first plan or world is that of the project: else nothing would run in it. So is the next one
+// after that was deleted.
+Status FileDesk::make_first(const std::string& key, const std::string& named,
+                            const std::string& path, const std::string& content) {
+    const bool has_one = files_.exists(named);
+    TRY(files_.make(path, content));
     const std::string& file = project_.project_file;
-    if (file.empty() || !project_.world.empty()) return Status::done();
+    if (file.empty() || has_one) return Status::done();
     const auto text = files_.text(file);
     const auto json = read_json(text.ok() ? text.value() : "");
     const auto* root = std::get_if<JsonValue>(&json);
     if (!root || root->kind != JsonKind::Object) return Status::done();  // its finding says so
     const JsonValue name = json_string(name_from(file, path));
-    return follow({file, {{JsonStep::Do::Set, {"world"}, name}}}, "server");
+    return follow({file, {{JsonStep::Do::Set, {key}, name}}}, "server");
 }
 
 // With the script that does its work, and vagus.json told of it: else no plan could use it.

@@ -34,7 +34,8 @@ private:
     Status make_script(const std::string& path);
     bool can_be_named(const NewNode& node) const;
     Status give_to_robot(size_t robot, const std::string& path);
-    Status make_world(const std::string& path);
+    Status make_first(const std::string& key, const std::string& named, const std::string& path,
+                      const std::string& content);
     Status make_toolbox(const std::string& path);
     Status list_in_project(const std::string& key, const std::string& path);
     std::vector<WorldNode> nodes_of_project() const;

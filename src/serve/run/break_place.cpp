@@ -6,6 +6,7 @@
 
 #include "base/nearest.hpp"
 #include "plan/check.hpp"
+#include "plan/formula.hpp"
 
 namespace vagus::serve {
 
@@ -79,6 +80,13 @@ Status check_break_place(const PlanBreakpoint& wanted, const plan::Plan& plan,
     if (wanted.kind == "condition" || wanted.element.empty()) return Status::done();
     return wanted.kind == "event" ? check_supervisor(wanted, plan, library)
                                   : check_actor(wanted, plan, library);
+}
+
+Status check_break_condition(const PlanBreakpoint& wanted) {
+    if (wanted.condition.empty()) return Status::done();
+    const auto formula = plan::parse_formula(wanted.condition);
+    if (formula.ok()) return Status::done();
+    return Error{Code::BadInput, "in.condition: " + formula.error().what};
 }
 
 }  // namespace vagus::serve

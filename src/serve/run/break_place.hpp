@@ -12,4 +12,7 @@ namespace vagus::serve {
 Status check_break_place(const PlanBreakpoint& wanted, const plan::Plan& plan,
                          const plan::Library& library);
 
+// Whether its condition is a formula, if it has one. The Error says at which column it is none.
+Status check_break_condition(const PlanBreakpoint& wanted);
+
 }  // namespace vagus::serve

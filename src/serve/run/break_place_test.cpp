@@ -62,5 +62,18 @@ TEST(BreakPlace, WhatItHasNotIsRefusedWithWhatThereIs) {
               "the supervisor late has no event “Timeuot”; did you mean Timeout?");
 }
 
+TEST(BreakPlace, AConditionIsAFormula) {
+    PlanBreakpoint wanted;
+    EXPECT_TRUE(check_break_condition(wanted).ok());
+    wanted.condition = "distance < 5 and far";
+    EXPECT_TRUE(check_break_condition(wanted).ok());
+    wanted.condition = "distance >";
+    const Status refused = check_break_condition(wanted);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, Code::BadInput);
+    EXPECT_EQ(refused.error().what.find("in.condition: "), 0u);
+    EXPECT_NE(refused.error().what.find("position 11"), std::string::npos) << refused.error().what;
+}
+
 }  // namespace
 }  // namespace vagus::serve

@@ -432,6 +432,24 @@ TEST(Desk, ANewTokenSendsAwayWhoDrivesWithTheOldOne) {
     EXPECT_TRUE(f.closed.contains(ClientId{2}));
 }
 
+// What was seen: a duplicated tab that had shown the old token and waited for the other's answer
+// drove with it ever after.
+TEST(Desk, ANewTokenSendsAwayATabThatWaitsForItsTwin) {
+    Fixture f;
+    f.new_token = "new-new-new-new-new";
+    f.hello(1, kDrive, "a");
+    f.open(2);
+    f.say(2, hello_of("b", "load 1"));
+    f.open(3);
+    f.say(3, hello_of("b", "load 2"));
+    f.say(1, {{"id", 2}, {"do", "access.renew"}});
+    EXPECT_TRUE(f.closed.contains(ClientId{2}));
+    EXPECT_TRUE(f.closed.contains(ClientId{3}));
+    f.desk.hear(ClientClosed{{2}}, f.now);
+    f.desk.tick(f.now + 2 * kTwinWithin);
+    EXPECT_EQ(f.desk.clients().connected(), 1u);
+}
+
 TEST(Desk, AFloodOfCommandsIsRefused) {
     Fixture f;
     f.hello(1, kDrive, "a");

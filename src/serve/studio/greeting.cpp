@@ -80,7 +80,7 @@ bool Desk::wait_for_twin(ClientId client, const Request& request, Role role, Tim
 void Desk::settle_twins(ClientId other, std::optional<uint64_t> ponged, Time now) {
     std::vector<ClientId> settled;
     for (const auto& [client, connection] : connections_) {
-        if (!connection.twin || connection.twin->other != other) continue;
+        if (connection.dropped || !connection.twin || connection.twin->other != other) continue;
         if (!ponged || *ponged >= connection.twin->ping) settled.push_back(client);
     }
     for (const ClientId client : settled) settle_twin(client, ponged.has_value(), now);
@@ -207,7 +207,10 @@ void Desk::renew_access(const Clients::Member& member, ClientId client, uint64_t
     if (!token.ok()) return answer(member.number, id, Problem{"failed", token.error().what, ""});
     for (const auto& [other, connection] : connections_) {
         const Clients::Member* used = clients_.find(other);
-        if (other == client || connection.dropped || !used || used->role != Role::Drive) continue;
+        // One that waits whether it is a duplicated tab has shown the old one, too.
+        const bool old = (used && used->role == Role::Drive) ||
+                         (connection.twin && connection.twin->role == Role::Drive);
+        if (other == client || connection.dropped || !old) continue;
         drop(other, "there is a new token; open the address with it");
     }
     log(member.name + " has made a new token; the old one is void");

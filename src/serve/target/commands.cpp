@@ -26,6 +26,10 @@ void Target::set_breakpoint(const Call& call) {
     int line = call.in["line"];
     const CompiledScript* script = scripts_.compiled(doc);
     if (!script) return call.fail("not_found", doc + ": there is no such script");
+    const std::string condition = call.in.value("condition", "");
+    const Status formed =
+        condition.empty() ? Status::done() : debug::Condition::check_form(condition);
+    if (!formed.ok()) return call.fail("bad_input", "in.condition: " + formed.error().what);
     // The next line with code, if the script compiles; else where it was asked for.
     if (script->result.ok()) {
         int next = 0;
@@ -39,7 +43,6 @@ void Target::set_breakpoint(const Call& call) {
                                          line));
         }
         line = next;
-        const std::string condition = call.in.value("condition", "");
         const auto parsed =
             debug::Condition::parse(condition.empty() ? "1" : condition,
                                     script->result.program.variables, script->common.constants);

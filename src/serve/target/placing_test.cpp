@@ -89,6 +89,12 @@ TEST_F(PlacingTest, AConditionThatDoesNotParseIsRefusedWhereItIsTyped) {
     EXPECT_EQ(lines(), std::vector<int>{});
     ask("break.set", {{"doc", kDoc}, {"line", 3}, {"condition", "n > 2"}});
     EXPECT_EQ(lines(), std::vector<int>{3});
+    // Also while the script does not compile, when nobody knows its names.
+    type("var n\nonevent tick\n  n = n +\n");
+    const Json again = say("break.set", {{"doc", kDoc}, {"line", 3}, {"condition", "m >"}});
+    EXPECT_EQ(again["error"]["code"], "bad_input");
+    EXPECT_THAT(again["error"]["what"].get<std::string>(), HasSubstr("condition, column 4"));
+    ask("break.set", {{"doc", kDoc}, {"line", 3}, {"condition", "m > 2"}});
 }
 
 // The next event is begun behind the fault, and waits at its first line.

@@ -122,7 +122,12 @@ Desk::Outside Door::outside(std::function<void(const std::string&)> log) {
             .log = std::move(log),
             .wall_ms = wall_ms,
             .know = [web](ClientId client) { web->know(client); },
-            .renew = [access = access_, file = token_file_] { return renewed(access, file); },
+            .renew = [access = access_, file = token_file_, address = address(),
+                      tell = options_.renewed]() -> Result<std::string> {
+                const std::string token = TRY(renewed(access, file));
+                tell(address + "#token=" + token);
+                return token;
+            },
             .random = random_token};
 }
 

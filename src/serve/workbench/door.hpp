@@ -30,6 +30,8 @@ struct DoorOptions {
     std::string tls_cert = {}, tls_key = {};
     std::vector<std::string> hosts = {};  // further names of this computer
     std::string pages = {};               // folder; empty: those beside the program
+    // Told the address with the new token, whenever somebody has made one.
+    std::function<void(const std::string& address)> renewed = [](auto&) {};
 };
 
 class Door {

@@ -75,6 +75,8 @@ void Workbench::set_plan_breakpoint(const Call& call) {
     wanted.condition = call.in.value("condition", "");
     wanted.stop_at = call.in.value("stop_at", uint64_t{1});
     wanted.enabled = call.in.value("enabled", true);
+    const Status formed = check_break_condition(wanted);
+    if (!formed.ok()) return call.fail(formed.error());
     const Status there = is_in_plan(wanted);
     if (!there.ok()) return call.fail(there.error());
     const auto set = plan_breakpoints_.set(wanted);

@@ -38,12 +38,27 @@ Status open_first(const StudioOptions& options, ServerLoop& server) {
     return Status::done();
 }
 
+fs::path first_page(const fs::path& data) {
+    return data / "open.html";
+}
+
 void tell_address(const StudioTalk& talk, const Door& door, const fs::path& data) {
     const std::string address = door.address() + "#token=" + door.token();
     talk.print("studio " + address);
     if (door.is_open_and_plain()) talk.log(kPlainWords);
-    const fs::path page = data / "open.html";
+    const fs::path page = first_page(data);
     if (write_secret(page, page_that_leads_to(address)).ok()) talk.show(page.string());
+}
+
+// The page of the last start leads here also with a new token.
+DoorOptions door_of(const StudioOptions& options, const StudioTalk& talk, const fs::path& data) {
+    DoorOptions door = options.door;
+    door.renewed = [talk, data](const std::string& address) {
+        talk.print("studio " + address);
+        const Status written = write_secret(first_page(data), page_that_leads_to(address));
+        if (!written.ok()) talk.log(written.error().what);
+    };
+    return door;
 }
 
 }  // namespace
@@ -51,7 +66,7 @@ void tell_address(const StudioTalk& talk, const Door& door, const fs::path& data
 Status run_studio(const StudioOptions& options, const StudioTalk& talk) {
     const fs::path data = user_data_folder(options.data);
     ServerLoop server;
-    TRY(server.open(options.door, data, talk.log, places_of(options, data)));
+    TRY(server.open(door_of(options, talk, data), data, talk.log, places_of(options, data)));
     TRY(open_first(options, server));
     tell_address(talk, server.door(), data);
     server.run({});

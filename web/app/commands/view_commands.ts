@@ -57,6 +57,13 @@ export function viewCommands(studio: Studio, panels: readonly Panel[]): Command[
     },
     { id: 'theme.next', title: titles['theme.next'], group, run: () => nextTheme(studio) },
     {
+      id: 'access.renew',
+      title: titles['access.renew'],
+      group,
+      enabled: () => drives(studio),
+      run: () => update(studio.window, (draft) => void (draft.overlay = 'newToken')),
+    },
+    {
       id: 'settings.open',
       title: titles['settings.open'],
       group,

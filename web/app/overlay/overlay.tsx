@@ -10,6 +10,7 @@ const views = {
   folder: late(() => import('../start/folder_chooser')),
   project: late(() => import('../start/new_project')),
   runFrom: late(() => import('../views/plan/run_from')),
+  newToken: late(() => import('./new_token')),
   newTemplate: late(() => import('../panels/palette/new_template_sheet')),
 };
 

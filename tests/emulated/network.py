@@ -54,6 +54,17 @@ class Network(unittest.TestCase):
         self.assertEqual([int.from_bytes(words[2:4], "little") for words in sums], [1, 3, 6, 10, 15])
         self.assertEqual([int.from_bytes(words[0:2], "little") for words in sums], [2, 3, 4, 5, 6])
 
+    def test_three_commands_one_behind_the_other_see_no_two_nodes_of_one_id(self):
+        port = listening(self.emulate("microbit:2", "mps2-an385", "atmega1284p:2"))
+        target = f"tcp:127.0.0.1:{port}"
+        wait_until("not all boards are there", lambda: len(list_nodes(port)) == NODES)
+        said = []
+        for _ in range(3):
+            said.append(run_vagus("net", target, "list", "--json"))
+            said.append(run_vagus("net", target, "save", "3"))
+            said.append(run_vagus("net", target, "get", "5", "_id"))
+        self.assertNotIn("two nodes have the id", "\n".join(said))
+
     def examine(self, board):
         port = listening(self.emulate(board))
         wait_until("the board is not there", lambda: len(list_nodes(port)) == 1)

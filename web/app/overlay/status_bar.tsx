@@ -37,7 +37,7 @@ function Left() {
   const isUnsent = useUnsent();
   const isGone = useIsGone();
   const unsaved = usePart('files', {}, (is) => is?.files.some((file) => file.unsaved) ?? false);
-  const saved = isGone ? text.status.notOnDisk : text.status.saved;
+  const { saved, notSaved, notOnDisk } = text.status;
   const Icon = errors > 0 ? IconAlertOctagon : warnings > 0 ? IconAlertTriangle : IconCircleCheck;
   const found = [
     errors > 0 && text.status.errors(errors),
@@ -49,7 +49,9 @@ function Left() {
         <Icon size={13} stroke={kStroke} aria-hidden />
         {found.length > 0 ? found.join(', ') : text.status.noProblems}
       </button>
-      <span className="status__part">{unsaved || isUnsent ? text.status.notSaved : saved}</span>
+      <span className="status__part">
+        {isUnsent ? notSaved : isGone ? notOnDisk : unsaved ? notSaved : saved}
+      </span>
       <Runs />
     </>
   );

@@ -1003,6 +1003,7 @@ export const text = {
     failed: 'The plan cannot be opened.',
     broken: 'The text is no JSON. Fix it as text; the drawing follows.',
     locked: 'The text is no JSON at the moment. This is how it was last, and cannot be changed.',
+    sketched: 'The arrows are still being placed. Until then some of them cross boxes.',
     empty: 'Drag an actor here, or type its name in the palette and press Enter.',
     map: 'The whole plan, small',
     start: 'Start',

@@ -1058,6 +1058,7 @@ export const text = {
     failed: 'The plan cannot be opened.',
     broken: 'The text is not valid JSON. Fix it as text; the drawing follows.',
     locked: 'The text is not valid JSON. The last valid version is shown and cannot be edited.',
+    sketched: 'The arrows are still being placed. Until then some of them cross boxes.',
     empty: 'Drag an actor here, or type its name in the palette and press Enter.',
     map: 'The whole plan, small',
     start: 'Start',

@@ -179,6 +179,23 @@ function smallPlan(
   };
 }
 
+/** A layout in a project without a plan or a world: nothing of it stays empty, scripts stand in the place of plans. */
+export function filled(split: Split, has: { plan: boolean; world: boolean }): Split {
+  const parts = split.parts.flatMap((part): Box[] => {
+    if (part.is === 'documents') {
+      const isEmpty = !has.plan && part.opens.every((kind) => kind === 'plan');
+      return [isEmpty ? { ...part, takes: all, opens: ['script'] } : part];
+    }
+    if (part.is === 'panels') {
+      const panels = part.panels.filter((panel) => panel !== 'world' || has.world);
+      return panels.length > 0 ? [{ ...part, panels }] : [];
+    }
+    const inner = filled(part, has);
+    return inner.parts.length > 0 ? [inner] : [];
+  });
+  return { ...split, parts };
+}
+
 /** The kinds of documents that a layout opens by itself. */
 export function kindsOpened(box: Box): readonly DocumentKind[] {
   if (box.is === 'panels') return [];

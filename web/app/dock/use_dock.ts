@@ -11,8 +11,9 @@ import {
   type Node,
 } from 'flexlayout-react';
 import { useCallback, useEffect, useLayoutEffect, useRef, useState, type RefObject } from 'react';
-import type { Doc, Json } from '../../protocol/messages';
+import type { Doc, Json, Topics } from '../../protocol/messages';
 import {
+  filled,
   layoutPlans,
   smallPlans,
   type DocumentKind,
@@ -58,6 +59,10 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
   const files = usePart('files', {}, hasCome);
   const ready = scripts && state && files;
   const small = useSmall();
+  const lacking = usePart('studio', {}, lackingIn);
+  // The other layouts are places of work: what is missing is made there.
+  const lacks = layout === 'Present' ? lacking : '';
+  const key = keyOf(layout, small) + lacks;
   const [model, setModel] = useState<Model | null>(null);
   const extent = useRef<Extent>({ width: 0, height: 0 });
   const before = useRef<Opened | null>(null);
@@ -67,20 +72,20 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     if (!ready || !frameRef.current) return;
     const { clientWidth: width, clientHeight: height } = frameRef.current;
     extent.current = { width, height };
-    const plan = (small ? smallPlans : layoutPlans)[layout];
-    const next = openLayout(studio, { plan, key: keyOf(layout, small) }, nonce > 0, extent.current);
+    const plan = planOf(layout, small, lacks);
+    const next = openLayout(studio, { plan, key }, nonce > 0, extent.current);
     const opened = { model: next, plan };
     if (before.current) carryDocuments(studio, before.current, opened, closed.current);
     before.current = opened;
     notePlan(studio, next);
     setModel(next);
-  }, [studio, layout, small, nonce, ready, frameRef]);
+  }, [studio, layout, small, lacks, key, nonce, ready, frameRef]);
 
   useFit(frameRef, model, extent);
   useReveal(studio, model);
   usePausedPlan(model);
   useNames(studio, model);
-  const keep = useKeep(studio, keyOf(layout, small));
+  const keep = useKeep(studio, key);
   const changed = useCallback(
     (changedModel: Model, action: Action) => {
       noteClosed(closed.current, action);
@@ -89,6 +94,20 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     [keep],
   );
   return { model, changed };
+}
+
+type Lacks = '' | '-plan' | '-world' | '-plan-world';
+
+function lackingIn(studio: Topics['studio']['is'] | undefined): Lacks {
+  const plan = studio?.project?.plan === undefined ? '-plan' : '';
+  const world = studio?.project?.world === undefined ? '-world' : '';
+  return `${plan}${world}`;
+}
+
+function planOf(layout: LayoutName, small: boolean, lacks: Lacks): Split {
+  const plan = (small ? smallPlans : layoutPlans)[layout];
+  if (lacks === '') return plan;
+  return filled(plan, { plan: !lacks.includes('-plan'), world: !lacks.includes('-world') });
 }
 
 /** What a layout is kept under; that of a small window beside the other one. */

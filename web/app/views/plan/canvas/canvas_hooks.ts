@@ -6,7 +6,7 @@ import { Emitter } from '../../../../core/emitter';
 import type { PlanBoard } from '../../../../core/plan/board';
 import type { Box, Point } from '../../../../core/plan/shape';
 import { revealPanel, update } from '../../../../core/window_state';
-import { useStudio, useTopic } from '../../../hooks';
+import { useStudio, useTopic, useWindow } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { canvasCommands } from './canvas_commands';
 import { kLegible } from './distance';
@@ -22,10 +22,12 @@ export function useNodes(board: PlanBoard, drives: boolean): PlanNode[] {
     [all, board.doc],
   );
   const version = board.changed.count;
-  return useMemo(
-    () => (version >= 0 ? made.of(board, findings, drives) : []),
-    [made, board, version, findings, drives],
-  );
+  // Too small to be read from the last row.
+  const pills = useWindow((state) => state.layout !== 'Present');
+  return useMemo(() => {
+    const all = version >= 0 ? made.of(board, findings, drives) : [];
+    return pills ? all : all.filter((node) => node.type !== 'pill');
+  }, [made, board, version, findings, drives, pills]);
 }
 
 /** What is chosen, and moves by mouse and arrow keys; each move becomes one edit when it has ended. */

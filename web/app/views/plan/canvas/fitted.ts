@@ -9,8 +9,8 @@ import { keptViews } from './kept_views';
 
 /** Room around the boxes for the arrows that go around them. */
 export const kFit = { padding: { x: '48px', y: '24px' }, maxZoom: 1 } as const;
-/** Where one only looks, a small plan fills its panel, too. */
-const kPresented = { padding: { x: '48px', y: '20px' }, maxZoom: 2 } as const;
+/** Where one only looks, a small plan fills its panel, too; names have no room in smaller boxes. */
+export const kPresented = { padding: { x: '48px', y: '20px' }, minZoom: 0.55, maxZoom: 2 } as const;
 
 /** Where a canvas begins: where its plan was looked at last, in any layout; undefined: all of it in sight. */
 export function useFirstView({ doc }: PlanBoard) {
@@ -26,7 +26,7 @@ export function useFirstView({ doc }: PlanBoard) {
  * The whole plan is in sight while its panel finds its size, until somebody works on it: the function that is given
  * says so. From then on the drawing stays at its place on the screen, also when a line comes above it or a panel beside
  * it changes, and in its panel, when another layout shows it.
- * The layout Present always shows the whole of it.
+ * The layout Present shows the whole of it, as far as its names can be read then.
  */
 export function useFitted(board: PlanBoard, frame: React.RefObject<HTMLElement | null>) {
   const studio = useStudio();

@@ -9,6 +9,7 @@ import { BreakDot } from './break_dots';
 import { useFar } from './distance';
 import type { ActorNode, StartNode, SupervisorNode } from './flow_nodes';
 import { useLive } from './live_store';
+import { Humps } from './humps';
 import { Mark } from './mark';
 import { NoteCard } from './note';
 import { Port, Row } from './port';
@@ -52,7 +53,7 @@ export const ActorBox = memo(function ActorBox({ data, selected }: NodeProps<Act
         <TemplateIcon icon={actor.known?.icon ?? ''} role={actor.role} />
         <div>
           <b className="ellipsis" title={actor.name}>
-            {actor.name}
+            <Humps name={actor.name} />
           </b>
           <span className="ellipsis">
             {actor.template}

@@ -21,6 +21,7 @@ import { FindBar } from './find_bar';
 import { kFit, useFirstView, useFitted } from './fitted';
 import type { PlanNode } from './flow_nodes';
 import { nodeTypes } from './nodes';
+import { Presented } from './presented';
 import { SmallMap } from './small_map';
 import { useClipboard } from './plan_clipboard';
 import { useDropping } from './use_dropping';
@@ -117,9 +118,13 @@ function Canvas({ board }: { board: PlanBoard }) {
             <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
           )}
           <ArrowsLayer board={board} allData={options.data} />
+          <Presented board={board} />
           {options.map && map ? <SmallMap board={board} /> : null}
         </ReactFlow>
         {broken === null ? null : <p className="pcanvas__locked">{words.locked}</p>}
+        {board.drawing.isSketch && nodes.length > kManyNodes ? (
+          <p className="pcanvas__locked">{words.sketched}</p>
+        ) : null}
         {board.model.actors.length === 0 ? <EmptyPlan /> : null}
         {finds ? (
           <FindBar board={board} focus={shown.focus} onClose={() => setFinds(false)} />

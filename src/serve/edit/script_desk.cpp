@@ -35,7 +35,7 @@ bool is_too_long(const Call& call) {
     return true;
 }
 
-Json json_of(const Suggestion& one) {
+Json json_of_suggestion(const Suggestion& one) {
     return {{"label", line_of(one.label, 200)},
             {"kind", one.kind},
             {"detail", line_of(one.detail, 300)},
@@ -178,7 +178,7 @@ void ScriptDesk::complete(const Call& call) {
         serve::complete(script->view(), places.byte_of(position_of(call.in["at"])));
     Json items = Json::array();
     for (const Suggestion& one : found.items) {
-        if (items.size() < kItemsMax) items.push_back(json_of(one));
+        if (items.size() < kItemsMax) items.push_back(json_of_suggestion(one));
     }
     call.done(
         {{"from", serve::json_of(places.position_of(found.from))}, {"items", std::move(items)}});

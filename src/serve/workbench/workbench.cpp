@@ -31,7 +31,7 @@ Workbench::Workbench(net::Network& network, Desk& desk, const WorkbenchPlaces& p
                [this](const std::string& name, uint16_t id) { return target_of(name, id); }),
       editing_(desk, files_, scripts_, desk.epoch()),
       target_(desk, files_, scripts_, breakpoints_),
-      run_(desk, start_runner(places.program)),
+      run_(desk, places.runner ? places.runner : start_runner(places.program)),
       worker_([&network] { network.wake(); }),
       history_(desk, files_, worker_.poster()) {
     files_.on_wake([&network] { network.wake(); });

@@ -45,11 +45,12 @@ constexpr int kStepMs = 10;  // of run.step, unless it says otherwise
 
 struct WorkbenchPlaces {
     LibraryPlaces library;
-    std::string settings;     // file
-    std::string program;      // vagus, for runners
-    std::string home;         // where choosing a folder begins
-    std::string target = {};  // of every project that is opened; empty: its own
-    bool serves = false;      // one project on one target; pages offer no other
+    std::string settings;         // file
+    std::string program;          // vagus, for runners
+    std::string home;             // where choosing a folder begins
+    std::string target = {};      // of every project that is opened; empty: its own
+    bool serves = false;          // one project on one target; pages offer no other
+    StartRunProcess runner = {};  // of runs; empty: a process of `program`
 };
 
 // What can be counted of a robot that works, since the server began.

@@ -242,7 +242,8 @@ Json Documents::files_document() {
 void Documents::text_changed(const std::string& path) {
     desk_.topics().touch("doc");
     const auto listed = unsaved_.find(path);
-    const bool same = listed != unsaved_.end() && listed->second && files_.is_unsaved(path);
+    const bool same = listed != unsaved_.end() && listed->second && files_.is_unsaved(path) &&
+                      files_.exists(path);
     if (!same) desk_.topics().touch("files");
 }
 

@@ -205,10 +205,13 @@ TEST_F(EditTest, NewFilesWorkAtOnce) {
                          .toolboxes = {"arm.toolbox.json"}});
     EXPECT_THAT(findings(), IsEmpty());
     const Json parts = document("scripts")["parts"];
-    ASSERT_EQ(parts.size(), 2u);
-    EXPECT_EQ(parts[1]["doc"], "folder/first.aesl#1");
-    EXPECT_EQ(parts[1]["node"], 1);
-    EXPECT_EQ(parts[1]["name"], "thymio-II");
+    // The toolbox took the script that the only node has.
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_EQ(parts[0]["doc"], "folder/first.aesl#1");
+    EXPECT_EQ(parts[0]["node"], 1);
+    EXPECT_EQ(parts[0]["name"], "thymio-II");
+    EXPECT_THAT(on_disk("folder/first.aesl"), HasSubstr("onevent arm.start"));
+    EXPECT_EQ(on_disk("arm.aesl"), "there is no arm.aesl");
     for (const char* path : {"room.world.json", "arm.toolbox.json", "go to.plan.json"}) {
         // They are in their saved form.
         const std::string before = text(path);
@@ -222,15 +225,16 @@ TEST_F(EditTest, NewFilesWorkAtOnce) {
     }
     // A plan with the new template, and one that nobody knows.
     put("go to.plan.json", "\"start\"", "\"toolboxes\": [\"arm\"],\n  \"start\"");
-    put("go to.plan.json", "\"Wait\", \"in\": { \"seconds\": \"1\" }", "\"Work\"");
-    EXPECT_THAT(finding("bus").what, HasSubstr("the template Work works by events"));
+    put("go to.plan.json", "\"Wait\", \"in\": { \"seconds\": \"1\" }", "\"Arm\"");
+    EXPECT_THAT(finding("bus").what, HasSubstr("the template Arm works by events"));
     ask("doc.patch",
         {{"doc", "room.world.json"},
          {"version", version("room.world.json")},
-         {"steps", {{{"do", "set"}, {"at", {"robots", 0, "script"}}, {"value", "arm.aesl"}}}}});
+         {"steps",
+          {{{"do", "set"}, {"at", {"robots", 0, "script"}}, {"value", "folder/first.aesl"}}}}});
     EXPECT_THAT(findings(), IsEmpty());
-    put("go to.plan.json", "\"Work\"", "\"Wok\"");
-    EXPECT_THAT(finding("P2").what, HasSubstr("did you mean \"Work\"?"));
+    put("go to.plan.json", "\"Arm\"", "\"Arn\"");
+    EXPECT_THAT(finding("P2").what, HasSubstr("did you mean \"Arm\"?"));
 }
 
 // What was seen: after "+ Plan" in a project that names none, Run still ran none.

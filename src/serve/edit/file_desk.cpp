@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 
 #include "serve/base64.hpp"
 #include "serve/edit/named_paths.hpp"
+#include "serve/edit/own_script.hpp"
 #include "serve/edit/seen.hpp"
 #include "serve/project/paths.hpp"
 #include "sim/world_file.hpp"
@@ -33,7 +35,7 @@ std::string moved(const std::string& path, const std::string& from, const std::s
 
 }  // namespace
 
-FileDesk::FileDesk(Desk& desk, Files& files, const Scripts& scripts, const EditedProject& project,
+FileDesk::FileDesk(Desk& desk, Files& files, Scripts& scripts, const EditedProject& project,
                    const EditListeners& listeners, std::string epoch)
     : files_(files),
       scripts_(scripts),
@@ -70,14 +72,18 @@ Status FileDesk::make_file(const std::string& path, const std::string& kind) {
     return files_.make(path, "");
 }
 
-// For a node that has no script yet, and loaded into it; else for a number that is free.
 Status FileDesk::make_script(const std::string& path) {
-    const std::vector<WorldNode> nodes = nodes_of_project();
+    return make_script_for(nodes_of_project(), path, new_script);
+}
+
+// For a node that has no script yet, and loaded into it; else for a number that is free.
+Status FileDesk::make_script_for(const std::vector<WorldNode>& nodes, const std::string& path,
+                                 const std::function<std::string(const NewNode&)>& text) {
     const WorldNode* const bare = node_without_script(nodes, scripts_);
     NewNode node = bare ? bare->node : nodes.empty() ? NewNode() : nodes.front().node;
     if (!bare) node.id = unused_number(nodes, scripts_);
     const bool named = bare && can_be_named(node);
-    TRY(files_.make(path, new_script(node)));
+    TRY(files_.make(path, text(node)));
     if (!bare) return Status::done();
     if (named) TRY(list_in_project("scripts", path));
     return give_to_robot(bare->robot, path);
@@ -125,20 +131,48 @@ Status FileDesk::make_first(const std::string& key, const std::string& named,
     return follow({file, {{JsonStep::Do::Set, {key}, name}}}, "server");
 }
 
-// With the script that does its work, and vagus.json told of it: else no plan could use it.
+// With the script that does its work, and vagus.json told of it: else no plan could use it. Where
+// each node has a script, that of the first one gets the work.
 Status FileDesk::make_toolbox(const std::string& path) {
     const std::string name = name_of_file(path);
     const std::string ending(ending_of("toolbox"));
     const std::string script = path.substr(0, path.size() - ending.size()) + ".aesl";
-    for (const std::string& one : {path, script}) {
-        if (files_.exists(one)) {
-            return Error{Code::Refused, one + ": there is such a file already; take another name"};
-        }
-    }
+    const auto taken = [this](const std::string& one) {
+        return files_.exists(one)
+                   ? Status(Error{Code::Refused,
+                                  one + ": there is such a file already; take another name"})
+                   : Status::done();
+    };
+    TRY(taken(path));
     const std::vector<WorldNode> nodes = nodes_of_project();
-    const NewNode node = nodes.empty() ? NewNode() : nodes.front().node;
-    TRY(files_.make(script, new_toolbox_script(name, node)));
+    NewNode node = nodes.empty() ? NewNode() : nodes.front().node;
+    const ScriptPart* const there = scripts_.for_node(node.name, node.id);
+    if (there && !node_without_script(nodes, scripts_)) {
+        // A plain script, or one with a mistake, takes nothing.
+        if (add_toolbox_to(ScriptPart(*there), node, path).ok()) return Status::done();
+    }
+    TRY(taken(script));
+    TRY(make_script_for(nodes, script, [&](const NewNode& of) {
+        node = of;
+        return new_toolbox_script(name, of);
+    }));
     TRY(files_.make(path, new_toolbox(name, name_from(path, script), node)));
+    return list_in_project("toolboxes", path);
+}
+
+Status FileDesk::add_toolbox_to(const ScriptPart& part, const NewNode& node,
+                                const std::string& path) {
+    const std::string name = name_of_file(path);
+    OwnTemplate of{.name = name, .help = "What it does.", .node = node.name, .args = node.args};
+    of.name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(of.name[0])));
+    const OwnScript made = TRY(own_script(part, of, files_, scripts_));
+    const DocumentView before = TRY(files_.open(part.file));
+    TRY(files_.make(path, new_toolbox_file(name, name_from(path, part.file), of)));
+    (void)TRY(files_.replace(part.file, made.text, "server"));
+    if (!before.unsaved) {
+        TRY(files_.save(part.file));
+        listeners_.saved(part.file);
+    }
     return list_in_project("toolboxes", path);
 }
 

@@ -2,6 +2,7 @@
 // when it moves.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ constexpr size_t kBytesMax = 4u << 20;  // of file.bytes: less than a page may l
 class FileDesk {
 public:
     // All borrowed.
-    FileDesk(Desk& desk, Files& files, const Scripts& scripts, const EditedProject& project,
+    FileDesk(Desk& desk, Files& files, Scripts& scripts, const EditedProject& project,
              const EditListeners& listeners, std::string epoch);
 
 private:
@@ -32,11 +33,14 @@ private:
     void make(const Call& call);
     Status make_file(const std::string& path, const std::string& kind);
     Status make_script(const std::string& path);
+    Status make_script_for(const std::vector<WorldNode>& nodes, const std::string& path,
+                           const std::function<std::string(const NewNode&)>& text);
     bool can_be_named(const NewNode& node) const;
     Status give_to_robot(size_t robot, const std::string& path);
     Status make_first(const std::string& key, const std::string& named, const std::string& path,
                       const std::string& content);
     Status make_toolbox(const std::string& path);
+    Status add_toolbox_to(const ScriptPart& part, const NewNode& node, const std::string& path);
     Status list_in_project(const std::string& key, const std::string& path);
     std::vector<WorldNode> nodes_of_project() const;
     void rename(const Call& call);
@@ -46,7 +50,7 @@ private:
     void bytes(const Call& call);
 
     Files& files_;
-    const Scripts& scripts_;
+    Scripts& scripts_;
     const EditedProject& project_;
     const EditListeners& listeners_;
     const std::string epoch_;

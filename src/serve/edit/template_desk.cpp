@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "aesl/compile.hpp"
-#include "aesl/project_text.hpp"
 #include "base/json.hpp"
 #include "plan/formula.hpp"
 #include "serve/edit/doc_finding.hpp"
 #include "serve/edit/json_patch.hpp"
+#include "serve/edit/own_script.hpp"
 #include "serve/edit/seen.hpp"
 #include "toolbox/toolbox_file.hpp"
 
@@ -30,10 +29,6 @@ std::string text_at(const std::string& text, std::string_view key) {
     const auto* root = std::get_if<JsonValue>(&json);
     const JsonValue* found = root ? root->find(key) : nullptr;
     return found && found->kind == JsonKind::String ? found->text : "";
-}
-
-bool has_variable(const aesl::Target& target, std::string_view name) {
-    return std::ranges::any_of(target.variables, [&](const auto& one) { return one.name == name; });
 }
 
 }  // namespace
@@ -110,50 +105,10 @@ Result<TemplateDesk::Change> TemplateDesk::change_of(const ScriptPart& part,
     return change;
 }
 
-// The events into the list of the file, the handlers into the script; both must compile.
-Status TemplateDesk::add_script(const ScriptPart& part, const OwnTemplate& wanted, Change& change) {
-    const CompiledScript* script = scripts_.compiled(part.doc);
-    const aesl::CommonDefinitions* known = scripts_.common(part.file);
-    const size_t mark = part.doc.rfind('#');
-    if (!script || !known || mark == std::string::npos) {
-        return refused(
-            fmt::format("{} is a plain script, which declares no events; take a script "
-                        "of an .aesl project",
-                        part.doc));
-    }
-    if (!script->result.ok()) {
-        return refused(fmt::format("the script of {} has an error; fix it first: line {}: {}",
-                                   part.node, script->result.first_error().at.line,
-                                   script->result.first_error().message));
-    }
-    OwnTemplate of = wanted;
-    if (!has_variable(script->target, of.args)) of.args = "args";
-    aesl::CommonDefinitions common = *known;
-    std::string text = TRY(files_.text(part.file));
-    for (const aesl::GlobalEvent& event : events_of(of)) {
-        const bool taken = std::ranges::any_of(
-            common.events, [&](const aesl::GlobalEvent& one) { return one.name == event.name; });
-        if (taken) {
-            return refused(
-                fmt::format("{} has an event “{}” already; take another name for the "
-                            "template",
-                            part.file, event.name));
-        }
-        common.events.push_back(event);
-        text = aesl::ProjectText(text).add({"event", event.name, *event.size});
-    }
-    const FilledIn filled = script_with(script->source, of);
-    const auto compiled = aesl::compile(filled.script, script->target, common, {});
-    if (!compiled.ok()) {
-        return refused(fmt::format(
-            "the handlers of “{}” do not fit into the script of {}: line "
-            "{}: {}",
-            of.name, part.node, compiled.first_error().at.line, compiled.first_error().message));
-    }
-    const size_t index = std::stoul(part.doc.substr(mark + 1)) - 1;
-    change.texts[part.file] = aesl::ProjectText(text).replace(
-        index, 0, aesl::ProjectText(text).script(index).size(), filled.script);
-    change.line = filled.line;
+Status TemplateDesk::add_script(const ScriptPart& part, const OwnTemplate& of, Change& change) {
+    OwnScript made = TRY(own_script(part, of, files_, scripts_));
+    change.texts[part.file] = std::move(made.text);
+    change.line = made.line;
     return Status::done();
 }
 

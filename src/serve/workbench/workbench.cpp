@@ -31,7 +31,7 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
                [this](const std::string& name, uint16_t id) { return target_of(name, id); }),
       editing_(desk, files_, scripts_, desk.epoch()),
       target_(desk, files_, scripts_, breakpoints_),
-      run_(desk, start_runner(places.program)),
+      run_(desk, places.runner ? places.runner : start_runner(places.program)),
       worker_([&links] { links.wake(); }),
       history_(desk, files_, worker_.poster()),
       sleep_({.slept = places.slept}) {

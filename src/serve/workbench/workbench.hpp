@@ -48,11 +48,12 @@ constexpr int kStepMs = 10;                     // of run.step, unless it says o
 
 struct WorkbenchPlaces {
     LibraryPlaces library;
-    std::string settings;     // file
-    std::string program;      // vagus, for runners
-    std::string home;         // where choosing a folder begins
-    std::string target = {};  // of every project that is opened; empty: its own
-    bool serves = false;      // one project on one target; pages offer no other
+    std::string settings;         // file
+    std::string program;          // vagus, for runners
+    std::string home;             // where choosing a folder begins
+    std::string target = {};      // of every project that is opened; empty: its own
+    bool serves = false;          // one project on one target; pages offer no other
+    StartRunProcess runner = {};  // of runs; empty: a process of `program`
     // How long this computer has slept so far.
     std::function<Duration()> slept = run::slept_by_clocks;
 };

@@ -12,7 +12,7 @@ test(
     await press('Control+Home', 'Control+F9');
     const field = page.getByLabel('Stops if');
     await seen(field);
-    await type('token >');
+    await type('side >');
     await press('Enter');
     await seen(page.getByRole('alert').filter({ hasText: 'expected a value after “>”' }));
     await type(' 3');

@@ -28,7 +28,7 @@ import { robotCommands } from './commands/robot_commands';
 import { nodeCommands, runCommands } from './commands/run_commands';
 import { pastCommands } from './commands/past_commands';
 import { viewCommands } from './commands/view_commands';
-import { refuse } from './commands/why_not';
+import { refuse, whyNot } from './commands/why_not';
 import { worldCommands } from './views/world/world_commands';
 import { StudioContext } from './hooks';
 import { PageGuard } from './page_guard';
@@ -61,6 +61,7 @@ function start(): void {
     worldCommands,
   ])
     studio.registry.add(make(studio));
+  studio.registry.whyNot = (command) => whyNot(studio, command);
   studio.registry.refuse = (command, key) => refuse(studio, command, key);
   followAlways(studio);
   studio.connection.start();

@@ -22,6 +22,8 @@ export interface Command {
 export class Registry {
   readonly changed = new Emitter<void>();
   readonly failed = new Emitter<unknown>();
+  /** Why a command cannot be run now, in a sentence; '' if it can. */
+  whyNot: (command: Command) => string = ({ id }) => (this.isEnabled(id) ? '' : id);
   /** Says why the key of a command does nothing now; false: the key is somebody else's. */
   refuse: (command: Command, key: string) => boolean = () => false;
   private readonly commands = new Map<string, Command>();

@@ -11,8 +11,8 @@ const words = text.whyNot;
 /** Commands for those who only look, too: what they lack is never control. */
 const kLooks =
   /^(past|timeline|plots|watch|view|listing|problem\.(next|previous)|plan\.show|driver)/;
-/** These give the browser's own meaning away: F5 would load the page again, F12 only opens its tools. */
-const kOwnKeys = /(^|\+)F([1-9]|1[01])$/;
+/** These are the studio's alone; Ctrl and a letter does what the browser does with it. */
+const kOwnKeys = /(^|\+)F\d+$|^(Ctrl\+)?Alt\+/;
 
 /** '' if it can be done. */
 export function whyNot(studio: Studio, { id, within }: Command): string {

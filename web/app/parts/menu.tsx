@@ -1,4 +1,4 @@
-import { Menu, type MenuProps } from '@mantine/core';
+import { Menu, type MenuItemProps, type MenuProps } from '@mantine/core';
 import type { ReactNode } from 'react';
 import { useStudio } from '../hooks';
 import { Kbd } from './kbd';
@@ -43,13 +43,27 @@ export function CommandItem({ id, title, icon }: { id: string; title?: string; i
   if (!command) return null;
   const keys = command.keys?.[0];
   return (
-    <Menu.Item
+    <WhyItem
+      why={registry.whyNot(command)}
       leftSection={icon}
       rightSection={keys ? <Kbd keys={keys} /> : null}
-      disabled={!registry.isEnabled(id)}
       onClick={() => registry.run(id)}
     >
       {title ?? command.title}
+    </WhyItem>
+  );
+}
+
+/** An entry that says why it cannot be chosen now; why: '' it can. */
+export function WhyItem({
+  why,
+  children,
+  ...rest
+}: { why: string; children: ReactNode; onClick(): void } & MenuItemProps) {
+  return (
+    <Menu.Item {...rest} disabled={why !== ''}>
+      {children}
+      {why ? <span className="menu__help">{why}</span> : null}
     </Menu.Item>
   );
 }

@@ -79,6 +79,9 @@ export function Clock() {
     );
   return (
     <StudioMenu button={button}>
+      {drives ? null : (
+        <Menu.Label>{past === null ? text.whyNot.viewOnly : text.whyNot.looksBack}</Menu.Label>
+      )}
       <Menu.Label>
         {text.menu.speed} · {text.run.measured(real)}
       </Menu.Label>
@@ -100,9 +103,6 @@ export function Clock() {
   );
 }
 
-/** "Running: WallFollow": a world alone says so, too. */
-function stateText(state: Topics['clock']['is']['state'], runs: string): string {
-  const word = text.run[state];
 /** Scripts of ours that run on a robot, without a plan. */
 function RunsAlone({ names }: { names: string }) {
   if (names === '') return null;
@@ -114,5 +114,8 @@ function RunsAlone({ names }: { names: string }) {
   );
 }
 
+/** "Running: WallFollow": a world alone says so, too. */
+function stateText(state: Topics['clock']['is']['state'], runs: string): string {
+  const word = text.run[state];
   return state === 'running' ? `${word}: ${runs || text.run.worldOnly}` : word;
 }

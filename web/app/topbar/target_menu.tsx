@@ -88,6 +88,7 @@ function TargetList({
   return (
     <>
       {why ? <p className="quiet is-error">{why}</p> : null}
+      {drives ? null : <p className="quiet">{text.whyNot.viewOnly}</p>}
       <h2 className="menu__label">{text.target.found}</h2>
       {found.length === 0 ? <p className="quiet">{text.target.nothing}</p> : null}
       {found.map((one) => (

@@ -7,7 +7,7 @@ import { documentsIn } from '../../documents';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
 import { Kbd } from '../../parts/kbd';
-import { StudioMenu } from '../../parts/menu';
+import { StudioMenu, WhyItem } from '../../parts/menu';
 import { text } from '../../text';
 import type { TreeState } from './use_tree';
 
@@ -21,7 +21,7 @@ interface Props {
 /** What can be done with a file; its button shows with the pointer or the focus. */
 export function TreeMenu({ row, tree, open, onChange }: Props) {
   const studio = useStudio();
-  const drives = useDrives();
+  const why = useDrives() ? '' : text.whyNot.viewOnly;
   const isFile = row.kind !== 'folder';
   const button = (
     <button
@@ -49,18 +49,10 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
         {row.kind === 'script' ? (
           <Menu.Item onClick={() => tree.openText(row)}>{text.tree.openText}</Menu.Item>
         ) : null}
-        <Menu.Item
-          disabled={!drives}
-          rightSection={<Kbd keys="F2" />}
-          onClick={() => tree.rename(row)}
-        >
+        <WhyItem why={why} rightSection={<Kbd keys="F2" />} onClick={() => tree.rename(row)}>
           {text.tree.rename}
-        </Menu.Item>
-        <Menu.Item
-          disabled={!drives}
-          rightSection={<Kbd keys="Del" />}
-          onClick={() => tree.ask(row)}
-        >
+        </WhyItem>
+        <WhyItem why={why} rightSection={<Kbd keys="Del" />} onClick={() => tree.ask(row)}>
           {text.tree.delete}
         </WhyItem>
         <Menu.Item onClick={copy}>{text.tree.copyPath}</Menu.Item>

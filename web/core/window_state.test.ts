@@ -1,5 +1,13 @@
 import { expect, test } from 'vitest';
-import { createWindowStore, kToastsMax, toast, update, updateEvents } from './window_state';
+import {
+  createWindowStore,
+  kToastsMax,
+  revealDoc,
+  revealPanel,
+  toast,
+  update,
+  updateEvents,
+} from './window_state';
 
 test('an update leaves what was there before as it was, and tells of changes only', () => {
   const store = createWindowStore();
@@ -29,4 +37,15 @@ test('the oldest toast goes when there are too many; one that says the same is n
   toast(store, 'note', 'number 3');
   const texts = store.getState().toasts.map(({ text }) => text);
   expect(texts).toEqual(['number 1', 'number 2', 'number 4', 'number 5', 'number 3']);
+});
+
+test('a panel that shows itself does not make a place forgotten that is not yet shown', () => {
+  const store = createWindowStore();
+  const at = { line: 7, column: 1 };
+  revealDoc(store, 'a.aesl', at);
+  revealPanel(store, 'problems', false);
+  expect(store.getState().reveal).toMatchObject({ what: 'doc', doc: 'a.aesl', at });
+  // One that is asked for by a person comes.
+  revealPanel(store, 'problems');
+  expect(store.getState().reveal).toMatchObject({ what: 'panel', panel: 'problems' });
 });

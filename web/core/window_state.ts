@@ -128,8 +128,10 @@ export function revealDoc(
   });
 }
 
+/** One that shows itself, without the keyboard, waits for nobody: a place that its editor has still to show goes first. */
 export function revealPanel(store: WindowStore, panel: string, focus = true): void {
   update(store, (draft) => {
+    if (!focus && draft.reveal?.what === 'doc' && draft.reveal.at !== null) return;
     draft.reveal = { nonce: ++count, what: 'panel', panel, focus };
   });
 }

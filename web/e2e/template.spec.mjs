@@ -8,6 +8,23 @@ import { gone, reads, seen, test, until } from './support/studio.mjs';
 const element = (/** @type {Page} */ page, /** @type {string} */ name) =>
   page.getByRole('group', { name, exact: false });
 
+/** The line where the author of a template goes on is in sight, with the caret. */
+async function standsAtPlace(/** @type {Page} */ page) {
+  const editor = page.getByRole('textbox', { name: /^Script of/ }).first();
+  const place = editor.getByText('# The work begins here');
+  await seen(place);
+  await until('the line to fill in is in sight', () =>
+    place.evaluate((line) => {
+      const { top, bottom } = line.getBoundingClientRect();
+      const frame = line.closest('.cm-scroller')?.getBoundingClientRect();
+      return frame && top >= frame.top && bottom <= frame.bottom;
+    }),
+  );
+  await until('the editor has the keyboard', () =>
+    editor.evaluate((one) => one.contains(document.activeElement)),
+  );
+}
+
 async function asked(/** @type {Studio} */ { page, layout, button, press }) {
   await layout('Draw');
   await seen(page.getByRole('button', { name: 'Wait, actor' }));
@@ -79,15 +96,24 @@ test(
     await type('Purr');
     await press('Enter');
     await gone(form);
-    const editor = page.getByRole('textbox', { name: /^Script of/ }).first();
-    const place = editor.getByText('# The work begins here');
-    await seen(place);
-    await until('the line to fill in is in sight', () =>
-      place.evaluate((line) => {
-        const { top, bottom } = line.getBoundingClientRect();
-        const frame = line.closest('.cm-scroller')?.getBoundingClientRect();
-        return frame && top >= frame.top && bottom <= frame.bottom;
-      }),
-    );
+    await standsAtPlace(page);
+  },
+);
+
+test(
+  'a script that is not open opens where the template is filled in',
+  { words: ['--example', 'follow-wall'] },
+  async (studio) => {
+    const { page, press, type, layout, command } = studio;
+    await layout('Draw');
+    await seen(page.getByRole('region', { name: 'Plan WallFollow, drawn' }));
+    await gone(page.getByRole('tab', { name: /^drive/ }));
+    await command('New template…');
+    const form = page.getByRole('form', { name: 'New template…' });
+    await seen(form);
+    await type('Purr');
+    await press('Enter');
+    await gone(form);
+    await standsAtPlace(page);
   },
 );

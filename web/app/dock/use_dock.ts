@@ -248,7 +248,10 @@ function useNames(studio: Studio, model: Model | null): void {
 function show(studio: Studio, model: Model, reveal: Reveal): void {
   const id = reveal.what === 'panel' ? `panel:${reveal.panel}` : `doc:${reveal.doc}`;
   const there = model.getNodeById(id);
-  if (reveal.what === 'panel' && !reveal.focus && hidesDocument(there)) return;
+  if (reveal.what === 'panel' && !reveal.focus) {
+    const like = panelOf(reveal.panel)?.like ?? 'problems';
+    if (hidesDocument(there ? there.getParent() : areaForPanel(model, like))) return;
+  }
   if (there instanceof TabNode && !(reveal.what === 'doc' && reveal.beside))
     model.doAction(Actions.selectTab(id));
   else if (reveal.what === 'panel') addPanel(model, reveal.panel);
@@ -268,8 +271,7 @@ function show(studio: Studio, model: Model, reveal: Reveal): void {
 }
 
 /** A panel that shares its area with documents: one that shows itself must not cover what is worked on. */
-function hidesDocument(tab: Node | undefined): boolean {
-  const area = tab?.getParent();
+function hidesDocument(area: Node | undefined): boolean {
   return area instanceof TabSetNode && area.getSelectedNode()?.getId().startsWith('doc:') === true;
 }
 

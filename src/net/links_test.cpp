@@ -184,7 +184,7 @@ TEST(Links, FlushWritesWhatAHubHasAtOnce) {
     net.hub.receive(own, frame);
     uint8_t bytes[6] = {};
     EXPECT_EQ(::recv(ends[1], bytes, sizeof bytes, MSG_DONTWAIT), -1);
-    net.network.flush();
+    net.links.flush();
     EXPECT_EQ(::recv(ends[1], bytes, sizeof bytes, MSG_DONTWAIT), 6);
     EXPECT_EQ(Hex(bytes, bytes + 6), (Hex{0, 0, 0, 0, 5, 0}));
     ::close(ends[1]);

@@ -38,7 +38,7 @@ void Workbench::live() {
     // What nodes were told is on its way at once, before all else that this turn has to do.
     if (!std::exchange(send_at_once_, false)) return;
     target_.tick(now_);
-    network_.flush();
+    links_.flush();
 }
 
 void Workbench::tick_life() {

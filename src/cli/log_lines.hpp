@@ -1,4 +1,4 @@
-// Lines on stderr from a process that must not wait for whoever reads them: a terminal that is held
+// Lines on stderr from a process that must not wait for their reader: a terminal that is held
 // (Ctrl+S), a pipe that nobody reads, a journal that is frozen. A thread of its own writes them;
 // what does not fit is dropped, and it is said how many lines that were.
 //

@@ -110,8 +110,8 @@ protected:
     void keep(const Other&) {}
 
     void tell(const talk::News& news) { ASSERT_TRUE(runner->send(talk::encode(news))); }
-    // What was ordered last stands there.
-    void node_state() {
+    // What was ordered last is open.
+    void is_open() {
         tell(talk::Opened{.order = opened.order, .scene = talk::Scene{}});
         turn();
         turn();
@@ -162,10 +162,10 @@ TEST_F(RunningTest, AWorldThatStandsThereIsNotOpenedAgain) {
     ASSERT_THAT(orders(), ElementsAre("open"));
     EXPECT_EQ(opened.world, path("w.world.json"));
     EXPECT_EQ(opened.plan, "");
-    stands();
+    is_open();
     say("run.start");
     turn();
-    EXPECT_THAT(orders(), IsEmpty());  // it stands there already
+    EXPECT_THAT(orders(), IsEmpty());  // it is open already
 }
 
 TEST_F(RunningTest, RunTakesTheSimulatorWhereNothingElseIsChosen) {
@@ -200,7 +200,7 @@ TEST_F(RunningTest, WithoutAWorldAndARobotRunSaysWhatIsMissing) {
 TEST_F(RunningTest, APlanThatBeginsIsNotToldOfItsOwnText) {
     open({{"world", "w.world.json"}, {"plan", "Go.plan.json"}});
     EXPECT_THAT(orders(), ElementsAre("open"));
-    stands();
+    is_open();
     edit_plan();
     say("run.start");
     EXPECT_THAT(orders(), ElementsAre("open"));
@@ -229,7 +229,7 @@ TEST_F(RunningTest, AFromAndValuesAreForThePlanThatIsNamed) {
           {"plan", "Go.plan.json"},
           {"start", {{"set", {{"speed", "3"}}}}}});
     orders();
-    stands();
+    is_open();
     write("Other.plan.json", kPlan);
     say("plan.start", {{"doc", "Other.plan.json"}, {"from", "wait"}, {"set", {{"far", 2}}}});
     turn();
@@ -243,7 +243,7 @@ TEST_F(RunningTest, AFromAndValuesAreForThePlanThatIsNamed) {
 TEST_F(RunningTest, NoCommandForARunIsObeyedBesideAnotherTarget) {
     open({{"world", "w.world.json"}});
     orders();
-    stands();
+    is_open();
     EXPECT_EQ(problem("run.step"), "");  // it is paused there
     EXPECT_THAT(orders(), ElementsAre("step"));
     say("target.leave");

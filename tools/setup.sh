@@ -166,10 +166,15 @@ use_node() {
     PATH="$own:$PATH"
 }
 
+# What the pages are built from: two pages of docs are the text of their help.
+page_sources=(web docs/aesl.md docs/thymio.md src/serve/protocol/protocol.json)
+
 # No source of the pages is younger than what was built from them.
 are_pages_built() {
+    local source sources=()
     [ -f "$root/web/dist/index.html" ] || return 1
-    [ -z "$(find "$root/web" "$root/docs/aesl.md" "$root/docs/thymio.md" "$root/src/serve/protocol/protocol.json" \( -name node_modules -o -name dist -o -name .node \) -prune \
+    for source in "${page_sources[@]}"; do [ ! -e "$root/$source" ] || sources+=("$root/$source"); done
+    [ -z "$(find "${sources[@]}" \( -name node_modules -o -name dist -o -name .node \) -prune \
         -o -type f -newer "$root/web/dist/index.html" -print -quit)" ]
 }
 

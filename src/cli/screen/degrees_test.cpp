@@ -32,7 +32,7 @@ TEST(Degrees, AreWhatThePromptOfAPlanSays) {
     sim::RobotView robot;
     robot.name = "carbot";
     robot.pose = {{1, 2}, 396 * kDegree};
-    EXPECT_EQ(text_of(robot), "carbot stands at 1.00, 2.00 m, 36 deg\n");
+    EXPECT_EQ(text_of(robot), "carbot is at 1.00, 2.00 m, 36 deg\n");
 }
 
 }  // namespace

@@ -31,6 +31,13 @@ bool runs_at_start(const aesl::Program& program) {
     return false;
 }
 
+// The answer to a Stop or to a question that was sent before SetBytecode does not count as its own:
+// code before the first handler waits to run.
+bool is_loaded_state(const wire::ExecutionStateChanged& state, const aesl::Program& program) {
+    const bool waits = (state.flags & wire::kFlagActive) != 0;
+    return is_reset_state(state) && (waits || !runs_at_start(program));
+}
+
 size_t fragments_of(const aesl::Program& program) {
     return (program.bytecode.size() + wire::kBytecodeWordsMax - 1) / wire::kBytecodeWordsMax;
 }
@@ -325,7 +332,7 @@ Control::Answer Control::answer(Request& request, const wire::ExecutionStateChan
 Control::Answer Control::answer_load(Request& request, const wire::ExecutionStateChanged& state) {
     const size_t all = fragments_of(request.program);
     if (request.acked == all) return is_stepping_state(state) ? Answer{} : Outcome{};
-    if (!is_reset_state(state)) return {};  // of what ran before
+    if (!is_loaded_state(state, request.program)) return {};  // of what was said before
     request.acked++;
     request.deadline = out_.now + kAnswerWithin;
     ask_again_ = out_.now + kAskAgain;

@@ -77,6 +77,17 @@ TEST_F(Program, ThatIsToStayIsLoadedAndNotRun) {
     EXPECT_TRUE(bus.network.node(1)->program.has_value());
 }
 
+// What was seen: the answer to a Stop that was sent just before was taken for that of the load, and
+// the next Stop dropped the program on its way.
+TEST_F(Program, IsNotLoadedByTheAnswerToAnEarlierStop) {
+    const RequestId load = bus.network.load(1, two_lines(), AfterLoad::Stay).value();
+    bus.state(1, 0, 2);  // stopped, and nothing waits to run
+    EXPECT_FALSE(bus.network.node(1)->program.has_value());
+    (void)bus.network.stop_now(1);
+    EXPECT_NE(error_of(bus, load).value_or("").find("stopped before"), std::string::npos);
+    EXPECT_FALSE(bus.network.node(1)->program.has_value());
+}
+
 TEST_F(Program, LargerThanAFragmentGoesInPiecesOf256Words) {
     aesl::Program program;
     program.bytecode.assign(600, 0);

@@ -153,7 +153,7 @@ class BusPlans(Case):
             self.wait_values(motor_left_target=150, motor_right_target=150)
             os.kill(self.run_host(), signal.SIGKILL)
             self.wait_clock("dead")
-            self.assertRegex(self.clock.value["why"], r"ended by signal 9 \(Killed\) at \d+\.\d{3} s; the active actor was \w+\.")
+            self.assertRegex(self.clock.value["why"], r"ended by signal 9 \(Killed\) after \d+\.\d s; the active actor was \w+\.")
             self.wait_plan("ended")
             self.assertEqual(self.plan.value["result"], "Error")
             self.wait_line("error", "the nodes were stopped")

@@ -69,7 +69,7 @@ class Death(Case):
         self.assertEqual(page.do("stop")["stood"], [])
         page.do("run.end")
         self.wait_clock("dead")
-        self.assertRegex(self.clock.value["why"], r"signal 9 \(Killed\) at \d+\.\d{3} s; the active actor was mistake\.")
+        self.assertRegex(self.clock.value["why"], r"signal 9 \(Killed\) after \d+\.\d s; the active actor was mistake\.")
         self.wait(lambda: self.plan.value["state"] == "ended", "the end of the plan")
         self.assertEqual(self.plan.value["result"], "Error")
         projects.write(self.folder, "mistake.plan.json", projects.PLAN)

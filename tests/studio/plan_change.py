@@ -88,7 +88,7 @@ class Changes(Case):
         self.assertEqual(len(said), 2)  # another template, other inputs
         self.assertIn('Waits: the actor "wait" is active as Wait, and the new version makes it Log', said[0])
         self.assertEqual(self.save(other, "refused"), said)
-        self.wait_line("warning", "it goes on as it was")
+        self.wait_line("warning", "it continues unchanged")
         self.assertEqual((self.plan.value["state"], self.plan.value["levels"][0]["template"]), ("running", "Wait"))
         # Mistakes are reasons, too; what is fixed takes over.
         wrong = changed(WAIT, actors={"wait": {**WAIT["actors"]["wait"], "states": {"Done": "nobody"}}})

@@ -103,7 +103,7 @@ class Toolboxes(unittest.TestCase):
         code, _, err = vagus("plan", "check", self.plan, "--toolbox", self.lamp)
         self.assertEqual(code, 2)
         self.assertEqual(err, f'{self.plan}:2:26: error: shine: the template "Shine" is in the toolbox lamp, which this '
-                              'plan does not list; add "lamp" to "toolboxes" [P2]\n')
+                              'plan does not use; add lamp to the toolboxes of the plan [P2]\n')
 
     def test_a_large_plan_with_a_mistake_in_every_actor_is_checked(self):
         actors = {f"a{i}": {"template": "Wait", "in": {"seconds": 1}, "states": {"Done": "b"}} for i in range(60000)}

@@ -90,7 +90,7 @@ test('while a note is written, Save takes it and Stop stops', plan, async (studi
 test('a name that cannot be stays in its field, marked', plan, async (studio) => {
   const { page, layout, press, type, place } = studio;
   await layout('Draw');
-  await page.getByRole('group', { name: 'wait, actor Wait', exact: false }).focus();
+  await page.getByRole('group', { name: 'wait, actor Wait', exact: false }).click();
   await press('F2');
   const field = page
     .getByRole('region', { name: 'Properties' })

@@ -215,7 +215,7 @@ test(
     await studio.press('Control+f');
     await seen(page.locator('.cm-search'));
     await studio.press('Escape', 'F9');
-    await seen(page.locator('.cm-gutters .disc'));
+    await seen(page.locator('.cm-breaks .disc[title^="Breakpoint on line 2"]'));
     await studio.editor('left').click();
     await studio.press('Control+End');
     await studio.type('le');
@@ -278,6 +278,7 @@ const odd = {
 
 test('a text that could not be opened is tried again', odd, async (studio) => {
   const { page, button, place } = studio;
+  await seen(button('Project: O'));
   await studio.command('Show Project');
   await page.getByRole('treeitem', { name: /^notes/ }).dblclick();
   await seen(page.getByText('This text cannot be opened.'));

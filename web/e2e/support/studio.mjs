@@ -140,6 +140,8 @@ export async function openWindow(
   page.on('requestfinished', (request) => fetching.delete(request.url()));
   page.on('requestfailed', (request) => fetching.delete(request.url()));
   await page.goto(server.address);
+  // The page is loaded before anything is drawn in it, and hears no key until then.
+  await page.locator('#root > *').first().waitFor({ state: 'attached' });
   return { page, complaints, fetching, context, server, ...hands(page) };
 }
 

@@ -49,6 +49,8 @@ const quiet = [
   ...[
     'Next panel',
     'Previous panel',
+    // The command before it shows that panel, whose field has the focus then.
+    'Watch a variable',
     'Simulation back to its start',
     'Plan: copy the selection',
     'World: fit into the view',
@@ -220,7 +222,9 @@ const menus = [
   {
     name: 'an element',
     layout: 'Draw',
-    open: async (/** @type {any} */ { page }, /** @type {string} */ by) => {
+    open: async (/** @type {any} */ { page, tab }, /** @type {string} */ by) => {
+      // An entry may have shown the script instead.
+      await tab(/^WallFollow/).click();
       const actor = page.getByRole('group', { name: /^followWall, actor/ });
       await actor.focus();
       await page.keyboard.press('Space');

@@ -21,7 +21,10 @@ export function rankCommands(
       found.push({
         command,
         marked: new Set(marked),
-        score: scoreOf(command.title, marked) + (enabled(command.id) ? 0 : 1000),
+        score:
+          scoreOf(command.title, marked) +
+          (isAsTyped(command.title, marked) ? 0 : 2000) +
+          (enabled(command.id) ? 0 : 1000),
       });
   }
   return found.sort(
@@ -43,6 +46,13 @@ export function fuzzy(title: string, query: string): number[] | null {
     marked.push(at++);
   }
   return marked;
+}
+
+/** In one piece, from the beginning of a word: meant rather than letters from here and there. */
+function isAsTyped(title: string, marked: readonly number[]): boolean {
+  const [first = 0] = marked;
+  const apart = (marked.at(-1) ?? first) - first >= marked.length;
+  return !apart && (first === 0 || title[first - 1] === ' ');
 }
 
 /** Small is good: near the beginning and close together. */

@@ -142,6 +142,14 @@ describe('the registry of commands', () => {
     expect(found).toEqual(['Layout Debug', 'Reset the panels of this layout']);
     expect(rankCommands(commands, 'utn', () => true)[0]?.command.id).toBe('Upload to the node');
   });
+  test('WhatIsTypedInOnePieceIsMeantAlsoIfItCannotBeDoneNow', () => {
+    const commands = [make('World: add an infrared beacon'), make('World: redo')];
+    const found = rankCommands(commands, 'World: red', (id) => id !== 'World: redo');
+    expect(found.map((one) => one.command.id)).toEqual([
+      'World: redo',
+      'World: add an infrared beacon',
+    ]);
+  });
 });
 
 describe('texts', () => {

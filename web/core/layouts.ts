@@ -179,12 +179,13 @@ function smallPlan(
   };
 }
 
-/** A layout in a project without a plan or a world: nothing of it stays empty, scripts stand in the place of plans. */
+/** A layout in a project without a plan or a world: nothing of it stays empty. The world takes the place of plans; without one, scripts do. */
 export function filled(split: Split, has: { plan: boolean; world: boolean }): Split {
   const parts = split.parts.flatMap((part): Box[] => {
     if (part.is === 'documents') {
       const isEmpty = !has.plan && part.opens.every((kind) => kind === 'plan');
-      return [isEmpty ? { ...part, takes: all, opens: ['script'] } : part];
+      if (!isEmpty) return [part];
+      return has.world ? [] : [{ ...part, takes: all, opens: ['script'] }];
     }
     if (part.is === 'panels') {
       const panels = part.panels.filter((panel) => panel !== 'world' || has.world);

@@ -21,6 +21,17 @@ export default defineConfig({
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 900,
+    // A file for each icon or part would cost more in headers than what is in it.
+    rolldownOptions: {
+      output: {
+        codeSplitting: {
+          groups: [
+            { name: 'icons', test: /tabler/ },
+            { name: 'parts', test: /app\/parts\// },
+          ],
+        },
+      },
+    },
   },
   test: { include: ['{protocol,core,app,aesl}/**/*.test.{ts,tsx}'], environment: 'node' },
 });

@@ -2,7 +2,8 @@
 
 import type { Json, JsonStep } from '../../protocol/messages';
 import { Emitter } from '../emitter';
-import type { Row, TextSession } from './text_session';
+import type { Row } from './row';
+import type { TextSession } from './text_session';
 
 export class JsonFile {
   readonly changed = new Emitter<void>();

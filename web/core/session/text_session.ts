@@ -20,17 +20,9 @@ import type { JsonStep } from '../../protocol/messages';
 import { Emitter } from '../emitter';
 import { changeTo, doneAgain, isAsMeant, unstepped, type Again } from './rebase';
 import { Anchors, corrects, noted, notesOf, stepped, takenBack, treeIfGood } from './steps';
+import { kRowMs, type Row } from './row';
 
 export const kUndoMax = 200;
-/** Steps at one place that follow each other within this time are one. */
-export const kRowMs = 1000;
-
-/** What a change is one of: the keys that move one thing. */
-export interface Row {
-  of: string;
-  at: number;
-}
-
 export interface Followed {
   changes: ChangeSet;
   /** Who made the change, and shows it already; null: all are to show it. */

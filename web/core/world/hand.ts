@@ -3,7 +3,7 @@
 
 import type { CommandName, Commands, SceneObject } from '../../protocol/messages';
 import { Emitter } from '../emitter';
-import { kRowMs, type Row } from '../session/text_session';
+import { kRowMs, type Row } from '../session/row';
 import type { Pose } from './geometry';
 import { tidy } from './snap';
 

@@ -456,7 +456,7 @@ PlanBus::~PlanBus() {
 
 Result<std::unique_ptr<PlanBus>> PlanBus::open(PlanBusOptions options, toolbox::BusNodes& nodes) {
     auto insides = std::make_unique<Insides>(std::move(options), nodes);
-    // Before scripts run: who asks for the end must not be too early.
+    // Before scripts run: a request to end must not come too early.
     const net::EndWatcher end_watcher([&insides = *insides] { insides.wake(); });
     TRY(insides->connect());
     insides->discover();

@@ -63,7 +63,7 @@ for (const [example, plan] of [
     async ({ page, layout }) => {
       await layout('Present');
       await seen(page.getByRole('region', { name: `Plan ${plan}, drawn` }));
-      // It has come to rest so: several times in a row.
+      // It is at rest: several times in a row.
       let good = 0;
       let last = {};
       await until('it fills its panel, with names of 20 px', async () => {

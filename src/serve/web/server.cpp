@@ -66,7 +66,7 @@ struct Shared {
 };
 
 // A connection among the strangers, as long as it is one. Cut off, it waits for nothing any more:
-// a socket that was shut down wakes who reads from it, but no timer.
+// shutting a socket down wakes its readers, but no timer.
 struct Place {
     Place(Strangers& all, const std::string& address, std::function<void()> end)
         : strangers(all), number(all.add(owner_of(address), [this, end = std::move(end)] {

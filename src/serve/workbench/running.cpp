@@ -19,6 +19,8 @@ namespace {
 
 constexpr const char* kNoWorld =
     "the project has no world to simulate; name one in vagus.json, or choose a robot";
+constexpr const char* kNoProject = "no project is open; open one first";
+
 // Its size and when it was written; empty: it is not there.
 std::string state_of_file(const std::string& path) {
     std::error_code failed;
@@ -27,8 +29,6 @@ std::string state_of_file(const std::string& path) {
     const auto written = std::filesystem::last_write_time(path, failed).time_since_epoch().count();
     return failed ? "" : fmt::format("{} {}", size, written);
 }
-
-constexpr const char* kNoProject = "no project is open; open one first";
 
 }  // namespace
 

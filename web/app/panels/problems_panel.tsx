@@ -75,7 +75,7 @@ function Problem({
         type="button"
         className="problem__open"
         data-inset
-        // The name of the rule, for who asks for it.
+        // The name of the rule, where one asks for it.
         title={`${place}: ${what} [${code}]`}
         // Keys are those of its row.
         tabIndex={-1}

@@ -12,7 +12,7 @@ import { kStroke } from './icons';
 const words = text.late;
 
 type Load<P> = () => Promise<{ default: ComponentType<P> }>;
-/** What is in the place of a component that did not come: where there is little room, a button. */
+/** What is in the place of a component that could not be loaded: where there is little room, a button. */
 type Instead = 'panel' | 'button';
 
 class LoadError extends Error {}

@@ -28,7 +28,7 @@ export interface WorldActs {
   put(placing: Placing): void;
   take(thing: Thing): void;
   light?(thing: Thing, on: boolean): void;
-  /** A frame of poses has come: what a hand holds there is put back into it. */
+  /** A frame of poses was received: what a hand holds there is put back into it. */
   again?(): void;
 }
 

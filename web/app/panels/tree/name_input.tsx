@@ -33,7 +33,7 @@ export function NameInput({
   const [name, setName] = useState(rename ? baseName(rename) : `new${endings[kind]}`);
   const why = badName(name);
   const field = useRef<HTMLInputElement>(null);
-  // The panel may be behind another tab until it has come to the front.
+  // The panel may be behind another tab until that tab is in front.
   useEffect(() => {
     takeFocus(() => {
       field.current?.focus();

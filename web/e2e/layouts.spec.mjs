@@ -60,3 +60,26 @@ test(
     await seen(tab(/^notes/));
   },
 );
+
+test(
+  'a document opened just before the page is loaded again is open after it',
+  { prepare },
+  async (studio) => {
+    const { page, layout, tab } = studio;
+    await layout('Script');
+    for (let times = 0; times < 3; ++times) {
+      await page.getByRole('treeitem', { name: /^notes/ }).dblclick();
+      await seen(tab(/^notes/));
+      await page.reload();
+      await seen(tab(/^notes/));
+      await tab(/^notes/).hover();
+      await tab(/^notes/)
+        .locator('.flexlayout__tab_button_trailing')
+        .click();
+      await gone(tab(/^notes/));
+      await page.reload();
+      await seen(page.getByRole('treeitem', { name: /^notes/ }));
+      assert.equal(await tab(/^notes/).count(), 0);
+    }
+  },
+);

@@ -167,15 +167,21 @@ function useFit(
   }, [frame, model, extent]);
 }
 
-/** Tells which document is looked at, and keeps the layout a moment after the last change. */
+/** Tells which document is looked at, and keeps the layout a moment after the last change, or when the page goes. */
 function useKeep(studio: Studio, key: string): (model: Model, action: Action) => void {
   const cancel = useRef<(() => void) | null>(null);
+  const waiting = useRef<(() => void) | null>(null);
+  useEffect(() => {
+    const leaves = () => waiting.current?.();
+    addEventListener('pagehide', leaves);
+    return () => removeEventListener('pagehide', leaves);
+  }, []);
   return useCallback(
     (model, action) => {
       noteShown(studio, model);
       if (action.type === Actions.SET_ACTIVE_TABSET) return;
-      cancel.current?.();
-      cancel.current = studio.world.later(kKeepMs, () => {
+      const put = () => {
+        waiting.current = null;
         const rect = model.getRootRow()?.getRect();
         const value = {
           model: model.toJson() as unknown as Json,
@@ -183,7 +189,10 @@ function useKeep(studio: Studio, key: string): (model: Model, action: Action) =>
           height: rect?.height ?? 0,
         };
         keepState(studio, key, value);
-      });
+      };
+      cancel.current?.();
+      cancel.current = studio.world.later(kKeepMs, put);
+      waiting.current = put;
     },
     [studio, key],
   );

@@ -34,7 +34,11 @@ const Library& library() {
                          .fallback = Value(int64_t{0}),
                          .low = -200,
                          .high = 200},
-                        {.name = "distance", .type = Type::Float, .fallback = Value(1.0), .low = 0},
+                        {.name = "distance",
+                         .type = Type::Float,
+                         .fallback = Value(1.0),
+                         .unit = "cm",
+                         .low = 0},
                         {.name = "share", .type = Type::Float, .fallback = Value(1.0), .high = 1},
                         {.name = "word", .type = Type::String, .fallback = Value(std::string())}},
              .outcomes = {{.name = "Done"}}}};
@@ -142,6 +146,18 @@ TEST(CheckFormula, SuggestsWhatWasMeant) {
         std::erase(wanted, '\\');
         EXPECT_THAT(findings[0].message, HasSubstr(wanted));
     }
+}
+
+TEST(CheckFormula, SaysThatAUnitIsNotWritten) {
+    const Findings cm = check_input("Drive", "distance", "\"50 cm\"");
+    ASSERT_EQ(rules_of(cm), "P8");
+    EXPECT_EQ(cm[0].message,
+              "the formula for \"distance\": expected an operator or the end at position 4, found "
+              "\"cm\"; write the number without its unit, it counts in cm already");
+    // Another unit is another number: nothing is promised.
+    const Findings inch = check_input("Drive", "distance", "\"50 inch\"");
+    ASSERT_EQ(rules_of(inch), "P8");
+    EXPECT_TRUE(inch[0].message.ends_with("found \"inch\"")) << inch[0].message;
 }
 
 TEST(CheckOutput, NamesOneVariableThatIsNoWord) {

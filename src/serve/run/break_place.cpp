@@ -82,6 +82,17 @@ Status check_break_place(const PlanBreakpoint& wanted, const plan::Plan& plan,
                                   : check_actor(wanted, plan, library);
 }
 
+Status check_break_variables(const PlanBreakpoint& wanted, const plan::Plan& plan) {
+    const auto formula = plan::parse_formula(wanted.condition);
+    if (wanted.condition.empty() || !formula.ok()) return Status::done();
+    Names known;
+    for (const plan::Variable& one : plan.configuration) known.push_back(one.name);
+    for (const std::string& name : formula.value().names()) {
+        TRY(check_name("the plan " + plan.name, "variable", name, known));
+    }
+    return Status::done();
+}
+
 Status check_break_condition(const PlanBreakpoint& wanted) {
     if (wanted.condition.empty()) return Status::done();
     const auto formula = plan::parse_formula(wanted.condition);

@@ -62,6 +62,29 @@ TEST(BreakPlace, WhatItHasNotIsRefusedWithWhatThereIs) {
               "the supervisor late has no event “Timeuot”; did you mean Timeout?");
 }
 
+TEST(BreakPlace, AConditionReadsVariablesOfItsPlan) {
+    const auto refusal_of = [](const std::string& text, const std::string& condition) {
+        PlanBreakpoint wanted;
+        wanted.condition = condition;
+        const Status there =
+            check_break_variables(wanted, plan::parse_plan(text, "rounds.plan.json").plan);
+        if (there.ok()) return std::string();
+        EXPECT_EQ(there.error().code, Code::NotFound);
+        return there.error().what;
+    };
+    const std::string with_variables =
+        R"({"format": "vagus-plan/1", "name": "Rounds", "start": {"actor": "say"}, "actors": {},
+            "configuration": {"distance": {"type": "int", "initial": 1}, "far": {"type": "bool"}}})";
+    EXPECT_EQ(refusal_of(with_variables, ""), "");
+    EXPECT_EQ(refusal_of(with_variables, "distance < 5 and not far"), "");
+    // One that is no formula is refused as such.
+    EXPECT_EQ(refusal_of(with_variables, "near >"), "");
+    EXPECT_EQ(refusal_of(with_variables, "distence < 5"),
+              "the plan Rounds has no variable “distence”; did you mean distance?");
+    EXPECT_EQ(refusal_of(with_variables, "distance < limit"),
+              "the plan Rounds has no variable “limit”; there are: distance, far");
+}
+
 TEST(BreakPlace, AConditionIsAFormula) {
     PlanBreakpoint wanted;
     EXPECT_TRUE(check_break_condition(wanted).ok());

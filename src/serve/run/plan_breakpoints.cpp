@@ -41,6 +41,14 @@ bool PlanBreakpoints::stands_at(const PlanBreakpoint& place) const {
                        [&](const PlanBreakpoint& one) { return same_place(one, place); });
 }
 
+bool PlanBreakpoints::has_condition(const PlanBreakpoint& wanted) const {
+    return std::any_of(all_.begin(), all_.end(), [&](const PlanBreakpoint& one) {
+        const bool meant =
+            wanted.number > 0 ? one.number == wanted.number : same_place(one, wanted);
+        return meant && one.condition == wanted.condition;
+    });
+}
+
 Result<PlanBreakpoint*> PlanBreakpoints::set(const PlanBreakpoint& wanted) {
     const bool lacks_condition = wanted.kind == "condition" && wanted.condition.empty();
     if (lacks_condition) {

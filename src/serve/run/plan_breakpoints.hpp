@@ -40,6 +40,8 @@ public:
     Result<PlanBreakpoint*> set(const PlanBreakpoint& wanted);
     // Whether one is at that place already: what is there may have been deleted since.
     bool stands_at(const PlanBreakpoint& place) const;
+    // Whether the one that is meant has that condition already.
+    bool has_condition(const PlanBreakpoint& wanted) const;
     // Without a number all of the document, without a document all.
     void clear(std::optional<uint64_t> number, const std::optional<std::string>& doc);
     // A file has another name.

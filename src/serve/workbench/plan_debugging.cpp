@@ -53,15 +53,18 @@ void Workbench::plan_breakpoints_changed() {
     run_.set_breakpoints(plan_breakpoint_orders());
 }
 
-// One that is there stays, whatever became of its element: its row says why it does not fit. A
-// file that is not a plan right now is one that somebody is typing in.
+// One that is there stays, whatever became of its element or of the variables of its condition: its
+// row says why it does not fit. A file that is not a plan right now is one that somebody is typing in.
 Status Workbench::is_in_plan(const PlanBreakpoint& wanted) {
-    if (plan_breakpoints_.stands_at(wanted)) return Status::done();
+    const bool is_there = plan_breakpoints_.stands_at(wanted);
+    const bool is_same = plan_breakpoints_.has_condition(wanted);
+    if (is_there && is_same) return Status::done();
     const auto text = files_.text(wanted.doc);
     if (!text.ok()) return text.error();
     const plan::PlanFile file = plan::parse_plan(text.value(), wanted.doc);
-    return file.readable ? check_break_place(wanted, file.plan, editing_.templates())
-                         : Status::done();
+    if (!file.readable) return Status::done();
+    if (!is_there) TRY(check_break_place(wanted, file.plan, editing_.templates()));
+    return is_same ? Status::done() : check_break_variables(wanted, file.plan);
 }
 
 void Workbench::set_plan_breakpoint(const Call& call) {

@@ -15,18 +15,26 @@ export function ConditionForm() {
   const own = useTopic('studio', {})?.project?.plan;
   const [condition, setCondition] = useState('');
   const [tried, setTried] = useState('');
+  const [refused, setRefused] = useState('');
   const wrong = mistakeIn(condition);
-  const told = tried === condition ? wrong : '';
+  const told = tried === condition ? wrong || refused : '';
   const doc = looked !== null && kindOf(looked) === 'plan' ? looked : own;
   if (doc === undefined) return null;
-  const add = () => {
+  const add = async () => {
     setTried(condition);
+    setRefused('');
     if (condition.trim() === '' || wrong) return;
-    studio.order('plan.break.set', { doc, kind: 'condition', condition: condition.trim() });
-    setCondition('');
+    const wanted = { doc, kind: 'condition', condition: condition.trim() } as const;
+    try {
+      await studio.send('plan.break.set', wanted);
+      setCondition('');
+    } catch (problem) {
+      // A variable that the plan does not have: what was typed stays.
+      setRefused(problem instanceof Error ? problem.message : String(problem));
+    }
   };
   return (
-    <form className="bp__when" onSubmit={(event) => (event.preventDefault(), add())}>
+    <form className="bp__when" onSubmit={(event) => (event.preventDefault(), void add())}>
       <label>
         {words.when}
         <input

@@ -40,15 +40,19 @@ function renameBreaks(studio: Studio, doc: string, { is, from, to }: Renamed): v
   }
 }
 
+type Change = Partial<Pick<PlanBreakpoint, 'condition' | 'stop_at' | 'enabled'>>;
+
 /** What is not told stays as it is. */
-export function changeBreak(
-  studio: Studio,
-  one: PlanBreakpoint,
-  to: Partial<Pick<PlanBreakpoint, 'condition' | 'stop_at' | 'enabled'>>,
-): void {
+export function changeBreak(studio: Studio, one: PlanBreakpoint, to: Change): void {
+  studio.order('plan.break.set', changed(one, to));
+}
+
+/** The same; it fails with the sentence of the server. */
+export async function setBreak(studio: Studio, one: PlanBreakpoint, to: Change): Promise<void> {
+  await studio.send('plan.break.set', changed(one, to));
+}
+
+function changed(one: PlanBreakpoint, to: Change) {
   const { number, doc, kind, element, outcome, condition, stop_at, enabled } = one;
-  studio.order('plan.break.set', {
-    ...{ number, doc, kind, element, outcome, condition, stop_at, enabled },
-    ...to,
-  });
+  return { number, doc, kind, element, outcome, condition, stop_at, enabled, ...to };
 }

@@ -7,7 +7,7 @@ import { mistakeIn } from '../../../../core/condition';
 import { useStudio, useTopic } from '../../../hooks';
 import { useTyped } from '../../../parts/use_draft';
 import { text } from '../../../text';
-import { changeBreak, toggleBreak } from '../break_acts';
+import { changeBreak, setBreak, toggleBreak } from '../break_acts';
 
 const words = text.draw.break;
 
@@ -65,15 +65,20 @@ function Details({ one, disabled }: { one: PlanBreakpoint; disabled: boolean }) 
   const [condition, setCondition] = useState(one.condition);
   const [count, setCount] = useState(String(one.stop_at));
   const [tried, setTried] = useState('');
+  const [refused, setRefused] = useState('');
   const wrong = mistakeIn(condition);
-  const told = tried === condition ? wrong : '';
+  const told = tried === condition ? wrong || refused : '';
   const good = /^[1-9]\d{0,8}$/.test(count);
   const isTyped = condition.trim() !== one.condition || count !== String(one.stop_at);
   const save = () => {
     setTried(condition);
     if (!good || wrong !== '') return false;
     const to = { condition: condition.trim(), stop_at: Number(count) };
-    if (isTyped) changeBreak(studio, one, to);
+    setRefused('');
+    if (isTyped)
+      setBreak(studio, one, to).catch((problem: unknown) =>
+        setRefused(problem instanceof Error ? problem.message : String(problem)),
+      );
     return true;
   };
   useTyped(isTyped, save);

@@ -273,3 +273,55 @@ test('Tidy brings the whole plan in sight', project, async (studio) => {
     }),
   );
 });
+
+test('what a press on the palette adds is put where it is seen', project, async (studio) => {
+  const { page, button, layout } = studio;
+  await layout('Draw');
+  await seen(page.getByRole('region', { name: 'Plan P, drawn' }));
+  const before = await settled(page);
+  // Below each other they would leave the window at the third.
+  for (const name of ['wait', 'wait2', 'wait3', 'wait4']) {
+    await button('Wait, actor').click();
+    await seen(page.getByRole('group', { name: new RegExp(`^${name}, actor Wait`) }));
+  }
+  const { wait, wait2, wait3, wait4, ...others } = await settled(page);
+  assert.ok(wait && wait2 && wait3 && wait4);
+  assert.deepEqual(others, before);
+});
+
+test('a click on one of several chosen elements chooses it alone', sound, async (studio) => {
+  const { page, press, layout } = studio;
+  await layout('Draw');
+  const one = page.getByRole('group', { name: /^one, actor/ });
+  await one.click();
+  await press('Control+a');
+  await seen(page.getByText('2 elements are selected.'));
+  const chosen = page.locator('.react-flow__node.selected');
+  assert.equal(await chosen.count(), 2);
+  await one.click();
+  await until('one is chosen', async () => (await chosen.count()) === 1);
+  await seen(page.getByRole('heading', { name: 'one', exact: true }));
+  // A key beside the click adds, as before.
+  await page.getByRole('group', { name: /^two, actor/ }).click({ modifiers: ['Control'] });
+  await until('both are chosen', async () => (await chosen.count()) === 2);
+});
+
+for (const [place, selector] of [
+  ['form', '[aria-label="Properties"] button'],
+  ['palette', '.palettepanel button'],
+  ['bar', '.plan__bar button:enabled'],
+])
+  test(`Ctrl+Z takes back a step of the plan from the ${place}, too`, sound, async (studio) => {
+    const { page, press, button, layout } = studio;
+    await layout('Draw');
+    await seen(page.getByRole('group', { name: /^one, actor/ }));
+    await button('Wait, actor').click();
+    const wait = page.getByRole('group', { name: /^wait, actor/ });
+    await seen(wait);
+    await page
+      .locator(selector ?? '')
+      .first()
+      .focus();
+    await press('Control+z');
+    await gone(wait);
+  });

@@ -836,7 +836,7 @@ export interface Commands {
   'project.new': { in: {
     name: string;
     robot: 'thymio2' | 'carbot' | 'epuck';
-    /** with an empty plan beside the script */
+    /** with a small plan to begin with */
     plan: boolean;
   }; out: {
     path: string;

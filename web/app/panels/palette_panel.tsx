@@ -24,7 +24,7 @@ export default function PalettePanel() {
   const count = toolboxes.reduce((sum, one) => sum + one.templates.length, 0);
   const may = drives && shown !== undefined;
   return (
-    <div className="palettepanel">
+    <div className="palettepanel" data-place="plan-parts">
       <label className="search">
         <IconSearch className="icon" size={14} stroke={kStroke} aria-hidden />
         <input

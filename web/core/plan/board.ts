@@ -19,7 +19,7 @@ import {
 import { extract, type Extracted, type WhyNot } from './extract';
 import * as notes from './notes';
 import { Draft, paste, partOf, type Part } from './part';
-import { found, freePlace, sceneOf, type Places, type Scene } from './place';
+import { found, freePlace, freePlaceIn, sceneOf, type Places, type Scene } from './place';
 import { kNodeWidth, type Box, type Point } from './shape';
 import type { SubPlans } from './sub_plans';
 import type { Found, Toolboxes } from './templates';
@@ -33,6 +33,8 @@ const kAtOnceMs = 80;
 const kTurnMs = 20;
 /** So often a drawing that is being finished is shown. */
 const kShownMs = 1000;
+/** Then what has no way yet stays as it is: hundreds of arrows across a large plan would take minutes. */
+export const kFinishMsMax = 15_000;
 
 export type Source = Actor | Supervisor | typeof kStart;
 
@@ -57,6 +59,8 @@ export class PlanBoard {
   /** Where elements are that have no place in the file. */
   private found: Places = new Map();
   private finishing = false;
+  /** There was no time to find a way for every arrow. */
+  isCut = false;
   private heldSizes = new Map<string, notes.Size>();
 
   constructor(
@@ -245,14 +249,15 @@ export class PlanBoard {
     if (source) this.commit(edit.connectSteps(this.file.value, source, outcome, target));
   }
 
-  addActor(found: Found, wanted: Point): string {
-    const at = freePlace(this.scene, wanted);
+  /** room: what is seen of the plan; the actor is put there if it has a place. */
+  addActor(found: Found, wanted: Point, room?: Box): string {
+    const at = room ? freePlaceIn(room, this.scene, wanted) : freePlace(this.scene, wanted);
     return this.added(edit.addActor(this.file.value, this.model, found, at), (name) => name);
   }
 
   /** Another plan as an actor; `path` counts from the folder of this one. */
-  addSubPlan(path: string, wanted: Point): string {
-    const at = freePlace(this.scene, wanted);
+  addSubPlan(path: string, wanted: Point, room?: Box): string {
+    const at = room ? freePlaceIn(room, this.scene, wanted) : freePlace(this.scene, wanted);
     return this.added(edit.addSubPlan(this.file.value, this.model, path, at), (name) => name);
   }
 
@@ -417,8 +422,10 @@ export class PlanBoard {
     this.drawing = drawingOf(model, this.scene, {
       isTime: this.within(isHeld ? kWhileHeldMs : kAtOnceMs),
       before: this.drawing,
-      keeps: isHeld,
+      // What took so long is not looked for again at each step.
+      keeps: isHeld || this.isCut,
     });
+    this.isCut = false;
     this.tell();
     this.finish();
   }
@@ -428,14 +435,18 @@ export class PlanBoard {
     if (this.finishing || !this.drawing.isSketch) return;
     this.finishing = true;
     let shown = this.turns.now();
+    let worked = 0;
     const turn = () => {
+      const begun = this.turns.now();
       this.finishing = false;
       this.drawing = goOn(this.drawing, { isTime: this.within(kTurnMs) });
-      if (!this.drawing.isSketch || this.turns.now() - shown > kShownMs) {
+      worked += this.turns.now() - begun;
+      this.isCut = this.drawing.isSketch && worked >= kFinishMsMax;
+      if (!this.drawing.isSketch || this.isCut || this.turns.now() - shown > kShownMs) {
         shown = this.turns.now();
         this.tell();
       }
-      if (!this.drawing.isSketch) return;
+      if (!this.drawing.isSketch || this.isCut) return;
       this.finishing = true;
       this.turns.later(turn);
     };

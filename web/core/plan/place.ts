@@ -196,8 +196,28 @@ function aboveAll(blocks: readonly Block[], model: PlanModel): Point {
   return { x, y: y - around(boxes).height - kPill.height - kGap };
 }
 
+const kOfNew = { width: 168, height: 92 };
+/** How many columns of boxes to each side are looked through. */
+const kColumnsMax = 8;
+
+/** As `freePlace`, where all of the element can be seen: below the point or in a column beside it; else as there. */
+export function freePlaceIn(room: Box, scene: Scene, wanted: Point): Point {
+  const isIn = ({ x, y }: Point) =>
+    x >= room.x &&
+    y >= room.y &&
+    x + kOfNew.width <= room.x + room.width &&
+    y + kOfNew.height <= room.y + room.height;
+  const columns = Array.from({ length: 2 * kColumnsMax + 1 }, (_one, at) =>
+    at % 2 === 0 ? -at / 2 : (at + 1) / 2,
+  );
+  const places = columns.map((column) =>
+    freePlace(scene, { ...wanted, x: wanted.x + column * (kOfNew.width + kGap) }),
+  );
+  return places.find(isIn) ?? freePlace(scene, wanted);
+}
+
 /** The nearest place at or below a point where an element of that size covers nothing. */
-export function freePlace(scene: Scene, wanted: Point, size = { width: 168, height: 92 }): Point {
+export function freePlace(scene: Scene, wanted: Point, size = kOfNew): Point {
   const boxes = [scene.start, ...scene.actors].map((block) => block.whole);
   const at = { x: snapped(wanted.x), y: snapped(wanted.y) };
   for (let tries = 0; tries <= boxes.length; tries++) {

@@ -5,7 +5,7 @@ import { drawingOf, goOn, type Drawing } from './arrows';
 import { dataArrows, namesIn } from './data';
 import { planModel, supervisorsOf } from './model';
 import { crossings, eachStretch, roundedPath } from './path';
-import { freePlace, sceneOf, type Scene } from './place';
+import { freePlace, freePlaceIn, sceneOf, type Scene } from './place';
 import { seeded } from '../test_seeded';
 import { kApart } from './route';
 import type { Point } from './shape';
@@ -148,6 +148,15 @@ describe('places', () => {
     // Below the block that ends at 296, and the sub-plan from 344 to 458; 506 is no multiple of 8.
     expect(freePlace(scene, { x: 83, y: 165 })).toEqual({ x: 80, y: 504 });
     expect(freePlace(scene, { x: 1003, y: 5 })).toEqual({ x: 1000, y: 8 });
+  });
+
+  it('of what is added are in sight where there is room', () => {
+    // Below the blocks it would end at 504 + 92: the column to the right is next, 168 + 48 further.
+    const room = { x: 0, y: 0, width: 700, height: 400 };
+    expect(freePlaceIn(room, scene, { x: 83, y: 165 })).toEqual({ x: 296, y: 168 });
+    // Nowhere in sight: as without it.
+    const small = { x: 0, y: 0, width: 100, height: 100 };
+    expect(freePlaceIn(small, scene, { x: 83, y: 165 })).toEqual({ x: 80, y: 504 });
   });
 });
 

@@ -38,7 +38,9 @@ test.each([
   ['P17', ['actors', 'go', 'states', 'Done'], { is: 'arrow', name: 'Done' }],
   ['P18', ['start', 'supervisors', 'see', 'events', 'Seen'], { is: 'arrow', name: 'Seen' }],
   ['P15', ['start', 'actor'], { is: 'arrow', name: '' }],
-  ['P8', ['actors', 'go', 'in', 'speed'], null],
+  ['P8', ['actors', 'go', 'in', 'speed'], { is: 'formula', name: 'speed' }],
+  ['P11', ['start', 'supervisors', 'see', 'in', 'far'], { is: 'formula', name: 'far' }],
+  ['P8', ['actors', 'go', 'out', 'speed'], null],
   ['P3', ['actors', 'go'], null],
 ])('WhatHelpsWith %s at %j', (code, keys, wanted) =>
   expect(wantedBy({ ...finding('', ...keys), code })).toEqual(wanted),

@@ -4,7 +4,7 @@
 import type { Drawing } from './arrows';
 import type { DataArrow } from './data';
 import { crossings, type Crossing, type Routed } from './path';
-import type { Box, Point } from './shape';
+import { overlaps, type Box, type Point } from './shape';
 
 /** Events interrupt: their arrows are dashed; look/draw.css says the same. */
 export const kEventDash = '9 5';
@@ -21,18 +21,64 @@ export function shortened({ points }: Routed): readonly Point[] {
   return [...points.slice(0, -1), { x, y }];
 }
 
-/** Where the name of an arrow is: in the middle of its longest stretch. */
-export function nameSpot({ points }: Routed): Point | null {
-  let spot: Point | null = null;
-  let longest = 0;
-  points.forEach((to, index) => {
-    const from = points[index - 1];
-    const length = from ? Math.hypot(to.x - from.x, to.y - from.y) : 0;
-    if (!from || length <= longest) return;
-    longest = length;
-    spot = { x: (from.x + to.x) / 2, y: (from.y + to.y) / 2 };
-  });
-  return spot;
+/** How large a name is drawn, and what it must not cover. */
+export interface NameRoom {
+  size: { width: number; height: number };
+  boxes: readonly Box[];
+}
+
+/**
+ * Where the middle of an arrow's name is: in the middle of its longest stretch, or, where the name would cover a
+ * box there, on another stretch or beside one. Covered on all sides, it is on the longest one.
+ */
+export function nameSpot({ points }: Routed, room?: NameRoom): Point | null {
+  const stretches = points
+    .slice(1)
+    .map((to, at) => ({ from: points[at] ?? to, to }))
+    .filter(({ from, to }) => lengthOf(from, to) > 0)
+    .sort((a, b) => lengthOf(b.from, b.to) - lengthOf(a.from, a.to));
+  const middles = stretches.map(({ from, to }) => ({
+    x: (from.x + to.x) / 2,
+    y: (from.y + to.y) / 2,
+  }));
+  const longest = middles[0] ?? null;
+  const [begin] = points;
+  if (!room || !longest || !begin) return longest;
+  const { width, height } = room.size;
+  const isFree = ({ x, y }: Point) =>
+    !room.boxes.some((box) =>
+      overlaps(box, { x: x - width / 2, y: y - height / 2, width, height }),
+    );
+  const places = middles.flatMap((middle) => [middle, ...sidesOf(middle, room.size)]);
+  // An arrow that is shorter than its name has room behind its begin.
+  places.push(...cornersOf(begin, room.size));
+  return places.find(isFree) ?? longest;
+}
+
+const kBeside = 6;
+
+const lengthOf = (from: Point, to: Point) => Math.hypot(to.x - from.x, to.y - from.y);
+
+/** Above and below a point, to its right and left. */
+function sidesOf({ x, y }: Point, { width, height }: NameRoom['size']): Point[] {
+  const [across, down] = [width / 2 + kBeside, height / 2 + kBeside];
+  return [
+    { x, y: y - down },
+    { x, y: y + down },
+    { x: x + across, y },
+    { x: x - across, y },
+  ];
+}
+
+/** Right and left of a point, above and below it. */
+function cornersOf({ x, y }: Point, { width, height }: NameRoom['size']): Point[] {
+  const [across, down] = [width / 2 + kBeside, height / 2 + kBeside];
+  return [
+    { x: x + across, y: y - down },
+    { x: x + across, y: y + down },
+    { x: x - across, y: y - down },
+    { x: x - across, y: y + down },
+  ];
 }
 
 export function gapsOf(drawing: Drawing): Map<string, Crossing[]> {

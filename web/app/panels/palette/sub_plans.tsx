@@ -29,7 +29,9 @@ export function SubPlans({ may, typed }: { may: boolean; typed: string }) {
               className="plantool"
               aria-label={text.templates.add(path, text.draw.roles.subplan)}
               disabled={!may}
-              onClick={() => shown.focus(board.addSubPlan(pathTo(board.doc, path), shown.middle()))}
+              onClick={() =>
+                shown.focus(board.addSubPlan(pathTo(board.doc, path), shown.middle(), shown.room()))
+              }
             >
               <TemplateIcon icon="" role="subplan" />
               <span className="ellipsis grow">{path.replace(/\.plan\.json$/, '')}</span>

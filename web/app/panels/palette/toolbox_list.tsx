@@ -73,7 +73,7 @@ export function addTemplate(studio: Studio, found: Found): void {
   if (!shown) return;
   const { board } = shown;
   if (found.template.kind !== 'supervisor')
-    return shown.focus(board.addActor(found, shown.middle()));
+    return shown.focus(board.addActor(found, shown.middle(), shown.room()));
   const { selected } = board;
   const owner = board.actor(selected)?.name ?? board.supervisor(selected)?.owner;
   if (owner === undefined && selected !== kStart) return toast(studio.window, 'note', words.whose);

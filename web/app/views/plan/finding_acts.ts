@@ -21,9 +21,9 @@ export function actFor(studio: Studio, finding: Finding): FindingAct | null {
   const wanted = wantedBy(finding);
   if (wanted === null) return null;
   const { doc, element = '' } = finding;
-  if (wanted.is === 'value')
+  if (wanted.is !== 'arrow')
     return {
-      label: text.draw.enterValue,
+      label: wanted.is === 'value' ? text.draw.enterValue : text.draw.correctValue,
       run() {
         revealElement(studio, doc, element);
         revealPanel(studio.window, 'properties', false);

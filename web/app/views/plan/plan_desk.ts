@@ -3,7 +3,7 @@
 import { Desk, deskFor } from '../../../core/desk';
 import { Emitter } from '../../../core/emitter';
 import type { PlanBoard } from '../../../core/plan/board';
-import type { Point } from '../../../core/plan/shape';
+import type { Box, Point } from '../../../core/plan/shape';
 import type { Studio } from '../../../core/studio';
 import { useChanges } from '../../hooks';
 
@@ -11,14 +11,16 @@ export interface ShownPlan {
   board: PlanBoard;
   /** The middle of what is seen, on the canvas. */
   middle(): Point;
+  /** What is seen of the plan. */
+  room(): Box;
   zoom(): number;
   zoomed: Emitter<void>;
   /** Around the middle. */
   zoomTo(zoom: number): void;
   /** Brings an element in sight. */
   show(key: string): void;
-  /** Brings the keyboard to an element. */
-  focus(key: string): void;
+  /** Brings the keyboard to an element; stays: nothing moves as long as some of it is seen. */
+  focus(key: string, how?: { stays?: boolean }): void;
 }
 
 export class PlanDesk extends Desk<ShownPlan> {

@@ -27,7 +27,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
   const [, redraw] = useReducer((count: number) => count + 1, 0);
   useEffect(() => file?.changed.on(redraw), [file]);
   return (
-    <div className="plan__bar">
+    <div className="plan__bar" data-place="plan-parts">
       <Back doc={doc} />
       <Button
         kind="plain"

@@ -24,7 +24,8 @@ function ArrowName(props: { board: PlanBoard; id: string; is: 'near' | 'taken' }
   const scale = useStore(({ transform: [, , zoom] }) => Math.max(1, 1 / zoom));
   const route = board.drawing.routes.get(id);
   const name = board.arrow(id)?.outcome ?? '';
-  const spot = route && nameSpot(route);
+  const room = { size: sizeOf(name, scale), boxes: boxesOf(board) };
+  const spot = route && nameSpot(route, room);
   if (!spot || name === '') return null;
   const transform = `translate(${spot.x}px, ${spot.y}px) scale(${scale}) translate(-50%, -50%)`;
   return (
@@ -33,3 +34,15 @@ function ArrowName(props: { board: PlanBoard; id: string; is: 'near' | 'taken' }
     </span>
   );
 }
+
+const boxesOf = ({ scene: { start, actors } }: PlanBoard) =>
+  [start, ...actors].map((block) => block.whole);
+
+/** On the canvas; letters are not wider than kLetter. */
+function sizeOf(name: string, scale: number): { width: number; height: number } {
+  return { width: (name.length * kLetter + kPadding) * scale, height: kHeight * scale };
+}
+
+const kLetter = 7;
+const kPadding = 14;
+const kHeight = 20;

@@ -15,6 +15,9 @@ import { tidy } from './tidy_plan';
 const titles = text.commands;
 type DrawId = Extract<keyof typeof titles, `draw.${string}`>;
 
+/** The canvas, and what is beside it: the bar above it, the palette, the form of what is chosen. */
+const kParts = 'plan-parts';
+
 export interface CanvasActs {
   fit(): void;
   zoom(by: number): void;
@@ -30,11 +33,12 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     keys: string[],
     run: (plan: ShownPlan) => void | Promise<void>,
     may: (plan: ShownPlan) => boolean = () => true,
+    within = 'plan',
   ): Command => ({
     id,
     title: titles[id],
     group: text.groups.draw,
-    within: 'plan',
+    within,
     keys,
     enabled() {
       const plan = shown();
@@ -96,17 +100,20 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       ['Ctrl+Z'],
       ({ board }) => void withBreaks(studio, board, () => board.file.undo()),
       ({ board }) => edits() && board.file.canUndo,
+      kParts,
     ),
     make(
       'draw.redo',
       ['Ctrl+Y', 'Ctrl+Shift+Z'],
       ({ board }) => void withBreaks(studio, board, () => board.file.redo()),
       ({ board }) => edits() && board.file.canRedo,
+      kParts,
     ),
     make(
       'draw.remove',
       ['Delete', 'Backspace'],
-      ({ board, focus }) => focus(board.removeChosen()),
+      // What is left stays where it is, as long as some of it is seen.
+      ({ board, focus }) => focus(board.removeChosen(), { stays: true }),
       has,
     ),
     make('draw.rename', ['F2'], () => acts.rename(), named),

@@ -4,7 +4,7 @@ import { useReactFlow, useStore, type NodeChange } from '@xyflow/react';
 import { useCallback, useEffect, useLayoutEffect, useMemo, useRef, useState } from 'react';
 import { Emitter } from '../../../../core/emitter';
 import type { PlanBoard } from '../../../../core/plan/board';
-import type { Box, Point } from '../../../../core/plan/shape';
+import { overlaps, type Box, type Point } from '../../../../core/plan/shape';
 import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic, useWindow } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
@@ -59,6 +59,20 @@ function choose(board: PlanBoard, changes: readonly NodeChange<PlanNode>[]): voi
   board.selectAll([...kept, ...come]);
 }
 
+/** A click on one of several that are chosen means this one: the library would leave all of them chosen. */
+export function chooseOnly(board: PlanBoard, key: string, event: React.MouseEvent): void {
+  const adds = event.ctrlKey || event.metaKey || event.shiftKey;
+  if (!adds && board.selection.size > 1 && board.selection.has(key)) board.select(key);
+}
+
+/** What is seen of the plan. */
+function roomOf(flow: ReturnType<typeof useReactFlow>, frame: HTMLElement): Box {
+  const { left, top, right, bottom } = frame.getBoundingClientRect();
+  const first = flow.screenToFlowPosition({ x: left, y: top });
+  const last = flow.screenToFlowPosition({ x: right, y: bottom });
+  return { ...first, width: last.x - first.x, height: last.y - first.y };
+}
+
 /** Moves what is seen if an element is outside of it. */
 function reveal(
   flow: ReturnType<typeof useReactFlow>,
@@ -66,12 +80,13 @@ function reveal(
   frame: HTMLElement | null,
 ): void {
   if (!box || !frame) return;
-  const { left, top, right, bottom } = frame.getBoundingClientRect();
-  const first = flow.screenToFlowPosition({ x: left, y: top });
-  const last = flow.screenToFlowPosition({ x: right, y: bottom });
-
+  const room = roomOf(flow, frame);
   const { x, y, width, height } = box;
-  const isSeen = x >= first.x && y >= first.y && x + width <= last.x && y + height <= last.y;
+  const isSeen =
+    x >= room.x &&
+    y >= room.y &&
+    x + width <= room.x + room.width &&
+    y + height <= room.y + room.height;
   if (!isSeen)
     void flow.setCenter(x + width / 2, y + height / 2, {
       zoom: Math.max(flow.getZoom(), kLegible),
@@ -117,13 +132,17 @@ export function useOnDesk(
           frame.current?.getBoundingClientRect() ?? new DOMRect();
         return flow.screenToFlowPosition({ x: left + width / 2 - 84, y: top + height / 3 });
       },
+      room: () =>
+        frame.current ? roomOf(flow, frame.current) : { x: 0, y: 0, width: 0, height: 0 },
       show(key) {
         worksOn();
         reveal(flow, board.boxOf(key), frame.current);
       },
-      focus(key) {
+      focus(key, { stays = false } = {}) {
         worksOn();
-        reveal(flow, board.boxOf(key), frame.current);
+        const box = board.boxOf(key);
+        const isStill = stays && box && frame.current && overlaps(box, roomOf(flow, frame.current));
+        if (!isStill) reveal(flow, box, frame.current);
         requestAnimationFrame(() =>
           frame.current
             ?.querySelector<HTMLElement>(`.react-flow__node[data-id="${CSS.escape(key)}"]`)

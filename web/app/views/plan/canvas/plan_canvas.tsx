@@ -11,7 +11,7 @@ import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
 import { ActiveLine } from './active_line';
 import { ArrowsLayer } from './arrows_layer';
-import { useKeptFocus, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
+import { chooseOnly, useKeptFocus, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { CanvasContexts } from './canvas_contexts';
 import { ConnectMenu } from './connect_menu';
 import { kManyNodes, useAfterwards, useDistance } from './distance';
@@ -70,7 +70,7 @@ function Canvas({ board }: { board: PlanBoard }) {
       <div
         className="pcanvas"
         ref={frame}
-        data-place="plan"
+        data-place="plan plan-parts"
         data-autofocus
         data-distance={distance}
         tabIndex={-1}
@@ -90,6 +90,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           nodeTypes={nodeTypes}
           onNodesChange={onNodesChange}
           onMoveStart={(event) => event && worksOn()}
+          onNodeClick={(event, { id }) => chooseOnly(board, id, event)}
           onNodeContextMenu={onNodeContextMenu}
           onPaneClick={() => {
             board.select(null);
@@ -123,7 +124,7 @@ function Canvas({ board }: { board: PlanBoard }) {
         </ReactFlow>
         {broken === null ? null : <p className="pcanvas__locked">{words.locked}</p>}
         {board.drawing.isSketch && nodes.length > kManyNodes ? (
-          <p className="pcanvas__locked">{words.sketched}</p>
+          <p className="pcanvas__locked">{board.isCut ? words.cut : words.sketched}</p>
         ) : null}
         {board.model.actors.length === 0 ? <EmptyPlan /> : null}
         {finds ? (

@@ -25,7 +25,15 @@ export function PlanForm({ plan }: { plan: ShownPlan }) {
   const arrow = board.arrow(selected);
   const key = arrow ? arrow.source : selected;
   return (
-    <section className="props" key={key} aria-label={text.panels.properties}>
+    <section
+      className="props"
+      key={key}
+      aria-label={text.panels.properties}
+      data-place="plan-parts"
+    >
+      {board.selection.size > 1 ? (
+        <p className="props__many">{words.several(board.selection.size)}</p>
+      ) : null}
       <Chosen board={board} chosen={key} disabled={!drives} />
     </section>
   );

@@ -1,7 +1,7 @@
 import { useMemo } from 'react';
 import type { Doc, Finding } from '../../../../protocol/messages';
 import type { Keys } from '../../../../core/plan/model';
-import { findingsAt, findingsOfElement } from '../../../../core/plan/row_findings';
+import { findingsAt, findingsOfElement, wantedBy } from '../../../../core/plan/row_findings';
 import { pressFix } from '../../../commands/problem_commands';
 import { useDrives, useStudio, useTopic } from '../../../hooks';
 import { Button } from '../../../parts/button';
@@ -45,7 +45,9 @@ export function Findings({ findings, id }: { findings: readonly Finding[]; id?: 
               {fix.label}
             </Button>
           ))}
-          {one.fixes.length === 0 ? <FindingButton finding={one} /> : null}
+          {one.fixes.length === 0 && wantedBy(one)?.is !== 'formula' ? (
+            <FindingButton finding={one} />
+          ) : null}
         </div>
       ))}
     </div>

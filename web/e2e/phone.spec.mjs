@@ -1,8 +1,9 @@
 // The page on a telephone: good enough to watch, to stop and to start.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
+import { twoNodes } from './support/robots.mjs';
 import { boxOf, gone, reads, seen, test, until } from './support/studio.mjs';
-/** @import { Page, Studio } from './support/studio.mjs' */
+/** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 const source = readFileSync(
   new URL('../node_modules/axe-core/axe.min.js', import.meta.url),
@@ -84,6 +85,20 @@ test('who only looks can stop', phone, async (studio) => {
   await seen(button('Run'));
   await seen(page.getByText(/Stopped/));
 });
+
+test(
+  'without a plan the nodes that run on a bus are named',
+  {
+    ...phone,
+    words: [],
+    prepare: (/** @type {TestContext} */ t) =>
+      twoNodes(t, { left: 'var a = 0\n', right: 'var b = 0\n' }),
+  },
+  async ({ page }) => {
+    await controls(page).getByRole('button', { name: 'Run', exact: true }).tap();
+    await reads(page.locator('.phone__clock'), 'Running: left, right');
+  },
+);
 
 test('a wide window is the studio, a narrow one a telephone', phone, async ({ page, tab }) => {
   await seen(tab('Plan'));

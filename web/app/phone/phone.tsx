@@ -1,4 +1,5 @@
 import { Suspense, useState } from 'react';
+import { whatRuns } from '../../core/run_choice';
 import { usePart, useTopic } from '../hooks';
 import { late } from '../parts/late';
 import { Logo } from '../parts/icons';
@@ -42,7 +43,14 @@ function PhoneClock() {
   const state = usePart('clock', {}, (is) => is?.state ?? 'none');
   const t = usePart('clock', {}, (is) => is?.t ?? 0);
   const isBus = usePart('robot', {}, (is) => is?.kind === 'bus');
-  if (isBus && state === 'none') return null;
+  const nodes = usePart('robot', {}, (is) => whatRuns(is, undefined));
+  // On a bus there is a clock only while a plan runs.
+  if (isBus && state === 'none')
+    return nodes === '' ? null : (
+      <span className="phone__clock clock--running ellipsis" title={nodes}>
+        {text.run.running}: {nodes}
+      </span>
+    );
   return (
     <span className={`phone__clock num clock--${state}`}>
       {text.run[state]} · {t.toFixed(1)} s

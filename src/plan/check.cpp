@@ -30,13 +30,6 @@ struct Element {
     Place line;
 };
 
-// For a value that was written with its unit, as "50 cm". Empty for another mistake.
-std::string unit_hint(const Entry& entry, const Input& input) {
-    const std::string found = fmt::format("found \"{}\"", input.unit);
-    if (input.unit.empty() || !entry.error.ends_with(found)) return "";
-    return fmt::format("; write the number without its unit, it counts in {} already", input.unit);
-}
-
 class Checker {
 public:
     Checker(const Checked& checked, const Plan& plan, Findings& findings)
@@ -308,7 +301,7 @@ private:
         if (!entry.formula) {
             say("P8", element.name, entry.line,
                 fmt::format("the formula for \"{}\": {}{}", entry.name, entry.error,
-                            unit_hint(entry, input)));
+                            unit_hint(entry.error, input.unit)));
             return std::nullopt;
         }
         std::vector<Type> types;

@@ -15,6 +15,11 @@ std::string hint(std::string_view word, const std::vector<std::string_view>& kno
     return fmt::format("; there {} {}", known.size() == 1 ? "is" : "are", list_of(known));
 }
 
+std::string unit_hint(std::string_view error, std::string_view unit) {
+    if (unit.empty() || !error.ends_with(fmt::format("found \"{}\"", unit))) return "";
+    return fmt::format("; write the number without its unit, it counts in {} already", unit);
+}
+
 std::optional<Meant> meant_by(std::string_view word, const std::vector<std::string_view>& known) {
     if (known.size() > kGuessAmongMax) return std::nullopt;
     std::string near = nearest(word, known);

@@ -12,7 +12,8 @@ namespace vagus::serve {
 Status check_break_place(const PlanBreakpoint& wanted, const plan::Plan& plan,
                          const plan::Library& library);
 
-// Whether the plan has the variables that its condition reads, if that is a formula. NotFound with what there is.
+// Whether the plan has the variables that its condition reads, if that is a formula. NotFound with
+// what there is.
 Status check_break_variables(const PlanBreakpoint& wanted, const plan::Plan& plan);
 
 // Whether its condition is a formula, if it has one. The Error says at which column it is none.

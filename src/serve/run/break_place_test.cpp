@@ -74,7 +74,8 @@ TEST(BreakPlace, AConditionReadsVariablesOfItsPlan) {
     };
     const std::string with_variables =
         R"({"format": "vagus-plan/1", "name": "Rounds", "start": {"actor": "say"}, "actors": {},
-            "configuration": {"distance": {"type": "int", "initial": 1}, "far": {"type": "bool"}}})";
+            "configuration": {"distance": {"type": "int", "initial": 1},
+                              "far": {"type": "bool", "initial": false}}})";
     EXPECT_EQ(refusal_of(with_variables, ""), "");
     EXPECT_EQ(refusal_of(with_variables, "distance < 5 and not far"), "");
     // One that is no formula is refused as such.

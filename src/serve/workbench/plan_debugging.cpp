@@ -54,7 +54,7 @@ void Workbench::plan_breakpoints_changed() {
 }
 
 // One that is there stays, whatever became of its element or of the variables of its condition: its
-// row says why it does not fit. A file that is not a plan right now is one that somebody is typing in.
+// row says why it does not fit. A file that is not a plan right now is being typed in.
 Status Workbench::is_in_plan(const PlanBreakpoint& wanted) {
     const bool is_there = plan_breakpoints_.stands_at(wanted);
     const bool is_same = plan_breakpoints_.has_condition(wanted);

@@ -625,7 +625,8 @@ export const text = {
       `The ${time === null ? 'earlier script' : `script of ${time}`} is still on the robot. This one is not uploaded while it has an error.`,
     older: (time: string | null) =>
       `The ${time === null ? 'earlier script' : `script of ${time}`} is running. Upload this one to run it.`,
-    fault: (what: string) => `The node stopped here: ${what}`,
+    fault: (what: string, line: number | undefined) =>
+      `The node stopped${line === undefined ? '' : ` at line ${line}`}: ${what}`,
     disk: 'The file changed on disk.',
     mine: 'Keep mine',
     theirs: 'Use the file',

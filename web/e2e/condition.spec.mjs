@@ -1,6 +1,6 @@
 // A condition that is none is refused where it is typed.
 import assert from 'node:assert/strict';
-import { seen, test, gone } from './support/studio.mjs';
+import { boxOf, seen, test, gone } from './support/studio.mjs';
 
 test(
   'a condition of a breakpoint that does not parse is refused at its field',
@@ -36,5 +36,28 @@ test(
     await press('Enter');
     await seen(page.getByRole('alert').filter({ hasText: 'nobody' }));
     assert.equal(await field.inputValue(), 'nobody > 3');
+  },
+);
+
+test(
+  'a variable that the plan lacks is refused where the condition is typed',
+  { words: ['--example', 'follow-wall'] },
+  async (studio) => {
+    const { page, press, layout } = studio;
+    await layout('Debug');
+    const field = page.getByLabel('Stop when');
+    const before = await boxOf(field);
+    await field.fill('walldits < 5');
+    await press('Enter');
+    await seen(
+      page.getByRole('alert').filter({ hasText: 'no variable “walldits”; did you mean walldist?' }),
+    );
+    assert.equal(await field.inputValue(), 'walldits < 5');
+    // There is room to correct it.
+    assert.equal((await boxOf(field)).width, before.width);
+    await field.fill('walldist < 5');
+    await press('Enter');
+    await seen(page.getByText('when walldist < 5'));
+    await gone(page.getByRole('alert').filter({ hasText: 'walldits' }));
   },
 );

@@ -116,7 +116,7 @@ test('a fault is shown at the line that caused it', faulty, async (studio) => {
   await seen(mark(studio, 'left', /, running$/));
   await command('Send an event…');
   await page.getByRole('button', { name: 'Send', exact: true }).click();
-  await seen(page.getByText(/The node stopped here: .*/));
+  await seen(page.getByText(/The node stopped at line 5: .*/));
   await seen(page.getByText('left paused at line 5'));
 });
 

@@ -3,6 +3,7 @@ import { Suspense, useState, type ReactNode } from 'react';
 import { late } from '../../parts/late';
 import type { Doc } from '../../../protocol/messages';
 import { countsOf } from '../../../core/findings';
+import { pausedLineOf } from '../../../core/run_state';
 import { useDocuments, useDrives, useStudio, useTopic } from '../../hooks';
 import { timeOf } from '../../parts/time_of';
 import { Button } from '../../parts/button';
@@ -28,7 +29,7 @@ function LoadedNotice({ doc }: { doc: Doc }) {
   const { registry } = useStudio();
   const node = useTopic('robot', {})?.nodes.find((one) => one.doc === doc);
   const { errors } = countsOf(useTopic('findings', {})?.findings ?? [], doc);
-  if (node?.fault) return <Line error>{words.fault(node.fault)}</Line>;
+  if (node?.fault) return <Line error>{words.fault(node.fault, pausedLineOf(node))}</Line>;
   if (!node || node.program !== 'older' || node.state === 'gone') return null;
   // What a world has loaded by itself has no time.
   const time = node.loaded_wall ? timeOf(node.loaded_wall) : null;

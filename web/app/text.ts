@@ -441,6 +441,7 @@ export const text = {
     choose: 'Choose a target',
     found: 'Found',
     nothing: 'No robot found yet. Switch one on, or plug it in by USB.',
+    noAddress: 'Type an address first, as tcp:robot.local:33333.',
     serves: 'This robot serves its own project on this target. Stop the service to use another.',
     address: 'Address',
     connect: 'Connect',

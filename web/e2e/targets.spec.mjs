@@ -128,3 +128,34 @@ test('a target is chosen by its address; the node keeps its program', flash, asy
   await page.getByRole('button', { name: 'Disconnect' }).click();
   await seen(page.getByRole('button', { name: 'Target No target' }));
 });
+
+for (const by of ['mouse', 'keyboard'])
+  test(
+    `every entry of the menu of targets does something, by ${by}`,
+    { words: ['--example', 'thymio'] },
+    async ({ page, press, button }) => {
+      const target = button(/^Target/);
+      const go = async (/** @type {import('playwright-core').Locator} */ one) => {
+        if (by === 'mouse') return one.click();
+        await one.focus();
+        await press('Enter');
+      };
+      const choose = async (/** @type {string} */ entry) => {
+        await go(target);
+        const menu = page.getByRole('dialog', { name: /^Target/ });
+        await go(menu.getByRole('button', { name: entry, exact: true }));
+        return menu;
+      };
+      await seen(button('Target Simulator'));
+      const menu = await choose('Connect');
+      await seen(menu.getByRole('alert').filter({ hasText: 'Type an address first' }));
+      await until('the field has the focus', () =>
+        menu.getByLabel('Address').evaluate((one) => one === document.activeElement),
+      );
+      await press('Escape');
+      await choose('Disconnect');
+      await seen(button('Target No target'));
+      await choose('Simulator');
+      await seen(button('Target Simulator'));
+    },
+  );

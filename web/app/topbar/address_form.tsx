@@ -1,4 +1,4 @@
-import { useId, useState } from 'react';
+import { useId, useRef, useState } from 'react';
 import { useDrives, useStudio } from '../hooks';
 import { Button } from '../parts/button';
 import { text } from '../text';
@@ -9,12 +9,18 @@ export function AddressForm({ onDone }: { onDone?: () => void }) {
   const drives = useDrives();
   const id = useId();
   const [address, setAddress] = useState('');
+  const field = useRef<HTMLInputElement>(null);
+  const [isAsked, setAsked] = useState(false);
+  const lacks = isAsked && address.trim() === '';
   return (
     <form
       className="address"
       onSubmit={(event) => {
         event.preventDefault();
-        if (!address.trim()) return;
+        if (!address.trim()) {
+          setAsked(true);
+          return field.current?.focus();
+        }
         studio.order('target.choose', { target: address.trim() });
         onDone?.();
       }}
@@ -23,8 +29,11 @@ export function AddressForm({ onDone }: { onDone?: () => void }) {
         {text.target.address}
       </label>
       <input
+        ref={field}
         id={id}
         className="field field--empty"
+        aria-invalid={lacks}
+        aria-describedby={lacks ? `${id}-why` : undefined}
         value={address}
         placeholder={text.start.addressHint}
         spellCheck={false}
@@ -34,6 +43,11 @@ export function AddressForm({ onDone }: { onDone?: () => void }) {
       <Button type="submit" disabled={!drives}>
         {text.target.connect}
       </Button>
+      {lacks ? (
+        <p className="address__why" id={`${id}-why`} role="alert">
+          {text.target.noAddress}
+        </p>
+      ) : null}
     </form>
   );
 }

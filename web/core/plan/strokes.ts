@@ -4,7 +4,7 @@
 import type { Drawing } from './arrows';
 import type { DataArrow } from './data';
 import { crossings, type Crossing, type Routed } from './path';
-import { overlaps, type Box, type Point } from './shape';
+import type { Box, Point } from './shape';
 
 /** Events interrupt: their arrows are dashed; look/draw.css says the same. */
 export const kEventDash = '9 5';
@@ -29,7 +29,7 @@ export interface NameRoom {
 
 /**
  * Where the middle of an arrow's name is: in the middle of its longest stretch, or, where the name would cover a
- * box there, on another stretch or beside one. Covered on all sides, it is on the longest one.
+ * box there, on another stretch or beside one. Where it covers something everywhere, it is where that is least.
  */
 export function nameSpot({ points }: Routed, room?: NameRoom): Point | null {
   const stretches = points
@@ -45,14 +45,21 @@ export function nameSpot({ points }: Routed, room?: NameRoom): Point | null {
   const [begin] = points;
   if (!room || !longest || !begin) return longest;
   const { width, height } = room.size;
-  const isFree = ({ x, y }: Point) =>
-    !room.boxes.some((box) =>
-      overlaps(box, { x: x - width / 2, y: y - height / 2, width, height }),
-    );
+  const covers = ({ x, y }: Point) => {
+    const name = { x: x - width / 2, y: y - height / 2, width, height };
+    return room.boxes.reduce((sum, box) => sum + sharedArea(box, name), 0);
+  };
   const places = middles.flatMap((middle) => [middle, ...sidesOf(middle, room.size)]);
   // An arrow that is shorter than its name has room behind its begin.
   places.push(...cornersOf(begin, room.size));
-  return places.find(isFree) ?? longest;
+  const areas = places.map(covers);
+  return places[areas.indexOf(Math.min(...areas))] ?? longest;
+}
+
+function sharedArea(a: Box, b: Box): number {
+  const across = Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x);
+  const down = Math.min(a.y + a.height, b.y + b.height) - Math.max(a.y, b.y);
+  return Math.max(0, across) * Math.max(0, down);
 }
 
 const kBeside = 6;

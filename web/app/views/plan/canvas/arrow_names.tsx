@@ -43,6 +43,6 @@ function sizeOf(name: string, scale: number): { width: number; height: number } 
   return { width: (name.length * kLetter + kPadding) * scale, height: kHeight * scale };
 }
 
-const kLetter = 7;
+const kLetter = 6.2;
 const kPadding = 14;
 const kHeight = 20;

@@ -164,7 +164,7 @@ void Peer::lost() {
 }
 
 void Peer::tick() {
-    // Who is away may be told to stop all the same, and whoever asked that is answered, too.
+    // A node that is away can be told to stop all the same, and the caller gets its answer.
     if (!view_.connected) return control_.tick();
     if (view_.protocol >= kListedSince && out_.now - last_seen_ >= kSilenceMax) {
         leave("is disconnected: it was silent for " +

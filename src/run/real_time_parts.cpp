@@ -258,8 +258,8 @@ ActorContext::Woken LiveContext::wait_kept(Duration at_most) {
     return {.stop = false, .event = kept_.take()};
 }
 
-// Until the time, `ready`, or Stop. By the run's clock, which stands while the run is paused: what
-// is left of a wait stays.
+// Until the time, `ready`, or Stop. By the run's clock, which is stopped while the run is paused:
+// what is left of a wait stays.
 void LiveContext::wait_for(std::unique_lock<std::mutex>& lock, Duration at_most,
                            const std::function<bool()>& ready) {
     const Time end = clock_.now() + std::clamp(at_most, Duration{0}, kFar);

@@ -53,7 +53,7 @@ void SimSession::reload(const std::string& path, std::string_view text) {
     }
 }
 
-// Asked at each instant: who was missing last is looked at first.
+// Called at each instant: the node that was missing last is looked at first.
 bool SimSession::all_described() {
     for (size_t looked_at = 0; looked_at < nodes_.size(); looked_at++) {
         const debug::NodeView* view = network_.node(nodes_[undescribed_].id);

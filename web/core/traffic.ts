@@ -1,4 +1,4 @@
-// The picture of the network: who is where around the bus, who talks to whom, how much.
+// The picture of the network: where each node is around the bus, which talks to which, and how much.
 
 import type { Node, NodeId, Traffic } from '../protocol/messages';
 

@@ -185,14 +185,14 @@ constexpr ControlVerb kControlVerbs[] = {
     {debug::Control::Kind::Run, "run", "lets nodes run, or go on from a breakpoint",
      "Example:\n  vagus net tcp:127.0.0.1:33333 run all"},
     {debug::Control::Kind::Pause, "pause", "stops nodes where they are",
-     "Other nodes of the robot that move are paused too, and made safe; `run all` goes on.\n"
+     "Other nodes of the robot that move are paused too, and made safe; `run all` continues.\n"
      "Example:\n  vagus net tcp:127.0.0.1:33333 pause thymio-II"},
     {debug::Control::Kind::Step, "step", "lets a paused node execute one line",
      "Without --project one instruction: lines are known from the script only.\n"
      "Example:\n  vagus net tcp:127.0.0.1:33333 step thymio-II --project explore.aesl"},
     {debug::Control::Kind::Reset, "reset",
      "restarts the programs of nodes, paused before the first line",
-     "Variables keep their values. `run` goes on. Other nodes of the robot that move are paused.\n"
+     "Variables keep their values. `run` continues. Other nodes of the robot that move are paused.\n"
      "Example:\n  vagus net tcp:127.0.0.1:33333 reset "
      "all"},
     {debug::Control::Kind::Stop, "stop",

@@ -162,7 +162,7 @@ TEST_F(ScanTest, AProjectWithAnOddNameIsNotSent) {
     EXPECT_THAT(refused.error().what, HasSubstr("parts #2: a name has an odd character"));
 }
 
-// A project inside another one may name what stands beside it.
+// A project inside another one may name files beside it.
 TEST_F(ScanTest, AFileOfAnOddNameThatIsNamedIsNotLeftOut) {
     std::ofstream(root / "vagus.json") << R"({"format":"vagus-project/1","name":"p"})";
     std::ofstream(root / "inner/vagus.json")

@@ -262,7 +262,7 @@ TEST_F(Border, EveryFieldOfEveryCommandIsChecked) {
     EXPECT_EQ(closed, 0);
 }
 
-// Change, JsonStep, DocVersion, DeployFile and what else stands inside of a command.
+// Change, JsonStep, DocVersion, DeployFile and what else is nested in a command.
 TEST_F(Border, EveryMemberOfWhatIsNestedIsChecked) {
     const Protocol& protocol = Protocol::get();
     std::set<std::string> nested;  // names of types that were tried

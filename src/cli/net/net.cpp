@@ -192,7 +192,8 @@ constexpr ControlVerb kControlVerbs[] = {
      "Example:\n  vagus net tcp:127.0.0.1:33333 step thymio-II --project explore.aesl"},
     {debug::Control::Kind::Reset, "reset",
      "restarts the programs of nodes, paused before the first line",
-     "Variables keep their values. `run` continues. Other nodes of the robot that move are paused.\n"
+     "Variables keep their values. `run` continues. Other nodes of the robot that move are "
+     "paused.\n"
      "Example:\n  vagus net tcp:127.0.0.1:33333 reset "
      "all"},
     {debug::Control::Kind::Stop, "stop",

@@ -220,7 +220,7 @@ def environment(words):
 
 def wait_node(page):
     people = page.watch("robot", rate=20)
-    wait_until("the node never told what it is", lambda: any(one["described"] for one in people.value["nodes"]))
+    wait_until("the node never told what it is", lambda: people.value and any(one["described"] for one in people.value["nodes"]))
 
 
 def measure_studio(rounds, folder, port):

@@ -120,6 +120,17 @@ Result<RequestId> Control::load(const aesl::Program& program, AfterLoad then) {
     return enqueue(std::move(request));
 }
 
+bool Control::stay_after_load() {
+    if (active(Kind::Load) && !uploading()) finish({});
+    bool stays = false;
+    for (Request& request : requests_) {
+        if (request.kind != Kind::Load) continue;
+        request.then = AfterLoad::Stay;
+        stays = true;
+    }
+    return stays;
+}
+
 Result<RequestId> Control::enqueue(Request request) {
     if (requests_.size() >= kRequestsMax) {
         return Error{Code::Limit, who() + " has " + std::to_string(kRequestsMax) +
@@ -427,6 +438,15 @@ void Control::foreign_bytecode(const wire::SetBytecode& words) {
     }
     if (same) return;  // our own, come back from the switch
     lose_program();
+}
+
+// A switch drops the words that wait behind a Stop, and the answer to that Stop looks like the one
+// to words of a program without code before the first handler: nobody knows what the node has now.
+void Control::foreign_stop() {
+    if (!active(Kind::Load)) return;
+    finish({Error{Code::Refused, who() + " was stopped by another program while its script was "
+                                         "loaded: load it again"},
+            ""});
 }
 
 // ---- the connection ----

@@ -25,6 +25,9 @@ public:
     // Before all that was asked, which is cancelled: Stop, Pause.
     RequestId at_once(Kind kind);
     Result<RequestId> load(const aesl::Program& program, AfterLoad then);
+    // What is being loaded, or waits for that, is not let run then. False: nothing is, or it was
+    // told to run already; it counts as loaded.
+    bool stay_after_load();
     void forget_program();
     void adopt(const aesl::Program& program);
     Result<RequestId> set_breakpoint(int line, std::string_view condition,
@@ -46,6 +49,8 @@ public:
     void returned_with(uint32_t mark);
     // Another host sent words of a program to this node.
     void foreign_bytecode(const wire::SetBytecode& words);
+    // Another host stopped it.
+    void foreign_stop();
 
     // ---- the condition of the breakpoint at which the node is paused ----
     // Its variables are wanted; nullptr if none are. Cleared by condition_read().

@@ -88,6 +88,45 @@ TEST_F(Program, IsNotLoadedByTheAnswerToAnEarlierStop) {
     EXPECT_FALSE(bus.network.node(1)->program.has_value());
 }
 
+// A switch drops the words that wait behind a Stop, and without code before the first handler the
+// answer to that Stop looks like theirs.
+TEST_F(Program, ThatAnotherHostStopsWhileItIsLoadedIsNotLoaded) {
+    aesl::Program program = two_lines();
+    program.bytecode = {0x0001, 0x0000};  // no handlers
+    program.lines = {0, 0};
+    const RequestId load = bus.network.load(1, program).value();
+    bus.forget();
+    bus.node_says(kStop);
+    bus.state(1, 0, 2);
+    EXPECT_EQ(bus.sent(), Dumps{});
+    const auto loads = bus.told<RequestDone>();
+    ASSERT_EQ(loads.size(), 1u);
+    EXPECT_EQ(loads[0].request, load);
+    EXPECT_EQ(loads[0].error->what,
+              "node 1 \"robot\" was stopped by another program while its script was loaded: load "
+              "it again");
+    EXPECT_FALSE(bus.network.node(1)->program.has_value());
+}
+
+TEST_F(Program, OneThatIsBeingLoadedCanBeKeptFromRunning) {
+    const RequestId load = bus.network.load(1, two_lines()).value();
+    EXPECT_TRUE(bus.network.stay_after_load(1));
+    bus.forget();
+    bus.state(1, 3, 3);
+    EXPECT_EQ(bus.sent(), Dumps{kClearAll});
+    EXPECT_EQ(error_of(bus, load), "");
+    EXPECT_FALSE(bus.network.stay_after_load(1));
+    EXPECT_FALSE(bus.network.stay_after_load(2));  // nobody
+}
+
+TEST_F(Program, OneThatWasToldToRunCountsAsLoaded) {
+    const RequestId load = bus.network.load(1, two_lines()).value();
+    bus.state(1, 3, 3);
+    EXPECT_FALSE(bus.network.stay_after_load(1));
+    EXPECT_EQ(error_of(bus, load), "");
+    EXPECT_TRUE(bus.network.node(1)->program.has_value());
+}
+
 TEST_F(Program, LargerThanAFragmentGoesInPiecesOf256Words) {
     aesl::Program program;
     program.bytecode.assign(600, 0);

@@ -430,6 +430,10 @@ std::optional<RequestId> Network::stop_now(NodeId id) {
 std::optional<RequestId> Network::pause_now(NodeId id) {
     return impl_->at_once<wire::Pause>(id, Control::Kind::Pause);
 }
+bool Network::stay_after_load(NodeId id) {
+    Peer* const known = impl_->peer(id);
+    return known && known->control().stay_after_load();
+}
 Result<RequestId> Network::reset(NodeId id) {
     return TRY(usable(id))->control().ask(Control::Kind::Reset);
 }

@@ -159,6 +159,9 @@ public:
     // and runs it unless it is to stay as SetBytecode leaves it: paused before its first line.
     Result<RequestId> load(NodeId id, const aesl::Program& program,
                            AfterLoad then = AfterLoad::Run);
+    // What is being loaded there, or waits for that, is not let run then, as somebody has to brake.
+    // False: nothing is, or it was told to run already and counts as loaded.
+    bool stay_after_load(NodeId id);
     // The node has this program already, as another host or its flash loaded it: gives names,
     // lines, breakpoints.
     Status adopt(NodeId id, const aesl::Program& program);

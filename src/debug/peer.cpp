@@ -139,6 +139,7 @@ void Peer::foreign_command(const wire::Frame& frame) {
         if (forget_told_program()) out_.tell(view_.id, ProgramUntold{});
         with<wire::SetBytecode>(frame, [this](const auto& m) { control_.foreign_bytecode(m); });
     }
+    if (frame.type == static_cast<uint16_t>(wire::MessageType::Stop)) control_.foreign_stop();
     if (frame.type == static_cast<uint16_t>(wire::MessageType::GetNodeDescriptionFragment)) {
         describer_.foreign_fragment(out_);
     }

@@ -283,6 +283,11 @@ void Life::nodes_have_scripts() {
     }
     if (starting_->what == What::World || starting_->what == What::Plan) return world_is_ready();
     if (starting_->what == What::Scripts) act(CountStart{});
+    // A script has come to a breakpoint, or to its end by a fault, as it was loaded: its robot
+    // brakes, until somebody lets it go.
+    if (starting_->what == What::Scripts && target_ == Target::Bus && halted_) {
+        return finish_start(State::Paused);
+    }
     if (starting_->what == What::GoOn && target_ == Target::Bus) {
         act(ContinueRun{});
         act(LetNodesGo{starting_->number, true});

@@ -86,6 +86,20 @@ TEST(Life, APlanOnABusBeginsWithARobotThatIsKnownToBeAtRest) {
     EXPECT_EQ(bench.take(Start{bench.call(), true}), "load ");  // it is known now
 }
 
+// One that faults in its first lines, or has a breakpoint there, brakes its robot.
+TEST(Life, ScriptsOfABusThatHaltAsTheyAreLoadedAreLetGoByTheNextStart) {
+    Bench bench;
+    bench.take(Joined{});
+    const CallNumber call = bench.call();
+    EXPECT_EQ(bench.take(Start{call}), "stop-nodes ");
+    EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "load ");
+    EXPECT_EQ(bench.take(Halted{}), "");
+    EXPECT_EQ(bench.take(Loaded{bench.load}), "count answer ");
+    EXPECT_EQ(bench.life.state(), State::Paused);
+    EXPECT_EQ(bench.take(Start{bench.call()}), "load ");
+    EXPECT_EQ(bench.take(Loaded{bench.load}), "count let-go ");
+}
+
 // ---- ending ----
 
 TEST(Life, OnABusNothingIsWaitedForBeforeTheNodesAreTold) {

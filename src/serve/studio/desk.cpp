@@ -124,9 +124,10 @@ bool Desk::is_stop(const WebEvent& event) const {
 void Desk::on_stop_asked(const StopAsked& asked) {
     const auto found = commands_.find("stop");
     if (found != commands_.end()) {
-        const Call call(Json::object(), 0, [this](const Call::Outcome& outcome) {
+        const auto answered = [this](const Call::Outcome& outcome) {
             if (const auto* problem = std::get_if<Problem>(&outcome)) log("stop: " + problem->what);
-        });
+        };
+        const Call call(Json::object(), 0, answered, "POST /stop from " + asked.address);
         if (const auto thrown = thrown_by([&] { found->second(call); })) log("stop: " + *thrown);
     }
     log(asked.address + ": POST /stop");

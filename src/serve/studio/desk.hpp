@@ -38,8 +38,12 @@ constexpr double kUntilAheadMax = 1000;    // ms by which a page may take our cl
 class Call {
 public:
     using Outcome = std::variant<Json, Problem>;
-    Call(Json its_in, uint32_t its_member, std::function<void(Outcome)> answer)
-        : in(std::move(its_in)), member(its_member), answer_(std::move(answer)) {}
+    Call(Json its_in, uint32_t its_member, std::function<void(Outcome)> answer,
+         std::string its_way = {})
+        : in(std::move(its_in)),
+          member(its_member),
+          way(std::move(its_way)),
+          answer_(std::move(answer)) {}
 
     // Exactly one of these, once.
     void done(Json out = Json::object()) const { answer_(std::move(out)); }
@@ -53,6 +57,7 @@ public:
 
     const Json in;
     const uint32_t member;  // who asks
+    const std::string way;  // how, without a page: "POST /stop from 127.0.0.1"
 
 private:
     std::function<void(Outcome)> answer_;

@@ -93,22 +93,19 @@ void Target::brake(uint16_t cause) {
     desk_.topics().touch("robot");
 }
 
-// One that is being loaded is paused behind that: half a program helps nobody.
+// One that somebody else has to let run again is left to him. One that is being loaded stands until
+// then: it gets the rest of its program, since half of one helps nobody, and is not let run.
 void Target::brake_one(uint16_t node) {
-    if (brake_causes_.contains(node) || braked_.contains(node)) return;
+    if (braked_.contains(node)) return;
     Known& known = known_[node];
-    const bool starting = known.busy == "starting";
     const bool loading = known.busy == "loading";
     const bool running = network_->node(node)->state == debug::ProgramState::Running;
-    if (!starting && !loading && !running) return;
+    const bool left = brake_causes_.contains(node) && !known.busy.empty() && !loading;
+    if (left || (known.busy != "starting" && !loading && !running)) return;
     braked_.insert(node);
     known.why = "robot";
-    if (loading) {
-        const auto asked = network_->pause(node);
-        if (asked.ok()) known.braking = asked.value();
-    } else {
-        known.braking = network_->pause_now(node);
-    }
+    if (loading && network_->stay_after_load(node)) return;
+    known.braking = network_->pause_now(node);
 }
 
 // A node that moves gets its pause before everything else: what makes it safe is behind that, for

@@ -27,6 +27,23 @@ struct BrakeTest : TargetTest {
         const auto pause = std::find(types.begin(), types.end(), Type::Pause);
         EXPECT_NE(std::find(pause, types.end(), Type::SetVariables), types.end());
     }
+    void expect_at_rest() {
+        EXPECT_FALSE(runs(kDrive));
+        EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);
+    }
+    void bumper_faults() {
+        wire::DivisionByZero fault{};
+        fault.pc = 5;
+        wire::Frame frame;
+        ASSERT_EQ(wire::encode_message(fault, kBumper, frame), wire::Error::None);
+        bus.others_say(frame);
+        pass(100ms);
+    }
+    void begin(const char* command, const Json& in) {
+        const double until = static_cast<double>(now.count()) / 1000 + 3000;
+        const Json message = {{"id", 1000}, {"do", command}, {"in", in}, {"until", until}};
+        desk.hear(ClientText{{1}, message.dump()}, now);
+    }
     void rest() {
         report.reset();
         target.make_safe([this](const StopReport& it) { report = it; });
@@ -93,13 +110,51 @@ TEST_F(BrakeTest, PauseStopAndResetOfANodeStopTheWheels) {
 
 TEST_F(BrakeTest, AFaultOfANodeStopsTheWheels) {
     run();
-    wire::DivisionByZero fault{};
-    fault.pc = 5;
-    wire::Frame frame;
-    ASSERT_EQ(wire::encode_message(fault, kBumper, frame), wire::Error::None);
-    bus.others_say(frame);
-    pass(100ms);
+    bumper_faults();
     expect_braked();
+}
+
+TEST_F(BrakeTest, OneThatIsLoadedWhileAnotherFaultsIsNotLetRun) {
+    run();
+    bus.mute(kDrive);
+    begin("node.load", {{"node", kDrive}});
+    pass(100ms);
+    bumper_faults();
+    bus.mute(kDrive, false);
+    pass(2s);
+    EXPECT_EQ(count_sent(kDrive, Type::SetBytecode), 1u);
+    EXPECT_EQ(count_sent(kDrive, Type::Run), 0u);
+    expect_at_rest();
+    ask("node.run", {{"node", kBumper}});
+    pass(200ms);
+    EXPECT_TRUE(runs(kDrive));
+}
+
+TEST_F(BrakeTest, WhatMovesIsLetRunWhenTheLastOneIsLoaded) {
+    connect();
+    bus.mute(kBumper);
+    target.load_changed(true, [](auto) {});
+    pass(500ms);
+    EXPECT_GE(count_sent(kDrive, Type::SetBytecode), 1u);
+    expect_at_rest();
+    bus.mute(kBumper, false);
+    pass(2s);
+    EXPECT_TRUE(runs(kBumper));
+    EXPECT_TRUE(runs(kDrive));
+}
+
+// It ran for so long that its load was answered.
+TEST_F(BrakeTest, OneThatFaultsInItsFirstLinesKeepsTheWheelsAtRest) {
+    connect();
+    bus.mute(kDrive);
+    target.load_changed(true, [](auto) {});
+    pass(500ms);
+    EXPECT_TRUE(runs(kBumper));
+    bumper_faults();
+    bus.mute(kDrive, false);
+    pass(2s);
+    EXPECT_GE(count_sent(kDrive, Type::SetBytecode), 1u);
+    expect_at_rest();
 }
 
 TEST_F(BrakeTest, TheLossOfANodeStopsTheWheelsUntilRun) {

@@ -58,11 +58,12 @@ void Target::hear(const debug::Event& event, const debug::StateChanged& state) {
            paused ? fmt::format("line {}", state.at.line) : "");
 }
 
-// Another program on the bus may have paused it, too.
+// Another program on the bus may have paused it, too. What is loaded was told to stand.
 void Target::note_state(uint16_t node, debug::ProgramState state) {
     Known& known = known_[node];
     const bool ran = std::exchange(known.runs, state == debug::ProgramState::Running);
-    if (ran && !known.runs && !known.stopped && !known.braking) brake(node);
+    const bool told = known.stopped || known.braking || known.busy == "loading";
+    if (ran && !known.runs && !told) brake(node);
 }
 
 void Target::hear(const debug::Event& event, const debug::Fault& fault) {

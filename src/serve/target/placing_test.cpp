@@ -100,11 +100,13 @@ TEST_F(PlacingTest, AConditionThatDoesNotParseIsRefusedWhereItIsTyped) {
 // The next event is begun behind the fault, and waits at its first line.
 TEST_F(PlacingTest, AFaultIsShownAtItsLine) {
     type("var n\nonevent tick\n  n = 0\n  n = 5 / n\n");
-    run();
-    pass(300ms);
+    connect();
+    target.load_changed(true, [](auto) {});
+    pass(800ms);
     const Json node = node_document(kBumper);
     EXPECT_EQ(node["why"], "fault");
     EXPECT_EQ(node["at"]["line"], 4);
+    EXPECT_EQ(bus.word(kDrive, "wheel.target"), 0);  // it was never let run
 }
 
 // Else the clock of a simulation runs on, and the page says Running beside a node that is paused.
@@ -114,8 +116,9 @@ TEST_F(PlacingTest, AFaultPausesTheClockAsABreakpointDoes) {
     hints.stopped_at_breakpoint = [&paused] { ++paused; };
     target.set_hints(hints);
     type("var n\nonevent tick\n  n = 0\n  n = 5 / n\n");
-    run();
-    pass(300ms);
+    connect();
+    target.load_changed(true, [](auto) {});
+    pass(800ms);
     EXPECT_EQ(node_document(kBumper)["why"], "fault");
     EXPECT_EQ(paused, 1);
 }

@@ -250,15 +250,18 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
     }
     start_batch(
         good,
-        [&, run](uint16_t node) -> Result<debug::RequestId> {
+        [&, run, several = good.size() > 1](uint16_t node) -> Result<debug::RequestId> {
             const CompiledScript* script = scripts_.compiled(doc_of(node));
             network_->set_common(script->common);
-            const auto then = run ? debug::AfterLoad::Run : debug::AfterLoad::Stay;
+            // Among several, what moves waits for the last one: until then a reflex is missing.
+            const bool waits = run && several && live() && moves(node);
+            const auto then = run && !waits ? debug::AfterLoad::Run : debug::AfterLoad::Stay;
             auto asked = network_->load(node, script->result.program, then);
             if (!asked.ok()) return asked;
             Known& known = known_[node];
             will_move();
             if (run) stopping_.forget(node);
+            if (waits) braked_.insert(node);
             known.loaded = script->source;
             known.has_program = true;
             known.lost_program = known.in_doubt = known.away = false;
@@ -269,7 +272,7 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
         [this, run, failed = std::move(failed), finish = std::move(finish)](Batch& batch) {
             for (const uint16_t node : batch.done) {
                 happen("loaded", node, name_of(node), "");
-                if (run) release(node);
+                if (run && is_ready(node)) release(node);
             }
             note_failed_loads(batch);
             batch.failed.insert(batch.failed.end(), failed.begin(), failed.end());
@@ -280,10 +283,17 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
         "loading");
 }
 
+// Its first lines may have been its last ones.
+bool Target::is_ready(uint16_t node) const {
+    const debug::NodeView* view = network_ ? network_->node(node) : nullptr;
+    return braked_.contains(node) || (view && view->state == debug::ProgramState::Running);
+}
+
 // What such a node has is neither the old program nor the new one.
 void Target::note_failed_loads(const Batch& batch) {
     for (const auto& [node, why] : batch.failed) {
         known_[node].has_program = false;
+        braked_.erase(node);
         if (network_) network_->forget_program(node);
     }
 }

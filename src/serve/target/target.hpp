@@ -238,6 +238,8 @@ private:
     void finish_batches();
     Result<debug::RequestId> stop(uint16_t node);
     void note_stopped(const Batch& batch);
+    // It runs, or waits only for others.
+    bool is_ready(uint16_t node) const;
     void note_failed_loads(const Batch& batch);
 
     // ---- the link ----

@@ -18,7 +18,7 @@ life::CallNumber Workbench::keep(const Call& call) {
 
 std::string Workbench::who_asks(const Call& call) const {
     const Clients::Member* member = desk_.clients().find(call.member);
-    if (!member) return "the server";
+    if (!member) return call.way.empty() ? kTheServer : call.way;
     return member->name.empty() ? "a page" : member->name;
 }
 

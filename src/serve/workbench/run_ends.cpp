@@ -16,6 +16,7 @@ namespace {
 
 constexpr size_t kByMax = 100;  // bytes, as the protocol has it
 constexpr size_t kMessageMax = 2000;
+constexpr size_t kNamedMax = 8;  // nodes in one sentence
 
 bool is_missing(const StopNode& node) {
     return node.state != StopNode::State::Stopped;
@@ -46,6 +47,18 @@ std::string who_stopped(const life::Cause& cause) {
             break;
     }
     return "stopped by " + cause.by;
+}
+
+// "; at rest: drive (1), bumper (2) and 3 more"
+std::string who_rests(const std::vector<StopNode>& nodes) {
+    std::string text;
+    size_t count = 0;
+    for (const StopNode& node : nodes) {
+        if (is_missing(node) || ++count > kNamedMax) continue;
+        text += fmt::format("{}{} ({})", text.empty() ? "; at rest: " : ", ", node.name, node.node);
+    }
+    if (count > kNamedMax) text += fmt::format(" and {} more", count - kNamedMax);
+    return text;
 }
 
 }  // namespace
@@ -103,6 +116,7 @@ std::string RunEnds::sentence() const {
     std::string text = who_stopped(end.cause);
     if (!end.result.empty()) text += fmt::format("; the plan's result: {}", end.result);
     if (!end.message.empty()) text += fmt::format(" ({})", end.message);
+    text += who_rests(end.nodes);
     for (const StopNode& node : end.nodes) {
         if (!is_missing(node)) continue;
         text += fmt::format("; node {} ({}): {}", node.node, node.name, word_of(node.state));

@@ -1,7 +1,6 @@
 // What people ask of a run, and what its process then is told; the process says what the test says.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include "net/links.hpp"
 #include "serve/json.hpp"
 #include "serve/talk/codec.hpp"
+#include "serve/workbench/test_runner.hpp"
 #include "serve/workbench/workbench.hpp"
 
 namespace vagus::serve {
@@ -28,27 +28,13 @@ constexpr const char* kPlan =
     "\"actors\": { \"wait\": { \"template\": \"Wait\", \"in\": { \"seconds\": 9 }, \"states\": { "
     "\"Done\": \"@terminate\" } } } }\n";
 
-// Without a process behind it: the test holds the other end of its pipe.
-struct ScriptedRunner final : RunProcess {
-    explicit ScriptedRunner(int descriptor) : own(descriptor) {}
-    Pipe& pipe() override { return own; }
-    std::optional<ChildEnd> ended() override { return std::nullopt; }
-    void kill() override {}
-    Pipe own;
-};
-
 class RunningTest : public testing::Test {
 protected:
     RunningTest() {
         desk.hear(ClientOpened{{1}, "127.0.0.1"}, now);
         say("hello", {{"token", kToken}, {"client", "test"}});
     }
-    Result<std::unique_ptr<RunProcess>> start() {
-        int pair[2];
-        EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
-        runner.emplace(pair[1]);
-        return std::unique_ptr<RunProcess>(std::make_unique<ScriptedRunner>(pair[0]));
-    }
+    Result<std::unique_ptr<RunProcess>> start() { return start_scripted(runner); }
     void write(const std::string& path, const std::string& text) const {
         std::ofstream(root / path) << text;
     }

@@ -67,6 +67,8 @@ Status run_studio(const StudioOptions& options, const StudioTalk& talk) {
     const fs::path data = user_data_folder(options.data);
     ServerLoop server;
     TRY(server.open(door_of(options, talk, data), data, talk.log, places_of(options, data)));
+    server.bench().on_end(
+        [&server, &talk](const life::End&) { talk.log(server.bench().end_in_words()); });
     TRY(open_first(options, server));
     tell_address(talk, server.door(), data);
     server.run({});

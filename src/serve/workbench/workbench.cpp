@@ -133,10 +133,11 @@ Json Workbench::studio_document() const {
 void Workbench::declare_project_commands() {
     const auto open_for = [this](const Call& call, const Result<std::string>& path) {
         if (!path.ok()) return call.fail(path.error());
-        const Status opened = open(path.value(), now_, [this, call] {
+        const auto then = [this, call] {
             if (!project_) return call.fail("unavailable", "the project was closed meanwhile");
             call.done({{"path", project_->folder}});
-        });
+        };
+        const Status opened = open(path.value(), now_, then, who_asks(call));
         if (!opened.ok()) call.fail(opened.error());
     };
     desk_.command("project.example", [this, open_for](const Call& call) {
@@ -208,15 +209,15 @@ Json Workbench::list_folder(const std::string& path) const {
             {"entries", std::move(entries)}};
 }
 
-Status Workbench::open(const std::string& path, Time now, std::function<void()> then) {
+Status Workbench::open(const std::string& path, Time now, std::function<void()> then,
+                       const std::string& by) {
     now_ = now;
     OpenedProject project = TRY(open_path(path));
-    leave({"the server", life::Why::Project},
-          [this, project = std::move(project), then = std::move(then)] {
-              forget_project();
-              enter(project);
-              then();
-          });
+    leave({by, life::Why::Project}, [this, project = std::move(project), then = std::move(then)] {
+        forget_project();
+        enter(project);
+        then();
+    });
     return Status::done();
 }
 

@@ -45,6 +45,7 @@ namespace vagus::serve {
 constexpr Duration kWorldFollowsAfter = 150ms;  // the last edit of its file, before a run has begun
 constexpr Duration kPictureEvery = 1s;          // the file of a ground is looked at
 constexpr int kStepMs = 10;                     // of run.step, unless it says otherwise
+constexpr const char* kTheServer = "the server";  // who asks where nobody else does
 
 struct WorkbenchPlaces {
     LibraryPlaces library;
@@ -78,9 +79,10 @@ public:
     ~Workbench();
 
     // Opens what a path names, in place of what is open, as soon as its robot has stopped; what is
-    // unsaved there stays in its journal. The Error says what can be opened.
+    // unsaved there stays in its journal; `by` is who stops it. The Error says what can be opened.
     Status open(
-        const std::string& path, Time now, std::function<void()> then = [] {});
+        const std::string& path, Time now, std::function<void()> then = [] {},
+        const std::string& by = kTheServer);
     // The newest copy of an example, or a fresh one.
     Status open_example(const std::string& id, Time now);
     // At once, the last act of a server.
@@ -114,6 +116,8 @@ public:
     void on_death(std::function<void()> died) { died_ = std::move(died); }
     // A run has ended, however; once for each.
     void on_end(std::function<void(const life::End& end)> ended) { ended_ = std::move(ended); }
+    // The last one: who ended it, how, and which nodes are at rest.
+    std::string end_in_words() const { return ends_.sentence(); }
 
     // If anything runs, or was sent that can move a node: the plan ends, and all nodes stop. Until
     // that is over, or waited for no longer, is_stopping().

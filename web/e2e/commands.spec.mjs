@@ -189,6 +189,31 @@ test('the path of a file is copied', example, async ({ page, layout }) => {
   await copy();
 });
 
+test('a new token sends others away, and this page stays', example, async (studio) => {
+  const { page, button, command, layout, context, server } = studio;
+  await layout('Script');
+  const other = await context.newPage();
+  await other.goto(server.address);
+  await seen(other.getByText(/View only/));
+  await command('New token…');
+  await button('Make a new token').click();
+  const field = page.getByRole('textbox', { name: 'New address' });
+  await seen(field);
+  const address = await field.inputValue();
+  assert.match(address, /#token=[0-9a-f]{32}$/);
+  assert.notEqual(address, server.address);
+  await seen(other.getByText(/^The studio does not let this page in\./));
+  // This one has control still, also when it is loaded again.
+  await button('Close').last().click();
+  await page.reload();
+  await layout('Draw');
+  await seen(page.getByRole('region', { name: /drawn$/ }));
+  await gone(page.getByText(/View only/));
+  await other.goto(address);
+  await other.reload();
+  await seen(other.getByText(/View only/));
+});
+
 test(
   'keys with Alt, and F12, say why they do nothing now',
   example,

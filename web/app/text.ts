@@ -376,7 +376,9 @@ export const text = {
     save: 'Save the trace as a file of the project',
   },
   empty: {
-    properties: 'Select a thing in a world to see and change its properties.',
+    properties: 'Select something in a plan or a world to see and change its properties.',
+    propertiesOfPlan: 'Select an element of the plan to see and change its properties.',
+    propertiesOfWorld: 'Select a thing in the world to see and change its properties.',
     problems: 'No problems.',
     watch: 'Nothing watched. Press + or drag a variable here.',
     breakpoints: 'None. Press F9 at a line of a script or at an element of a plan.',

@@ -637,6 +637,8 @@ export const text = {
     compare: 'Show what changed',
     hide: 'Hide what changed',
     gone: 'The file is gone from disk. Saving writes it again.',
+    onlyHere:
+      'The file went from disk while the studio was not running: only this page has its text. Copy it into another file.',
     failed: 'This text cannot be opened.',
     again: 'Try again',
     condition: 'Stops if',

@@ -39,7 +39,9 @@ export class Desk<View> {
 }
 
 /** One desk for each owner, made when it is first asked for. */
-export function deskFor<Owner extends object, Made>(make: (owner: Owner) => Made): (owner: Owner) => Made {
+export function deskFor<Owner extends object, Made>(
+  make: (owner: Owner) => Made,
+): (owner: Owner) => Made {
   const desks = new WeakMap<Owner, Made>();
   return (owner) => {
     const known = desks.get(owner);

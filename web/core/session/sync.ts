@@ -265,8 +265,7 @@ function isMostlyThere(own: ChangeSet, after: ReturnType<typeof differences>): b
   own.iterChanges((_fromA, _toA, from, to) => {
     inserted += to - from;
     there += to - from;
-    for (const one of after)
-      there -= Math.max(0, Math.min(to, one.to) - Math.max(from, one.from));
+    for (const one of after) there -= Math.max(0, Math.min(to, one.to) - Math.max(from, one.from));
   }, true);
   return there * 2 >= inserted;
 }

@@ -377,6 +377,8 @@ export const text = {
   },
   empty: {
     properties: 'Select something in a plan or a world to see and change its properties.',
+    propertiesOfPlan: 'Select an element of the plan to see and change its properties.',
+    propertiesOfWorld: 'Select a thing in the world to see and change its properties.',
     problems: 'No problems.',
     watch: 'Nothing watched. Press + or drag a variable here.',
     breakpoints: 'None. Press F9 at a line of a script or at an element of a plan.',
@@ -637,6 +639,8 @@ export const text = {
     compare: 'Show what changed',
     hide: 'Hide what changed',
     gone: 'The file is gone from disk. Saving writes it again.',
+    onlyHere:
+      'The file went from disk while the studio was not running: only this page has its text. Copy it into another file.',
     failed: 'This text cannot be opened.',
     again: 'Try again',
     condition: 'Stops if',

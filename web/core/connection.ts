@@ -129,6 +129,11 @@ export class Connection {
     this.token = options.token;
   }
 
+  /** A word for the life of the server that was heard last. */
+  get life(): string {
+    return this.epoch ?? '';
+  }
+
   start(): void {
     this.cancelRetry = null;
     if (this.closed || this.socket) return;

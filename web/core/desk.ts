@@ -39,12 +39,14 @@ export class Desk<View> {
 }
 
 /** One desk for each owner, made when it is first asked for. */
-export function deskFor<Owner extends object, Made>(make: () => Made): (owner: Owner) => Made {
+export function deskFor<Owner extends object, Made>(
+  make: (owner: Owner) => Made,
+): (owner: Owner) => Made {
   const desks = new WeakMap<Owner, Made>();
   return (owner) => {
     const known = desks.get(owner);
     if (known) return known;
-    const made = make();
+    const made = make(owner);
     desks.set(owner, made);
     return made;
   };

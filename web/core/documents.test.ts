@@ -72,6 +72,16 @@ describe('a file that gets another name', () => {
     expect(moved).toEqual([{ from: 'a', to: 'b' }]);
     expect((await documents.acquire('b').opened).session).toBe(session);
   });
+  // What was seen: renamed and back within half a second, each name leads to the other for ever.
+  test('MayHaveItsOldNameAgainAtOnce', async () => {
+    const { documents, enter, tell } = make();
+    const { session } = await enter('a');
+    await tell('a', { moved: 'b' });
+    await tell('b', { moved: 'a' });
+    await tell('a', {});
+    await tell('a', { moved: 'b' });
+    expect((await documents.acquire('b').opened).session).toBe(session);
+  });
   test('TakesThePlaceOfWhatWasOpenUnderItUnlessThatIsUnsent', async () => {
     const { documents, enter } = make();
     await enter('b');

@@ -144,7 +144,7 @@ export class Documents {
     if (entry && !this.entries.has(to)) {
       entry.doc = to;
       this.entries.set(to, entry);
-      this.follow(entry);
+      this.follow(entry, { isNewName: true });
     }
     this.moved.emit({ from, to });
   }
@@ -251,10 +251,12 @@ export class Documents {
     return made;
   }
 
-  private follow(entry: Entry): void {
+  private follow(entry: Entry, { isNewName = false } = {}): void {
     if (entry.unfollow) return;
     const of = { doc: entry.doc };
     entry.unfollow = this.topics.subscribe('doc', of, () => this.told(entry));
+    // What was heard of that name before is older than that the file has it now.
+    if (isNewName && this.topics.get('doc', of)?.moved !== undefined) return;
     this.told(entry);
   }
 

@@ -1,4 +1,5 @@
 import { expect, test } from 'vitest';
+import { kFirstRetryMs } from './connection';
 import { Studio } from './studio';
 import { TestWorld } from './test_world';
 
@@ -15,9 +16,9 @@ async function make() {
   world.welcome();
   const last = (command: string) => world.last.sent.findLast((one) => one.do === command);
   const watch = world.last.sent.find((one) => one.in['topic'] === 'studio')?.in['watch'];
-  const look = (folder: string | null) => {
+  const look = (folder: string | null, driver = 7) => {
     const about = { name: '', help: '', scripts: [], target: '' };
-    const whole = { version: '', driver: 7, driver_name: '', clients: 1, settings: {} };
+    const whole = { version: '', driver, driver_name: '', clients: 1, settings: {} };
     const project = folder === null ? {} : { project: { ...about, folder } };
     world.say({ watch, whole: { ...whole, recovered: [], ...project } });
   };
@@ -56,4 +57,33 @@ test('WhatChangesTextsOnTheServerNamesThemAsTheyAreHere', async () => {
   });
   world.say({ id: last('file.rename')?.id, ok: { followed: [] } });
   await renamed;
+});
+
+// What was seen: a letter that was typed while the page came back to a new server was missing in the text.
+test('APageThatHadControlMayEditWhileItComesBackUntilAnotherHasIt', async () => {
+  const { world, studio, look } = await make();
+  const comeBack = (number: number) => {
+    world.last.events.closed();
+    expect(studio.mayEdit).toBe(true);
+    world.pass(kFirstRetryMs * 2);
+    world.welcome(number, { epoch: `life ${number}` });
+  };
+  comeBack(1);
+  expect([studio.mayEdit, studio.drives]).toEqual([true, false]);
+  look('/one', 0);
+  expect([studio.mayEdit, studio.drives]).toEqual([true, false]);
+  look('/one', 1);
+  expect([studio.mayEdit, studio.drives]).toEqual([true, true]);
+  // Control is released.
+  look('/one', 0);
+  expect(studio.mayEdit).toBe(false);
+  look('/one', 1);
+  // The new server counts from one, too.
+  comeBack(1);
+  look('/one', 0);
+  expect(studio.mayEdit).toBe(true);
+  look('/one', 1);
+  comeBack(2);
+  look('/one', 3);
+  expect(studio.mayEdit).toBe(false);
 });

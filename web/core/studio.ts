@@ -47,6 +47,9 @@ export class Studio {
   private folder: string | null = null;
   /** What the server calls this page, or did when it was last heard. */
   private number: number | null = null;
+  /** It had control before the connection was lost, and nobody has it now: what is typed goes on being typed. */
+  private keepsControl = false;
+  private wasOpen = false;
 
   constructor(
     readonly world: World,
@@ -86,11 +89,15 @@ export class Studio {
     this.hand.failed.on((problem) => this.tell(problem));
     this.registry.failed.on((problem) => this.tell(problem));
     this.topics.subscribe('studio', {}, () => {
+      if (this.topics.get('studio', {})?.driver !== 0) this.keepsControl = false;
       this.lookAtProject();
       if (this.drives) this.documents.tryAgain();
     });
     this.connection.changed.on((link) => {
+      const isOpen = link.state === 'open';
+      if (isOpen && !this.wasOpen) this.keepsControl = this.hasControl;
       if (link.state === 'open') this.number = link.number;
+      this.wasOpen = isOpen;
     });
   }
 
@@ -133,13 +140,17 @@ export class Studio {
 
   /** This page may change things. */
   get drives(): boolean {
-    return answers(this.connection.link) && this.mayEdit;
+    return answers(this.connection.link) && this.hasControl;
   }
 
   /** The same, also while there is no connection: what is typed then is sent when it is back. */
   get mayEdit(): boolean {
     const { state } = this.connection.link;
     if (state !== 'open' && state !== 'lost') return false;
+    return this.keepsControl || this.hasControl;
+  }
+
+  private get hasControl(): boolean {
     return this.number !== null && this.topics.get('studio', {})?.driver === this.number;
   }
 

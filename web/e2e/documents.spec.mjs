@@ -29,6 +29,23 @@ async function typeAtEnd(
   await studio.type(what);
 }
 
+/** The server is killed, and started again at the same address; `meanwhile` is between the two. */
+async function restarted(
+  /** @type {Studio} */ { t, server },
+  /** @type {() => unknown} */ meanwhile = () => {},
+) {
+  const { port } = new URL(server.address);
+  await server.program.stop('SIGKILL');
+  await meanwhile();
+  const words = server.program.child.spawnargs.slice(1);
+  const at = words.indexOf('--port');
+  const again = startProgram(/** @type {TestContext} */ (t), [
+    vagusProgram,
+    ...words.with(at + 1, port),
+  ]);
+  await again.line(/^studio (\S+)$/m);
+}
+
 const plan = {
   prepare: (/** @type {TestContext} */ t) =>
     makeProject(
@@ -42,16 +59,10 @@ const plan = {
 };
 
 test('what is typed while the server is started again is there afterwards', two, async (studio) => {
-  const { server, page } = studio;
+  const { page } = studio;
   await typeAtEnd(studio, 'left', '# before\n');
   await seen(page.getByText('Not saved'));
-  const { port } = new URL(server.address);
-  await server.program.stop('SIGKILL');
-  await studio.type('# meanwhile\n');
-  const words = server.program.child.spawnargs.slice(1);
-  const at = words.indexOf('--port');
-  const again = startProgram(studio.t, [vagusProgram, ...words.with(at + 1, port)]);
-  await again.line(/^studio (\S+)$/m);
+  await restarted(studio, () => studio.type('# meanwhile\n'));
   await until('both are there once', async () => {
     const text = await textOf(studio, 'left');
     return text.split('# before').length === 2 && text.split('# meanwhile').length === 2;
@@ -251,6 +262,18 @@ test('what a person typed comes back after the file was used', two, async (studi
   await studio.editor('left').click();
   await press('Control+z');
   await says(studio, 'left', '# mine');
+});
+
+test('a text that only this page has is said to be', two, async (studio) => {
+  const { page, place } = studio;
+  await typeAtEnd(studio, 'left', '# saved\n');
+  await studio.press('Control+s');
+  await seen(page.getByText('Saved', { exact: true }));
+  await restarted(studio, () => rmSync(join(place, 'two.aesl')));
+  await seen(page.getByText('only this page has its text'));
+  assert.ok((await textOf(studio, 'left')).includes('# saved'));
+  // Complaints about the connection are its own.
+  studio.complaints.length = 0;
 });
 
 test('a file that was deleted is said to be, and saving writes it again', two, async (studio) => {

@@ -90,6 +90,7 @@ test('a plan of two actors is drawn from nothing by the keyboard', empty, async 
   await seen(
     page.getByText('Drag an actor here, or type its name in the palette and press Enter.'),
   );
+  await seen(page.getByText('Select an element of the plan to see and change its properties.'));
   const search = page.getByRole('searchbox', { name: /Search \d+ templates/ });
   await search.fill('Writes a line');
   await press('Enter');

@@ -161,6 +161,21 @@ test('what Live and Edit change is said, once in words', { prepare }, async (stu
   assert.equal(await note.count(), 0);
 });
 
+test('what was done by hand is undone after a reload', { prepare }, async (studio) => {
+  const { page, press } = studio;
+  const world = await live(studio);
+  await world.view.getByRole('button', { name: 'crate' }).click();
+  await world.view.getByRole('application').focus();
+  await press('Delete');
+  await until('no crate', async () => !(await world.names()).includes('crate'));
+  await seen(world.view.getByRole('button', { name: 'Undo', disabled: false }));
+  await page.reload();
+  const again = await live(studio);
+  await seen(again.view.getByText(/1 thing changed in this run/));
+  await again.view.getByRole('button', { name: 'Undo' }).click();
+  await until('the crate', async () => (await again.names()).includes('crate'));
+});
+
 test('trails survive a reload and another view', { prepare }, async (studio) => {
   const { page, press } = studio;
   const world = await live(studio);

@@ -193,6 +193,30 @@ describe('a server that was started again', () => {
     expect(server.text).toBe('Ya-bcX');
     expect(a.session.text).toBe(server.text);
   });
+  test('WhatWasTypedIsNotTakenForArrivedBecauseAsMuchWasDeleted', async () => {
+    const { server, schedule, a } = pair('abcdefgh', 'text');
+    a.cut();
+    a.session.type({ changes: { from: 4, to: 8, insert: 'XY' }, at: 0 });
+    // Shorter by two, so that it is more like any other text; it was never sent.
+    server.restart();
+    server.apply('disk', [{ from: 0, to: 8, text: 'tuvw' }]);
+    a.join();
+    await schedule.advance(100);
+    expect(server.text).toBe('tuvwXY');
+  });
+  test('WhatItTookBeforeCountsOnceAlsoIfTheNewOneRefusesIt', async () => {
+    const { server, schedule, a } = pair('abc', 'text');
+    a.session.type({ changes: { from: 3, insert: 'X' }, at: 0 });
+    // Taken, and the answer lost.
+    await schedule.advance(1);
+    a.cut();
+    server.restart();
+    server.refuses = 1;
+    a.join();
+    await schedule.advance(100);
+    expect(server.text).toBe('abcX');
+    expect(a.session.text).toBe('abcX');
+  });
 });
 
 describe('waits', () => {

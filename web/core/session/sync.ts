@@ -199,11 +199,12 @@ export class FileSync {
     const { session } = this;
     const count = this.sending?.count ?? 0;
     const without = differences(session.confirmed.toString(), text);
-    const sent = composed(session, count).apply(session.confirmed).toString();
+    const own = composed(session, count);
+    const having = differences(own.apply(session.confirmed).toString(), text);
     // Nobody has said whether it took what was under way: the text tells.
-    const isTaken = count > 0 && sizeOf(differences(sent, text)) < sizeOf(without);
+    const isTaken = count > 0 && sizeOf(having) < sizeOf(without) && isMostlyThere(own, having);
     if (isTaken) session.confirm(count);
-    const theirs = isTaken ? differences(sent, text) : without;
+    const theirs = isTaken ? having : without;
     session.receive(ChangeSet.of(theirs, session.confirmed.length));
     this.sending = null;
     this.epoch = opened.epoch;
@@ -213,12 +214,16 @@ export class FileSync {
   private refused(error: unknown): void {
     const problem: Problem =
       error instanceof CommandError ? error.problem : { code: 'failed', what: String(error) };
-    // Without an answer nobody knows whether it was taken: it is asked again under the same name.
-    if (!kInDoubt.has(problem.code)) this.sending = null;
-    if (!kInDoubt.has(problem.code) && !this.hasStartedAgain) {
+    const isInDoubt = kInDoubt.has(problem.code);
+    if (!isInDoubt && !this.hasStartedAgain) {
+      // The server before this one may have taken it, and its answer was lost: the text tells.
       this.hasStartedAgain = true;
       this.startsAgain = true;
-    } else if (this.isLinked) this.problem = problem;
+      return;
+    }
+    // Without an answer nobody knows whether it was taken: it is asked again under the same name.
+    if (!isInDoubt) this.sending = null;
+    if (this.isLinked) this.problem = problem;
     // What was asked may have been a pull: it is asked again when the connection is back.
     else this.isBehind = true;
   }
@@ -248,6 +253,21 @@ function differences(before: string, after: string) {
 
 function sizeOf(changes: ReturnType<typeof differences>): number {
   return changes.reduce((sum, { from, to, insert }) => sum + to - from + insert.length, 0);
+}
+
+/**
+ * At least half of what was inserted is left after those changes. A text that has nothing of it may still be
+ * more like the one with it, if something was deleted as well; it is then inserted, rather than lost.
+ */
+function isMostlyThere(own: ChangeSet, after: ReturnType<typeof differences>): boolean {
+  let inserted = 0;
+  let there = 0;
+  own.iterChanges((_fromA, _toA, from, to) => {
+    inserted += to - from;
+    there += to - from;
+    for (const one of after) there -= Math.max(0, Math.min(to, one.to) - Math.max(from, one.from));
+  }, true);
+  return there * 2 >= inserted;
 }
 
 /** As many changes as fit into a message: more become one, with what lies between them. */

@@ -107,10 +107,10 @@ describe('a hand in a run', () => {
 
   test('InAnotherWorldNothingCanBeUndoneAndAllCanStillBeKept', () => {
     const { hand } = aHand();
-    hand.opened(1);
+    hand.opened('1');
     hand.note(drove);
     hand.note({ is: 'put', number: 3, object: box({ id: '' }) });
-    hand.opened(2);
+    hand.opened('2');
     expect(hand.canUndo).toBe(false);
     expect(hand.isOfThisRun).toBe(false);
     // The number 3 is something else there.
@@ -122,6 +122,36 @@ describe('a hand in a run', () => {
     ]);
     hand.forget();
     expect(hand.changes()).toEqual([]);
+  });
+
+  test('AReloadOfThePageForgetsNothingOfARunThatIsStillThere', async () => {
+    const before = aHand().hand;
+    before.opened('run 1');
+    before.note(drove);
+    before.note({ is: 'put', number: 7, object: box({ id: '' }) });
+    before.note({ is: 'take', number: 7, object: box({ id: '' }) });
+    await before.undo();
+    const { hand, sent } = aHand();
+    hand.restore(before.text());
+    expect(hand.canUndo).toBe(false);
+    // A page that is loaded again before it knew which world there is keeps it, too.
+    expect(hand.text()).toBe(before.text());
+    hand.opened('run 1');
+    expect(hand.changes()).toEqual(before.changes());
+    expect([hand.canUndo, hand.canRedo]).toEqual([true, true]);
+    await hand.undo();
+    await hand.undo();
+    expect(sent).toEqual([
+      ['world.take', { object: 10 }],
+      ['world.move', { robot: 'anna', at: [1, 1], angle: 0 }],
+    ]);
+    const other = aHand().hand;
+    other.restore(before.text());
+    other.opened('run 2');
+    expect([other.canUndo, other.canRedo, other.changes()]).toEqual([false, false, []]);
+    const none = aHand().hand;
+    none.restore(null);
+    expect(none.text()).toBe('');
   });
 
   test('TheOldestDeedsAreForgottenAsUndoAndTheirChangesStay', async () => {

@@ -46,6 +46,16 @@ export interface Kept {
   pose: Pose;
 }
 
+/** What a reload of the page finds again. */
+interface Stored {
+  opening: string;
+  done: Deed[];
+  undone: Deed[];
+  before: readonly Change[];
+  kept: [string, Kept][];
+  keptText: string | null;
+}
+
 type Send = <C extends CommandName>(
   command: C,
   input: Commands[C]['in'],
@@ -63,7 +73,8 @@ export class Hand {
   private before: readonly Change[] = [];
   private readonly kept = new Map<string, Kept>();
   private row: Row | null = null;
-  private opening: number | null = null;
+  private opening: string | null = null;
+  private stored: Stored | null = null;
   private work: Promise<void> = Promise.resolve();
 
   constructor(private readonly send: Send) {}
@@ -117,13 +128,13 @@ export class Hand {
     this.changed.emit();
   }
 
-  /** The world that is there was opened so many times: in another one nothing can be undone. */
-  opened(opening: number): void {
+  /** A word for the world that is there: in another one nothing can be undone. */
+  opened(opening: string): void {
     if (opening === this.opening) return;
     const first = this.opening === null;
     const old = this.opening;
     this.opening = opening;
-    if (first) return;
+    if (first) return this.takeStored();
     this.before = this.changes().map((one) =>
       one.robot !== null || one.key.startsWith('before:')
         ? one
@@ -132,6 +143,31 @@ export class Hand {
     this.kept.clear();
     this.keptText = null;
     this.forgetDeeds();
+  }
+
+  /** For restore(), after a reload. */
+  text(): string {
+    if (this.opening === null) return this.stored === null ? '' : JSON.stringify(this.stored);
+    const { opening, done, undone, before, keptText } = this;
+    const stored: Stored = { opening, done, undone, before, kept: [...this.kept], keptText };
+    return JSON.stringify(stored);
+  }
+
+  /** What text() gave counts if the world is then still the one it is about. */
+  restore(text: string | null): void {
+    this.stored = text ? (JSON.parse(text) as Stored) : null;
+  }
+
+  private takeStored(): void {
+    const { stored, opening } = this;
+    this.stored = null;
+    if (stored?.opening !== opening) return;
+    this.done = [...stored.done, ...this.done];
+    this.undone = stored.undone;
+    this.before = stored.before;
+    for (const [key, one] of stored.kept) this.kept.set(key, one);
+    this.keptText = stored.keptText;
+    this.changed.emit();
   }
 
   /** Nobody wants to keep it. */

@@ -53,6 +53,8 @@ export function DiskNotice({ doc }: { doc: Doc }) {
   const [compare, setCompare] = useState<boolean | null>(null);
   const state = useTopic('doc', { doc });
   const problem = useDocuments((documents) => documents.problemOf(doc)?.what);
+  // The server has no version of a text that it does not have.
+  if (state?.gone && state.version === 0) return <Line error>{words.onlyHere}</Line>;
   if (state?.gone) return <Line>{words.gone}</Line>;
   if (!state?.disk) return problem === undefined ? null : <Line error>{problem}</Line>;
   const { disk_hash } = state;

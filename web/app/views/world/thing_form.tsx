@@ -23,7 +23,7 @@ export function ThingForm({ world }: { world: ShownWorld }) {
   useFile(world);
   const thing = model.chosen;
   const entry = file && model.entry !== null ? model.entry : null;
-  if (!file && !thing) return <Quiet>{text.empty.properties}</Quiet>;
+  if (!file && !thing) return <Quiet>{text.empty.propertiesOfWorld}</Quiet>;
   const key = entry ?? thing?.key ?? null;
   // Another thing, another form: what is half typed belongs to the one before.
   return (

@@ -11,6 +11,7 @@ import { stageOfScene } from '../../../core/world/stage';
 import { useDrives, usePart, useStudio, useTopic } from '../../hooks';
 import { useMayAct, usePastTime } from '../../past_hooks';
 import { FileActs } from './file_acts';
+import { keptHand } from './kept_hand';
 import { LiveActs } from './live_acts';
 
 /** Frames a second that are asked for; a slow page gets fewer. */
@@ -35,7 +36,8 @@ export function useLive(model: WorldModel, on: boolean): void {
   const looksBack = usePastTime() !== null;
   useEffect(() => {
     if (!on || !scene) return;
-    if (scene.opening !== undefined) studio.hand.opened(scene.opening);
+    if (scene.opening !== undefined)
+      keptHand(studio).opened(`${studio.connection.life} ${scene.opening}`);
     model.setStage(stageOfScene(scene));
   }, [studio, model, on, scene]);
   useEffect(() => {

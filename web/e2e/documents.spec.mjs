@@ -276,6 +276,30 @@ test('a text that only this page has is said to be', two, async (studio) => {
   studio.complaints.length = 0;
 });
 
+test('a file that was deleted in the tree is saved again after a restart', two, async (studio) => {
+  const { page, press, place } = studio;
+  const path = join(place, 'two.aesl');
+  await typeAtEnd(studio, 'left', '# typed\n');
+  await press('Control+s');
+  await seen(page.getByText('Saved', { exact: true }));
+  await studio.command('Show Project');
+  await page
+    .getByRole('treeitem', { name: /two\.aesl/ })
+    .first()
+    .focus();
+  await press('Delete');
+  await until('it is gone', () => !existsSync(path));
+  await seen(page.getByText('Not on disk', { exact: true }));
+  await restarted(studio);
+  await seen(page.getByText('Not on disk', { exact: true }));
+  await seen(page.getByText('Saving writes it again'));
+  await studio.editor('left').click();
+  await press('Control+s');
+  await until('it is there', () => existsSync(path));
+  assert.ok(readFileSync(path, 'utf8').includes('# typed'));
+  studio.complaints.length = 0;
+});
+
 test('a file that was deleted is said to be, and saving writes it again', two, async (studio) => {
   const { page, press, place } = studio;
   const path = join(place, 'two.aesl');

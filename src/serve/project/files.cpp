@@ -72,18 +72,43 @@ void Files::recover(const std::string& path, File& file, Unsaved unsaved) {
     file.text.take(unsaved.text, "server");
     file.unsaved = unsaved.text != file.saved;
     file.journaled = true;
-    // Somebody took the file away. It is here for whoever still has it open, and for no one after
-    // the next restart.
-    if (file.gone && !file.unsaved) {
-        file.journaled = false;
-        return journal_.forget(path);
+    file.deleted = file.gone && unsaved.deleted;
+    // Deleted, here or by somebody else: it is here for whoever still has it open.
+    if (file.gone && (file.deleted || !file.unsaved)) {
+        file.unclaimed = true;
+        return;
     }
     // The file changed meanwhile: what both did is put together, or both are shown. The journal
     // gets it with the next change: reading a project writes nothing.
-    if (!file.gone && take_disk(file, std::move(disk), CameBack::No)) {
+    const CameBack back = unsaved.deleted ? CameBack::Yes : CameBack::No;
+    if (!file.gone && take_disk(file, std::move(disk), back)) {
         file.unsaved = file.text.bytes() != file.saved;
     }
-    recovered_.push_back(path);
+    if (file.unsaved || file.conflict) return recovered_.push_back(path);
+    file.journaled = false;
+    journal_.forget(path);
+}
+
+// Of a text that was typed and then deleted, the trash has only what was saved.
+bool Files::is_in_trash(const std::string& path, const File& file) const {
+    if (!file.unsaved) return true;
+    const fs::path place = place_in_trash(fs::path(path).filename());
+    return write_file_unsynced(place.string(), file.text.bytes()).ok();
+}
+
+void Files::drop_unclaimed() {
+    for (auto at = files_.begin(); at != files_.end();) {
+        auto& [path, file] = *at;
+        if (file.unclaimed && !file.drop_due) file.drop_due = now_ + kUnclaimedFor;
+        const bool due = file.unclaimed && now_ >= *file.drop_due;
+        if (!due || !is_in_trash(path, file)) {
+            ++at;
+            continue;
+        }
+        journal_.forget(path);
+        first_version_ = std::max(first_version_, file.text.newest_version() + 1);
+        at = files_.erase(at);
+    }
 }
 
 void Files::leave() {
@@ -191,6 +216,19 @@ std::string Files::path_now(const std::string& path) const {
     return now;
 }
 
+// Pages may still know the text that had this name before: what they say of a version of that one
+// is not to fit another text.
+uint32_t Files::first_version_of(const std::string& path) const {
+    uint32_t first = first_version_;
+    auto moved = moved_.find(path);
+    for (size_t steps = 0; steps <= moved_.size() && moved != moved_.end(); ++steps) {
+        const auto text = files_.find(moved->second);
+        if (text != files_.end()) first = std::max(first, text->second.text.newest_version() + 1);
+        moved = moved_.find(moved->second);
+    }
+    return first;
+}
+
 std::optional<std::string> Files::moved_to(const std::string& doc) const {
     const size_t mark = doc.rfind('#');
     const std::string path = doc.substr(0, mark);
@@ -222,7 +260,7 @@ Result<Files::File*> Files::load(const std::string& path) {
     if (malformed_utf8_at(file.saved)) {
         return Error{Code::BadInput, path + ": not a text in UTF-8; the studio cannot edit it"};
     }
-    file.text = OpenText(path, file.saved, first_version_);
+    file.text = OpenText(path, file.saved, first_version_of(path));
     File& kept = files_[path] = std::move(file);
     if (auto unsaved = waiting_.extract(path); !unsaved.empty()) {
         recover(path, kept, std::move(unsaved.mapped()));
@@ -237,6 +275,7 @@ Result<Files::Opened> Files::opened(const std::string& doc) {
         return Error{Code::NotFound,
                      fmt::format("{}: the file has {} scripts", doc, file->text.scripts())};
     }
+    file->unclaimed = false;
     return Opened{place.path, file, place.part};
 }
 
@@ -422,7 +461,13 @@ Status Files::rename(const std::string& path, const std::string& to) {
 }
 
 void Files::move(const std::string& path, const std::string& to, File file) {
-    moved_.erase(to);
+    if (moved_.contains(to)) {
+        const uint32_t first = first_version_of(to);
+        if (first > first_version_) {
+            file.text.begin_again(std::max(first, file.text.newest_version() + 1));
+        }
+        moved_.erase(to);
+    }
     if (moved_.size() >= kMovedMax) moved_.erase(moved_.begin());
     moved_[path] = to;
     file.text.move_to(to);
@@ -498,6 +543,7 @@ void Files::tick(Time now) {
     if (now >= next_disk_) {
         next_disk_ = now + kDiskEvery;
         for (auto& [path, file] : files_) look_at_disk(path, file, Look::IfTouched);
+        drop_unclaimed();
     }
     next_tick_ = next_disk_;
     for (auto& [path, file] : files_) {
@@ -508,13 +554,14 @@ void Files::tick(Time now) {
 
 void Files::write_journal(const std::string& path, File& file) {
     file.journal_due.reset();
-    // What somebody else deleted is on no disk.
-    const bool taken = file.gone && !file.deleted && !file.text.bytes().empty();
+    // It is in an editor, and saving is to make the file again.
+    const bool taken = file.gone && !file.text.bytes().empty();
     if (!file.unsaved && !taken && file.sync == 0) {
         if (std::exchange(file.journaled, false)) journal_.forget(path);
         return journal_is_written(file);
     }
-    const Status written = journal_.write(path, {file.saved, file.text.bytes()});
+    const Status written = journal_.write(
+        path, {.base = file.saved, .text = file.text.bytes(), .deleted = file.deleted});
     if (written.ok()) {
         file.journaled = true;
         journal_fails_ = false;

@@ -32,6 +32,8 @@ using namespace std::chrono_literals;
 
 constexpr Duration kJournalAgain = 1s;  // after the journal could not be written
 constexpr Duration kDiskEvery = 1s;     // changes from outside are looked for
+// A text without a file that nobody asks for after a restart is kept so long: pages come back.
+constexpr Duration kUnclaimedFor = 10min;
 
 struct FileInfo {
     std::string path;
@@ -161,7 +163,9 @@ private:
         std::optional<Conflict> conflict;
         bool unsaved = false;  // the text's bytes are not `saved`
         bool gone = false;
-        bool deleted = false;  // gone, because somebody said so here: `saved` is in the trash
+        bool deleted = false;    // gone, because somebody said so here: `saved` is in the trash
+        bool unclaimed = false;  // of an earlier session; nobody has asked for it in this one
+        std::optional<Time> drop_due;     // if nobody does
         std::optional<Time> journal_due;  // it could not be written
         uint64_t sync = 0;                // number of the wait for the disk; 0: it is there
         bool journaled = false;
@@ -181,6 +185,7 @@ private:
     Status check_open() const;
     Result<Place> place_of(const std::string& doc) const;
     std::string path_now(const std::string& path) const;
+    uint32_t first_version_of(const std::string& path) const;
     Result<File*> load(const std::string& path);
     Result<File*> load_without_file(const std::string& path);
     bool counts_as_file(const std::string& path) const;
@@ -189,6 +194,8 @@ private:
     Result<Opened> opened(const std::string& doc);
     DocumentState state_of(const Opened& opened) const;
     void recover(const std::string& path, File& file, Unsaved unsaved);
+    bool is_in_trash(const std::string& path, const File& file) const;
+    void drop_unclaimed();
 
     // The text or what is on disk is another one: the journal follows, and who listens.
     void changed(const std::string& path, File& file);

@@ -23,6 +23,7 @@ constexpr size_t kEntriesMax = 2000;
 //     whole - 12 9ae16a3b2f90404f       no file, 12 bytes of text
 //     whole 10 12 9ae16a3b2f90404f      10 bytes of the file, then the text
 //     change 3 5 7 9ae16a3b2f90404f     bytes 3 to 5 of the text become these 7
+//     deleted 9ae16a3b2f90404f          the file is in the trash
 std::string record(const std::string& words, std::string_view bytes) {
     return fmt::format("{} {:016x}\n{}", words, hash_of(words + std::string(bytes)), bytes);
 }
@@ -53,7 +54,7 @@ public:
     // Whether there is a sound text at all.
     bool read(Unsaved& unsaved) {
         if (!read_line() || !read_whole(unsaved)) return false;
-        while (read_line() && read_change(unsaved)) {
+        while (read_line() && (read_change(unsaved) || read_deleted(unsaved))) {
         }
         return true;
     }
@@ -107,6 +108,13 @@ private:
         if (!found) return false;
         unsaved.text.replace(*from, *to - *from, *found);
         pass(*size);
+        return true;
+    }
+
+    bool read_deleted(Unsaved& unsaved) {
+        if (words_.size() != 2 || words_[0] != "deleted" || !bytes(0)) return false;
+        unsaved.deleted = true;
+        pass(0);
         return true;
     }
 
@@ -201,6 +209,7 @@ Status Journal::write(const std::string& path, const Unsaved& unsaved) {
     // Another length: another studio has the folder open, too, or somebody took the file away.
     std::error_code gone;
     const bool goes_on = !entry.file.empty() && !too_long && entry.unsaved.base == unsaved.base &&
+                         entry.unsaved.deleted == unsaved.deleted &&
                          fs::file_size(entry.file, gone) == entry.bytes;
     return goes_on ? append(entry, unsaved) : begin(path, entry, unsaved);
 }
@@ -211,8 +220,9 @@ Status Journal::begin(const std::string& path, Entry& entry, const Unsaved& unsa
     const std::string base = unsaved.base.value_or("");
     const std::string size = unsaved.base ? std::to_string(base.size()) : "-";
     const std::string words = fmt::format("whole {} {}", size, unsaved.text.size());
+    const std::string deleted = unsaved.deleted ? record("deleted", "") : "";
     const std::string content =
-        fmt::format("{}{}\n{}", kMark, path, record(words, base + unsaved.text));
+        fmt::format("{}{}\n{}{}", kMark, path, record(words, base + unsaved.text), deleted);
     const auto file_of = [&](uint64_t number) {
         return (folder_ / fmt::format("{:016x}.{}", hash_of(path), number)).string();
     };

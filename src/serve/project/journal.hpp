@@ -26,6 +26,7 @@ struct Unsaved {
     std::string text;
     // Of the file, where it is not kept itself (an entry of a studio before this one).
     std::optional<uint64_t> base_hash = {};
+    bool deleted = false;  // somebody said so here: it is no file, and is to be none
 };
 
 // FNV-1a, 64 bit: whether a file is the one that it was, not against anybody who means harm.

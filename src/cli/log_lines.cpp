@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <utility>
 
 #include "base/text.hpp"
@@ -24,9 +25,17 @@ int opened_again(int descriptor) {
     return ::open(name.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
 }
 
+// The whole lines at its beginning that have room in `room` bytes.
+std::string_view lines_that_fit(std::string_view lines, size_t room) {
+    if (lines.size() <= room) return lines;
+    const size_t end = lines.substr(0, room).rfind('\n');
+    return end == lines.npos ? std::string_view{} : lines.substr(0, end + 1);
+}
+
 }  // namespace
 
-LogLines::LogLines(int descriptor) : descriptor_(descriptor) {
+LogLines::LogLines(int descriptor, Duration patience)
+    : descriptor_(descriptor), patience_(patience) {
     struct stat file = {};
     if (::fstat(descriptor, &file) == 0) {
         socket_ = S_ISSOCK(file.st_mode);
@@ -44,17 +53,31 @@ LogLines::~LogLines() {
     if (own_) ::close(descriptor_);
 }
 
-void LogLines::add(std::string_view lines) {
+bool LogLines::add(std::string_view lines) {
     const std::string visible = visible_lines(lines);
-    {
-        const std::lock_guard lock(mutex_);
-        if (waiting_.size() + visible.size() > kLogBytesMax) {
-            left_out_ += static_cast<size_t>(std::count(visible.begin(), visible.end(), '\n'));
-            return;
+    std::string_view rest = visible;
+    std::unique_lock lock(mutex_);
+    while (!rest.empty() && !nobody_there_) {
+        const std::string_view piece = lines_that_fit(rest, kLogBytesMax - waiting_.size());
+        // Behind lines that were left out there are none until it is said how many those were.
+        if (left_out_ == 0 && !piece.empty()) {
+            waiting_ += piece;
+            rest.remove_prefix(piece.size());
+            posted_.notify_one();
+        } else if (left_out_ == 0 && !waited_ && patience_ > Duration{} && !waiting_.empty()) {
+            make_room(lock);
+        } else {
+            left_out_ += static_cast<size_t>(std::count(rest.begin(), rest.end(), '\n'));
+            break;
         }
-        waiting_ += visible;
     }
-    posted_.notify_one();
+    return !nobody_there_;
+}
+
+// Waits until the thread has taken what waits, or patience is over.
+void LogLines::make_room(std::unique_lock<std::mutex>& lock) {
+    const auto has_room = [this] { return waiting_.empty() || nobody_there_; };
+    waited_ = !taken_.wait_for(lock, patience_, has_room);
 }
 
 void LogLines::complain(std::string_view sentence) {
@@ -62,38 +85,56 @@ void LogLines::complain(std::string_view sentence) {
 }
 
 void LogLines::run(const std::stop_token& stop) {
-    for (bool taken = true; taken;) {
+    for (Wrote wrote = Wrote::All; wrote == Wrote::All;) {
         std::string lines;
         {
             std::unique_lock lock(mutex_);
-            if (!posted_.wait(lock, stop, [this] { return !waiting_.empty(); })) return;
+            const auto is_posted = [this] { return !waiting_.empty() || left_out_ > 0; };
+            if (!posted_.wait(lock, stop, is_posted)) return;
             lines = std::exchange(waiting_, {});
             if (const size_t left_out = std::exchange(left_out_, 0); left_out > 0) {
                 lines += fmt::format("vagus: {} lines were left out here\n", left_out);
             }
+            waited_ = false;
         }
-        taken = write(lines, stop);
+        taken_.notify_all();
+        wrote = write(lines, stop);
+        if (wrote != Wrote::NobodyIsThere) continue;
+        const std::lock_guard lock(mutex_);
+        nobody_there_ = true;
+        taken_.notify_all();
     }
 }
 
-// False: it is the end, and nobody has taken it. Where nobody is any more, lines are lost.
-bool LogLines::write(std::string_view bytes, const std::stop_token& stop) const {
+LogLines::Wrote LogLines::write(std::string_view bytes, const std::stop_token& stop) const {
     int looks = kLastLooks;
     while (!bytes.empty()) {
+        // Where a write could wait, it is small enough for the room that poll() has seen.
+        const bool may_wait = !own_ && !socket_;
+        if (may_wait && !looks_again(looks, stop)) return Wrote::NobodyTakesIt;
+        const size_t size = may_wait ? std::min<size_t>(bytes.size(), PIPE_BUF) : bytes.size();
         const ssize_t wrote =
-            socket_ ? ::send(descriptor_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL)
-                    : ::write(descriptor_, bytes.data(), bytes.size());
+            socket_ ? ::send(descriptor_, bytes.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL)
+                    : ::write(descriptor_, bytes.data(), size);
         if (wrote >= 0) {
             bytes.remove_prefix(static_cast<size_t>(wrote));
-            continue;
+            looks = kLastLooks;
+        } else if (errno != EINTR) {
+            if (errno != EAGAIN) return Wrote::NobodyIsThere;
+            if (!looks_again(looks, stop)) return Wrote::NobodyTakesIt;
         }
-        if (errno == EINTR) continue;
-        if (errno != EAGAIN) return true;
-        if (stop.stop_requested() && looks-- == 0) return false;
-        pollfd ready{descriptor_, POLLOUT, 0};
-        ::poll(&ready, 1, kLookMs);
     }
-    return true;
+    return Wrote::All;
+}
+
+// Until there is room. False: it is the end, and nobody makes some.
+bool LogLines::looks_again(int& looks, const std::stop_token& stop) const {
+    for (;;) {
+        pollfd room{descriptor_, POLLOUT, 0};
+        const bool found = ::poll(&room, 1, kLookMs) > 0;
+        if (stop.stop_requested() && looks-- == 0) return false;
+        if (found) return true;
+    }
 }
 
 }  // namespace vagus::cli

@@ -1,6 +1,6 @@
-// Lines on stderr from a process that must not wait for their reader: a terminal that is held
-// (Ctrl+S), a pipe that nobody reads, a journal that is frozen. A thread of its own writes them;
-// what does not fit is dropped, and it is said how many lines that were.
+// Lines on stderr or stdout from a process that must not wait for their reader: a terminal that is
+// held (Ctrl+S), a pipe that nobody reads, a journal that is frozen. A thread of its own writes
+// them; what does not fit is left out, and it is said there how many lines that were.
 //
 //     LogLines log;
 //     log.complain("127.0.0.1: a wrong token");       // returns at once
@@ -8,11 +8,14 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <thread>
+
+#include "base/time.hpp"
 
 namespace vagus::cli {
 
@@ -23,29 +26,39 @@ constexpr int kLookMs = 50;
 
 class LogLines {
 public:
-    // The descriptor is borrowed; others may write to it, too.
-    explicit LogLines(int descriptor = 2);
+    // The descriptor is borrowed; others may write to it, too. Where lines do not fit, a reader
+    // that reads has so much `patience` to make room; one that does not read is waited for once.
+    explicit LogLines(int descriptor = 2, Duration patience = {});
     // Writes what waits, as far as somebody takes it.
     ~LogLines();
     LogLines(const LogLines&) = delete;
     LogLines& operator=(const LogLines&) = delete;
 
-    // Whole lines, escaped like those of output.hpp. From any thread.
-    void add(std::string_view lines);
+    // Whole lines, escaped like those of output.hpp. From any thread. False once the reader
+    // is gone.
+    bool add(std::string_view lines);
     // "vagus: sentence".
     void complain(std::string_view sentence);
 
 private:
+    enum class Wrote : uint8_t { All, NobodyTakesIt, NobodyIsThere };
+
     void run(const std::stop_token& stop);
-    bool write(std::string_view bytes, const std::stop_token& stop) const;
+    void make_room(std::unique_lock<std::mutex>& lock);
+    Wrote write(std::string_view bytes, const std::stop_token& stop) const;
+    bool looks_again(int& looks, const std::stop_token& stop) const;
 
     int descriptor_;
     bool own_ = false;     // opened here, so that a write never waits
     bool socket_ = false;  // cannot be opened again, and need not be
-    std::mutex mutex_;     // guards the next two
+    Duration patience_;
+    std::mutex mutex_;  // guards all below but the thread
     std::string waiting_;
-    size_t left_out_ = 0;  // lines
+    size_t left_out_ = 0;  // lines, since the thread has last taken some
+    bool waited_ = false;  // in vain, since then
+    bool nobody_there_ = false;
     std::condition_variable_any posted_;
+    std::condition_variable taken_;
     std::jthread thread_;
 };
 

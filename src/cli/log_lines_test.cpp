@@ -5,9 +5,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <memory>
 #include <regex>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "base/line_sink.hpp"
@@ -101,6 +103,42 @@ TEST(LogLines, WhoAddsNeverWaitsAndNoLineIsLostUncounted) {
         }
         EXPECT_EQ(known, kLines);
         EXPECT_GT(left_out, 0u);
+    }
+}
+
+TEST(LogLines, WithPatienceAReaderGetsEveryLine) {
+    const auto ends = pipe_ends();
+    constexpr size_t kLines = 8 * kLogBytesMax / 64;
+    size_t bytes = 0;
+    std::jthread reader([&] {
+        while (bytes < kLines * 64) bytes += ends->take(512).size();
+    });
+    LogLines log(ends->write, std::chrono::hours(1));
+    for (size_t i = 0; i < kLines; ++i) log.add(std::string(63, 'x') + "\n");
+    reader.join();
+    EXPECT_EQ(bytes, kLines * 64);
+}
+
+TEST(LogLines, OneThatDoesNotReadIsWaitedForOnce) {
+    const auto ends = pipe_ends();
+    size_t filled = ends->fill();
+    LogLines log(ends->write, std::chrono::milliseconds(1));
+    // The first batch is with the thread, the second waits, the third is left out with its rest.
+    const std::string lines(kLogBytesMax / 64 * 64, '\n');
+    for (int i = 0; i < 3; ++i) log.add(lines);
+    log.add("late\n");
+    while (filled > 0) filled -= ends->take(filled).size();
+    std::string line;
+    while ((line = ends->take_line()).empty()) continue;
+    EXPECT_TRUE(std::regex_match(line, std::regex("vagus: \\d+ lines were left out here"))) << line;
+}
+
+TEST(LogLines, WhoAddsLearnsThatTheReaderIsGone) {
+    prepare_standard_files();  // as main() does
+    for (const auto& ends : {pipe_ends(), socket_ends()}) {
+        close(std::exchange(ends->read, -1));
+        LogLines log(ends->write);
+        while (log.add("is anybody there?\n")) continue;
     }
 }
 

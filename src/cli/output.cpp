@@ -1,13 +1,16 @@
 #include "cli/output.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/line_sink.hpp"
 #include "base/text.hpp"
+#include "cli/log_lines.hpp"
 
 namespace vagus::cli {
 
@@ -19,11 +22,40 @@ LineSink& standard_output() {
     return sink;
 }
 
+// What OutputNeverWaits has begun; empty for a file, which never makes anybody wait.
+struct Unwaiting {
+    std::mutex mutex;  // the prompt of a debugger and the run that it debugs both print
+    std::optional<LogLines> output;
+    std::optional<LogLines> errors;
+};
+
+Unwaiting& unwaiting() {
+    static Unwaiting its;
+    return its;
+}
+
 bool put(std::string_view bytes) {
-    static std::mutex mutex;  // the prompt of a debugger and the run that it debugs both print
-    const std::lock_guard lock(mutex);
+    Unwaiting& its = unwaiting();
+    const std::lock_guard lock(its.mutex);
+    if (its.output) return its.output->add(bytes);
     standard_output().write(bytes);
     return standard_output().state().ok() && !standard_output().abandoned();
+}
+
+void put_error(std::string_view lines) {
+    Unwaiting& its = unwaiting();
+    const std::lock_guard lock(its.mutex);
+    if (its.errors) {
+        its.errors->add(lines);
+    } else {
+        write_to_stderr(lines);
+    }
+}
+
+bool may_wait(int descriptor) {
+    struct stat file = {};
+    return ::fstat(descriptor, &file) == 0 &&
+           (S_ISFIFO(file.st_mode) || S_ISSOCK(file.st_mode) || ::isatty(descriptor) == 1);
 }
 
 }  // namespace
@@ -42,17 +74,31 @@ int end_output(int exit_code) {
 }
 
 void say(std::string_view lines) {
-    write_to_stderr(lines);
+    put_error(lines);
 }
 
 int complain(std::string_view sentence, int exit_code) {
     // One write, so that the lines of several threads do not mix.
-    write_to_stderr("vagus: " + std::string(sentence) + "\n");
+    put_error("vagus: " + std::string(sentence) + "\n");
     return exit_code;
 }
 
 int complain(const Error& error, int exit_code) {
     return complain(error.what, exit_code);
+}
+
+OutputNeverWaits::OutputNeverWaits(Duration patience) {
+    Unwaiting& its = unwaiting();
+    const std::lock_guard lock(its.mutex);
+    if (may_wait(STDOUT_FILENO)) its.output.emplace(STDOUT_FILENO, patience);
+    if (may_wait(STDERR_FILENO)) its.errors.emplace(STDERR_FILENO, patience);
+}
+
+OutputNeverWaits::~OutputNeverWaits() {
+    Unwaiting& its = unwaiting();
+    const std::lock_guard lock(its.mutex);
+    its.output.reset();
+    its.errors.reset();
 }
 
 bool stdout_is_terminal() {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/result.hpp"
+#include "base/time.hpp"
 
 namespace vagus::cli {
 
@@ -31,6 +32,21 @@ void say(std::string_view lines);
 // complain(…)`.
 int complain(std::string_view sentence, int exit_code = kExitFailed);
 int complain(const Error& error, int exit_code = kExitFailed);
+
+// While it lives, print(), say() and complain() never wait for a reader, for a verb that others
+// rely on meanwhile: a bus, a robot, a node that is examined. Lines that nobody takes in time are
+// left out, and counted where they are missing (log_lines.hpp). Files are written as always: they
+// keep every line. At its end, what waits is written as far as somebody reads.
+//
+//     const OutputNeverWaits never;
+class OutputNeverWaits {
+public:
+    // At most one at a time. `patience`: of LogLines.
+    explicit OutputNeverWaits(Duration patience = {});
+    ~OutputNeverWaits();
+    OutputNeverWaits(const OutputNeverWaits&) = delete;
+    OutputNeverWaits& operator=(const OutputNeverWaits&) = delete;
+};
 
 // Is a person looking?
 bool stdout_is_terminal();

@@ -253,6 +253,48 @@ class Cli(unittest.TestCase):
             self.assertEqual(program.wait(timeout=GIVE_UP_AFTER), 0)
             self.assertEqual(program.stderr.read(), "")
 
+    def test_a_reader_that_does_not_read_holds_up_no_bus(self):
+        trace = self.folder / "unread.jsonl"
+        with subprocess.Popen([VAGUS, "sim", self.world, "--headless", "--speed", "max", "--duration", "1e9", "--trace", trace,
+                               "--listen", "tcp:127.0.0.1:0"], stdout=subprocess.PIPE) as program:
+            try:
+                target = program.stdout.readline().decode().split()[1]
+                nodes = json.loads(self.run_vagus("net", target, "list", "--json").stdout)
+                self.assertEqual([node["id"] for node in nodes], [7])
+                # 10,000 s are 900 kB of lines: more than the pipe holds, and what may wait for it twice.
+                deadline = time.monotonic() + GIVE_UP_AFTER
+                while not trace.exists() or trace.stat().st_size < 8_000_000:  # ten poses a second
+                    self.assertLess(time.monotonic(), deadline, "time stood still")
+                    time.sleep(0.02)
+                nodes = json.loads(self.run_vagus("net", target, "list", "--json").stdout)
+                self.assertEqual([node["id"] for node in nodes], [7])
+                lines = []
+                while not lines or not lines[-1].startswith(b"vagus: "):
+                    lines.append(program.stdout.readline())
+                self.assertRegex(lines.pop(), rb"^vagus: [1-9]\d* lines were left out here\n$")
+                for line in lines:  # whole ones around it
+                    self.assertRegex(line, rb"^ *\d+\.0[01]0 s  rob  at .*\n$")
+            finally:
+                program.terminate()
+
+    def test_a_run_that_hurries_alone_loses_no_line_to_a_slow_reader(self):
+        with subprocess.Popen([VAGUS, "sim", self.world, "--headless", "--speed", "max", "--duration", "10000"],
+                              stdout=subprocess.PIPE) as program:
+            seconds = [line.split()[0] for line in program.stdout]
+        self.assertEqual(seconds, [b"0.010", *(b"%d.000" % second for second in range(1, 10001))])
+
+    def test_more_than_twenty_robots_are_a_line_each_second(self):
+        def lines_of(count):
+            robots = [{"name": f"r{i}", "type": "thymio2", "at": [0.2 + 0.3 * i, 0.5]} for i in range(count)]
+            world = {"format": "vagus-world/1", "size": [10, 1], "robots": robots}
+            drive = self.file("drive.aesl", "motor.left.target = 200\nmotor.right.target = -200\n")
+            return self.run_vagus("sim", self.file("many.world.json", json.dumps(world)), "--load", drive, "--headless",
+                                  "--speed", "max", "--duration", "2").stdout.splitlines()
+        self.assertEqual(len([line for line in lines_of(20) if "1.000 s  r" in line]), 20)
+        many = lines_of(21)
+        self.assertIn("1.000 s  21 robots  21 moving  0 at rest  21 running a script  0 stopped by a fault", many)
+        self.assertEqual(len([line for line in many if "  loaded  " in line]), 21)  # twenty, "and 1 more"
+
     def test_output_that_is_lost_is_a_failure(self):
         with open("/dev/full", "w") as full:
             done = subprocess.run([VAGUS, "compile", self.script], stdout=full, stderr=subprocess.PIPE, text=True)
@@ -605,14 +647,17 @@ class Cli(unittest.TestCase):
         self.assertEqual((self.folder / "with-5").read_bytes(), one)
 
     def test_it_has_as_many_threads_as_are_asked_for(self):
+        counts = []  # beside those that write lines
         for threads in (1, 4):
             with subprocess.Popen([VAGUS, "sim", self.world, "--headless", "--duration", "600", "--threads", str(threads),
                                    "--listen", "tcp:127.0.0.1:0"], stdout=subprocess.PIPE, text=True) as program:
                 try:
-                    self.assertRegex(program.stdout.readline(), r"^listening ")
-                    self.assertEqual(len(os.listdir(f"/proc/{program.pid}/task")), threads)
+                    target = program.stdout.readline().split()[1]
+                    self.run_vagus("net", target, "list")  # all is set up once it answers
+                    counts.append(len(os.listdir(f"/proc/{program.pid}/task")))
                 finally:
                     program.terminate()
+        self.assertEqual(counts[1] - counts[0], 3)
 
     def test_mistakes_in_the_script_end_the_run_with_1(self):
         self.script.write_text(PROJECT.replace("STEP", "stp"))

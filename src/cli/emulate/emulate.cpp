@@ -91,6 +91,7 @@ Status Desk::join(const Emulation& emulation) {
 }
 
 int Desk::run() {
+    const OutputNeverWaits never;
     for (;;) {
         for (const net::Event& event : links_.poll(Time::max())) {
             if (event.kind == net::EventKind::Signal) return kExitDone;

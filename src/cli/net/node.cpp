@@ -83,6 +83,7 @@ Status NodeProgram::open_network(const NodeOptions& options) {
 }
 
 void NodeProgram::run() {
+    const OutputNeverWaits never;
     Time next = node_->step(links_.now());
     for (;;) {
         for (const net::Event& event : links_.poll(next)) {

@@ -105,6 +105,7 @@ namespace {
 // more.
 template <typename Shown>
 Verdict tell_until(NetSession& session, Time deadline, const Shown& shown) {
+    const OutputNeverWaits never;  // or the switch would leave events out, and nobody would say so
     for (;;) {
         for (const debug::Event& event : session.take_events()) {
             if (!shown(event)) continue;

@@ -65,6 +65,9 @@ int show_run(TerminalRun& run, const PlanRunOptions& options) {
     run.prepared().end_when_stopped();
     run.prepared().brake_as_a_whole();
     const PlanShown shown = how_to_show(options);
+    // In real time a robot relies on what the plan says next.
+    std::optional<OutputNeverWaits> never;
+    if (shown != PlanShown::Screen && options.words.clock != "virtual") never.emplace();
     switch (shown) {
         case PlanShown::Screen:
             return run_on_screen(run, options.theme);

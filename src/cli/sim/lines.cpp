@@ -1,6 +1,8 @@
 #include "cli/sim/lines.hpp"
 
 #include <cstdio>
+#include <set>
+#include <utility>
 
 #include "base/text.hpp"
 #include "cli/output.hpp"
@@ -40,20 +42,35 @@ std::string state_line(const session::SimSession& session, const sim::RobotView&
 
 }  // namespace
 
+SimLines::SimLines(const session::SimSession& session) : session_(session) {
+    for (const sim::RobotView& robot : session.world().robots()) poses_.push_back(robot.pose);
+}
+
+bool SimLines::tell_one(Tally& tally, const session::Note& note) {
+    if (tally.count++ >= kNoteLinesMax) return true;
+    return print(stamp(note.at) + tally.word + "  " + visible(note.text) + "\n");
+}
+
+bool SimLines::tell_more(Tally& tally) const {
+    const uint64_t count = std::exchange(tally.count, 0);
+    if (count <= kNoteLinesMax) return true;
+    return print(stamp(session_.now()) + tally.word + "  and " +
+                 std::to_string(count - kNoteLinesMax) + " more\n");
+}
+
 bool SimLines::tell(const std::vector<session::Note>& notes) {
     bool open = true;
     for (const session::Note& note : notes) {
         switch (note.kind) {
             case session::NoteKind::Event:
-                if (event_lines_++ < kEventLinesMax) {
-                    open = print(stamp(note.at) + "event  " + visible(note.text) + "\n") && open;
-                }
+                open = tell_one(events_, note) && open;
                 break;
             case session::NoteKind::Loaded:
-                open = print(stamp(note.at) + "loaded  " + visible(note.text) + "\n") && open;
+                if (!has_many_robots()) loads_.count = 0;
+                open = tell_one(loads_, note) && open;
                 break;
             case session::NoteKind::Fault:
-                open = print(stamp(note.at) + "fault  " + visible(note.text) + "\n") && open;
+                open = tell_one(faults_, note) && open;
                 break;
             case session::NoteKind::Mistakes:
             case session::NoteKind::Warnings:
@@ -71,15 +88,36 @@ bool SimLines::tell_state() {
     if (session_.now() < next_) return true;
     next_ = session_.now() - session_.now() % kStateEvery + kStateEvery;
     bool open = true;
-    if (event_lines_ > kEventLinesMax) {
-        const uint64_t more = event_lines_ - kEventLinesMax;
-        open = print(stamp(session_.now()) + "event  and " + std::to_string(more) + " more\n");
-    }
-    event_lines_ = 0;
+    for (Tally* const tally : {&loads_, &events_, &faults_}) open = tell_more(*tally) && open;
+    if (has_many_robots()) return print(summary()) && open;
     for (const sim::RobotView& robot : session_.world().robots()) {
         open = print(state_line(session_, robot)) && open;
     }
     return open;
+}
+
+std::string SimLines::summary() {
+    const auto robots = session_.world().robots();
+    size_t moving = 0;
+    for (size_t i = 0; i < robots.size(); ++i) {
+        if (robots[i].pose == poses_[i]) continue;
+        poses_[i] = robots[i].pose;
+        ++moving;
+    }
+    std::set<uint32_t> running, stopped;  // a robot may be several nodes
+    for (const session::NodeState& node : session_.nodes()) {
+        if (!node.fault.empty()) {
+            stopped.insert(node.robot.number);
+        } else if (node.has_script) {
+            running.insert(node.robot.number);
+        } else {
+            // Nothing is known of it.
+        }
+    }
+    return stamp(session_.now()) + std::to_string(robots.size()) + " robots  " +
+           std::to_string(moving) + " moving  " + std::to_string(robots.size() - moving) +
+           " at rest  " + std::to_string(running.size()) + " running a script  " +
+           std::to_string(stopped.size()) + " stopped by a fault\n";
 }
 
 }  // namespace vagus::cli

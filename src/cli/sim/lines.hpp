@@ -3,8 +3,12 @@
 //
 //     1.000 s  thymio  at 0.52, 0.31 m  45 deg  prox 0 0 1203 0 0 0 0  ground 920 870  left 200 …
 //     1.230 s  event  thymio: found 1203
+//
+// Of more than kRobotLinesMax robots a second is one line:
+//     1.000 s  500 robots  498 moving  2 at rest  500 running a script  3 stopped by a fault
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "session/sim_session.hpp"
@@ -12,11 +16,13 @@
 namespace vagus::cli {
 
 constexpr Duration kStateEvery = std::chrono::seconds(1);  // simulated
-constexpr uint64_t kEventLinesMax = 20;  // in one such second; the rest is told as a number
+constexpr size_t kRobotLinesMax = 20;                      // more robots are told as a summary
+constexpr uint64_t kNoteLinesMax =
+    20;  // of a kind in one such second; the rest is told as a number
 
 class SimLines {
 public:
-    explicit SimLines(const session::SimSession& session) : session_(session) {}
+    explicit SimLines(const session::SimSession& session);
 
     // Events, loads and faults to stdout, mistakes and troubles to stderr. False once nobody reads
     // stdout.
@@ -25,9 +31,23 @@ public:
     bool tell_state();
 
 private:
+    // What there may be many of in a second.
+    struct Tally {
+        const char* word;
+        uint64_t count = 0;
+    };
+
+    bool tell_one(Tally& tally, const session::Note& note);
+    bool tell_more(Tally& tally) const;
+    bool has_many_robots() const { return poses_.size() > kRobotLinesMax; }
+    std::string summary();
+
     const session::SimSession& session_;  // owned by the run around
     Time next_{};
-    uint64_t event_lines_ = 0;
+    Tally events_{"event"};
+    Tally loads_{"loaded"};
+    Tally faults_{"fault"};
+    std::vector<sim::Pose> poses_;  // at the last summary, by robot
 };
 
 }  // namespace vagus::cli

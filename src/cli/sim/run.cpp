@@ -28,6 +28,7 @@ using namespace std::chrono_literals;
 
 constexpr Duration kTurn = 10ms;        // of the loop, in real time
 constexpr Duration kHeadlessFor = 20s;  // simulated, unless --duration says otherwise
+constexpr Duration kReaderHas = 1s;     // to take lines, where nobody else waits
 constexpr Duration kGuestsWithin = 3s;  // for nodes on the bus to be read back at rest
 
 // A robot's own port.
@@ -56,6 +57,8 @@ public:
 
 private:
     bool on_terminal() const { return screen_ != nullptr; }
+    void pass_all();
+    Duration patience() const;
     Duration end() const;
     bool ended() const { return session_.now() >= end() || net::end_asked() || closed_; }
     void turn();
@@ -114,10 +117,9 @@ Status SimRun::listen() {
 }
 
 Status SimRun::open_trace() {
-    // On stdout its lines are between the plain ones, as they happen.
-    const auto when =
-        options_.trace == "-" ? LineSink::When::AtOnce : LineSink::When::WithinASecond;
-    trace_ = TRY(LineSink::open(options_.trace, when));
+    // On stdout its lines are between the plain ones, as they happen, and wait for nobody either.
+    if (options_.trace == "-") return Status::done();
+    trace_ = TRY(LineSink::open(options_.trace, LineSink::When::WithinASecond));
     return Status::done();
 }
 
@@ -149,6 +151,15 @@ int SimRun::run() {
         if (!opened.ok()) return complain(opened.error());
         screen_ = std::move(opened.value());
     }
+    pass_all();
+    const Status traced = trace_.flush();
+    if (!traced.ok()) return complain(traced.error());
+    return net::end_as_asked(kExitDone);
+}
+
+void SimRun::pass_all() {
+    std::optional<OutputNeverWaits> never;
+    if (!on_terminal()) never.emplace(patience());
     running_ = true;
     real_before_ = links_.now();
     while (!ended()) turn();
@@ -156,9 +167,12 @@ int SimRun::run() {
     write_trace();
     screen_.reset();
     stop_guests();
-    const Status traced = trace_.flush();
-    if (!traced.ok()) return complain(traced.error());
-    return net::end_as_asked(kExitDone);
+}
+
+// A run in real time, or with hosts on its bus, waits for no reader. One that only hurries may.
+Duration SimRun::patience() const {
+    const bool alone = listening_.empty() && ports_.empty();
+    return alone && pace_.hurries() ? kReaderHas : Duration{};
 }
 
 // Real nodes on this bus may do what robots of this world tell them: nobody does any more.
@@ -254,6 +268,7 @@ void SimRun::tell_notes() {
 }
 
 void SimRun::write_trace() {
+    if (options_.trace == "-") closed_ = !print(session_.take_trace()) || closed_;
     if (!trace_) return;
     trace_.write(session_.take_trace());
     trace_.pass(links_.now());

@@ -364,6 +364,16 @@ Status copy_onto_itself(Bench& bench) {
     return bench.expect_values(at, {1, 1, 1, 1, 1, 1});
 }
 
+// The number to be added is the first word that is written: it is read once, before.
+Status addscalar_onto_its_number(Bench& bench) {
+    const uint16_t id = TRY(bench.native("math.addscalar"));
+    const uint16_t at = TRY(bench.room(3));
+    TRY(bench.set(at, {1, 2, 3}));
+    const Instructions code = Instructions().push(3).push(at).push(at).push(at).native(id).stop();
+    TRY(bench.run_to_end(program_of(code)));
+    return bench.expect_values(at, {2, 3, 4});
+}
+
 // Each word follows from the one before: 25173 times it, and 13849.
 Status random_words(Bench& bench) {
     const uint16_t id = TRY(bench.native("math.rand"));
@@ -409,6 +419,8 @@ void add_native_checks(Checks& checks) {
     }
     checks.push_back({"natives", "math.sort at each length", "4.2", "", sorts_each_length});
     checks.push_back({"natives", "math.copy onto itself", "4.2", "", copy_onto_itself});
+    checks.push_back(
+        {"natives", "math.addscalar onto its number", "4.2", "", addscalar_onto_its_number});
     checks.push_back({"natives", "math.rand", "4.4", "", random_words});
     checks.push_back({"natives", "natives pop their arguments", "4.1", "", arguments_are_popped});
 }

@@ -242,6 +242,7 @@ TEST_F(LoadedMark, IsAskedForAgainWhenItWasLost) {
     bus.sent();
     bus.pass(kAskAgain);
     EXPECT_EQ(bus.sent(), Dumps{kAsk});
+    bus.node_says("02 00 01 00 0c 90 05 00");  // it is there, but does not answer
     bus.pass(kAnswerWithin - kAskAgain);
     EXPECT_EQ(end_of(request),
               "node 1 \"robot\" did not answer the request to load the program within 3 s");

@@ -90,7 +90,7 @@ void add_stack_checks(Checks& checks) {
         checks.end(),
         {{group, "a stack is as large as described, for constants", "3.3, 3.8", "D9", of_constants},
          {group, "a stack is as large as described, for Load", "3.3, 3.8", "D9", of_variables},
-         {group, "a stack is as large as described, for SubCall", "3.3, 3.8", "D9", of_calls},
+         {group, "a stack is as large as described, for calls", "3.3, 3.8", "D9", of_calls},
          {group, "a full stack keeps all its words", "3.3", "", keeps_all_words}});
 }
 

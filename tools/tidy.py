@@ -53,7 +53,7 @@ ROOMS = {
         ("values", "line instructions finding standard_natives"),
         ("the bench", "bench native_call"),
         ("checks", "check checks check_breakpoints check_control check_description check_events check_faults check_flash check_sleep "
-                   "check_limits check_messages check_native_faults check_natives check_opcodes check_operators check_program"),
+                   "check_limits check_messages check_native_faults check_natives check_opcodes check_operators check_program check_stack"),
         ("the whole", "examine report_text"),
     ],
     "sim": [

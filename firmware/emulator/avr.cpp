@@ -5,8 +5,9 @@
 //     vagus-avr IMAGE.elf [--id N] [--eeprom FILE] [--report]
 //
 // --id: the number that the maker gave the board. --eeprom: what the chip keeps without power, read
-// at the start and written at the end. --report: says on standard error, at the end, how deep the
-// stack was.
+// at the start, and written when it has changed, before the next byte goes out: whoever reads that
+// the board has saved finds it in the file, however this program ends then. --report: says on
+// standard error, at the end, how deep the stack was.
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -15,6 +16,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <optional>
 #include <vector>
@@ -82,19 +84,25 @@ Eeprom eeprom_of(const Options& options) {
                     " bytes, expected 4096; delete it to begin with an empty one");
 }
 
+// Beside the file, then in its place: who is killed in between leaves the old one.
 void keep(const std::string& name, const Eeprom& eeprom) {
-    FILE* const file = std::fopen(name.c_str(), "wb");
+    const std::string beside = name + ".new";
+    FILE* const file = std::fopen(beside.c_str(), "wb");
     const bool written =
         file != nullptr && std::fwrite(eeprom.data(), 1, eeprom.size(), file) == eeprom.size();
-    if (file == nullptr || std::fclose(file) != 0 || !written) {
-        throw ChipError(name + ": cannot be written");
+    if (file == nullptr || std::fclose(file) != 0 || !written ||
+        std::rename(beside.c_str(), name.c_str()) != 0) {
+        throw ChipError(name + ": what the board saved cannot be written: " + std::strerror(errno));
     }
 }
 
 class Board {
 public:
     Board(const Options& options, int line)
-        : chip_(options.image, eeprom_of(options)), line_(line) {
+        : kept_(eeprom_of(options)),
+          chip_(options.image, kept_),
+          keep_in_(options.eeprom),
+          line_(line) {
         chip_.on_sent = [this](uint8_t byte) { send(byte); };
         fcntl(STDIN_FILENO, F_SETFL, fcntl(STDIN_FILENO, F_GETFL) | O_NONBLOCK);
     }
@@ -113,6 +121,14 @@ public:
         }
     }
 
+    void keep_what_changed() {
+        if (keep_in_.empty()) return;
+        const Eeprom now = chip_.eeprom();
+        if (now == kept_) return;
+        keep(keep_in_, now);
+        kept_ = now;
+    }
+
     const Chip& chip() const { return chip_; }
 
 private:
@@ -128,6 +144,7 @@ private:
 
     // The chip's clock is paused while nobody reads.
     void send(uint8_t byte) {
+        keep_what_changed();
         while (!closed_ && ended == 0 && ::write(line_, &byte, 1) != 1) {
             if (errno != EAGAIN && errno != EINTR) closed_ = true;
             pollfd output{line_, POLLOUT, 0};
@@ -135,7 +152,9 @@ private:
         }
     }
 
+    Eeprom kept_;  // as the file has it
     Chip chip_;
+    std::string keep_in_;  // empty: nowhere
     int line_;
     bool closed_ = false;
 };
@@ -155,7 +174,7 @@ void emulate(const Options& options) {
     if (options.report) {
         std::fprintf(stderr, "deepest stack: %d bytes\n", board.chip().deepest_stack());
     }
-    if (!options.eeprom.empty()) keep(options.eeprom, board.chip().eeprom());
+    board.keep_what_changed();
 }
 
 }  // namespace

@@ -9,6 +9,8 @@ namespace {
 
 using wire::MessageType;
 
+constexpr size_t kVariablesAtOnce = wire::kBytecodeWordsMax;  // behind the same two words
+
 uint16_t described_words(const aesl::Target& target) {
     size_t words = 0;
     for (const aesl::NamedVariable& variable : target.variables) words += variable.size;
@@ -41,7 +43,11 @@ std::optional<uint16_t> init_of(const Words& program) {
 }  // namespace
 
 Bench::Bench(Line& line, uint16_t id, aesl::Target target)
-    : line_(line), id_(id), target_(std::move(target)) {}
+    : line_(line),
+      id_(id),
+      target_(std::move(target)),
+      bytecode_used_(target_.bytecode_size),
+      variables_used_(target_.variables_size) {}
 
 // ---- what the node says it is ----
 
@@ -50,7 +56,11 @@ uint16_t Bench::room_size() const {
 }
 
 Result<uint16_t> Bench::room(uint16_t words) const {
-    if (room_size() >= words) return described_words(target_);
+    const uint16_t first = described_words(target_);
+    if (room_size() >= words) {
+        variables_used_ = std::max(variables_used_, static_cast<uint16_t>(first + words));
+        return first;
+    }
     return lacking(std::to_string(words) + " free variables", "has " + std::to_string(room_size()));
 }
 
@@ -94,6 +104,8 @@ Status Bench::event(uint16_t event, const Values& arguments, uint16_t source) {
 Status Bench::set(uint16_t start, const Values& values) {
     Words rest{start};
     rest.insert(rest.end(), values.begin(), values.end());
+    const size_t end = std::min<size_t>(start + values.size(), target_.variables_size);
+    variables_used_ = std::max(variables_used_, static_cast<uint16_t>(end));
     return command(MessageType::SetVariables, rest);
 }
 
@@ -261,6 +273,7 @@ Status Bench::load(const Words& program) {
         return lacking(std::to_string(program.size()) + " words of bytecode",
                        "has " + std::to_string(target_.bytecode_size));
     }
+    bytecode_used_ = std::max(bytecode_used_, static_cast<uint16_t>(program.size()));
     const std::optional<uint16_t> init = init_of(program);
     for (size_t start = 0; start < program.size(); start += wire::kBytecodeWordsMax) {
         const size_t count = std::min<size_t>(wire::kBytecodeWordsMax, program.size() - start);
@@ -335,8 +348,28 @@ Status Bench::run_to_end(const Words& program) {
                    text_of_flags(ending.state.flags));
 }
 
+// So that no check finds what it is about to write. What a node describes may be its motors, and
+// is left alone.
+Status Bench::clear_memory() {
+    for (size_t start = 1; start < bytecode_used_; start += wire::kBytecodeWordsMax) {
+        Words rest(1 + std::min<size_t>(wire::kBytecodeWordsMax, bytecode_used_ - start), 0);
+        rest[0] = static_cast<uint16_t>(start);
+        TRY(command(MessageType::SetBytecode, rest));
+    }
+    for (size_t start = described_words(target_); start < variables_used_;
+         start += kVariablesAtOnce) {
+        Words rest(1 + std::min<size_t>(kVariablesAtOnce, variables_used_ - start), 0);
+        rest[0] = static_cast<uint16_t>(start);
+        TRY(command(MessageType::SetVariables, rest));
+    }
+    bytecode_used_ = 1;
+    variables_used_ = 0;
+    return Status::done();
+}
+
 Status Bench::clear() {
     TRY(command(MessageType::SetBytecode, {0, 0}));
+    TRY(clear_memory());
     TRY(command(MessageType::BreakpointClearAll));
     TRY(command(MessageType::Run));
     messages_.clear();

@@ -123,8 +123,9 @@ public:
     Result<Ending> wait_for_end();
     // As run(); anything but a quiet end is a finding.
     Status run_to_end(const Words& program);
-    // No program, no breakpoints, waiting for events; nothing left of what was heard. Fails if the
-    // node does not answer.
+    // No program, no breakpoints, waiting for events; zero in all memory that was written or asked
+    // for since the last time, the first time in all that belongs to nobody; nothing left of what
+    // was heard. Fails if the node does not answer.
     Status clear();
 
     // Commands of another host to this node: the answers to its questions may spoil ours.
@@ -132,6 +133,7 @@ public:
 
 private:
     Status pump(Time deadline);
+    Status clear_memory();
     Status ask_fence();
     Status forget();
     bool is_fence(const wire::Frame& frame) const;
@@ -146,6 +148,9 @@ private:
     uint16_t fence_ = 0;           // the address in the last question that was asked to be sure
     bool hears_presence_ = false;  // NodePresent answers others, too
     size_t foreign_ = 0;
+    // Up to where memory may be other than zero.
+    uint16_t bytecode_used_ = 0;
+    mutable uint16_t variables_used_ = 0;
 };
 
 }  // namespace vagus::conformance

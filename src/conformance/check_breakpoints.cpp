@@ -148,6 +148,42 @@ Status set_twice_cleared_once(Bench& bench) {
     return run_through(bench);
 }
 
+// One that is there already succeeds, and takes no place of another.
+Status set_twice_takes_one_place(Bench& bench) {
+    const uint16_t size = bench.target().bytecode_size;
+    if (size < kBreakpointsMax + 2)
+        return lacking("18 words of bytecode", "has " + std::to_string(size));
+    TRY(set_breakpoint(bench, 1));
+    for (uint16_t pc = 1; pc <= kBreakpointsMax; pc++) TRY(set_breakpoint(bench, pc));
+    TRY(set_breakpoint(bench, kBreakpointsMax));  // also when all places are taken
+    constexpr uint16_t kOneMore = kBreakpointsMax + 1;
+    TRY(bench.command(MessageType::BreakpointSet, {kOneMore}));
+    return bench.expect(MessageType::BreakpointSetResult, {kOneMore, 0});
+}
+
+// The place of the one that was removed is used again, and no other is lost by that.
+Status others_stay_when_one_goes(Bench& bench) {
+    const uint16_t at = TRY(load_two_stores(bench));
+    TRY(set_breakpoint(bench, kSecond));
+    TRY(set_breakpoint(bench, kSecond + 1));
+    TRY(set_breakpoint(bench, kSecond + 2));
+    TRY(bench.command(MessageType::BreakpointClear, {kSecond}));
+    TRY(run_into(bench, kInitStart, kSecond + 1));
+    TRY(bench.command(MessageType::Step));
+    TRY(expect_flags(bench, {kSecond + 2, 3}));
+    TRY(bench.expect_values(at, {1, 2}));
+    return run_into(bench, kSecond + 2, kSecond + 2);
+}
+
+// No breakpoint is there: to clear it removes none of the others.
+Status clearing_none_takes_none(Bench& bench) {
+    TRY(load_two_stores(bench));
+    TRY(set_breakpoint(bench, kSecond));
+    TRY(bench.command(MessageType::BreakpointClear, {kSecond + 1}));
+    TRY(bench.expect_silence());
+    return run_into(bench, kInitStart, kSecond);
+}
+
 }  // namespace
 
 void add_breakpoint_checks(Checks& checks) {
@@ -162,7 +198,13 @@ void add_breakpoint_checks(Checks& checks) {
          {group, "BreakpointClearAll takes all away", "2.3", "", clear_all},
          {group, "breakpoints stay over SetBytecode and Reset", "2.3", "", kept_over_reset},
          {group, "16 breakpoints fit, the next is refused", "2.3", "", sixteen_fit},
-         {group, "a breakpoint set twice is one", "8 D17", "D17", set_twice_cleared_once}});
+         {group, "a breakpoint set twice is one", "8 D17", "D17", set_twice_cleared_once},
+         {group, "a breakpoint set twice takes one place", "2.3, 8 D17", "D17",
+          set_twice_takes_one_place},
+         {group, "the other breakpoints stay when one is cleared", "2.3", "",
+          others_stay_when_one_goes},
+         {group, "clearing a breakpoint that is none clears no other", "2.3", "",
+          clearing_none_takes_none}});
 }
 
 }  // namespace vagus::conformance

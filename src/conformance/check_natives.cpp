@@ -1,5 +1,7 @@
 // The standard natives, called as section 4.1 says, with the values of 4.2 to 4.5 and appendix C.
 
+#include <algorithm>
+
 #include "conformance/checks.hpp"
 #include "conformance/native_call.hpp"
 
@@ -244,6 +246,49 @@ Rows deque_end_rows() {
     };
 }
 
+// Filled to the last cell, from each side, and emptied from there.
+Rows deque_full_rows() {
+    const Values seven{7, 0, 1, 2, 3, 4, 5, 6, 7, 0};
+    const Values full{8, 0, 1, 2, 3, 4, 5, 6, 7, 8};
+    return {
+        {"deque.push_back fills the last cell",
+         "deque.push_back",
+         "4.5",
+         "",
+         {{{seven, {8}}, {full, {8}}}, {{{0, 0, 0}, {9}}, {{1, 0, 9}, {9}}}}},
+        {"deque.push_front fills the last cell",
+         "deque.push_front",
+         "4.5",
+         "",
+         {{{seven, {8}}, {{8, 7, 1, 2, 3, 4, 5, 6, 7, 8}, {8}}}}},
+        {"deque.insert fills the last cell",
+         "deque.insert",
+         "4.5",
+         "",
+         {{{seven, {8}, {7}}, {full, {8}, {7}}}}},
+        {"deque.get reads the last cell",
+         "deque.get",
+         "4.5",
+         "",
+         {{{full, {9, 9}, {6}}, {full, {7, 8}, {6}}}}},
+        {"deque.set writes the last cell",
+         "deque.set",
+         "4.5",
+         "",
+         {{{full, {-8}, {7}}, {{8, 0, 1, 2, 3, 4, 5, 6, 7, -8}, {-8}, {7}}}}},
+        {"deque.pop_back empties a full one",
+         "deque.pop_back",
+         "4.5",
+         "",
+         {{{full, Values(8, 9)}, {{0, 0, 1, 2, 3, 4, 5, 6, 7, 8}, {1, 2, 3, 4, 5, 6, 7, 8}}}}},
+        {"deque.pop_front empties a full one",
+         "deque.pop_front",
+         "4.5",
+         "",
+         {{{full, Values(8, 9)}, {{0, 0, 1, 2, 3, 4, 5, 6, 7, 8}, {1, 2, 3, 4, 5, 6, 7, 8}}}}},
+    };
+}
+
 Status gives(Bench& bench, const NativeRow& row, const Case& one) {
     const Values before = flat(one.before);
     const uint16_t at = TRY(bench.room(static_cast<uint16_t>(before.size())));
@@ -261,6 +306,54 @@ Status gives_all(Bench& bench, const NativeRow& row) {
     return Status::done();
 }
 
+// Falling, and as a small generator mixes it, with numbers that come twice.
+Values mixed_values(size_t length) {
+    Values values;
+    uint32_t word = 7 + static_cast<uint32_t>(length);
+    for (size_t i = 0; i < length; i++) {
+        word = 25173u * word + 13849u;
+        values.push_back(static_cast<int16_t>((word >> 8) % 23) - 11);
+    }
+    return values;
+}
+
+Values falling_values(size_t length) {
+    Values values;
+    for (size_t i = 0; i < length; i++) values.push_back(static_cast<int16_t>(length - i));
+    return values;
+}
+
+// The word behind them stays.
+Status sorts(Bench& bench, uint16_t native, const Values& values) {
+    constexpr int16_t kBehind = -300;  // smaller than all: it would come to the front
+    const auto length = static_cast<uint16_t>(values.size());
+    const uint16_t at = TRY(bench.room(length + 1));
+    Values before = values, after = values;
+    before.push_back(kBehind);
+    std::ranges::sort(after);
+    after.push_back(kBehind);
+    TRY(bench.set(at, before));
+    TRY(bench.run_to_end(program_of(Instructions().push(length).push(at).native(native).stop())));
+    const Values found = TRY(bench.get(at, length + 1));
+    if (found == after) return Status::done();
+    return finding("math.sort of " + std::to_string(length) + " words, " + text_of(before) +
+                   ": expected " + text_of(after) + ", found " + text_of(found));
+}
+
+// A sort that is made for some lengths is wrong at others: all up to the first power of two that
+// needs a sixth level of a heap.
+Status sorts_each_length(Bench& bench) {
+    constexpr uint16_t kLongest = 33;
+    const uint16_t id = TRY(bench.native("math.sort"));
+    const auto longest = std::min<uint16_t>(kLongest, static_cast<uint16_t>(bench.room_size() - 1));
+    (void)TRY(bench.room(2));
+    for (uint16_t length = 0; length <= longest; length++) {
+        TRY(sorts(bench, id, falling_values(length)));
+        TRY(sorts(bench, id, mixed_values(length)));
+    }
+    return Status::done();
+}
+
 // [1, 2, 3, 4, 5] copied one place up, element by element from the first, becomes 1, 1, 1, 1, 1.
 Status copy_onto_itself(Bench& bench) {
     const uint16_t id = TRY(bench.native("math.copy"));
@@ -269,6 +362,16 @@ Status copy_onto_itself(Bench& bench) {
     const Instructions code = Instructions().push(5).push(at).push(at + 1).native(id).stop();
     TRY(bench.run_to_end(program_of(code)));
     return bench.expect_values(at, {1, 1, 1, 1, 1, 1});
+}
+
+// The number to be added is the first word that is written: it is read once, before.
+Status addscalar_onto_its_number(Bench& bench) {
+    const uint16_t id = TRY(bench.native("math.addscalar"));
+    const uint16_t at = TRY(bench.room(3));
+    TRY(bench.set(at, {1, 2, 3}));
+    const Instructions code = Instructions().push(3).push(at).push(at).push(at).native(id).stop();
+    TRY(bench.run_to_end(program_of(code)));
+    return bench.expect_values(at, {2, 3, 4});
 }
 
 // Each word follows from the one before: 25173 times it, and 13849.
@@ -308,13 +411,16 @@ Status arguments_are_popped(Bench& bench) {
 
 void add_native_checks(Checks& checks) {
     for (const Rows& rows : {copying_rows(), comparing_rows(), statistic_rows(), angle_rows(),
-                             deque_rows(), deque_end_rows()}) {
+                             deque_rows(), deque_end_rows(), deque_full_rows()}) {
         for (const NativeRow& row : rows) {
             checks.push_back({"natives", row.check, row.section, row.defects,
                               [row](Bench& bench) { return gives_all(bench, row); }});
         }
     }
+    checks.push_back({"natives", "math.sort at each length", "4.2", "", sorts_each_length});
     checks.push_back({"natives", "math.copy onto itself", "4.2", "", copy_onto_itself});
+    checks.push_back(
+        {"natives", "math.addscalar onto its number", "4.2", "", addscalar_onto_its_number});
     checks.push_back({"natives", "math.rand", "4.4", "", random_words});
     checks.push_back({"natives", "natives pop their arguments", "4.1", "", arguments_are_popped});
 }

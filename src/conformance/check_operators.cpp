@@ -84,7 +84,9 @@ const std::vector<UnaryRow>& unary_rows() {
         {"negation",
          UnaryOperator::Negate,
          {{5, -5}, {-5, 5}, {0, 0}, {32767, -32767}, {-32768, -32768}}},
-        {"abs", UnaryOperator::Abs, {{5, 5}, {-5, 5}, {0, 0}, {-32767, 32767}, {-32768, -32768}}},
+        {"abs",
+         UnaryOperator::Abs,
+         {{5, 5}, {-5, 5}, {-1, 1}, {0, 0}, {-32767, 32767}, {-32768, -32768}}},
         {"~", UnaryOperator::BitNot, {{0, -1}, {-1, 0}, {0x0f0f, -3856}, {32767, -32768}}},
     };
     return kRows;

@@ -17,6 +17,7 @@ Checks all_checks() {
     add_program_checks(checks);
     add_flash_checks(checks);
     add_limit_checks(checks);
+    add_stack_checks(checks);
     add_sleep_checks(checks);
     return checks;
 }

@@ -25,6 +25,7 @@ void add_breakpoint_checks(Checks& checks);
 void add_program_checks(Checks& checks);
 void add_flash_checks(Checks& checks);
 void add_limit_checks(Checks& checks);
+void add_stack_checks(Checks& checks);
 void add_sleep_checks(Checks& checks);
 
 Checks all_checks();

@@ -1,6 +1,7 @@
 #include "conformance/examine.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 
 #include "conformance/checks.hpp"
@@ -103,11 +104,43 @@ const char* unwanted(const Check& check, const Order& order) {
     return nullptr;
 }
 
+// Ends when the time is over, in the middle of whatever is waited for.
+class LimitedLine : public Line {
+public:
+    LimitedLine(Line& line, Duration limit)
+        : line_(line), limit_(limit), end_(line.now() + limit) {}
+
+    Status send(const wire::Frame& frame) override {
+        if (is_over()) return over();
+        return line_.send(frame);
+    }
+    Result<std::optional<wire::Frame>> receive(Time deadline) override {
+        if (is_over()) return over();
+        return line_.receive(std::min(deadline, end_));
+    }
+    Time now() const override { return line_.now(); }
+    bool is_over() const { return line_.now() >= end_; }
+    Error over() const {
+        const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(limit_).count();
+        return Error{Code::Timeout, "the time limit of " + std::to_string(seconds) +
+                                        " s is over: give more, by --max-time, or fewer checks, "
+                                        "by --only"};
+    }
+
+private:
+    Line& line_;
+    Duration limit_;
+    Time end_;
+};
+
 // Goes through the list; knows which check the node was lost at.
 class Examination {
 public:
     Examination(Line& line, const Order& order, const aesl::Target& target)
-        : order_(order), bench_(line, order.node, target) {
+        : order_(order),
+          line_(line),
+          limited_(line, order.time_limit),
+          bench_(limited_, order.node, target) {
         bench_.set_nobody(order.nobody);
     }
 
@@ -115,18 +148,32 @@ public:
         if (const char* reason = unwanted(check, order_)) return {check, Verdict::Skipped, reason};
         if (!lost_.empty()) return {check, Verdict::NotRun, lost_};
         const Status cleared = bench_.clear();
+        if (limited_.is_over()) return end_of_time(check);
         if (!cleared.ok()) {
             lost_ = "lost at \"" + last_ + "\": " + cleared.error().what;
             return {check, Verdict::NotRun, lost_};
         }
         last_ = check.name;
-        return row_of(check, check.look(bench_));
+        const Status looked = check.look(bench_);
+        if (!looked.ok() && limited_.is_over()) return end_of_time(check);
+        return row_of(check, looked);
     }
-    bool leave() { return lost_.empty() && bench_.clear().ok(); }
+    // Also when the time is over: this takes no longer than one answer.
+    bool leave() {
+        if (!lost_.empty() && !limited_.is_over()) return false;
+        return Bench(line_, order_.node, bench_.target()).clear().ok();
+    }
     size_t foreign() const { return bench_.foreign(); }
 
 private:
+    Row end_of_time(const Check& check) {
+        lost_ = limited_.over().what;
+        return {check, Verdict::NotRun, lost_};
+    }
+
     const Order& order_;
+    Line& line_;
+    LimitedLine limited_;
     Bench bench_;
     std::string lost_;
     std::string last_ = "the beginning";

@@ -25,6 +25,8 @@ constexpr Duration kPresenceWithin = std::chrono::milliseconds(800);
 // A description has 300 to 700 CAN frames, and serial lines are slow.
 constexpr Duration kDescriptionWithin = std::chrono::seconds(20);
 constexpr size_t kNodesMax = 1024;
+// All checks take half a minute on a serial line; a node that is slow at each of them has this.
+constexpr Duration kTimeLimit = std::chrono::minutes(10);
 
 // The ids of the nodes that answer, in rising order.
 Result<std::vector<uint16_t>> who_is_there(Line& line);
@@ -36,7 +38,9 @@ struct Order {
     uint16_t nobody = 0;  // an id that no node has
     bool flash = false;   // also what overwrites the program that the node keeps over a restart
     bool sleep = false;   // also what sends a node to sleep that can
-    std::string only;     // checks whose group or name has this in it
+    // So long for all: the checks behind it are not made.
+    Duration time_limit = kTimeLimit;
+    std::string only;  // checks whose group or name has this in it
     std::function<void(const Row&)> tell = [](const Row&) {};  // each row as it is done
 };
 

@@ -38,6 +38,13 @@ bool is_loaded_state(const wire::ExecutionStateChanged& state, const aesl::Progr
     return is_reset_state(state) && (waits || !runs_at_start(program));
 }
 
+std::string hex_of(uint32_t checksum) {
+    std::string text;
+    for (int shift = 28; shift >= 0; shift -= 4)
+        text += "0123456789abcdef"[(checksum >> shift) & 15];
+    return text;
+}
+
 size_t fragments_of(const aesl::Program& program) {
     return (program.bytecode.size() + wire::kBytecodeWordsMax - 1) / wire::kBytecodeWordsMax;
 }
@@ -215,6 +222,7 @@ void Control::start(Request& request) {
 void Control::repeat(Request& request) {
     switch (request.kind) {
         case Kind::Load:
+            if (request.asks_mark) return ask_mark();
             if (!uploading()) return out_.command<wire::Run>(view_.id);
             request.sent = request.acked = 0;  // the fragment that is missing may be any of them
             return send_fragments(request);
@@ -342,6 +350,7 @@ Control::Answer Control::answer(Request& request, const wire::ExecutionStateChan
 
 Control::Answer Control::answer_load(Request& request, const wire::ExecutionStateChanged& state) {
     const size_t all = fragments_of(request.program);
+    if (request.asks_mark) return {};
     if (request.acked == all) return is_stepping_state(state) ? Answer{} : Outcome{};
     if (!is_loaded_state(state, request.program)) return {};  // of what was said before
     request.acked++;
@@ -350,8 +359,63 @@ Control::Answer Control::answer_load(Request& request, const wire::ExecutionStat
     out_.requests.progress(view_.id, out_.now);
     send_fragments(request);
     if (request.acked < all) return {};
+    if (!mark_address(view_.target)) return loaded(request);
+    request.asks_mark = true;
+    ask_mark();
+    return {};
+}
+
+// Frames have no checksum: one that lost bytes is completed by the bytes behind it, and is answered
+// like any other. A node that can tell what it has is asked before the program runs.
+void Control::ask_mark() {
+    auto ask = message_to<wire::GetVariables>(view_.id);
+    ask.start = *mark_address(view_.target);
+    ask.length = 2;
+    out_.send(ask);
+}
+
+void Control::receive(const wire::Variables& variables) {
+    Request* const load = active(Kind::Load);
+    if (load == nullptr || !load->asks_mark || variables.values.count < 2 ||
+        variables.start != mark_address(view_.target)) {
+        return;
+    }
+    const auto word = [&variables](int i) {
+        return uint32_t{static_cast<uint16_t>(variables.values.values[i])};
+    };
+    const uint32_t told = word(0) | word(1) << 16;
+    load->asks_mark = false;
+    load->deadline = out_.now + kAnswerWithin;
+    ask_again_ = out_.now + kAskAgain;
+    const bool same = told == mark_of(load->program.bytecode);
+    Answer done = same ? loaded(*load) : load_again(*load, told);
+    if (!done) return;
+    tell_state();
+    finish(std::move(*done));
+}
+
+Control::Answer Control::load_again(Request& request, uint32_t told) {
+    if (request.loads == kLoadsMax) {
+        forget_program();
+        return Outcome{
+            Error{Code::Unavailable,
+                  who() + " does not have the program that was sent to it " +
+                      std::to_string(kLoadsMax) + " times: expected the checksum " +
+                      hex_of(mark_of(request.program.bytecode)) + ", it tells " + hex_of(told) +
+                      ". Its line loses or changes bytes, or another host loads it, too; the "
+                      "program was not run. Look at cable and baud rate, then load it again"},
+            ""};
+    }
+    request.loads++;
+    request.sent = request.acked = 0;
+    out_.requests.progress(view_.id, out_.now);
+    send_fragments(request);
+    return {};
+}
+
+Control::Answer Control::loaded(Request& request) {
     view_.program = request.program;
-    view_.at = place_of(state.pc);
+    view_.at = place_of(view_.at.pc);
     place_breakpoints();
     if (request.then == AfterLoad::Stay) return Outcome{};
     out_.command<wire::Run>(view_.id);

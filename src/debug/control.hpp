@@ -10,6 +10,8 @@
 
 namespace vagus::debug {
 
+// So often is a program sent to a node that tells another checksum than it should have.
+constexpr int kLoadsMax = 3;
 constexpr size_t kFragmentsAhead = 8;  // SetBytecode messages sent before the first answer
 
 class Control {
@@ -42,6 +44,7 @@ public:
     // ---- told by the node ----
     void receive(const wire::ExecutionStateChanged& state);
     void receive(const wire::BreakpointSetResult& result);
+    void receive(const wire::Variables& variables);
     // All but NodeSpecificError stop the program without a further word (D20); Killed does not.
     void fault(FaultKind kind, uint16_t pc, const std::string& text);
     void node_specific(const std::string& text, uint16_t pc);
@@ -77,6 +80,8 @@ private:
         aesl::Program program;            // Load
         AfterLoad then = AfterLoad::Run;  // Load
         size_t sent = 0, acked = 0;       // Load: fragments
+        int loads = 1;                    // Load: so often sent as a whole
+        bool asks_mark = false;           // Load: all is sent; is it what the node has?
         uint16_t pc = 0;                  // Break
         bool stepping = false;            // Step, Run: an instruction is being executed by itself
         int from_line = 0;                // Step
@@ -110,6 +115,9 @@ private:
 
     Answer answer(Request& request, const wire::ExecutionStateChanged& state);
     Answer answer_load(Request& request, const wire::ExecutionStateChanged& state);
+    void ask_mark();
+    Answer loaded(Request& request);
+    Answer load_again(Request& request, uint32_t told);
     Answer answer_run(Request& request, const wire::ExecutionStateChanged& state);
     Answer answer_step(Request& request, const wire::ExecutionStateChanged& state);
     Answer after_step(Request& request, const wire::ExecutionStateChanged& state);

@@ -50,7 +50,10 @@ bool Peer::receive(const wire::Frame& frame) {
         case wire::MessageType::NativeFunctionDescription:
             return receive_description(frame);
         case wire::MessageType::Variables:
-            return with<wire::Variables>(frame, [this](const auto& m) { receive_variables(m); });
+            return with<wire::Variables>(frame, [this](const auto& m) {
+                control_.receive(m);
+                receive_variables(m);
+            });
         case wire::MessageType::ExecutionStateChanged:
             return with<wire::ExecutionStateChanged>(frame, [this](const auto& m) {
                 control_.receive(m);

@@ -1,6 +1,7 @@
 // What a node with `_program` tells, and what follows from it when it comes back.
 #include "debug/program_mark.hpp"
 
+#include "debug/control.hpp"
 #include "debug/fetch.hpp"
 #include "debug/scripted_bus.hpp"
 
@@ -160,6 +161,102 @@ TEST_F(ProgramMark, IsNotAskedOfANodeWithoutIt) {
         describe(name, static_cast<uint16_t>(words));
         EXPECT_EQ(bus.network.ask_program(1).error().code, Code::NotFound) << name;
     }
+}
+
+// ---- after a load ----
+
+constexpr const char* kUpload = "10 00 00 00 01 a0 01 00 00 00 03 00 ff ff 03 00 01 10 64 40 00 00";
+constexpr const char* kClearAll = "02 00 00 00 0a a0 01 00";
+constexpr const char* kRun = "02 00 00 00 03 a0 01 00";
+
+class LoadedMark : public ProgramMark {
+protected:
+    void SetUp() override {
+        ProgramMark::SetUp();
+        bus.state(1, 0, 2);
+        tells(0);
+        bus.forget();
+    }
+    RequestId load(AfterLoad then = AfterLoad::Run) {
+        aesl::Program program;
+        program.bytecode = kWords;
+        program.lines.resize(kWords.size());
+        return bus.network.load(1, program, then).value();
+    }
+    std::optional<std::string> end_of(RequestId request) {
+        for (const RequestDone& done : bus.told<RequestDone>()) {
+            if (done.request == request) return done.error ? done.error->what : "";
+        }
+        return std::nullopt;
+    }
+};
+
+TEST_F(LoadedMark, IsAskedForBeforeTheProgramRuns) {
+    const RequestId request = load();
+    EXPECT_EQ(bus.sent(), Dumps{kUpload});
+    bus.state(1, 3, 3);
+    EXPECT_EQ(bus.sent(), Dumps{kAsk});
+    EXPECT_FALSE(bus.network.node(1)->program.has_value());
+    tells(mark_of(kWords));
+    EXPECT_EQ(bus.sent(), (Dumps{kClearAll, kRun}));
+    bus.state(1, 3, 1);
+    EXPECT_EQ(end_of(request), "");
+}
+
+TEST_F(LoadedMark, ThatIsAnotherMakesTheHostLoadAgain) {
+    const RequestId request = load(AfterLoad::Stay);
+    bus.state(1, 3, 3);
+    bus.sent();
+    tells(mark_of(kWords) ^ 1);
+    EXPECT_EQ(bus.sent(), Dumps{kUpload});
+    bus.state(1, 3, 3);
+    EXPECT_EQ(bus.sent(), Dumps{kAsk});
+    tells(mark_of(kWords));
+    EXPECT_EQ(bus.sent(), Dumps{kClearAll});
+    EXPECT_EQ(end_of(request), "");
+    EXPECT_TRUE(bus.network.node(1)->program.has_value());
+}
+
+TEST_F(LoadedMark, ThatStaysAnotherEndsTheLoadAndNothingRuns) {
+    const RequestId request = load();
+    for (int i = 0; i < kLoadsMax; i++) {
+        EXPECT_EQ(bus.sent(), Dumps{kUpload}) << i;
+        bus.state(1, 3, 3);
+        EXPECT_EQ(bus.sent(), Dumps{kAsk}) << i;
+        EXPECT_EQ(end_of(request), std::nullopt) << i;
+        tells(0x00001234);
+    }
+    EXPECT_EQ(bus.sent(), Dumps{});
+    EXPECT_EQ(
+        end_of(request),
+        "node 1 \"robot\" does not have the program that was sent to it 3 times: expected the "
+        "checksum 45ae6190, it tells 00001234. Its line loses or changes bytes, or another "
+        "host loads it, too; the program was not run. Look at cable and baud rate, then load "
+        "it again");
+    EXPECT_FALSE(bus.network.node(1)->program.has_value());
+}
+
+TEST_F(LoadedMark, IsAskedForAgainWhenItWasLost) {
+    const RequestId request = load();
+    bus.state(1, 3, 3);
+    bus.sent();
+    bus.pass(kAskAgain);
+    EXPECT_EQ(bus.sent(), Dumps{kAsk});
+    bus.node_says("02 00 01 00 0c 90 05 00");  // it is there, but does not answer
+    bus.pass(kAnswerWithin - kAskAgain);
+    EXPECT_EQ(end_of(request),
+              "node 1 \"robot\" did not answer the request to load the program within 3 s");
+}
+
+// A state that somebody else asked for does not end the load.
+TEST_F(LoadedMark, IsWaitedForWhateverStateComes) {
+    const RequestId request = load();
+    bus.state(1, 3, 3);
+    bus.sent();
+    bus.state(1, 3, 1);
+    EXPECT_EQ(end_of(request), std::nullopt);
+    tells(mark_of(kWords));
+    EXPECT_EQ(bus.sent(), (Dumps{kClearAll, kRun}));
 }
 
 }  // namespace

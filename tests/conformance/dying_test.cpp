@@ -1,6 +1,8 @@
 // Whatever becomes of the node meanwhile, the examination ends, and tells it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/rng.hpp"
 #include "virtual_line.hpp"
 #include "wire/messages.hpp"
@@ -83,6 +85,54 @@ TEST(ConformanceEnds, NoiseEndsNothing) {
         VirtualLine line(node_with(), {.to_node = noise, .from_node = noise});
         (void)examine_within(line, kLongest);
     }
+}
+
+// Each check waits in vain, so each needs 5 s; the third cannot end.
+TEST(ConformanceEnds, WhatIsLeftWhenTheTimeIsOverIsNotRun) {
+    const auto deaf = [](const wire::Frame& frame) {
+        const bool state =
+            frame.type == static_cast<uint16_t>(wire::MessageType::ExecutionStateChanged);
+        return state ? Frames{} : Frames{frame};
+    };
+    VirtualLine line(node_with(), {.from_node = deaf});
+    const Report report = examine(
+        line, {.node = 1, .nobody = 2, .time_limit = std::chrono::seconds(12), .only = "operators"},
+        node_with());
+    EXPECT_LT(line.now(), std::chrono::seconds(13));
+    EXPECT_EQ(report.count(Verdict::Failed), 2u) << rows_with(report, Verdict::Failed);
+    EXPECT_EQ(report.count(Verdict::NotRun), report.rows.size() - 2);
+    const std::string rest = rows_with(report, Verdict::NotRun);
+    EXPECT_NE(rest.find("the time limit of 12 s is over: give more, by --max-time"),
+              std::string::npos)
+        << rest;
+    EXPECT_TRUE(report.left_clear);
+}
+
+// What a check leaves in memory is gone before the next one, to the last word that was used.
+TEST(ConformanceEnds, MemoryIsClearedBeforeEachCheck) {
+    std::vector<int16_t> memory(1060, 1);
+    size_t checks = 0;
+    const uint16_t first = 38;  // behind what node_with() describes
+    VirtualLine line(node_with(), {.to_node = [&](const wire::Frame& frame) {
+                         wire::SetVariables set;
+                         const bool sets = wire::decode_message(frame, set) == wire::Error::None;
+                         for (uint16_t i = 0; sets && i < set.values.count; i++) {
+                             if (set.start + i < 1060) memory[set.start + i] = set.values.values[i];
+                         }
+                         wire::BreakpointClearAll cleared;
+                         if (wire::decode_message(frame, cleared) == wire::Error::None) {
+                             checks++;
+                             const auto dirty =
+                                 std::find_if(memory.begin() + first, memory.end(),
+                                              [](int16_t word) { return word != 0; });
+                             EXPECT_TRUE(dirty == memory.end())
+                                 << "word " << dirty - memory.begin() << " at check " << checks;
+                         }
+                         return Frames{frame};
+                     }});
+    const Report report = examine(line, {.node = 1, .nobody = 2, .only = "natives"}, node_with());
+    EXPECT_EQ(rows_with(report, Verdict::Failed), "");
+    EXPECT_GT(checks, 30u);
 }
 
 // Frames of another host are counted, and those of other nodes are not taken for ours.

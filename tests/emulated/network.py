@@ -70,7 +70,7 @@ class Network(unittest.TestCase):
         wait_until("the board is not there", lambda: len(list_nodes(port)) == 1)
         told = run_vagus("conformance", f"tcp:127.0.0.1:{port}", "--flash", "--sleep", "--may-drive")
         # Description in fragments, and events that are longer than its room to send.
-        self.assertRegex(told, rf'\n182 passed, 0 failed, 2 skipped: node 1 "{board}"')
+        self.assertRegex(told, rf'\n198 passed, 0 failed, 2 skipped: node 1 "{board}"')
 
     def test_conformance_finds_no_fault_in_a_microbit(self):
         self.examine("microbit")
@@ -119,6 +119,28 @@ class Network(unittest.TestCase):
         with Program(program, "emulate", board, "--listen", "tcp:127.0.0.1:0", env=env) as emulate:
             emulate.wait_line(sentence)
             self.assertEqual(emulate.wait_end(), 1)
+
+    def test_one_folder_is_of_one_command(self):
+        folder = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-keep-"))
+        listening(self.enterContext(vagus("emulate", "microbit", "--keep", folder, "--listen", "tcp:127.0.0.1:0")))
+        told = run_vagus("emulate", "microbit", "--keep", folder, "--listen", "tcp:127.0.0.1:0", status=1)
+        self.assertIn(f"--keep {folder}: another vagus emulate keeps its boards there", told)
+
+    def test_boards_join_a_switch_again_when_it_comes_back(self):
+        with vagus("switch", "--listen", "tcp:127.0.0.1:0") as switch:
+            port = listening(switch)
+            boards = self.enterContext(vagus("emulate", "microbit", "atmega1284p", "--connect", f"tcp:127.0.0.1:{port}"))
+            boards.wait_line("connected")
+            wait_until("the boards are not there", lambda: len(list_nodes(port)) == 2)
+        boards.wait_line("trying to reach it again")
+        again = self.enterContext(vagus("switch", "--listen", f"tcp:127.0.0.1:{port}"))
+        self.assertEqual(listening(again), port)
+        wait_until("the boards never came back", lambda: len(list_nodes(port)) == 2)
+
+    def test_targets_that_cannot_be_are_refused_with_their_place(self):
+        self.assertIn("nonsense", run_vagus("emulate", "microbit", "--connect", "nonsense", status=2))
+        told = run_vagus("emulate", "microbit", "--listen", "tcp:127.0.0.1:33399", "--connect", "tcp:localhost:33399", status=2)
+        self.assertIn("--connect tcp:localhost:33399: these boards listen there themselves", told)
 
 
 if __name__ == "__main__":

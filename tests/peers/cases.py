@@ -306,6 +306,7 @@ class Peers(unittest.TestCase):
             "deque.pop_back of too many is told once": "D4",
             "deque.insert in the front half": "D5",
             "a breakpoint set twice is one": "D17",
+            "a breakpoint set twice takes one place": "D17",
             "all variables asked for at once come in pieces": "D22",
             "commands that are too short harm nothing": "D9 D11",
         })

@@ -26,13 +26,17 @@ struct Board {
     std::string_view machine;  // of QEMU
     IdBy id_by;
     std::string_view id_at;
+    uint32_t kept_at;  // its two slots, or its EEPROM
+    uint32_t kept_bytes;
+    std::string_view kept_in;  // the ending of the file
 };
 
-// firmware/BOARD says which address: kIdOfMaker.
+// firmware/BOARD says which address: kIdOfMaker, kSlotsAt, two times kSlotBytes.
 constexpr Board kBoards[] = {
-    {"microbit", Emulator::Qemu, "microbit", IdBy::File, "0x3dffc"},
-    {"mps2-an385", Emulator::Qemu, "mps2-an385", IdBy::Value, "0x3ffffc"},
-    {"atmega1284p", Emulator::Simavr, "", IdBy::Option, ""},
+    {"microbit", Emulator::Qemu, "microbit", IdBy::File, "0x3dffc", 0x3e000, 0x2000, "flash"},
+    {"mps2-an385", Emulator::Qemu, "mps2-an385", IdBy::Value, "0x3ffffc", 0x300000, 0x8000,
+     "flash"},
+    {"atmega1284p", Emulator::Simavr, "", IdBy::Option, "", 0, 0x1000, "eeprom"},
 };
 
 constexpr const char* kQemu = "qemu-system-arm";
@@ -84,6 +88,46 @@ std::vector<std::string> qemu_words(const Board& board, uint16_t id, const fs::p
             fmt::format("loader,addr={},{}", board.id_at, what)};
 }
 
+void add_monitor(std::vector<std::string>& words) {
+    const std::string channel = fmt::format("socket,id=keep,fd={}", kMonitorDescriptor);
+    for (const std::string& word : {std::string("-S"), std::string("-chardev"), channel,
+                                    std::string("-gdb"), std::string("chardev:keep")}) {
+        words.push_back(word);
+    }
+}
+
+Result<Emulation> with_simavr(Emulation emulation, const Board& board, const fs::path& image,
+                              uint16_t id, const EmulationFolders& folders) {
+    const fs::path program = folders.programs / kSimavr;
+    if (!fs::exists(program)) {
+        return Error{Code::Unavailable,
+                     fmt::format("{}: there is no {}; apt-get install libsimavr-dev, then "
+                                 "./dev firmware in the sources builds it",
+                                 board.name, program.string())};
+    }
+    emulation.words = {program, image, "--id", std::to_string(id)};
+    if (emulation.memory) {  // vagus-avr keeps it itself
+        emulation.words.insert(emulation.words.end(), {"--eeprom", emulation.memory->file});
+        emulation.memory.reset();
+    }
+    return emulation;
+}
+
+Result<Emulation> with_qemu(Emulation emulation, const Board& board, const fs::path& image,
+                            uint16_t id) {
+    if (!is_in_path(kQemu)) {
+        return Error{Code::Unavailable,
+                     fmt::format("{}: {} is not installed; apt-get install qemu-system-arm",
+                                 board.name, kQemu)};
+    }
+    emulation.words = qemu_words(board, id, image);
+    if (emulation.memory) add_monitor(emulation.words);
+    if (board.id_by == IdBy::File) {
+        emulation.id_bytes = {static_cast<char>(id & 0xff), static_cast<char>(id >> 8), 0, 0};
+    }
+    return emulation;
+}
+
 }  // namespace
 
 std::vector<std::string> board_names() {
@@ -108,39 +152,28 @@ Result<BoardWish> parse_board(std::string_view word) {
     return wish;
 }
 
-Result<Emulation> emulation_of(const std::string& name, uint16_t id, const fs::path& share,
-                               const fs::path& programs) {
+Result<Emulation> emulation_of(const std::string& name, uint16_t id,
+                               const EmulationFolders& folders) {
     const Board* const board = find_board(name);
     if (board == nullptr) return no_board(name);
-    const fs::path image = share / "firmware" / (name + ".elf");
+    const fs::path image = folders.share / "firmware" / (name + ".elf");
     if (!fs::exists(image)) {
         return Error{Code::Unavailable,
                      fmt::format("{}: there is no {}; ./dev firmware, in the sources, installs the "
                                  "cross compilers and builds it",
                                  name, image.string())};
     }
-    Emulation emulation{.name = fmt::format("{} {}", name, id), .words = {}, .id_bytes = {}};
+    Emulation emulation{
+        .name = fmt::format("{} {}", name, id), .words = {}, .id_bytes = {}, .memory = {}};
+    if (!folders.keep.empty()) {
+        const fs::path file = folders.keep / fmt::format("{}-{}.{}", name, id, board->kept_in);
+        emulation.memory = KeptMemory{board->kept_at, board->kept_bytes, file};
+        (void)TRY(kept_bytes(*emulation.memory));
+    }
     if (board->emulator == Emulator::Simavr) {
-        const fs::path program = programs / kSimavr;
-        if (!fs::exists(program)) {
-            return Error{Code::Unavailable,
-                         fmt::format("{}: there is no {}; apt-get install libsimavr-dev, then "
-                                     "./dev firmware in the sources builds it",
-                                     name, program.string())};
-        }
-        emulation.words = {program, image, "--id", std::to_string(id)};
-        return emulation;
+        return with_simavr(std::move(emulation), *board, image, id, folders);
     }
-    if (!is_in_path(kQemu)) {
-        return Error{
-            Code::Unavailable,
-            fmt::format("{}: {} is not installed; apt-get install qemu-system-arm", name, kQemu)};
-    }
-    emulation.words = qemu_words(*board, id, image);
-    if (board->id_by == IdBy::File) {
-        emulation.id_bytes = {static_cast<char>(id & 0xff), static_cast<char>(id >> 8), 0, 0};
-    }
-    return emulation;
+    return with_qemu(std::move(emulation), *board, image, id);
 }
 
 }  // namespace vagus::cli

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/result.hpp"
+#include "cli/emulate/keep.hpp"
 
 namespace vagus::cli {
 
@@ -29,12 +31,22 @@ struct Emulation {
     std::vector<std::string> words;  // program and arguments; its serial line is stdin and stdout
     // What the emulator reads from descriptor kIdDescriptor; empty if it takes the id in its words.
     std::string id_bytes;
+    // What is kept over the end of the emulator, by a MemoryKeeper: the emulator is then started
+    // paused, with its line for debuggers at descriptor kMonitorDescriptor.
+    std::optional<KeptMemory> memory;
 };
 constexpr int kIdDescriptor = 3;
+constexpr int kMonitorDescriptor = 4;
 
-// Fails if the image or the emulator is not installed; says how to get it.
+struct EmulationFolders {
+    std::filesystem::path share;
+    std::filesystem::path programs;
+    std::filesystem::path keep;  // empty: nothing is kept
+};
+
+// Fails if the image or the emulator is not installed; says how to get it. Fails if the file with
+// what the board kept is not of its size.
 Result<Emulation> emulation_of(const std::string& board, uint16_t id,
-                               const std::filesystem::path& share,
-                               const std::filesystem::path& programs);
+                               const EmulationFolders& folders);
 
 }  // namespace vagus::cli

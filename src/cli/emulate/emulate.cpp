@@ -1,15 +1,24 @@
 // `vagus emulate`: emulated microcontrollers on the desk, each with the firmware of its board,
 // joined by a switch.
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <map>
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/emulate/board.hpp"
+#include "cli/emulate/keep.hpp"
 #include "cli/emulate/process.hpp"
+#include "cli/net/switch.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
@@ -23,18 +32,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kPlaceOfBoards = "tcp:127.0.0.1:" + std::to_string(wire::kDefaultPort);
 constexpr uint16_t kLastNodeId = wire::kInvalidId - 1;
 
 struct EmulateOptions {
     std::vector<std::string> boards;
     int count = 1;
     uint16_t first_id = 1;
-    std::string listen;
+    std::string listen;   // empty: kPlaceOfBoards, unless `connect` is there
+    std::string connect;  // a switch; empty: none
+    std::string keep;     // a folder; empty: what boards save is lost with their emulators
 };
 
 // One board after the other, numbers rising.
 Result<std::vector<Emulation>> emulations_of(const EmulateOptions& options) {
-    const fs::path programs = fs::path(serve::own_program()).parent_path();
+    const EmulationFolders folders{.share = serve::share_folder(),
+                                   .programs = fs::path(serve::own_program()).parent_path(),
+                                   .keep = options.keep};
     std::vector<Emulation> all;
     for (const std::string& word : options.boards) {
         const BoardWish wish = TRY(parse_board(word));
@@ -48,34 +62,61 @@ Result<std::vector<Emulation>> emulations_of(const EmulateOptions& options) {
                                 "or give a lower --id",
                                 word, kBoardsMax, kLastNodeId)};
             }
-            all.push_back(TRY(emulation_of(wish.board, static_cast<uint16_t>(id),
-                                           serve::share_folder(), programs)));
+            all.push_back(TRY(emulation_of(wish.board, static_cast<uint16_t>(id), folders)));
         }
     }
     return all;
 }
 
+// Makes the folder, and sees that no other command keeps boards in it: gives the descriptor that
+// has it locked, until the process ends in whatever way.
+Result<int> take_folder(const std::string& path) {
+    std::error_code wrong;
+    fs::create_directories(path, wrong);
+    if (wrong) return Error{Code::Unavailable, "--keep " + path + ": " + wrong.message()};
+    const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder >= 0 && ::flock(folder, LOCK_EX | LOCK_NB) == 0) return folder;
+    const bool used = folder >= 0 && errno == EWOULDBLOCK;
+    const std::string why =
+        used ? "another vagus emulate keeps its boards there; end it, or give another folder"
+             : std::strerror(errno);
+    if (folder >= 0) ::close(folder);
+    return Error{Code::Unavailable, "--keep " + path + ": " + why};
+}
+
 class Desk {
 public:
+    ~Desk();
     Status open(const EmulateOptions& options);
     // Until it is interrupted, or a board is lost.
     int run();
 
 private:
+    // Gives what to print of it.
+    Result<std::string> open_network(const EmulateOptions& options);
     Status join(const Emulation& emulation);
+    // An exit code if this is the end.
+    std::optional<int> notice(const net::Event& event);
+    int complain_of_board(const net::Event& event);
 
     hub::Hub hub_;
     std::vector<EmulatorProcess> boards_;
-    net::Links links_;              // behind the hub: it goes first
-    std::set<net::PlaceId> lines_;  // of the boards
+    std::vector<std::unique_ptr<MemoryKeeper>> keepers_;  // of these
+    net::Links links_;                                    // behind the hub: it goes first
+    std::map<net::PlaceId, MemoryKeeper*> lines_;         // of the boards; null: none is needed
+    std::optional<net::PlaceId> switch_;                  // that was connected to
+    int folder_ = -1;
 };
 
+Desk::~Desk() {
+    if (folder_ >= 0) ::close(folder_);
+}
+
 Status Desk::open(const EmulateOptions& options) {
+    if (!options.keep.empty()) folder_ = TRY(take_folder(options.keep));
     const auto emulations = TRY(emulations_of(options));
     TRY(links_.watch_signals());
-    const net::Target target = TRY(net::parse_target(options.listen));
-    const net::Listening listening = TRY(links_.listen(hub_, target));
-    std::string text = "listening " + net::to_string(listening.target) + "\n";
+    std::string text = TRY(open_network(options));
     for (const Emulation& emulation : emulations) {
         TRY(join(emulation));
         text += "board " + emulation.name + "\n";
@@ -84,9 +125,39 @@ Status Desk::open(const EmulateOptions& options) {
     return Status::done();
 }
 
+Result<std::string> Desk::open_network(const EmulateOptions& options) {
+    std::string text;
+    std::optional<net::Target> own;
+    if (options.connect.empty() || !options.listen.empty()) {
+        const std::string listen = options.listen.empty() ? kPlaceOfBoards : options.listen;
+        const net::Target target = TRY(net::parse_target(listen));
+        own = TRY(links_.listen(hub_, target)).target;
+        text = "listening " + net::to_string(*own) + "\n";
+    }
+    if (options.connect.empty()) return text;
+    const net::Target target = TRY(net::parse_target(options.connect));
+    if (own && is_ourselves(target, *own)) {
+        return Error{Code::BadInput, "--connect " + options.connect +
+                                         ": these boards listen there themselves; give --listen "
+                                         "another place, or leave it out"};
+    }
+    switch_ = TRY(links_.connect(hub_, target, {.retry = net::Retry::Forever}));
+    return text;
+}
+
 Status Desk::join(const Emulation& emulation) {
     boards_.push_back(TRY(EmulatorProcess::start(emulation)));
-    lines_.insert(TRY(links_.join(hub_, boards_.back().take_line(), emulation.name)));
+    EmulatorProcess& board = boards_.back();
+    if (!emulation.memory) {
+        const auto place = TRY(links_.join(hub_, board.take_line(), emulation.name));
+        lines_.emplace(place, nullptr);
+        return Status::done();
+    }
+    keepers_.push_back(std::make_unique<MemoryKeeper>(emulation.name, *emulation.memory,
+                                                      board.take_line(), board.take_monitor()));
+    MemoryKeeper& keeper = *keepers_.back();
+    TRY(keeper.begin());
+    lines_.emplace(TRY(links_.join(hub_, keeper.take_line(), emulation.name)), &keeper);
     return Status::done();
 }
 
@@ -94,13 +165,37 @@ int Desk::run() {
     const OutputNeverWaits never;
     for (;;) {
         for (const net::Event& event : links_.poll(Time::max())) {
-            if (event.kind == net::EventKind::Signal) return kExitDone;
-            if (event.kind == net::EventKind::Failed) complain(event.what);
-            if (event.kind == net::EventKind::Closed && lines_.contains(event.place)) {
-                return complain(event.what + "; its emulator has ended, its last words are above");
-            }
+            if (const auto end = notice(event)) return *end;
         }
     }
+}
+
+std::optional<int> Desk::notice(const net::Event& event) {
+    const bool of_switch = switch_ == event.place;
+    switch (event.kind) {
+        case net::EventKind::Signal:
+            return kExitDone;
+        case net::EventKind::Opened:
+            if (of_switch) complain(event.what + ": connected");
+            break;
+        case net::EventKind::Failed:
+            complain(event.what + (of_switch ? "; trying again" : ""));
+            break;
+        case net::EventKind::Closed:
+            if (lines_.contains(event.place)) return complain_of_board(event);
+            if (of_switch) complain(event.what + "; trying to reach it again");
+            break;
+        case net::EventKind::Skipped:
+        case net::EventKind::Readable:
+            break;
+    }
+    return std::nullopt;
+}
+
+int Desk::complain_of_board(const net::Event& event) {
+    MemoryKeeper* const keeper = lines_.at(event.place);
+    if (keeper != nullptr && !keeper->trouble().empty()) return complain(keeper->trouble());
+    return complain(event.what + "; its emulator has ended, its last words are above");
 }
 
 int run_emulate(const EmulateOptions& options) {
@@ -125,9 +220,15 @@ void add_options(CLI::App& verb, EmulateOptions& options) {
         verb.add_option("--id", options.first_id, "the first one's number on the bus");
     id->type_name("N")->capture_default_str();
     takes_whole_number(*id, 1, kLastNodeId);
-    verb.add_option("--listen", options.listen, "where hosts connect; port 0 is a free one")
-        ->type_name("TARGET")
-        ->capture_default_str();
+    verb.add_option("--listen", options.listen,
+                    "where hosts connect; " + kPlaceOfBoards +
+                        " unless given, or --connect is; port 0 is a free one")
+        ->type_name("TARGET");
+    verb.add_option("--connect", options.connect, "joins this switch, again when it comes back")
+        ->type_name("TARGET");
+    verb.add_option("--keep", options.keep,
+                    "what boards save is kept in this folder, and there at the next start")
+        ->type_name("FOLDER");
 }
 
 }  // namespace
@@ -139,10 +240,9 @@ void add_emulate(CLI::App& app, int& exit_code) {
         "joins their serial lines. They end with this program.\n"
         "\n"
         "Example:\n"
-        "  vagus emulate microbit:3 atmega1284p:2\n"
+        "  vagus emulate microbit:3 atmega1284p:2 --keep boards\n"
         "  vagus net tcp:127.0.0.1:33333 list");
     auto options = std::make_shared<EmulateOptions>();  // owners: the options below, the callback
-    options->listen = "tcp:127.0.0.1:" + std::to_string(wire::kDefaultPort);
     add_options(*verb, *options);
     verb->callback([options, &exit_code] { exit_code = run_emulate(*options); });
 }

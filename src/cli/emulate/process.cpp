@@ -36,14 +36,51 @@ Result<int> file_with(const std::string& bytes) {
     return file;
 }
 
+// What an emulator gets: -1 is none.
+struct Given {
+    int line = -1;
+    int file = -1;
+    int monitor = -1;
+};
+
+void give(int descriptor, int number) {
+    if (descriptor >= 0 && dup2(descriptor, number) == number) fcntl(number, F_SETFD, 0);
+}
+
+// Out of the way of the numbers that an emulator knows its descriptors by.
+int moved_up(int descriptor) {
+    if (descriptor < 0) return descriptor;
+    const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, kMonitorDescriptor + 1);
+    ::close(descriptor);
+    return moved;
+}
+
+struct Pair {
+    int own = -1;
+    int far = -1;
+};
+
+Result<Pair> pair_of_sockets(const std::string& name) {
+    int line[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, line) != 0) {
+        return system_error(name + ": cannot make a line");
+    }
+    return Pair{.own = line[0], .far = moved_up(line[1])};
+}
+
+void close_if_open(int descriptor) {
+    if (descriptor >= 0) ::close(descriptor);
+}
+
 // Between fork and exec only what a signal handler might call, too.
-[[noreturn]] void become(char* const* words, int line, int file, pid_t parent) {
+[[noreturn]] void become(char* const* words, Given given, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(kCannotExec);  // it died before the line above
     setpgid(0, 0);  // an interrupt of the terminal is for the switch, which ends its boards
-    dup2(line, STDIN_FILENO);
-    dup2(line, STDOUT_FILENO);
-    if (file >= 0 && dup2(file, kIdDescriptor) == kIdDescriptor) fcntl(kIdDescriptor, F_SETFD, 0);
+    dup2(given.line, STDIN_FILENO);
+    dup2(given.line, STDOUT_FILENO);
+    give(given.file, kIdDescriptor);
+    give(given.monitor, kMonitorDescriptor);
     execvp(words[0], words);
     _exit(kCannotExec);
 }
@@ -51,45 +88,52 @@ Result<int> file_with(const std::string& bytes) {
 }  // namespace
 
 Result<EmulatorProcess> EmulatorProcess::start(const Emulation& emulation) {
-    int line[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, line) != 0) {
-        return system_error(emulation.name + ": cannot make a line");
-    }
-    const int file = TRY(file_with(emulation.id_bytes));
+    const Pair line = TRY(pair_of_sockets(emulation.name));
+    const Pair monitor =
+        emulation.memory ? TRY(pair_of_sockets(emulation.name)) : Pair{.own = -1, .far = -1};
+    const int file = moved_up(TRY(file_with(emulation.id_bytes)));
     std::vector<std::string> words = emulation.words;
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     const pid_t parent = getpid();
     const pid_t process = fork();
-    if (process == 0) become(pointers.data(), line[1], file, parent);
-    ::close(line[1]);
-    if (file >= 0) ::close(file);
+    if (process == 0) {
+        become(pointers.data(), {.line = line.far, .file = file, .monitor = monitor.far}, parent);
+    }
+    for (const int given : {line.far, file, monitor.far}) close_if_open(given);
     if (process < 0) {
-        ::close(line[0]);
+        for (const int own : {line.own, monitor.own}) close_if_open(own);
         return system_error(emulation.name + ": cannot be started");
     }
-    return EmulatorProcess(process, line[0]);
+    return EmulatorProcess(process, line.own, monitor.own);
 }
 
 EmulatorProcess::~EmulatorProcess() {
-    if (line_ >= 0) ::close(line_);
+    for (const int own : {line_, monitor_}) close_if_open(own);
     if (process_ <= 0) return;
     ::kill(process_, SIGKILL);
     waitpid(process_, nullptr, 0);
 }
 
 EmulatorProcess::EmulatorProcess(EmulatorProcess&& other) noexcept
-    : process_(std::exchange(other.process_, -1)), line_(std::exchange(other.line_, -1)) {}
+    : process_(std::exchange(other.process_, -1)),
+      line_(std::exchange(other.line_, -1)),
+      monitor_(std::exchange(other.monitor_, -1)) {}
 
 EmulatorProcess& EmulatorProcess::operator=(EmulatorProcess&& other) noexcept {
     std::swap(process_, other.process_);
     std::swap(line_, other.line_);
+    std::swap(monitor_, other.monitor_);
     return *this;
 }
 
 int EmulatorProcess::take_line() {
     return std::exchange(line_, -1);
+}
+
+int EmulatorProcess::take_monitor() {
+    return std::exchange(monitor_, -1);
 }
 
 }  // namespace vagus::cli

@@ -20,12 +20,16 @@ public:
 
     // This side of the line; from now on the caller's.
     int take_line();
+    // Its line for debuggers, if Emulation::memory is there, else -1; from now on the caller's.
+    int take_monitor();
 
 private:
-    EmulatorProcess(int process, int line) : process_(process), line_(line) {}
+    EmulatorProcess(int process, int line, int monitor)
+        : process_(process), line_(line), monitor_(monitor) {}
 
     int process_ = -1;
     int line_ = -1;
+    int monitor_ = -1;
 };
 
 }  // namespace vagus::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "conformance/examine.hpp"
@@ -20,12 +21,14 @@ using namespace std::chrono_literals;
 
 constexpr Duration kConnectWithin = 5s;
 constexpr Duration kLookForEndEvery = 100ms;
+constexpr uint32_t kMaxTimeMost_s = 24 * 3600;
 constexpr uint16_t kNobodyHighest = 250;  // fits a CAN identifier
 
 struct ConformanceOptions {
     std::string target;
     std::string node;
     std::string only;
+    uint32_t max_time_s = 0;
     bool json = false;
     bool may_drive = false;
     bool flash = false;
@@ -153,6 +156,7 @@ Result<int> examine(const ConformanceOptions& options) {
                              .nobody = unused_id(ids),
                              .flash = options.flash,
                              .sleep = options.sleep,
+                             .time_limit = std::chrono::seconds(options.max_time_s),
                              .only = options.only};
     if (!options.json)
         order.tell = [](const conformance::Row& row) { print(conformance::row_text(row)); };
@@ -185,6 +189,13 @@ void add_conformance(CLI::App& app, int& exit_code) {
         ->type_name("NODE");
     verb->add_option("--only", options->only, "only checks that have this in their group or name")
         ->type_name("TEXT");
+    options->max_time_s = static_cast<uint32_t>(
+        std::chrono::duration_cast<std::chrono::seconds>(conformance::kTimeLimit).count());
+    CLI::Option* max_time =
+        verb->add_option("--max-time", options->max_time_s,
+                         "seconds for all checks; those that are left then are not run (exit 1)");
+    max_time->type_name("S")->capture_default_str();
+    takes_whole_number(*max_time, 1, kMaxTimeMost_s);
     verb->add_flag("--json", options->json, "the result as JSON, at the end");
     verb->add_flag("--flash", options->flash,
                    "also WriteBytecode and Reboot: the program that the node keeps is overwritten");

@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "fastvm", "vm", "base", "isa", "wire"]
 MAY_INCLUDE = {
     "base": [],
+    "keeper": ["base"],
     "isa": [],
     "wire": [],
     "vm": ["isa", "wire"],

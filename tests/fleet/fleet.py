@@ -74,9 +74,10 @@ class Case(unittest.TestCase):
         folder = self.folder / f"{name}-{free_port()}"
         projects.thymio(folder, script="", fleet={**PART, **part})
         projects.write(folder, "robot.aesl", AESL.format(script=script))
+        projects.write(folder, "pages/index.html", "<!doctype html>\n")
         program = self.enterContext(vagus(
-            "serve", folder, "--start", "--port", 0, "--data", folder / "data", "--config", folder / "config",
-            "--fleet", self.target, "--robot", name, *self.login(login or name), *arguments))
+            "serve", folder, "--start", "--port", 0, "--data", folder / "data", "--config", folder / "config", "--pages",
+            folder / "pages", "--fleet", self.target, "--robot", name, *self.login(login or name), *arguments))
         program.wait_line(r"^serve http")
         return program
 

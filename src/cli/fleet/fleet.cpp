@@ -189,8 +189,11 @@ int order(FleetSession& session, const FleetCall& call) {
 
 // What a broker keeps of a robot that is gone for good. It needs the rights of the robot itself.
 int forget(FleetSession& session, const FleetCall& call) {
-    const auto found = session.desk().robots().find(call.robot);
-    if (found == session.desk().robots().end()) {
+    // A robot's own login says nothing that comes back to it (FleetSession::know_all).
+    const auto& robots = session.desk().robots();
+    session.wait_until([&] { return robots.contains(call.robot); }, wait_of(call));
+    const auto found = robots.find(call.robot);
+    if (found == robots.end()) {
         return complain("the broker knows no robot \"" + visible(call.robot) + "\"");
     }
     if (fleet::Operator::is_online(found->second)) {
@@ -223,7 +226,8 @@ using Act = std::function<int(FleetSession&, const FleetCall&)>;
 int run(const FleetCall& call, fleet::Operator::Options wants, const Act& act) {
     auto session = FleetSession::open(call, std::move(wants));
     if (!session.ok()) return complain_of(session.error());
-    const Status known = session.value()->know_all(wait_of(call));
+    const bool waits_itself = call.command.verb == "forget";
+    const Status known = waits_itself ? Status::done() : session.value()->know_all(wait_of(call));
     if (!known.ok()) return complain_of(known.error());
     return act(*session.value(), call);
 }

@@ -12,7 +12,7 @@ add_custom_target(manual DEPENDS ${manual})
 install(FILES ${manual} DESTINATION share/man/man1 COMPONENT program OPTIONAL)
 install(FILES completions/vagus.bash RENAME vagus DESTINATION share/bash-completion/completions COMPONENT program)
 install(FILES packaging/copyright README.md CHANGELOG.md SECURITY.md DESTINATION share/doc/vagus COMPONENT program)
-install(FILES docs/field.md docs/studio.md docs/cli.md DESTINATION share/doc/vagus COMPONENT program)
+install(FILES docs/field.md docs/fleet.md docs/fleet-messages.md docs/studio.md docs/cli.md DESTINATION share/doc/vagus COMPONENT program)
 install(FILES packaging/vagus.service DESTINATION lib/systemd/system COMPONENT program)
 install(FILES packaging/vagus.sysusers RENAME vagus.conf DESTINATION lib/sysusers.d COMPONENT program)
 
@@ -38,6 +38,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "avahi-utils")
+# Only suggested: its package starts a service. `vagus fleet serve` runs the program alone.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "mosquitto")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${CMAKE_SOURCE_DIR}/packaging/postinst ${CMAKE_SOURCE_DIR}/packaging/prerm ${CMAKE_SOURCE_DIR}/packaging/postrm)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_STRICT_PERMISSION ON)

@@ -12,7 +12,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # An arrow means "may include" (docs/ARCHITECTURE.md). Nothing else may.
-BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "node", "hub", "plan", "aesl", "fastvm", "vm", "base", "isa", "wire"]
+BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "fleet", "node", "hub", "plan", "aesl", "fastvm", "vm", "base", "isa", "wire"]
 MAY_INCLUDE = {
     "base": [],
     "keeper": ["base"],
@@ -24,6 +24,7 @@ MAY_INCLUDE = {
     "hub": ["wire", "base"],
     "plan": ["base"],
     "aesl": ["isa", "base"],
+    "fleet": ["base"],
     "run": ["plan", "base"],
     "toolbox": ["run", "plan", "wire", "base"],
     "embed": ["session"] + BELOW_SESSION,
@@ -68,6 +69,7 @@ ROOMS = {
     "serve": [
         ("ground", "process access base64 bytes json plan_value thrown worker"),
         ("protocol", "protocol/"),
+        ("a broker", "broker/"),
         ("door", "web/"),
         ("pages", "studio/"),
         ("files", "project/"),
@@ -93,7 +95,7 @@ FLASH_HEADER = "src/isa/flash.hpp"
 # The rim: only here may the program talk to the operating system.
 SYSTEM_HEADERS = re.compile(r"^(sys/|netinet/|arpa/|linux/|unistd\.h|termios\.h|fcntl\.h|dlfcn\.h|poll\.h|pty\.h|signal\.h|boost/)")
 MAY_CALL_SYSTEM = ("src/net/", "src/cli/", "src/base/file.cpp", "src/base/folder.cpp", "src/base/line_sink.cpp", "src/toolbox/load.cpp",
-                   "src/serve/process.cpp", "src/serve/workbench/door.cpp", "src/serve/web/")
+                   "src/serve/process.cpp", "src/serve/workbench/door.cpp", "src/serve/web/", "src/serve/broker/")
 # Libraries that stay behind one door.
 ONE_DOOR = [
     (re.compile(r"^(rapidjson|nlohmann)/"), ("src/base/json", "src/serve/"), "JSON is read through base/json"),
@@ -101,10 +103,12 @@ ONE_DOOR = [
     (re.compile(r"^CLI/"), ("src/cli/",), "the command line is known in cli only"),
     (re.compile(r"^box2d/"), ("src/sim/",), "physics is known in sim only"),
     (re.compile(r"^pugixml"), ("src/aesl/project",), "XML is read in aesl/project only"),
+    (re.compile(r"^(mosquitto|mqtt_protocol)\.h$"), ("src/serve/broker/",), "MQTT is spoken in serve/broker only"),
     (re.compile(r"^iostream$"), ("src/cli/",), "libraries give values; only cli prints"),
 ]
 CLOCKS = re.compile(r"\b(steady_clock|system_clock|high_resolution_clock|gettimeofday|clock_gettime)\b")
-MAY_TELL_TIME = ("src/net/", "src/cli/", "src/run/real_time_parts.hpp", "src/serve/runner/runner.cpp", "src/serve/workbench/door.cpp")
+MAY_TELL_TIME = ("src/net/", "src/cli/", "src/run/real_time_parts.hpp", "src/serve/runner/runner.cpp", "src/serve/workbench/door.cpp",
+                "src/serve/broker/")
 
 LINES_MAX = 600
 COLUMNS_MAX = 100

@@ -331,6 +331,11 @@ std::string own_program() {
     return path;
 }
 
+std::string host_name() {
+    char name[256] = {};
+    return gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
 std::string random_bytes(size_t count) {
     std::string bytes(count, '\0');
     size_t got = 0;

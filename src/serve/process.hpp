@@ -127,6 +127,8 @@ bool start_beside(const std::vector<std::string>& words);
 constexpr const char* kThisProgram = "/proc/self/exe";
 // Its path.
 std::string own_program();
+// Of this computer.
+std::string host_name();
 // Random bytes of the system, for tokens.
 std::string random_bytes(size_t count);
 

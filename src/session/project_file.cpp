@@ -159,6 +159,7 @@ Reading read_members(const JsonValue& json, const std::string& file) {
     reading.project.safe_stop = toolbox::read_safe_stop(in, reading.complaints);
     reading.project.stops_alone =
         in.word("when_alone", {"run", "stop"}, Need::Optional, "run") == "stop";
+    reading.project.fleet = fleet::read_project_part(in, reading.complaints);
     in.finish();
     return reading;
 }

@@ -12,6 +12,7 @@
 
 #include "base/json.hpp"
 #include "base/result.hpp"
+#include "fleet/project_part.hpp"
 #include "toolbox/safe_stop.hpp"
 
 namespace vagus::session {
@@ -36,6 +37,7 @@ struct ProjectFile {
     std::vector<std::pair<std::string, std::string>> start_set;
     toolbox::SafeStop safe_stop;  // its own entries only: session/safe_stop.hpp adds the others
     bool stops_alone = false;     // "when_alone": "stop": the robot stops when no page is open
+    fleet::ProjectPart fleet;     // what it sends to other robots, and hears of them
 
     // A path of the file, seen from where the program runs.
     std::string path_of(const std::string& named) const;

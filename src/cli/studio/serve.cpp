@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "base/text.hpp"
+#include "cli/fleet/broker_options.hpp"
 #include "cli/log_lines.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
@@ -56,6 +57,13 @@ void add_serve(CLI::App& app, int& exit_code) {
                      "instead of the project's own: sim, tcp:HOST:PORT, ser:DEVICE, can:INTERFACE")
         ->type_name("TARGET");
     add_door_options(*verb, options->door);
+    verb->add_option("--fleet", options->fleet.target,
+                     "the robot is in this fleet: mqtt[s]://HOST[:PORT]/FLEET")
+        ->type_name("FLEET");
+    verb->add_option("--robot", options->fleet.robot,
+                     "its name there (default: that of this computer)")
+        ->type_name("NAME");
+    add_broker_options(*verb, options->fleet);
     verb->add_option("--data", options->data, "folder of the token (default: ~/.local/share/vagus)")
         ->type_name("FOLDER");
     verb->add_option("--config", options->config, "folder of settings (default: ~/.config/vagus)")
@@ -69,7 +77,9 @@ void add_serve(CLI::App& app, int& exit_code) {
         "Example:\n"
         "  vagus serve examples/follow-wall --start\n"
         "  vagus serve /var/lib/vagus/robot --start --target ser:/dev/ttyACM0 --listen 0.0.0.0 "
-        "--token-file token");
+        "--token-file token\n"
+        "  vagus serve examples/alarm/thymio --start --fleet mqtts://broker:8883/lab --tls-ca "
+        "ca.crt --login r1.login");
     verb->callback([options, &exit_code] {
         check_door_options(options->door);
         exit_code = run(*options);

@@ -18,8 +18,12 @@ constexpr std::string_view kEntry[] = {"t",  "do",    "id",     "object", "robot
                                        "at", "angle", "button", "on",     "x"};
 constexpr std::string_view kProject[] = {"format",  "name",      "help",       "plan",
                                          "scripts", "world",     "toolboxes",  "target",
-                                         "start",   "safe_stop", "when_alone", "x"};
+                                         "start",   "safe_stop", "when_alone", "fleet",
+                                         "x"};
 constexpr std::string_view kProjectStart[] = {"plan", "set", "x"};
+constexpr std::string_view kFleet[] = {"name", "groups", "send",       "hear",
+                                       "tell", "broker_lost", "x"};
+constexpr std::string_view kHears[] = {"event", "from", "x"};
 constexpr std::string_view kSafeStop[] = {"set", "read", "x"};
 constexpr std::string_view kToolbox[] = {"format",    "name",      "help", "project",
                                          "templates", "safe_stop", "x"};
@@ -52,6 +56,8 @@ const std::vector<Order>& orders() {
         {"project", {}, kProject},
         {"project", {"start"}, kProjectStart},
         {"project", {"safe_stop", "*"}, kSafeStop},
+        {"project", {"fleet"}, kFleet},
+        {"project", {"fleet", "hear", "[]"}, kHears},
         {"toolbox", {}, kToolbox},
         {"toolbox", {"safe_stop", "*"}, kSafeStop},
         {"toolbox", {"templates", "*"}, kTemplate},

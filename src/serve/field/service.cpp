@@ -10,6 +10,7 @@
 #include "serve/field/check.hpp"
 #include "serve/field/deploy_commands.hpp"
 #include "serve/field/deployments.hpp"
+#include "serve/field/fleet_robot.hpp"
 #include "serve/field/metrics.hpp"
 #include "serve/field/starter.hpp"
 #include "serve/field/stop_only.hpp"
@@ -70,7 +71,29 @@ private:
         TRY(check_folder());
         TRY(deployments_.boot(options_.start, server_.links().now()));
         tell_address();
+        TRY(join_fleet());
         return Status::done();
+    }
+
+    Status join_fleet() {
+        if (options_.fleet.target.empty()) return Status::done();
+        robot_ = TRY(FleetRobot::join(bench(), options_.fleet,
+                                      {.wake = [this] { server_.links().wake(); },
+                                       .log = talk_.log,
+                                       .studio = server_.door().address()},
+                                      server_.links().now()));
+        return Status::done();
+    }
+
+    // Another version may send and hear something else: it joins again, as another instance.
+    void tick_fleet(Time now) {
+        if (!robot_) return;
+        if (bench().project() && !robot_->is_of(*bench().project())) {
+            robot_.reset();
+            const Status joined = join_fleet();
+            if (!joined.ok()) return talk_.log("error", joined.error().what);
+        }
+        robot_->tick(now);
     }
 
     // Other versions of a single file would have no place.
@@ -122,6 +145,7 @@ private:
 
     Time next_tick() const {
         Time next = std::min({starter_.next_tick(), deployments_.next_tick(), figures_at_});
+        if (robot_) next = std::min(next, robot_->next_tick());
         if (manager_.watchdog_every()) next = std::min(next, watchdog_at_);
         return next;
     }
@@ -130,6 +154,7 @@ private:
         worker_.tick();
         starter_.tick(now);
         deployments_.tick(now);
+        tick_fleet(now);
         tell_manager(now);
         show_figures(now);
     }
@@ -192,6 +217,7 @@ private:
     Versions versions_;
     Deployments deployments_;
     Worker worker_{[this] { server_.links().wake(); }};  // ends before what its work uses
+    std::unique_ptr<FleetRobot> robot_;  // ends before the server
     bool was_ready_ = false;
     std::string told_;
     Time figures_at_{}, watchdog_at_{};

@@ -6,6 +6,7 @@
 
 #include "base/result.hpp"
 #include "base/time.hpp"
+#include "serve/field/fleet_robot.hpp"
 #include "serve/workbench/door.hpp"
 
 namespace vagus::serve {
@@ -20,6 +21,7 @@ struct ServiceOptions {
     bool stop_only = false;    // stops the robot and ends
     std::string target = {};   // instead of the project's own
     DoorOptions door = {};
+    FleetOptions fleet = {};
     std::string data = {}, config = {};  // folders; empty: the user's
 };
 

@@ -133,6 +133,8 @@ public:
     // the instant 0, while its nodes were made ready.
     void begin();
     bool plan_runs() const;
+    // What the plan that runs does now: its innermost actor; empty without one.
+    std::string actor() const;
     // The plan that runs waits for an event of that name.
     bool plan_hears(const std::string& event) const {
         return plan_runs() && hears_.contains(event);

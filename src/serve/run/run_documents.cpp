@@ -25,6 +25,11 @@ Json Run::clock_document() const {
     return clock;
 }
 
+std::string Run::actor() const {
+    if (!plan_runs() || !plan_ || plan_->levels.empty()) return "";
+    return plan_->levels.back().document.json.value("actor", "");
+}
+
 Json Run::plan_document() const {
     if (!plan_) {
         return {{"state", "none"}, {"t", t_}, {"levels", Json::array()}, {"story", Json::array()}};

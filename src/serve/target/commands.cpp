@@ -89,6 +89,50 @@ void Target::set_variable(const Call& call) {
         "");
 }
 
+Status Target::emit(const std::string& event, const std::vector<int16_t>& args) {
+    if (!network_) return Error{Code::Unavailable, kNoRobot};
+    will_move();
+    TRY(network_->emit(event, args));
+    happen("event", 0, event, "", args);
+    const auto& events = network_->common().events;
+    const auto named = std::find_if(events.begin(), events.end(),
+                                    [&event](const auto& one) { return one.name == event; });
+    count_dropped(wire::kHostId, static_cast<uint16_t>(named - events.begin()));
+    return Status::done();
+}
+
+void Target::write(const std::string& node, const std::string& variable,
+                   const std::vector<int16_t>& values, std::function<void(std::string why)> done) {
+    if (!network_) return done(kNoRobot);
+    const auto id = network_->find(node);
+    if (!id.ok()) return done(id.error().what);
+    const auto range = network_->variable(id.value(), variable);
+    if (!range.ok()) return done(range.error().what);
+    if (values.size() != range.value().count) {
+        return done(fmt::format("{} has {} words; found {} values", variable, range.value().count,
+                                values.size()));
+    }
+    will_move();
+    start_batch(
+        {id.value()}, [&](uint16_t one) { return network_->set(one, range.value(), values); },
+        [done = std::move(done)](Batch& batch) {
+            done(batch.failed.empty() ? "" : batch.failed.front().second);
+        },
+        "");
+}
+
+std::vector<std::string> Target::problems() const {
+    std::vector<std::string> problems;
+    for (const auto& [node, known] : known_) {
+        if (known.away) problems.push_back(name_of(node) + " is away");
+        if (known.fault.empty()) continue;
+        const std::string place =
+            known.fault_line > 0 ? fmt::format(" at line {}", known.fault_line) : "";
+        problems.push_back(fmt::format("{}{}: {}", name_of(node), place, known.fault));
+    }
+    return problems;
+}
+
 void Target::declare_node_commands() {
     desk_.command("node.run", [this](const Call& call) {
         if (call.in["node"] == 0) release_all();
@@ -148,18 +192,7 @@ void Target::declare_commands() {
     });
     desk_.command("variable.set", [this](const Call& call) { set_variable(call); });
     desk_.command("event.send", [this](const Call& call) {
-        if (!network_) return call.fail("unavailable", kNoRobot);
-        const std::vector<int16_t> args = call.in["args"];
-        const std::string name = call.in["name"];
-        will_move();
-        const Status sent = network_->emit(name, args);
-        if (!sent.ok()) return call.fail(sent.error());
-        happen("event", 0, name, "", args);
-        const auto& events = network_->common().events;
-        const auto named = std::find_if(events.begin(), events.end(),
-                                        [&name](const auto& one) { return one.name == name; });
-        count_dropped(wire::kHostId, static_cast<uint16_t>(named - events.begin()));
-        call.done();
+        call.answer(emit(call.in["name"], call.in["args"]));
     });
 }
 

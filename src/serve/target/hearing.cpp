@@ -110,6 +110,7 @@ void Target::hear(const debug::Event& event, const debug::UserEvent& sent) {
         ++traffic_[{event.node, name}];
     }
     happen("event", event.node, name, "", sent.arguments);
+    if (event.node != wire::kHostId) tells_.event(name, sent.arguments);
     count_dropped(event.node, sent.number);
 }
 

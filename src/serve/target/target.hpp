@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "debug/network.hpp"
+#include "fleet/project_part.hpp"
 #include "serve/json.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
@@ -85,6 +86,16 @@ struct TargetTold {
         [](double, uint16_t, uint16_t, uint16_t) {};
 };
 
+// For those who act for a robot as a whole: a fleet.
+struct TargetTells {
+    // A script of a node has emitted it.
+    std::function<void(const std::string& event, const std::vector<int16_t>& args)> event =
+        [](auto&, auto&) {};
+    // A variable of tell_variables() has these values now.
+    std::function<void(const fleet::Tells& variable, const std::vector<int16_t>& values)> variable =
+        [](auto&, auto&) {};
+};
+
 struct DescribedNode {
     uint16_t id = 0;
     std::string name;
@@ -102,6 +113,11 @@ public:
 
     void set_hints(TargetHints hints) { hints_ = std::move(hints); }
     void on_told(TargetTold told) { told_ = std::move(told); }
+    void on_tells(TargetTells tells) { tells_ = std::move(tells); }
+    // They are asked for from now on, whether a page looks at them or not.
+    void tell_variables(std::vector<fleet::Tells> variables) {
+        told_variables_ = std::move(variables);
+    }
     // What is told to the people: a line of the console.
     void on_say(std::function<void(const std::string& kind, const std::string& text)> say) {
         say_ = std::move(say);
@@ -160,6 +176,13 @@ public:
     // Of the paused nodes only.
     void run_paused(std::function<void(std::vector<std::string>)> done);
     void step_paused(std::function<void(std::vector<std::string>)> done);
+    // An event of the bus, from here.
+    Status emit(const std::string& event, const std::vector<int16_t>& args);
+    // Writes "NAME", "NAME[3]" or "NAME[2:5]" of a node; `done` gets why not, or nothing.
+    void write(const std::string& node, const std::string& variable,
+               const std::vector<int16_t>& values, std::function<void(std::string why)> done);
+    // What people should know of nodes: faults, nodes that are away.
+    std::vector<std::string> problems() const;
     // A node is paused at a line of its script.
     bool is_paused_inside() const;
     // Empty if it is not there or has not told what it is.
@@ -302,6 +325,7 @@ private:
                 const std::vector<int16_t>& args = {});
     void put_watched_together();
     void watch_what_is_shown();
+    bool is_told(const std::string& node, const std::string& variable) const;
     void tell_unwatched(uint16_t node, const debug::NodeView& view, const std::string& name);
     static std::map<std::string, std::pair<uint32_t, uint32_t>> variables_of(
         const debug::NodeView& view);
@@ -330,6 +354,8 @@ private:
     ScriptBreakpoints& breakpoints_;
     TargetHints hints_;
     TargetTold told_;
+    TargetTells tells_;
+    std::vector<fleet::Tells> told_variables_;
     std::function<void(const std::string&, const std::string&)> say_ = [](auto&, auto&) {};
     std::function<void()> breakpoints_changed_ = [] {};
 

@@ -155,13 +155,14 @@ void Target::watch_what_is_shown() {
     put_watched_together();
     for (const uint16_t node : live_nodes()) {
         const auto wanted = wanted_.find(node);
-        if (wanted == wanted_.end() && watched_[node].empty()) continue;
+        const bool nothing = wanted == wanted_.end() && told_variables_.empty();
+        if (nothing && watched_[node].empty()) continue;
         std::set<std::string> names;
         const debug::NodeView* view = network_->node(node);
         for (const auto& [name, place] : variables_of(*view)) {
             const bool shown = wanted != wanted_.end() &&
                                has_some(wanted->second, place.first, place.first + place.second);
-            if (!shown) continue;
+            if (!shown && !is_told(view->name, name)) continue;
             names.insert(name);
             if (watched_[node].contains(name)) continue;
             const auto range = network_->variable(node, name);
@@ -176,6 +177,11 @@ void Target::watch_what_is_shown() {
         if (names.empty()) values_.erase(node);
         watched_[node] = std::move(names);
     }
+}
+
+bool Target::is_told(const std::string& node, const std::string& variable) const {
+    return std::find(told_variables_.begin(), told_variables_.end(),
+                     fleet::Tells{node, variable}) != told_variables_.end();
 }
 
 void Target::tell_unwatched(uint16_t node, const debug::NodeView& view, const std::string& name) {
@@ -212,6 +218,8 @@ void Target::hear(const debug::Event& event, const debug::VariableChanged& chang
     if (watched_[event.node].contains(changed.name)) {
         told_.words(time(), event.node, address, changed.values);
     }
+    const fleet::Tells variable{view->name, changed.name};
+    if (is_told(variable.node, variable.name)) tells_.variable(variable, changed.values);
     for (const int16_t value : changed.values) {
         values_[event.node][address] = value;
         const auto samples = samples_.find({event.node, address});

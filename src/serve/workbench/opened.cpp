@@ -48,6 +48,7 @@ Result<OpenedProject> open_folder(const fs::path& folder) {
     opened.start_set = project.start_set;
     opened.stops_alone = project.stops_alone;
     opened.safe_stop = project.safe_stop;
+    opened.fleet = project.fleet;
     return opened;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "fleet/project_part.hpp"
 #include "session/safe_stop.hpp"
 
 namespace vagus::serve {
@@ -29,6 +30,7 @@ struct OpenedProject {
     std::string target = "sim";
     bool stops_alone = false;     // when the last page is closed
     session::SafeStop safe_stop;  // what its file says of nodes
+    fleet::ProjectPart fleet;
     std::vector<std::pair<std::string, std::string>> start_set;
     std::string copy_of;  // an example
 

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "fleet/member.hpp"
 #include "net/links.hpp"
 #include "run/real_time_parts.hpp"
 #include "serve/edit/editing.hpp"
@@ -119,12 +120,31 @@ public:
     // The last one: who ended it, how, and which nodes are at rest.
     std::string end_in_words() const { return ends_.sentence(); }
 
+    // ---- for a robot of a fleet ----
+    fleet::Shown shown() const;
+    // Events that scripts emit, and variables as they change.
+    void on_tells(std::vector<fleet::Tells> variables, TargetTells tells);
+    // An event of the bus, from the fleet.
+    Status emit(const std::string& event, const std::vector<int16_t>& args) {
+        return target_.emit(event, args);
+    }
+    // What somebody of the fleet wants; `done` gets the answer, once.
+    using Obeyed = std::function<void(fleet::Answer answer)>;
+    void obey(const fleet::Command& command, Obeyed done);
+    // Also what was to start later.
+    void stop_for(const std::string& by);
+
     // If anything runs, or was sent that can move a node: the plan ends, and all nodes stop. Until
     // that is over, or waited for no longer, is_stopping().
     void end_by(const std::string& by, life::Why why);
     bool is_stopping() const { return life_.is_stopping(); }
 
 private:
+    // ---- of_fleet.cpp ----
+    void stop_and_report(const std::string& by, Obeyed done);
+    void obey_start(const fleet::Command& command, Obeyed done);
+    void write(const fleet::Command& command, Obeyed done);
+
     // ---- workbench.cpp: what is open ----
     void declare_topics();
     void declare_project_commands();

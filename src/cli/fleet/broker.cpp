@@ -1,0 +1,294 @@
+#include "cli/fleet/broker.hpp"
+
+#include <fmt/format.h>
+#include <pwd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "cli/fleet/process.hpp"
+#include "cli/options.hpp"
+#include "cli/output.hpp"
+#include "fleet/limits.hpp"
+#include "fleet/topic.hpp"
+#include "net/end_signal.hpp"
+#include "serve/process.hpp"
+
+namespace vagus::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kPasswordBytes = 16;
+constexpr int kCertificateDays = 3650;
+constexpr mode_t kForOwner = 0600;
+constexpr mode_t kFolderForOwner = 0700;
+constexpr const char* kUsers[] = {"operator", "looker", "keeper"};
+
+// Rights, as docs/fleet.md explains them. %u is the user: a robot's own name. Who may read `want`
+// is not everybody, so what everybody may read is a list.
+constexpr const char* kAccess = R"(# Made by `vagus fleet init`; read by mosquitto when it starts.
+# A robot writes below robot/ITS NAME/ alone.
+pattern readwrite vagus/1/+/robot/%u/#
+pattern read vagus/1/+/robot/+/connection
+pattern read vagus/1/+/robot/+/description
+pattern read vagus/1/+/robot/+/state
+pattern read vagus/1/+/robot/+/var/#
+pattern read vagus/1/+/robot/+/event/+
+pattern read vagus/1/+/robot/+/ask/#
+pattern read vagus/1/+/robot/+/answer/#
+pattern read vagus/1/+/cmd/#
+pattern read vagus/1/+/shared/#
+pattern read vagus/1/+/task/#
+
+user operator
+topic readwrite vagus/1/+/cmd/#
+topic readwrite vagus/1/+/robot/+/want
+
+user looker
+topic write vagus/1/+/cmd/+/stop
+topic write vagus/1/+/cmd/group/+/stop
+
+user keeper
+topic readwrite vagus/1/+/shared/#
+topic readwrite vagus/1/+/task/#
+)";
+
+std::string user_of_this_process() {
+    const passwd* user = getpwuid(geteuid());
+    return user == nullptr ? "mosquitto" : user->pw_name;
+}
+
+std::string random_password() {
+    std::string password;
+    for (const char byte : serve::random_bytes(kPasswordBytes)) {
+        password += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+    }
+    return password;
+}
+
+class Maker {
+public:
+    explicit Maker(const BrokerOptions& options)
+        : options_(options), folder_(fs::absolute(options.folder).lexically_normal()) {}
+
+    Status make() {
+        std::error_code failed;
+        fs::create_directories(folder_ / "data", failed);
+        if (failed) {
+            return Error{Code::Unavailable,
+                         fmt::format("{}: cannot be made: {}", options_.folder, failed.message())};
+        }
+        chmod(folder_.c_str(), kFolderForOwner);
+        TRY(make_authority());
+        TRY(make_certificate());
+        TRY(write("access", kAccess));
+        TRY(write("mosquitto.conf", configuration()));
+        return make_users();
+    }
+
+private:
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    bool has(const std::string& name) const {
+        std::error_code failed;
+        return fs::exists(folder_ / name, failed);
+    }
+
+    // For its owner alone, from its first byte on; what is there stays.
+    Status write(const std::string& name, const std::string& content) {
+        if (has(name)) return Status::done();
+        const mode_t before = umask(~kForOwner & 0777);
+        const Status written = write_file(path(name), content);
+        umask(before);
+        return written;
+    }
+
+    Status make_authority() {
+        if (has("ca.crt") && has("ca.key")) return Status::done();
+        return openssl({"req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1",
+                        "-nodes", "-keyout", path("ca.key"), "-out", path("ca.crt"), "-days",
+                        std::to_string(kCertificateDays), "-subj",
+                        "/CN=Authority of a fleet of Vagus", "-addext",
+                        "keyUsage=critical,keyCertSign,cRLSign"});
+    }
+
+    Status make_certificate() {
+        if (has("broker.crt") && has("broker.key")) return Status::done();
+        TRY(openssl({"req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                     "-keyout", path("broker.key"), "-out", path("broker.csr"), "-subj",
+                     "/CN=Broker of a fleet of Vagus"}));
+        TRY(write_file(path("broker.ext"), "subjectAltName=" + alternative_names() + "\n"));
+        return openssl({"x509", "-req", "-in", path("broker.csr"), "-CA", path("ca.crt"), "-CAkey",
+                        path("ca.key"), "-CAcreateserial", "-days",
+                        std::to_string(kCertificateDays), "-extfile", path("broker.ext"), "-out",
+                        path("broker.crt")});
+    }
+
+    std::string alternative_names() const {
+        std::string names = "DNS:localhost,IP:127.0.0.1,IP:::1";
+        std::vector<std::string> hosts = options_.hosts;
+        hosts.push_back(serve::host_name());
+        for (const std::string& host : hosts) {
+            if (host.empty() || host == "localhost") continue;
+            const bool address =
+                host.find_first_not_of("0123456789.") == host.npos || host.find(':') != host.npos;
+            names += fmt::format(",{}:{}", address ? "IP" : "DNS", host);
+        }
+        return names;
+    }
+
+    Status openssl(std::vector<std::string> words) {
+        words.insert(words.begin(), "openssl");
+        const mode_t before = umask(~kForOwner & 0777);
+        const Status done = run_to_end(words);
+        umask(before);
+        return done;
+    }
+
+    std::string configuration() const {
+        const auto listener = [this](uint16_t port, const char* protocol) {
+            return fmt::format(
+                "\nlistener {}\nprotocol {}\ncafile {}\ncertfile {}\nkeyfile {}\n"
+                "tls_version tlsv1.2\n",
+                port, protocol, path("ca.crt"), path("broker.crt"), path("broker.key"));
+        };
+        return fmt::format(
+                   "# Made by `vagus fleet init`; yours to change. mosquitto.conf(5)\n"
+                   "user {}\nallow_anonymous false\npassword_file {}\nacl_file {}\n"
+                   "persistence true\npersistence_location {}/\nautosave_interval 60\n"
+                   "max_packet_size {}\nmax_queued_messages 1000\nset_tcp_nodelay true\n"
+                   "log_dest stderr\nlog_type error\nlog_type warning\nlog_type notice\n"
+                   "connection_messages false\n",
+                   user_of_this_process(), path("passwords"), path("access"), path("data"),
+                   fleet::kPayloadBytesMax + 2 * fleet::kTopicBytesMax) +
+               listener(options_.port, "mqtt") + listener(options_.web_port, "websockets");
+    }
+
+    // Each new user has a file NAME.login with the user and a password; the broker's own file has
+    // only what cannot be turned back.
+    Status make_users() {
+        std::string fresh;
+        std::vector<std::string> users(std::begin(kUsers), std::end(kUsers));
+        for (const std::string& robot : options_.robots) users.push_back(fleet::escape(robot));
+        for (const std::string& user : users) {
+            if (has(user + ".login")) continue;
+            const std::string password = random_password();
+            TRY(write(user + ".login", user + "\n" + password + "\n"));
+            fresh += user + ":" + password + "\n";
+        }
+        if (fresh.empty()) return Status::done();
+        TRY(write("passwords.new", fresh));
+        TRY(run_to_end({"mosquitto_passwd", "-U", path("passwords.new")}));
+        const std::string hashed = TRY(read_file(path("passwords.new")));
+        const std::string before = has("passwords") ? TRY(read_file(path("passwords"))) : "";
+        std::error_code failed;
+        fs::remove(path("passwords"), failed);
+        TRY(write("passwords", before + hashed));
+        fs::remove(path("passwords.new"), failed);
+        return Status::done();
+    }
+
+    const BrokerOptions& options_;
+    const fs::path folder_;
+};
+
+Status check(const BrokerOptions& options) {
+    if (options.robots.size() > kFleetUsersMax) {
+        return Error{Code::Limit, fmt::format("--robot: {} at a time at most, found {}",
+                                              kFleetUsersMax, options.robots.size())};
+    }
+    for (const std::string& robot : options.robots) {
+        const bool taken =
+            std::find(std::begin(kUsers), std::end(kUsers), robot) != std::end(kUsers);
+        if (fleet::is_robot_name(robot) && !taken) continue;
+        return Error{Code::BadInput,
+                     fmt::format("\"{}\" cannot be the name of a robot: expected 1 to {} bytes, "
+                                 "and none of all, group, operator, looker, keeper",
+                                 visible(robot), fleet::kNameBytesMax)};
+    }
+    return Status::done();
+}
+
+int init(const BrokerOptions& options) {
+    const Status made = make_broker(options);
+    if (!made.ok()) {
+        return complain(made.error(),
+                        made.error().code == Code::BadInput ? kExitUsage : kExitFailed);
+    }
+    print(
+        fmt::format("{0}: ca.crt is for everybody, NAME.login for the one of that name.\n"
+                    "Next: vagus fleet serve {0}\n",
+                    options.folder));
+    return kExitDone;
+}
+
+// "listener 8883" of a configuration that a person may have changed.
+std::string port_in(const std::string& configuration) {
+    for (const std::string_view line : split(configuration, '\n')) {
+        constexpr std::string_view kListener = "listener ";
+        if (line.starts_with(kListener)) return std::string(line.substr(kListener.size()));
+    }
+    return "1883";
+}
+
+}  // namespace
+
+Status make_broker(const BrokerOptions& options) {
+    TRY(check(options));
+    return Maker(options).make();
+}
+
+int serve_broker(const std::string& folder) {
+    const std::string file = (fs::absolute(folder) / "mosquitto.conf").string();
+    const auto configuration = read_file(file);
+    if (!configuration.ok()) {
+        return complain(
+            configuration.error().what + "; make one with `vagus fleet init " + folder + "`",
+            kExitUsage);
+    }
+    net::watch_for_end();
+    auto broker = Companion::start({"mosquitto", "-c", file});
+    if (!broker.ok()) return complain(broker.error());
+    print("fleet mqtts://localhost:" + port_in(configuration.value()) + "\n");
+    // The keeper of tasks and shared values will run here, too (docs/fleet.md).
+    const auto end = broker.value().wait_for_end();
+    if (!end) return kExitDone;
+    return complain("mosquitto " + *end + "; its last words are above");
+}
+
+void add_broker_verbs(CLI::App& fleet, int& exit_code) {
+    const auto options = std::make_shared<BrokerOptions>();  // owners: CLI11 and the callbacks
+    CLI::App* verb = fleet.add_subcommand("init", "makes what a broker of one's own needs");
+    verb->add_option("FOLDER", options->folder, "made if it is not there")->required();
+    verb->add_option("--port", options->port, "of the broker (default: 8883)")
+        ->check(CLI::Range(1, UINT16_MAX));
+    verb->add_option("--web-port", options->web_port, "the same, by WebSockets (default: 8884)")
+        ->check(CLI::Range(1, UINT16_MAX));
+    verb->add_option("--host", options->hosts, "a further name or address of this computer")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    verb->add_option("--robot", options->robots, "a robot that gets a login")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    verb->footer(
+        "Configuration, rights, a small authority with the certificate of the broker, and a login "
+        "each for\n"
+        "operator (who orders), looker (who looks, and may stop), keeper, and every robot. What is "
+        "there\n"
+        "already stays: another --robot is added by another init.\n"
+        "Example:\n  vagus fleet init broker --host broker.local --robot r1 --robot r2");
+    verb->callback([options, &exit_code] { exit_code = init(*options); });
+
+    verb = fleet.add_subcommand("serve", "runs mosquitto with what `init` made");
+    verb->add_option("FOLDER", options->folder, "of `vagus fleet init`")->required();
+    verb->footer(
+        "Needs Debian's package mosquitto, whose own service need not run. Ends with Ctrl-C; "
+        "mosquitto ends\nwith it.\nExample:\n  vagus fleet serve broker");
+    verb->callback([options, &exit_code] { exit_code = serve_broker(options->folder); });
+}
+
+}  // namespace vagus::cli

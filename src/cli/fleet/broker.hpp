@@ -1,0 +1,35 @@
+// A broker of one's own: `vagus fleet init FOLDER` makes what it needs, `vagus fleet serve FOLDER`
+// runs Debian's mosquitto with it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace vagus::cli {
+
+constexpr size_t kFleetUsersMax = 1000;  // that one `init` adds
+
+struct BrokerOptions {
+    std::string folder;
+    uint16_t port = 8883;
+    uint16_t web_port = 8884;         // WebSockets
+    std::vector<std::string> hosts;   // further names of this computer
+    std::vector<std::string> robots;  // that get a login
+};
+
+// What is there already stays as it is; robots that are new get a login.
+Status make_broker(const BrokerOptions& options);
+
+// Until a signal comes, or mosquitto ends by itself. The exit code.
+int serve_broker(const std::string& folder);
+
+void add_broker_verbs(CLI::App& fleet, int& exit_code);
+
+}  // namespace vagus::cli

@@ -1,0 +1,94 @@
+#include "cli/fleet/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "net/end_signal.hpp"
+#include "serve/process.hpp"
+
+namespace vagus::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kLookForEndEvery = 50ms;
+constexpr size_t kNameBytes = 6;
+
+// A robot of that name is improbable, and another operator, too.
+std::string operator_name() {
+    std::string name = "operator-";
+    for (const char byte : serve::random_bytes(kNameBytes)) {
+        name += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+    }
+    return name;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<FleetSession>> FleetSession::open(const FleetCall& call,
+                                                         fleet::Operator::Options options) {
+    options.name = operator_name();
+    serve::LinkOptions link = TRY(serve::link_options(call.broker, options.name));
+    if (link.target.fleet.empty()) {
+        return Error{Code::BadInput,
+                     call.broker.target + ": which fleet? Write mqtt://HOST[:PORT]/FLEET"};
+    }
+    options.fleet = link.target.fleet;
+    net::watch_for_end();
+    std::unique_ptr<FleetSession> session(new FleetSession());
+    session->fleet_ = options.fleet;
+    session->desk_ = std::make_unique<fleet::Operator>(std::move(options));
+    const auto wake = [raw = session.get()] {
+        const std::lock_guard lock(raw->guard_);
+        raw->wakes_ = true;
+        raw->woken_.notify_one();
+    };
+    session->link_ = std::make_unique<serve::MosquittoLink>(std::move(link), wake);
+    return session;
+}
+
+Duration FleetSession::now() const {
+    return std::chrono::duration_cast<Duration>(
+        std::chrono::steady_clock::now().time_since_epoch());
+}
+
+void FleetSession::turn() {
+    for (const fleet::LinkEvent& event : link_->take()) {
+        if (const auto* lost = std::get_if<fleet::Lost>(&event)) lost_ = lost->why;
+        desk_->hear(event, now());
+        event_(event);
+    }
+    desk_->tick(now());
+    for (const fleet::OperatorAction& action : desk_->take()) {
+        if (const auto* filters = std::get_if<fleet::Subscribe>(&action)) {
+            link_->subscribe(filters->filters);
+        } else {
+            link_->publish(std::get<fleet::Post>(action));
+        }
+    }
+}
+
+bool FleetSession::wait_until(const std::function<bool()>& holds, Duration within) {
+    const Duration until = now() + within;
+    for (;;) {
+        turn();
+        if (holds()) return true;
+        if (now() >= until || net::end_asked()) return false;
+        const Duration next = std::min({until, desk_->next_tick(), now() + kLookForEndEvery});
+        std::unique_lock lock(guard_);
+        woken_.wait_for(lock, std::max(next - now(), Duration{}), [this] { return wakes_; });
+        wakes_ = false;
+    }
+}
+
+Status FleetSession::know_all(Duration within) {
+    if (wait_until([this] { return desk_->knows_all(); }, within)) return Status::done();
+    return Error{Code::Unavailable,
+                 lost_.empty() ? "the broker does not pass on what this user says; look at its "
+                                 "access list, or name another --login"
+                               : lost_};
+}
+
+}  // namespace vagus::cli

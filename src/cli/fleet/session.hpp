@@ -1,0 +1,61 @@
+// One run of `vagus fleet TARGET VERB`: a connection to a broker, an operator (fleet/operator.hpp),
+// and the time. Every wait has an end: a deadline, an answer, Ctrl-C.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "fleet/operator.hpp"
+#include "serve/field/fleet_robot.hpp"
+
+namespace vagus::cli {
+
+constexpr double kFleetWait_s = 10;  // for answers
+
+struct FleetCall {
+    serve::FleetOptions broker;
+    std::optional<double> wait_s;
+    bool json = false;
+    std::string robot, group;  // neither: see the verbs
+    fleet::Command command;    // of verbs that want something
+    std::vector<int> values;
+    std::string variable;
+};
+
+class FleetSession {
+public:
+    static Result<std::unique_ptr<FleetSession>> open(const FleetCall& call,
+                                                      fleet::Operator::Options options);
+
+    fleet::Operator& desk() { return *desk_; }
+    const std::string& fleet() const { return fleet_; }
+    // Called with each event of the link, after the operator has heard it.
+    void on_event(std::function<void(const fleet::LinkEvent&)> event) { event_ = std::move(event); }
+    // Until it holds (true), the time is over, or somebody wants the end.
+    bool wait_until(const std::function<bool()>& holds, Duration within);
+    // The connection was made, and all that was retained has come; the Error says why not.
+    Status know_all(Duration within);
+    void publish(const fleet::Post& post) { link_->publish(post); }
+    Duration now() const;
+
+private:
+    FleetSession() = default;
+    void turn();
+
+    std::string fleet_;
+    std::unique_ptr<fleet::Operator> desk_;
+    std::string lost_;  // the last trouble
+    std::function<void(const fleet::LinkEvent&)> event_ = [](auto&) {};
+    std::mutex guard_;
+    std::condition_variable woken_;
+    bool wakes_ = false;
+    std::unique_ptr<serve::MosquittoLink> link_;  // ends before what its thread wakes
+};
+
+}  // namespace vagus::cli

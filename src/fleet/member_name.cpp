@@ -1,0 +1,159 @@
+// Who has the name of a robot. Two programs that want one name must not both drive what people
+// think is one robot. A broker gives no locks; what it gives is one order of the messages of a
+// topic, the same for everyone. So:
+//
+// - Who comes subscribes to the name's topics, then publishes a question there. When its own
+//   question comes back, everything that was retained has come before it.
+// - If nobody was said to be online, the name is free. If somebody was, it has kNameAnswerWithin to
+//   answer the question.
+// - Of two that claim at once, the one whose `online` the broker had last has the name: the other
+//   sees that one behind its own.
+#include <fmt/format.h>
+
+#include "fleet/member.hpp"
+
+namespace vagus::fleet {
+namespace {
+
+constexpr const char* kName = "name";  // the question, and where it is answered
+constexpr const char* kOnline = "online";
+
+}  // namespace
+
+Post Member::connection(const std::string& state) const {
+    return post_of(Kind::Connection, "", Connection{state, options_.instance, options_.epoch});
+}
+
+std::vector<Filter> Member::filters_of_name() const {
+    const auto of = [this](Kind kind, const std::string& name) {
+        return Filter{
+            text_of(options_.fleet, {.kind = kind, .robot = options_.robot, .name = name})};
+    };
+    std::vector<Filter> filters = {of(Kind::Connection, ""), of(Kind::Answer, kName)};
+    // Stop is heard whoever has the name.
+    filters.push_back({text_of(options_.fleet, {.kind = Kind::Command, .name = "stop"})});
+    for (const std::string& group : options_.project.groups) {
+        filters.push_back(
+            {text_of(options_.fleet, {.kind = Kind::Command, .group = group, .name = "stop"})});
+    }
+    filters.push_back(of(Kind::Ask, kName));  // the last one: its echo comes behind all others
+    return filters;
+}
+
+std::vector<Filter> Member::filters_of_work() const {
+    std::vector<Filter> filters = {{filter_of_commands(options_.fleet, options_.robot)}};
+    for (const Hears& one : options_.project.hear) {
+        filters.push_back({filter_of_event(options_.fleet, one.event), false});
+    }
+    return filters;
+}
+
+void Member::on(const Connected&) {
+    act(Subscribe{filters_of_name()});
+    holder_.reset();
+    ask_for_name();
+}
+
+void Member::on(const Lost& lost) {
+    if (standing_ == Standing::Holding) apart_since_ = now_;
+    standing_ = Standing::Apart;
+    outbox_.link_lost();
+    if (lost.why != lost_told_) say("warning", "fleet: " + lost.why);
+    lost_told_ = lost.why;
+}
+
+void Member::ask_for_name() {
+    standing_ = Standing::Asking;
+    asked_ = false;
+    name_until_ = now_ + kNameAnswerWithin;
+    act(post_of(Kind::Ask, kName, Ask{options_.instance}));
+}
+
+void Member::hear_question(const Ask& ask) {
+    if (ask.instance != options_.instance) {
+        if (standing_ != Standing::Holding) return;
+        const Answer answer{.id = ask.instance, .done = true, .instance = options_.instance};
+        return act(post_of(Kind::Answer, kName, answer));
+    }
+    if (standing_ != Standing::Asking) return;
+    asked_ = true;
+    if (!holder_) claim();
+}
+
+void Member::hear_answer(const Answer& answer) {
+    const bool is_for_us = answer.id == options_.instance;
+    if (standing_ != Standing::Asking || !is_for_us || answer.instance == options_.instance) return;
+    stay_out("another robot has this name, and answers");
+}
+
+void Member::claim() {
+    standing_ = Standing::Holding;
+    ours_came_back_ = false;
+    alone_told_ = false;
+    lost_told_.clear();
+    act(connection(kOnline));
+    act(Subscribe{filters_of_work()});
+    publish_description();
+    for (auto& [place, telling] : telling_) telling.news = true;
+    state_at_ = now_ - kStateEveryMax;
+    say("note", fmt::format("fleet: this robot is \"{}\" of the fleet \"{}\"", options_.robot,
+                            options_.fleet));
+    tick(now_);
+}
+
+void Member::stay_out(const std::string& why) {
+    if (standing_ == Standing::Holding) apart_since_ = now_;
+    standing_ = Standing::Out;
+    say("error", fmt::format("fleet: \"{}\" of the fleet \"{}\": {}; this one stays out of the "
+                             "fleet. Give it a name of its own (--robot)",
+                             options_.robot, options_.fleet, why));
+}
+
+void Member::hear_connection(const Connection& said) {
+    if (said.instance != options_.instance) return hear_connection_of_other(said);
+    if (standing_ != Standing::Holding) return;
+    // A will of ours that came late: an earlier connection of ours was missed.
+    if (said.state != kOnline) return act(connection(kOnline));
+    ours_came_back_ = true;
+}
+
+void Member::hear_connection_of_other(const Connection& said) {
+    const bool online = said.state == kOnline;
+    if (standing_ == Standing::Holding) {
+        // Its last words stand where ours did; what it claimed before ours counts no more.
+        if (!online) return act(connection(kOnline));
+        if (ours_came_back_) stay_out("another robot has claimed this name behind this one");
+        return;
+    }
+    holder_.reset();
+    if (online) holder_ = said;
+    if (!online && standing_ == Standing::Out) return ask_for_name();
+    if (!online && standing_ == Standing::Asking && asked_) claim();
+}
+
+void Member::tick_name() {
+    if (standing_ != Standing::Asking || now_ < name_until_) return;
+    if (asked_) return claim();  // who was there does not answer
+    say("warning", fmt::format("fleet: the broker does not pass on what this robot says "
+                               "(robot/{}/…); look at its access list",
+                               escape(options_.robot)));
+    ask_for_name();
+}
+
+void Member::tick_alone() {
+    if (standing_ == Standing::Holding || alone_told_) return;
+    if (now_ < apart_since_ + kBrokerLostAfter) return;
+    alone_told_ = true;
+    const std::string why =
+        fmt::format("not in the fleet \"{}\" for {} s", options_.fleet, kBrokerLostAfter / 1s);
+    if (options_.project.broker_lost == BrokerLost::Stop) return act(StopAlone{why});
+    say("warning", fmt::format("fleet: {}; this robot goes on, as its project says", why));
+}
+
+void Member::leave() {
+    if (standing_ == Standing::Holding) act(connection("offline"));
+    standing_ = Standing::Apart;
+    alone_told_ = true;
+}
+
+}  // namespace vagus::fleet

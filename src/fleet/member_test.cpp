@@ -1,0 +1,492 @@
+#include "fleet/member.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace vagus::fleet {
+namespace {
+
+const char* const kFleet = "lab";
+
+// One member, and what a broker would say to it, by hand.
+struct Case {
+    explicit Case(ProjectPart part = {}, const std::string& instance = "i1")
+        : member({.fleet = kFleet,
+                  .robot = "r1",
+                  .instance = instance,
+                  .epoch = 7,
+                  .project = std::move(part),
+                  .description = {"Alarm", "0.1.0", "", "", {}, {}, {}, {}}},
+                 0s) {}
+
+    void hear(const LinkEvent& event) {
+        member.hear(event, now);
+        take();
+    }
+    void hear(const Topic& topic, const Message& message, bool retained = false) {
+        hear(Received{{topic, message}, retained});
+    }
+    void connection(const std::string& state, const std::string& instance) {
+        hear({.kind = Kind::Connection, .robot = "r1"}, Connection{state, instance, 7});
+    }
+    void question(const std::string& instance) {
+        hear({.kind = Kind::Ask, .robot = "r1", .name = "name"}, Ask{instance});
+    }
+    void name_answer(const std::string& instance) {
+        hear({.kind = Kind::Answer, .robot = "r1", .name = "name"},
+             Answer{.id = "i1", .done = true, .instance = instance});
+    }
+    void event(const std::string& robot, const Event& event, const std::string& name = "alarm") {
+        hear({.kind = Kind::Event, .robot = robot, .name = name}, event);
+    }
+    void command(Command command) {
+        hear({.kind = Kind::Command, .robot = "r1", .name = command.verb}, command);
+    }
+    void tick(Time time) {
+        now = time;
+        member.tick(now);
+        take();
+    }
+    void hold() {
+        hear(Connected{});
+        question("i1");
+        connection("online", "i1");
+        ASSERT_EQ(member.standing(), Member::Standing::Holding);
+        actions.clear();
+    }
+    void take() {
+        for (MemberAction& action : member.take()) actions.push_back(std::move(action));
+    }
+
+    template <typename Action>
+    std::vector<Action> all() const {
+        std::vector<Action> list;
+        for (const MemberAction& action : actions) {
+            if (const auto* one = std::get_if<Action>(&action)) list.push_back(*one);
+        }
+        return list;
+    }
+    // What was published, read again as others read it.
+    template <typename What>
+    std::vector<What> published() const {
+        std::vector<What> list;
+        for (const Post& post : all<Post>()) {
+            const auto heard = read(kFleet, post.topic, post.payload);
+            EXPECT_TRUE(heard.ok()) << heard.error().what;
+            if (!heard.ok()) continue;
+            if (const auto* one = std::get_if<What>(&heard.value().message)) list.push_back(*one);
+        }
+        return list;
+    }
+    std::vector<std::string> connections() const {
+        std::vector<std::string> list;
+        for (const Connection& one : published<Connection>()) list.push_back(one.state);
+        return list;
+    }
+
+    Time now{};
+    Member member;
+    std::vector<MemberAction> actions;
+};
+
+using Texts = std::vector<std::string>;
+const ProjectPart kAlarm{.groups = {"red"}, .send = {"alarm"}, .hear = {{"alarm", ""}}};
+
+// ---- the name ----
+
+TEST(MemberName, AFreeNameIsTakenWhenItsOwnQuestionComesBack) {
+    Case c;
+    c.hear(Connected{});
+    EXPECT_EQ(c.published<Ask>().size(), 1u);
+    EXPECT_EQ(c.connections(), Texts{});
+    c.question("i1");
+    EXPECT_EQ(c.member.standing(), Member::Standing::Holding);
+    EXPECT_EQ(c.connections(), Texts{"online"});
+    EXPECT_EQ(c.published<Description>().size(), 1u);
+    EXPECT_EQ(c.published<State>().size(), 1u);
+}
+
+TEST(MemberName, OneThatAnswersKeepsIt) {
+    Case c;
+    c.hear(Connected{});
+    c.connection("online", "i2");
+    c.question("i1");
+    EXPECT_EQ(c.member.standing(), Member::Standing::Asking);
+    c.name_answer("i2");
+    EXPECT_EQ(c.member.standing(), Member::Standing::Out);
+    c.tick(kNameAnswerWithin);
+    EXPECT_EQ(c.member.standing(), Member::Standing::Out);
+    EXPECT_EQ(c.connections(), Texts{});
+    EXPECT_EQ(c.all<Say>().front().kind, "error");
+}
+
+TEST(MemberName, OneThatDoesNotAnswerLosesIt) {
+    Case c;
+    c.hear(Connected{});
+    c.connection("online", "i2");
+    c.question("i1");
+    EXPECT_EQ(c.member.next_tick(), kNameAnswerWithin);
+    c.tick(kNameAnswerWithin - 1us);
+    EXPECT_EQ(c.member.standing(), Member::Standing::Asking);
+    c.tick(kNameAnswerWithin);
+    EXPECT_EQ(c.member.standing(), Member::Standing::Holding);
+}
+
+TEST(MemberName, OneThatIsLostOrOfflineLeavesItFree) {
+    for (const char* const state : {"lost", "offline"}) {
+        Case c;
+        c.hear(Connected{});
+        c.connection(state, "i2");
+        c.question("i1");
+        EXPECT_EQ(c.member.standing(), Member::Standing::Holding) << state;
+    }
+}
+
+TEST(MemberName, ItsHolderAnswersOthersAndNotItself) {
+    Case c;
+    c.hold();
+    c.question("i1");
+    EXPECT_TRUE(c.published<Answer>().empty());
+    c.question("i2");
+    EXPECT_EQ(c.published<Answer>(),
+              (std::vector{Answer{.id = "i2", .done = true, .instance = "i1"}}));
+}
+
+TEST(MemberName, AnothersWillIsOverwritten) {
+    Case c;
+    c.hold();
+    c.connection("lost", "i2");
+    EXPECT_EQ(c.connections(), Texts{"online"});
+}
+
+TEST(MemberName, AWillOfItsOwnThatComesLateIsOverwritten) {
+    Case c;
+    c.hold();
+    c.connection("lost", "i1");
+    EXPECT_EQ(c.connections(), Texts{"online"});
+}
+
+TEST(MemberName, OfTwoThatClaimAtOnceTheBrokersLastWins) {
+    Case first, last({}, "i2");
+    for (Case* c : {&first, &last}) {
+        c->hear(Connected{});
+        c->question(c == &first ? "i1" : "i2");
+        c->connection("online", "i1");
+        c->connection("online", "i2");
+    }
+    EXPECT_EQ(first.member.standing(), Member::Standing::Out);
+    EXPECT_EQ(last.member.standing(), Member::Standing::Holding);
+}
+
+TEST(MemberName, ItIsAskedForAgainWhenItsHolderGoes) {
+    Case c;
+    c.hear(Connected{});
+    c.connection("online", "i2");
+    c.name_answer("i2");
+    c.connection("lost", "i2");
+    EXPECT_EQ(c.member.standing(), Member::Standing::Asking);
+    c.question("i1");
+    EXPECT_EQ(c.member.standing(), Member::Standing::Holding);
+}
+
+TEST(MemberName, ABrokerThatHidesOurOwnMessagesIsNamed) {
+    Case c;
+    c.hear(Connected{});
+    c.tick(kNameAnswerWithin);
+    EXPECT_EQ(c.member.standing(), Member::Standing::Asking);
+    EXPECT_NE(c.all<Say>().front().text.find("access list"), std::string::npos);
+}
+
+TEST(MemberName, OfflineIsSaidByItsHolderAlone) {
+    Case c;
+    c.member.leave();
+    c.take();
+    EXPECT_EQ(c.connections(), Texts{});
+    Case holder;
+    holder.hold();
+    holder.member.leave();
+    holder.take();
+    EXPECT_EQ(holder.connections(), Texts{"offline"});
+}
+
+// ---- without a broker ----
+
+TEST(MemberAlone, ARobotStopsAfterFiveSeconds) {
+    Case c;
+    c.hold();
+    c.now = 10s;
+    c.hear(Lost{"gone"});
+    EXPECT_EQ(c.member.next_tick(), 15s);
+    c.tick(15s - 1us);
+    EXPECT_TRUE(c.all<StopAlone>().empty());
+    c.tick(15s);
+    c.tick(16s);
+    EXPECT_EQ(c.all<StopAlone>().size(), 1u);
+}
+
+TEST(MemberAlone, AlsoOneThatWasNeverInTheFleet) {
+    Case c;
+    c.tick(kBrokerLostAfter);
+    EXPECT_EQ(c.all<StopAlone>().size(), 1u);
+}
+
+TEST(MemberAlone, OneThatIsBackInTimeGoesOn) {
+    Case c;
+    c.hold();
+    c.hear(Lost{"gone"});
+    c.now = 4s;
+    c.hold();
+    c.tick(8s);
+    EXPECT_TRUE(c.all<StopAlone>().empty());
+}
+
+TEST(MemberAlone, TheProjectMaySayThatItContinues) {
+    Case c({.broker_lost = BrokerLost::Continue});
+    c.tick(kBrokerLostAfter);
+    EXPECT_TRUE(c.all<StopAlone>().empty());
+    EXPECT_EQ(c.all<Say>().size(), 1u);
+}
+
+TEST(MemberAlone, TheSameTroubleIsToldOnce) {
+    Case c;
+    c.hear(Lost{"refused"});
+    c.hear(Lost{"refused"});
+    EXPECT_EQ(c.all<Say>().size(), 1u);
+}
+
+// ---- events ----
+
+TEST(MemberEvents, WhatIsListedIsSent) {
+    Case c(kAlarm);
+    c.hold();
+    c.member.emitted("alarm", {1, 2}, 0s);
+    c.member.emitted("other", {}, 0s);
+    c.take();
+    const auto sent = c.published<Event>();
+    ASSERT_EQ(sent.size(), 1u);
+    EXPECT_EQ(sent[0].args, (std::vector<int16_t>{1, 2}));
+    EXPECT_EQ(sent[0].groups, Texts{"red"});
+    EXPECT_EQ(sent[0].epoch, 7);
+    EXPECT_EQ(c.all<Post>()[0].topic, "vagus/1/lab/robot/r1/event/alarm");
+    EXPECT_FALSE(c.all<Post>()[0].retained);
+}
+
+TEST(MemberEvents, WhatIsListedIsHeardOnce) {
+    Case c(kAlarm);
+    c.hold();
+    c.event("r2", {1, 3, {}, {5}});
+    c.event("r2", {1, 3, {}, {5}});
+    c.event("r2", {2, 3, {}, {}}, "other");
+    ASSERT_EQ(c.all<EmitOnBus>().size(), 1u);
+    EXPECT_EQ(c.all<EmitOnBus>()[0].event, "alarm");
+    EXPECT_EQ(c.all<EmitOnBus>()[0].args, (std::vector<int16_t>{5}));
+    EXPECT_EQ(c.all<EmitOnBus>()[0].from, "r2");
+}
+
+TEST(MemberEvents, ItsOwnAreNeverHeard) {
+    Case c(kAlarm);
+    c.hold();
+    c.event("r1", {1, 7, {}, {}});
+    EXPECT_TRUE(c.all<EmitOnBus>().empty());
+}
+
+TEST(MemberEvents, NothingGoesRound) {
+    Case c(kAlarm);
+    c.hold();
+    c.event("r2", {1, 3, {}, {}});
+    EXPECT_TRUE(c.published<Event>().empty());
+}
+
+TEST(MemberEvents, OnlyThoseOfTheGroupThatIsNamed) {
+    Case c({.hear = {{"alarm", "red"}}});
+    c.hold();
+    c.event("r2", {1, 3, {"blue"}, {}});
+    EXPECT_TRUE(c.all<EmitOnBus>().empty());
+    c.event("r2", {2, 3, {"blue", "red"}, {}});
+    EXPECT_EQ(c.all<EmitOnBus>().size(), 1u);
+}
+
+TEST(MemberEvents, AtMostTwentyASecondAreSentAndHeard) {
+    Case c(kAlarm);
+    c.hold();
+    for (int64_t i = 1; i <= kEventsASecond + 1; ++i) {
+        c.member.emitted("alarm", {}, 0s);
+        c.take();
+        const auto posts = c.all<Post>();
+        if (!posts.empty()) c.hear(Acknowledged{posts.back().number});
+        c.event("r2", {i, 3, {}, {}});
+    }
+    EXPECT_EQ(c.published<Event>().size(), static_cast<size_t>(kEventsASecond));
+    EXPECT_EQ(c.all<EmitOnBus>().size(), static_cast<size_t>(kEventsASecond));
+    EXPECT_EQ(c.member.left_out(), 2u);
+}
+
+TEST(MemberEvents, ThoseOfACutLinkComeLaterInOrder) {
+    Case c(kAlarm);
+    c.hold();
+    c.hear(Lost{"gone"});
+    c.member.emitted("alarm", {1}, 0s);
+    c.member.emitted("alarm", {2}, 0s);
+    c.take();
+    EXPECT_TRUE(c.published<Event>().empty());
+    c.now = 5s;
+    c.hear(Connected{});
+    c.question("i1");
+    const auto sent = c.published<Event>();
+    ASSERT_EQ(sent.size(), 2u);
+    EXPECT_EQ(sent[0].args, (std::vector<int16_t>{1}));
+    EXPECT_EQ(sent[1].args, (std::vector<int16_t>{2}));
+}
+
+TEST(MemberEvents, MoreArgumentsThanABusCarriesAreLeftOut) {
+    Case c(kAlarm);
+    c.hold();
+    c.member.emitted("alarm", std::vector<int16_t>(kWordsMax), 0s);
+    c.member.emitted("alarm", std::vector<int16_t>(kWordsMax + 1), 0s);
+    c.take();
+    EXPECT_EQ(c.published<Event>().size(), 1u);
+    EXPECT_EQ(c.member.left_out(), 1u);
+}
+
+// ---- state and variables ----
+
+TEST(MemberState, ComesOnAChangeAtMostFiveTimesASecond) {
+    Case c;
+    c.hold();
+    c.member.show({.state = "running"}, 100ms);
+    c.tick(100ms);
+    EXPECT_TRUE(c.published<State>().empty());
+    EXPECT_EQ(c.member.next_tick(), kStateEveryMin);
+    c.tick(kStateEveryMin);
+    ASSERT_EQ(c.published<State>().size(), 1u);
+    EXPECT_EQ(c.published<State>()[0].state, "running");
+    EXPECT_EQ(c.published<State>()[0].since, 100);
+    EXPECT_EQ(c.published<State>()[0].clock, 200);
+}
+
+TEST(MemberState, ComesEveryTwoSecondsWithoutAChange) {
+    Case c;
+    c.hold();
+    c.tick(kStateEveryMax - 1us);
+    EXPECT_TRUE(c.published<State>().empty());
+    c.tick(kStateEveryMax);
+    EXPECT_EQ(c.published<State>().size(), 1u);
+}
+
+TEST(MemberState, OnlyTheHolderShowsOne) {
+    Case c;
+    c.tick(kStateEveryMax);
+    EXPECT_TRUE(c.published<State>().empty());
+}
+
+TEST(MemberState, VariablesComeWhenTheyChangeAtMostFiveTimesASecond) {
+    Case c;
+    c.hold();
+    c.member.changed("drive", "speed", {1});
+    c.tick(0s);
+    c.member.changed("drive", "speed", {2});
+    c.tick(kVariableEveryMin - 1us);
+    c.member.changed("drive", "speed", {3});
+    c.tick(kVariableEveryMin);
+    c.member.changed("drive", "speed", {3});
+    c.tick(1s);
+    const auto told = c.published<Variable>();
+    ASSERT_EQ(told.size(), 2u);
+    EXPECT_EQ(told[0].values, (std::vector<int16_t>{1}));
+    EXPECT_EQ(told[1].values, (std::vector<int16_t>{3}));
+}
+
+// ---- commands ----
+
+Command start(const std::string& id, int64_t deadline, int64_t epoch = 7) {
+    return {.verb = "start", .id = id, .reply = "op", .epoch = epoch, .deadline = deadline};
+}
+
+TEST(MemberCommands, AreDoneOnceAndAnsweredAgain) {
+    Case c;
+    c.hold();
+    c.command(start("c1", 3000));
+    ASSERT_EQ(c.all<Obey>().size(), 1u);
+    c.command(start("c1", 3000));
+    EXPECT_TRUE(c.published<Answer>().empty()) << "it is under way";
+    c.member.answer(c.all<Obey>()[0].command, {.done = true});
+    c.take();
+    c.command(start("c1", 3000));
+    EXPECT_EQ(c.all<Obey>().size(), 1u);
+    const Answer done{.id = "c1", .done = true};
+    EXPECT_EQ(c.published<Answer>(), (std::vector{done, done}));
+    EXPECT_EQ(c.all<Post>()[0].topic, "vagus/1/lab/robot/r1/answer/op");
+}
+
+TEST(MemberCommands, LateOnesAreRefusedByTheRobotsOwnClock) {
+    Case c;
+    c.hold();
+    c.now = 5s;
+    c.command(start("in time", 5000));
+    c.command(start("late", 4999));
+    c.command(start("no deadline", 5000 + kDeadlineAheadMax / 1ms + 1));
+    c.command(start("another epoch", 6000, 6));
+    Command without = start("without", 0);
+    without.deadline.reset();
+    c.command(without);
+    ASSERT_EQ(c.all<Obey>().size(), 1u);
+    EXPECT_EQ(c.all<Obey>()[0].command.id, "in time");
+    const auto answers = c.published<Answer>();
+    ASSERT_EQ(answers.size(), 4u);
+    EXPECT_EQ(answers[0].what, "it came 1 ms too late, and was not done");
+    for (const Answer& answer : answers) EXPECT_FALSE(answer.done) << answer.id;
+}
+
+TEST(MemberCommands, StopHasNoDeadline) {
+    Case c;
+    c.hold();
+    c.command({.verb = "stop", .id = "s1", .reply = "op"});
+    EXPECT_EQ(c.all<Obey>().size(), 1u);
+}
+
+TEST(MemberCommands, OnlyStopGoesToMany) {
+    Case c(kAlarm);
+    c.hold();
+    const auto send = [&](const std::string& group, const std::string& verb, const char* id) {
+        Command command = start(id, 1000);
+        command.verb = verb;
+        c.hear({.kind = Kind::Command, .group = group, .name = verb}, command);
+    };
+    send("", "start", "a");
+    send("red", "start", "b");
+    send("blue", "stop", "c");
+    EXPECT_TRUE(c.all<Obey>().empty());
+    send("red", "stop", "d");
+    send("", "stop", "e");
+    EXPECT_EQ(c.all<Obey>().size(), 2u);
+}
+
+TEST(MemberCommands, StopForAllIsObeyedByOneThatStaysOut) {
+    Case c;
+    c.hear(Connected{});
+    c.connection("online", "i2");
+    c.name_answer("i2");
+    c.hear({.kind = Kind::Command, .name = "stop"},
+           Command{.verb = "stop", .id = "s", .reply = "op"});
+    EXPECT_EQ(c.all<Obey>().size(), 1u);
+    c.command(start("c", 1000));
+    EXPECT_EQ(c.all<Obey>().size(), 1u);
+}
+
+TEST(MemberCommands, TheLastOnesAreRemembered) {
+    Case c;
+    c.hold();
+    const auto stop = [&](size_t number) {
+        c.command({.verb = "stop", .id = std::to_string(number), .reply = "op"});
+    };
+    for (size_t i = 0; i < kCommandsRemembered; ++i) stop(i);
+    stop(0);
+    EXPECT_EQ(c.all<Obey>().size(), kCommandsRemembered);
+    stop(kCommandsRemembered);
+    stop(0);
+    EXPECT_EQ(c.all<Obey>().size(), kCommandsRemembered + 2);
+}
+
+}  // namespace
+}  // namespace vagus::fleet

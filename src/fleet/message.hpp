@@ -1,0 +1,89 @@
+// What the members of a fleet say to each other, as values; read() is the border at which bytes
+// from a broker become them.
+//
+//     const auto heard = read("lab", topic, payload);
+//     if (!heard.ok()) return complain(heard.error());
+//     if (const auto* event = std::get_if<Event>(&heard.value().message)) tell(event->args);
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/json.hpp"
+#include "base/result.hpp"
+#include "fleet/topic.hpp"
+
+namespace vagus::fleet {
+
+// Of each: the fields are explained in kind.cpp.
+struct Connection {
+    std::string state, instance;
+    int64_t epoch = 0;
+    friend bool operator==(const Connection&, const Connection&) = default;
+};
+struct Description {
+    std::string project, vagus, plan, studio;
+    std::vector<std::string> groups, nodes, send, hear;
+    friend bool operator==(const Description&, const Description&) = default;
+};
+struct State {
+    int64_t number = 0, epoch = 0, clock = 0;
+    std::string state = "stopped";
+    int64_t since = 0;
+    std::string actor = {};
+    std::vector<std::string> problems = {};
+    int64_t left_out = 0;
+    friend bool operator==(const State&, const State&) = default;
+};
+struct Variable {
+    int64_t clock = 0, epoch = 0;
+    std::vector<int16_t> values;
+    friend bool operator==(const Variable&, const Variable&) = default;
+};
+struct Event {
+    int64_t number = 0, epoch = 0;
+    std::vector<std::string> groups;
+    std::vector<int16_t> args;
+    friend bool operator==(const Event&, const Event&) = default;
+};
+struct Ask {
+    std::string instance;
+    friend bool operator==(const Ask&, const Ask&) = default;
+};
+struct Answer {
+    std::string id = {};
+    bool done = false;
+    std::string what = {}, instance = {};
+    std::vector<std::string> silent = {};
+    friend bool operator==(const Answer&, const Answer&) = default;
+};
+struct Command {
+    std::string verb = {}, id = {}, reply = {};
+    std::optional<int64_t> epoch = {}, deadline = {};
+    // Of set, raise, emit.
+    std::string node = {}, name = {}, supervisor = {}, event = {};
+    std::vector<int16_t> values = {};  // `args` of emit, too
+    friend bool operator==(const Command&, const Command&) = default;
+};
+
+using Message = std::variant<Connection, Description, State, Variable, Event, Ask, Answer, Command>;
+
+struct Heard {
+    Topic topic;
+    Message message;
+};
+
+// The Error says what is wrong with it; Code::NotFound: the topic is none that we know.
+Result<Heard> read(std::string_view fleet, std::string_view topic, std::string_view payload);
+
+// Groups, events: is it one of them?
+bool contains(const std::vector<std::string>& names, const std::string& name);
+
+// The payload of a message.
+std::string payload_of(const Message& message);
+
+}  // namespace vagus::fleet

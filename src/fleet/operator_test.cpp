@@ -1,0 +1,142 @@
+#include "fleet/operator.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vagus::fleet {
+namespace {
+
+struct Case {
+    void hear(const LinkEvent& event) {
+        desk.hear(event, now);
+        take();
+    }
+    void hear(const Topic& topic, const Message& message, bool retained = false) {
+        hear(Received{{topic, message}, retained});
+    }
+    void robot(const std::string& name, const std::string& state = "online",
+               const std::string& group = "") {
+        hear({.kind = Kind::Connection, .robot = name}, Connection{state, "i", 7}, true);
+        Description description;
+        if (!group.empty()) description.groups = {group};
+        hear({.kind = Kind::Description, .robot = name}, description, true);
+        hear({.kind = Kind::State, .robot = name}, State{.number = 1, .epoch = 7, .clock = 100},
+             true);
+    }
+    void fresh(const std::string& name, int64_t clock) {
+        hear({.kind = Kind::State, .robot = name}, State{.number = 2, .epoch = 7, .clock = clock});
+    }
+    void all_is_known() {
+        hear({.kind = Kind::Command, .robot = "desk", .name = "stop"},
+             Command{.verb = "stop", .id = "echo", .reply = "desk"});
+    }
+    void answer(const std::string& name, const std::string& id, bool done = true) {
+        hear({.kind = Kind::Answer, .robot = name, .name = "desk"}, Answer{.id = id, .done = done});
+    }
+    void tick(Time time) {
+        now = time;
+        desk.tick(now);
+        take();
+    }
+    void take() {
+        for (OperatorAction& action : desk.take()) {
+            if (const auto* post = std::get_if<Post>(&action)) posts.push_back(*post);
+        }
+    }
+    std::vector<std::string> topics() const {
+        std::vector<std::string> list;
+        for (const Post& post : posts) list.push_back(post.topic);
+        return list;
+    }
+
+    Time now{};
+    Operator desk{{.fleet = "lab", .name = "desk"}};
+    std::vector<Post> posts;
+};
+
+using Texts = std::vector<std::string>;
+
+TEST(Operator, KnowsAllOnceItsOwnMessageIsBack) {
+    Case c;
+    c.hear(Connected{});
+    EXPECT_EQ(c.topics(), Texts{"vagus/1/lab/cmd/desk/stop"});
+    c.robot("r1");
+    EXPECT_FALSE(c.desk.knows_all());
+    c.all_is_known();
+    EXPECT_TRUE(c.desk.knows_all());
+    EXPECT_FALSE(c.desk.all_are_fresh());
+    c.fresh("r1", 200);
+    EXPECT_TRUE(c.desk.all_are_fresh());
+}
+
+TEST(Operator, StopIsRepeatedUntilEverybodyHasAnswered) {
+    Case c;
+    c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.all = true}}, 0s);
+    c.robot("r1");
+    c.robot("r2", "lost");
+    c.robot("r3", "offline");
+    c.all_is_known();
+    EXPECT_EQ(c.topics(), Texts{"vagus/1/lab/cmd/all/stop"});
+    c.answer("r1", "s");
+    c.answer("r2", "another order");
+    EXPECT_FALSE(c.desk.is_over());
+    EXPECT_EQ(c.desk.next_tick(), kAskAgainEvery);
+    c.tick(kAskAgainEvery - 1us);
+    EXPECT_EQ(c.posts.size(), 1u);
+    c.tick(kAskAgainEvery);
+    EXPECT_EQ(c.posts.size(), 2u);
+    const auto outcomes = c.desk.outcomes();
+    ASSERT_EQ(outcomes.size(), 2u) << "who said good-bye is not missed";
+    EXPECT_TRUE(outcomes[0].answered);
+    EXPECT_FALSE(outcomes[1].answered);
+    c.answer("r2", "s");
+    EXPECT_TRUE(c.desk.is_over());
+    c.tick(1s);
+    EXPECT_EQ(c.posts.size(), 2u);
+}
+
+TEST(Operator, StopForAGroupAndForOne) {
+    Case c;
+    c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.group = "red"}}, 0s);
+    c.robot("r1", "online", "red");
+    c.robot("r2", "online", "blue");
+    c.all_is_known();
+    EXPECT_EQ(c.topics(), Texts{"vagus/1/lab/cmd/group/red/stop"});
+    EXPECT_EQ(c.desk.outcomes().size(), 1u);
+    c.desk.begin({.command = {.verb = "stop", .id = "t"}, .to = {.robot = "nobody"}}, 0s);
+    c.tick(0s);
+    EXPECT_EQ(c.topics().back(), "vagus/1/lab/cmd/nobody/stop");
+    EXPECT_FALSE(c.desk.outcomes()[0].answered);
+}
+
+TEST(Operator, OtherCommandsGoToEachWithItsOwnDeadlineAndOnce) {
+    Case c;
+    c.desk.begin({.command = {.verb = "start", .id = "c"}, .to = {.all = true}}, 0s);
+    c.robot("r1");
+    c.robot("r2");
+    c.all_is_known();
+    EXPECT_TRUE(c.posts.empty()) << "a retained state says nothing of the clock now";
+    c.now = 1s;
+    c.fresh("r1", 5000);
+    c.now = 2s;
+    c.fresh("r1", 6000);
+    ASSERT_EQ(c.topics(), Texts{"vagus/1/lab/cmd/r1/start"});
+    const auto heard = read("lab", c.posts[0].topic, c.posts[0].payload);
+    const Command& command = std::get<Command>(heard.value().message);
+    EXPECT_EQ(command.deadline, 5000 + 3000);
+    EXPECT_EQ(command.epoch, 7);
+    EXPECT_EQ(command.reply, "desk");
+    c.answer("r1", "c");
+    EXPECT_FALSE(c.desk.is_over()) << "r2 has not told a clock";
+}
+
+TEST(Operator, KnowsOnlySoManyRobots) {
+    Case c;
+    for (size_t i = 0; i <= kRobotsMax; ++i) {
+        c.hear({.kind = Kind::Connection, .robot = std::to_string(i)}, Connection{"online", "i", 7},
+               true);
+    }
+    EXPECT_EQ(c.desk.robots().size(), kRobotsMax);
+}
+
+}  // namespace
+}  // namespace vagus::fleet

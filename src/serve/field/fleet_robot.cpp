@@ -1,0 +1,157 @@
+#include "serve/field/fleet_robot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/file.hpp"
+#include "fleet/limits.hpp"
+#include "fleet/topic.hpp"
+#include "serve/process.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+constexpr size_t kInstanceBytes = 8;
+constexpr size_t kEpochBytes = 6;  // a whole number below 2^48
+
+std::string in_hex(const std::string& bytes) {
+    std::string text;
+    for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+    return text;
+}
+
+int64_t as_number(const std::string& bytes) {
+    int64_t number = 0;
+    for (const char byte : bytes) number = number * 256 + static_cast<unsigned char>(byte);
+    return number;
+}
+
+std::vector<std::string> names_heard(const fleet::ProjectPart& part) {
+    std::vector<std::string> names;
+    for (const fleet::Hears& one : part.hear) {
+        if (std::find(names.begin(), names.end(), one.event) == names.end()) {
+            names.push_back(one.event);
+        }
+    }
+    return names;
+}
+
+fleet::Description description_of(const OpenedProject& project, const std::string& studio) {
+    return {.project = project.name.substr(0, fleet::kLineBytesMax),
+            .vagus = VAGUS_VERSION,
+            .plan = project.plan.substr(0, fleet::kLineBytesMax),
+            .studio = studio,
+            .groups = project.fleet.groups,
+            .nodes = {},
+            .send = project.fleet.send,
+            .hear = names_heard(project.fleet)};
+}
+
+}  // namespace
+
+Result<LinkOptions> link_options(const FleetOptions& options, const std::string& client) {
+    LinkOptions link{.target = TRY(fleet::parse_fleet_target(options.target)), .client = client};
+    for (const std::string& file : {options.ca, options.certificate, options.key}) {
+        if (!file.empty()) (void)TRY(read_file(file));
+    }
+    link.ca = options.ca;
+    link.certificate = options.certificate;
+    link.key = options.key;
+    if (options.login.empty()) return link;
+    const std::string login = TRY(read_file(options.login));
+    link.login = TRY(fleet::read_login(login, options.login));
+    return link;
+}
+
+Result<std::unique_ptr<FleetRobot>> FleetRobot::join(Workbench& bench, const FleetOptions& options,
+                                                     Talk talk, Time now) {
+    const OpenedProject none;
+    const OpenedProject& project = bench.project() ? *bench.project() : none;
+    fleet::MemberOptions member{.robot = options.robot.empty() ? host_name() : options.robot,
+                                .instance = in_hex(random_bytes(kInstanceBytes)),
+                                .epoch = as_number(random_bytes(kEpochBytes)),
+                                .project = project.fleet,
+                                .description = description_of(project, talk.studio)};
+    LinkOptions link = TRY(link_options(options, member.robot + "-" + member.instance));
+    if (link.target.fleet.empty()) link.target.fleet = project.fleet.name;
+    member.fleet = link.target.fleet;
+    if (member.fleet.empty()) {
+        return Error{Code::BadInput, options.target +
+                                         ": which fleet? Write mqtt://HOST/FLEET, or \"fleet\": { "
+                                         "\"name\": … } in the project"};
+    }
+    if (!fleet::is_robot_name(member.robot)) {
+        return Error{Code::BadInput,
+                     fmt::format("\"{}\" cannot be the name of a robot: expected 1 to {} bytes, "
+                                 "neither \"all\" nor \"group\"; choose one with --robot",
+                                 member.robot, fleet::kNameBytesMax)};
+    }
+    link.will = fleet::Member(member, now).will();
+    return std::unique_ptr<FleetRobot>(
+        new FleetRobot(bench, std::move(member), std::move(link), std::move(talk), now));
+}
+
+FleetRobot::FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptions link, Talk talk,
+                       Time now)
+    : bench_(bench),
+      talk_(std::move(talk)),
+      project_(options.project),
+      member_(options, now),
+      link_(std::move(link), talk_.wake),
+      now_(now) {
+    const auto event = [this](const std::string& name, const std::vector<int16_t>& args) {
+        member_.emitted(name, args, now_);
+    };
+    const auto variable = [this](const fleet::Tells& one, const std::vector<int16_t>& values) {
+        member_.changed(one.node, one.name, values);
+    };
+    bench_.on_tells(options.project.tell, {.event = event, .variable = variable});
+}
+
+FleetRobot::~FleetRobot() {
+    bench_.on_tells({}, {});
+    member_.leave();
+    perform_all();
+}
+
+bool FleetRobot::is_of(const OpenedProject& project) const {
+    return project.fleet == project_;
+}
+
+void FleetRobot::tick(Time now) {
+    now_ = now;
+    for (const fleet::LinkEvent& event : link_.take()) member_.hear(event, now);
+    member_.show(bench_.shown(), now);
+    member_.tick(now);
+    perform_all();
+}
+
+void FleetRobot::perform_all() {
+    for (const fleet::MemberAction& action : member_.take()) {
+        std::visit([this](const auto& one) { perform(one); }, action);
+    }
+}
+
+void FleetRobot::perform(const fleet::EmitOnBus& event) {
+    const Status sent = bench_.emit(event.event, event.args);
+    if (sent.ok()) return;
+    talk_.log("warning", fmt::format("fleet: the event {} of {} could not be passed on: {}",
+                                     event.event, event.from, sent.error().what));
+}
+
+// The answer may come at once, or in a later turn.
+void FleetRobot::perform(const fleet::Obey& obey) {
+    talk_.log("note", fmt::format("fleet: {}", obey.command.verb));
+    bench_.obey(obey.command, [this, command = obey.command](fleet::Answer answer) {
+        member_.answer(command, std::move(answer));
+    });
+}
+
+void FleetRobot::perform(const fleet::StopAlone& stop) {
+    talk_.log("warning", "fleet: " + stop.why + "; the robot stops, as its project says");
+    bench_.stop_for("the fleet (" + stop.why + ")");
+}
+
+}  // namespace vagus::serve

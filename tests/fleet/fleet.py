@@ -1,0 +1,314 @@
+"""Robots of a fleet: served simulated Thymios, a broker (Debian's mosquitto), and somebody who tells them what to do."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "tests/studio")]
+
+import projects  # noqa: E402
+from harness import GIVE_UP_AFTER, VAGUS, free_port, vagus, wait_until  # noqa: E402
+
+FLEET = "lab"
+# Emits alarm when it is told to, and counts those that come.
+SCRIPT = """var go = 0
+var heard = 0
+var last = 0
+
+timer.period[0] = 20
+
+onevent timer0
+	if go == 1 then
+		go = 0
+		emit alarm [7]
+	end
+
+onevent alarm
+	heard += 1
+	last = event.args[0]
+"""
+AESL = """<!DOCTYPE aesl-source>
+<network>
+<event size="1" name="alarm"/>
+<keywords flag="true"/>
+<node nodeId="1" name="thymio-II"><![CDATA[{script}]]></node>
+</network>
+"""
+PART = {"name": FLEET, "groups": ["red"], "send": ["alarm"], "hear": ["alarm"], "tell": ["thymio-II.heard", "thymio-II.last"]}
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-fleet-")))
+        self.broker_folder, self.port = self.folder / "broker", free_port()
+
+    # ---- the broker ----
+
+    def init(self, *robots, folder=None):
+        words = [word for robot in robots for word in ("--robot", robot)]
+        done = self.command("init", folder or self.broker_folder, "--port", self.port, "--web-port", free_port(), *words)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def serve_broker(self):
+        program = self.enterContext(vagus("fleet", "serve", self.broker_folder))
+        program.wait_line(rf"^fleet mqtts://localhost:{self.port}$")
+        return program
+
+    def broker(self, *robots):
+        self.init(*robots)
+        return self.serve_broker()
+
+    @property
+    def target(self):
+        return f"mqtts://localhost:{self.port}/{FLEET}"
+
+    def login(self, name):
+        return ["--tls-ca", self.broker_folder / "ca.crt", "--login", self.broker_folder / f"{name}.login"]
+
+    # ---- robots ----
+
+    def robot(self, name, *arguments, login=None, script=SCRIPT, **part):
+        folder = self.folder / f"{name}-{free_port()}"
+        projects.thymio(folder, script="", fleet={**PART, **part})
+        projects.write(folder, "robot.aesl", AESL.format(script=script))
+        projects.write(folder, "pages/index.html", "<!doctype html>\n")
+        program = self.enterContext(vagus(
+            "serve", folder, "--start", "--port", 0, "--data", folder / "data", "--config", folder / "config", "--pages",
+            folder / "pages", "--fleet", self.target, "--robot", name, *self.login(login or name), *arguments))
+        program.wait_line(r"^serve http")
+        return program
+
+    def joined(self, name, *arguments, **options):
+        program = self.robot(name, *arguments, **options)
+        program.wait_line(rf'fleet: this robot is "{name}" of the fleet')
+        return program
+
+    # ---- who tells them ----
+
+    def command(self, *arguments):
+        return subprocess.run([VAGUS, "fleet", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              timeout=4 * GIVE_UP_AFTER, check=False)
+
+    def desk(self, *arguments, by="operator", wait=GIVE_UP_AFTER):
+        return self.command(self.target, *arguments, *self.login(by), "--wait", wait)
+
+    def do(self, *arguments, **options):
+        done = self.desk(*arguments, **options)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return done.stdout
+
+    def states(self):
+        """What each robot shows, by name."""
+        done = self.desk("list", "--json")
+        robots = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
+        return {robot["robot"]: robot for robot in robots}
+
+    def state(self, name):
+        return self.states().get(name, {}).get("state", {}).get("state")
+
+    def wait_state(self, name, state):
+        wait_until(f"{name} never was {state}", lambda: self.state(name) == state)
+
+    def watch(self):
+        return self.enterContext(vagus("fleet", self.target, "watch", *self.login("looker")))
+
+    def emit_alarm(self, name):
+        self.do("set", name, "thymio-II.go", 1)
+
+
+class Fleet(Case):
+    def test_the_alarm_of_one_is_heard_by_the_other(self):
+        self.broker("r1", "r2")
+        self.joined("r1"), self.joined("r2")
+        self.wait_state("r1", "running"), self.wait_state("r2", "running")
+        watch = self.watch()
+        self.emit_alarm("r1")
+        watch.wait_lines(r"^r2: thymio-II\.heard = 1$", r"^r2: thymio-II\.last = 7$")
+        self.emit_alarm("r2")
+        watch.wait_line(r"^r1: thymio-II\.heard = 1$")
+        self.assertFalse([line for line in watch.lines if "heard = 2" in line], "an event went round")
+
+    def test_only_those_of_the_group_are_heard(self):
+        self.broker("r1", "r2", "r3")
+        self.joined("r1"), self.joined("r2", groups=["blue"])
+        self.joined("r3", hear=[{"event": "alarm", "from": "blue"}])
+        for name in ("r1", "r2", "r3"):
+            self.wait_state(name, "running")
+        watch = self.watch()
+        self.emit_alarm("r1")
+        watch.wait_line(r"^r2: thymio-II\.heard = 1$")
+        self.emit_alarm("r2")
+        watch.wait_lines(r"^r3: thymio-II\.heard = 1$", r"^r1: thymio-II\.heard = 1$")
+        self.assertFalse([line for line in watch.lines if line.startswith("r3") and "heard = 2" in line])
+
+    def test_stop_all_names_who_did_not_answer(self):
+        self.broker("r1", "r2")
+        self.joined("r1")
+        second = self.joined("r2")
+        self.wait_state("r1", "running"), self.wait_state("r2", "running")
+        self.assertRegex(self.do("stop", "all"), r"(?m)^r1: stopped$[\s\S]*^r2: stopped$[\s\S]*^2 of 2 robots: stopped$")
+        self.wait_state("r1", "stopped"), self.wait_state("r2", "stopped")
+        second.kill()
+        done = self.desk("stop", "all", wait=2)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r"(?m)^r1: stopped$[\s\S]*^r2: did not answer$[\s\S]*^1 of 2 robots: stopped$")
+
+    def test_start_pause_and_continue(self):
+        self.broker("r1")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        self.do("pause", "r1")
+        self.wait_state("r1", "paused")
+        self.do("continue", "r1")
+        self.wait_state("r1", "running")
+        self.do("stop", "all")
+        done = self.desk("continue", "r1")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("r1: not done: it is not paused", done.stdout)
+        self.do("start", "r1")
+        self.wait_state("r1", "running")
+
+    def test_events_are_logged_and_emitted(self):
+        self.broker("r1", "r2")
+        self.joined("r1"), self.joined("r2")
+        self.wait_state("r1", "running"), self.wait_state("r2", "running")
+        log = self.enterContext(vagus("fleet", self.target, "log", *self.login("looker")))
+        watch = self.watch()
+        self.do("emit", "r1", "alarm", 3)
+        watch.wait_line(r"^r1: thymio-II\.last = 3$")
+        self.emit_alarm("r2")
+        log.wait_line(r"^r2: alarm 7$")
+        self.assertFalse([line for line in log.lines if line.startswith("r1")], "what an operator emits is no event of the robot")
+
+    def test_a_robot_without_a_broker_stops_as_its_project_says(self):
+        broker = self.broker("r1", "r2")
+        first, second = self.joined("r1"), self.joined("r2", broker_lost="continue")
+        self.wait_state("r1", "running"), self.wait_state("r2", "running")
+        broker.stop()
+        first.wait_line(r"not in the fleet .* the robot stops, as its project says")
+        second.wait_line(r"this robot goes on, as its project says")
+        self.serve_broker()
+        for program, name in ((first, "r1"), (second, "r2")):
+            program.wait_line(rf'fleet: this robot is "{name}"')
+        self.wait_state("r1", "stopped"), self.wait_state("r2", "running")
+        self.do("start", "r1")
+        self.wait_state("r1", "running")
+
+    def test_a_robot_that_dies_is_lost_and_comes_back(self):
+        self.broker("r1")
+        first = self.joined("r1")
+        first.kill()
+        wait_until("the broker never missed it", lambda: self.states()["r1"]["connection"]["state"] == "lost")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+
+    def test_who_says_good_bye_is_offline_and_can_be_forgotten(self):
+        self.broker("r1")
+        first = self.joined("r1")
+        first.stop()
+        wait_until("it never was offline", lambda: self.desk("list").stdout == "")
+        self.assertIn("offline", self.desk("list", "r1").stdout)
+        done = self.desk("forget", "r1", by="operator")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the broker refuses", done.stdout)
+        self.do("forget", "r1", by="r1")
+        self.assertEqual(self.states(), {})
+
+
+class Names(Case):
+    def test_a_name_taken_twice(self):
+        self.broker("r1")
+        self.joined("r1")
+        second = self.robot("r1")
+        second.wait_line(r"another robot has this name, and answers; this one stays out of the fleet")
+        self.assertEqual(self.states()["r1"]["connection"]["state"], "online")
+        self.assertIn("1 of 1 robots: stopped", self.do("stop", "all"))
+
+    def test_the_name_is_free_when_its_robot_goes(self):
+        self.broker("r1")
+        first = self.joined("r1")
+        second = self.robot("r1")
+        second.wait_line(r"stays out of the fleet")
+        first.stop()
+        second.wait_line(r'fleet: this robot is "r1" of the fleet')
+
+
+class Rights(Case):
+    def test_nobody_writes_below_the_name_of_another(self):
+        self.broker("r1", "r2")
+        intruder = self.robot("r2", login="r1")
+        intruder.wait_line(r"the broker does not pass on what this robot says")
+        self.assertEqual(self.states(), {})
+
+    def test_who_only_looks_may_stop_and_nothing_else(self):
+        self.broker("r1")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        self.assertIn("1 of 1 robots: stopped", self.do("stop", "all", by="looker"))
+        done = self.desk("start", "all", by="looker", wait=3)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("r1: did not answer", done.stdout)
+        self.assertEqual(self.state("r1"), "stopped")
+
+    def test_a_robot_tells_no_other_what_to_do(self):
+        self.broker("r1", "r2")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        self.assertEqual(self.desk("stop", "all", by="r2", wait=3).returncode, 1)
+        self.assertEqual(self.state("r1"), "running")
+
+    def test_another_authority_is_not_trusted(self):
+        self.broker("r1")
+        self.init(folder=self.folder / "other")
+        done = self.command(self.target, "list", "--tls-ca", self.folder / "other" / "ca.crt", "--login",
+                            self.broker_folder / "looker.login", "--wait", 3)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn(f"no connection to mqtts://localhost:{self.port}/lab", done.stdout)
+
+    def test_a_wrong_password_is_refused(self):
+        self.broker("r1")
+        wrong = self.folder / "wrong.login"
+        wrong.write_text("looker\nnot this\n", encoding="ascii")
+        done = self.command(self.target, "list", "--tls-ca", self.broker_folder / "ca.crt", "--login", wrong, "--wait", 3)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r"refused: (?i:not authori[sz]ed)")
+
+    def test_secrets_are_for_their_owner_alone(self):
+        self.init("r1")
+        for file in self.broker_folder.rglob("*"):
+            if file.is_file() and file.name != "broker.ext":
+                self.assertEqual(file.stat().st_mode & 0o077, 0, file)
+        before = (self.broker_folder / "r1.login").read_text(encoding="ascii")
+        self.init("r1", "r2")
+        self.assertEqual((self.broker_folder / "r1.login").read_text(encoding="ascii"), before)
+        users = [line.split(":")[0] for line in (self.broker_folder / "passwords").read_text(encoding="ascii").splitlines()]
+        self.assertEqual(users, ["operator", "looker", "keeper", "r1", "r2"])
+
+    def test_init_says_what_it_cannot_do(self):
+        def refused(status, *words):
+            done = self.command("init", self.broker_folder, *words)
+            self.assertEqual(done.returncode, status, done.stdout)
+            self.assertFalse(self.broker_folder.exists())
+            return done.stdout
+        self.assertIn("cannot be the name of a robot", refused(2, "--robot", "all"))
+        self.assertIn("cannot be the name of a robot", refused(2, "--robot", "operator"))
+        many = [word for i in range(1001) for word in ("--robot", f"r{i}")]
+        self.assertIn("--robot: 1000 at a time at most, found 1001", refused(1, *many))
+        missing = self.command("serve", self.broker_folder)
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn("vagus fleet init", missing.stdout)
+
+    def test_mosquitto_ends_with_the_program(self):
+        broker = self.broker()
+        children = pathlib.Path(f"/proc/{broker.process.pid}/task/{broker.process.pid}/children")
+        child, = children.read_text(encoding="ascii").split()
+        broker.kill()
+        wait_until("mosquitto went on", lambda: not pathlib.Path(f"/proc/{child}").exists() or
+                   "Z" in pathlib.Path(f"/proc/{child}/stat").read_text(encoding="ascii").rsplit(")", 1)[1][:3])
+
+
+if __name__ == "__main__":
+    unittest.main()

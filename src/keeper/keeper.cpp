@@ -61,7 +61,13 @@ const char* name_of(Keeper::State state) {
 Actions Keeper::take(const Input& input, Time now) {
     now_ = now;
     if (state_ != State::Out) std::visit([this](const auto& told) { on(told); }, input);
-    return std::exchange(actions_, {});
+    return take_actions();
+}
+
+Actions Keeper::take_actions() {
+    Actions actions;
+    actions.swap(actions_);
+    return actions;
 }
 
 Actions Keeper::tick(Time now) {
@@ -75,7 +81,7 @@ Actions Keeper::tick(Time now) {
             forget_finished();
         }
     }
-    return std::exchange(actions_, {});
+    return take_actions();
 }
 
 // ---- one keeper of several ----
@@ -150,13 +156,13 @@ void Keeper::listen_is_over() {
 void Keeper::send_beat() {
     beat_at_ = now_ + kBeatEvery;
     beats_out_[++beats_] = now_;
-    actions_.push_back(Beat{epoch_, options_.instance, beats_});
+    actions_.emplace_back(Beat{epoch_, options_.instance, beats_});
 }
 
 void Keeper::leave(std::string why) {
     state_ = State::Out;
     unacknowledged_.clear();
-    actions_.push_back(Leave{std::move(why)});
+    actions_.emplace_back(Leave{std::move(why)});
 }
 
 bool Keeper::is_confident() const {
@@ -387,7 +393,7 @@ bool Keeper::is_repeated(const Asker& asker) {
     kept.asked = ++questions_;
     auto& replies = kept.replies;
     if (const auto known = replies.find(asker.number); known != replies.end()) {
-        if (known->second) actions_.push_back(Answer{asker, *known->second});
+        if (known->second) actions_.emplace_back(Answer{asker, *known->second});
         return true;
     }
     if (replies.size() >= kRepliesKept) {
@@ -415,12 +421,12 @@ void Keeper::answer(const Asker& asker, Reply reply) {
     if (const auto known = kept->second.replies.find(asker.number);
         known != kept->second.replies.end())
         known->second = reply;
-    actions_.push_back(Answer{asker, std::move(reply)});
+    actions_.emplace_back(Answer{asker, std::move(reply)});
 }
 
 void Keeper::publish(const Record& record, bool gone, std::vector<Answer> answers) {
     unacknowledged_[++publications_] = {topic_of(record), std::move(answers)};
-    actions_.push_back(Publish{publications_, record, gone});
+    actions_.emplace_back(Publish{publications_, record, gone});
 }
 
 void Keeper::publish_and_answer(const Record& record, const Asker& asker) {

@@ -148,6 +148,7 @@ private:
     void obey(const Asker& asker, const Release& release);
     void obey(const Asker& asker, const Write& write);
 
+    Actions take_actions();
     void listen_is_over();
     void publish_all();
     void send_beat();

@@ -17,8 +17,7 @@ namespace vagus::cli {
 
 constexpr Duration kStateEvery = std::chrono::seconds(1);  // simulated
 constexpr size_t kRobotLinesMax = 20;                      // more robots are told as a summary
-constexpr uint64_t kNoteLinesMax =
-    20;  // of a kind in one such second; the rest is told as a number
+constexpr uint64_t kNoteLinesMax = 20;  // of a kind in one such second; the rest is counted
 
 class SimLines {
 public:

@@ -355,6 +355,8 @@ Status Bench::clear_memory() {
         Words rest(1 + std::min<size_t>(wire::kBytecodeWordsMax, bytecode_used_ - start), 0);
         rest[0] = static_cast<uint16_t>(start);
         TRY(command(MessageType::SetBytecode, rest));
+        // A board that answers while the next frame comes may lose bytes of it.
+        TRY(forget());
     }
     for (size_t start = described_words(target_); start < variables_used_;
          start += kVariablesAtOnce) {

@@ -394,6 +394,17 @@ void Control::receive(const wire::Variables& variables) {
     finish(std::move(*done));
 }
 
+// It answers all but that: nobody waits for it for ever.
+void Control::take_unseen(Request& load) {
+    load.asks_mark = false;
+    load.deadline = out_.now + kAnswerWithin;
+    ask_again_ = out_.now + kAskAgain;
+    Answer done = loaded(load);
+    if (!done) return;
+    tell_state();
+    finish(std::move(*done));
+}
+
 Control::Answer Control::load_again(Request& request, uint32_t told) {
     if (request.loads == kLoadsMax) {
         forget_program();
@@ -536,6 +547,7 @@ void Control::tick() {
         ask_again_ = out_.now + kAskAgain;
         return repeat(requests_.front());
     }
+    if (requests_.front().asks_mark) return take_unseen(requests_.front());
     finish({Error{Code::Timeout,
                   who() + " did not answer the request to " + act_of(requests_.front().kind) +
                       " within " + std::to_string(kAnswerWithin / std::chrono::seconds(1)) + " s"},

@@ -116,6 +116,7 @@ private:
     Answer answer(Request& request, const wire::ExecutionStateChanged& state);
     Answer answer_load(Request& request, const wire::ExecutionStateChanged& state);
     void ask_mark();
+    void take_unseen(Request& load);
     Answer loaded(Request& request);
     Answer load_again(Request& request, uint32_t told);
     Answer answer_run(Request& request, const wire::ExecutionStateChanged& state);

@@ -26,6 +26,9 @@ def without_eight_bytes(frame):
     return frame[:middle - 4] + frame[middle + 4:] + LIST_NODES
 
 
+PROJECT = f'<!DOCTYPE aesl-source>\n<network><node nodeId="{NODE}" name="rover">\n{SCRIPT}</node></network>\n'
+
+
 class LossyLine:
     """Between hosts and a node: of so many SetBytecode frames bytes are lost."""
 
@@ -88,7 +91,7 @@ class Lossy(unittest.TestCase):
         self.port = listening(node)
         folder = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-lossy-"))
         self.script = os.path.join(folder, "rover.aesl")
-        pathlib.Path(self.script).write_text(SCRIPT, encoding="utf-8")
+        pathlib.Path(self.script).write_text(PROJECT, encoding="utf-8")
 
     def line(self, losses):
         line = LossyLine(self.port, losses)
@@ -100,7 +103,7 @@ class Lossy(unittest.TestCase):
         run_vagus("net", line.target, "load", self.script, NODE)
         self.assertEqual(line.programs, 3)
         # The sum behind the described variables: only the whole program makes it.
-        values = run_vagus("net", line.target, "get", NODE, "w", "--json")
+        values = run_vagus("net", line.target, "get", NODE, "w", "--json", "--project", self.script)
         self.assertEqual(json.loads(values), {"w": [66]})
 
     def test_a_line_that_always_loses_bytes_is_said_and_nothing_runs(self):
@@ -112,4 +115,4 @@ class Lossy(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    unittest.main(argv=[sys.argv[0], *(f"-k{name}" for name in sys.argv[1:])], verbosity=2, warnings="ignore")

@@ -277,7 +277,7 @@ test('a text that only this page has is said to be', two, async (studio) => {
 });
 
 test('a file that was deleted in the tree is saved again after a restart', two, async (studio) => {
-  const { page, press, place } = studio;
+  const { page, press, place, button } = studio;
   const path = join(place, 'two.aesl');
   await typeAtEnd(studio, 'left', '# typed\n');
   await press('Control+s');
@@ -288,6 +288,8 @@ test('a file that was deleted in the tree is saved again after a restart', two, 
     .first()
     .focus();
   await press('Delete');
+  await seen(button('Cancel'));
+  await press('Enter');
   await until('it is gone', () => !existsSync(path));
   await seen(page.getByText('Not on disk', { exact: true }));
   await restarted(studio);

@@ -95,7 +95,6 @@ test(
       twoNodes(t, { left: 'var a = 0\n', right: 'var b = 0\n' }),
   },
   async ({ page }) => {
-    await controls(page).getByRole('button', { name: 'Run', exact: true }).tap();
     await reads(page.locator('.phone__clock'), 'Running: left, right');
   },
 );

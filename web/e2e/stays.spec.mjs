@@ -278,14 +278,17 @@ test('what a press on the palette adds is put where it is seen', project, async 
   const { page, button, layout } = studio;
   await layout('Draw');
   await seen(page.getByRole('region', { name: 'Plan P, drawn' }));
+  // Problems opens at the first error and leaves less room for the drawing.
+  await seen(page.getByText(/"Interrupted" of "sub" leads nowhere/).last());
   const before = await settled(page);
-  // Below each other they would leave the window at the third.
-  for (const name of ['wait', 'wait2', 'wait3', 'wait4']) {
+  // Below each other they would leave the window at the second.
+  for (const name of ['wait', 'wait2', 'wait3']) {
     await button('Wait, actor').click();
     await seen(page.getByRole('group', { name: new RegExp(`^${name}, actor Wait`) }));
+    await settled(page);
   }
-  const { wait, wait2, wait3, wait4, ...others } = await settled(page);
-  assert.ok(wait && wait2 && wait3 && wait4);
+  const { wait, wait2, wait3, ...others } = await settled(page);
+  assert.ok(wait && wait2 && wait3);
   assert.deepEqual(others, before);
 });
 

@@ -200,7 +200,10 @@ const kOfNew = { width: 168, height: 92 };
 /** How many columns of boxes to each side are looked through. */
 const kColumnsMax = 8;
 
-/** As `freePlace`, where all of the element can be seen: below the point or in a column beside it; else as there. */
+/**
+ * As `freePlace`, where all of the element can be seen: below the point or in a column beside it, else the nearest
+ * place in sight; where there is no room, as there.
+ */
 export function freePlaceIn(room: Box, scene: Scene, wanted: Point): Point {
   const isIn = ({ x, y }: Point) =>
     x >= room.x &&
@@ -213,12 +216,38 @@ export function freePlaceIn(room: Box, scene: Scene, wanted: Point): Point {
   const places = columns.map((column) =>
     freePlace(scene, { ...wanted, x: wanted.x + column * (kOfNew.width + kGap) }),
   );
-  return places.find(isIn) ?? freePlace(scene, wanted);
+  return places.find(isIn) ?? nearestIn(room, scene, wanted) ?? freePlace(scene, wanted);
+}
+
+const kGrid = 3 * kSnap;
+
+function nearestIn(room: Box, scene: Scene, wanted: Point): Point | undefined {
+  const boxes = boxesOf(scene);
+  const steps = (from: number, length: number) => {
+    const first = Math.ceil(from / kGrid);
+    const last = Math.floor((from + length) / kGrid);
+    return Array.from(
+      { length: Math.max(0, last - first + 1) },
+      (_one, at) => (first + at) * kGrid,
+    );
+  };
+  const xs = steps(room.x, room.width - kOfNew.width);
+  const ys = steps(room.y, room.height - kOfNew.height);
+  const far = ({ x, y }: Point) => Math.hypot(x - wanted.x, y - wanted.y);
+  return xs
+    .flatMap((x) => ys.map((y) => ({ x, y })))
+    .filter((at) => !boxes.some((box) => overlaps(box, { ...at, ...kOfNew }, kGap / 2)))
+    .reduce<Point | undefined>((best, at) => (best && far(best) <= far(at) ? best : at), undefined);
+}
+
+function boxesOf(scene: Scene): Box[] {
+  const blocks = [scene.start, ...scene.actors].map((block) => block.whole);
+  return [...blocks, ...scene.pills.map((pill) => pill.box)];
 }
 
 /** The nearest place at or below a point where an element of that size covers nothing. */
 export function freePlace(scene: Scene, wanted: Point, size = kOfNew): Point {
-  const boxes = [scene.start, ...scene.actors].map((block) => block.whole);
+  const boxes = boxesOf(scene);
   const at = { x: snapped(wanted.x), y: snapped(wanted.y) };
   for (let tries = 0; tries <= boxes.length; tries++) {
     const inTheWay = boxes.find((box) => overlaps(box, { ...at, ...size }, kGap / 2));

@@ -154,6 +154,9 @@ describe('places', () => {
     // Below the blocks it would end at 504 + 92: the column to the right is next, 168 + 48 further.
     const room = { x: 0, y: 0, width: 700, height: 400 };
     expect(freePlaceIn(room, scene, { x: 83, y: 165 })).toEqual({ x: 296, y: 168 });
+    // Nothing below the point is in sight: the nearest of every 24. Left of 272, which is 24 behind what ends at 248,
+    // blocks are in the way; 92 and 24 above 344, where the sub-plan begins, is 228.
+    expect(freePlaceIn(room, scene, { x: 83, y: 350 })).toEqual({ x: 288, y: 216 });
     // Nowhere in sight: as without it.
     const small = { x: 0, y: 0, width: 100, height: 100 };
     expect(freePlaceIn(small, scene, { x: 83, y: 165 })).toEqual({ x: 80, y: 504 });

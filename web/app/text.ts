@@ -199,6 +199,7 @@ export const text = {
     'draw.into': 'Plan: step into the script',
     'draw.script': 'Plan: go to the script',
     'draw.fit': 'Plan: fit it into the window',
+    'draw.add': 'Plan: add an element…',
     'draw.find': 'Plan: find an element',
     'draw.tidy': 'Plan: tidy the selection, or what has no place yet, or all',
     'draw.zoomIn': 'Plan: zoom in',

@@ -1,10 +1,9 @@
 #include "cli/fleet/session.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 
+#include "base/text.hpp"
 #include "net/end_signal.hpp"
 #include "serve/process.hpp"
 
@@ -18,11 +17,7 @@ constexpr size_t kNameBytes = 6;
 
 // A robot of that name is improbable, and another operator, too.
 std::string operator_name() {
-    std::string name = "operator-";
-    for (const char byte : serve::random_bytes(kNameBytes)) {
-        name += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    }
-    return name;
+    return "operator-" + hex_of(serve::random_bytes(kNameBytes));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ public:
     const std::string& fleet() const { return fleet_; }
     // Called with each event of the link, after the operator has heard it.
     void on_event(std::function<void(const fleet::LinkEvent&)> event) { event_ = std::move(event); }
-    // Until it holds (true), the time is over, or somebody wants the end.
+    // Until it holds (true), the time is over, or the program is asked to end.
     bool wait_until(const std::function<bool()>& holds, Duration within);
     // The connection was made, and all that was retained has come; the Error says why not.
     Status know_all(Duration within);

@@ -81,6 +81,7 @@ public:
 
 private:
     bool run_session();
+    void obey_orders(Session& session);
     std::vector<Order> take_orders();
     bool ends();
 
@@ -303,6 +304,12 @@ void MosquittoLink::Inside::run() {
     ended_.notify_all();
 }
 
+void MosquittoLink::Inside::obey_orders(Session& session) {
+    for (const Order& order : take_orders()) {
+        std::visit([&session](const auto& one) { session.obey(one); }, order);
+    }
+}
+
 // False: it was ended by the owner.
 bool MosquittoLink::Inside::run_session() {
     Session session(*this);
@@ -310,17 +317,13 @@ bool MosquittoLink::Inside::run_session() {
     const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(kLinkConnectMs);
     while (why.empty() && !ends()) {
         const bool goes_on = session.turn(signal_);
-        for (const Order& order : take_orders()) {
-            std::visit([&session](const auto& one) { session.obey(one); }, order);
-        }
+        obey_orders(session);
         if (!goes_on) why = session.why();
         const bool late = std::chrono::steady_clock::now() > until;
         if (why.empty() && !session.connected() && late) why = "it did not answer";
     }
     if (why.empty()) {
-        for (const Order& order : take_orders()) {
-            std::visit([&session](const auto& one) { session.obey(one); }, order);
-        }
+        obey_orders(session);
         session.say_good_bye();
     }
     {

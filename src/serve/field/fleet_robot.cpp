@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 #include "fleet/limits.hpp"
 #include "fleet/topic.hpp"
 #include "serve/process.hpp"
@@ -15,12 +16,6 @@ namespace {
 
 constexpr size_t kInstanceBytes = 8;
 constexpr size_t kEpochBytes = 6;  // a whole number below 2^48
-
-std::string in_hex(const std::string& bytes) {
-    std::string text;
-    for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    return text;
-}
 
 int64_t as_number(const std::string& bytes) {
     int64_t number = 0;
@@ -39,9 +34,9 @@ std::vector<std::string> names_heard(const fleet::ProjectPart& part) {
 }
 
 fleet::Description description_of(const OpenedProject& project, const std::string& studio) {
-    return {.project = project.name.substr(0, fleet::kLineBytesMax),
+    return {.project = std::string(utf8_prefix(project.name, fleet::kLineBytesMax)),
             .vagus = VAGUS_VERSION,
-            .plan = project.plan.substr(0, fleet::kLineBytesMax),
+            .plan = std::string(utf8_prefix(project.plan, fleet::kLineBytesMax)),
             .studio = studio,
             .groups = project.fleet.groups,
             .nodes = {},
@@ -70,7 +65,7 @@ Result<std::unique_ptr<FleetRobot>> FleetRobot::join(Workbench& bench, const Fle
     const OpenedProject none;
     const OpenedProject& project = bench.project() ? *bench.project() : none;
     fleet::MemberOptions member{.robot = options.robot.empty() ? host_name() : options.robot,
-                                .instance = in_hex(random_bytes(kInstanceBytes)),
+                                .instance = hex_of(random_bytes(kInstanceBytes)),
                                 .epoch = as_number(random_bytes(kEpochBytes)),
                                 .project = project.fleet,
                                 .description = description_of(project, talk.studio)};

@@ -224,9 +224,13 @@ private:
         auto& session = *static_cast<Session*>(self);
         const std::string_view payload(static_cast<const char*>(message->payload),
                                        static_cast<size_t>(message->payloadlen));
-        // A retained message that was taken back.
-        if (payload.empty()) return;
-        auto heard = fleet::read(session.link_.options().target.fleet, message->topic, payload);
+        const std::string& fleet = session.link_.options().target.fleet;
+        if (payload.empty()) {
+            auto topic = fleet::parse_topic(fleet, message->topic);
+            if (topic) session.link_.give(fleet::TakenBack{std::move(*topic)});
+            return;
+        }
+        auto heard = fleet::read(fleet, message->topic, payload);
         if (heard.ok()) {
             session.link_.give(fleet::Received{std::move(heard.value()), message->retain});
         } else if (heard.error().code != Code::NotFound) {

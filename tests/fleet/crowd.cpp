@@ -1,5 +1,6 @@
 // Many robots of a fleet for tests that look at one: real members with real connections, which do
-// nothing but tell a state, obey, and send the events that they are told to emit.
+// nothing but tell a state, obey, and send the events that they are told to emit. A variable that
+// is set becomes a fault of that name.
 //
 //     fleet_crowd TARGET ROBOTS CHANGING
 //
@@ -82,10 +83,17 @@ private:
         }
     }
 
+    // What is set becomes its problem.
+    void fail(const std::string& why) {
+        shown_.state = "fault";
+        shown_.problems = {why};
+    }
+
     void obey(const fleet::Command& command) {
         if (command.verb == "stop") shown_ = {.state = "stopped"};
-        if (command.verb == "start" || command.verb == "continue") shown_.state = "running";
+        if (command.verb == "start" || command.verb == "continue") shown_ = {.state = "running"};
         if (command.verb == "pause") shown_.state = "paused";
+        if (command.verb == "set") fail(command.name);
         if (command.verb == "emit") member_.emitted(command.event, command.values, now());
         member_.answer(command, {.done = true});
     }

@@ -28,15 +28,15 @@ const members = (/** @type {readonly string[]} */ names, user = 'operator') => (
 
 /** @param {Page} page */
 const handsOn = (page) => ({
-  tiles: page.getByRole('option'),
+  tiles: page.locator('[data-robot]'),
   tile: (/** @type {string} */ name) => page.locator(`[data-robot="${name}"]`),
   does: (/** @type {string} */ name, /** @type {string} */ doing) =>
-    seen(page.getByRole('option', { name: new RegExp(`^${name}, ${doing}(,|$)`) })),
+    seen(page.getByRole('option', { name: new RegExp(`^${name} ${doing}( |$)`) })),
   report: page.locator('.freport'),
   event: (/** @type {string} */ text) => page.locator('.fevent').filter({ hasText: text }),
   chosen: async () =>
     page
-      .getByRole('option', { selected: true })
+      .locator('[data-robot][aria-selected="true"]')
       .evaluateAll((all) => all.map((one) => one.getAttribute('data-robot'))),
 });
 
@@ -82,7 +82,7 @@ test(
     await does('r1', 'stopped');
     await does('r2', 'stopped');
     await reads(report, 'Stop: done by 2 robots.');
-    await seen(event('2 of 2 robots: done'));
+    await seen(event('Stop: 2 of 2 robots'));
     // Its own studio.
     const opened = context.waitForEvent('page');
     await tile('r2').focus();
@@ -217,7 +217,7 @@ test(
 );
 
 test('tiles are sorted, looked for and chosen by mouse', crowd(12, 0), async (studio) => {
-  const { page, press, button } = studio;
+  const { page, press, button, type } = studio;
   const { tiles, tile, chosen, does } = handsOn(page);
   await does('r12', 'running');
   const names = () => tiles.evaluateAll((all) => all.map((one) => one.getAttribute('data-robot')));
@@ -229,8 +229,20 @@ test('tiles are sorted, looked for and chosen by mouse', crowd(12, 0), async (st
   assert.deepEqual(await chosen(), ['r2', 'r4']);
   await button('Pause').click();
   await does('r2', 'paused');
-  await page.getByLabel('Order').selectOption('Worst first');
-  await until('what runs comes first', async () => (await names()).at(-1) === 'r4');
+  await tile('r7').click();
+  await button('Set a variable…').click();
+  await type('no motor');
+  await press('Tab');
+  await type('1');
+  await press('Enter');
+  await does('r7', 'fault');
+  await seen(tile('r7').getByText('no motor'));
+  await button('Close').click();
+  await page.getByLabel('Sort by').selectOption('Worst first');
+  await until('the fault comes first, what is paused last', async () => {
+    const list = await names();
+    return list[0] === 'r7' && list.at(-1) === 'r4';
+  });
   await page.getByRole('searchbox', { name: /^Name, state/ }).fill('paused');
   await until('only those that are paused', async () => (await tiles.count()) === 2);
   await press('Escape');

@@ -186,8 +186,8 @@ void FleetDesk::log_order(const Waiting& waiting, const Json& outcomes) {
             missing += (missing.empty() ? "" : ", ") + one["robot"].get<std::string>();
         }
     }
-    std::string text = fmt::format("{} of {} robots: done", done, outcomes.size());
-    if (!missing.empty()) text += "; not: " + missing;
+    std::string text = fmt::format("{} of {} robots", done, outcomes.size());
+    if (!missing.empty()) text += "; not " + missing;
     const Clients::Member* member = desk_.clients().find(waiting.call.member);
     desk_.topics().add("fleet_events", {{"wall", desk_.wall_ms()},
                                         {"kind", "order"},

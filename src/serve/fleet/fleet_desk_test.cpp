@@ -218,7 +218,7 @@ TEST_F(FleetDeskTest, TilesChangeFiveTimesASecondAtMost) {
         now += 10ms;
         const std::string name = "r" + std::to_string(i % 20);
         hear({.kind = Kind::State, .robot = name},
-             fleet::State{.number = i + 1, .epoch = 7, .clock = i, .since = i});
+             fleet::State{.number = i + 1, .epoch = 7, .clock = i, .actor = std::to_string(i)});
     }
     EXPECT_LE(got[ClientId{1}].size() - before, 6u);
     EXPECT_GE(got[ClientId{1}].size() - before, 4u);
@@ -237,7 +237,7 @@ TEST_F(FleetDeskTest, PagesSeeWhatWasOrdered) {
     ASSERT_FALSE(items.empty());
     EXPECT_EQ(items.back()["kind"], "order");
     EXPECT_EQ(items.back()["name"], "pause");
-    EXPECT_EQ(items.back()["text"], "1 of 1 robots: done");
+    EXPECT_EQ(items.back()["text"], "1 of 1 robots");
 }
 
 }  // namespace

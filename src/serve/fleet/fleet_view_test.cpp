@@ -126,12 +126,15 @@ TEST(FleetView, ARobotThatIsForgottenGoes) {
 TEST(FleetView, OnlyPagesAreLinkedTo) {
     Case c;
     c.connect();
+    fleet::Description about;
     for (const char* address : {"javascript:alert(1)", "file:///etc/passwd", "data:text/html,x"}) {
-        c.hear({.kind = Kind::Description, .robot = "r1"}, fleet::Description{.studio = address});
+        about.studio = address;
+        c.hear({.kind = Kind::Description, .robot = "r1"}, about);
         EXPECT_FALSE(c.robot("r1").contains("studio")) << address;
     }
-    c.hear({.kind = Kind::Description, .robot = "r1"},
-           fleet::Description{.vagus = "1.0.0", .studio = "https://r1.local:7357/"});
+    about.vagus = "1.0.0";
+    about.studio = "https://r1.local:7357/";
+    c.hear({.kind = Kind::Description, .robot = "r1"}, about);
     EXPECT_EQ(c.robot("r1")["studio"], "https://r1.local:7357/");
     EXPECT_EQ(c.robot("r1")["vagus"], "1.0.0");
 }

@@ -15,7 +15,7 @@ export function FleetHead() {
   const count = usePart('fleet', {}, (is) => Object.keys(is?.robots ?? {}).length);
   const counts = useCounts();
   return (
-    <div className="fhead">
+    <div className="fhead" data-region="fleet">
       <h1 className="fhead__title ellipsis">{words.title(fleet)}</h1>
       <span className="muted">
         {words.count(count)}

@@ -8,6 +8,7 @@ import { FleetGrid } from './fleet_grid';
 import { FleetHead } from './fleet_head';
 import { FleetReport } from './fleet_report';
 import { FleetOrders, FleetTools } from './fleet_tools';
+import { text } from '../../text';
 import { words } from './words';
 import '../../look/fleet.css';
 
@@ -16,8 +17,9 @@ export default function FleetPage() {
   const studio = useStudio();
   const target = usePart('fleet', {}, (is) => is?.target ?? '');
   useEffect(() => fleetDesk(studio).enter(target), [studio, target]);
+  useStopKey();
   return (
-    <main className="fleet" data-region="fleet" aria-label={words.region}>
+    <main className="fleet" aria-label={words.region}>
       <div className="fleet__top">
         <FleetHead />
         <BrokerNotice />
@@ -25,11 +27,34 @@ export default function FleetPage() {
         <FleetTools />
         <FleetOrders />
       </div>
-      <div className="fleet__tiles">
+      <div className="fleet__tiles" data-region="tiles">
         <FleetGrid />
       </div>
       <FleetEvents />
     </main>
+  );
+}
+
+/** The key that stops everything means the fleet here, and the robot of the project that is open beside it. */
+function useStopKey(): void {
+  const studio = useStudio();
+  useEffect(
+    () =>
+      studio.registry.add([
+        {
+          id: 'fleet.stop',
+          title: words.stopAllLong,
+          group: text.groups.run,
+          keys: ['Shift+F5'],
+          async run() {
+            const hasProject = studio.topics.get('studio', {})?.project !== undefined;
+            const own = hasProject ? studio.stopping.press() : undefined;
+            await fleetDesk(studio).order('stop', null);
+            await own;
+          },
+        },
+      ]),
+    [studio],
   );
 }
 

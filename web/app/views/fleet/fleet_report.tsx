@@ -17,7 +17,10 @@ export function FleetReport() {
   const isGood = report.is === 'sent' || (report.is === 'answered' && missing.length === 0);
   const Icon = isGood ? IconCircleCheck : IconAlertTriangle;
   return (
-    <div className={isGood ? 'notice' : 'notice notice--error'} role={isGood ? 'status' : 'alert'}>
+    <div
+      className={isGood ? 'notice notice--plain' : 'notice notice--error'}
+      role={isGood ? 'status' : 'alert'}
+    >
       <Icon className="icon" size={14} stroke={kStroke} aria-hidden />
       <span className="freport">{sentence(report)}</span>
       <span className="grow" />

@@ -29,7 +29,6 @@ export const FleetTile = memo(function FleetTile(props: TileProps) {
       id={`robot-${name}`}
       data-robot={name}
       aria-selected={isChosen}
-      aria-label={labelOf(name, robot, doing)}
       tabIndex={isAt ? 0 : -1}
       className={`ftile ftile--${doing}${isOld ? ' is-old' : ''}`}
     >
@@ -89,9 +88,4 @@ function Trouble({ robot }: { robot: FleetRobot }) {
 
 function footOf({ project, vagus, groups }: FleetRobot): string {
   return [project, ...(groups ?? []), vagus ? words.vagus(vagus) : ''].filter(Boolean).join(' · ');
-}
-
-function labelOf(name: string, robot: FleetRobot, doing: Doing): string {
-  const problems = robot.problems ?? [];
-  return words.tile([name, words.doing[doing], robot.actor ?? '', ...problems]);
 }

@@ -37,6 +37,7 @@ export const words = {
   } satisfies Record<Doing, string>,
   show: (count: number, doing: string) => `${count} ${doing}: show these`,
   stopAll: 'Stop all',
+  stopAllLong: 'Stop all robots of the fleet',
   stopAllTip: 'Stops every robot of the fleet, also those that are not shown',
   link: {
     connecting: (target: string) => `Looking for the broker of ${target}…`,
@@ -44,7 +45,7 @@ export const words = {
     page: 'The tiles show what robots told last.',
   },
   find: 'Name, state, actor, group, problem',
-  sort: 'Order',
+  sort: 'Sort by',
   sorts: {
     name: 'Name',
     state: 'Worst first',
@@ -113,7 +114,6 @@ export const words = {
   problems: (count: number) => (count === 1 ? '1 problem' : `${count} problems`),
   leftOut: (count: number) =>
     `${count} ${count === 1 ? 'event was' : 'events were'} left out: too many, too old, or not fitting`,
-  tile: (parts: readonly string[]) => parts.filter(Boolean).join(', '),
   vagus: (version: string) => `Vagus ${version}`,
   events: {
     title: 'Events',

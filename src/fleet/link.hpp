@@ -17,7 +17,7 @@ namespace vagus::fleet {
 
 struct Filter {
     std::string topic = {};  // may have wildcards
-    bool own = true;    // also what this client publishes
+    bool own = true;         // also what this client publishes
 };
 
 struct Post {

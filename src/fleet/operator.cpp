@@ -198,8 +198,8 @@ Time Operator::next_tick() const {
 
 bool Operator::Given::is_over() const {
     return is_chosen && (!refused.empty() || std::all_of(asked.begin(), asked.end(), [](auto& one) {
-        return one.second.answer.has_value();
-    }));
+               return one.second.answer.has_value();
+           }));
 }
 
 bool Operator::is_over(OrderNumber number) const {

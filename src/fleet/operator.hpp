@@ -2,9 +2,9 @@
 // each order. A state machine, as Member is.
 //
 //     Operator desk({.fleet = "lab", .name = "desk-1"});
-//     const OrderNumber order = desk.begin({.command = {.verb = "stop"}, .to = {.all = true}}, now);
-//     for (const LinkEvent& event : link.take()) desk.hear(event, now);
-//     desk.tick(now);
+//     const OrderNumber order = desk.begin({.command = {.verb = "stop"}, .to = {.all = true}}, t);
+//     for (const LinkEvent& event : link.take()) desk.hear(event, t);
+//     desk.tick(t);
 //     if (desk.is_over(order)) for (const Outcome& one : desk.outcomes(order)) show(one);
 #pragma once
 
@@ -61,8 +61,8 @@ public:
     };
     explicit Operator(Options options) : options_(std::move(options)) {}
 
-    // An order, given as soon as it is known who is there, beside others that are under way. Without
-    // an id it gets one. It is repeated or waits for a robot until end().
+    // An order, given as soon as it is known who is there, beside others that are under way.
+    // Without an id it gets one. It is repeated, or waits for a robot, until end().
     OrderNumber begin(Order order, Time now);
 
     void hear(const LinkEvent& event, Time now);

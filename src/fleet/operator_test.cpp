@@ -139,8 +139,8 @@ TEST(Operator, SeveralOrdersAreUnderWayTogether) {
     c.robot("r2");
     c.all_is_known();
     c.fresh("r1", 100), c.fresh("r2", 100);
-    const auto stop = c.desk.begin(
-        {.command = {.verb = "stop", .id = "s"}, .to = {.robots = {"r1", "r2"}}}, 0s);
+    const auto stop =
+        c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.robots = {"r1", "r2"}}}, 0s);
     const auto pause =
         c.desk.begin({.command = {.verb = "pause", .id = "p"}, .to = {.robots = {"r1"}}}, 0s);
     EXPECT_NE(stop, pause);
@@ -163,8 +163,7 @@ TEST(Operator, ABrokerThatDoesNotPassAnOrderOnIsTheReason) {
     c.robot("r1");
     c.all_is_known();
     c.fresh("r1", 100);
-    const auto order =
-        c.desk.begin({.command = {.verb = "start"}, .to = {.robots = {"r1"}}}, 0s);
+    const auto order = c.desk.begin({.command = {.verb = "start"}, .to = {.robots = {"r1"}}}, 0s);
     c.tick(0s);
     ASSERT_EQ(c.posts.size(), 1u);
     c.hear(Acknowledged{c.posts[0].number, ""});

@@ -58,11 +58,10 @@ public:
 
 private:
     static fleet::MemberOptions options_of(const std::string& target, const std::string& name) {
-        fleet::MemberOptions options{
-            .fleet = fleet::parse_fleet_target(target).value().fleet,
-            .robot = name,
-            .instance = serve::operator_name(),
-            .epoch = 1};
+        fleet::MemberOptions options{.fleet = fleet::parse_fleet_target(target).value().fleet,
+                                     .robot = name,
+                                     .instance = serve::operator_name(),
+                                     .epoch = 1};
         options.project.send = {"alarm"};
         options.description = {.project = "crowd",
                                .vagus = "1.0.0",
@@ -158,8 +157,8 @@ int main(int count, char** words) {
     std::vector<std::unique_ptr<Robot>> robots;
     const size_t size = std::strtoul(words[2], nullptr, 10);
     for (size_t i = 1; i <= size; ++i) {
-        robots.push_back(std::make_unique<Robot>(words[1], "r" + std::to_string(i),
-                                                 [&bell] { bell.ring(); }));
+        robots.push_back(
+            std::make_unique<Robot>(words[1], "r" + std::to_string(i), [&bell] { bell.ring(); }));
     }
     live(robots, std::min<size_t>(size, std::strtoul(words[3], nullptr, 10)), bell);
     return 0;

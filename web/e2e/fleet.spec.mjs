@@ -216,6 +216,31 @@ test(
   },
 );
 
+test(
+  'a fleet beside a project: the key that stops means both',
+  {
+    prepare: async (t) => {
+      const broker = await startBroker(t);
+      await startCrowd(t, broker.target, 2);
+      return { words: ['--fleet', broker.target, '--example', 'thymio'] };
+    },
+  },
+  async ({ page, press, button, editor, command }) => {
+    await seen(editor('thymio-II'));
+    await press('F5');
+    await seen(button(/Running/));
+    await page.getByRole('radio', { name: 'Fleet lab' }).click();
+    const { does } = handsOn(page);
+    await does('r1', 'running');
+    await press('Shift+F5');
+    await does('r1', 'stopped');
+    await does('r2', 'stopped');
+    await command('Show the fleet, or the project');
+    await seen(editor('thymio-II'));
+    await seen(button(/Stopped|Ended/));
+  },
+);
+
 test('tiles are sorted, looked for and chosen by mouse', crowd(12, 0), async (studio) => {
   const { page, press, button, type } = studio;
   const { tiles, tile, chosen, does } = handsOn(page);

@@ -1,7 +1,7 @@
 #include "serve/broker/mosquitto_link.hpp"
 
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <mosquitto.h>
 #include <mqtt_protocol.h>
 #include <poll.h>

@@ -173,8 +173,9 @@ TEST_F(FleetDeskTest, WhatRobotsWouldNotUnderstandIsRefusedHere) {
     robot("r1");
     const Json said = order(3, "fleet.order", {{"verb", "emit"}, {"robots", {"r1"}}});
     EXPECT_EQ(said["error"]["code"], "bad_input");
-    EXPECT_EQ(order(4, "fleet.order", {{"verb", "pause"}, {"robots", Json::array()}})["error"]["what"],
-              "no robot is chosen; name at least one");
+    EXPECT_EQ(
+        order(4, "fleet.order", {{"verb", "pause"}, {"robots", Json::array()}})["error"]["what"],
+        "no robot is chosen; name at least one");
     EXPECT_TRUE(wire.posts.empty());
 }
 
@@ -196,9 +197,8 @@ TEST_F(FleetDeskTest, WhoOnlyLooksMayStopAndNothingElse) {
     open_fleet();
     robot("r1");
     hello(2, test::kLook, "looker");
-    const Json refused = say(2, {{"id", 2},
-                                 {"do", "fleet.order"},
-                                 {"in", {{"verb", "pause"}, {"robots", {"r1"}}}}});
+    const Json refused =
+        say(2, {{"id", 2}, {"do", "fleet.order"}, {"in", {{"verb", "pause"}, {"robots", {"r1"}}}}});
     EXPECT_TRUE(refused.contains("error"));
     EXPECT_TRUE(wire.posts.empty());
     say(2, {{"id", 3}, {"do", "fleet.stop"}, {"in", {{"robots", {"r1"}}}}});

@@ -80,7 +80,8 @@ void FleetView::hear_state(const std::string& robot, const fleet::State& state, 
     if (told.epoch == state.epoch && told.since == state.since) return;
     told.epoch = state.epoch;
     told.since = state.since;
-    told.since_wall = wall_ms - static_cast<double>(std::max<int64_t>(state.clock - state.since, 0));
+    told.since_wall =
+        wall_ms - static_cast<double>(std::max<int64_t>(state.clock - state.since, 0));
 }
 
 FleetView::Age FleetView::age_of(const std::string& robot, const fleet::Known& known) const {

@@ -13,7 +13,7 @@ namespace vagus::serve {
 struct StudioOptions {
     std::string project = {};  // a path; empty: the start screen
     std::string example = {};  // or an example
-    FleetOptions fleet = {};             // to look at
+    FleetOptions fleet = {};   // to look at
     DoorOptions door = {};
     std::string data = {}, config = {};  // folders; empty: the user's
 };

@@ -53,7 +53,7 @@ export function AddressForm({ onDone }: { onDone?: () => void }) {
         placeholder={text.start.addressHint}
         spellCheck={false}
         autoComplete="off"
-        onChange={(event) => setAddress(event.target.value)}
+        onChange={(event) => (setWhy(''), setAddress(event.target.value))}
       />
       <Button type="submit" disabled={!drives}>
         {words.connect}

@@ -7,8 +7,8 @@
 namespace vagus::fleet {
 namespace {
 
-constexpr const char* kEcho = "echo";  // id of a message of our own that comes back
-constexpr uint64_t kEchoNumber = UINT64_MAX;
+constexpr const char* kEcho = "echo";         // id of a message of our own that comes back
+constexpr uint64_t kEchoNumber = UINT64_MAX;  // of its post: unlike that of any order
 
 }  // namespace
 

@@ -61,6 +61,12 @@ describe('the list', () => {
   };
   it('is sorted as people count', () =>
     expect(listOf(robots, '', 'name', true)).toEqual(['r1', 'r2', 'r3', 'r10']));
+  it('has robots of any name', () => {
+    const odd = JSON.parse(
+      '{"__proto__": {"connection": "online", "age": "fresh"}}',
+    ) as typeof robots;
+    expect(listOf(odd, '', 'state', true)).toEqual(['__proto__']);
+  });
   it('has the worst first, among equals those with problems', () =>
     expect(listOf(robots, '', 'state', true)).toEqual(['r2', 'r3', 'r1', 'r10']));
   it('has those first that have done the same the longest', () =>

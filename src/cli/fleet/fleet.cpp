@@ -24,6 +24,7 @@ using namespace std::chrono_literals;
 
 constexpr double kWaitMax_s = 86400;
 constexpr Duration kForEver = Duration::max() / 4;
+constexpr uint64_t kForgotten = 1;  // number of the last message that is taken back
 
 using SharedCall = std::shared_ptr<FleetCall>;
 
@@ -212,7 +213,7 @@ int forget(FleetSession& session, const FleetCall& call) {
     std::optional<std::string> answered;
     session.on_event([&](const fleet::LinkEvent& event) {
         const auto* told = std::get_if<fleet::Acknowledged>(&event);
-        if (told != nullptr) answered = told->refused;
+        if (told != nullptr && told->number == kForgotten) answered = told->refused;
     });
     for (const Kind kind : {Kind::Description, Kind::State, Kind::Connection}) {
         const bool last = kind == Kind::Connection;
@@ -221,7 +222,7 @@ int forget(FleetSession& session, const FleetCall& call) {
              .payload = "",
              .qos = 1,
              .retained = true,
-             .number = last ? uint64_t{1} : uint64_t{0}});
+             .number = last ? kForgotten : uint64_t{0}});
     }
     session.wait_until([&] { return answered.has_value(); }, wait_of(call));
     if (answered && answered->empty()) return kExitDone;

@@ -26,7 +26,6 @@ export const FleetTile = memo(function FleetTile(props: TileProps) {
   return (
     <div
       role="option"
-      id={`robot-${name}`}
       data-robot={name}
       aria-selected={isChosen}
       tabIndex={isAt ? 0 : -1}

@@ -1,5 +1,6 @@
 import { useSyncExternalStore } from 'react';
 import { shownSpan } from '../../../core/fleet';
+import { useStudio } from '../../hooks';
 
 const listeners = new Set<() => void>();
 let timer: ReturnType<typeof setInterval> | undefined;
@@ -18,6 +19,7 @@ function everySecond(listener: () => void): () => void {
 
 /** How long ago something was; drawn again only when it reads differently. */
 export function Since({ wall, words }: { wall: number; words: (span: string) => string }) {
-  const span = useSyncExternalStore(everySecond, () => shownSpan(Date.now() - wall));
+  const { connection } = useStudio();
+  const span = useSyncExternalStore(everySecond, () => shownSpan(connection.wall() - wall));
   return <>{words(span)}</>;
 }

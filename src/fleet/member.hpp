@@ -122,6 +122,7 @@ private:
     // ---- member.cpp ----
     void on(const Received& received);
     void on(const Acknowledged& acknowledged);
+    void on(const TakenBack&) {}
     void on(const Malformed&) { ++left_out_; }
     void hear_event(const Topic& topic, const Event& event);
     bool hears(const std::string& event, const std::vector<std::string>& groups) const;

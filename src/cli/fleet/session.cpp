@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "base/text.hpp"
 #include "net/end_signal.hpp"
-#include "serve/process.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -13,23 +11,13 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kLookForEndEvery = 50ms;
-constexpr size_t kNameBytes = 6;
-
-// A robot of that name is improbable, and another operator, too.
-std::string operator_name() {
-    return "operator-" + hex_of(serve::random_bytes(kNameBytes));
-}
 
 }  // namespace
 
 Result<std::unique_ptr<FleetSession>> FleetSession::open(const FleetCall& call,
                                                          fleet::Operator::Options options) {
-    options.name = operator_name();
-    serve::LinkOptions link = TRY(serve::link_options(call.broker, options.name));
-    if (link.target.fleet.empty()) {
-        return Error{Code::BadInput,
-                     call.broker.target + ": which fleet? Write mqtt://HOST[:PORT]/FLEET"};
-    }
+    options.name = serve::operator_name();
+    serve::LinkOptions link = TRY(serve::link_of_fleet(call.broker, options.name));
     options.fleet = link.target.fleet;
     net::watch_for_end();
     std::unique_ptr<FleetSession> session(new FleetSession());

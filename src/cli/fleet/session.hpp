@@ -12,7 +12,7 @@
 
 #include "base/result.hpp"
 #include "fleet/operator.hpp"
-#include "serve/field/fleet_robot.hpp"
+#include "serve/broker/fleet_options.hpp"
 
 namespace vagus::cli {
 

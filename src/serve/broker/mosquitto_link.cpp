@@ -1,10 +1,12 @@
 #include "serve/broker/mosquitto_link.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <mosquitto.h>
 #include <mqtt_protocol.h>
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -176,12 +178,23 @@ public:
         if (sent == MOSQ_ERR_SUCCESS && post.number != 0) numbers_[id] = post.number;
     }
 
-    // What was published goes out first.
+    // What was published goes out first. A connection that is closed while something of the broker
+    // is unread is reset, which can overtake our good-bye, and then the will is published: so a
+    // descriptor of our own keeps it open until the broker has closed it.
     void say_good_bye() {
         for (int i = 0; i < kGoodByeTurns && mosquitto_want_write(library_); ++i) {
             if (mosquitto_loop_write(library_, 1) != MOSQ_ERR_SUCCESS) return;
         }
+        const int kept = fcntl(mosquitto_socket(library_), F_DUPFD_CLOEXEC, 0);
         mosquitto_disconnect_v5(library_, MQTT_RC_NORMAL_DISCONNECTION, nullptr);
+        if (kept < 0) return;
+        shutdown(kept, SHUT_WR);
+        pollfd waits{kept, POLLIN, 0};
+        char unread[4096];
+        for (int i = 0; i < kGoodByeTurns && poll(&waits, 1, kLinkLastReadMs) > 0; ++i) {
+            if (recv(kept, unread, sizeof unread, 0) <= 0) break;
+        }
+        close(kept);
     }
 
     bool connected() const { return connected_; }
@@ -207,7 +220,10 @@ private:
     }
     static void on_disconnect(mosquitto*, void* self, int code, const mosquitto_property*) {
         auto& session = *static_cast<Session*>(self);
-        if (session.refused_.empty()) {
+        if (!session.refused_.empty()) return;
+        if (code == MOSQ_ERR_SUCCESS) {
+            session.refused_ = "the broker has ended the connection";
+        } else {
             session.refused_ =
                 code >= kFirstFailure ? mosquitto_reason_string(code) : sentence_of(code);
         }
@@ -225,9 +241,13 @@ private:
         auto& session = *static_cast<Session*>(self);
         const std::string_view payload(static_cast<const char*>(message->payload),
                                        static_cast<size_t>(message->payloadlen));
-        // A retained message that was taken back.
-        if (payload.empty()) return;
-        auto heard = fleet::read(session.link_.options().target.fleet, message->topic, payload);
+        const std::string& fleet = session.link_.options().target.fleet;
+        if (payload.empty()) {
+            auto topic = fleet::parse_topic(fleet, message->topic);
+            if (topic) session.link_.give(fleet::TakenBack{std::move(*topic)});
+            return;
+        }
+        auto heard = fleet::read(fleet, message->topic, payload);
         if (heard.ok()) {
             session.link_.give(fleet::Received{std::move(heard.value()), message->retain});
         } else if (heard.error().code != Code::NotFound) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "base/file.hpp"
 #include "base/text.hpp"
 #include "fleet/limits.hpp"
 #include "fleet/topic.hpp"
@@ -45,20 +44,6 @@ fleet::Description description_of(const OpenedProject& project, const std::strin
 }
 
 }  // namespace
-
-Result<LinkOptions> link_options(const FleetOptions& options, const std::string& client) {
-    LinkOptions link{.target = TRY(fleet::parse_fleet_target(options.target)), .client = client};
-    for (const std::string& file : {options.ca, options.certificate, options.key}) {
-        if (!file.empty()) (void)TRY(read_file(file));
-    }
-    link.ca = options.ca;
-    link.certificate = options.certificate;
-    link.key = options.key;
-    if (options.login.empty()) return link;
-    const std::string login = TRY(read_file(options.login));
-    link.login = TRY(fleet::read_login(login, options.login));
-    return link;
-}
 
 Result<std::unique_ptr<FleetRobot>> FleetRobot::join(Workbench& bench, const FleetOptions& options,
                                                      Talk talk, Time now) {

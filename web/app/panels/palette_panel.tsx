@@ -4,14 +4,12 @@ import { matching, usable } from '../../core/plan/templates';
 import { useDrives, useStudio, useTopic } from '../hooks';
 import { Quiet } from '../parts/blank';
 import { kStroke } from '../parts/icons';
-import { text } from '../text';
+import { words } from './palette/words';
 import { planDeskOf, usePlanDesk } from '../views/plan/plan_desk';
 import { NewTemplateButton } from './palette/new_template_button';
 import { SubPlans } from './palette/sub_plans';
 import { addTemplate, ToolboxList } from './palette/toolbox_list';
 import '../look/palette.css';
-
-const words = text.templates;
 
 /** What plans can be made of, by toolbox: dragged onto a plan, or added by a press. */
 export default function PalettePanel() {

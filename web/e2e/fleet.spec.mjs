@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { look } from './support/axe.mjs';
 import { startBroker, startCrowd, startMember, startOwnBroker } from './support/fleet.mjs';
 import { unreachable } from './support/reach.mjs';
-import { startServer } from './support/server.mjs';
+import { startProgram, startServer, vagusProgram } from './support/server.mjs';
 import { openWindow, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page } from './support/studio.mjs' */
 /** @import { Test } from './support/server.mjs' */
@@ -175,7 +175,7 @@ test(
 test(
   'without its broker the fleet stays in sight, and comes back',
   crowd(3, 0),
-  async ({ page, broker, button, members: program }) => {
+  async ({ page, broker, button, members: program }, t) => {
     const { does, tiles, report } = handsOn(page);
     await does('r3', 'running');
     await broker.program.stop();
@@ -191,8 +191,11 @@ test(
     await until('they are fresh again', async () => (await page.locator('.is-old').count()) === 0);
     await button(/^Stop all/).click();
     await reads(report, 'Stop: done by 3 robots.');
+    // They say goodbye, each of them; one that is forgotten goes.
     await program.stop();
-    await does('r1', 'offline');
+    for (const name of ['r1', 'r2', 'r3']) await does(name, 'offline');
+    await startProgram(t, [vagusProgram, 'fleet', broker.target, 'forget', 'r1']).done();
+    await until('r1 is gone', async () => (await tiles.count()) === 2);
   },
 );
 
@@ -268,7 +271,9 @@ test('tiles are sorted, looked for and chosen by mouse', crowd(12, 0), async (st
     const list = await names();
     return list[0] === 'r7' && list.at(-1) === 'r4';
   });
-  await page.getByRole('searchbox', { name: /^Name, state/ }).fill('paused');
+  await tile('r1').focus();
+  await press('/');
+  await type('paused');
   await until('only those that are paused', async () => (await tiles.count()) === 2);
   await press('Escape');
   await until('all', async () => (await tiles.count()) === 12);

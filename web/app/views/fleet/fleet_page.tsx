@@ -17,7 +17,7 @@ export default function FleetPage() {
   const studio = useStudio();
   const target = usePart('fleet', {}, (is) => is?.target ?? '');
   useEffect(() => fleetDesk(studio).enter(target), [studio, target]);
-  useStopKey();
+  useFleetKeys();
   return (
     <main className="fleet" aria-label={words.region}>
       <div className="fleet__top">
@@ -36,7 +36,7 @@ export default function FleetPage() {
 }
 
 /** The key that stops everything means the fleet here, and the robot of the project that is open beside it. */
-function useStopKey(): void {
+function useFleetKeys(): void {
   const studio = useStudio();
   useEffect(
     () =>
@@ -52,6 +52,13 @@ function useStopKey(): void {
             await fleetDesk(studio).order('stop', null);
             await own;
           },
+        },
+        {
+          id: 'fleet.find',
+          title: words.findRobots,
+          group: text.groups.go,
+          keys: ['/', 'Ctrl+F'],
+          run: () => document.querySelector<HTMLElement>('[data-find="fleet"]')?.focus(),
         },
       ]),
     [studio],

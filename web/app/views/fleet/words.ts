@@ -45,6 +45,7 @@ export const words = {
     page: 'The tiles show what robots told last.',
   },
   find: 'Name, state, actor, group, problem',
+  findRobots: 'Find robots of the fleet',
   sort: 'Sort by',
   sorts: {
     name: 'Name',

@@ -147,8 +147,8 @@ struct TimelineEntry {
 struct FleetDefinition {
     Duration latency = std::chrono::milliseconds(5);  // of each way: to the broker, and from it
     Duration jitter{};                                // at most so much more, at random
-    double loss = 0;   // how likely a message is lost on a way
-    double twice = 0;  // how likely it arrives twice
+    double loss = 0;                                  // how likely a message is lost on a way
+    double twice = 0;                                 // how likely it arrives twice
     bool operator==(const FleetDefinition&) const = default;
 };
 

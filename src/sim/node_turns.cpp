@@ -44,8 +44,7 @@ Status NodeTurns::join(std::optional<BusModel> model) {
 }
 
 // `robots` by ascending node id.
-Status NodeTurns::open_bus(hub::Hub& hub, const std::vector<size_t>& robots,
-                           BusModel model) {
+Status NodeTurns::open_bus(hub::Hub& hub, const std::vector<size_t>& robots, BusModel model) {
     Bus& bus = buses_.emplace_back();
     bus.hub = &hub;
     bus.first = bus.end = berths_.size();
@@ -237,7 +236,7 @@ void NodeTurns::collect(size_t index, Time now, Crossing crossing) {
         if (own_bus != nullptr) own_bus->receive(berth.private_link, frame);
         heard_(berth.robot, frame);
     }
-    node.sent().clear();
+    node.forget_sent();
 }
 
 void NodeTurns::send_to(size_t robot, hub::LinkId host, const wire::Frame& frame) {

@@ -1,5 +1,6 @@
-// The nodes of a world on their buses, the common one and those of robots with a project: at each instant those that are due get what was sent to them,
-// sense, run, and what they send goes on its way. A node that has nothing to do is not looked at.
+// The nodes of a world on their buses, the common one and those of robots with a project: at each
+// instant those that are due get what was sent to them, sense, run, and what they send goes on its
+// way. A node that has nothing to do is not looked at.
 //
 //     NodeTurns turns(definition, bus, heard);
 //     const Status joined = turns.join({});
@@ -124,9 +125,9 @@ private:
     // they are.
     std::deque<Bus> buses_;
     std::vector<std::unique_ptr<hub::Hub>> own_buses_;
-    std::vector<Berth> berths_;  // by bus, then by ascending node id
-    std::vector<Unit> units_;    // by bus, then by ascending node id
-    std::vector<size_t> unit_of_;      // by index of the robot
+    std::vector<Berth> berths_;                             // by bus, then by ascending node id
+    std::vector<Unit> units_;                               // by bus, then by ascending node id
+    std::vector<size_t> unit_of_;                           // by index of the robot
     std::vector<std::unique_ptr<hub::Hub>> private_buses_;  // by index of the robot
     std::vector<size_t> looked_after_;  // berths whose queues tell nothing when they fill
     Schedule schedule_;                 // of the units

@@ -52,10 +52,10 @@ TEST(RobotGrid, TheMostRobotsArePossibleAndOneMoreIsNot) {
     const std::string grid =
         R"({"name":"t","type":"thymio2","at":[0.2,0.2],"grid":[100,100],"spacing":0.35})";
     EXPECT_EQ(error_of("\"robots\":[" + grid + "]"), "");
-    EXPECT_THAT(error_of("\"robots\":[{\"name\":\"a\",\"type\":\"thymio2\",\"at\":[39,39]}," +
-                         grid + "]"),
-                HasSubstr("w.json:2:54: robots[1].grid: with it there would be 10001 robots, and "
-                          "10000 are the most"));
+    EXPECT_THAT(
+        error_of("\"robots\":[{\"name\":\"a\",\"type\":\"thymio2\",\"at\":[39,39]}," + grid + "]"),
+        HasSubstr("w.json:2:54: robots[1].grid: with it there would be 10001 robots, and "
+                  "10000 are the most"));
 }
 
 struct Wrong {
@@ -78,8 +78,8 @@ TEST(RobotGrid, WhatIsWrongNamesTheEntry) {
         {R"("grid":[2,1],"spacing":40)", "robots[0].at: [41, 1] is outside of the walls"},
     };
     for (const Wrong& one : cases) {
-        const std::string text = R"("robots":[{"name":"t","type":"thymio2","at":[1,1],)" +
-                                 std::string(one.robot) + "}]";
+        const std::string text =
+            R"("robots":[{"name":"t","type":"thymio2","at":[1,1],)" + std::string(one.robot) + "}]";
         EXPECT_THAT(error_of(text), HasSubstr(one.says)) << text;
     }
     EXPECT_EQ(error_of(R"("robots":[{"name":"t","type":"thymio2","at":[1,1],"grid":[2,1],)"
@@ -97,8 +97,7 @@ TEST(RobotGrid, AMistakeBehindAGridIsThatOfItsOwnEntry) {
 {"name":"a","type":"thymio2","at":[1,8]}])");
     EXPECT_EQ(entry_of_robot(text, "w.json", 24), 0u);
     EXPECT_EQ(entry_of_robot(text, "w.json", 25), 1u);
-    const Error placed =
-        error_in_world({Code::NotFound, "robots[25].script: no"}, text, "w.json");
+    const Error placed = error_in_world({Code::NotFound, "robots[25].script: no"}, text, "w.json");
     EXPECT_EQ(placed.what, "w.json:3:1: robots[1].script: no");
 }
 

@@ -127,6 +127,7 @@ Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     }
     auto insides =
         std::make_unique<Insides>(std::move(definition), std::move(picture), std::move(options));
+    insides->crew.work_alone(!insides->options.threads);
     const Status joined = insides->turns.join(insides->options.bus);
     if (!joined.ok()) return joined.error();
     insides->populate();
@@ -362,6 +363,10 @@ uint64_t World::turns_taken() const {
 
 unsigned World::threads() const {
     return insides_->crew.size();
+}
+
+void World::use_one_thread(bool one) {
+    insides_->crew.work_alone(one);
 }
 
 const WorldDefinition& World::definition() const {

@@ -61,9 +61,10 @@ struct WorldOptions {
     std::string folder = ".";           // where paths of the file start
     std::string sd_folder = {};         // the card of every robot that has a slot; empty: no card
     std::optional<BusModel> bus = {};   // of each bus; empty: Can with a Carbot, otherwise Ideal
-    // How many threads sense and run scripts, 1 to kThreadsMax; empty: one for a few robots, all
-    // processors for many. The bytes are the same. Robots that share something, a folder of cards
-    // or the energy of e-pucks, always have one.
+    // How many threads sense and run scripts, 1 to kThreadsMax; empty: one for a few robots; for
+    // many, there is one for each processor, and the first is alone until use_one_thread(false).
+    // The bytes are the same. Robots that share something, a folder of cards or the energy of
+    // e-pucks, always have one.
     std::optional<unsigned> threads = {};
 };
 
@@ -73,8 +74,8 @@ struct RobotView {
     RobotId id;
     std::string_view name;  // views and spans here: valid until the world is changed or stepped
     RobotType type = RobotType::Thymio2;
-    uint16_t node = 0;   // its first one
-    uint16_t nodes = 1;  // how many it has, with neighbouring ids
+    uint16_t node = 0;     // its first one
+    uint16_t nodes = 1;    // how many it has, with neighbouring ids
     bool own_bus = false;  // they are not on the common bus: it has a project of its own
     Pose pose;
     Colour paint;
@@ -163,8 +164,8 @@ public:
     uint64_t happenings_lost() const;
 
     // ---- The bus ----
-    // All nodes of all robots are on it, but for those with a bus of their own. Add links for hosts, for sockets (net), for tests; frames
-    // for the robots go through it.
+    // All nodes of all robots are on it, but for those with a bus of their own. Add links for
+    // hosts, for sockets (net), for tests; frames for the robots go through it.
     //
     // Over a Can bus a frame arrives at the first millisecond at or after the end of its
     // transmission, never before the next one. What a host sends begins its way at the time of the
@@ -188,6 +189,9 @@ public:
     // How often a node was looked at, all together: one that has nothing to do is not.
     uint64_t turns_taken() const;
     unsigned threads() const;
+    // From now on one thread does all, or all of threads(): whoever sees how long it takes chooses
+    // (thread_choice.hpp). The bytes are the same.
+    void use_one_thread(bool one);
 
     // ---- Looking ----
     const WorldDefinition& definition() const;  // as it was loaded

@@ -297,9 +297,10 @@ Found check_nodes(const RobotDefinition& robot, const std::string& element, Take
     if (!robot.project.empty()) return found;  // nobody else is on its bus
     for (uint32_t node = robot.node; node < robot.node + nodes_of(robot.type); ++node) {
         if (taken.nodes.insert(static_cast<uint16_t>(node)).second || found) continue;
-        found = Problem{element + ".node", std::to_string(node) + " is a node of an earlier robot" +
-                                               reach_text(robot) +
-                                               "; robots without a project are on one bus, choose another"};
+        found =
+            Problem{element + ".node",
+                    std::to_string(node) + " is a node of an earlier robot" + reach_text(robot) +
+                        "; robots without a project are on one bus, choose another"};
     }
     return found;
 }
@@ -342,10 +343,10 @@ void check_timeline(const WorldDefinition& world, Problems& problems) {
 }
 
 void check_fleet(const FleetDefinition& fleet, Problems& problems) {
-    for (const auto& [key, span] : {std::pair("fleet.latency", fleet.latency),
-                                    std::pair("fleet.jitter", fleet.jitter)}) {
-        problems.add(check_range(key, seconds_of(span), {0, kFleetDelayMax, "s"},
-                                 "delays are in seconds"));
+    for (const auto& [key, span] :
+         {std::pair("fleet.latency", fleet.latency), std::pair("fleet.jitter", fleet.jitter)}) {
+        problems.add(
+            check_range(key, seconds_of(span), {0, kFleetDelayMax, "s"}, "delays are in seconds"));
     }
     for (const auto& [key, share] :
          {std::pair("fleet.loss", fleet.loss), std::pair("fleet.twice", fleet.twice)}) {

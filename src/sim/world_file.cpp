@@ -134,8 +134,9 @@ RobotGrid read_grid(JsonObject& in) {
     if (counts.empty()) return grid;
     if (!is_count(counts[0]) || !is_count(counts[1]) ||
         counts[0] * counts[1] > static_cast<double>(kRobotsMax)) {
-        in.complain(json->at, in.name() + ".grid: expected columns and rows, whole numbers from 1 "
-                                          "on and at most " +
+        in.complain(json->at, in.name() +
+                                  ".grid: expected columns and rows, whole numbers from 1 "
+                                  "on and at most " +
                                   std::to_string(kRobotsMax) +
                                   " robots together; write them as [6, 5]");
         return grid;
@@ -150,8 +151,9 @@ RobotGrid read_grid(JsonObject& in) {
 void check_copies(JsonObject& in, const RobotDefinition& first, size_t count) {
     if (first.port.value_or(0) != 0) {
         in.complain(in.find("port", Need::Optional)->at,
-                    in.name() + ".port: robots of a grid cannot share a port; write 0, which gives "
-                                "each a free one");
+                    in.name() +
+                        ".port: robots of a grid cannot share a port; write 0, which gives "
+                        "each a free one");
     }
     const size_t last = first.node + count * nodes_of(first.type) - 1;
     if (first.project.empty() && last > kNodeLast) {

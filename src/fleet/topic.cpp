@@ -155,4 +155,18 @@ std::string filter_of_commands(std::string_view fleet, std::string_view robot) {
     return fmt::format("{}cmd/{}/+", prefix(fleet), escape(robot));
 }
 
+bool matches_filter(std::string_view filter, std::string_view topic) {
+    for (;;) {
+        const size_t wanted = std::min(filter.find('/'), filter.size());
+        const size_t level = std::min(topic.find('/'), topic.size());
+        const bool any = filter.substr(0, wanted) == "+";
+        if (!any && filter.substr(0, wanted) != topic.substr(0, level)) return false;
+        const bool more = wanted < filter.size();
+        if (more != (level < topic.size())) return false;
+        if (!more) return true;
+        filter.remove_prefix(wanted + 1);
+        topic.remove_prefix(level + 1);
+    }
+}
+
 }  // namespace vagus::fleet

@@ -54,9 +54,10 @@ void add_time_options(CLI::App& verb, SimRunOptions& options) {
 void add_threads_option(CLI::App& verb, SimRunOptions& options) {
     CLI::Option* threads = verb.add_option(
         "--threads", options.threads,
-        "how many threads sense and run scripts (default: 1 for less than 200 robots, else one for "
-        "each processor); the result is the same to the byte. Robots that share something, a "
-        "folder of cards or the energy of e-pucks, have one");
+        "how many threads sense and run scripts (default: 1 for less than 200 robots, else 1 or "
+        "one "
+        "for each processor, whichever proves faster); the result is the same to the byte. Robots "
+        "that share something, a folder of cards or the energy of e-pucks, have one");
     threads->type_name("N");
     takes_whole_number(*threads, 1, sim::kThreadsMax);
 }

@@ -24,5 +24,4 @@ Result<LinkOptions> link_of_fleet(const FleetOptions& options, const std::string
 // Of an operator: a robot of that name is improbable, and another operator, too.
 std::string operator_name();
 
-
 }  // namespace vagus::serve

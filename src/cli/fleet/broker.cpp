@@ -14,6 +14,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "fleet/limits.hpp"
+#include "fleet/operator.hpp"
 #include "fleet/topic.hpp"
 #include "net/end_signal.hpp"
 #include "serve/process.hpp"
@@ -25,6 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr size_t kPasswordBytes = 16;
 constexpr int kCertificateDays = 3650;
+// For one client: what is retained of the most robots, three messages of each.
+constexpr size_t kQueuedMax = 3 * fleet::kRobotsMax;
 constexpr mode_t kForOwner = 0600;
 constexpr mode_t kFolderForOwner = 0700;
 constexpr const char* kUsers[] = {"operator", "looker", "keeper"};
@@ -152,11 +155,11 @@ private:
                    "# Made by `vagus fleet init`; yours to change. mosquitto.conf(5)\n"
                    "user {}\nallow_anonymous false\npassword_file {}\nacl_file {}\n"
                    "persistence true\npersistence_location {}/\nautosave_interval 60\n"
-                   "max_packet_size {}\nmax_queued_messages 1000\nset_tcp_nodelay true\n"
+                   "max_packet_size {}\nmax_queued_messages {}\nset_tcp_nodelay true\n"
                    "log_dest stderr\nlog_type error\nlog_type warning\nlog_type notice\n"
                    "connection_messages false\n",
                    user_of_this_process(), path("passwords"), path("access"), path("data"),
-                   fleet::kPayloadBytesMax + 2 * fleet::kTopicBytesMax) +
+                   fleet::kPayloadBytesMax + 2 * fleet::kTopicBytesMax, kQueuedMax) +
                listener(options_.port, "mqtt") + listener(options_.web_port, "websockets");
     }
 

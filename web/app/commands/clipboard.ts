@@ -8,7 +8,7 @@ import { text } from '../text';
 export async function copyText(studio: Studio, copied: string, said: string): Promise<void> {
   const { clipboard } = navigator as { clipboard?: Clipboard };
   if (clipboard) await clipboard.writeText(copied);
-  else if (!copySelected(copied)) throw new Error(text.plots.noClipboard);
+  else if (!copySelected(copied)) throw new Error(text.clipboard.noClipboard);
   toast(studio.window, 'ok', said);
 }
 

@@ -1,3 +1,4 @@
+import { deskFor } from '../../core/desk';
 import { editsByDoc, ordered, sameFinding, stepIndex } from '../../core/findings';
 import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
@@ -24,7 +25,12 @@ export interface DrawnHelp {
   isChosen(finding: Finding): boolean;
 }
 
-export function problemCommands(studio: Studio, drawings: () => Promise<DrawnHelp>): Command[] {
+/** Drawings bring it along: without one that was shown there is none. */
+export const drawnHelpOf: (studio: Studio) => { help: DrawnHelp | null } = deskFor(() => ({
+  help: null,
+}));
+
+export function problemCommands(studio: Studio): Command[] {
   const some = () => findingsOf(studio).length > 0;
   return [
     {
@@ -49,7 +55,7 @@ export function problemCommands(studio: Studio, drawings: () => Promise<DrawnHel
       group: text.groups.edit,
       keys: ['Alt+Enter'],
       enabled: () => drives(studio),
-      run: () => fixNext(studio, drawings),
+      run: () => fixNext(studio),
     },
   ];
 }
@@ -107,11 +113,11 @@ function stepProblem(studio: Studio, by: 1 | -1): void {
 }
 
 /** What is fixed is shown, wherever the caret was. */
-async function fixNext(studio: Studio, drawings: () => Promise<DrawnHelp>): Promise<void> {
-  const [findings, drawn] = await Promise.all([freshFindings(studio), drawings()]);
-  const finding = fixable(studio, ordered(findings), drawn);
+async function fixNext(studio: Studio): Promise<void> {
+  const drawn = drawnHelpOf(studio).help;
+  const finding = fixable(studio, ordered(await freshFindings(studio)), drawn);
   if (!finding) return toast(studio.window, 'note', text.problems.noFix);
-  if (finding.fixes.length === 0) return drawn.actFor(finding)?.run();
+  if (finding.fixes.length === 0) return drawn?.actFor(finding)?.run();
   if (!isOnLine(studio, finding)) revealDoc(studio.window, finding.doc, finding.at);
   await applyFix(studio, finding.fixes[0]);
 }
@@ -123,13 +129,13 @@ async function fixNext(studio: Studio, drawings: () => Promise<DrawnHelp>): Prom
 function fixable(
   studio: Studio,
   findings: readonly Finding[],
-  drawn: DrawnHelp,
+  drawn: DrawnHelp | null,
 ): Finding | undefined {
   const { problem, doc } = studio.window.getState();
   const chosen = findings[problem];
-  const able = findings.filter((one) => one.fixes.length > 0 || drawn.actFor(one) !== null);
+  const able = findings.filter((one) => one.fixes.length > 0 || drawn?.actFor(one));
   return (
-    able.find((one) => one.doc === doc && drawn.isChosen(one)) ??
+    able.find((one) => one.doc === doc && drawn?.isChosen(one)) ??
     able.find((one) => isOnLine(studio, one)) ??
     (chosen && able.includes(chosen) ? chosen : able[0])
   );

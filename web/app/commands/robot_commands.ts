@@ -107,21 +107,21 @@ function openSend(studio: Studio): void {
 }
 
 async function copyCsv(studio: Studio): Promise<void> {
-  await copyText(studio, studio.plotter.csv(), text.plots.copied('CSV'));
+  await copyText(studio, studio.plotter.csv(), text.clipboard.copied('CSV'));
 }
 
 async function copyPng(studio: Studio): Promise<void> {
   const picture = await plotPicture(studio);
   if (!picture) return;
-  if (typeof ClipboardItem === 'undefined') throw new Error(text.plots.noClipboard);
+  if (typeof ClipboardItem === 'undefined') throw new Error(text.clipboard.noClipboard);
   await clipboard().write([new ClipboardItem({ [picture.type]: picture })]);
-  toast(studio.window, 'ok', text.plots.copied('PNG'));
+  toast(studio.window, 'ok', text.clipboard.copied('PNG'));
 }
 
 /** A page that came over an open line has none. */
 function clipboard(): Clipboard {
   const { clipboard: own } = navigator as { clipboard?: Clipboard };
-  if (!own) throw new Error(text.plots.noClipboard);
+  if (!own) throw new Error(text.clipboard.noClipboard);
   return own;
 }
 

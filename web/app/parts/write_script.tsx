@@ -16,10 +16,10 @@ export function WriteScript({ node }: { node: Pick<Node, 'id' | 'name' | 'descri
     <Button
       small
       disabled={!drives || !node.described}
-      title={text.network.writeFor(node.name)}
+      title={text.script.writeFor(node.name)}
       onClick={() => void write().catch((problem: unknown) => studio.tell(problem))}
     >
-      {text.network.write}
+      {text.script.write}
     </Button>
   );
 }

@@ -1,11 +1,10 @@
 import type { NodeId } from '../../../protocol/messages';
 import { shownRate } from '../../../core/numbers';
 import { arrowPath, arrowWidth, kNobody, type Flow, type Picture } from '../../../core/traffic';
-import { text } from '../../text';
+import { words } from './words';
 import { gapIn, hubOf, straight, stub } from './paths';
 import type { NetworkState } from './use_network';
 
-const words = text.network;
 /** More arrows than these cannot be told apart: each node then has one to the bus and one from it. */
 const kPairsMax = 40;
 

@@ -1,9 +1,7 @@
 import type { Topics } from '../../../protocol/messages';
 import { shortCount } from '../../../core/numbers';
 import type { Picture } from '../../../core/traffic';
-import { text } from '../../text';
-
-const words = text.network;
+import { words } from './words';
 
 /** Where many arrows meet, the bus is larger, so that they do not run into one. */
 export function hubRadius({ spots }: Picture): number {

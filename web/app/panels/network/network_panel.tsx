@@ -5,14 +5,13 @@ import { Quiet } from '../../parts/blank';
 import { kStroke } from '../../parts/icons';
 import { useShown } from '../../robot_hooks';
 import { text } from '../../text';
+import { words } from './words';
 import { BusLine } from './hub';
 import { NetworkPicture } from './network_picture';
 import { NodeTable } from './node_table';
 import { LinkTable, TrafficTable } from './traffic_table';
 import { useNetwork } from './use_network';
 import '../../look/robot.css';
-
-const words = text.network;
 
 /** Nodes around the bus, who talks to whom, and a table of each with its run control. */
 export default function NetworkPanel() {

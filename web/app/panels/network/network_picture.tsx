@@ -5,12 +5,11 @@ import { partners, pictureOf, type Picture } from '../../../core/traffic';
 import { update } from '../../../core/window_state';
 import { useStudio, useWindow } from '../../hooks';
 import { text } from '../../text';
+import { words } from './words';
 import { NodeBox, NodeRay } from './node_shapes';
 import { Arrows, usesSpokes } from './arrows';
 import { Hub, Markers, Ring } from './hub';
 import type { NetworkState } from './use_network';
-
-const words = text.network;
 
 /** Laid out again only for other nodes or another room; `ids` are their numbers. */
 function usePicture(ids: string, area: { width: number; height: number }): Picture {

@@ -13,9 +13,8 @@ import { nodeActs, orderNodes, type NodeAct } from '../../commands/run_commands'
 import { useStudio } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
 import { kStroke } from '../../parts/icons';
-import { text } from '../../text';
+import { words } from './words';
 
-const words = text.network;
 const icons: Record<NodeAct, TablerIcon> = {
   run: IconPlayerPlay,
   pause: IconPlayerPause,

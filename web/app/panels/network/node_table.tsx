@@ -6,12 +6,12 @@ import type { NodeAct } from '../../commands/run_commands';
 import { useStudio, useWindow } from '../../hooks';
 import { StateSign } from '../../parts/state_sign';
 import { text } from '../../text';
+import { words } from './words';
 import { NodeControls } from './node_controls';
 import { WriteScript } from '../../parts/write_script';
 import { NetworkPart, type Column } from './network_part';
 import type { NetworkState } from './use_network';
 
-const words = text.network;
 const { columns } = words;
 const kColumns: readonly Column[] = [
   { title: '' },

@@ -2,10 +2,10 @@ import { shortCount, shownRate } from '../../../core/numbers';
 import { addToPlot } from '../../commands/robot_commands';
 import { useStudio, useWindow } from '../../hooks';
 import { text } from '../../text';
+import { words } from './words';
 import { NetworkPart, type Column } from './network_part';
 import type { NetworkState } from './use_network';
 
-const words = text.network;
 const { columns } = words;
 const kRowsMax = 200;
 const kNamesMax = 4;

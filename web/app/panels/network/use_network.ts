@@ -4,7 +4,7 @@ import { useCallback, useMemo, useState, useSyncExternalStore } from 'react';
 import type { Link, Node, NodeId, Topics, Traffic } from '../../../protocol/messages';
 import { flowsOf, kHost, kNobody, Rates, talkOf, type Flow } from '../../../core/traffic';
 import { useStudio, useTopic } from '../../hooks';
-import { text } from '../../text';
+import { words } from './words';
 
 export interface NetworkState {
   nodes: readonly Node[];
@@ -33,9 +33,9 @@ export function useNetwork(shown: boolean): NetworkState {
       rateOf,
       nameOf: (node) =>
         node === kHost
-          ? text.network.host
+          ? words.host
           : node === kNobody
-            ? text.network.nobody
+            ? words.nobody
             : (names.get(node) ?? String(node)),
     };
   }, [nodes, network, rates]);

@@ -10,10 +10,8 @@ import {
 } from '../../../core/plot';
 import { useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
-import { text } from '../../text';
+import { words } from './words';
 import { dashes, type PlotCursor } from './chart';
-
-const words = text.plots;
 
 /** The curves: line, name, axis, and the value where the cursor is, else the newest. */
 export function PlotLegend({ cursor }: { cursor: PlotCursor }) {

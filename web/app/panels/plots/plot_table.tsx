@@ -3,9 +3,8 @@ import { shownTime } from '../../../core/numbers';
 import { sourceKey } from '../../../core/plot';
 import { summaryOf } from '../../../core/plotter';
 import { useStudio } from '../../hooks';
-import { text } from '../../text';
+import { words } from './words';
 
-const words = text.plots;
 /** Rows of the table, the newest first; and how often it is written again, so that it can be read. */
 const kRows = 50;
 const kEveryMs = 1000;

@@ -5,6 +5,7 @@ import { useChanges, useStudio, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { useShown } from '../../robot_hooks';
 import { text } from '../../text';
+import { words } from './words';
 import { PickForm } from '../variables/pick_form';
 import { droppedPick, takesPick } from '../variables/watch_panel';
 import type { PlotCursor } from './chart';
@@ -13,8 +14,6 @@ import { PlotTable } from './plot_table';
 import { useChart } from './use_chart';
 import 'uplot/dist/uPlot.min.css';
 import '../../look/robot.css';
-
-const words = text.plots;
 
 /** Variables and arguments of events over time. */
 export default function PlotsPanel() {

@@ -12,9 +12,8 @@ import { useChanges, useStudio, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { CommandItem, StudioMenu } from '../../parts/menu';
-import { text } from '../../text';
+import { words } from './words';
 
-const words = text.plots;
 const icon = { size: 14, stroke: kStroke };
 
 /** At the head of the panel: how long, hold, back to the newest, as a table, save. */

@@ -8,6 +8,8 @@ import { overlaps, type Box, type Point } from '../../../../core/plan/shape';
 import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic, useWindow } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
+import { drawnHelp } from '../finding_acts';
+import { drawnHelpOf } from '../../../commands/problem_commands';
 import { canvasCommands } from './canvas_commands';
 import { kLegible } from './distance';
 import { debugCommands } from './debug_commands';
@@ -155,6 +157,7 @@ export function useOnDesk(
   // Before it can have the focus, which says that it is used.
   useLayoutEffect(() => planDeskOf(studio).add(shown), [studio, shown]);
   useEffect(() => {
+    drawnHelpOf(studio).help ??= drawnHelp(studio);
     const properties = () => revealPanel(studio.window, 'properties');
     return studio.registry.add([
       ...debugCommands(studio, properties),

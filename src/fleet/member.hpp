@@ -21,6 +21,7 @@
 
 #include "base/time.hpp"
 #include "fleet/counters.hpp"
+#include "fleet/limits.hpp"
 #include "fleet/link.hpp"
 #include "fleet/outbox.hpp"
 #include "fleet/project_part.hpp"
@@ -155,7 +156,8 @@ private:
     Outbox outbox_;
     int64_t numbers_ = 0;  // of events and states
     Numbers heard_;
-    Rates sent_rates_, heard_rates_;
+    Rates sent_rates_{1s};
+    Rates heard_rates_{kEventAgeMax};  // what waited while the link was cut comes at once
     uint64_t left_out_ = 0;
 
     Shown shown_;

@@ -307,18 +307,18 @@ TEST(MemberEvents, OnlyThoseOfTheGroupThatIsNamed) {
     EXPECT_EQ(c.all<EmitOnBus>().size(), 1u);
 }
 
-TEST(MemberEvents, AtMostTwentyASecondAreSentAndHeard) {
+TEST(MemberEvents, AtMostTwentyASecondAreSentAndTwoHundredInTenSecondsHeard) {
     Case c(kAlarm);
     c.hold();
-    for (int64_t i = 1; i <= kEventsASecond + 1; ++i) {
+    for (int64_t i = 1; i <= 21; ++i) {
         c.member.emitted("alarm", {}, 0s);
         c.take();
         const auto posts = c.all<Post>();
         if (!posts.empty()) c.hear(Acknowledged{posts.back().number});
-        c.event("r2", {i, 3, {}, {}});
     }
-    EXPECT_EQ(c.published<Event>().size(), static_cast<size_t>(kEventsASecond));
-    EXPECT_EQ(c.all<EmitOnBus>().size(), static_cast<size_t>(kEventsASecond));
+    for (int64_t i = 1; i <= 201; ++i) c.event("r2", {i, 3, {}, {}});
+    EXPECT_EQ(c.published<Event>().size(), 20u);
+    EXPECT_EQ(c.all<EmitOnBus>().size(), 200u);
     EXPECT_EQ(c.member.left_out(), 2u);
 }
 

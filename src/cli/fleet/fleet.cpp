@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "cli/fleet/broker.hpp"
 #include "cli/fleet/broker_options.hpp"
+#include "cli/fleet/keep.hpp"
 #include "cli/fleet/session.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
@@ -249,15 +250,16 @@ void is_for(CLI::App* verb, const SharedCall& call) {
     verb->add_option("--group", call->group, "those of this group")->type_name("GROUP");
 }
 
+void need_target(const FleetCall& call) {
+    if (!call.broker.target.empty()) return;
+    throw CLI::ValidationError(
+        "TARGET", "which fleet? Write vagus fleet mqtt://HOST[:PORT]/FLEET " + call.command.verb);
+}
+
 void acts(CLI::App* verb, const SharedCall& call, int& exit_code, Act act,
           fleet::Operator::Options wants = {}) {
     verb->callback([call, &exit_code, act = std::move(act), wants = std::move(wants)] {
-        if (call->broker.target.empty()) {
-            throw CLI::ValidationError("TARGET",
-                                       "which fleet? Write vagus fleet "
-                                       "mqtt://HOST[:PORT]/FLEET " +
-                                           call->command.verb);
-        }
+        need_target(*call);
         exit_code = run(*call, wants, act);
     });
 }
@@ -293,6 +295,19 @@ void add_looking_verbs(CLI::App& app, const SharedCall& call, int& exit_code) {
                     "Example:\n  vagus fleet mqtt://broker/lab forget r1 --login r1.login");
     verb->add_option("ROBOT", call->robot, "its name")->required();
     acts(verb, call, exit_code, forget);
+}
+
+// It needs no operator beside it: the keeper is a machine of its own.
+void add_keep(CLI::App& app, const SharedCall& call, int& exit_code) {
+    CLI::App* verb =
+        add_verb(app, call, "keep", "keeps tasks and shared values of the fleet, until Ctrl-C",
+                 "Only the user keeper may do that. While another keeper is there, this one stays "
+                 "out; it\ntakes its place when that one is gone.\n"
+                 "Example:\n  vagus fleet mqtts://broker/lab keep --login keeper.login");
+    verb->callback([call, &exit_code] {
+        need_target(*call);
+        exit_code = keep(call->broker);
+    });
 }
 
 struct PlainVerb {
@@ -383,6 +398,7 @@ void add_fleet(CLI::App& app, int& exit_code) {
         "  vagus fleet mqtts://localhost:8883/lab stop all --tls-ca broker/ca.crt --login "
         "broker/operator.login");
     add_broker_verbs(*verb, exit_code);
+    add_keep(*verb, call, exit_code);
     add_looking_verbs(*verb, call, exit_code);
     add_ordering_verbs(*verb, call, exit_code);
 }

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,13 +13,11 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "net/end_signal.hpp"
 
 namespace vagus::cli {
 namespace {
 
 constexpr int kCannotExec = 127;
-constexpr int kLookEveryMs = 200;  // whether it goes on
 constexpr size_t kLastWordsMax = 2000;
 constexpr const char* kFurtherFolder = "/usr/sbin";
 
@@ -29,6 +26,7 @@ Error system_error(const std::string& what) {
 }
 
 Result<std::string> find_program(const std::string& name) {
+    if (name.find('/') != std::string::npos) return name;
     const char* const path = std::getenv("PATH");
     const std::string folders = std::string(path == nullptr ? "" : path) + ":" + kFurtherFolder;
     for (const std::string_view folder : split(folders, ':')) {
@@ -106,9 +104,7 @@ Result<Companion> Companion::start(const std::vector<std::string>& words) {
 }
 
 Companion::~Companion() {
-    if (process_ <= 0) return;
-    kill(process_, SIGTERM);
-    waitpid(process_, nullptr, 0);
+    end();
 }
 
 Companion::Companion(Companion&& other) noexcept : process_(std::exchange(other.process_, -1)) {}
@@ -118,19 +114,17 @@ Companion& Companion::operator=(Companion&& other) noexcept {
     return *this;
 }
 
-std::optional<std::string> Companion::wait_for_end() {
+std::optional<std::string> Companion::ended() {
     int status = 0;
-    while (!net::end_asked()) {
-        if (waitpid(process_, &status, WNOHANG) == process_) {
-            process_ = -1;
-            return how_it_ended(status);
-        }
-        pollfd wait{net::end_descriptor(), POLLIN, 0};
-        poll(&wait, 1, kLookEveryMs);
-    }
+    if (process_ <= 0 || waitpid(process_, &status, WNOHANG) != process_) return std::nullopt;
+    process_ = -1;
+    return how_it_ended(status);
+}
+
+void Companion::end() {
+    if (process_ <= 0) return;
     kill(process_, SIGTERM);
-    waitpid(std::exchange(process_, -1), &status, 0);
-    return std::nullopt;
+    waitpid(std::exchange(process_, -1), nullptr, 0);
 }
 
 }  // namespace vagus::cli

@@ -2,15 +2,14 @@
 // and the time. Every wait has an end: a deadline, an answer, Ctrl-C.
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.hpp"
+#include "cli/fleet/bell.hpp"
 #include "fleet/operator.hpp"
 #include "serve/field/fleet_robot.hpp"
 
@@ -52,9 +51,7 @@ private:
     std::unique_ptr<fleet::Operator> desk_;
     std::string lost_;  // the last trouble
     std::function<void(const fleet::LinkEvent&)> event_ = [](auto&) {};
-    std::mutex guard_;
-    std::condition_variable woken_;
-    bool wakes_ = false;
+    Bell bell_;
     std::unique_ptr<serve::MosquittoLink> link_;  // ends before what its thread wakes
 };
 

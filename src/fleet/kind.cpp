@@ -157,7 +157,25 @@ constexpr std::array kBeat = {
     Field{"instance", T::Name, kMust, 0, 0, "", "of its process"},
     Field{"number", T::Int, kMust, 0, kWholeMax, "", "counts up"}};
 
-constexpr std::array<VerbInfo, 7> kVerbs = {{
+constexpr Field kRollout = {
+    "number", T::Int, kMust, 1, kWholeMax, "", "of the roll-out: another one each time"};
+constexpr std::array kWant = {
+    kRollout,
+    Field{"sha256", T::Line, kMust, 0, 0, "", "of what is at the address"},
+    Field{"address", T::Line, kMust, 0, 0, "",
+          "to fetch it from by HTTPS; nobody else knows it, and it is good during the roll-out"},
+    Field{"back", T::Bool, kMay, 0, 0, "", "true: instead, the version before is in force again"}};
+constexpr std::array kVersion = {
+    kRollout, Field{"sha256", T::Line, kMust, 0, 0, "", "as it was wanted"},
+    Field{"result", T::Word, kMust, 0, 0, "taken|started|stopped|refused|rolled_back|waiting",
+          "taken: it is being fetched and checked; waiting: it is in force, and does not run"},
+    Field{"why", T::Line, kMay, 0, 0, "", "a sentence"}};
+
+constexpr std::array kTellThis = {
+    Field{"node", T::Name, kMust, 0, 0, "", "of the variable"},
+    Field{"name", T::Line, kMust, 0, 0, "", "of the variable"}};
+
+constexpr std::array<VerbInfo, 9> kVerbs = {{
     {"stop", "Everything stops. Repeated until it is answered; also to a group and to all.", {}},
     {"pause", "What runs is paused.", {}},
     {"continue", "What is paused goes on.", {}},
@@ -165,9 +183,12 @@ constexpr std::array<VerbInfo, 7> kVerbs = {{
     {"set", "Writes a variable.", kSet},
     {"raise", "A supervisor of the plan raises an event.", kRaise},
     {"emit", "An event of the bus.", kEmit},
+    {"tell", "A variable is told for a minute, as those under tell.", kTellThis},
+    {"identify", "The event identify of the robot's project: it blinks, or whatever it does then.",
+     {}},
 }};
 
-constexpr std::array<KindInfo, 13> kKinds = {{
+constexpr std::array<KindInfo, 15> kKinds = {{
     {Kind::Connection, Folder::Robot, "connection", 0, "robot/R/connection", 1, true,
      "Whether the robot is there; its last will says lost.", kConnection},
     {Kind::Description, Folder::Robot, "description", 0, "robot/R/description", 1, true,
@@ -197,6 +218,10 @@ constexpr std::array<KindInfo, 13> kKinds = {{
      "A shared value, or a name that is claimed: the keeper's alone.", kShared},
     {Kind::Beat, Folder::Keeper, "beat", 0, "keeper/beat", 1, true,
      "A sign of life of the keeper, each second.", kBeat},
+    {Kind::Want, Folder::Robot, "want", 0, "robot/R/want", 1, true,
+     "The version that the robot should have; of an operator.", kWant},
+    {Kind::Version, Folder::Robot, "version", 0, "robot/R/version", 1, true,
+     "What became of the version that was wanted last.", kVersion},
 }};
 
 std::string list_of_words(std::string_view words) {

@@ -31,7 +31,9 @@ enum class Kind {
     Reply,     // of the keeper
     Task,
     Shared,
-    Beat
+    Beat,
+    Want,    // the version that a robot should have
+    Version  // what became of it
 };
 
 enum class FieldType {

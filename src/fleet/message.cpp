@@ -46,6 +46,11 @@ Words words(const JsonValue& json, std::string_view key) {
     return list;
 }
 
+bool truth(const JsonValue& json, std::string_view key) {
+    const JsonValue* value = json.find(key);
+    return value != nullptr && value->boolean;
+}
+
 uint64_t count(const JsonValue& json, std::string_view key) {
     return static_cast<uint64_t>(whole(json, key));
 }
@@ -168,6 +173,12 @@ Message read_message(const JsonValue& json, const Topic& topic, std::string_view
         case Kind::Answer:
             return Answer{text(json, "id"), json.find("done")->boolean, text(json, "what"),
                           text(json, "instance"), names(json, "silent")};
+        case Kind::Want:
+            return Want{whole(json, "number"), text(json, "sha256"), text(json, "address"),
+                        truth(json, "back")};
+        case Kind::Version:
+            return Version{whole(json, "number"), text(json, "sha256"), text(json, "result"),
+                           text(json, "why")};
         case Kind::Beat:
             return keeper::Beat{count(json, "epoch"), text(json, "instance"),
                                 count(json, "number")};
@@ -377,6 +388,20 @@ Members members_of(const keeper::Record& record) {
 Members members_of(const keeper::Beat& beat) {
     return {member("epoch", beat.epoch), member("instance", beat.instance),
             member("number", beat.number)};
+}
+
+Members members_of(const Want& said) {
+    Members members = {member("number", said.number), member("sha256", said.sha256),
+                       member("address", said.address)};
+    if (said.back) members.push_back(member("back", said.back));
+    return members;
+}
+
+Members members_of(const Version& said) {
+    Members members = {member("number", said.number), member("sha256", said.sha256),
+                       member("result", said.result)};
+    add(members, "why", said.why);
+    return members;
 }
 
 Members members_of(const Question& said) {

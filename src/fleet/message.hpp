@@ -85,9 +85,21 @@ struct Reply {
     friend bool operator==(const Reply&, const Reply&) = default;
 };
 
+struct Want {
+    int64_t number = 0;
+    std::string sha256 = {}, address = {};
+    bool back = false;
+    friend bool operator==(const Want&, const Want&) = default;
+};
+struct Version {
+    int64_t number = 0;
+    std::string sha256 = {}, result = {}, why = {};
+    friend bool operator==(const Version&, const Version&) = default;
+};
+
 // Kind::Task and Kind::Shared are records of the keeper, Kind::Beat its sign of life.
 using Message = std::variant<Connection, Description, State, Variable, Event, Ask, Answer, Command,
-                             Question, Reply, keeper::Record, keeper::Beat>;
+                             Question, Reply, keeper::Record, keeper::Beat, Want, Version>;
 
 struct Heard {
     Topic topic;

@@ -97,6 +97,8 @@ TEST(Message, EveryKindIsReadAsItIsWritten) {
                  .values = {3}}},
         {{.kind = Kind::Command, .name = "stop"},
          Command{.verb = "stop", .id = "c1", .reply = "op"}},
+        {{.kind = Kind::Want, .robot = "r1"}, Want{7, "ab", "https://desk:8443/x", true}},
+        {{.kind = Kind::Version, .robot = "r1"}, Version{7, "ab", "refused", "it has mistakes"}},
         {{.kind = Kind::Beat}, keeper::Beat{12, "k1", 3}},
         {{.kind = Kind::Task, .name = "t1", .queue = "pick"}, keeper::Record(kTask)},
         {{.kind = Kind::Shared, .name = "aisle"},

@@ -16,6 +16,7 @@
 
 #include "base/result.hpp"
 #include "base/time.hpp"
+#include "fleet/limits.hpp"
 #include "fleet/link.hpp"
 
 namespace vagus::fleet {

@@ -70,10 +70,10 @@ class Case(unittest.TestCase):
 
     # ---- robots ----
 
-    def robot(self, name, *arguments, login=None, script=SCRIPT, target=None, **part):
+    def robot(self, name, *arguments, login=None, script=SCRIPT, aesl=AESL, target=None, **part):
         folder = self.folder / f"{name}-{free_port()}"
         projects.thymio(folder, script="", fleet={**PART, **part})
-        projects.write(folder, "robot.aesl", AESL.format(script=script))
+        projects.write(folder, "robot.aesl", aesl.format(script=script))
         projects.write(folder, "pages/index.html", "<!doctype html>\n")
         program = self.enterContext(vagus(
             "serve", folder, "--start", "--port", 0, "--data", folder / "data", "--config", folder / "config", "--pages",

@@ -83,7 +83,7 @@ class Links(Case):
     def test_a_command_that_comes_too_late_is_refused(self):
         self.joined("r1", target=self.robots_target)
         self.wait_state("r1", "running")
-        self.proxy.delay = 4  # a command has 3 s
+        self.proxy.delay = 2  # each way: the state that tells the clock, and the command; a command has 3 s
         done = self.desk("pause", "r1")
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertRegex(done.stdout, r"r1: (not done: it came \d+ ms too late|did not answer)")
@@ -148,6 +148,8 @@ class Others(Case):
         self.broker("r1", "r2")
         self.joined("r2")
         self.wait_state("r2", "running")
+        watch = self.watch()
+        watch.wait_line(r"^r2: online")
         stop = '{"id": "c1", "reply": "r1"}'
         for topic in ("robot/r2/connection", "robot/r2/want", "shared/map", "task/q/t", "keeper/beat", "keeper/answer/r2"):
             self.publish("r1", topic, ['{"state": "lost", "instance": "i", "epoch": 1}'], "-r")
@@ -155,7 +157,7 @@ class Others(Case):
             self.publish("r1", topic, [stop])
         # One more, that is allowed, has passed behind them.
         self.publish("r1", "robot/r1/event/alarm", ['{"number": 1, "epoch": 1, "groups": [], "args": [7]}'])
-        self.watch().wait_line(r"^r2: thymio-II\.heard = 1$")
+        watch.wait_line(r"^r2: thymio-II\.heard = 1$")
         self.assertEqual(self.state("r2"), "running")
         self.assertEqual(self.states()["r2"]["connection"]["state"], "online")
 

@@ -43,6 +43,7 @@ pattern readwrite vagus/1/+/robot/%u/#
 pattern read vagus/1/+/robot/+/connection
 pattern read vagus/1/+/robot/+/description
 pattern read vagus/1/+/robot/+/state
+pattern read vagus/1/+/robot/+/version
 pattern read vagus/1/+/robot/+/var/#
 pattern read vagus/1/+/robot/+/event/+
 pattern read vagus/1/+/robot/+/ask/#

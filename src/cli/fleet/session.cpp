@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cli/output.hpp"
 #include "net/end_signal.hpp"
 #include "serve/process.hpp"
 
@@ -26,6 +27,11 @@ std::string operator_name() {
 }
 
 }  // namespace
+
+int complain_of(const Error& error) {
+    const bool usage = error.code == Code::BadInput || error.code == Code::NotFound;
+    return complain(error, usage ? kExitUsage : kExitFailed);
+}
 
 Result<std::unique_ptr<FleetSession>> FleetSession::open(const FleetCall& call,
                                                          fleet::Operator::Options options) {

@@ -25,7 +25,13 @@ struct FleetCall {
     fleet::Command command;    // of verbs that want something
     std::vector<int> values;
     std::string variable;
+    std::string project, steps = "1,10%,100%";  // of deploy
+    std::string listen = "127.0.0.1:0", host, certificate, key;
+    bool rollback = false;
 };
+
+// What was called in the wrong way is told apart from what did not work. The exit code.
+int complain_of(const Error& error);
 
 class FleetSession {
 public:
@@ -41,6 +47,7 @@ public:
     // The connection was made, and all that was retained has come; the Error says why not.
     Status know_all(Duration within);
     void publish(const fleet::Post& post) { link_->publish(post); }
+    void subscribe(const std::vector<fleet::Filter>& filters) { link_->subscribe(filters); }
     Duration now() const;
 
 private:

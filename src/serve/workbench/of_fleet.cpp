@@ -67,6 +67,11 @@ void Workbench::obey(const fleet::Command& command, Obeyed done) {
         tell_life(life::Pause{keep(call_for(Json::object(), std::move(done)))});
         return live();
     }
+    if (verb == "identify") {
+        const Status sent = emit(verb, {});
+        const std::string why = sent.ok() ? "" : sent.error().what;
+        return done(answer_of_why(why));
+    }
     if (verb == "emit") {
         const Status sent = emit(command.event, command.values);
         return done(answer_of_why(sent.ok() ? "" : sent.error().what));

@@ -31,8 +31,7 @@ Numbers::Seen& Numbers::seen_of(const Sender& sender) {
 bool Rates::allows(const std::string& name, Time now) {
     // Names whose window is over say nothing any more.
     if (counts_.size() >= kRatesRemembered && !counts_.contains(name)) {
-        std::erase_if(counts_,
-                      [&](const auto& one) { return now - one.second.since >= window_; });
+        std::erase_if(counts_, [&](const auto& one) { return now - one.second.since >= window_; });
         if (counts_.size() >= kRatesRemembered) return false;
     }
     Count& count = counts_[name];

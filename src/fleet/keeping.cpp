@@ -48,8 +48,8 @@ void Keeping::on(const Connected&) {
     actions_.emplace_back(Subscribe{{filter(Kind::Task, false), filter(Kind::Shared, false),
                                      filter(Kind::Question, false), filter(Kind::Beat, true)}});
     // Not retained: it says nothing to anybody else.
-    Post echo = post({.kind = Kind::Beat},
-                     keeper::Beat{0, echo_of(options_.keeper.instance), ++echoes_});
+    Post echo =
+        post({.kind = Kind::Beat}, keeper::Beat{0, echo_of(options_.keeper.instance), ++echoes_});
     echo.retained = false;
     echo.number = kEcho;
     actions_.emplace_back(std::move(echo));
@@ -91,10 +91,9 @@ void Keeping::on(const Acknowledged& acknowledged) {
     if (acknowledged.refused.empty()) {
         tell(keeper::Acknowledged{acknowledged.number});
     } else if (!std::exchange(refusal_told_, true)) {
-        say("warning",
-            "keeper: the broker refuses what it publishes: " + acknowledged.refused +
-                "; its access list must let this user write keeper/, shared/ and task/ "
-                "(docs/fleet.md, \"Rights\")");
+        say("warning", "keeper: the broker refuses what it publishes: " + acknowledged.refused +
+                           "; its access list must let this user write keeper/, shared/ and task/ "
+                           "(docs/fleet.md, \"Rights\")");
     }
     send_records();
 }
@@ -130,9 +129,9 @@ void Keeping::perform(const keeper::Publish& publish) {
 }
 
 void Keeping::perform(const keeper::Answer& answer) {
-    actions_.emplace_back(post({.kind = Kind::Reply, .robot = answer.asker.robot},
-                               Reply{static_cast<int64_t>(answer.asker.epoch),
-                                     answer.asker.number, answer.reply}));
+    actions_.emplace_back(
+        post({.kind = Kind::Reply, .robot = answer.asker.robot},
+             Reply{static_cast<int64_t>(answer.asker.epoch), answer.asker.number, answer.reply}));
 }
 
 void Keeping::perform(const keeper::Leave& leave) {

@@ -23,9 +23,7 @@ public:
             KeepingOptions{"lab", {.instance = instance, .longest = 10s, .first_epoch = 100}});
     }
 
-    void connect() {
-        hear(Connected{});
-    }
+    void connect() { hear(Connected{}); }
     void pass(Duration time) {
         for (const Time end = now + time; now < end; now += kKeeperTickEvery) {
             keeping->tick(now);

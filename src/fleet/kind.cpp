@@ -99,10 +99,10 @@ constexpr std::array kEmit = {Field{"event", T::Name, kMust, 0, 0, "", "of the p
 constexpr std::array kQuestion = {kNumber, kEpoch};
 constexpr Field kTerm = {"term", T::Term, kMust, 0, 0, "", "of the lease"};
 constexpr Field kLength = {"length", T::Int, kMust, 0, kLeaseMsMax, "", "of the lease, ms"};
-constexpr std::array kGive = {Field{"queue", T::Name, kMust, 0, 0, "", ""},
-                              Field{"id", T::Name, kMust, 0, 0, "",
-                                    "the giver chooses it: given twice, it is there once"},
-                              Field{"data", T::Value, kMay, 0, 0, "", "what is to be done"}};
+constexpr std::array kGive = {
+    Field{"queue", T::Name, kMust, 0, 0, "", ""},
+    Field{"id", T::Name, kMust, 0, 0, "", "the giver chooses it: given twice, it is there once"},
+    Field{"data", T::Value, kMay, 0, 0, "", "what is to be done"}};
 constexpr std::array kTake = {Field{"queue", T::Name, kMust, 0, 0, "", ""}, kLength};
 constexpr std::array kClaim = {
     Field{"name", T::Name, kMust, 0, 0, "", "that one robot has at a time"}, kLength};
@@ -160,8 +160,7 @@ constexpr std::array kBeat = {
 constexpr Field kRollout = {
     "number", T::Int, kMust, 1, kWholeMax, "", "of the roll-out: another one each time"};
 constexpr std::array kWant = {
-    kRollout,
-    Field{"sha256", T::Line, kMust, 0, 0, "", "of what is at the address"},
+    kRollout, Field{"sha256", T::Line, kMust, 0, 0, "", "of what is at the address"},
     Field{"address", T::Line, kMust, 0, 0, "",
           "to fetch it from by HTTPS; nobody else knows it, and it is good during the roll-out"},
     Field{"back", T::Bool, kMay, 0, 0, "", "true: instead, the version before is in force again"}};
@@ -171,9 +170,8 @@ constexpr std::array kVersion = {
           "taken: it is being fetched and checked; waiting: it is in force, and does not run"},
     Field{"why", T::Line, kMay, 0, 0, "", "a sentence"}};
 
-constexpr std::array kTellThis = {
-    Field{"node", T::Name, kMust, 0, 0, "", "of the variable"},
-    Field{"name", T::Line, kMust, 0, 0, "", "of the variable"}};
+constexpr std::array kTellThis = {Field{"node", T::Name, kMust, 0, 0, "", "of the variable"},
+                                  Field{"name", T::Line, kMust, 0, 0, "", "of the variable"}};
 
 constexpr std::array<VerbInfo, 9> kVerbs = {{
     {"stop", "Everything stops. Repeated until it is answered; also to a group and to all.", {}},
@@ -184,7 +182,8 @@ constexpr std::array<VerbInfo, 9> kVerbs = {{
     {"raise", "A supervisor of the plan raises an event.", kRaise},
     {"emit", "An event of the bus.", kEmit},
     {"tell", "A variable is told for a minute, as those under tell.", kTellThis},
-    {"identify", "The event identify of the robot's project: it blinks, or whatever it does then.",
+    {"identify",
+     "The event identify of the robot's project: it blinks, or whatever it does then.",
      {}},
 }};
 

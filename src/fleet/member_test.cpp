@@ -343,7 +343,8 @@ TEST(MemberEvents, ThoseThatComeBeforeTheNameIsOursAreHeardThen) {
 TEST(MemberEvents, ThoseThatAreTooManyOrTooOldBeforeTheNameIsOursAreNot) {
     Case c(kAlarm);
     c.hear(Connected{});
-    for (int64_t i = 0; i <= static_cast<int64_t>(kEarlyMax); ++i) c.event("r2", {i + 1, 3, {}, {}});
+    for (int64_t i = 0; i <= static_cast<int64_t>(kEarlyMax); ++i)
+        c.event("r2", {i + 1, 3, {}, {}});
     EXPECT_EQ(c.member.left_out(), 1u);
     c.now = kEventAgeMax + 1us;
     c.question("i1");

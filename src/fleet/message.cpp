@@ -124,14 +124,13 @@ keeper::Record read_record(const JsonValue& json, const Topic& topic) {
 // Whether it is one was checked: fault_in().
 std::optional<Topic> topic_of_record(const JsonValue& reply, std::string_view fleet) {
     auto topic = parse_topic(fleet, text(reply, "topic"));
-    const bool is_record =
-        topic && (topic->kind == Kind::Task || topic->kind == Kind::Shared);
+    const bool is_record = topic && (topic->kind == Kind::Task || topic->kind == Kind::Shared);
     return is_record ? topic : std::nullopt;
 }
 
 Reply read_reply(const JsonValue& json, std::string_view fleet) {
-    keeper::Reply reply{value_of(kOutcomes, text(json, "outcome")), text(json, "why"),
-                        count(json, "keeper"), {}};
+    keeper::Reply reply{
+        value_of(kOutcomes, text(json, "outcome")), text(json, "why"), count(json, "keeper"), {}};
     const auto topic = topic_of_record(json, fleet);
     if (topic) reply.record = read_record(*json.find("record"), *topic);
     return {whole(json, "epoch"), count(json, "number"), std::move(reply)};
@@ -406,8 +405,7 @@ Members members_of(const Version& said) {
 
 Members members_of(const Question& said) {
     Members members = {member("number", said.number), member("epoch", said.epoch)};
-    Members asked =
-        std::visit([](const auto& one) { return members_of(one); }, said.request);
+    Members asked = std::visit([](const auto& one) { return members_of(one); }, said.request);
     std::move(asked.begin(), asked.end(), std::back_inserter(members));
     return members;
 }
@@ -467,8 +465,10 @@ std::string payload_of(const Message& message, std::string_view fleet) {
     }
     return std::visit(
         [](const auto& said) {
-            if constexpr (std::is_same_v<decltype(said), const Reply&>) return std::string();
-            else return format_json_line(json_object(members_of(said)));
+            if constexpr (std::is_same_v<decltype(said), const Reply&>)
+                return std::string();
+            else
+                return format_json_line(json_object(members_of(said)));
         },
         message);
 }

@@ -18,18 +18,14 @@ std::string why(std::string_view topic, std::string_view payload) {
     return heard.ok() ? "" : heard.error().what;
 }
 
-const keeper::Task kTask{"pick",
-                         "t1",
-                         {12, 3},
-                         "{ \"shelf\": 4 }",
-                         keeper::Work::Leased,
-                         {"r1", {12, 4}, 1500ms},
-                         ""};
+const keeper::Task kTask{
+    "pick", "t1", {12, 3}, "{ \"shelf\": 4 }", keeper::Work::Leased, {"r1", {12, 4}, 1500ms}, ""};
 
 // How each request looks as JSON; worked out from docs/fleet-messages.md.
 TEST(Message, QuestionsToTheKeeperHaveATopicEach) {
     const std::pair<keeper::Request, std::pair<const char*, const char*>> all[] = {
-        {keeper::Give{"pick", "t1", "[4]"}, {"give", R"("queue": "pick", "id": "t1", "data": [4])"}},
+        {keeper::Give{"pick", "t1", "[4]"},
+         {"give", R"("queue": "pick", "id": "t1", "data": [4])"}},
         {keeper::Take{"pick", 1500ms}, {"take", R"("queue": "pick", "length": 1500)"}},
         {keeper::ClaimName{"aisle", 2s}, {"claim", R"("name": "aisle", "length": 2000)"}},
         {keeper::Renew{{12, 4}}, {"renew", R"("term": "12.4")"}},

@@ -81,12 +81,12 @@ void Rollout::tick(Time now) {
     for (auto& [name, robot] : robots_) {
         if (now_ < robot.until) continue;
         if (robot.place == Place::Started) robot.place = Place::Well;
-        if (robot.place == Place::Wanted) fail(robot, "did not answer; it finds it when it is back");
+        if (robot.place == Place::Wanted)
+            fail(robot, "did not answer; it finds it when it is back");
     }
-    const bool all_well =
-        std::all_of(options_.robots.begin(),
-                    options_.robots.begin() + static_cast<std::ptrdiff_t>(wanted_),
-                    [this](const auto& name) { return robots_.at(name).place == Place::Well; });
+    const bool all_well = std::all_of(
+        options_.robots.begin(), options_.robots.begin() + static_cast<std::ptrdiff_t>(wanted_),
+        [this](const auto& name) { return robots_.at(name).place == Place::Well; });
     if (all_well && step_ < options_.steps.size()) begin_step();
 }
 

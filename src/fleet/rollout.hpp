@@ -1,8 +1,7 @@
 // Another version for many robots, in steps: who should have it, who has it and is well, and when
 // the next ones follow. The first robot that is not well stops it. A state machine, as Operator is.
 //
-//     Rollout rollout({.fleet = "lab", .want = {.number = 7, …}, .robots = {"r1", "r2"},
-//                      .steps = {1, 2}});
+//     Rollout rollout({.fleet = "lab", .want = want, .robots = {"r1", "r2"}, .steps = {1, 2}});
 //     for (const LinkEvent& event : link.take()) rollout.hear(event, now);
 //     rollout.tick(now);
 //     for (const Post& post : rollout.take()) link.publish(post);

@@ -1,5 +1,5 @@
-// The variables that a robot tells: those of its project, and for a minute those that somebody asked
-// for.
+// The variables that a robot tells: those of its project, and for a minute those that somebody
+// asked for.
 //
 //     TellList list(project.tell);
 //     if (list.add({"thymio-II", "speed"}, now)) tell(list.all());   // false: too many

@@ -132,7 +132,8 @@ std::optional<Topic> parse_topic(std::string_view fleet, std::string_view text) 
     const std::string& folder = levels[0];
     if (folder == "robot" && levels.size() > 2) return topic_of_robot(levels);
     if (folder == "cmd" && levels.size() > 2) return topic_of_command(levels);
-    if (folder == "shared" && levels.size() == 2) return Topic{.kind = Kind::Shared, .name = levels[1]};
+    if (folder == "shared" && levels.size() == 2)
+        return Topic{.kind = Kind::Shared, .name = levels[1]};
     if (folder == "task" && levels.size() == 3) {
         return Topic{.kind = Kind::Task, .name = levels[2], .queue = levels[1]};
     }

@@ -4,9 +4,9 @@
 //
 //     fleet_workers TARGET FOLDER WORKERS TASKS SEED
 //
-// FOLDER is that of `vagus fleet init`, with logins w0 to w(WORKERS-1) and boss. Prints "finished N"
-// at each hundredth, and at the end what was wrong, or "all N tasks are finished". Exit code 1 if
-// something was wrong.
+// FOLDER is that of `vagus fleet init`, with logins boss and w0 to w(WORKERS-1). Prints "finished
+// N" at each hundredth, and at the end what was wrong, or "all N tasks are finished". Exit code 1
+// if something was wrong.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -63,9 +63,8 @@ public:
     Robot(const std::string& target, const std::string& folder, const std::string& robot,
           int64_t epoch, Bell& bell)
         : name(robot), client({.fleet = "lab", .robot = robot, .epoch = epoch}) {
-        serve::FleetOptions options{.target = target,
-                                    .ca = folder + "/ca.crt",
-                                    .login = folder + "/" + robot + ".login"};
+        serve::FleetOptions options{
+            .target = target, .ca = folder + "/ca.crt", .login = folder + "/" + robot + ".login"};
         auto link_options = serve::link_options(options, fmt::format("{}-{}", robot, epoch));
         if (!link_options.ok()) {
             fmt::print("{}\n", link_options.error().what);
@@ -103,8 +102,8 @@ public:
          uint64_t seed)
         : tasks_(tasks), rng_(seed), boss_(target, folder, "boss", epoch(), bell_) {
         for (int i = 0; i < workers; ++i)
-            workers_.push_back(std::make_unique<Worker>(target, folder, "w" + std::to_string(i),
-                                                        epoch(), bell_));
+            workers_.push_back(
+                std::make_unique<Worker>(target, folder, "w" + std::to_string(i), epoch(), bell_));
     }
 
     bool run() {
@@ -114,8 +113,8 @@ public:
             look();
             bell_.wait();
         }
-        fmt::print("{}\n", wrong_.empty() ? fmt::format("all {} tasks are finished", tasks_)
-                                          : wrong_);
+        fmt::print("{}\n",
+                   wrong_.empty() ? fmt::format("all {} tasks are finished", tasks_) : wrong_);
         return wrong_.empty();
     }
 
@@ -182,9 +181,9 @@ private:
     }
 
     void work(Worker& worker) {
-        const auto request =
-            worker.task ? keeper::Request(keeper::Finish{worker.task->lease.term, "true"})
-                        : keeper::Request(keeper::Take{"pick", kLease});
+        const auto request = worker.task
+                                 ? keeper::Request(keeper::Finish{worker.task->lease.term, "true"})
+                                 : keeper::Request(keeper::Take{"pick", kLease});
         worker.task.reset();
         worker.question = worker.client.ask(request, now());
     }
@@ -197,8 +196,8 @@ private:
             if (!worker->client.leases().holds(worker->task->lease.term, now())) continue;
             const auto [other, is_new] = who.insert({worker->task->id, worker.get()});
             if (!is_new)
-                wrong_ = fmt::format("{} and {} have {} at once", other->second->name,
-                                     worker->name, worker->task->id);
+                wrong_ = fmt::format("{} and {} have {} at once", other->second->name, worker->name,
+                                     worker->task->id);
         }
     }
 

@@ -169,7 +169,8 @@ private:
                    "# Made by `vagus fleet init`; yours to change. mosquitto.conf(5)\n"
                    "user {}\nallow_anonymous false\npassword_file {}\nacl_file {}\n"
                    "persistence true\npersistence_location {}/\nautosave_interval 60\n"
-                   "max_packet_size {}\nmax_queued_messages {}\nmax_queued_bytes {}\nset_tcp_nodelay true\n"
+                   "max_packet_size {}\nmax_queued_messages {}\nmax_queued_bytes "
+                   "{}\nset_tcp_nodelay true\n"
                    "log_dest stderr\nlog_type error\nlog_type warning\nlog_type notice\n"
                    "connection_messages false\n",
                    user_of_this_process(), path("passwords"), path("access"), path("data"),
@@ -290,8 +291,8 @@ std::optional<std::string> run_until_end(Companion& broker, std::vector<KeeperCh
 
 Status check_fleets(const std::vector<std::string>& fleets) {
     if (fleets.size() > kKeptFleetsMax) {
-        return Error{Code::Limit, fmt::format("--fleet: {} at most, found {}", kKeptFleetsMax,
-                                              fleets.size())};
+        return Error{Code::Limit,
+                     fmt::format("--fleet: {} at most, found {}", kKeptFleetsMax, fleets.size())};
     }
     for (const std::string& fleet : fleets) {
         if (fleet::is_name(fleet)) continue;
@@ -361,16 +362,16 @@ void add_broker_verbs(CLI::App& fleet, int& exit_code) {
     const auto fleets = std::make_shared<std::vector<std::string>>(1, "lab");
     verb = fleet.add_subcommand("serve", "runs mosquitto with what `init` made, and keepers");
     verb->add_option("FOLDER", options->folder, "of `vagus fleet init`")->required();
-    verb->add_option("--fleet", *fleets, "a fleet that gets a keeper of its tasks and shared values (default: lab)")
+    verb->add_option("--fleet", *fleets,
+                     "a fleet that gets a keeper of its tasks and shared values (default: lab)")
         ->type_name("NAME")
         ->allow_extra_args(false);
     verb->footer(
         "Needs Debian's package mosquitto, whose own service need not run. Ends with Ctrl-C; "
         "mosquitto and\nthe keepers end with it; a keeper that dies is started again.\n"
         "Example:\n  vagus fleet serve broker --fleet lab");
-    verb->callback([options, fleets, &exit_code] {
-        exit_code = serve_broker(options->folder, *fleets);
-    });
+    verb->callback(
+        [options, fleets, &exit_code] { exit_code = serve_broker(options->folder, *fleets); });
 }
 
 }  // namespace vagus::cli

@@ -64,16 +64,15 @@ private:
     Shelf() = default;
 
     Status serve(const FleetCall& call) {
-        serve::WebOptions options{.pages = folder_.string(),
-                                  .tls_cert = call.certificate,
-                                  .tls_key = call.key};
+        serve::WebOptions options{
+            .pages = folder_.string(), .tls_cert = call.certificate, .tls_key = call.key};
         const size_t colon = call.listen.rfind(':');
         const std::string port = colon == std::string::npos ? "" : call.listen.substr(colon + 1);
         const char* const end = port.data() + port.size();
         const auto read = std::from_chars(port.data(), end, options.port);
         if (port.empty() || read.ec != std::errc() || read.ptr != end) {
-            return Error{Code::BadInput,
-                         "--listen " + call.listen + ": expected ADDRESS:PORT, such as 0.0.0.0:8443"};
+            return Error{Code::BadInput, "--listen " + call.listen +
+                                             ": expected ADDRESS:PORT, such as 0.0.0.0:8443"};
         }
         options.address = call.listen.substr(0, colon);
         const bool here = options.address.starts_with("127.");
@@ -105,8 +104,7 @@ std::vector<std::string> in_order(FleetSession& session, const FleetCall& call) 
         session.desk().chosen({call.robot.empty() && call.group.empty(), call.group, call.robot});
     const auto is_there = [&](const std::string& name) {
         const auto found = session.desk().robots().find(name);
-        return found != session.desk().robots().end() &&
-               fleet::Operator::is_online(found->second);
+        return found != session.desk().robots().end() && fleet::Operator::is_online(found->second);
     };
     std::stable_partition(names.begin(), names.end(), is_there);
     return names;

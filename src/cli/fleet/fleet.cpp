@@ -333,7 +333,8 @@ void add_deploy(CLI::App& app, const SharedCall& call, int& exit_code) {
                  "  vagus fleet mqtts://broker/lab deploy all --rollback");
     is_for(verb, call);
     verb->get_option("ROBOT")->required();
-    CLI::Option* project = verb->add_option("--project", call->project, "a folder with a vagus.json");
+    CLI::Option* project =
+        verb->add_option("--project", call->project, "a folder with a vagus.json");
     takes_file(*project, {"vagus.json"});
     CLI::Option* back = verb->add_flag("--rollback", call->rollback,
                                        "instead: the version before is in force again");
@@ -355,7 +356,8 @@ void add_deploy(CLI::App& app, const SharedCall& call, int& exit_code) {
     key->needs(certificate);
     verb->parse_complete_callback([call] {
         if (call->project.empty() && !call->rollback) {
-            throw CLI::ValidationError("--project", "which version? Name its folder, or --rollback");
+            throw CLI::ValidationError("--project",
+                                       "which version? Name its folder, or --rollback");
         }
     });
     acts(verb, call, exit_code, deploy);
@@ -374,7 +376,8 @@ constexpr PlainVerb kPlainVerbs[] = {
     {"continue", "lets robots go on that are paused",
      "Example:\n  vagus fleet mqtt://broker/lab continue r1"},
     {"start", "starts scripts and plans", "Example:\n  vagus fleet mqtt://broker/lab start all"},
-    {"identify", "the event identify on the bus of robots: what their projects do then shows which "
+    {"identify",
+     "the event identify on the bus of robots: what their projects do then shows which "
      "ones they are",
      "Example:\n  vagus fleet mqtt://broker/lab identify r1"},
 };

@@ -22,7 +22,8 @@ Result<std::string> pack(const CollectedBundle& collected) {
 
 Result<Packed> unpack(std::string_view bytes) {
     const size_t end = bytes.find('\n');
-    const Json json = end == bytes.npos ? Json() : Json::parse(bytes.substr(0, end), nullptr, false);
+    const Json json =
+        end == bytes.npos ? Json() : Json::parse(bytes.substr(0, end), nullptr, false);
     if (!json.is_object()) {
         return Error{Code::BadInput, "expected a version of a project: its list of files first"};
     }

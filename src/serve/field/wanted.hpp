@@ -1,7 +1,7 @@
-// The version that a fleet wants of this robot (docs/fleet.md, "Roll-out"): fetched, checked against
-// its hash, put in force as one that `vagus deploy` sends, and told. Each roll-out has a number, and
-// is done once, also if the robot was started again meanwhile: what came of the last one is in
-// PROJECT/.vagus/want.json.
+// The version that a fleet wants of this robot (docs/fleet.md, "Another version for many"):
+// fetched, checked against its hash, put in force as one that `vagus deploy` sends, and told. Each
+// roll-out has a number, and is done once, also if the robot was started again meanwhile: what came of the
+// last one is in PROJECT/.vagus/want.json.
 //
 //     Wanted wanted(deployments, {.file = …, .fetch = …, .work = worker.poster(), .tell = …});
 //     wanted.want(want);   // as often as it comes
@@ -48,7 +48,7 @@ private:
 
     Deployments& deployments_;
     Callbacks call_;
-    std::optional<fleet::Want> next_;   // it waits for its turn
+    std::optional<fleet::Want> next_;  // it waits for its turn
     std::optional<fleet::Want> under_way_;
     std::optional<fleet::Version> last_;
 };

@@ -23,8 +23,7 @@ protected:
 
     Wanted::Callbacks callbacks() {
         return {.file = (fs::path(project) / ".vagus" / "want.json").string(),
-                .fetch =
-                    [this](const std::string& address) -> Result<std::string> {
+                .fetch = [this](const std::string& address) -> Result<std::string> {
                     ++fetches;
                     if (address == "https://desk/x") return served;
                     return Error{Code::Unavailable, address + ": cannot be fetched"};
@@ -67,7 +66,8 @@ protected:
                      .start = [](auto done) { done(""); },
                      .log = [](auto&, auto&) {}}};
     Deployments deployments{
-        versions, starter,
+        versions,
+        starter,
         {.check = [this] { return [this](const fs::path&) { return findings; }; },
          .stop = [](auto done) { done(); },
          .open =

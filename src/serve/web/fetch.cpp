@@ -52,16 +52,16 @@ awaitable<std::string> get(asio::io_context& io, asio::ssl::context& tls, Place 
     answer.body_limit(bytes_max);
     co_await http::async_read(stream, buffer, answer, use_awaitable);
     if (answer.get().result() != http::status::ok) {
-        throw boost::system::system_error(make_error_code(boost::system::errc::no_such_file_or_directory),
-                                          std::to_string(answer.get().result_int()));
+        throw boost::system::system_error(
+            make_error_code(boost::system::errc::no_such_file_or_directory),
+            std::to_string(answer.get().result_int()));
     }
     co_return std::move(answer.get().body());
 }
 
 }  // namespace
 
-Result<std::string> fetch(const std::string& url, const std::string& authority,
-                          size_t bytes_max) {
+Result<std::string> fetch(const std::string& url, const std::string& authority, size_t bytes_max) {
     Place place = TRY(place_of(url));
     try {
         asio::io_context io{1};

@@ -63,8 +63,8 @@ ROOMS = {
         ("bodies", "moving_grid sight spacing arena fan wheels camera"),
         ("devices", "node_variables machine robot sd_card can_bus"),
         ("robots", "thymio2/ epuck/ carbot/"),
-        ("files", "standing world_check world_file"),
-        ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world"),
+        ("files", "standing world_check robot_grid world_file"),
+        ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world thread_choice world_threads"),
     ],
     "serve": [
         ("ground", "process access base64 bytes json plan_value thrown worker"),

@@ -76,7 +76,7 @@ Result<aesl::Target> describe(Line& line, uint16_t node) {
         if (add_part(description, *frame) == debug::Progress::Impossible)
             return Error{kFinding, "its description is impossible: " + description.why()};
     }
-    if (description.begun() && description.complete()) return description.target();
+    if (description.begun() && description.complete()) return description.give();
     return Error{Code::Timeout, "it does not describe itself whole: " +
                                     std::to_string(description.items()) + " parts came"};
 }

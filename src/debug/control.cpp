@@ -108,21 +108,21 @@ void Control::give_up(const Error& why) {
     out_.requests.leave(view_.id);
 }
 
-Result<RequestId> Control::load(const aesl::Program& program, AfterLoad then) {
-    const size_t words = program.bytecode.size();
+Result<RequestId> Control::load(SharedValue<aesl::Program> program, AfterLoad then) {
+    const size_t words = program->bytecode.size();
     if (words == 0) {
         return Error{Code::BadInput, "the program for " + who() +
                                          " is empty: compile it, and fix its errors first"};
     }
-    if (words > view_.target.bytecode_size) {
+    if (words > view_.target->bytecode_size) {
         return Error{Code::Limit, "the program has " + std::to_string(words) + " words, but " +
                                       who() + " has room for " +
-                                      std::to_string(view_.target.bytecode_size) +
+                                      std::to_string(view_.target->bytecode_size) +
                                       ": shorten the script"};
     }
     Request request;
     request.kind = Kind::Load;
-    request.program = program;
+    request.program = std::move(program);
     request.then = then;
     return enqueue(std::move(request));
 }
@@ -257,7 +257,7 @@ void Control::step_and_ask() {
 }
 
 void Control::send_fragments(Request& request) {
-    const std::vector<uint16_t>& words = request.program.bytecode;
+    const std::vector<uint16_t>& words = request.program->bytecode;
     while (request.sent < fragments_of(request.program) &&
            request.sent < request.acked + kFragmentsAhead) {
         const size_t start = request.sent++ * wire::kBytecodeWordsMax;
@@ -387,7 +387,7 @@ void Control::receive(const wire::Variables& variables) {
     load->asks_mark = false;
     load->deadline = out_.now + kAnswerWithin;
     ask_again_ = out_.now + kAskAgain;
-    const bool same = told == mark_of(load->program.bytecode);
+    const bool same = told == mark_of(load->program->bytecode);
     Answer done = same ? loaded(*load) : load_again(*load, told);
     if (!done) return;
     tell_state();
@@ -412,7 +412,7 @@ Control::Answer Control::load_again(Request& request, uint32_t told) {
             Error{Code::Unavailable,
                   who() + " does not have the program that was sent to it " +
                       std::to_string(kLoadsMax) + " times: expected the checksum " +
-                      hex_of(mark_of(request.program.bytecode)) + ", it tells " + hex_of(told) +
+                      hex_of(mark_of(request.program->bytecode)) + ", it tells " + hex_of(told) +
                       ". Its line loses or changes bytes, or another host loads it, too; the "
                       "program was not run. Look at cable and baud rate, then load it again"},
             ""};

@@ -26,7 +26,7 @@ public:
     Result<RequestId> ask(Kind kind);
     // Before all that was asked, which is cancelled: Stop, Pause.
     RequestId at_once(Kind kind);
-    Result<RequestId> load(const aesl::Program& program, AfterLoad then);
+    Result<RequestId> load(SharedValue<aesl::Program> program, AfterLoad then);
     // What is being loaded, or waits for that, is not let run then. False: nothing is, or it was
     // told to run already; it counts as loaded.
     bool stay_after_load();
@@ -77,16 +77,16 @@ private:
     struct Request {
         RequestId id;
         Kind kind = Kind::Query;
-        aesl::Program program;            // Load
-        AfterLoad then = AfterLoad::Run;  // Load
-        size_t sent = 0, acked = 0;       // Load: fragments
-        int loads = 1;                    // Load: so often sent as a whole
-        bool asks_mark = false;           // Load: all is sent; is it what the node has?
-        uint16_t pc = 0;                  // Break
-        bool stepping = false;            // Step, Run: an instruction is being executed by itself
-        int from_line = 0;                // Step
-        uint32_t steps = 0;               // Step
-        std::string note;                 // Save: what the node said
+        SharedValue<aesl::Program> program;  // Load
+        AfterLoad then = AfterLoad::Run;     // Load
+        size_t sent = 0, acked = 0;          // Load: fragments
+        int loads = 1;                       // Load: so often sent as a whole
+        bool asks_mark = false;              // Load: all is sent; is it what the node has?
+        uint16_t pc = 0;                     // Break
+        bool stepping = false;  // Step, Run: an instruction is being executed by itself
+        int from_line = 0;      // Step
+        uint32_t steps = 0;     // Step
+        std::string note;       // Save: what the node said
         Time deadline{};
     };
     // Going on from a breakpoint whose condition is false: one step, then, if that was no fault,

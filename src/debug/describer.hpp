@@ -38,9 +38,10 @@ public:
     void tick(Outbox& out);
 
     State state() const { return state_; }
-    Time next_tick() const { return deadline_; }  // while Asking
-    Time part_at() const { return part_at_; }     // when a part came last
-    const Description& description() const { return description_; }
+    Time next_tick() const { return deadline_; }           // while Asking
+    Time part_at() const { return part_at_; }              // when a part came last
+    size_t bytes() const { return description_.bytes(); }  // of the description so far
+    aesl::Target give() { return description_.give(); }    // when Done
     const std::string& why() const { return why_; }
 
 private:

@@ -1,5 +1,7 @@
 #include "debug/description.hpp"
 
+#include <utility>
+
 #include "debug/text.hpp"
 
 namespace vagus::debug {
@@ -60,6 +62,19 @@ Progress Description::add(const wire::NativeFunctionDescription& native) {
 bool Description::complete() const {
     return begun_ && target_.variables.size() == variables_ &&
            target_.local_events.size() == local_events_ && target_.natives.size() == natives_;
+}
+
+aesl::Target Description::give() {
+    aesl::Target header;
+    header.name = target_.name;
+    header.protocol_version = target_.protocol_version;
+    header.bytecode_size = target_.bytecode_size;
+    header.variables_size = target_.variables_size;
+    header.stack_size = target_.stack_size;
+    target_.variables.shrink_to_fit();
+    target_.local_events.shrink_to_fit();
+    target_.natives.shrink_to_fit();
+    return std::exchange(target_, std::move(header));
 }
 
 size_t Description::items() const {

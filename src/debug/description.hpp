@@ -28,8 +28,8 @@ public:
     size_t items() const;
     // Bytes of names and texts so far.
     size_t bytes() const { return bytes_; }
-    // Filled so far; whole when complete().
-    const aesl::Target& target() const { return target_; }
+    // Once complete(): what was told, which is kept no longer; of it only the header stays.
+    aesl::Target give();
     const std::string& why() const { return why_; }
     // Announces the same node as this one.
     bool same_header(const wire::Description& header) const;

@@ -84,7 +84,7 @@ std::vector<aesl::VariablePlace> variables_of(const NodeView& node) {
     if (node.program) return node.program->variables;
     std::vector<aesl::VariablePlace> places;
     uint16_t address = 0;
-    for (const aesl::NamedVariable& variable : node.target.variables) {
+    for (const aesl::NamedVariable& variable : node.target->variables) {
         places.push_back({variable.name, address, variable.size});
         address = static_cast<uint16_t>(address + variable.size);
     }

@@ -183,7 +183,7 @@ void Network::Impl::note_words(const wire::Frame& frame) {
 }
 
 void Network::Impl::examine(NodeId id, const NodeView& node) {
-    const uint16_t words = node.target.variables_size;
+    const uint16_t words = node.target->variables_size;
     if (!node.connected || !node.described || words < 2 || !presences.doubts(id)) return;
     for (const Probe& probe : presences.settle(id, words, out.now)) {
         auto question = message_to<wire::GetVariables>(id);
@@ -402,8 +402,8 @@ Result<Peer*> Network::usable(NodeId id) const {
     return known;
 }
 
-Result<RequestId> Network::load(NodeId id, const aesl::Program& program, AfterLoad then) {
-    return TRY(usable(id))->load(program, then);
+Result<RequestId> Network::load(NodeId id, SharedValue<aesl::Program> program, AfterLoad then) {
+    return TRY(usable(id))->load(std::move(program), then);
 }
 
 Status Network::adopt(NodeId id, const aesl::Program& program) {

@@ -33,6 +33,7 @@
 #include "aesl/compile.hpp"
 #include "aesl/target.hpp"
 #include "base/result.hpp"
+#include "base/shared_value.hpp"
 #include "base/time.hpp"
 #include "debug/event.hpp"
 #include "wire/frame.hpp"
@@ -80,10 +81,10 @@ struct NodeView {
     bool id_shared = false;  // another node has the same id: what is told here is of either
     std::string other_name;  // of the other one, if it has another
     ProgramState state = ProgramState::Unknown;
-    CodePlace at;                          // as the node told last
-    Time part_at{};                        // when a part of its description came last
-    aesl::Target target;                   // empty until described
-    std::optional<aesl::Program> program;  // what this host loaded or was told that the node has
+    CodePlace at;                        // as the node told last
+    Time part_at{};                      // when a part of its description came last
+    SharedValue<aesl::Target> target;    // empty until described; equal nodes have one
+    SharedValue<aesl::Program> program;  // what this host loaded or was told that the node has
     // Of a node with `_program`, as it told last: mark_of() what it runs (debug/program_mark.hpp).
     // None: not told yet since it was described, came back, or got words of a program.
     std::optional<uint32_t> told_program;
@@ -157,7 +158,7 @@ public:
                               const aesl::Options& options) const;
     // Sends the program in fragments, waits for the node's word after each, sets breakpoints again,
     // and runs it unless it is to stay as SetBytecode leaves it: paused before its first line.
-    Result<RequestId> load(NodeId id, const aesl::Program& program,
+    Result<RequestId> load(NodeId id, SharedValue<aesl::Program> program,
                            AfterLoad then = AfterLoad::Run);
     // What is being loaded there, or waits for that, is not let run then, as somebody has to brake.
     // False: nothing is, or it was told to run already and counts as loaded.

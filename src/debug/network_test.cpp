@@ -84,9 +84,16 @@ TEST(Discovery, TheDescriptionBecomesATarget) {
         .local_events = {{"tap", "?"}},
         .natives = {{"a.b", "!", {{"d", 2}, {"v", -1}, {"a", 0}}}},
     };
-    EXPECT_EQ(bus.network.node(1)->target, expected);
+    EXPECT_EQ(*bus.network.node(1)->target, expected);
     bus.node_says("04 00 01 00 0a 90 05 00 03 00");
     EXPECT_EQ(bus.network.node(1)->state, ProgramState::Paused);
+}
+
+TEST(Discovery, EqualNodesHaveOneDescription) {
+    ScriptedBus bus;
+    bus.meet_robot(1);
+    bus.meet_robot(2);
+    EXPECT_TRUE(bus.network.node(1)->target.shares(bus.network.node(2)->target));
 }
 
 TEST(Discovery, WhatASecondHostMakesTheNodeRepeatIsIgnored) {
@@ -94,7 +101,7 @@ TEST(Discovery, WhatASecondHostMakesTheNodeRepeatIsIgnored) {
     bus.meet_robot(1);
     bus.describe_robot(1);
     bus.variable(1, "more", 1);
-    EXPECT_EQ(bus.network.node(1)->target.variables.size(), 3u);
+    EXPECT_EQ(bus.network.node(1)->target->variables.size(), 3u);
     EXPECT_TRUE(bus.told<NodeDescribed>().empty());
 }
 
@@ -145,7 +152,7 @@ TEST(Discovery, ALostPartIsMendedByTheNextWholeDescription) {
     bus.node_says("06 00 01 00 01 90 01 00 03 5f 69 64");
     bus.node_says("06 00 01 00 01 90 20 00 03 61 62 63");
     ASSERT_EQ(bus.told<NodeDescribed>().size(), 1u);
-    EXPECT_EQ(bus.network.node(1)->target.variables[1].name, "abc");
+    EXPECT_EQ(bus.network.node(1)->target->variables[1].name, "abc");
 }
 
 // Dump 11: a node of version 9 with 1 variable and 1 event.
@@ -252,7 +259,7 @@ TEST(Presence, ANodeThatComesBackAsAnotherIsDescribedAnew) {
     bus.node_says(kPresent1);
     bus.describe_robot(1, 1000);
     EXPECT_EQ(bus.told<NodeDescribed>().size(), 1u);
-    EXPECT_EQ(bus.network.node(1)->target.bytecode_size, 1000);
+    EXPECT_EQ(bus.network.node(1)->target->bytecode_size, 1000);
 }
 
 TEST(Presence, ANodeThatSaysGoodbyeIsForgotten) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "debug/known_targets.hpp"
 #include "debug/network.hpp"
 #include "debug/turns.hpp"
 #include "wire/messages.hpp"
@@ -23,6 +24,7 @@ public:
     Time now{};          // as receive() or tick() were told last
     Turns descriptions;  // of nodes that are asked what they are
     Turns requests;      // of nodes of which something is asked
+    KnownTargets targets;
 
     template <typename Message>
     void send(const Message& message) {

@@ -108,16 +108,16 @@ void Peer::describe_progress() {
 }
 
 void Peer::described() {
-    const aesl::Target& target = describer_.description().target();
-    const bool same = view_.described && view_.target == target;
+    SharedValue<aesl::Target> target = out_.targets.of(describer_.give());
+    const bool same = view_.described && *view_.target == *target;
     if (!same) {
-        view_.target = target;
-        view_.name = target.name;
-        view_.protocol = target.protocol_version;
+        view_.target = std::move(target);
+        view_.name = view_.target->name;
+        view_.protocol = view_.target->protocol_version;
         view_.described = true;
         view_.program.reset();  // was made for another node
         watches_.clear();
-        out_.tell(view_.id, NodeDescribed{target.name});
+        out_.tell(view_.id, NodeDescribed{view_.target->name});
     } else {
         out_.tell(view_.id, NodeConfirmed{});
     }
@@ -126,9 +126,9 @@ void Peer::described() {
 }
 
 // What the node told is over from now on.
-Result<RequestId> Peer::load(const aesl::Program& program, AfterLoad then) {
+Result<RequestId> Peer::load(SharedValue<aesl::Program> program, AfterLoad then) {
     (void)forget_told_program();
-    return control_.load(program, then);
+    return control_.load(std::move(program), then);
 }
 
 void Peer::refuse_description() {

@@ -37,8 +37,8 @@ public:
 
     const NodeView& view() const { return view_; }
     Control& control() { return control_; }
-    Result<RequestId> load(const aesl::Program& program, AfterLoad then);
-    size_t description_bytes() const { return describer_.description().bytes(); }
+    Result<RequestId> load(SharedValue<aesl::Program> program, AfterLoad then);
+    size_t description_bytes() const { return describer_.bytes(); }
     // kDescriptionBytesTotalMax is passed: this description is dropped.
     void refuse_description();
 

@@ -18,6 +18,7 @@
 #include "session/plan_world.hpp"
 #include "session/safe_stop.hpp"
 #include "sim/crew.hpp"
+#include "sim/world_threads.hpp"
 #include "toolbox/bus.hpp"
 #include "toolbox/core_values.hpp"
 #include "toolbox/needs_bus.hpp"
@@ -334,14 +335,16 @@ Result<run::Ended> PreparedRun::Insides::run_beside_world() {
     if (world_used) TRY(open_world());
     world_used = true;
     Pace pace(*hosts);
+    sim::WorldThreads threads(world->session().world(), !words.threads.empty());
     const bool paced = words.clock != "virtual";
-    world->before_each([this, &pace, paced](Time at) {
+    world->before_each([this, &pace, &threads, paced](Time at) {
+        threads.end(hosts->now(), sim::kNodeStep);
         if (!listening.empty()) (void)hosts->poll(hosts->now());
-        if (wait) {
+        if (wait)
             wait(at);
-        } else if (paced) {
+        else if (paced)
             pace.wait(at);
-        }
+        threads.begin(hosts->now());
     });
     world->join(how);
     const run::Ended ended =

@@ -57,7 +57,7 @@ std::vector<RunOption> options_of_its_robot() {
          .one = &RunWords::robot},
         {.name = "--threads",
          .value = "N",
-         .help = "threads for the world (one below 200 robots, else all processors)",
+         .help = "threads for the world (one below 200 robots, else what proves faster)",
          .one = &RunWords::threads},
         {.name = "--trace-all",
          .value = "FILE",

@@ -7,19 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "base/text.hpp"
 #include "fleet/member.hpp"
+#include "fleet/topic.hpp"
 
 namespace vagus::fleet {
-
-inline bool matches(const std::string& filter, const std::string& topic) {
-    const auto wanted = split(filter, '/'), levels = split(topic, '/');
-    if (wanted.size() != levels.size()) return false;
-    for (size_t i = 0; i < levels.size(); ++i) {
-        if (wanted[i] != "+" && wanted[i] != levels[i]) return false;
-    }
-    return true;
-}
 
 class TestBroker {
 public:
@@ -80,7 +71,7 @@ private:
         for (const Filter& filter : wanted.filters) {
             client.filters.push_back(filter);
             for (const auto& [topic, post] : retained_) {
-                if (matches(filter.topic, topic)) deliver(client, post, true);
+                if (matches_filter(filter.topic, topic)) deliver(client, post, true);
             }
         }
     }
@@ -89,7 +80,7 @@ private:
         if (post.retained) retained_[post.topic] = post;
         for (const auto& client : clients_) {
             for (const Filter& filter : client->filters) {
-                if (!matches(filter.topic, post.topic)) continue;
+                if (!matches_filter(filter.topic, post.topic)) continue;
                 if (filter.own || client.get() != by) deliver(*client, post, false);
             }
         }

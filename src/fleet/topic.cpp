@@ -182,4 +182,13 @@ std::string filter_of_commands(std::string_view fleet, std::string_view robot) {
     return fmt::format("{}cmd/{}/+", prefix(fleet), escape(robot));
 }
 
+bool matches_filter(std::string_view filter, std::string_view topic) {
+    const auto wanted = split(filter, '/'), levels = split(topic, '/');
+    if (wanted.size() != levels.size()) return false;
+    for (size_t i = 0; i < levels.size(); ++i) {
+        if (wanted[i] != "+" && wanted[i] != levels[i]) return false;
+    }
+    return true;
+}
+
 }  // namespace vagus::fleet

@@ -47,4 +47,7 @@ std::string filter_of_event(std::string_view fleet, std::string_view event);
 // Commands to one robot.
 std::string filter_of_commands(std::string_view fleet, std::string_view robot);
 
+// Whether a topic is one of those that the filter means: `+` stands for one level.
+bool matches_filter(std::string_view filter, std::string_view topic);
+
 }  // namespace vagus::fleet

@@ -116,9 +116,10 @@ std::string_view name_of(PlanResult result) {
     return "Error";
 }
 
-std::string format_trace(const TraceEvent& event) {
-    std::string line =
-        fmt::format("{{\"t\":{},\"plan\":{}", seconds_text(event.at), json_quote(event.plan));
+std::string format_trace(const TraceEvent& event, std::string_view robot) {
+    std::string line = "{\"t\":" + seconds_text(event.at);
+    if (!robot.empty()) line += ",\"robot\":" + json_quote(robot);
+    line += ",\"plan\":" + json_quote(event.plan);
     std::visit(Members(line), event.what);
     return line + "}";
 }

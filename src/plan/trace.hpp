@@ -81,7 +81,8 @@ struct TraceEvent {
         what;
 };
 
-// One line of JSON, without the newline.
-std::string format_trace(const TraceEvent& event);
+// One line of JSON, without the newline. With a robot, where there are several with plans, the line
+// names it.
+std::string format_trace(const TraceEvent& event, std::string_view robot = {});
 
 }  // namespace vagus::plan

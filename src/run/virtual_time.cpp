@@ -169,19 +169,29 @@ Ended VirtualTime::run() {
 }
 
 Ended VirtualTime::decide() {
+    start();
+    for (let_debug(); !over(); let_debug()) step();
+    return finish();
+}
+
+void VirtualTime::start() {
     machine_.start(options_.set, now_);
     obey();
-    for (let_debug(); !machine_.over(); let_debug()) {
-        write_from_outside();
-        meet_surroundings();
-        if (abort_asked_.exchange(false)) {
-            machine_.abort(now_);
-        } else if (!take_first_due() && !advance()) {
-            timed_out_ = true;
-            machine_.abort(now_);
-        }
-        obey();
+}
+
+void VirtualTime::step() {
+    write_from_outside();
+    meet_surroundings();
+    if (abort_asked_.exchange(false)) {
+        machine_.abort(now_);
+    } else if (!take_first_due() && !advance()) {
+        timed_out_ = true;
+        machine_.abort(now_);
     }
+    obey();
+}
+
+Ended VirtualTime::finish() {
     leave_surroundings();
     // An actor that overstayed its grace time still holds its thread: it is told until it ends.
     while (code_ && !code_->ended) {

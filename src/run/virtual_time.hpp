@@ -5,6 +5,13 @@
 //     const RunOptions options = {.seed = 1, .on_trace = [](const plan::TraceEvent& event) { … }};
 //     VirtualTime run(graph, library, options);
 //     const Ended ended = run.run();
+//
+// Several on one clock are taken in turn, the earliest first; those at one time in the order of
+// their owner. What they have around them is at the same instant for all (surroundings.hpp).
+//
+//     for (VirtualTime* run : runs) run->start();
+//     while (VirtualTime* first = earliest(runs)) first->step();   // by now(), of those not over()
+//     for (VirtualTime* run : runs) tell(run->finish());
 #pragma once
 
 #include <atomic>
@@ -29,6 +36,15 @@ public:
     ~VirtualTime() override;
 
     Ended run();
+
+    // The same in parts, without a debugger: start(), step() until over(), finish().
+    void start();
+    // Takes the next thing due at now(), or lets the clock move on to when the next one is.
+    void step();
+    bool over() const { return machine_.over(); }
+    Time now() const { return now_; }
+    Ended finish();
+
     // Ends the run as soon as what is being taken is done (P28). From any thread.
     void abort() { abort_asked_ = true; }
     // Writes a variable of the outermost plan as soon as what is being taken is done (P29); a value

@@ -18,7 +18,7 @@ bool runs(const debug::NodeView& node) {
 }  // namespace
 
 bool halts_itself(const debug::NodeView& node) {
-    const auto& events = node.target.local_events;
+    const auto& events = node.target->local_events;
     return node.described && std::any_of(events.begin(), events.end(), [](const auto& event) {
                return event.name == kHaltedEvent;
            });

@@ -26,18 +26,44 @@ std::string words_of(std::span<const int16_t> values) {
 }  // namespace
 
 SimSession::SimSession(sim::World world, SimOptions options)
-    : world_(std::move(world)),
+    : owned_(std::make_unique<sim::World>(std::move(world))),
+      world_(owned_.get()),
       options_(std::move(options)),
-      link_(world_.bus().add({.name = "session"}).value()),
-      over_can_(world_.bus_load().has_value()) {
-    for (const sim::RobotView& robot : world_.robots()) {
-        for (uint16_t place = 0; place < robot.nodes; place++) {
-            nodes_.push_back({robot.id, std::string(robot.name),
-                              static_cast<uint16_t>(robot.node + place), place, robot.nodes,
-                              std::nullopt, ""});
-            index_of_.emplace(nodes_.back().id, nodes_.size() - 1);
-        }
+      link_(bus().add({.name = "session"}).value()),
+      over_can_(world_->bus_load().has_value()) {
+    for (const sim::RobotView& robot : world_->robots()) {
+        if (!robot.own_bus) add_nodes_of(robot);
     }
+}
+
+SimSession::SimSession(sim::World& world, sim::RobotId robot, SimOptions options)
+    : world_(&world),
+      robot_(robot),
+      robot_name_(world.definition().robots[robot.number - 1].name),
+      options_(std::move(options)),
+      link_(bus().add({.name = "session"}).value()),
+      over_can_(world.bus_load(robot).has_value()) {
+    add_nodes_of(world.robots()[robot.number - 1]);
+}
+
+void SimSession::add_nodes_of(const sim::RobotView& robot) {
+    for (uint16_t place = 0; place < robot.nodes; place++) {
+        nodes_.push_back({robot.id, std::string(robot.name),
+                          static_cast<uint16_t>(robot.node + place), place, robot.nodes,
+                          std::nullopt, ""});
+        index_of_.emplace(nodes_.back().id, nodes_.size() - 1);
+    }
+}
+
+TraceLine SimSession::trace_line(Time at, std::string_view kind) const {
+    TraceLine line(at, kind);
+    if (robot_) line.text("robot", robot_name_);
+    return line;
+}
+
+bool SimSession::is_of_its_bus(sim::RobotId robot) const {
+    if (robot_) return *robot_ == robot;
+    return world_->definition().robots[robot.number - 1].project.empty();
 }
 
 // ---- time ----
@@ -52,33 +78,52 @@ void SimSession::step(Duration span) {
 }
 
 void SimSession::begin_instant() {
+    before_nodes();
+    world_->begin_instant();
+    after_nodes();
+}
+
+void SimSession::before_nodes() {
     send_frames();  // what was emitted since the last
     // On an ideal bus nodes put into our queue at this instant what arrives at the next one.
-    std::vector<wire::Frame> delivered;
-    if (!over_can_) delivered = take_frames();
-    world_.begin_instant();
-    if (over_can_) delivered = take_frames();
-    listen(delivered);
+    if (!over_can_) delivered_ = take_frames();
+}
+
+void SimSession::after_nodes() {
+    if (over_can_) delivered_ = take_frames();
+    listen(delivered_);
 }
 
 void SimSession::end_instant() {
-    const size_t told = world_.happenings().size();
-    world_.end_instant();
+    const size_t told = world_->happenings().size();
+    world_->end_instant();
+    after_bodies(told);
+}
+
+void SimSession::after_bodies(size_t told) {
     if (options_.traced) trace_happenings(told);
     speak();
-    for (const hub::SharedId& shared : world_.bus().take_shared_ids()) {
+    for (const hub::SharedId& shared : bus().take_shared_ids()) {
         note(NoteKind::Trouble, sentence(shared));
     }
+}
+
+void SimSession::before_hold() {
+    delivered_ = take_frames();
+}
+
+void SimSession::after_hold() {
+    listen(delivered_);
+    speak();
 }
 
 bool SimSession::settle() {
     assert(now() == Time{});
     const Duration within = settles_within();
     for (Duration held{}; !settled() && held < within; held += kExchangeEvery) {
-        const std::vector<wire::Frame> delivered = take_frames();
-        world_.hold_instant();
-        listen(delivered);
-        speak();
+        before_hold();
+        world_->hold_instant();
+        after_hold();
     }
     return settled();
 }
@@ -91,7 +136,7 @@ Duration SimSession::settles_within() const {
 std::vector<wire::Frame> SimSession::take_frames() {
     std::vector<wire::Frame> frames = std::exchange(put_off_, {});
     wire::Frame frame;
-    while (world_.bus().take(link_, frame)) frames.push_back(frame);
+    while (bus().take(link_, frame)) frames.push_back(frame);
     return frames;
 }
 
@@ -113,9 +158,9 @@ void SimSession::speak() {
 void SimSession::send_frames() {
     for (const wire::Frame& out : network_.take_frames()) {
         if (emits_to_ && wire::is_user_event(out.type)) {
-            world_.send_to(*emits_to_, link_, out);
+            world_->send_to(*emits_to_, link_, out);
         } else {
-            world_.bus().receive(link_, out);
+            bus().receive(link_, out);
         }
     }
 }
@@ -125,7 +170,7 @@ void SimSession::send_frames() {
 Status SimSession::emit(const std::string& event, std::span<const int16_t> arguments, Time at) {
     const Status sent = network_.emit(event, arguments);
     if (!sent.ok() || !options_.traced) return sent;
-    trace_ += TraceLine(at, "event")
+    trace_ += trace_line(at, "event")
                   .number("node", wire::kHostId)
                   .text("name", event)
                   .words("args", arguments)
@@ -149,13 +194,17 @@ void SimSession::hear_ahead() {
 }
 
 void SimSession::reset() {
-    world_.reset();
+    world_->reset();
+    if (options_.traced) trace_ += TraceLine(world_->now(), "reset").done();
+    begin_again();
+}
+
+void SimSession::begin_again() {
     rest_ = {};
     events_.clear();
-    if (options_.traced) trace_ += TraceLine(world_.now(), "reset").done();
     for (Node& node : nodes_) {
         node.fault.clear();
-        if (node.script && !node.script->program.bytecode.empty()) {
+        if (node.script && !node.script->program->bytecode.empty()) {
             enter(*node.script, Stage::Ready);
         }
     }
@@ -164,6 +213,11 @@ void SimSession::reset() {
 bool SimSession::settled() const {
     const size_t on_their_way = count(Stage::Waiting) + count(Stage::Ready) + count(Stage::Sent);
     return waiting_.empty() && on_their_way == 0;
+}
+
+void SimSession::stop_nodes() {
+    for (const Node& node : nodes_) (void)network_.stop_now(node.id);
+    send_frames();
 }
 
 bool SimSession::stop_guests(Stopping::How how) {
@@ -201,7 +255,7 @@ void SimSession::hear(const debug::Event& event) {
         hear_done(*node, *done);
     } else if (const auto* changed = std::get_if<debug::StateChanged>(&event.what)) {
         if (!options_.traced) return;
-        trace_ += TraceLine(now(), "state")
+        trace_ += trace_line(now(), "state")
                       .number("node", event.node)
                       .text("state", debug::name_of(changed->state))
                       .done();
@@ -219,7 +273,7 @@ void SimSession::hear_user_event(const debug::Event& event, const debug::UserEve
     note(NoteKind::Event, from + ": " + name + words_of(sent.arguments));
     // Events of nodes are traced as they happen (trace_happenings); hosts speak between the steps.
     if (!options_.traced || node != nullptr) return;
-    trace_ += TraceLine(now(), "event")
+    trace_ += trace_line(now(), "event")
                   .number("node", event.node)
                   .text("name", name)
                   .words("args", sent.arguments)
@@ -229,7 +283,7 @@ void SimSession::hear_user_event(const debug::Event& event, const debug::UserEve
 void SimSession::hear_fault(Node& node, const debug::Fault& fault) {
     std::string where = label(node);
     if (node.script && fault.at.line > 0) {
-        const int line = fault.at.line + node.script->script.first_line - 1;
+        const int line = fault.at.line + node.script->script->first_line - 1;
         where = node.script->path + ":" + std::to_string(line);
     }
     const std::string sentence = where + ": " + fault.text;
@@ -250,41 +304,56 @@ void SimSession::hear_done(Node& node, const debug::RequestDone& done) {
     enter(script, Stage::Runs);
     node.fault.clear();
     note(NoteKind::Loaded, script.path + " runs on " + label(node) + ", " +
-                               std::to_string(script.program.bytecode.size()) + " words");
+                               std::to_string(script.program->bytecode.size()) + " words");
 }
 
 void SimSession::trace_happenings(size_t first) {
-    const auto& robots = world_.definition().robots;
-    for (const sim::Happening& happening : world_.happenings().subspan(first)) {
-        const std::string& name = robots[happening.robot.number - 1].name;
-        if (const auto* sent = std::get_if<sim::Emitted>(&happening.what)) {
-            const auto& events = network_.common().events;
-            const std::string event = sent->event < events.size() ? events[sent->event].name
-                                                                  : std::to_string(sent->event);
-            trace_ += TraceLine(happening.at, "event")
-                          .number("node", happening.node)
-                          .text("name", event)
-                          .words("args", sent->arguments)
-                          .done();
-        } else if (const auto* fault = std::get_if<sim::Fault>(&happening.what)) {
-            trace_ += TraceLine(happening.at, "fault")
-                          .number("node", happening.node)
-                          .text("what", fault->what)
-                          .number("pc", fault->pc)
-                          .done();
-        } else if (const auto* pose = std::get_if<sim::PoseNote>(&happening.what)) {
-            trace_ += TraceLine(happening.at, "pose")
-                          .text("robot", name)
-                          .real("x", pose->pose.at.x)
-                          .real("y", pose->pose.at.y)
-                          .real("angle", pose->pose.angle)
-                          .done();
-        } else if (const auto* contact = std::get_if<sim::Contact>(&happening.what)) {
-            trace_ += TraceLine(happening.at, "contact")
-                          .text("robot", name)
-                          .text("with", contact->with)
-                          .done();
+    for (const sim::Happening& happening : world_->happenings().subspan(first)) {
+        const bool on_bus = std::holds_alternative<sim::Emitted>(happening.what) ||
+                            std::holds_alternative<sim::Fault>(happening.what);
+        if (!on_bus) {
+            trace_of_body(happening);
+        } else if (is_of_its_bus(happening.robot)) {
+            trace_on_bus(happening);
         }
+    }
+}
+
+void SimSession::trace_on_bus(const sim::Happening& happening) {
+    if (const auto* sent = std::get_if<sim::Emitted>(&happening.what)) {
+        const auto& events = network_.common().events;
+        const std::string event =
+            sent->event < events.size() ? events[sent->event].name : std::to_string(sent->event);
+        trace_ += trace_line(happening.at, "event")
+                      .number("node", happening.node)
+                      .text("name", event)
+                      .words("args", sent->arguments)
+                      .done();
+    } else if (const auto* fault = std::get_if<sim::Fault>(&happening.what)) {
+        trace_ += trace_line(happening.at, "fault")
+                      .number("node", happening.node)
+                      .text("what", fault->what)
+                      .number("pc", fault->pc)
+                      .done();
+    }
+}
+
+// The session of the common bus tells it of all robots.
+void SimSession::trace_of_body(const sim::Happening& happening) {
+    if (robot_) return;
+    const std::string& name = world_->definition().robots[happening.robot.number - 1].name;
+    if (const auto* pose = std::get_if<sim::PoseNote>(&happening.what)) {
+        trace_ += TraceLine(happening.at, "pose")
+                      .text("robot", name)
+                      .real("x", pose->pose.at.x)
+                      .real("y", pose->pose.at.y)
+                      .real("angle", pose->pose.angle)
+                      .done();
+    } else if (const auto* contact = std::get_if<sim::Contact>(&happening.what)) {
+        trace_ += TraceLine(happening.at, "contact")
+                      .text("robot", name)
+                      .text("with", contact->with)
+                      .done();
     }
 }
 
@@ -322,10 +391,10 @@ std::vector<std::pair<std::string, std::span<const int16_t>>> SimSession::script
     uint16_t id) const {
     std::vector<std::pair<std::string, std::span<const int16_t>>> list;
     const debug::NodeView* node = network_.node(id);
-    if (node == nullptr || !node->program) return list;
+    if (node == nullptr || !node->program || find(id) == nullptr) return list;
     size_t own = 0;
-    for (const aesl::NamedVariable& variable : node->target.variables) own += variable.size;
-    const std::span<const int16_t> memory = world_.variables_of(id);
+    for (const aesl::NamedVariable& variable : node->target->variables) own += variable.size;
+    const std::span<const int16_t> memory = world_->variables(find(id)->robot, id);
     for (const aesl::VariablePlace& place : node->program->variables) {
         if (place.address < own || size_t{place.address} + place.size > memory.size()) continue;
         list.emplace_back(place.name, memory.subspan(place.address, place.size));
@@ -337,9 +406,9 @@ std::span<const int16_t> SimSession::node_variable(sim::RobotId id, std::string_
     for (const Node& node : std::ranges::equal_range(nodes_, id, {}, &Node::robot)) {
         const debug::NodeView* view = network_.node(node.id);
         if (view == nullptr) continue;
-        const std::span<const int16_t> memory = world_.variables_of(node.id);
+        const std::span<const int16_t> memory = world_->variables(node.robot, node.id);
         size_t address = 0;
-        for (const aesl::NamedVariable& variable : view->target.variables) {
+        for (const aesl::NamedVariable& variable : view->target->variables) {
             if (address + variable.size > memory.size()) break;
             if (variable.name == name) return memory.subspan(address, variable.size);
             address += variable.size;
@@ -350,7 +419,7 @@ std::span<const int16_t> SimSession::node_variable(sim::RobotId id, std::string_
 
 const aesl::Target* SimSession::target(uint16_t id) const {
     const debug::NodeView* view = network_.node(id);
-    return view != nullptr && view->described ? &view->target : nullptr;
+    return view != nullptr && view->described ? &*view->target : nullptr;
 }
 
 std::vector<EventCount> SimSession::events() const {
@@ -421,15 +490,34 @@ Result<SimSession> open_sim(const std::string& path, SimOptions options) {
     return open_sim_text(path, TRY(read_file(path)), std::move(options));
 }
 
+namespace {
+
+// A sentence for those who run the common bus alone.
+std::vector<std::string> hints(const sim::World& world, const std::string& path,
+                               const std::string& text, Projects projects) {
+    std::vector<std::string> lines = sim::hints_of_world(text, path);
+    const auto& robots = world.definition().robots;
+    const auto standing = std::count_if(robots.begin(), robots.end(),
+                                        [](const auto& robot) { return !robot.project.empty(); });
+    if (projects == Projects::Run || standing == 0) return lines;
+    lines.push_back(path + ": warning: " + std::to_string(standing) +
+                    (standing == 1 ? " robot with a project of its own stands"
+                                   : " robots with projects of their own stand") +
+                    " still here; `vagus sim` runs each on a bus of its own");
+    return lines;
+}
+
+}  // namespace
+
 Result<SimSession> open_sim_text(const std::string& path, const std::string& text,
-                                 SimOptions options) {
+                                 SimOptions options, Projects projects) {
     namespace fs = std::filesystem;
     options.world.folder = fs::path(path).parent_path().string();
     if (options.world.folder.empty()) options.world.folder = ".";
     SimSession session(TRY(sim::World::load(text, path, options.world)), options);
     const auto& robots = session.world().definition().robots;
     const auto views = session.world().robots();
-    session.warn(sim::hints_of_world(text, path));
+    session.warn(hints(session.world(), path, text, projects));
     for (size_t i = 0; i < robots.size() && i < views.size(); i++) {
         if (robots[i].script.empty()) continue;
         const Result<std::string> script = path_beside(path, robots[i].script);

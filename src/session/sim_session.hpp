@@ -10,6 +10,9 @@
 //     for (const Note& note : session.take_notes()) show(note.text);
 //     for (const NodeState& node : session.nodes()) show(node.name, node.state);
 //
+// A robot of the world that has a project is on a bus of its own, and has a session of its own,
+// which borrows the world; world_buses.hpp steps them all together.
+//
 // What mistakes a script has is known once the robots have described themselves, some milliseconds
 // of simulated time after the start: settled() tells when.
 #pragma once
@@ -27,10 +30,12 @@
 #include "aesl/compile.hpp"
 #include "base/diagnostic.hpp"
 #include "base/result.hpp"
+#include "base/shared_value.hpp"
 #include "debug/network.hpp"
 #include "debug/turns.hpp"
 #include "session/script_file.hpp"
 #include "session/stopping.hpp"
+#include "session/trace.hpp"
 #include "sim/world.hpp"
 
 namespace vagus::session {
@@ -63,6 +68,8 @@ enum class NoteKind {
     Event,     // someone sent a user event
     Fault,     // a script was stopped by what it did
     Trouble,   // a script could not be sent
+    Plan,      // the plan of a robot with a project has ended
+    Fleet,     // what such a robot says of its fleet
 };
 
 struct Note {
@@ -91,7 +98,11 @@ struct NodeState {
 
 class SimSession {
 public:
+    // Of the common bus.
     SimSession(sim::World world, SimOptions options);
+    // Of the bus of that robot alone, in a world that another session owns. Lines of its trace name
+    // the robot.
+    SimSession(sim::World& world, sim::RobotId robot, SimOptions options);
 
     // Takes over the scripts of a file for all nodes they are for; those of the same path that came
     // before are forgotten. A plain script is for the first node of every robot. Whatever is wrong,
@@ -112,14 +123,25 @@ public:
     // between the nodes and the bodies.
     void begin_instant();
     void end_instant();
+    // What a session does around the steps of a world that several share: before its nodes have
+    // their turns, behind that, and behind the bodies; `told` is how many happenings there were
+    // before the bodies moved.
+    void before_nodes();
+    void after_nodes();
+    void after_bodies(size_t told);
+    // The same around sim::World::hold_instant().
+    void before_hold();
+    void after_hold();
     // At time 0: loads the scripts while the world is paused (docs/decisions/0083). False if not
     // all of them are settled() after settles_within().
     bool settle();
     // By then everything is settled() that ever will be: kSettleWithin and kSettleWithinMore.
     Duration settles_within() const;
-    Time now() const { return world_.now(); }
+    Time now() const { return world_->now(); }
     // Time 0 again, and the same scripts are sent again.
     void reset();
+    // The same where somebody else has reset the world.
+    void begin_again();
     // Everything that was loaded runs on its node, or has mistakes.
     bool settled() const;
 
@@ -138,6 +160,9 @@ public:
     // Names of events and constants, by the projects that the robots load.
     const aesl::CommonDefinitions& common() const { return network_.common(); }
 
+    // Stops all nodes of its robots, as a host does who presses Stop.
+    void stop_nodes();
+
     // ---- guests: nodes that others brought to the bus, real ones perhaps ----
     // Tells them to stop and makes them safe, as SimOptions::guests says; they are read back while
     // the world steps on. With Rest their scripts run on. False: there are none.
@@ -147,8 +172,10 @@ public:
     std::vector<StopNode> guests() const;
 
     // ---- looking ----
-    const sim::World& world() const { return world_; }
-    sim::World& world() { return world_; }
+    const sim::World& world() const { return *world_; }
+    sim::World& world() { return *world_; }
+    // The bus of this session.
+    hub::Hub& bus() { return robot_ ? world_->bus_of(*robot_) : world_->bus(); }
     // All nodes of all robots: in the order of the robots, and of the nodes of each.
     std::vector<NodeState> nodes() const;
     // The script's own variables of a node with their values now, in order of address; empty
@@ -170,6 +197,8 @@ public:
     std::vector<std::string> without_script() const;
 
     std::vector<Note> take_notes();
+    // One more note, of whoever runs what belongs to this bus.
+    void tell(NoteKind kind, std::string text) { note(kind, std::move(text)); }
     std::string take_trace();
     // What is doubtful about the world file: FILE:LINE:COL: warning: sentence. Also a note.
     const std::vector<std::string>& hints() const { return hints_; }
@@ -181,10 +210,10 @@ private:
     static constexpr size_t kStages = 5;
     struct Assignment {
         std::string path;
-        aesl::Script script;
-        aesl::CommonDefinitions common;
+        SharedValue<aesl::Script> script;
+        SharedValue<aesl::CommonDefinitions> common;
         Stage stage = Stage::Waiting;
-        aesl::Program program;  // the last that compiled
+        SharedValue<aesl::Program> program;  // the last that compiled
         debug::RequestId request;
         std::vector<Diagnostic> mistakes;  // of the text as it is now; `program` may be older
     };
@@ -199,11 +228,10 @@ private:
     };
     struct Compiled {  // a script for a kind of node
         std::string path;
-        std::string source;
-        int first_line = 1;
-        aesl::CommonDefinitions common;
-        aesl::Target target;
-        aesl::Program program;
+        SharedValue<aesl::Script> script;
+        SharedValue<aesl::CommonDefinitions> common;
+        SharedValue<aesl::Target> target;
+        SharedValue<aesl::Program> program;
         bool good = false;
         std::vector<Diagnostic> mistakes;
     };
@@ -212,6 +240,9 @@ private:
         std::optional<sim::RobotId> only;
     };
 
+    void add_nodes_of(const sim::RobotView& robot);
+    TraceLine trace_line(Time at, std::string_view kind) const;
+    bool is_of_its_bus(sim::RobotId robot) const;
     std::vector<wire::Frame> take_frames();
     void listen(const std::vector<wire::Frame>& delivered);
     void speak();
@@ -222,6 +253,8 @@ private:
     void hear_fault(Node& node, const debug::Fault& fault);
     void hear_done(Node& node, const debug::RequestDone& done);
     void trace_happenings(size_t first);
+    void trace_on_bus(const sim::Happening& happening);
+    void trace_of_body(const sim::Happening& happening);
     void take(const std::string& path, std::optional<sim::RobotId> only, std::string_view text);
     bool all_described();
     void place_files();
@@ -245,11 +278,15 @@ private:
     const Node* find(debug::NodeId id) const;
     std::string label(const Node& node) const;
 
-    sim::World world_;
+    std::unique_ptr<sim::World> owned_;  // nullptr: another session owns it
+    sim::World* world_;
+    std::optional<sim::RobotId> robot_;  // whose bus it is; empty: the common one
+    std::string robot_name_;
     SimOptions options_;
     debug::Network network_;
-    hub::LinkId link_;                  // ours on the bus
-    std::vector<wire::Frame> put_off_;  // taken by hear_ahead(), for the next instant
+    hub::LinkId link_;                    // ours on the bus
+    std::vector<wire::Frame> put_off_;    // taken by hear_ahead(), for the next instant
+    std::vector<wire::Frame> delivered_;  // to be heard behind the turns of the nodes
     std::optional<sim::RobotId> emits_to_;
     bool over_can_;                                  // frames cross a modelled bus
     Time clock_{};                                   // of the network: goes on over reset()
@@ -273,10 +310,14 @@ private:
     std::string trace_;
 };
 
+// Whether robots with a project of their own have somebody who runs it (world_buses.hpp), or stand
+// still in a session of the common bus alone, which says so in a hint.
+enum class Projects { StandStill, Run };
+
 // Opens a world file and loads the scripts that it names for its robots, from the file's folder.
 Result<SimSession> open_sim(const std::string& path, SimOptions options);
 // The same of a text that the file may not have yet: as it is in an editor.
 Result<SimSession> open_sim_text(const std::string& path, const std::string& text,
-                                 SimOptions options);
+                                 SimOptions options, Projects projects = Projects::StandStill);
 
 }  // namespace vagus::session

@@ -146,7 +146,7 @@ std::map<uint16_t, std::string> SimSession::running_scripts() const {
     std::map<uint16_t, std::string> running;
     for (const Node& node : nodes_) {
         if (node.script && node.script->stage == Stage::Runs) {
-            running.emplace(node.id, node.script->script.source);
+            running.emplace(node.id, node.script->script->source);
         }
     }
     return running;
@@ -189,14 +189,14 @@ bool SimSession::agree_on_names(const std::string& path, const aesl::CommonDefin
 }
 
 void SimSession::give(Node& node, const ScriptFile& file, const aesl::Script& script) {
-    aesl::Program before;
+    SharedValue<aesl::Program> before;
     if (node.script && node.script->path == file.path) before = node.script->program;
     if (node.script) count(node.script->stage)--;
     count(Stage::Waiting)++;
     node.script = Assignment{
         file.path, script, file.project.common, Stage::Waiting, std::move(before), {}, {}};
     if (file.plain) {
-        const auto& target = network_.node(node.id)->target;
+        const aesl::Target& target = network_.node(node.id)->target;
         node.script->common = with_emitted(names_without(file.path), script.source, target);
         if (!agree_on_names(file.path, node.script->common)) return;
     }
@@ -206,21 +206,22 @@ void SimSession::give(Node& node, const ScriptFile& file, const aesl::Script& sc
 // Many robots of one kind have one script: it is compiled, and its mistakes are told, once.
 const SimSession::Compiled& SimSession::compiled(const Node& node) {
     const Assignment& script = *node.script;
-    const aesl::Target& target = network_.node(node.id)->target;
+    const SharedValue<aesl::Target>& target = network_.node(node.id)->target;
+    const std::string& source = script.script->source;
+    const int first_line = script.script->first_line;
     for (const Compiled& known : compiled_) {
-        if (known.path == script.path && known.first_line == script.script.first_line &&
-            known.source == script.script.source && known.common == script.common &&
-            known.target == target) {
+        if (known.path == script.path && known.script->first_line == first_line &&
+            known.script->source == source && *known.common == *script.common &&
+            *known.target == *target) {
             return known;
         }
     }
     aesl::Options how = options_for(script.common, options_.compile);
-    how.first_line = script.script.first_line;
-    const aesl::Compilation done = aesl::compile(script.script.source, target, script.common, how);
-    const SourceText text{script.path, script.script.source, script.script.first_line};
+    how.first_line = first_line;
+    const aesl::Compilation done = aesl::compile(source, target, script.common, how);
+    const SourceText text{script.path, source, first_line};
     Compiled made{script.path,
-                  script.script.source,
-                  script.script.first_line,
+                  script.script,
                   script.common,
                   target,
                   done.program,
@@ -236,6 +237,10 @@ const SimSession::Compiled& SimSession::compiled(const Node& node) {
 void SimSession::compile(Node& node) {
     Assignment& script = *node.script;
     const Compiled& done = compiled(node);
+    script.common = done.common;  // equal, and there once
+    const bool same =
+        script.script->node == done.script->node && script.script->node_id == done.script->node_id;
+    if (same) script.script = done.script;
     if (!done.good) {
         script.mistakes = done.mistakes;
         enter(script, Stage::Failed);

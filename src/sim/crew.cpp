@@ -51,7 +51,7 @@ void Crew::each(size_t count, const std::function<void(size_t)>& part) {
 
 void Crew::beside(const std::function<void()>& own, size_t count,
                   const std::function<void(size_t)>& part) {
-    if (others_.empty() || count < kPartsForTwo) {
+    if (alone_ || others_.empty() || count < kPartsForTwo) {
         own();
         for (size_t i = 0; i < count; ++i) part(i);
         return;

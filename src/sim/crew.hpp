@@ -34,6 +34,8 @@ public:
     Crew& operator=(const Crew&) = delete;
 
     unsigned size() const { return static_cast<unsigned>(others_.size()) + 1; }
+    // From now on the calling thread does all of it, or the others help again.
+    void work_alone(bool alone) { alone_ = alone; }
     // Calls `part` for 0 to count - 1, each once; `part` must not throw, nor use the crew.
     void each(size_t count, const std::function<void(size_t)>& part);
     // The same while the calling thread does something of its own first, which touches no part.
@@ -58,6 +60,7 @@ private:
     // Of this round: written before it begins, and not until nobody is inside any more.
     std::vector<Share> shares_;
     const int looks_;
+    bool alone_ = false;
     const std::function<void(size_t)>* part_ = nullptr;
     size_t at_once_ = 1;  // parts that are taken together
 

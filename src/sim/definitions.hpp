@@ -27,6 +27,7 @@ constexpr Duration kPhysicsStep = std::chrono::milliseconds(10);
 
 constexpr size_t kRobotsMax = 10000;
 constexpr size_t kObjectsMax = 10000;
+constexpr size_t kNodeLast = 65534;  // 65535 is nobody
 constexpr size_t kTimelineMax = 10000;
 constexpr double kWorldSizeMax = 100;  // metres, each side
 constexpr double kWorldSizeMin = 0.2;
@@ -35,6 +36,8 @@ constexpr double kMassMax = 1000;         // kilograms
 constexpr double kAngleMax = 1000;        // radians, either sign
 constexpr double kTimelineEndMax = 1e6;   // seconds
 constexpr size_t kImageSideMax = 8192;    // pixels of a ground image
+constexpr double kFleetDelayMax = 60;     // seconds: latency and jitter of a fleet
+constexpr double kFleetChanceMax = 0.9;   // of a message to be lost, or to arrive twice
 
 struct Point {
     double x = 0;
@@ -91,6 +94,9 @@ struct RobotDefinition {
         {};  // a TCP port of its own beside the common bus; 0: a free one
     std::string script =
         {};  // an .aesl that the opener of the world loads over the bus; empty: none
+    // A folder with a vagus.json, or that file: the robot has a bus of its own, on which the opener
+    // of the world runs that project. Empty: it is on the common bus.
+    std::string project = {};
     Colour paint = {0.95, 0.95, 0.95};
     bool operator==(const RobotDefinition&) const = default;
 };
@@ -121,12 +127,29 @@ struct SwitchLight {
     bool on = true;
     bool operator==(const SwitchLight&) const = default;
 };
-using Action = std::variant<AddObject, RemoveObject, MoveObject, PressButton, SwitchLight>;
+// The way from a robot to its fleet is cut, or there again; the world's opener sees to it.
+struct CutFleet {
+    std::string robot;  // empty: of all of them, as if the broker were gone
+    bool cut = true;
+    bool operator==(const CutFleet&) const = default;
+};
+using Action =
+    std::variant<AddObject, RemoveObject, MoveObject, PressButton, SwitchLight, CutFleet>;
 
 struct TimelineEntry {
     Time at{};
     Action action;
     bool operator==(const TimelineEntry&) const = default;
+};
+
+// How messages between robots of a fleet travel, for the world's opener: the world itself knows no
+// fleets.
+struct FleetDefinition {
+    Duration latency = std::chrono::milliseconds(5);  // of each way: to the broker, and from it
+    Duration jitter{};                                // at most so much more, at random
+    double loss = 0;                                  // how likely a message is lost on a way
+    double twice = 0;                                 // how likely it arrives twice
+    bool operator==(const FleetDefinition&) const = default;
 };
 
 struct WorldDefinition {
@@ -142,6 +165,7 @@ struct WorldDefinition {
     std::vector<ObjectDefinition> objects;
     std::vector<RobotDefinition> robots;
     std::vector<TimelineEntry> timeline;  // by ascending time
+    FleetDefinition fleet;
     bool operator==(const WorldDefinition&) const = default;
 };
 

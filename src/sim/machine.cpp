@@ -69,6 +69,12 @@ void Machine::send(const wire::Frame& frame) {
     sent_.push_back(frame);
 }
 
+// Many nodes describe themselves once, and each in a hundred frames: that room is given back.
+void Machine::forget_sent() {
+    sent_.clear();
+    if (sent_.capacity() > kSentKept) sent_.shrink_to_fit();
+}
+
 void Machine::break_off() const {
     if (definition_.broken_off != nullptr) definition_.broken_off(definition_.robot);
 }

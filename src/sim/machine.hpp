@@ -22,6 +22,7 @@ constexpr uint16_t kInstructionsPerMillisecond = 1000;
 constexpr uint16_t kFramesPerMillisecond = 16;  // that a node looks at
 constexpr size_t kPendingEventsMax = 32;        // local events of one node, none of them twice
 constexpr uint8_t kLocalEventsMax = 64;         // of one node
+constexpr size_t kSentKept = 4;  // frames for which there is room at once; a description is more
 
 struct MachineDefinition {
     const node::Description* description = nullptr;  // must outlive the machine
@@ -76,8 +77,9 @@ public:
     int16_t& variable(uint16_t address) { return variables_[address]; }
     int16_t variable(uint16_t address) const { return variables_[address]; }
     const std::vector<int16_t>& variables() const { return variables_; }
-    // Frames sent since it was last cleared, by the code that carries them on.
-    std::vector<wire::Frame>& sent() { return sent_; }
+    // Frames sent since they were last forgotten, by the code that carries them on.
+    const std::vector<wire::Frame>& sent() const { return sent_; }
+    void forget_sent();
     const vm::Vm& vm() const { return node_.vm; }
 
     // For natives: what is `robot` in the definition of the machine that the node belongs

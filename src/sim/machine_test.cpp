@@ -51,7 +51,7 @@ struct Tested {
         wire::Run run{};
         run.dest = kId;
         send(run);
-        machine.sent().clear();
+        machine.forget_sent();
     }
     void user_event(uint16_t number) {
         wire::Frame frame{};

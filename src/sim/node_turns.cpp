@@ -5,40 +5,74 @@
 
 namespace vagus::sim {
 
+BusModel common_bus_model(const WorldDefinition& definition, std::optional<BusModel> model) {
+    const bool has_carbot = std::any_of(
+        definition.robots.begin(), definition.robots.end(), [](const RobotDefinition& robot) {
+            return robot.project.empty() && robot.type == RobotType::Carbot;
+        });
+    return model.value_or(has_carbot ? BusModel::Can : BusModel::Ideal);
+}
+
+BusModel own_bus_model(const RobotDefinition& robot, std::optional<BusModel> model) {
+    const bool is_carbot = robot.type == RobotType::Carbot;
+    return model.value_or(is_carbot ? BusModel::Can : BusModel::Ideal);
+}
+
 NodeTurns::NodeTurns(const WorldDefinition& definition, hub::Hub& bus, Heard heard)
     : definition_(definition), bus_(bus), heard_(std::move(heard)) {}
 
 // ---- places on the bus ----
 
-Status NodeTurns::join(BusModel model) {
-    std::vector<size_t> by_node;
-    for (size_t i = 0; i < definition_.robots.size(); ++i) by_node.push_back(i);
-    std::sort(by_node.begin(), by_node.end(), [this](size_t a, size_t b) {
+Status NodeTurns::join(std::optional<BusModel> model) {
+    const size_t robots = definition_.robots.size();
+    private_buses_.resize(robots);
+    unit_of_.resize(robots);
+    std::vector<size_t> on_common;
+    for (size_t i = 0; i < robots; ++i) {
+        if (definition_.robots[i].project.empty()) on_common.push_back(i);
+    }
+    std::sort(on_common.begin(), on_common.end(), [this](size_t a, size_t b) {
         return definition_.robots[a].node < definition_.robots[b].node;
     });
-    private_buses_.resize(by_node.size());
-    unit_of_.resize(by_node.size());
-    if (model == BusModel::Can) node_bus_.emplace(bus_, TRY(bus_.add({.name = "nodes"})));
-    for (const size_t index : by_node) {
-        const RobotDefinition& robot = definition_.robots[index];
-        if (robot.port) private_buses_[index] = std::make_unique<hub::Hub>();
-        unit_of_[index] = units_.size();
-        units_.push_back({index, berths_.size(), berths_.size() + nodes_of(robot.type), {}, false});
-        for (size_t place = 0; place < nodes_of(robot.type); ++place) {
-            Berth berth{index, place, {}, {}, {}, false};
-            const auto id = static_cast<uint16_t>(robot.node + place);
-            const hub::LinkOptions link{.name = robot.name, .only_node = id};
-            if (!node_bus_) berth.link = TRY(bus_.add(link));
-            if (robot.port) berth.private_link = TRY(private_buses_[index]->add(link));
-            if (node_bus_ || robot.port) looked_after_.push_back(berths_.size());
-            berths_.push_back(berth);
-        }
+    TRY(open_bus(bus_, on_common, common_bus_model(definition_, model)));
+    for (size_t i = 0; i < robots; ++i) {
+        if (definition_.robots[i].project.empty()) continue;
+        own_buses_.push_back(std::make_unique<hub::Hub>());
+        TRY(open_bus(*own_buses_.back(), {i}, own_bus_model(definition_.robots[i], model)));
+    }
+    return Status::done();
+}
+
+// `robots` by ascending node id.
+Status NodeTurns::open_bus(hub::Hub& hub, const std::vector<size_t>& robots, BusModel model) {
+    Bus& bus = buses_.emplace_back();
+    bus.hub = &hub;
+    bus.first = bus.end = berths_.size();
+    if (model == BusModel::Can) bus.node_bus.emplace(hub, TRY(hub.add({.name = "nodes"})));
+    for (const size_t robot : robots) TRY(take_berths(robot, bus));
+    bus.end = berths_.size();
+    return Status::done();
+}
+
+Status NodeTurns::take_berths(size_t index, Bus& bus) {
+    const RobotDefinition& robot = definition_.robots[index];
+    if (robot.port) private_buses_[index] = std::make_unique<hub::Hub>();
+    unit_of_[index] = units_.size();
+    units_.push_back({index, berths_.size(), berths_.size() + nodes_of(robot.type), {}, false});
+    for (size_t place = 0; place < nodes_of(robot.type); ++place) {
+        Berth berth{index, place, buses_.size() - 1, {}, {}, {}, false};
+        const auto id = static_cast<uint16_t>(robot.node + place);
+        const hub::LinkOptions link{.name = robot.name, .only_node = id};
+        if (!bus.node_bus) berth.link = TRY(bus.hub->add(link));
+        if (robot.port) berth.private_link = TRY(private_buses_[index]->add(link));
+        if (bus.node_bus || robot.port) looked_after_.push_back(berths_.size());
+        berths_.push_back(berth);
     }
     return Status::done();
 }
 
 // On a modelled bus they have the names that their descriptions give them; those of one robot among
-// several have its name before them.
+// several on a bus have its name before them.
 void NodeTurns::move_in(Inhabitants& inhabitants) {
     inhabitants_ = &inhabitants;
     schedule_.start(units_.size());
@@ -48,21 +82,26 @@ void NodeTurns::move_in(Inhabitants& inhabitants) {
         berth.sent_to = false;
         drain(berth);
     }
-    if (!node_bus_) return;
-    if (node_bus_->size() > 0) {
-        node_bus_->reset();
-        return;
-    }
-    for (const Berth& berth : berths_) {
-        const std::string& name = definition_.robots[berth.robot].name;
-        const std::string prefix = definition_.robots.size() > 1 ? name + "/" : "";
-        node_bus_->join(machine(berth).id(), prefix + machine(berth).name());
+    for (Bus& bus : buses_) {
+        if (!bus.node_bus) continue;
+        if (bus.node_bus->size() > 0) {
+            bus.node_bus->reset();
+            continue;
+        }
+        if (bus.first == bus.end) continue;
+        const bool several = berths_[bus.first].robot != berths_[bus.end - 1].robot;
+        for (size_t i = bus.first; i < bus.end; ++i) {
+            const std::string& name = definition_.robots[berths_[i].robot].name;
+            const std::string prefix = several ? name + "/" : "";
+            bus.node_bus->join(machine(berths_[i]).id(), prefix + machine(berths_[i]).name());
+        }
     }
 }
 
 void NodeTurns::drain(const Berth& berth) {
+    Bus& bus = buses_[berth.bus];
     wire::Frame frame;
-    while (!node_bus_ && bus_.take(berth.link, frame)) {
+    while (!bus.node_bus && bus.hub->take(berth.link, frame)) {
     }
     hub::Hub* const own_bus = private_buses_[berth.robot].get();
     while (own_bus != nullptr && own_bus->take(berth.private_link, frame)) {
@@ -72,7 +111,9 @@ void NodeTurns::drain(const Berth& berth) {
 // ---- an instant ----
 
 void NodeTurns::accept(Time now) {
-    if (node_bus_) node_bus_->accept(now);
+    for (Bus& bus : buses_) {
+        if (bus.node_bus) bus.node_bus->accept(now);
+    }
 }
 
 void NodeTurns::call(size_t robot) {
@@ -81,18 +122,24 @@ void NodeTurns::call(size_t robot) {
 
 bool NodeTurns::is_waited_for(const Berth& berth, size_t index) const {
     const hub::Hub* const own_bus = private_buses_[berth.robot].get();
-    return (node_bus_ && node_bus_->has_frames(index)) ||
+    const Bus& bus = buses_[berth.bus];
+    return (bus.node_bus && bus.node_bus->has_frames(index - bus.first)) ||
            (own_bus != nullptr && own_bus->waiting(berth.private_link) > 0);
 }
 
-// A node that was sent something is due.
-void NodeTurns::call_receivers() {
-    for (const hub::LinkId link : bus_.take_reached()) {
-        const size_t index = link.number - berths_.front().link.number;
+// On an ideal bus the hub knows.
+void NodeTurns::call_reached(const Bus& bus) {
+    for (const hub::LinkId link : bus.hub->take_reached()) {
+        const size_t index = bus.first + link.number - berths_[bus.first].link.number;
         assert(berths_[index].link == link);  // they were added in a row
         berths_[index].sent_to = true;
         call(berths_[index].robot);
     }
+}
+
+// A node that was sent something is due.
+void NodeTurns::call_receivers() {
+    for (const Bus& bus : buses_) call_reached(bus);
     for (const size_t index : looked_after_) {
         if (!is_waited_for(berths_[index], index)) continue;
         berths_[index].sent_to = true;
@@ -101,7 +148,9 @@ void NodeTurns::call_receivers() {
 }
 
 void NodeTurns::run(const Surroundings& around, Crew& crew) {
-    if (node_bus_) node_bus_->advance(around.now);
+    for (Bus& bus : buses_) {
+        if (bus.node_bus) bus.node_bus->advance(around.now);
+    }
     call_receivers();
     const std::vector<uint32_t>& due = schedule_.due(around.now);
     crew.each(due.size(), [&](size_t i) { take_turn(units_[due[i]], around); });
@@ -134,7 +183,9 @@ void NodeTurns::take_turn(Unit& unit, const Surroundings& around) {
 }
 
 void NodeTurns::hold() {
-    if (node_bus_) node_bus_->accept_at_once();
+    for (Bus& bus : buses_) {
+        if (bus.node_bus) bus.node_bus->accept_at_once();
+    }
     call_receivers();
     for (size_t i = 0; i < berths_.size(); ++i) deliver(i);
     for (const Berth& berth : berths_) machine(berth).run();
@@ -152,12 +203,14 @@ void NodeTurns::drive(Arena& arena, Time now, Crew& crew) {
 
 void NodeTurns::deliver(size_t index) {
     Berth& berth = berths_[index];
+    Bus& bus = buses_[berth.bus];
     Machine& node = machine(berth);
     node.begin_millisecond();
     if (!berth.sent_to) return;
     wire::Frame frame;
     const auto take = [&] {
-        return node_bus_ ? node_bus_->take(index, frame) : bus_.take(berth.link, frame);
+        return bus.node_bus ? bus.node_bus->take(index - bus.first, frame)
+                            : bus.hub->take(berth.link, frame);
     };
     while (node.wants_frame() && take()) {
         if (!berth.for_others.take(frame)) node.receive(frame);
@@ -170,30 +223,33 @@ void NodeTurns::deliver(size_t index) {
 
 void NodeTurns::collect(size_t index, Time now, Crossing crossing) {
     const Berth& berth = berths_[index];
+    Bus& bus = buses_[berth.bus];
     Machine& node = machine(berth);
     hub::Hub* const own_bus = private_buses_[berth.robot].get();
     for (const wire::Frame& frame : node.sent()) {
-        if (!node_bus_)
-            bus_.receive(berth.link, frame);
+        if (!bus.node_bus)
+            bus.hub->receive(berth.link, frame);
         else if (crossing == Crossing::Timed)
-            node_bus_->send(index, frame, now);
+            bus.node_bus->send(index - bus.first, frame, now);
         else
-            node_bus_->send_at_once(index, frame);
+            bus.node_bus->send_at_once(index - bus.first, frame);
         if (own_bus != nullptr) own_bus->receive(berth.private_link, frame);
         heard_(berth.robot, frame);
     }
-    node.sent().clear();
+    node.forget_sent();
 }
 
 void NodeTurns::send_to(size_t robot, hub::LinkId host, const wire::Frame& frame) {
-    for (Berth& berth : berths_)
-        if (berth.robot != robot) berth.for_others.add(frame);
-    bus_.receive(host, frame);
+    Bus& bus = buses_[bus_index_of(robot)];
+    for (size_t i = bus.first; i < bus.end; ++i) {
+        if (berths_[i].robot != robot) berths_[i].for_others.add(frame);
+    }
+    bus.hub->receive(host, frame);
 }
 
-std::optional<BusLoad> NodeTurns::load() const {
-    if (!node_bus_) return std::nullopt;
-    return node_bus_->load();
+std::optional<BusLoad> NodeTurns::load(const Bus& bus) {
+    if (!bus.node_bus) return std::nullopt;
+    return bus.node_bus->load();
 }
 
 void NodeTurns::host_left(size_t index) {
@@ -201,12 +257,21 @@ void NodeTurns::host_left(size_t index) {
 }
 
 std::span<const int16_t> NodeTurns::variables_of(uint16_t node, Time now) {
+    const auto end = berths_.begin() + static_cast<ptrdiff_t>(buses_.front().end);
     const auto found = std::lower_bound(
-        berths_.begin(), berths_.end(), node,
+        berths_.begin(), end, node,
         [this](const Berth& berth, uint16_t id) { return machine(berth).id() < id; });
-    if (found == berths_.end() || machine(*found).id() != node) return {};
-    robot(found->robot).catch_up(now);
-    return machine(*found).variables();
+    if (found == end || machine(*found).id() != node) return {};
+    return variables_of(found->robot, node, now);
+}
+
+std::span<const int16_t> NodeTurns::variables_of(size_t index, uint16_t node, Time now) {
+    for (Machine* const machine : robot(index).machines()) {
+        if (machine->id() != node) continue;
+        robot(index).catch_up(now);
+        return machine->variables();
+    }
+    return {};
 }
 
 }  // namespace vagus::sim

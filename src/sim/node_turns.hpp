@@ -1,8 +1,9 @@
-// The nodes of a world on their bus: at each instant those that are due get what was sent to them,
-// sense, run, and what they send goes on its way. A node that has nothing to do is not looked at.
+// The nodes of a world on their buses, the common one and those of robots with a project: at each
+// instant those that are due get what was sent to them, sense, run, and what they send goes on its
+// way. A node that has nothing to do is not looked at.
 //
 //     NodeTurns turns(definition, bus, heard);
-//     const Status joined = turns.join(BusModel::Ideal);
+//     const Status joined = turns.join({});
 //     turns.move_in(inhabitants);                       // new robots, at the start of a run
 //     turns.accept(now);                                // an instant: what hosts said before it …
 //     turns.run(surroundings, crew);                    // … and all nodes that are due
@@ -11,6 +12,7 @@
 // It does not know: happenings, timelines, bodies. `heard` is told what nodes send.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -28,15 +30,20 @@
 
 namespace vagus::sim {
 
+// How frames travel on the common bus, and on that of a robot with a project: as `model` says, or
+// else over a Can if a Carbot is on it, for which it is made.
+BusModel common_bus_model(const WorldDefinition& definition, std::optional<BusModel> model);
+BusModel own_bus_model(const RobotDefinition& robot, std::optional<BusModel> model);
+
 class NodeTurns {
 public:
     using Heard = std::function<void(size_t robot, const wire::Frame& frame)>;
 
-    // `definition` and `bus` must outlive this.
+    // `definition` and `bus`, which is the common one, must outlive this.
     NodeTurns(const WorldDefinition& definition, hub::Hub& bus, Heard heard);
 
-    // The places of all nodes on the bus, for good.
-    Status join(BusModel model);
+    // The places of all nodes on their buses, for good; the model as above.
+    Status join(std::optional<BusModel> model);
     // These are the robots now; what was on its way is gone. `inhabitants` must outlive this, or
     // until the next ones move in.
     void move_in(Inhabitants& inhabitants);
@@ -55,11 +62,14 @@ public:
     void call(size_t robot);
 
     void send_to(size_t robot, hub::LinkId host, const wire::Frame& frame);
-    std::optional<BusLoad> load() const;
+    hub::Hub& bus_of(size_t robot) { return *buses_[bus_index_of(robot)].hub; }
+    std::optional<BusLoad> load() const { return load(buses_.front()); }
+    std::optional<BusLoad> load_of(size_t robot) const { return load(buses_[bus_index_of(robot)]); }
     hub::Hub* private_bus(size_t robot) { return private_buses_[robot].get(); }
     void host_left(size_t robot);
-    // As they are at `now`; empty if there is no such node.
+    // As they are at `now`; empty if there is no such node, on the common bus or of that robot.
     std::span<const int16_t> variables_of(uint16_t node, Time now);
+    std::span<const int16_t> variables_of(size_t robot, uint16_t node, Time now);
     // How often a robot had its turn since the first one moved in.
     uint64_t turns_taken() const { return turns_taken_; }
 
@@ -68,7 +78,8 @@ private:
     struct Berth {
         size_t robot = 0;          // index of the robot it belongs to
         size_t place = 0;          // among its machines
-        hub::LinkId link;          // on the bus of all, if that is ideal
+        size_t bus = 0;            // which bus it is on
+        hub::LinkId link;          // on that bus, if it is ideal
         hub::LinkId private_link;  // on that behind the robot's own port, if it has one
         FramesForOthers for_others = {};
         bool sent_to = false;  // something may wait in its queues
@@ -81,13 +92,26 @@ private:
         Time next{};            // when it is due again, as it said at the end of its turn
         bool has_sent = false;  // in its last turn
     };
+    // The nodes of a bus have neighbouring berths.
+    struct Bus {
+        hub::Hub* hub = nullptr;
+        std::optional<NodeBus> node_bus = {};  // between the nodes and `hub`, if it is a Can
+        size_t first = 0;
+        size_t end = 0;
+    };
     // How a frame leaves its node when the bus is modelled.
     enum class Crossing : uint8_t { Timed, AtOnce };
 
     Robot& robot(size_t index) { return *inhabitants_->robots()[index]; }
     Machine& machine(const Berth& berth) { return *robot(berth.robot).machines()[berth.place]; }
+    size_t bus_index_of(size_t robot) const { return berths_[first_berth(robot)].bus; }
+    size_t first_berth(size_t robot) const { return units_[unit_of_[robot]].first; }
+    static std::optional<BusLoad> load(const Bus& bus);
+    Status open_bus(hub::Hub& hub, const std::vector<size_t>& robots, BusModel model);
+    Status take_berths(size_t robot, Bus& bus);
     bool is_waited_for(const Berth& berth, size_t index) const;
     void call_receivers();
+    void call_reached(const Bus& bus);
     void take_turn(Unit& unit, const Surroundings& around);
     void deliver(size_t index);
     void collect(size_t index, Time now, Crossing crossing);
@@ -97,10 +121,13 @@ private:
     hub::Hub& bus_;
     Heard heard_;
     Inhabitants* inhabitants_ = nullptr;
-    std::optional<NodeBus> node_bus_;  // between the nodes and `bus_`, if it is a Can
-    std::vector<Berth> berths_;        // by ascending node id
-    std::vector<Unit> units_;          // by ascending node id
-    std::vector<size_t> unit_of_;      // by index of the robot
+    // The common one, then those of robots with a project, in the order of the file; stay where
+    // they are.
+    std::deque<Bus> buses_;
+    std::vector<std::unique_ptr<hub::Hub>> own_buses_;
+    std::vector<Berth> berths_;                             // by bus, then by ascending node id
+    std::vector<Unit> units_;                               // by bus, then by ascending node id
+    std::vector<size_t> unit_of_;                           // by index of the robot
     std::vector<std::unique_ptr<hub::Hub>> private_buses_;  // by index of the robot
     std::vector<size_t> looked_after_;  // berths whose queues tell nothing when they fill
     Schedule schedule_;                 // of the units

@@ -84,18 +84,13 @@ Result<World> World::load(std::string_view text, std::string_view file, WorldOpt
 
 namespace {
 
-// A Carbot is made for it.
-BusModel bus_of(const WorldDefinition& definition) {
-    const bool has_carbot =
-        std::any_of(definition.robots.begin(), definition.robots.end(),
-                    [](const RobotDefinition& robot) { return robot.type == RobotType::Carbot; });
-    return has_carbot ? BusModel::Can : BusModel::Ideal;
-}
-
 // A CAN identifier has eight bits for the source.
-Status check_can(const WorldDefinition& definition) {
+Status check_can(const WorldDefinition& definition, std::optional<BusModel> model) {
+    const BusModel common = common_bus_model(definition, model);
     for (size_t i = 0; i < definition.robots.size(); ++i) {
         const RobotDefinition& robot = definition.robots[i];
+        const BusModel its = robot.project.empty() ? common : own_bus_model(robot, model);
+        if (its != BusModel::Can) continue;
         const int last = robot.node + nodes_of(robot.type) - 1;
         if (last <= wire::kCanSourceMax) continue;
         return Error{Code::BadInput, "robots[" + std::to_string(i) + "].node: expected ids up to " +
@@ -118,11 +113,8 @@ Result<Picture> read_ground(const std::string& folder, const std::string& named)
 Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     const Status checked = check_world(definition);
     if (!checked.ok()) return checked.error();
-    options.bus = options.bus.value_or(bus_of(definition));
-    if (options.bus == BusModel::Can) {
-        const Status fits = check_can(definition);
-        if (!fits.ok()) return fits.error();
-    }
+    const Status fits = check_can(definition, options.bus);
+    if (!fits.ok()) return fits.error();
     if (options.threads && (*options.threads < 1 || *options.threads > kThreadsMax)) {
         return Error{Code::BadInput, "threads: expected 1 to " + std::to_string(kThreadsMax) +
                                          ", found " + std::to_string(*options.threads)};
@@ -135,7 +127,8 @@ Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     }
     auto insides =
         std::make_unique<Insides>(std::move(definition), std::move(picture), std::move(options));
-    const Status joined = insides->turns.join(*insides->options.bus);
+    insides->crew.work_alone(!insides->options.threads);
+    const Status joined = insides->turns.join(insides->options.bus);
     if (!joined.ok()) return joined.error();
     insides->populate();
     return World(std::move(insides));
@@ -328,8 +321,16 @@ void World::send_to(RobotId robot, hub::LinkId host, const wire::Frame& frame) {
     insides_->turns.send_to(robot.number - 1, host, frame);
 }
 
+hub::Hub& World::bus_of(RobotId robot) {
+    return insides_->turns.bus_of(robot.number - 1);
+}
+
 std::optional<BusLoad> World::bus_load() const {
     return insides_->turns.load();
+}
+
+std::optional<BusLoad> World::bus_load(RobotId robot) const {
+    return insides_->turns.load_of(robot.number - 1);
 }
 
 namespace {
@@ -364,6 +365,10 @@ unsigned World::threads() const {
     return insides_->crew.size();
 }
 
+void World::use_one_thread(bool one) {
+    insides_->crew.work_alone(one);
+}
+
 const WorldDefinition& World::definition() const {
     return insides_->definition;
 }
@@ -377,6 +382,7 @@ std::vector<RobotView> World::robots() const {
                          .type = robot.type,
                          .node = robot.node,
                          .nodes = nodes_of(robot.type),
+                         .own_bus = !robot.project.empty(),
                          .pose = insides_->inhabitants->arena().pose(insides_->robot(i).body()),
                          .paint = robot.paint,
                          .outline = insides_->robot(i).outline()});
@@ -445,7 +451,13 @@ std::optional<ObjectId> World::find_object(std::string_view id) const {
 
 std::span<const int16_t> World::variables(RobotId robot) const {
     const auto index = index_of(insides_->definition, robot);
-    return index ? variables_of(insides_->definition.robots[*index].node)
+    return index ? variables(robot, insides_->definition.robots[*index].node)
+                 : std::span<const int16_t>();
+}
+
+std::span<const int16_t> World::variables(RobotId robot, uint16_t node) const {
+    const auto index = index_of(insides_->definition, robot);
+    return index ? insides_->turns.variables_of(*index, node, insides_->now)
                  : std::span<const int16_t>();
 }
 

@@ -53,17 +53,18 @@ struct ObjectId {
 // How frames get from node to node.
 enum class BusModel : uint8_t {
     Ideal,  // at the next millisecond, however many
-    Can,    // over one CAN bus of 1 Mbit/s with all nodes on it (can_bus.hpp)
+    Can,    // over a CAN bus of 1 Mbit/s with all its nodes on it (can_bus.hpp)
 };
 
 struct WorldOptions {
     std::optional<uint64_t> seed = {};  // instead of that of the file
     std::string folder = ".";           // where paths of the file start
     std::string sd_folder = {};         // the card of every robot that has a slot; empty: no card
-    std::optional<BusModel> bus = {};   // empty: Can with a Carbot, otherwise Ideal
-    // How many threads sense and run scripts, 1 to kThreadsMax; empty: one for a few robots, all
-    // processors for many. The bytes are the same. Robots that share something, a folder of cards
-    // or the energy of e-pucks, always have one.
+    std::optional<BusModel> bus = {};   // of each bus; empty: Can with a Carbot, otherwise Ideal
+    // How many threads sense and run scripts, 1 to kThreadsMax; empty: one for a few robots; for
+    // many, there is one for each processor, and the first is alone until use_one_thread(false).
+    // The bytes are the same. Robots that share something, a folder of cards or the energy of
+    // e-pucks, always have one.
     std::optional<unsigned> threads = {};
 };
 
@@ -73,8 +74,9 @@ struct RobotView {
     RobotId id;
     std::string_view name;  // views and spans here: valid until the world is changed or stepped
     RobotType type = RobotType::Thymio2;
-    uint16_t node = 0;   // its first one
-    uint16_t nodes = 1;  // how many it has, with neighbouring ids
+    uint16_t node = 0;     // its first one
+    uint16_t nodes = 1;    // how many it has, with neighbouring ids
+    bool own_bus = false;  // they are not on the common bus: it has a project of its own
     Pose pose;
     Colour paint;
     // A convex polygon in the frame of the robot, counter-clockwise.
@@ -162,18 +164,21 @@ public:
     uint64_t happenings_lost() const;
 
     // ---- The bus ----
-    // All nodes of all robots are on it. Add links for hosts, for sockets (net), for tests; frames
-    // for the robots go through it.
+    // All nodes of all robots are on it, but for those with a bus of their own. Add links for
+    // hosts, for sockets (net), for tests; frames for the robots go through it.
     //
     // Over a Can bus a frame arrives at the first millisecond at or after the end of its
     // transmission, never before the next one. What a host sends begins its way at the time of the
     // last step; what the bus has no room for waits in the hub, bounded as for any link.
     hub::Hub& bus();
+    // The bus that the robot's nodes are on: its own if it has a project, else that of all.
+    hub::Hub& bus_of(RobotId robot);
     // What a host says to one robot of several: the frame goes over the bus as any other, hosts see
     // it, but the nodes of other robots do not take it.
     void send_to(RobotId robot, hub::LinkId host, const wire::Frame& frame);
-    // Empty if the bus is ideal.
+    // Of the common bus, or of that of the robot. Empty if it is ideal.
     std::optional<BusLoad> bus_load() const;
+    std::optional<BusLoad> bus_load(RobotId robot) const;
     // The private switch behind the robot's `port`: that robot alone is on it. nullptr if it has no
     // port.
     hub::Hub* private_bus(RobotId robot);
@@ -184,6 +189,9 @@ public:
     // How often a node was looked at, all together: one that has nothing to do is not.
     uint64_t turns_taken() const;
     unsigned threads() const;
+    // From now on one thread does all, or all of threads(): whoever sees how long it takes chooses
+    // (thread_choice.hpp). The bytes are the same.
+    void use_one_thread(bool one);
 
     // ---- Looking ----
     const WorldDefinition& definition() const;  // as it was loaded
@@ -197,9 +205,10 @@ public:
     Colour ground_at(Point at) const;
     std::optional<RobotId> find_robot(std::string_view name) const;
     std::optional<ObjectId> find_object(std::string_view id) const;
-    // The variables of the robot's first node, of any node: for tests and views that do not go over
-    // the bus. Empty if there is no such robot or node.
+    // The variables of the robot's first node, of any of its nodes, of any node on the common bus:
+    // for tests and views that do not go over the bus. Empty if there is no such robot or node.
     std::span<const int16_t> variables(RobotId robot) const;
+    std::span<const int16_t> variables(RobotId robot, uint16_t node) const;
     std::span<const int16_t> variables_of(uint16_t node) const;
 
     // ---- Acting, as a hand from above. Fails with NotFound, Limit, or BadInput. ----

@@ -201,6 +201,16 @@ private:
         return robots_.contains(move.id) ? std::nullopt : known(move.id);
     }
     Found apply(const PressButton& press) { return check_button(press, world_, *element_); }
+    Found apply(const CutFleet& cut) {
+        if (cut.robot.empty()) return std::nullopt;
+        for (const RobotDefinition& robot : world_.robots) {
+            if (robot.name == cut.robot && !robot.project.empty()) return std::nullopt;
+        }
+        return Problem{*element_ + ".robot",
+                       "there is no robot \"" + cut.robot +
+                           "\" with a project of its own in this world; use the name of one, or "
+                           "leave \"robot\" out to mean all of them"};
+    }
     Found apply(const SwitchLight& light) {
         if (auto found = known(light.id)) return found;
         const ObjectKind kind = ids_[light.id];
@@ -255,6 +265,12 @@ Found check_robot(const RobotDefinition& robot, const std::string& element,
     if (auto found = check_inside(robot.at, element + ".at", world)) return found;
     if (auto found = check_angle(element + ".angle", robot.angle)) return found;
     if (auto found = check_colour(element + ".paint", robot.paint)) return found;
+    if (!robot.project.empty() && !robot.script.empty()) {
+        return Problem{element + ".script",
+                       "robot " + robot.name +
+                           " has a project, which names its scripts; remove \"script\" or "
+                           "\"project\""};
+    }
     return check_range(
         element + ".node", robot.node, {1, 65535.0 - nodes_of(robot.type), "node id"},
         "0 is the host, 65535 is nobody, and a robot of several nodes takes the next "
@@ -278,11 +294,13 @@ struct Taken {
 
 Found check_nodes(const RobotDefinition& robot, const std::string& element, Taken& taken) {
     Found found;
+    if (!robot.project.empty()) return found;  // nobody else is on its bus
     for (uint32_t node = robot.node; node < robot.node + nodes_of(robot.type); ++node) {
         if (taken.nodes.insert(static_cast<uint16_t>(node)).second || found) continue;
-        found = Problem{element + ".node", std::to_string(node) + " is a node of an earlier robot" +
-                                               reach_text(robot) +
-                                               "; all robots are on one bus, choose another"};
+        found =
+            Problem{element + ".node",
+                    std::to_string(node) + " is a node of an earlier robot" + reach_text(robot) +
+                        "; robots without a project are on one bus, choose another"};
     }
     return found;
 }
@@ -321,6 +339,19 @@ void check_timeline(const WorldDefinition& world, Problems& problems) {
                             "is before the entry above it; put the entries in the order of time"};
         }
         problems.add(std::move(found));
+    }
+}
+
+void check_fleet(const FleetDefinition& fleet, Problems& problems) {
+    for (const auto& [key, span] :
+         {std::pair("fleet.latency", fleet.latency), std::pair("fleet.jitter", fleet.jitter)}) {
+        problems.add(
+            check_range(key, seconds_of(span), {0, kFleetDelayMax, "s"}, "delays are in seconds"));
+    }
+    for (const auto& [key, share] :
+         {std::pair("fleet.loss", fleet.loss), std::pair("fleet.twice", fleet.twice)}) {
+        problems.add(check_range(key, share, {0, kFleetChanceMax, "of the messages"},
+                                 "0.01 is one of a hundred"));
     }
 }
 
@@ -377,6 +408,7 @@ std::vector<Problem> find_problems(const WorldDefinition& world) {
     check_objects(world, problems);
     check_robots(world, problems);
     check_timeline(world, problems);
+    check_fleet(world.fleet, problems);
     return std::move(problems.list);
 }
 

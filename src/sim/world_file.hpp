@@ -29,6 +29,10 @@ std::vector<std::string> hints_of_world(std::string_view text, std::string_view 
 // element ("robots[0].script: …"). `text` was read without an error.
 Error error_in_world(const Error& error, std::string_view text, std::string_view file);
 
+// The entry of the file's list "robots" that a robot of its WorldDefinition comes from: the robots
+// of a grid have one. `text` was read without an error.
+size_t entry_of_robot(std::string_view text, std::string_view file, size_t robot);
+
 // The checks that need no file: sizes, numbers of things, names that differ. World::create() makes
 // them, too.
 Status check_world(const WorldDefinition& world);

@@ -168,7 +168,10 @@ class Fleet(Case):
         done = self.desk("continue", "r1")
         self.assertEqual(done.returncode, 1)
         self.assertIn("r1: not done: it is not paused", done.stdout)
-        self.do("start", "r1")
+        done = self.desk("start")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("which robots? Write a name, all, or --group GROUP", done.stdout)
+        self.do("start", "--group", "red")
         self.wait_state("r1", "running")
 
     def test_events_are_logged_and_emitted(self):

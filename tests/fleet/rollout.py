@@ -65,7 +65,7 @@ class Rollout(Case):
             program.wait_line(r"^r1: well$")
             self.assertEqual(program.wait_end(), 0)
 
-    def test_it_says_what_it_cannot_do(self):
+    def test_a_roll_out_says_what_it_cannot_do(self):
         self.broker("r1")
         for words, what in ((("r1", "--project", self.version(), "--steps", "1,0"), "--steps 1,0: expected numbers of robots"),
                             (("r1", "--project", self.version(), "--listen", "0.0.0.0"), "--listen 0.0.0.0: expected ADDRESS:PORT"),

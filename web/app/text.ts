@@ -1003,6 +1003,8 @@ export const text = {
       press: 'presses',
       release: 'releases',
       light: 'switches a light',
+      cut: 'cuts a robot off from its fleet',
+      restore: 'lets it back to its fleet',
     },
     entryText: {
       add: (what: string) => `${what} comes`,
@@ -1011,6 +1013,8 @@ export const text = {
       press: (what: string) => `${what} is pressed`,
       release: (what: string) => `${what} is released`,
       light: (what: string) => `${what} is switched`,
+      cut: (what: string) => `${what || 'the fleet'} is cut off`,
+      restore: (what: string) => `${what || 'the fleet'} is back`,
     },
     who: 'Which',
     button: 'Button',

@@ -273,7 +273,14 @@ void acts(CLI::App* verb, const SharedCall& call, int& exit_code, Act act,
     });
 }
 
-// Whom an order is for is always said.
+// Whom it is for is always said: for verbs that take nothing behind it.
+void need_choice(const CLI::App& verb) {
+    const bool is_said =
+        verb.get_option("ROBOT")->count() + verb.get_option("--group")->count() > 0;
+    if (is_said) return;
+    throw CLI::ValidationError("ROBOT", "which robots? Write a name, all, or --group GROUP");
+}
+
 void order_acts(CLI::App* verb, const SharedCall& call, int& exit_code) {
     verb->get_option("ROBOT")->required();
     acts(verb, call, exit_code, order);
@@ -332,7 +339,6 @@ void add_deploy(CLI::App& app, const SharedCall& call, int& exit_code) {
                  "    --host broker --serve-cert broker/broker.crt --serve-key broker/broker.key\n"
                  "  vagus fleet mqtts://broker/lab deploy all --rollback");
     is_for(verb, call);
-    verb->get_option("ROBOT")->required();
     CLI::Option* project =
         verb->add_option("--project", call->project, "a folder with a vagus.json");
     takes_file(*project, {"vagus.json"});
@@ -354,7 +360,8 @@ void add_deploy(CLI::App& app, const SharedCall& call, int& exit_code) {
     takes_file(*key, {".key", ".pem"});
     certificate->needs(key);
     key->needs(certificate);
-    verb->parse_complete_callback([call] {
+    verb->parse_complete_callback([call, verb] {
+        need_choice(*verb);
         if (call->project.empty() && !call->rollback) {
             throw CLI::ValidationError("--project",
                                        "which version? Name its folder, or --rollback");
@@ -403,7 +410,8 @@ void add_ordering_verbs(CLI::App& app, const SharedCall& call, int& exit_code) {
     for (const PlainVerb& one : kPlainVerbs) {
         CLI::App* verb = add_verb(app, call, one.name, one.what, one.footer);
         is_for(verb, call);
-        order_acts(verb, call, exit_code);
+        verb->parse_complete_callback([verb] { need_choice(*verb); });
+        acts(verb, call, exit_code, order);
     }
     CLI::App* set =
         add_verb(app, call, "set", "writes a variable of a node, or of the plan",

@@ -50,9 +50,9 @@ std::string show_loaded(const NetSession& session, const std::vector<Job>& jobs)
         const aesl::Used& used = job.program->used;
         rows.push_back({std::to_string(job.id), node.name,
                         "loaded, " + std::string(name_of(node.state)),
-                        "bytecode " + of(used.bytecode, node.target.bytecode_size),
-                        "variables " + of(used.variables, node.target.variables_size),
-                        "stack " + of(used.stack, node.target.stack_size) + " words"});
+                        "bytecode " + of(used.bytecode, node.target->bytecode_size),
+                        "variables " + of(used.variables, node.target->variables_size),
+                        "stack " + of(used.stack, node.target->stack_size) + " words"});
     }
     return table(rows);
 }

@@ -42,8 +42,8 @@ std::string state_line(const session::SimSession& session, const sim::RobotView&
 
 }  // namespace
 
-SimLines::SimLines(const session::SimSession& session) : session_(session) {
-    for (const sim::RobotView& robot : session.world().robots()) poses_.push_back(robot.pose);
+SimLines::SimLines(const session::WorldBuses& buses) : buses_(buses) {
+    for (const sim::RobotView& robot : buses.world().robots()) poses_.push_back(robot.pose);
 }
 
 bool SimLines::tell_one(Tally& tally, const session::Note& note) {
@@ -54,7 +54,7 @@ bool SimLines::tell_one(Tally& tally, const session::Note& note) {
 bool SimLines::tell_more(Tally& tally) const {
     const uint64_t count = std::exchange(tally.count, 0);
     if (count <= kNoteLinesMax) return true;
-    return print(stamp(session_.now()) + tally.word + "  and " +
+    return print(stamp(buses_.now()) + tally.word + "  and " +
                  std::to_string(count - kNoteLinesMax) + " more\n");
 }
 
@@ -72,6 +72,12 @@ bool SimLines::tell(const std::vector<session::Note>& notes) {
             case session::NoteKind::Fault:
                 open = tell_one(faults_, note) && open;
                 break;
+            case session::NoteKind::Plan:
+                open = tell_one(plans_, note) && open;
+                break;
+            case session::NoteKind::Fleet:
+                open = tell_one(fleet_, note) && open;
+                break;
             case session::NoteKind::Mistakes:
             case session::NoteKind::Warnings:
                 say(note.text);
@@ -85,19 +91,20 @@ bool SimLines::tell(const std::vector<session::Note>& notes) {
 }
 
 bool SimLines::tell_state() {
-    if (session_.now() < next_) return true;
-    next_ = session_.now() - session_.now() % kStateEvery + kStateEvery;
+    if (buses_.now() < next_) return true;
+    next_ = buses_.now() - buses_.now() % kStateEvery + kStateEvery;
     bool open = true;
-    for (Tally* const tally : {&loads_, &events_, &faults_}) open = tell_more(*tally) && open;
+    for (Tally* const tally : {&loads_, &events_, &faults_, &plans_, &fleet_})
+        open = tell_more(*tally) && open;
     if (has_many_robots()) return print(summary()) && open;
-    for (const sim::RobotView& robot : session_.world().robots()) {
-        open = print(state_line(session_, robot)) && open;
+    for (const sim::RobotView& robot : buses_.world().robots()) {
+        open = print(state_line(buses_.of(robot.id), robot)) && open;
     }
     return open;
 }
 
 std::string SimLines::summary() {
-    const auto robots = session_.world().robots();
+    const auto robots = buses_.world().robots();
     size_t moving = 0;
     for (size_t i = 0; i < robots.size(); ++i) {
         if (robots[i].pose == poses_[i]) continue;
@@ -105,16 +112,18 @@ std::string SimLines::summary() {
         ++moving;
     }
     std::set<uint32_t> running, stopped;  // a robot may be several nodes
-    for (const session::NodeState& node : session_.nodes()) {
-        if (!node.fault.empty()) {
-            stopped.insert(node.robot.number);
-        } else if (node.has_script) {
-            running.insert(node.robot.number);
-        } else {
-            // Nothing is known of it.
+    buses_.each([&](const session::SimSession& session) {
+        for (const session::NodeState& node : session.nodes()) {
+            if (!node.fault.empty()) {
+                stopped.insert(node.robot.number);
+            } else if (node.has_script) {
+                running.insert(node.robot.number);
+            } else {
+                // Nothing is known of it.
+            }
         }
-    }
-    return stamp(session_.now()) + std::to_string(robots.size()) + " robots  " +
+    });
+    return stamp(buses_.now()) + std::to_string(robots.size()) + " robots  " +
            std::to_string(moving) + " moving  " + std::to_string(robots.size() - moving) +
            " at rest  " + std::to_string(running.size()) + " running a script  " +
            std::to_string(stopped.size()) + " stopped by a fault\n";

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "session/sim_session.hpp"
+#include "session/world_buses.hpp"
 
 namespace vagus::cli {
 
@@ -21,7 +21,7 @@ constexpr uint64_t kNoteLinesMax = 20;  // of a kind in one such second; the res
 
 class SimLines {
 public:
-    explicit SimLines(const session::SimSession& session);
+    explicit SimLines(const session::WorldBuses& buses);
 
     // Events, loads and faults to stdout, mistakes and troubles to stderr. False once nobody reads
     // stdout.
@@ -41,11 +41,13 @@ private:
     bool has_many_robots() const { return poses_.size() > kRobotLinesMax; }
     std::string summary();
 
-    const session::SimSession& session_;  // owned by the run around
+    const session::WorldBuses& buses_;  // owned by the run around
     Time next_{};
     Tally events_{"event"};
     Tally loads_{"loaded"};
     Tally faults_{"fault"};
+    Tally plans_{"plan"};
+    Tally fleet_{"fleet"};
     std::vector<sim::Pose> poses_;  // at the last summary, by robot
 };
 

@@ -13,13 +13,15 @@
 #include "cli/live_screen.hpp"
 #include "cli/output.hpp"
 #include "cli/screen/pace.hpp"
+#include "cli/sim/fleet_door.hpp"
 #include "cli/sim/hands.hpp"
 #include "cli/sim/lines.hpp"
 #include "cli/sim/view.hpp"
+#include "embed/robots_run.hpp"
 #include "net/end_signal.hpp"
 #include "net/links.hpp"
 #include "session/safe_stop.hpp"
-#include "session/sim_session.hpp"
+#include "sim/world_threads.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -39,19 +41,23 @@ struct Port {
 
 class SimRun {
 public:
-    SimRun(const SimRunOptions& options, session::SimSession session)
+    SimRun(const SimRunOptions& options, embed::RobotsRun& robots)
         : options_(options),
-          session_(std::move(session)),
-          lines_(session_),
+          robots_(robots),
+          session_(robots.buses().common()),
+          lines_(robots.buses()),
           view_(session_),
-          watch_(options.watch ? session_.script_paths() : std::vector<std::string>()),
-          pace_(options.speed) {}
+          watch_(options.watch ? robots.buses().script_paths() : std::vector<std::string>()),
+          pace_(options.speed),
+          threads_(session_.world(), options.threads.has_value()) {}
 
     Status listen();
     Status open_trace();
     // Steps until the scripts run, so that their mistakes are known before the screen appears.
     // False if there are some, or a script did not arrive, and nobody watches their files.
     bool settle();
+    // At time 0, where robots have projects: their plans begin.
+    Status start() { return robots_.start(); }
     int run();
     void stop_guests();
 
@@ -78,8 +84,9 @@ private:
     void show();
 
     const SimRunOptions& options_;
-    session::SimSession session_;
-    net::Links links_;  // after the session: its links leave the session's bus first
+    embed::RobotsRun& robots_;
+    session::SimSession& session_;  // of the common bus
+    net::Links links_;              // its links leave the buses before those go
     SimLines lines_;
     SimView view_;
     FileWatch watch_;
@@ -88,6 +95,7 @@ private:
     std::string notice_;
     LineSink trace_;
     Pace pace_;
+    sim::WorldThreads threads_;
     bool running_ = false;  // run() has begun
     bool closed_ = false;   // nobody reads, or a person quits
     size_t selected_ = 0;
@@ -125,13 +133,17 @@ Status SimRun::open_trace() {
 
 bool SimRun::settle() {
     // Scripts that take longer to load than the run is to last are loaded all the same.
-    while (!session_.settled() && session_.now() < session_.settles_within()) {
+    // Beside robots with projects they are loaded before time 0.
+    while (!robots_.has_projects() && !session_.settled() &&
+           session_.now() < session_.settles_within()) {
         session_.step(sim::kNodeStep);
     }
-    const std::vector<std::string> missing = session_.without_script();
-    if (options_.watch || (missing.empty() && session_.mistakes().empty())) return true;
-    lines_.tell(session_.take_notes());
-    if (session_.mistakes().empty()) {
+    session::WorldBuses& buses = robots_.buses();
+    if (robots_.has_projects()) (void)buses.settle();
+    const std::vector<std::string> missing = buses.without_script();
+    if (options_.watch || (missing.empty() && buses.mistakes().empty())) return true;
+    lines_.tell(buses.take_notes());
+    if (buses.mistakes().empty()) {
         const std::vector<std::string_view> names(missing.begin(), missing.end());
         complain("without the script that is meant for them: " + list_of(names));
     }
@@ -154,7 +166,7 @@ int SimRun::run() {
     pass_all();
     const Status traced = trace_.flush();
     if (!traced.ok()) return complain(traced.error());
-    return net::end_as_asked(kExitDone);
+    return net::end_as_asked(robots_.has_failed() ? kExitFailed : kExitDone);
 }
 
 void SimRun::pass_all() {
@@ -163,6 +175,7 @@ void SimRun::pass_all() {
     running_ = true;
     real_before_ = links_.now();
     while (!ended()) turn();
+    robots_.end();
     tell_notes();
     write_trace();
     screen_.reset();
@@ -242,7 +255,10 @@ Duration SimRun::to_next_step() const {
 }
 
 void SimRun::advance(Duration span) {
-    session_.step(std::min(span, end() - session_.now()));
+    const Duration passes = std::min(span, end() - session_.now());
+    threads_.begin(links_.now());
+    robots_.step(passes);
+    threads_.end(links_.now(), passes);
     // Plain lines stand for moments of simulated time, however many of them pass in a turn.
     if (running_ && !on_terminal()) tell_notes();
 }
@@ -251,12 +267,12 @@ void SimRun::look_at_files() {
     for (const std::string& path : watch_.changed(links_.now())) {
         const auto text = read_file(path);
         // Gone again already: the next look finds what replaces it.
-        if (text.ok()) session_.reload(path, text.value());
+        if (text.ok()) robots_.buses().reload(path, text.value());
     }
 }
 
 void SimRun::tell_notes() {
-    const std::vector<session::Note> notes = session_.take_notes();
+    const std::vector<session::Note> notes = robots_.buses().take_notes();
     if (!on_terminal()) {
         closed_ = !lines_.tell(notes) || !lines_.tell_state() || closed_;
         return;
@@ -268,9 +284,9 @@ void SimRun::tell_notes() {
 }
 
 void SimRun::write_trace() {
-    if (options_.trace == "-") closed_ = !print(session_.take_trace()) || closed_;
+    if (options_.trace == "-") closed_ = !print(robots_.buses().take_trace()) || closed_;
     if (!trace_) return;
-    trace_.write(session_.take_trace());
+    trace_.write(robots_.buses().take_trace());
     trace_.pass(links_.now());
     // A run that is traced is made for its trace.
     closed_ = !trace_.state().ok() || trace_.abandoned() || closed_;
@@ -314,12 +330,13 @@ void SimRun::act_on_robot(Key key) {
 }
 
 void SimRun::restart() {
-    session_.reset();
+    const Status begun = robots_.has_projects() ? robots_.restart() : Status::done();
+    if (!robots_.has_projects()) session_.reset();
     view_.forget();
     hands_.forget();
     pace_.forget();
     screen_->scroll_to_latest();
-    notice_ = "restarted";
+    notice_ = begun.ok() ? "restarted" : begun.error().what;
 }
 
 std::vector<KeyHelp> SimRun::key_help() const {
@@ -349,26 +366,41 @@ void SimRun::show() {
     closed_ = !screen_->paint(std::move(view), links_.now()) || closed_;
 }
 
-Result<session::SimSession> open_session(const SimRunOptions& options) {
+// A broker knows no other time than the real one.
+Status check_fleet(const SimRunOptions& options) {
+    if (options.fleet.target.empty() || options.speed == 1) return Status::done();
+    return Error{Code::BadInput, "--fleet needs real time; leave --speed out"};
+}
+
+Result<std::unique_ptr<embed::RobotsRun>> open_robots(const SimRunOptions& options) {
     session::SimOptions made{{}, options.compile, !options.trace.empty()};
     made.world.seed = options.seed;
     made.world.threads = options.threads;
     made.world.sd_folder = options.sd_folder;
     if (!options.listen.empty()) made.guests = TRY(session::safe_stop_around(options.world, {}));
-    session::SimSession session = TRY(session::open_sim(options.world, made));
+    TRY(check_fleet(options));
+    auto door = TRY(door_to_fleet(options));
+    auto robots =
+        TRY(embed::RobotsRun::open({.world = options.world, .sim = made, .door = std::move(door)}));
+    if (!options.fleet.target.empty() && !robots->has_projects()) {
+        return Error{Code::BadInput,
+                     options.world +
+                         ": --fleet: no robot of this world has a \"project\"; those "
+                         "that have one become members of the fleet"};
+    }
     for (const std::string& path : options.loads) {
         const std::string text = TRY(read_file(path));
-        session.load(path, text);
+        robots->buses().common().load(path, text);
     }
-    return session;
+    return robots;
 }
 
 }  // namespace
 
 int run_sim(const SimRunOptions& options) {
-    auto session = open_session(options);
-    if (!session.ok()) return complain(session.error(), kExitUsage);
-    SimRun run(options, std::move(session.value()));
+    const auto robots = open_robots(options);
+    if (!robots.ok()) return complain(robots.error(), kExitUsage);
+    SimRun run(options, *robots.value());
     const Status traced = run.open_trace();
     if (!traced.ok()) return complain(traced.error(), kExitUsage);
     const Status listening = run.listen();
@@ -377,6 +409,8 @@ int run_sim(const SimRunOptions& options) {
         return complain(listening.error(), wrong ? kExitUsage : kExitFailed);
     }
     if (!run.settle()) return kExitFailed;
+    const Status begun = run.start();
+    if (!begun.ok()) return complain(begun.error(), kExitUsage);
     return run.run();
 }
 

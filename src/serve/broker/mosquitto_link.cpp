@@ -172,13 +172,22 @@ public:
         const int sent = mosquitto_publish_v5(
             library_, &id, post.topic.c_str(), static_cast<int>(post.payload.size()),
             post.payload.data(), post.qos, post.retained, properties.list());
-        if (sent == MOSQ_ERR_SUCCESS && post.number != 0) numbers_[id] = post.number;
+        if (sent != MOSQ_ERR_SUCCESS) return;
+        ++under_way_;
+        if (post.number != 0) numbers_[id] = post.number;
     }
 
-    // What was published goes out first.
+    // What was published arrives first. The library closes its socket right behind its good-bye; with
+    // bytes unread the system would break it off, and the broker, which may miss the good-bye then,
+    // would publish the will. So what comes is read until nothing comes for a moment.
     void say_good_bye() {
-        for (int i = 0; i < kGoodByeTurns && mosquitto_want_write(library_); ++i) {
-            if (mosquitto_loop_write(library_, 1) != MOSQ_ERR_SUCCESS) return;
+        for (int i = 0; i < kGoodByeTurns; ++i) {
+            pollfd wait{mosquitto_socket(library_), POLLIN, 0};
+            if (wait.fd < 0) return;
+            if (mosquitto_want_write(library_)) mosquitto_loop_write(library_, 1);
+            const bool comes = poll(&wait, 1, kGoodByeTurnMs) > 0;
+            if (comes && mosquitto_loop_read(library_, 1) != MOSQ_ERR_SUCCESS) return;
+            if (!comes && under_way_ == 0) break;
         }
         mosquitto_disconnect_v5(library_, MQTT_RC_NORMAL_DISCONNECTION, nullptr);
     }
@@ -187,7 +196,8 @@ public:
     const std::string& why() const { return why_; }
 
 private:
-    static constexpr int kGoodByeTurns = 100;
+    static constexpr int kGoodByeTurns = 90;  // below kLinkGoodByeMs together
+    static constexpr int kGoodByeTurnMs = 10;
     static constexpr int kFirstFailure = 0x80;  // of the reason codes of MQTT 5
 
     bool end(int result) {
@@ -213,6 +223,7 @@ private:
     }
     static void on_publish(mosquitto*, void* self, int id, int code, const mosquitto_property*) {
         auto& session = *static_cast<Session*>(self);
+        --session.under_way_;
         const auto found = session.numbers_.find(id);
         if (found == session.numbers_.end()) return;
         const char* const refused = code >= kFirstFailure ? mosquitto_reason_string(code) : "";
@@ -239,6 +250,7 @@ private:
     bool connected_ = false;
     std::string refused_, why_;
     std::map<int, uint64_t> numbers_;  // by the library's
+    int64_t under_way_ = 0;            // published, and not acknowledged
 };
 
 // ---- Inside ----

@@ -111,7 +111,8 @@ Status FileDesk::give_to_robot(size_t robot, const std::string& path) {
                                  : Result<sim::WorldDefinition>(text.error());
     if (!world.ok() || !world.value().robots[robot].script.empty()) return Status::done();
     const JsonValue name = json_string(name_from(project_.world, path));
-    return follow({project_.world, {{JsonStep::Do::Set, {"robots", robot, "script"}, name}}},
+    const size_t entry = sim::entry_of_robot(text.value(), project_.world, robot);
+    return follow({project_.world, {{JsonStep::Do::Set, {"robots", entry, "script"}, name}}},
                   "server");
 }
 

@@ -31,6 +31,7 @@ std::vector<WorldNode> nodes_of_world(const sim::WorldDefinition& world) {
     std::vector<WorldNode> nodes;
     for (size_t robot = 0; robot < world.robots.size(); ++robot) {
         const sim::RobotDefinition& one = world.robots[robot];
+        if (!one.project.empty()) continue;  // its nodes are for the scripts of that project
         const char* args = one.type == sim::RobotType::Epuck ? "args" : "event.args";
         uint16_t id = one.node;
         for (const std::string_view name : node_names(one.type)) {

@@ -8,20 +8,20 @@ namespace vagus::serve {
 
 namespace {
 
-constexpr std::string_view kWorld[] = {"format", "name",    "help",   "seed",     "size", "open",
-                                       "ground", "objects", "robots", "timeline", "x"};
+constexpr std::string_view kWorld[] = {"format", "name",    "help",   "seed",     "size",  "open",
+                                       "ground", "objects", "robots", "timeline", "fleet", "x"};
 constexpr std::string_view kObject[] = {"id",     "kind",   "at",   "angle",  "size",
                                         "radius", "height", "mass", "colour", "x"};
-constexpr std::string_view kRobot[] = {"name", "type",   "at",    "angle", "node",
-                                       "port", "script", "paint", "x"};
+constexpr std::string_view kRobot[] = {"name", "type", "at",     "angle",   "grid",  "spacing",
+                                       "node", "port", "script", "project", "paint", "x"};
+constexpr std::string_view kWorldFleet[] = {"latency", "jitter", "loss", "twice", "x"};
 constexpr std::string_view kEntry[] = {"t",  "do",    "id",     "object", "robot",
                                        "at", "angle", "button", "on",     "x"};
-constexpr std::string_view kProject[] = {"format",  "name",      "help",       "plan",
-                                         "scripts", "world",     "toolboxes",  "target",
-                                         "start",   "safe_stop", "when_alone", "fleet",
-                                         "x"};
+constexpr std::string_view kProject[] = {"format",     "name",      "help",   "plan",  "scripts",
+                                         "world",      "toolboxes", "target", "start", "safe_stop",
+                                         "when_alone", "fleet",     "x"};
 constexpr std::string_view kProjectStart[] = {"plan", "set", "x"};
-constexpr std::string_view kFleet[] = {"name", "groups", "send",       "hear",
+constexpr std::string_view kFleet[] = {"name", "groups",      "send", "hear",
                                        "tell", "broker_lost", "x"};
 constexpr std::string_view kHears[] = {"event", "from", "x"};
 constexpr std::string_view kSafeStop[] = {"set", "read", "x"};
@@ -52,6 +52,7 @@ const std::vector<Order>& orders() {
         {"world", {"objects", "[]"}, kObject},
         {"world", {"robots", "[]"}, kRobot},
         {"world", {"timeline", "[]"}, kEntry},
+        {"world", {"fleet"}, kWorldFleet},
         {"world", {"timeline", "[]", "object"}, kObject},
         {"project", {}, kProject},
         {"project", {"start"}, kProjectStart},

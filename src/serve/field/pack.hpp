@@ -1,7 +1,8 @@
 // A version of a project as one file, for robots that fetch it: the list of its files as
 // deployed.json has it, on one line, and behind it their bytes in the same order.
 //
-//     const std::string bytes = TRY(pack(TRY(collect_bundle(project))));
+//     const CollectedBundle collected = TRY(collect_bundle(project));
+//     const std::string bytes = TRY(pack(collected));
 //     const Packed packed = TRY(unpack(bytes));
 #pragma once
 

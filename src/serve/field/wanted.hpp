@@ -1,7 +1,7 @@
 // The version that a fleet wants of this robot (docs/fleet.md, "Another version for many"):
 // fetched, checked against its hash, put in force as one that `vagus deploy` sends, and told. Each
-// roll-out has a number, and is done once, also if the robot was started again meanwhile: what came of the
-// last one is in PROJECT/.vagus/want.json.
+// roll-out has a number, and is done once, also if the robot was started again meanwhile: what came
+// of the last one is in PROJECT/.vagus/want.json.
 //
 //     Wanted wanted(deployments, {.file = …, .fetch = …, .work = worker.poster(), .tell = …});
 //     wanted.want(want);   // as often as it comes

@@ -32,6 +32,7 @@ void Recorder::look(const sim::World& world) {
 
 void Recorder::look_at_nodes(const sim::World& world) {
     for (const sim::RobotView& robot : world.robots()) {
+        if (robot.own_bus) continue;
         for (uint16_t i = 0; i < robot.nodes; ++i) {
             const auto node = static_cast<uint16_t>(robot.node + i);
             see(node, world.variables_of(node));

@@ -20,6 +20,7 @@
 #include "session/bus_names.hpp"
 #include "session/plan_world.hpp"
 #include "session/toolboxes.hpp"
+#include "sim/world_threads.hpp"
 
 namespace vagus::serve {
 
@@ -280,11 +281,14 @@ private:
     // ---- time ----
     // The world alone, until another order or the end.
     void live() {
+        sim::WorldThreads threads(session_->world(), false);
         while (!has_to_end()) {
             instant();
             if (has_to_end()) return;
+            threads.begin(wall_now());
             session_->begin_instant();
             session_->end_instant();
+            threads.end(wall_now(), sim::kNodeStep);
             (void)session_->take_notes();
         }
     }

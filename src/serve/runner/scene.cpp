@@ -38,6 +38,7 @@ double height_of(sim::RobotType type) {
 
 std::vector<uint16_t> nodes_of(const sim::RobotView& robot) {
     std::vector<uint16_t> nodes;
+    if (robot.own_bus) return nodes;  // nobody here is on that bus
     for (uint16_t i = 0; i < robot.nodes; ++i) {
         nodes.push_back(static_cast<uint16_t>(robot.node + i));
     }

@@ -134,7 +134,7 @@ Json Target::node_document(const Json& of) const {
         document["variables"].push_back(
             {{"name", name}, {"address", at}, {"size", size}, {"of", owner}, {"writable", true}});
     };
-    for (const aesl::NamedVariable& variable : view->target.variables) {
+    for (const aesl::NamedVariable& variable : view->target->variables) {
         add(variable.name, variable.size, address, "node");
         describe(document["variables"].back(), known_variable(view->name, variable.name));
         address = static_cast<uint16_t>(address + variable.size);
@@ -144,10 +144,10 @@ Json Target::node_document(const Json& of) const {
             if (place.address >= address) add(place.name, place.size, place.address, "script");
         }
     }
-    for (const aesl::LocalEvent& event : view->target.local_events) {
+    for (const aesl::LocalEvent& event : view->target->local_events) {
         document["events"].push_back({{"name", event.name}, {"help", event.doc}});
     }
-    for (const aesl::NativeFunction& native : view->target.natives) {
+    for (const aesl::NativeFunction& native : view->target->natives) {
         Json parameters = Json::array();
         for (const aesl::NativeParameter& one : native.parameters) {
             parameters.push_back({{"name", one.name}, {"size", one.size}});

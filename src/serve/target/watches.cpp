@@ -197,7 +197,7 @@ std::map<std::string, std::pair<uint32_t, uint32_t>> Target::variables_of(
     const debug::NodeView& view) {
     std::map<std::string, std::pair<uint32_t, uint32_t>> found;
     uint32_t address = 0;
-    for (const aesl::NamedVariable& variable : view.target.variables) {
+    for (const aesl::NamedVariable& variable : view.target->variables) {
         found.emplace(variable.name, std::pair(address, uint32_t{variable.size}));
         address += variable.size;
     }

@@ -19,10 +19,11 @@ const orders: Record<string, readonly (readonly [string, readonly string[]])[]> 
     ['actors * supervisors *', kSupervisor],
   ],
   world: [
-    ['', words('format name help seed size open ground objects robots timeline x')],
+    ['', words('format name help seed size open ground objects robots timeline fleet x')],
     ['objects []', kObject],
-    ['robots []', words('name type at angle node port script paint x')],
+    ['robots []', words('name type at angle grid spacing node port script project paint x')],
     ['timeline []', words('t do id object robot at angle button on x')],
+    ['fleet', words('latency jitter loss twice x')],
     ['timeline [] object', kObject],
   ],
   project: [

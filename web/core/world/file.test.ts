@@ -52,6 +52,16 @@ describe('the file of a world', () => {
       expect(now).toHaveLength(world.objects.length + world.robots.length);
     }
   });
+  test('AGridIsShownAsItsRobots', () => {
+    const entry = { name: 't', type: 'thymio2', at: [1, 2], grid: [3, 2], spacing: [0.5, 1] };
+    const world: Json = { size: [9, 9], robots: [entry, { ...entry, name: 'u', grid: [2, 1] }] };
+    const things = stageOfFile(world).things;
+    expect(things.map((one) => one.name)).toEqual('t1 t2 t3 t4 t5 t6 u1 u2'.split(' '));
+    expect(things[4]).toMatchObject({ key: 'robots/0/4', pose: { x: 1.5, y: 3 } });
+    expect(things[6]?.key).toBe('robots/1');
+    expect(new Set(things.map((one) => one.key)).size).toBe(8);
+    expect(freeName(world, 't1')).not.toBe('t1');
+  });
   test('WhatCannotBeReadIsLeftOut', () => {
     const stage = stageOfFile({ size: 'large', objects: [{ kind: 'ghost', at: [1, 1] }, 7] });
     expect(stage).toMatchObject({ width: 1, height: 1, things: [] });

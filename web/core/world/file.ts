@@ -3,6 +3,7 @@
 
 import type { Colour, Json, JsonStep } from '../../protocol/messages';
 import type { Pose } from './geometry';
+import { robotsOfEntry } from './grid';
 import { tidy } from './snap';
 import {
   bodies,
@@ -20,7 +21,16 @@ export type Table = Record<string, Json>;
 /** objects/3, robots/0, timeline/2: a list of the file and a place in it. */
 export type ListName = 'objects' | 'robots' | 'timeline';
 
-export const verbs = ['add', 'remove', 'move', 'press', 'release', 'light'] as const;
+export const verbs = [
+  'add',
+  'remove',
+  'move',
+  'press',
+  'release',
+  'light',
+  'cut',
+  'restore',
+] as const;
 export type Verb = (typeof verbs)[number];
 
 export interface Part {
@@ -272,8 +282,21 @@ export function namesIn(file: Json): { ids: string[]; lights: string[]; robots: 
   const lights = objects
     .filter((one) => one['kind'] === 'light' || one['kind'] === 'infrared')
     .map((one) => textOf(one['id']));
-  const robots = listOf(world, 'robots').map((one) => textOf(tableOf(one)['name']));
+  const robots = listOf(world, 'robots').flatMap((one) => namesOfRobots(tableOf(one)));
   return { ids, lights, robots };
+}
+
+function namesOfRobots(entry: Table): string[] {
+  const first = { name: textOf(entry['name']), x: 0, y: 0 };
+  return robotsOfEntry(entry, first).map((one) => one.name);
+}
+
+/** Robots with a project of their own may be in a fleet, and be cut off from it. */
+export function robotsWithProject(file: Json): string[] {
+  return listOf(tableOf(file), 'robots')
+    .map(tableOf)
+    .filter((one) => one['project'] !== undefined)
+    .flatMap(namesOfRobots);
 }
 
 /** name, name2, name3: the first that nothing has. */
@@ -303,6 +326,9 @@ function membersOf(file: Json, verb: Verb): Table {
       return { robot: robots[0] ?? '', button: buttonsOf(file, robots[0] ?? '')[0] ?? '' };
     case 'light':
       return { id: lights[0] ?? '', on: false };
+    case 'cut':
+    case 'restore':
+      return { robot: robotsWithProject(file)[0] ?? '' };
   }
 }
 
@@ -314,8 +340,10 @@ const buttons: Record<RobotType, readonly string[]> = {
 
 /** The buttons that a robot of the file has. */
 export function buttonsOf(file: Json, robot: string): readonly string[] {
-  const found = listOf(tableOf(file), 'robots').find((one) => tableOf(one)['name'] === robot);
-  const type = tableOf(found ?? null)['type'];
+  const found = listOf(tableOf(file), 'robots')
+    .map(tableOf)
+    .find((one) => namesOfRobots(one).includes(robot));
+  const type = found?.['type'];
   return isRobotType(type) ? buttons[type] : [];
 }
 
@@ -387,17 +415,17 @@ function robotOf(value: Json, key: string): Thing[] {
   const at = pairOf(table['at']);
   const type = robotTypes.find((one) => one === table['type']);
   if (!at || !type) return [];
-  return [
-    {
-      key,
-      name: textOf(table['name']),
-      kind: 'robot',
-      type,
-      ...bodies[type],
-      pose: { x: at[0], y: at[1], angle: numberOf(table['angle'], 0) },
-      colour: colourOf(table['paint']) ?? white,
-      on: true,
-      later: false,
-    },
-  ];
+  // The first robot of a grid stands for its entry; the others are shown, and move with it.
+  const first = { name: textOf(table['name']), x: at[0], y: at[1] };
+  return robotsOfEntry(table, first).map(({ name, x, y }, place) => ({
+    key: place === 0 ? key : `${key}/${place}`,
+    name,
+    kind: 'robot',
+    type,
+    ...bodies[type],
+    pose: { x, y, angle: numberOf(table['angle'], 0) },
+    colour: colourOf(table['paint']) ?? white,
+    on: true,
+    later: false,
+  }));
 }

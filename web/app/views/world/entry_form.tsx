@@ -4,6 +4,7 @@ import {
   entryOf,
   namesIn,
   numberOf,
+  robotsWithProject,
   setSteps,
   textOf,
   timeSteps,
@@ -82,6 +83,9 @@ function Members({ verb, ...edited }: EditedEntry & { verb: Verb }) {
         </>
       );
     }
+    case 'cut':
+    case 'restore':
+      return <Name {...edited} member="robot" names={robotsWithProject(file.value)} />;
     case 'light':
       return (
         <>

@@ -43,7 +43,8 @@ export function entryText(file: Json, key: string): { t: string; what: string } 
     textOf(entry['id']) ||
     textOf(entry['button']) ||
     textOf(tableAt(file, key)['id']) ||
-    textOf(tableOf(entry['object'])['kind']);
+    textOf(tableOf(entry['object'])['kind']) ||
+    textOf(entry['robot']);
   return {
     t: `${numberOf(entry['t'], 0)} s`,
     what: verb ? words.entryText[verb](what) : textOf(entry['do']),

@@ -1,0 +1,96 @@
+#include "embed/robot_plan.hpp"
+
+#include "embed/prepared_run.hpp"
+#include "session/toolboxes.hpp"
+
+namespace vagus::embed {
+
+RobotPlan::RobotPlan(session::RobotBus& robot)
+    : robot_(robot), camera_(robot.session->world(), robot.id) {
+    parts_.bus = &nodes_;
+    if (camera_.exists()) parts_.camera = &camera_;
+}
+
+// A plan that was not run to its end is told to stop: code has threads of its own.
+RobotPlan::~RobotPlan() {
+    abort();
+    const Time latest = begun_ + kPlansEndWithin;
+    while (!over() && now() < latest) step();
+}
+
+Result<std::unique_ptr<RobotPlan>> RobotPlan::load(session::RobotBus& robot) {
+    // make_unique cannot reach the constructor.
+    std::unique_ptr<RobotPlan> made(new RobotPlan(robot));
+    const session::ProjectFile& project = robot.project;
+    std::vector<std::string> toolboxes;
+    for (const std::string& one : project.toolboxes) toolboxes.push_back(project.path_of(one));
+    TRY(session::add_toolboxes(made->library_, made->parts_, toolboxes));
+    made->plan_ = LoadedPlan::from_file(project.path_of(project.plan), made->library_);
+    if (!made->plan_->ok()) {
+        std::string report = made->plan_->report();
+        if (report.ends_with('\n')) report.pop_back();
+        return Error{Code::BadInput, "its plan has errors\n" + report};
+    }
+    for (const auto& [name, value] : project.start_set) {
+        const auto& plan = made->plan_->graph().plans.front();
+        made->options_.set.push_back(TRY(parse_set(plan, name + "=" + value)));
+    }
+    return made;
+}
+
+Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, Seen seen) {
+    names_.emplace(robot_.session->common(), "the scripts of " + robot_.project.file);
+    const plan::Findings missing = names_->check(plan_->plans(), library_.templates());
+    if (!missing.empty()) {
+        std::string lines = format_findings(missing);
+        lines.pop_back();  // the last newline
+        return Error{Code::BadInput, "its plan names events that its bus does not have\n" + lines};
+    }
+    if (!ears_) ears_.emplace(nodes_);  // in a second run it knows who is there
+    for (const debug::Event& event : before) (void)ears_->hear(event);
+    heard_.clear();  // what scripts said before time 0 is not for the plan
+    only_.reset();
+    ended_.reset();
+    begun_ = {};
+    options_.seed = seed;
+    options_.on_trace = std::move(seen);
+    options_.may_emit = [this](const run::BusEvent& event) { return names_->may_emit(event); };
+    options_.surroundings = this;
+    run_.emplace(plan_->graph(), library_, options_);
+    run_->start();
+    return Status::done();
+}
+
+void RobotPlan::hear(const debug::Event& event) {
+    if (!ears_) return;
+    if (auto one = ears_->hear(event)) heard_.push_back(std::move(*one));
+}
+
+void RobotPlan::hear(run::BusEvent event) {
+    if (!over()) heard_.push_back(std::move(event));
+}
+
+void RobotPlan::step() {
+    run_->step();
+    if (run_->over()) ended_ = run_->finish();
+}
+
+// As it ends the robot is not told to move again.
+void RobotPlan::abort() {
+    if (over()) return;
+    only_ = session::stop_events(library_.templates());
+    run_->abort();
+}
+
+std::vector<run::BusEvent> RobotPlan::begin() {
+    begun_ += sim::kNodeStep;
+    return std::exchange(heard_, {});
+}
+
+void RobotPlan::emit(Time at, const run::BusEvent& event) {
+    if (only_ && !only_->contains(event.name)) return;
+    // Refused is only what a supervisor emits as it stops: may_emit() was not asked.
+    (void)robot_.session->emit(event.name, event.arguments, at).ok();
+}
+
+}  // namespace vagus::embed

@@ -1,0 +1,86 @@
+// The plan of one robot among several of a world, with what it has around it: its bus, its camera.
+// It is stepped from outside (run/virtual_time.hpp), by its owner in the order of all plans.
+//
+//     auto plan = TRY(RobotPlan::load(robot));           // a RobotBus whose project has a plan
+//     TRY(plan->begin(seed, heard, see));                // its scripts run by now
+//     plan->hear(std::move(event));                      // of the bus, for the next instant
+//     while (!plan->over() && plan->now() <= at) plan->step();
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "debug/event.hpp"
+#include "embed/loaded_plan.hpp"
+#include "run/surroundings.hpp"
+#include "run/virtual_time.hpp"
+#include "session/bus_ears.hpp"
+#include "session/bus_names.hpp"
+#include "session/world_buses.hpp"
+#include "session/world_camera.hpp"
+#include "toolbox/bus.hpp"
+#include "toolbox/parts.hpp"
+
+namespace vagus::embed {
+
+// Plans that are interrupted stop within the grace times of their actors; more than so much
+// simulated time is not waited for.
+constexpr Duration kPlansEndWithin = std::chrono::seconds(60);
+
+class RobotPlan final : private run::Surroundings {
+public:
+    // Called with what happens in the plan, on the thread that steps it.
+    using Seen = std::function<void(const plan::TraceEvent&)>;
+
+    // `robot` and its world are borrowed. The Error has the findings of the plan, or says what is
+    // wrong with the values that the project gives its variables.
+    static Result<std::unique_ptr<RobotPlan>> load(session::RobotBus& robot);
+    ~RobotPlan() override;
+
+    // A run from time 0 on; `before` tells who is on the bus. The Error names events that the
+    // robot's scripts do not have.
+    Status begin(uint64_t seed, const std::vector<debug::Event>& before, Seen seen);
+    // Both are for the plan's next instant.
+    void hear(const debug::Event& event);
+    void hear(run::BusEvent event);
+
+    bool over() const { return ended_.has_value() || !run_; }
+    Time now() const { return run_->now(); }
+    void step();
+    void abort();
+    // How it has ended; nothing while it runs.
+    const std::optional<run::Ended>& ended() const { return ended_; }
+    const std::string& name() const { return plan_->graph().plans.front().name; }
+
+private:
+    explicit RobotPlan(session::RobotBus& robot);
+
+    // ---- run::Surroundings ----
+    Time next() const override { return begun_ + sim::kNodeStep; }
+    std::vector<run::BusEvent> begin() override;
+    void emit(Time at, const run::BusEvent& event) override;
+    void end() override {}
+
+    session::RobotBus& robot_;
+    toolbox::BusNodes nodes_;
+    session::WorldCamera camera_;
+    toolbox::Parts parts_;
+    run::CodeLibrary library_;
+    std::optional<LoadedPlan> plan_;
+    run::RunOptions options_;
+    std::optional<session::BusNames> names_;
+    std::optional<session::BusEars> ears_;
+    std::optional<run::VirtualTime> run_;
+    std::optional<run::Ended> ended_;
+    std::optional<std::set<std::string>> only_;  // what goes out once it is being stopped
+    std::vector<run::BusEvent> heard_;
+    Time begun_{};
+};
+
+}  // namespace vagus::embed

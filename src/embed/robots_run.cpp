@@ -1,0 +1,242 @@
+#include "embed/robots_run.hpp"
+
+#include <algorithm>
+
+#include "embed/robot_plan.hpp"
+#include "fleet/limits.hpp"
+#include "run/traced_variables.hpp"
+#include "session/trace.hpp"
+#include "wire/protocol.hpp"
+
+namespace vagus::embed {
+
+using session::NoteKind;
+using session::RobotBus;
+
+namespace {
+
+bool has_in_state(const RobotBus& robot, debug::ProgramState state) {
+    const std::vector<session::NodeState> nodes = robot.session->nodes();
+    return std::any_of(nodes.begin(), nodes.end(), [state](const auto& node) {
+        return node.has_script && node.state == state;
+    });
+}
+
+fleet::Shown shown(const RobotBus& robot) {
+    fleet::Shown shown;
+    for (const session::NodeState& node : robot.session->nodes()) {
+        if (node.fault.empty() || shown.problems.size() >= fleet::kProblemsMax) continue;
+        shown.problems.push_back((node.name + ": " + node.fault).substr(0, fleet::kLineBytesMax));
+    }
+    const bool runs = has_in_state(robot, debug::ProgramState::Running);
+    shown.state = !shown.problems.empty() ? "fault" : runs ? "running" : "stopped";
+    return shown;
+}
+
+std::vector<int16_t> values_of(const RobotBus& robot, const fleet::Tells& variable) {
+    for (const session::NodeState& node : robot.session->nodes()) {
+        if (node.name != variable.node) continue;
+        for (const auto& [name, values] : robot.session->script_variables(node.id)) {
+            if (name == variable.name) return {values.begin(), values.end()};
+        }
+        const auto values = robot.session->node_variable(node.robot, variable.name);
+        return {values.begin(), values.end()};
+    }
+    return {};
+}
+
+}  // namespace
+
+RobotsRun::RobotsRun(std::unique_ptr<session::WorldBuses> buses) : buses_(std::move(buses)) {}
+
+RobotsRun::~RobotsRun() = default;
+
+Result<std::unique_ptr<RobotsRun>> RobotsRun::open(const RobotsOptions& options) {
+    auto buses = TRY(session::WorldBuses::open(options.world, options.sim));
+    // make_unique cannot reach the constructor.
+    std::unique_ptr<RobotsRun> made(new RobotsRun(std::move(buses)));
+    made->traced_ = options.sim.traced;
+    made->door_ = options.door;
+    made->seed_ = options.sim.world.seed.value_or(made->buses_->world().definition().seed);
+    for (RobotBus& robot : made->buses_->robots()) {
+        const Status added = made->add_plan(robot);
+        if (added.ok()) continue;
+        return Error{added.error().code, options.world + ": robot " + robot.name + ": " +
+                                             robot.project.file + ": " + added.error().what};
+    }
+    return made;
+}
+
+Status RobotsRun::add_plan(RobotBus& robot) {
+    plans_.emplace_back();
+    if (robot.project.plan.empty()) return Status::done();
+    plans_.back() = TRY(RobotPlan::load(robot));
+    return Status::done();
+}
+
+// ---- the start and the end ----
+
+Status RobotsRun::start() {
+    if (!has_projects()) return Status::done();
+    (void)buses_->settle();
+    fleet_ = std::make_unique<session::WorldFleet>(buses_->world().definition(), seed_, door_);
+    for (size_t i = 0; i < plans_.size(); ++i) {
+        const RobotBus& robot = buses_->robots()[i];
+        const Status begun = begin(i);
+        if (begun.ok()) continue;
+        return Error{begun.error().code,
+                     "robot " + robot.name + ": " + robot.project.file + ": " + begun.error().what};
+    }
+    return Status::done();
+}
+
+Status RobotsRun::begin(size_t index) {
+    RobotBus& robot = buses_->robots()[index];
+    RobotPlan* const plan = plans_[index].get();
+    const std::vector<debug::Event> before = robot.session->take_heard();
+    if (plan != nullptr) {
+        TRY(plan->begin(seed_ + robot.id.number, before,
+                        [this, &robot](const plan::TraceEvent& event) { see(robot, event); }));
+    }
+    TRY(fleet_->join(robot, ears_of(robot, plan)));
+    // What scripts say as they are loaded is for the fleet, too.
+    for (const debug::Event& event : before) tell_fleet(robot, event, Time{});
+    return Status::done();
+}
+
+session::WorldFleet::Ears RobotsRun::ears_of(RobotBus& robot, RobotPlan* plan) {
+    const auto hear = [this, &robot, plan](const fleet::EmitOnBus& event) {
+        const Status sent = robot.session->emit(event.event, event.args, buses_->now());
+        if (!sent.ok()) {
+            return say(robot, "the event " + event.event + " of " + event.from +
+                                  " could not be passed on: " + sent.error().what);
+        }
+        if (plan) plan->hear(run::BusEvent{event.event, event.args, wire::kHostId});
+    };
+    const auto stop = [this, &robot, plan](const std::string& why) {
+        say(robot, why + "; the robot stops, as its project says");
+        if (plan) plan->abort();
+        robot.session->stop_nodes();
+    };
+    session::WorldFleet::Ears ears{
+        .hear = hear, .stop = stop, .say = [this, &robot](const std::string& text) {
+            say(robot, text);
+        }};
+    if (door_) add_ears_of_broker(ears, robot);
+    return ears;
+}
+
+void RobotsRun::add_ears_of_broker(session::WorldFleet::Ears& ears, RobotBus& robot) {
+    ears.shown = [&robot] { return shown(robot); };
+    ears.values = [&robot](const fleet::Tells& variable) { return values_of(robot, variable); };
+    ears.is_at_rest = [&robot] { return !has_in_state(robot, debug::ProgramState::Running); };
+    ears.obey = [this, &robot,
+                 stop = ears.stop](const fleet::Command& command) -> std::optional<fleet::Answer> {
+        if (command.verb == "stop") {
+            stop("the fleet says stop");
+            return std::nullopt;
+        }
+        if (command.verb != "emit") {
+            return fleet::Answer{.what = command.verb + " is no command for a robot of a world"};
+        }
+        const Status sent = robot.session->emit(command.event, command.values, buses_->now());
+        return sent.ok() ? fleet::Answer{.done = true} : fleet::Answer{.what = sent.error().what};
+    };
+}
+
+void RobotsRun::see(RobotBus& robot, const plan::TraceEvent& event) {
+    if (traced_) buses_->trace(plan::format_trace(event, robot.name) + "\n");
+    const auto* ended = std::get_if<plan::PlanEnded>(&event.what);
+    if (ended == nullptr || run::level_of(event) > 0) return;
+    std::string text = robot.name + ": the plan " + event.plan + " has ended (" +
+                       std::string(plan::name_of(ended->result)) + ")";
+    if (ended->result == plan::PlanResult::Error) text += ": " + ended->message;
+    robot.session->tell(NoteKind::Plan, std::move(text));
+}
+
+void RobotsRun::say(RobotBus& robot, const std::string& text) {
+    robot.session->tell(NoteKind::Fleet, robot.name + ": " + text);
+    if (!traced_) return;
+    buses_->trace(session::TraceLine(buses_->now(), "fleet")
+                      .text("robot", robot.name)
+                      .text("text", text)
+                      .done());
+}
+
+bool RobotsRun::has_failed() const {
+    return std::any_of(plans_.begin(), plans_.end(), [](const auto& plan) {
+        return plan && plan->ended() && plan->ended()->result == plan::PlanResult::Error;
+    });
+}
+
+void RobotsRun::end() {
+    const auto running = [](const auto& plan) { return plan && !plan->over(); };
+    for (const auto& plan : plans_) {
+        if (plan) plan->abort();
+    }
+    const Time latest = buses_->now() + kPlansEndWithin;
+    while (std::any_of(plans_.begin(), plans_.end(), running) && buses_->now() < latest) {
+        instant();
+    }
+    if (door_) fleet_.reset();  // its members say that they go
+}
+
+Status RobotsRun::restart() {
+    end();
+    rest_ = {};
+    buses_->reset();
+    return start();
+}
+
+// ---- time ----
+
+void RobotsRun::step(Duration span) {
+    if (!has_projects()) return buses_->common().step(span);
+    rest_ += span;
+    for (; rest_ >= sim::kNodeStep; rest_ -= sim::kNodeStep) instant();
+}
+
+void RobotsRun::instant() {
+    const Time at = buses_->now() + sim::kNodeStep;
+    run_plans_before(at);
+    buses_->begin_instant();
+    for (size_t i = 0; i < plans_.size(); ++i) hear(i, at);
+    if (fleet_) fleet_->pass(at);
+    for (const auto& plan : plans_) {
+        while (plan && !plan->over() && plan->now() <= at) plan->step();
+    }
+    buses_->end_instant();
+}
+
+// Most have nothing to do before the next instant, and have come to it already.
+void RobotsRun::run_plans_before(Time at) {
+    std::vector<RobotPlan*> early;
+    for (const auto& plan : plans_) {
+        if (plan && !plan->over() && plan->now() < at) early.push_back(plan.get());
+    }
+    while (!early.empty()) {
+        const auto first =
+            std::min_element(early.begin(), early.end(),
+                             [](RobotPlan* a, RobotPlan* b) { return a->now() < b->now(); });
+        (*first)->step();
+        if ((*first)->over() || (*first)->now() >= at) early.erase(first);
+    }
+}
+
+// What nodes say goes to the fleet; what hosts say does not: it may have come from there.
+void RobotsRun::hear(size_t index, Time at) {
+    RobotBus& robot = buses_->robots()[index];
+    for (const debug::Event& event : robot.session->take_heard()) {
+        if (plans_[index]) plans_[index]->hear(event);
+        tell_fleet(robot, event, at);
+    }
+}
+
+void RobotsRun::tell_fleet(const RobotBus& robot, const debug::Event& event, Time at) {
+    const auto* sent = std::get_if<debug::UserEvent>(&event.what);
+    const bool is_named = sent != nullptr && !sent->name.empty();
+    if (!fleet_ || !is_named || event.node == wire::kHostId) return;
+    fleet_->emitted(robot.id, sent->name, sent->arguments, at);
+}
+
+}  // namespace vagus::embed

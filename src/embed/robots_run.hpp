@@ -1,0 +1,86 @@
+// A world in which robots have projects of their own, run on one clock: the scripts of each on its
+// own bus, its plan beside it, and between them the fleet that their projects name.
+//
+//     auto opened = RobotsRun::open({.world = "class.world.json"});
+//     RobotsRun& run = *opened.value();
+//     TRY(run.start());                        // scripts run, plans begin: time 0
+//     run.step(std::chrono::seconds(20));
+//     print(run.buses().take_trace());
+//     run.end();                               // plans that still run are interrupted
+//
+// At each instant: the timeline, deliveries and nodes of all buses, the fleet, the plans in the
+// order of the file, the bodies. Between two instants the plan that is due first is first. The
+// same world and seed give the same bytes. A world without projects runs as a SimSession does.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "debug/event.hpp"
+#include "plan/trace.hpp"
+#include "session/sim_session.hpp"
+#include "session/world_buses.hpp"
+#include "session/world_fleet.hpp"
+
+namespace vagus::embed {
+
+struct RobotsOptions {
+    std::string world = {};
+    session::SimOptions sim = {};
+    // Robots with a project are members at a real broker, in real time.
+    std::optional<session::WorldFleet::Door> door = {};
+};
+
+class RobotPlan;
+
+class RobotsRun {
+public:
+    // Reads the world, the projects, their plans. The Error says what is wrong with which file.
+    static Result<std::unique_ptr<RobotsRun>> open(const RobotsOptions& options);
+    ~RobotsRun();
+
+    session::WorldBuses& buses() { return *buses_; }
+    // Whether there are robots with projects.
+    bool has_projects() const { return !buses_->robots().empty(); }
+
+    // At time 0, once all scripts are there (WorldBuses::settle(), which this calls): plans begin,
+    // robots join their fleets. The Error names a robot whose plan or name does not fit.
+    Status start();
+    // Lets `span` pass: whole milliseconds, the rest is kept.
+    void step(Duration span);
+    // Plans that still run are interrupted, as at the end of a run (P28); time passes until all are
+    // over.
+    void end();
+    // Time 0 again. The Error as of start().
+    Status restart();
+
+    // Whether a plan has ended with an error.
+    bool has_failed() const;
+
+private:
+    explicit RobotsRun(std::unique_ptr<session::WorldBuses> buses);
+    Status add_plan(session::RobotBus& robot);
+    Status begin(size_t index);
+    void instant();
+    void run_plans_before(Time at);
+    void hear(size_t index, Time at);
+    void tell_fleet(const session::RobotBus& robot, const debug::Event& event, Time at);
+    session::WorldFleet::Ears ears_of(session::RobotBus& robot, RobotPlan* plan);
+    void add_ears_of_broker(session::WorldFleet::Ears& ears, session::RobotBus& robot);
+    void see(session::RobotBus& robot, const plan::TraceEvent& event);
+    void say(session::RobotBus& robot, const std::string& text);
+
+    std::unique_ptr<session::WorldBuses> buses_;
+    std::vector<std::unique_ptr<RobotPlan>> plans_;  // by place in buses().robots(); may be nullptr
+    std::unique_ptr<session::WorldFleet> fleet_;     // nullptr until start()
+    std::optional<session::WorldFleet::Door> door_;
+    bool traced_ = false;
+    uint64_t seed_ = 1;
+    Duration rest_{};
+};
+
+}  // namespace vagus::embed

@@ -1,0 +1,193 @@
+#include "fleet/modelled_broker.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "fleet/topic.hpp"
+
+namespace vagus::fleet {
+
+ModelledBroker::~ModelledBroker() = default;
+
+// ---- the ends of a way ----
+
+ModelledBroker::Way& ModelledBroker::add(std::string fleet, Post will) {
+    return *ways_.emplace_back(std::make_unique<Way>(*this, std::move(fleet), std::move(will)));
+}
+
+void ModelledBroker::connect(Way& way) {
+    if (way.connected_) return;
+    way.connected_ = true;
+    ++way.connection_;
+    way.last_up_ = way.last_down_ = now_;
+    send({.way = &way, .connection = way.connection_, .what = LinkEvent(Connected{})}, 1);
+}
+
+void ModelledBroker::Way::subscribe(const std::vector<Filter>& filters) {
+    if (!connected_) return;
+    broker_.send({.way = this, .connection = connection_, .to_broker = true, .what = filters}, 1);
+}
+
+void ModelledBroker::Way::publish(const Post& post) {
+    if (!connected_) return;
+    broker_.send({.way = this, .connection = connection_, .to_broker = true, .what = post},
+                 post.qos);
+}
+
+// ---- what ways do to messages ----
+
+bool ModelledBroker::chance(double share) {
+    return share > 0 && random_.unit() < share;
+}
+
+// Never before what was sent on that way before it.
+Time ModelledBroker::arrival(Time& last, int times_lost) {
+    const double more = model_.jitter.count() > 0 ? random_.unit() : 0;
+    const auto jitter =
+        Duration(static_cast<Duration::rep>(more * static_cast<double>(model_.jitter.count())));
+    const Time at = now_ + model_.latency + jitter + times_lost * kSentAgainAfter;
+    last = std::max(last, at);
+    return last;
+}
+
+void ModelledBroker::send(Packet packet, int qos) {
+    int times_lost = 0;
+    while (times_lost < kLostInARowMax && chance(model_.loss)) ++times_lost;
+    if (qos == 0 && times_lost > 0) {
+        ++lost_;
+        return;
+    }
+    Way& way = *packet.way;
+    Time& last = packet.to_broker ? way.last_up_ : way.last_down_;
+    const bool is_message = std::holds_alternative<Post>(packet.what) ||
+                            (std::holds_alternative<LinkEvent>(packet.what) &&
+                             std::holds_alternative<Received>(std::get<LinkEvent>(packet.what)));
+    if (qos > 0 && is_message && chance(model_.twice)) {
+        under_way_.emplace(std::pair(arrival(last, times_lost), ++sent_), packet);
+        times_lost = 0;
+    }
+    under_way_.emplace(std::pair(arrival(last, times_lost), ++sent_), std::move(packet));
+}
+
+void ModelledBroker::cut(Way& way) {
+    if (!way.cut_since_) way.cut_since_ = now_;
+}
+
+// What waited goes on; a connection that both ends have ended begins again.
+void ModelledBroker::restore(Way& way) {
+    if (!way.cut_since_) return;
+    way.cut_since_.reset();
+    if (!way.connected_) return connect(way);
+    for (Packet& packet : std::exchange(way.held_, {})) {
+        Time& last = packet.to_broker ? way.last_up_ : way.last_down_;
+        under_way_.emplace(std::pair(arrival(last, 0), ++sent_), std::move(packet));
+    }
+}
+
+void ModelledBroker::notice_cuts(Time now) {
+    for (const auto& way : ways_) {
+        if (way->connected_ && way->cut_since_ && *way->cut_since_ + kMissedAfter <= now) {
+            lose(*way);
+        }
+    }
+}
+
+// Both ends end the connection. What was under way is gone: its sender knows what was not
+// acknowledged.
+void ModelledBroker::lose(Way& way) {
+    way.connected_ = false;
+    ++way.connection_;
+    lost_ += way.held_.size();
+    way.held_.clear();
+    way.filters_.clear();
+    matches_.clear();
+    way.inbox_.emplace_back(Lost{"the broker does not answer any more"});
+    publish(way.will_, nullptr);
+}
+
+void ModelledBroker::pass(Time now) {
+    while (!under_way_.empty() && under_way_.begin()->first.first <= now) {
+        now_ = std::max(now_, under_way_.begin()->first.first);
+        Packet packet = std::move(under_way_.begin()->second);
+        under_way_.erase(under_way_.begin());
+        arrive(std::move(packet));
+    }
+    now_ = now;
+    notice_cuts(now);
+}
+
+void ModelledBroker::arrive(Packet packet) {
+    Way& way = *packet.way;
+    if (packet.connection != way.connection_) {
+        ++lost_;
+    } else if (way.cut_since_) {
+        way.held_.push_back(std::move(packet));
+    } else if (packet.to_broker) {
+        arrive_at_broker(packet);
+    } else {
+        way.inbox_.push_back(std::move(std::get<LinkEvent>(packet.what)));
+    }
+}
+
+// ---- the broker ----
+
+void ModelledBroker::arrive_at_broker(Packet& packet) {
+    Way& way = *packet.way;
+    if (const auto* filters = std::get_if<std::vector<Filter>>(&packet.what)) {
+        return subscribe(way, *filters);
+    }
+    const Post& post = std::get<Post>(packet.what);
+    publish(post, &way);
+    if (post.number == 0) return;
+    send({.way = &way,
+          .connection = way.connection_,
+          .what = LinkEvent(Acknowledged{.number = post.number})},
+         1);
+}
+
+void ModelledBroker::subscribe(Way& way, const std::vector<Filter>& filters) {
+    matches_.clear();
+    for (const Filter& filter : filters) {
+        way.filters_.push_back(filter);
+        for (const auto& [topic, post] : retained_) {
+            if (matches_filter(filter.topic, topic)) deliver(way, post, true);
+        }
+    }
+}
+
+// Who has several filters for a topic gets it once.
+const std::vector<ModelledBroker::Match>& ModelledBroker::matches(const std::string& topic) {
+    const auto known = matches_.find(topic);
+    if (known != matches_.end()) return known->second;
+    std::vector<Match>& found = matches_[topic];
+    for (const auto& way : ways_) {
+        std::optional<Match> match;
+        for (const Filter& filter : way->filters_) {
+            if (!matches_filter(filter.topic, topic)) continue;
+            match = Match{way.get(), filter.own || (match && match->own)};
+        }
+        if (match) found.push_back(*match);
+    }
+    return found;
+}
+
+void ModelledBroker::publish(const Post& post, const Way* by) {
+    if (post.retained) retained_[post.topic] = post;
+    for (const Match& match : matches(post.topic)) {
+        if (match.own || match.way != by) deliver(*match.way, post, false);
+    }
+}
+
+void ModelledBroker::deliver(Way& way, const Post& post, bool retained) {
+    if (!way.connected_) return;
+    Result<Heard> heard = read(way.fleet_, post.topic, post.payload);
+    LinkEvent event = Malformed{};
+    if (heard.ok()) {
+        event = Received{std::move(heard.value()), retained};
+    } else {
+        event = Malformed{heard.error().what};
+    }
+    send({.way = &way, .connection = way.connection_, .what = std::move(event)}, post.qos);
+}
+
+}  // namespace vagus::fleet

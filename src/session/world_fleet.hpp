@@ -1,0 +1,95 @@
+// The fleet of a simulated world: its robots with a project are members as real ones are
+// (fleet/member.hpp), and between them is a broker in virtual time (fleet/modelled_broker.hpp). The
+// world's file says how messages travel, and its timeline whose way is cut.
+//
+//     WorldFleet fleet(world.definition(), seed);
+//     TRY(fleet.join(robot, ears));                      // a RobotBus whose project names a fleet
+//     fleet.emitted(robot.id, "alarm", {}, now);          // a node of that robot said it
+//     fleet.pass(now);                                    // calls the ears
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.hpp"
+#include "fleet/member.hpp"
+#include "fleet/modelled_broker.hpp"
+#include "session/world_buses.hpp"
+#include "sim/world.hpp"
+
+namespace vagus::session {
+
+constexpr Duration kShowEvery = std::chrono::milliseconds(100);  // to a real broker
+
+class WorldFleet {
+public:
+    // What a robot does for the fleet. Called within pass().
+    struct Ears {
+        std::function<void(const fleet::EmitOnBus&)> hear;
+        std::function<void(const std::string& why)> stop;
+        std::function<void(const std::string& text)> say;
+        // Of members at a real broker: what is shown of the robot, the values of a variable (empty:
+        // there is none), a command. Nothing: it is answered when all nodes are at rest.
+        std::function<fleet::Shown()> shown = {};
+        std::function<std::vector<int16_t>(const fleet::Tells& variable)> values = {};
+        std::function<std::optional<fleet::Answer>(const fleet::Command&)> obey = {};
+        std::function<bool()> is_at_rest = {};
+    };
+    // To a real broker, in real time: a way for each robot instead of the modelled ones.
+    struct Door {
+        std::string fleet = {};  // instead of those that the projects name; empty: those
+        // Unlike what any other member has, so that nobody takes it for that one.
+        std::function<std::pair<std::string, int64_t>()> instance_and_epoch = {};
+        std::function<Result<std::unique_ptr<fleet::Link>>(const fleet::MemberOptions& member,
+                                                           fleet::Post will)>
+            connect = {};
+    };
+
+    // The definition is borrowed.
+    WorldFleet(const sim::WorldDefinition& world, uint64_t seed, std::optional<Door> door = {});
+    // Members at a real broker say that they go.
+    ~WorldFleet();
+
+    // A robot whose project names no fleet is in none. The Error says why it cannot be a member.
+    Status join(const RobotBus& robot, Ears ears);
+    void emitted(sim::RobotId robot, const std::string& event, const std::vector<int16_t>& args,
+                 Time now);
+    // What is due by `now`, at each instant: the broker, then the timeline, then the members in the
+    // order in which they joined.
+    void pass(Time now);
+
+private:
+    struct Robot {
+        fleet::Member member;
+        fleet::ModelledBroker::Way* modelled = nullptr;  // or `real`
+        std::unique_ptr<fleet::Link> real = {};
+        std::string name = {};
+        Ears ears = {};
+        std::vector<fleet::Tells> tell = {};
+        Time show_at = {};
+        std::vector<fleet::Command> stopping = {};  // to be answered at rest
+
+        fleet::Link& way() { return modelled ? static_cast<fleet::Link&>(*modelled) : *real; }
+    };
+    fleet::MemberOptions member_of(const RobotBus& robot) const;
+    void run_timeline(Time now);
+    void act(const sim::CutFleet& action);
+    void turn(Robot& robot, Time now);
+    void show(Robot& robot, Time now);
+    void obey(Robot& robot, const fleet::Command& command);
+    void perform(Robot& robot);
+
+    const sim::WorldDefinition& world_;
+    fleet::ModelledBroker broker_;
+    const std::optional<Door> door_;
+    std::vector<std::unique_ptr<Robot>> robots_;
+    std::vector<Robot*> by_id_;  // by robot of the world; nullptr: in no fleet
+    size_t timeline_next_ = 0;
+};
+
+}  // namespace vagus::session

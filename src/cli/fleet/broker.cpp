@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 
 #include "base/file.hpp"
@@ -25,7 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLookEveryMs = 200;  // whether children go on
+using Clock = std::chrono::steady_clock;
+
+constexpr int kLookEveryMs = 200;                            // whether children go on
+constexpr auto kKeeperAgainAfter = std::chrono::seconds(1);  // one that cannot run is no flood
 constexpr size_t kPasswordBytes = 16;
 constexpr int kCertificateDays = 3650;
 // For one that is slow: a keeper that comes finds all of its records.
@@ -263,8 +267,10 @@ public:
             const auto ended = child_->ended();
             if (!ended) return;
             child_.reset();
+            again_at_ = Clock::now() + kKeeperAgainAfter;
             say(fmt::format("the keeper of {} {}, and is started again\n", fleet_, *ended));
         }
+        if (Clock::now() < again_at_) return;
         auto started = Companion::start(words_);
         if (started.ok()) child_.emplace(std::move(started.value()));
     }
@@ -276,6 +282,7 @@ private:
     std::string fleet_;
     std::vector<std::string> words_;
     std::optional<Companion> child_;
+    Clock::time_point again_at_{};
 };
 
 // Until an end is asked for, or mosquitto has ended: how.

@@ -177,9 +177,9 @@ public:
         if (post.number != 0) numbers_[id] = post.number;
     }
 
-    // What was published arrives first. The library closes its socket right behind its good-bye; with
-    // bytes unread the system would break it off, and the broker, which may miss the good-bye then,
-    // would publish the will. So what comes is read until nothing comes for a moment.
+    // What was published arrives first. The library closes its socket right behind its good-bye;
+    // with bytes unread the system would break it off, and the broker, which may miss the good-bye
+    // then, would publish the will. So what comes is read until nothing comes for a moment.
     void say_good_bye() {
         for (int i = 0; i < kGoodByeTurns; ++i) {
             pollfd wait{mosquitto_socket(library_), POLLIN, 0};

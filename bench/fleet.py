@@ -22,7 +22,7 @@ sys.path[:0] = [str(HERE.parent / "tests" / part) for part in ("support", "studi
 import projects
 from harness import VAGUS, Bus, Program, free_port, listening, simulated, vagus, wait_until
 
-CROWD = os.environ.get("VAGUS_FLEET_CROWD", str(pathlib.Path(VAGUS).parent / "fleet_crowd"))
+LOAD = os.environ.get("VAGUS_FLEET_LOAD", str(pathlib.Path(VAGUS).parent / "fleet_load"))
 FLEET, EVENT, NODE = "lab", 0, 1
 SOON = 1.0  # what has not come by then counts as lost
 STOP_P99_MS = 300
@@ -76,7 +76,7 @@ def megabytes(process):
 def measure_members(count, seconds):
     with contextlib.ExitStack() as stack:
         broker = Broker(stack, [f"m{i}" for i in range(count)])
-        crowd = stack.enter_context(Program(CROWD, broker.target, broker.broker, "members", count))
+        crowd = stack.enter_context(Program(LOAD, broker.target, broker.broker, "members", count))
         begun = time.monotonic()
         crowd.wait_line(r"^all \d+ members are in the fleet$")
         figure(f"{count} members", f"in the fleet {time.monotonic() - begun:.1f} s after they began at once")
@@ -174,7 +174,7 @@ def measure_stop(robots, rounds):
                 "--fleet", broker.target, "--robot", name, *broker.login(name))))
         for name, program in zip(names, programs):
             program.wait_line(rf'this robot is "{name}"')
-        desk = stack.enter_context(Program(CROWD, broker.target, broker.broker, "stop", rounds))
+        desk = stack.enter_context(Program(LOAD, broker.target, broker.broker, "stop", rounds))
         found = [desk.wait_line(r"^stop ([\d.]+) (\d+) (\d+)$") for _ in range(rounds)]
         median, p99 = percentiles([float(one.group(1)) for one in found])
         missed = sum(int(one.group(3)) - int(one.group(2)) for one in found)

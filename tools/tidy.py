@@ -72,6 +72,7 @@ ROOMS = {
         ("a broker", "broker/"),
         ("door", "web/"),
         ("pages", "studio/"),
+        ("a fleet", "fleet/"),
         ("files", "project/"),
         ("scripts", "script/"),
         ("editing", "edit/"),

@@ -78,6 +78,13 @@ std::optional<size_t> malformed_utf8_at(std::string_view text) {
     return std::nullopt;
 }
 
+std::string_view utf8_prefix(std::string_view text, size_t bytes_max) {
+    if (text.size() <= bytes_max) return text;
+    size_t size = bytes_max;
+    while (size > 0 && is_utf8_continuation(text[size])) --size;
+    return text.substr(0, size);
+}
+
 size_t count_code_points(std::string_view text) {
     return static_cast<size_t>(std::count_if(
         text.begin(), text.end(), [](char byte) { return !is_utf8_continuation(byte); }));
@@ -127,6 +134,12 @@ std::optional<uint64_t> decimal_number(std::string_view text) {
 std::string joined_lines(const std::vector<std::string>& lines) {
     std::string text;
     for (const std::string& line : lines) text += (&line == &lines.front() ? "" : "\n") + line;
+    return text;
+}
+
+std::string hex_of(std::string_view bytes) {
+    std::string text;
+    for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<uint8_t>(byte));
     return text;
 }
 

@@ -32,6 +32,9 @@ constexpr bool is_utf8_continuation(char byte) {
     return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
 }
 
+// The longest beginning of `text` with at most `bytes_max` bytes that cuts no character in two.
+std::string_view utf8_prefix(std::string_view text, size_t bytes_max);
+
 // Number of code points; every byte of malformed text that is no continuation byte counts as one.
 size_t count_code_points(std::string_view text);
 
@@ -57,6 +60,9 @@ std::optional<uint64_t> decimal_number(std::string_view text);
 
 // Each on a line of its own, without an end behind the last.
 std::string joined_lines(const std::vector<std::string>& lines);
+
+// Two small hexadecimal digits for each byte.
+std::string hex_of(std::string_view bytes);
 
 // "a, b and c"
 std::string list_of(const std::vector<std::string_view>& words);

@@ -69,6 +69,18 @@ TEST(Text, SplitsAtEverySeparator) {
     EXPECT_EQ(split("", ';'), (std::vector<std::string_view>{""}));
 }
 
+TEST(Text, CutsNoCharacterInTwo) {
+    EXPECT_EQ(utf8_prefix("a\xc3\xa9", 2), "a");
+    EXPECT_EQ(utf8_prefix("a\xc3\xa9", 3), "a\xc3\xa9");
+    EXPECT_EQ(utf8_prefix("\xf0\x9f\x98\x80", 3), "");
+    EXPECT_EQ(utf8_prefix("ab", 2), "ab");
+}
+
+TEST(Text, WritesBytesAsHexDigits) {
+    EXPECT_EQ(hex_of(std::string_view("\x00\x0f\xff", 3)), "000fff");
+    EXPECT_EQ(hex_of(""), "");
+}
+
 TEST(Text, ListsWordsAsASentenceDoes) {
     EXPECT_EQ(list_of({"a"}), "a");
     EXPECT_EQ(list_of({"a", "b", "c"}), "a, b and c");

@@ -159,8 +159,7 @@ void Control::start_next() {
 void Control::begin_turn() {
     if (started_ || requests_.empty()) return out_.requests.leave(view_.id);
     started_ = true;
-    requests_.front().deadline = out_.now + kAnswerWithin;
-    ask_again_ = out_.now + kAskAgain;
+    wait_anew(requests_.front());
     start(requests_.front());
 }
 
@@ -219,6 +218,12 @@ void Control::start(Request& request) {
 
 // The node, or somebody on the way, may have had too much to do. Only what is the same twice is
 // said twice: a step is not, nor is what the user would see happen again.
+// What was sent last has all its time to be answered.
+void Control::wait_anew(Request& request) {
+    request.deadline = out_.now + kAnswerWithin;
+    ask_again_ = out_.now + kAskAgain;
+}
+
 void Control::repeat(Request& request) {
     switch (request.kind) {
         case Kind::Load:
@@ -354,8 +359,7 @@ Control::Answer Control::answer_load(Request& request, const wire::ExecutionStat
     if (request.acked == all) return is_stepping_state(state) ? Answer{} : Outcome{};
     if (!is_loaded_state(state, request.program)) return {};  // of what was said before
     request.acked++;
-    request.deadline = out_.now + kAnswerWithin;
-    ask_again_ = out_.now + kAskAgain;
+    wait_anew(request);
     out_.requests.progress(view_.id, out_.now);
     send_fragments(request);
     if (request.acked < all) return {};
@@ -384,22 +388,16 @@ void Control::receive(const wire::Variables& variables) {
         return uint32_t{static_cast<uint16_t>(variables.values.values[i])};
     };
     const uint32_t told = word(0) | word(1) << 16;
-    load->asks_mark = false;
-    load->deadline = out_.now + kAnswerWithin;
-    ask_again_ = out_.now + kAskAgain;
-    const bool same = told == mark_of(load->program->bytecode);
-    Answer done = same ? loaded(*load) : load_again(*load, told);
-    if (!done) return;
-    tell_state();
-    finish(std::move(*done));
+    after_mark(*load, told);
 }
 
-// It answers all but that: nobody waits for it for ever.
-void Control::take_unseen(Request& load) {
+// Without a word from the node, which answers all but that, its program is believed: nobody waits
+// for it for ever.
+void Control::after_mark(Request& load, std::optional<uint32_t> told) {
     load.asks_mark = false;
-    load.deadline = out_.now + kAnswerWithin;
-    ask_again_ = out_.now + kAskAgain;
-    Answer done = loaded(load);
+    wait_anew(load);
+    const bool same = !told || *told == mark_of(load.program->bytecode);
+    Answer done = same ? loaded(load) : load_again(load, *told);
     if (!done) return;
     tell_state();
     finish(std::move(*done));
@@ -547,7 +545,7 @@ void Control::tick() {
         ask_again_ = out_.now + kAskAgain;
         return repeat(requests_.front());
     }
-    if (requests_.front().asks_mark) return take_unseen(requests_.front());
+    if (requests_.front().asks_mark) return after_mark(requests_.front(), std::nullopt);
     finish({Error{Code::Timeout,
                   who() + " did not answer the request to " + act_of(requests_.front().kind) +
                       " within " + std::to_string(kAnswerWithin / std::chrono::seconds(1)) + " s"},

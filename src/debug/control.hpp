@@ -105,6 +105,7 @@ private:
     Request* active(Kind kind);
     bool uploading();
 
+    void wait_anew(Request& request);
     void start(Request& request);
     void repeat(Request& request);
     void start_run(Request& request);
@@ -116,7 +117,7 @@ private:
     Answer answer(Request& request, const wire::ExecutionStateChanged& state);
     Answer answer_load(Request& request, const wire::ExecutionStateChanged& state);
     void ask_mark();
-    void take_unseen(Request& load);
+    void after_mark(Request& load, std::optional<uint32_t> told);
     Answer loaded(Request& request);
     Answer load_again(Request& request, uint32_t told);
     Answer answer_run(Request& request, const wire::ExecutionStateChanged& state);

@@ -54,6 +54,7 @@ private:
     void on(const Received& received);
     void on(const Acknowledged& acknowledged);
     void on(const Malformed& malformed);
+    void on(const TakenBack&) {}  // by whoever published it; what is ours is published again
 
     void tell(const keeper::Input& input);
     void perform(const keeper::Actions& actions);

@@ -69,7 +69,7 @@ constexpr std::array kEvent = {
     Field{"args", T::Words, kMust, 0, kWordsMax, "", "arguments, as on the bus"}};
 
 constexpr std::array kAsk = {
-    Field{"instance", T::Name, kMust, 0, 0, "", "who asks, and wants the name of this robot"}};
+    Field{"instance", T::Name, kMust, 0, 0, "", "of the robot that wants this name"}};
 
 constexpr std::array kAnswer = {
     Field{"id", T::Name, kMust, 0, 0, "", "of what is answered"},
@@ -234,8 +234,6 @@ std::string expected(const Field& field) {
             return "true or false";
         case T::Int:
             return fmt::format("a whole number from {:.0f} to {:.0f}", field.low, field.high);
-        case T::Number:
-            return fmt::format("a number from {} to {}", field.low, field.high);
         case T::Name:
             return fmt::format("a name of 1 to {} bytes", kNameBytesMax);
         case T::Line:
@@ -284,8 +282,6 @@ bool fits(const JsonValue& value, const Field& field) {
         case T::Int:
             return value.kind == JsonKind::Int && value.number >= field.low &&
                    value.number <= field.high;
-        case T::Number:
-            return value.is_number() && value.number >= field.low && value.number <= field.high;
         case T::Name:
             return is_name_value(value);
         case T::Line:

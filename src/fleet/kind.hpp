@@ -38,16 +38,15 @@ enum class Kind {
 
 enum class FieldType {
     Bool,
-    Int,     // from low to high
-    Number,  // the same
-    Name,    // fleet/topic.hpp
-    Line,    // a text of at most kLineBytesMax bytes
-    Word,    // one of `words`, with | between
-    Words,   // values of the bus: whole numbers of 16 bits, at most `high` of them
-    Names,   // at most `high` names
-    Lines,   // at most `high` lines
-    Term,    // of the keeper: EPOCH.NUMBER
-    Value,   // any value
+    Int,    // from low to high
+    Name,   // fleet/topic.hpp
+    Line,   // a text of at most kLineBytesMax bytes
+    Word,   // one of `words`, with | between
+    Words,  // values of the bus: whole numbers of 16 bits, at most `high` of them
+    Names,  // at most `high` names
+    Lines,  // at most `high` lines
+    Term,   // of the keeper: EPOCH.NUMBER
+    Value,  // any value
     Object
 };
 

@@ -17,7 +17,7 @@ namespace vagus::fleet {
 
 struct Filter {
     std::string topic = {};  // may have wildcards
-    bool own = true;    // also what this client publishes
+    bool own = true;         // also what this client publishes
 };
 
 struct Post {
@@ -42,12 +42,16 @@ struct Acknowledged {
     uint64_t number = 0;
     std::string refused = {};  // why it passed it on to nobody; empty: it did
 };
+// What was retained there is nothing any more: who may write it has taken it back.
+struct TakenBack {
+    Topic topic;
+};
 // A message that is none of the list: counted, and never obeyed.
 struct Malformed {
     std::string why;
 };
 
-using LinkEvent = std::variant<Connected, Lost, Received, Acknowledged, Malformed>;
+using LinkEvent = std::variant<Connected, Lost, Received, Acknowledged, TakenBack, Malformed>;
 
 class Link {
 public:

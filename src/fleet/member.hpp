@@ -129,6 +129,7 @@ private:
     // ---- member.cpp ----
     void on(const Received& received);
     void on(const Acknowledged& acknowledged);
+    void on(const TakenBack&) {}
     void on(const Malformed&) { ++left_out_; }
     void hear_event(const Topic& topic, const Event& event);
     void hear_early_events();

@@ -146,29 +146,46 @@ void ModelledBroker::arrive_at_broker(Packet& packet) {
 }
 
 void ModelledBroker::subscribe(Way& way, const std::vector<Filter>& filters) {
-    matches_.clear();
     for (const Filter& filter : filters) {
         way.filters_.push_back(filter);
-        for (const auto& [topic, post] : retained_) {
-            if (matches_filter(filter.topic, topic)) deliver(way, post, true);
-        }
+        each_topic(matches_, filter, [&](auto& known) { add_match(known.second, way, filter); });
+        each_topic(retained_, filter, [&](auto& kept) { deliver(way, kept.second, true); });
+    }
+}
+
+// What is kept under the topics that the filter means.
+template <typename ByTopic, typename Do>
+void ModelledBroker::each_topic(ByTopic& all, const Filter& filter, const Do& act) {
+    if (filter.topic.find('+') == std::string::npos) {
+        const auto found = all.find(filter.topic);
+        if (found != all.end()) act(*found);
+        return;
+    }
+    for (auto& one : all) {
+        if (matches_filter(filter.topic, one.first)) act(one);
     }
 }
 
 // Who has several filters for a topic gets it once.
-const std::vector<ModelledBroker::Match>& ModelledBroker::matches(const std::string& topic) {
-    const auto known = matches_.find(topic);
-    if (known != matches_.end()) return known->second;
-    std::vector<Match>& found = matches_[topic];
-    for (const auto& way : ways_) {
-        std::optional<Match> match;
-        for (const Filter& filter : way->filters_) {
-            if (!matches_filter(filter.topic, topic)) continue;
-            match = Match{way.get(), filter.own || (match && match->own)};
-        }
-        if (match) found.push_back(*match);
+void ModelledBroker::add_match(std::vector<Match>& matches, Way& way, const Filter& filter) {
+    const auto known = std::find_if(matches.begin(), matches.end(),
+                                    [&way](const Match& one) { return one.way == &way; });
+    if (known == matches.end()) {
+        matches.push_back({&way, filter.own});
+    } else {
+        known->own = known->own || filter.own;
     }
-    return found;
+}
+
+const std::vector<ModelledBroker::Match>& ModelledBroker::matches(const std::string& topic) {
+    const auto [known, is_new] = matches_.try_emplace(topic);
+    if (!is_new) return known->second;
+    for (const auto& way : ways_) {
+        for (const Filter& filter : way->filters_) {
+            if (matches_filter(filter.topic, topic)) add_match(known->second, *way, filter);
+        }
+    }
+    return known->second;
 }
 
 void ModelledBroker::publish(const Post& post, const Way* by) {

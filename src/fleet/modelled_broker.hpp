@@ -19,7 +19,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -88,6 +87,9 @@ private:
     void publish(const Post& post, const Way* by);
     void deliver(Way& way, const Post& post, bool retained);
     const std::vector<Match>& matches(const std::string& topic);
+    static void add_match(std::vector<Match>& matches, Way& way, const Filter& filter);
+    template <typename ByTopic, typename Do>
+    static void each_topic(ByTopic& all, const Filter& filter, const Do& act);
     bool chance(double share);
 
     const WayModel model_;
@@ -98,7 +100,8 @@ private:
     std::vector<std::unique_ptr<Way>> ways_;
     std::map<std::pair<Time, uint64_t>, Packet> under_way_;
     std::map<std::string, Post> retained_;
-    std::unordered_map<std::string, std::vector<Match>> matches_;  // of topics that were seen
+    // Of topics that were seen. A map: they are walked in an order that is the same everywhere.
+    std::map<std::string, std::vector<Match>> matches_;
 };
 
 class ModelledBroker::Way final : public Link {

@@ -7,18 +7,18 @@
 namespace vagus::fleet {
 namespace {
 
-constexpr const char* kEcho = "echo";  // id of a message of our own that comes back
+constexpr const char* kEcho = "echo";         // id of a message of our own that comes back
+constexpr uint64_t kEchoNumber = UINT64_MAX;  // of its post: unlike that of any order
 
 }  // namespace
 
-void Operator::begin(Order order, Time now) {
+OrderNumber Operator::begin(Order order, Time now) {
     now_ = now;
-    order_ = std::move(order);
-    order_->command.reply = options_.name;
-    std::string& id = order_->command.id;
-    if (id.empty()) id = options_.name + "-" + std::to_string(++orders_);
-    is_chosen_ = false;
-    asked_.clear();
+    const OrderNumber number = ++orders_;
+    order.command.reply = options_.name;
+    if (order.command.id.empty()) order.command.id = options_.name + "-" + std::to_string(number);
+    given_.emplace(number, Given{.order = std::move(order)});
+    return number;
 }
 
 void Operator::hear(const LinkEvent& event, Time now) {
@@ -39,7 +39,27 @@ void Operator::on(const Connected&) {
     filters.push_back({filter_of_commands(options_.fleet, options_.name)});
     actions_.push_back(Subscribe{std::move(filters)});
     publish({.kind = Kind::Command, .robot = options_.name, .name = "stop"},
-            Command{.verb = "stop", .id = kEcho, .reply = options_.name});
+            Command{.verb = "stop", .id = kEcho, .reply = options_.name}, kEchoNumber);
+}
+
+// What was heard before says nothing of now.
+void Operator::on(const Lost&) {
+    knows_all_ = false;
+    for (auto& [name, robot] : robots_) robot.state_at.reset();
+}
+
+void Operator::on(const Acknowledged& acknowledged) {
+    if (acknowledged.number == kEchoNumber) {
+        refused_ = acknowledged.refused;
+        return;
+    }
+    const auto found = given_.find(acknowledged.number);
+    if (found != given_.end()) found->second.refused = acknowledged.refused;
+}
+
+// A robot that is forgotten takes back everything, its connection last.
+void Operator::on(const TakenBack& taken) {
+    if (taken.topic.kind == Kind::Connection) robots_.erase(taken.topic.robot);
 }
 
 void Operator::on(const Received& received) {
@@ -74,9 +94,12 @@ void Operator::hear_robot(const Topic& topic, const Message& message, bool retai
 }
 
 void Operator::hear_answer(const std::string& robot, const Answer& answer) {
-    if (!order_ || answer.id != order_->command.id) return;
-    // One that joined the group meanwhile obeyed, too.
-    if (asked_.size() < kRobotsMax || asked_.contains(robot)) asked_[robot].answer = answer;
+    for (auto& [number, given] : given_) {
+        if (answer.id != given.order.command.id) continue;
+        // One that joined the group meanwhile obeyed, too.
+        auto& asked = given.asked;
+        if (asked.size() < kRobotsMax || asked.contains(robot)) asked[robot].answer = answer;
+    }
 }
 
 bool Operator::is_online(const Known& robot) {
@@ -84,7 +107,7 @@ bool Operator::is_online(const Known& robot) {
 }
 
 std::vector<std::string> Operator::chosen(const Chosen& to) const {
-    if (!to.robot.empty()) return {to.robot};
+    if (!to.robots.empty()) return to.robots;
     std::vector<std::string> names;
     for (const auto& [name, robot] : robots_) {
         // Who said good-bye is not missed.
@@ -102,49 +125,60 @@ bool Operator::all_are_fresh() const {
 }
 
 void Operator::choose() {
-    if (!order_ || !knows_all_ || is_chosen_) return;
-    is_chosen_ = true;
-    for (const std::string& robot : chosen(order_->to)) asked_[robot];
-    again_at_ = now_;
+    if (!knows_all_) return;
+    for (auto& [number, given] : given_) {
+        if (given.is_chosen) continue;
+        given.is_chosen = true;
+        for (const std::string& robot : chosen(given.order.to)) given.asked[robot];
+        given.again_at = now_;
+    }
     send();
 }
 
 void Operator::send() {
-    if (!order_ || !is_chosen_) return;
-    if (stops()) return send_stop();
-    for (auto& [robot, asked] : asked_) {
-        if (!asked.sent) send_to(robot);
+    for (auto& [number, given] : given_) {
+        if (!given.is_chosen) continue;
+        if (given.stops()) {
+            send_stop(number, given);
+            continue;
+        }
+        for (auto& [robot, asked] : given.asked) {
+            if (!asked.sent) send_to(robot, number, given);
+        }
     }
 }
 
 // Repeated until it is answered; it does no harm twice.
-void Operator::send_stop() {
-    if (now_ < again_at_ || is_over()) return;
-    again_at_ = now_ + kAskAgainEvery;
-    publish({.kind = Kind::Command,
-             .robot = order_->to.robot,
-             .group = order_->to.group,
-             .name = order_->command.verb},
-            order_->command);
+void Operator::send_stop(OrderNumber number, Given& given) {
+    if (now_ < given.again_at || given.is_over()) return;
+    given.again_at = now_ + kAskAgainEvery;
+    const Order& order = given.order;
+    Topic topic{.kind = Kind::Command, .group = order.to.group, .name = order.command.verb};
+    if (order.to.robots.empty()) return publish(topic, order.command, number);
+    for (const auto& [robot, asked] : given.asked) {
+        topic.robot = robot;
+        if (!asked.answer) publish(topic, order.command, number);
+    }
 }
 
 // With a deadline in the robot's own clock, which its last state tells.
-void Operator::send_to(const std::string& robot) {
+void Operator::send_to(const std::string& robot, OrderNumber number, Given& given) {
     const auto known = robots_.find(robot);
     if (known == robots_.end() || !known->second.state_at || !is_online(known->second)) return;
     const State& state = *known->second.state;
-    Command command = order_->command;
+    Command command = given.order.command;
     command.epoch = state.epoch;
     command.deadline = state.clock + (now_ - *known->second.state_at) / 1ms + kCommandWithin / 1ms;
-    asked_[robot].sent = true;
-    publish({.kind = Kind::Command, .robot = robot, .name = command.verb}, command);
+    given.asked[robot].sent = true;
+    publish({.kind = Kind::Command, .robot = robot, .name = command.verb}, command, number);
 }
 
-void Operator::publish(const Topic& topic, const Message& message) {
+void Operator::publish(const Topic& topic, const Message& message, uint64_t number) {
     actions_.push_back(Post{.topic = text_of(options_.fleet, topic),
                             .payload = payload_of(message),
                             .qos = info_of(topic.kind).qos,
-                            .retained = info_of(topic.kind).retained});
+                            .retained = info_of(topic.kind).retained,
+                            .number = number});
 }
 
 void Operator::tick(Time now) {
@@ -154,17 +188,35 @@ void Operator::tick(Time now) {
 }
 
 Time Operator::next_tick() const {
-    return stops() && is_chosen_ && !is_over() ? again_at_ : Time::max();
+    Time next = Time::max();
+    for (const auto& [number, given] : given_) {
+        const bool repeats = given.stops() && given.is_chosen && !given.is_over();
+        if (repeats) next = std::min(next, given.again_at);
+    }
+    return next;
 }
 
-bool Operator::is_over() const {
-    return is_chosen_ && std::all_of(asked_.begin(), asked_.end(),
-                                     [](const auto& one) { return one.second.answer; });
+bool Operator::Given::is_over() const {
+    return is_chosen && (!refused.empty() || std::all_of(asked.begin(), asked.end(), [](auto& one) {
+               return one.second.answer.has_value();
+           }));
 }
 
-std::vector<Outcome> Operator::outcomes() const {
+bool Operator::is_over(OrderNumber number) const {
+    const auto found = given_.find(number);
+    return found == given_.end() || found->second.is_over();
+}
+
+std::string Operator::refusal(OrderNumber number) const {
+    const auto found = given_.find(number);
+    return found == given_.end() ? "" : found->second.refused;
+}
+
+std::vector<Outcome> Operator::outcomes(OrderNumber number) const {
     std::vector<Outcome> list;
-    for (const auto& [robot, asked] : asked_) {
+    const auto found = given_.find(number);
+    if (found == given_.end()) return list;
+    for (const auto& [robot, asked] : found->second.asked) {
         list.push_back({robot, asked.answer.has_value(), asked.answer.value_or(Answer{})});
     }
     return list;

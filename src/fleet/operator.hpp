@@ -1,11 +1,11 @@
 // Somebody who looks at a fleet and tells its robots what to do: who is there, and what became of
-// an order. A state machine, as Member is.
+// each order. A state machine, as Member is.
 //
 //     Operator desk({.fleet = "lab", .name = "desk-1"});
-//     desk.begin({.command = {.verb = "stop"}, .to = {.all = true}}, now);
-//     for (const LinkEvent& event : link.take()) desk.hear(event, now);
-//     desk.tick(now);
-//     if (desk.is_over()) for (const Outcome& one : desk.outcomes()) show(one);
+//     const OrderNumber order = desk.begin({.command = {.verb = "stop"}, .to = {.all = true}}, t);
+//     for (const LinkEvent& event : link.take()) desk.hear(event, t);
+//     desk.tick(t);
+//     if (desk.is_over(order)) for (const Outcome& one : desk.outcomes(order)) show(one);
 #pragma once
 
 #include <cstdint>
@@ -31,15 +31,17 @@ struct Known {
     std::optional<Time> state_at = {};  // when it came; nothing: it was retained
 };
 
-// Whom an order is for.
+// Whom an order is for: all, those of a group, or robots by their names.
 struct Chosen {
     bool all = false;
-    std::string group = {}, robot = {};
+    std::string group = {};
+    std::vector<std::string> robots = {};
 };
 struct Order {
     Command command;
     Chosen to;
 };
+using OrderNumber = uint64_t;  // of one operator; from 1
 
 struct Outcome {
     std::string robot;
@@ -59,8 +61,9 @@ public:
     };
     explicit Operator(Options options) : options_(std::move(options)) {}
 
-    // One order, as soon as it is known who is there. Without an id it gets one.
-    void begin(Order order, Time now);
+    // An order, given as soon as it is known who is there, beside others that are under way.
+    // Without an id it gets one. It is repeated, or waits for a robot, until end().
+    OrderNumber begin(Order order, Time now);
 
     void hear(const LinkEvent& event, Time now);
     void tick(Time now);
@@ -75,40 +78,55 @@ public:
     bool all_are_fresh() const;
     static bool is_online(const Known& robot);
 
-    // Everybody who was chosen has answered.
-    bool is_over() const;
+    // Everybody who was chosen has answered, or the broker does not pass it on.
+    bool is_over(OrderNumber number) const;
     // So far, by name.
-    std::vector<Outcome> outcomes() const;
+    std::vector<Outcome> outcomes(OrderNumber number) const;
+    // Why the broker does not pass it on; empty: it does.
+    std::string refusal(OrderNumber number) const;
+    // Nobody waits for it any more.
+    void end(OrderNumber number) { given_.erase(number); }
+    // Why nothing is known: the broker does not pass on what this operator says.
+    const std::string& refused() const { return refused_; }
 
 private:
+    struct Asked {
+        bool sent = false;
+        std::optional<Answer> answer;
+    };
+    struct Given {
+        Order order;
+        bool is_chosen = false;
+        Time again_at{};
+        std::map<std::string, Asked> asked = {};
+        std::string refused = {};
+
+        bool stops() const { return order.command.verb == "stop"; }
+        bool is_over() const;
+    };
+
     void on(const Connected&);
-    void on(const Lost&) { knows_all_ = false; }
-    void on(const Acknowledged&) {}
+    void on(const Lost&);
+    void on(const Acknowledged& acknowledged);
     void on(const Malformed&) {}
+    void on(const TakenBack& taken);
     void on(const Received& received);
     void hear_robot(const Topic& topic, const Message& message, bool retained);
     void hear_answer(const std::string& robot, const Answer& answer);
     void choose();
     void send();
-    void send_stop();
-    void send_to(const std::string& robot);
-    bool stops() const { return order_ && order_->command.verb == "stop"; }
-    void publish(const Topic& topic, const Message& message);
+    void send_stop(OrderNumber number, Given& given);
+    void send_to(const std::string& robot, OrderNumber number, Given& given);
+    void publish(const Topic& topic, const Message& message, uint64_t number);
 
     const Options options_;
     std::vector<OperatorAction> actions_;
     Time now_{};
     bool knows_all_ = false;
+    std::string refused_;
     std::map<std::string, Known> robots_;
-    std::optional<Order> order_;
-    bool is_chosen_ = false;
-    Time again_at_{};
-    uint64_t orders_ = 0;
-    struct Asked {
-        bool sent = false;
-        std::optional<Answer> answer;
-    };
-    std::map<std::string, Asked> asked_;
+    std::map<OrderNumber, Given> given_;
+    OrderNumber orders_ = 0;
 };
 
 }  // namespace vagus::fleet

@@ -70,7 +70,8 @@ TEST(Operator, KnowsAllOnceItsOwnMessageIsBack) {
 
 TEST(Operator, StopIsRepeatedUntilEverybodyHasAnswered) {
     Case c;
-    c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.all = true}}, 0s);
+    const auto order =
+        c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.all = true}}, 0s);
     c.robot("r1");
     c.robot("r2", "lost");
     c.robot("r3", "offline");
@@ -78,39 +79,42 @@ TEST(Operator, StopIsRepeatedUntilEverybodyHasAnswered) {
     EXPECT_EQ(c.topics(), Texts{"vagus/1/lab/cmd/all/stop"});
     c.answer("r1", "s");
     c.answer("r2", "another order");
-    EXPECT_FALSE(c.desk.is_over());
+    EXPECT_FALSE(c.desk.is_over(order));
     EXPECT_EQ(c.desk.next_tick(), kAskAgainEvery);
     c.tick(kAskAgainEvery - 1us);
     EXPECT_EQ(c.posts.size(), 1u);
     c.tick(kAskAgainEvery);
     EXPECT_EQ(c.posts.size(), 2u);
-    const auto outcomes = c.desk.outcomes();
+    const auto outcomes = c.desk.outcomes(order);
     ASSERT_EQ(outcomes.size(), 2u) << "who said good-bye is not missed";
     EXPECT_TRUE(outcomes[0].answered);
     EXPECT_FALSE(outcomes[1].answered);
     c.answer("r2", "s");
-    EXPECT_TRUE(c.desk.is_over());
+    EXPECT_TRUE(c.desk.is_over(order));
     c.tick(1s);
     EXPECT_EQ(c.posts.size(), 2u);
 }
 
 TEST(Operator, StopForAGroupAndForOne) {
     Case c;
-    c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.group = "red"}}, 0s);
+    const auto order =
+        c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.group = "red"}}, 0s);
     c.robot("r1", "online", "red");
     c.robot("r2", "online", "blue");
     c.all_is_known();
     EXPECT_EQ(c.topics(), Texts{"vagus/1/lab/cmd/group/red/stop"});
-    EXPECT_EQ(c.desk.outcomes().size(), 1u);
-    c.desk.begin({.command = {.verb = "stop", .id = "t"}, .to = {.robot = "nobody"}}, 0s);
+    EXPECT_EQ(c.desk.outcomes(order).size(), 1u);
+    const auto other =
+        c.desk.begin({.command = {.verb = "stop", .id = "t"}, .to = {.robots = {"nobody"}}}, 0s);
     c.tick(0s);
     EXPECT_EQ(c.topics().back(), "vagus/1/lab/cmd/nobody/stop");
-    EXPECT_FALSE(c.desk.outcomes()[0].answered);
+    EXPECT_FALSE(c.desk.outcomes(other)[0].answered);
 }
 
 TEST(Operator, OtherCommandsGoToEachWithItsOwnDeadlineAndOnce) {
     Case c;
-    c.desk.begin({.command = {.verb = "start", .id = "c"}, .to = {.all = true}}, 0s);
+    const auto order =
+        c.desk.begin({.command = {.verb = "start", .id = "c"}, .to = {.all = true}}, 0s);
     c.robot("r1");
     c.robot("r2");
     c.all_is_known();
@@ -126,7 +130,76 @@ TEST(Operator, OtherCommandsGoToEachWithItsOwnDeadlineAndOnce) {
     EXPECT_EQ(command.epoch, 7);
     EXPECT_EQ(command.reply, "desk");
     c.answer("r1", "c");
-    EXPECT_FALSE(c.desk.is_over()) << "r2 has not told a clock";
+    EXPECT_FALSE(c.desk.is_over(order)) << "r2 has not told a clock";
+}
+
+TEST(Operator, SeveralOrdersAreUnderWayTogether) {
+    Case c;
+    c.robot("r1");
+    c.robot("r2");
+    c.all_is_known();
+    c.fresh("r1", 100), c.fresh("r2", 100);
+    const auto stop =
+        c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.robots = {"r1", "r2"}}}, 0s);
+    const auto pause =
+        c.desk.begin({.command = {.verb = "pause", .id = "p"}, .to = {.robots = {"r1"}}}, 0s);
+    EXPECT_NE(stop, pause);
+    c.tick(0s);
+    EXPECT_EQ(c.topics(), (Texts{"vagus/1/lab/cmd/r1/stop", "vagus/1/lab/cmd/r2/stop",
+                                 "vagus/1/lab/cmd/r1/pause"}));
+    c.answer("r1", "s"), c.answer("r1", "p", false);
+    EXPECT_TRUE(c.desk.is_over(pause));
+    EXPECT_FALSE(c.desk.is_over(stop));
+    c.tick(kAskAgainEvery);
+    EXPECT_EQ(c.topics().size(), 4u);
+    EXPECT_EQ(c.topics().back(), "vagus/1/lab/cmd/r2/stop") << "r1 has answered";
+    c.desk.end(stop);
+    c.tick(10s);
+    EXPECT_EQ(c.topics().size(), 4u) << "nobody waits for it any more";
+}
+
+TEST(Operator, ABrokerThatDoesNotPassAnOrderOnIsTheReason) {
+    Case c;
+    c.robot("r1");
+    c.all_is_known();
+    c.fresh("r1", 100);
+    const auto order = c.desk.begin({.command = {.verb = "start"}, .to = {.robots = {"r1"}}}, 0s);
+    c.tick(0s);
+    ASSERT_EQ(c.posts.size(), 1u);
+    c.hear(Acknowledged{c.posts[0].number, ""});
+    EXPECT_FALSE(c.desk.is_over(order));
+    c.hear(Acknowledged{c.posts[0].number, "Not authorized"});
+    EXPECT_TRUE(c.desk.is_over(order));
+    EXPECT_EQ(c.desk.refusal(order), "Not authorized");
+    EXPECT_FALSE(c.desk.outcomes(order)[0].answered);
+}
+
+TEST(Operator, KnowsWhyItsOwnMessageDoesNotComeBack) {
+    Case c;
+    c.hear(Connected{});
+    ASSERT_EQ(c.posts.size(), 1u);
+    c.hear(Acknowledged{c.posts[0].number, "Not authorized"});
+    EXPECT_FALSE(c.desk.knows_all());
+    EXPECT_EQ(c.desk.refused(), "Not authorized");
+}
+
+TEST(Operator, WhatWasHeardBeforeALossIsNotFresh) {
+    Case c;
+    c.robot("r1");
+    c.fresh("r1", 100);
+    ASSERT_TRUE(c.desk.all_are_fresh());
+    c.hear(Lost{"gone"});
+    EXPECT_FALSE(c.desk.all_are_fresh());
+    EXPECT_FALSE(c.desk.knows_all());
+}
+
+TEST(Operator, ARobotThatIsForgottenIsNotKnown) {
+    Case c;
+    c.robot("r1");
+    c.hear(TakenBack{{.kind = Kind::State, .robot = "r1"}});
+    EXPECT_EQ(c.desk.robots().size(), 1u) << "its connection goes last";
+    c.hear(TakenBack{{.kind = Kind::Connection, .robot = "r1"}});
+    EXPECT_TRUE(c.desk.robots().empty());
 }
 
 TEST(Operator, KnowsOnlySoManyRobots) {

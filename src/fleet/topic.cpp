@@ -183,12 +183,17 @@ std::string filter_of_commands(std::string_view fleet, std::string_view robot) {
 }
 
 bool matches_filter(std::string_view filter, std::string_view topic) {
-    const auto wanted = split(filter, '/'), levels = split(topic, '/');
-    if (wanted.size() != levels.size()) return false;
-    for (size_t i = 0; i < levels.size(); ++i) {
-        if (wanted[i] != "+" && wanted[i] != levels[i]) return false;
+    for (;;) {
+        const size_t wanted = std::min(filter.find('/'), filter.size());
+        const size_t level = std::min(topic.find('/'), topic.size());
+        const bool any = filter.substr(0, wanted) == "+";
+        if (!any && filter.substr(0, wanted) != topic.substr(0, level)) return false;
+        const bool more = wanted < filter.size();
+        if (more != (level < topic.size())) return false;
+        if (!more) return true;
+        filter.remove_prefix(wanted + 1);
+        topic.remove_prefix(level + 1);
     }
-    return true;
 }
 
 }  // namespace vagus::fleet

@@ -87,5 +87,19 @@ TEST(Topic, WhatIsNoneOfOursIsNothing) {
     EXPECT_FALSE(parse_topic("lab", event + std::string(kTopicBytesMax, 'a')));
 }
 
+TEST(Topic, APlusStandsForOneLevel) {
+    EXPECT_TRUE(matches_filter("a/b/c", "a/b/c"));
+    EXPECT_TRUE(matches_filter("a/+/c", "a/b/c"));
+    EXPECT_TRUE(matches_filter("a/b/+", "a/b/c"));
+    EXPECT_TRUE(matches_filter("+", "a"));
+    EXPECT_FALSE(matches_filter("a/b", "a/b/c"));
+    EXPECT_FALSE(matches_filter("a/b/c", "a/b"));
+    EXPECT_FALSE(matches_filter("a/+", "a/b/c"));
+    EXPECT_FALSE(matches_filter("a/+/c", "a/b/d"));
+    EXPECT_FALSE(matches_filter("a/b", "a/bc"));
+    EXPECT_FALSE(matches_filter("a/bc", "a/b"));
+    EXPECT_TRUE(matches_filter("a/+/c", "a//c"));
+}
+
 }  // namespace
 }  // namespace vagus::fleet

@@ -199,8 +199,12 @@ void Keeper::keep(const Record& record) {
         if (!claim->lease.robot.empty()) leases_[claim->lease.term] = {{}, topic};
 }
 
-const Record* Keeper::find(const Topic& topic) const {
-    const auto& records = topic.second.empty() ? keys_ : tasks_;
+auto Keeper::records_of(const Topic& topic) -> std::map<Topic, Record>& {
+    return topic.second.empty() ? keys_ : tasks_;
+}
+
+Record* Keeper::find(const Topic& topic) {
+    auto& records = records_of(topic);
     const auto found = records.find(topic);
     return found == records.end() ? nullptr : &found->second;
 }
@@ -215,7 +219,7 @@ void Keeper::put_right(const Record& told) {
 
 Record* Keeper::leased(const Asker& asker, Term term) {
     const auto out = leases_.find(term);
-    Record* record = out == leases_.end() ? nullptr : const_cast<Record*>(find(out->second.topic));
+    Record* const record = out == leases_.end() ? nullptr : find(out->second.topic);
     if (!record || lease_of(*record)->robot != asker.robot) {
         refuse(asker, "the lease " + text_of(term) + " is over, or another robot has it");
         return nullptr;
@@ -234,7 +238,7 @@ Record& Keeper::lease_out(Record& record, const Asker& asker, Duration length) {
 void Keeper::end_lease(Term term, bool is_over) {
     const Topic topic = leases_.at(term).topic;
     leases_.erase(term);
-    Record& record = (topic.second.empty() ? keys_ : tasks_).at(topic);
+    Record& record = records_of(topic).at(topic);
     lease_of(record)->robot.clear();
     auto* task = std::get_if<Task>(&record);
     if (!task) return;

@@ -159,7 +159,8 @@ private:
     bool is_confident() const;
 
     void keep(const Record& record);
-    const Record* find(const Topic& topic) const;
+    std::map<Topic, Record>& records_of(const Topic& topic);
+    Record* find(const Topic& topic);
     void put_right(const Record& told);
     Record& lease_out(Record& record, const Asker& asker, Duration length);
     Record* leased(const Asker& asker, Term term);

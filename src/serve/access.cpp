@@ -1,10 +1,10 @@
 #include "serve/access.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <mutex>
+
+#include "base/text.hpp"
 
 namespace vagus::serve {
 
@@ -24,9 +24,7 @@ bool same(std::string_view given, std::string_view secret) {
 }  // namespace
 
 std::string token_of(const std::array<uint8_t, 16>& random) {
-    std::string token;
-    for (const uint8_t byte : random) token += fmt::format("{:02x}", byte);
-    return token;
+    return hex_of({reinterpret_cast<const char*>(random.data()), random.size()});
 }
 
 Result<std::string> token_in(std::string_view text, const std::string& file) {

@@ -254,6 +254,7 @@ class Rights(Case):
         done = self.desk("start", "all", by="looker", wait=3)
         self.assertEqual(done.returncode, 1)
         self.assertIn("r1: did not answer", done.stdout)
+        self.assertRegex(done.stdout, r"(?i)the broker does not pass it on: not authori[sz]ed; use the --login of an operator")
         self.assertEqual(self.state("r1"), "stopped")
 
     def test_a_robot_tells_no_other_what_to_do(self):

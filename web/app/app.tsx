@@ -1,7 +1,7 @@
 import { MantineProvider } from '@mantine/core';
 import { Suspense } from 'react';
 import { late } from './parts/late';
-import { useLink, useTopic } from './hooks';
+import { useFleetShown, useLink, useTopic } from './hooks';
 import { Overlay } from './overlay/overlay';
 import { StatusBar } from './overlay/status_bar';
 import { Toasts } from './overlay/toasts';
@@ -15,11 +15,14 @@ import { text } from './text';
 
 const Dock = late(async () => ({ default: (await import('./dock/dock')).Dock }));
 const StartScreen = late(() => import('./start/start_screen'));
+const FleetPage = late(() => import('./views/fleet/fleet_page'));
 const Phone = late(async () => ({ default: (await import('./phone/phone')).Phone }));
 
 /** The whole window. */
 export function App() {
   const theme = useTheme();
+  const isPhone = usePhone();
+  const isFleet = useFleetShown();
   useKeys();
   return (
     <MantineProvider
@@ -28,7 +31,7 @@ export function App() {
       withGlobalClasses={false}
       withStaticClasses={false}
     >
-      {usePhone() ? (
+      {isPhone && !isFleet ? (
         <Suspense fallback={null}>
           <Phone />
         </Suspense>
@@ -63,8 +66,10 @@ function Desk() {
 function Main() {
   const link = useLink();
   const studio = useTopic('studio', {});
+  const isFleet = useFleetShown();
   if (!studio)
     return link.state === 'refused' ? null : <p className="placeholder">{text.link.connecting}</p>;
+  if (isFleet) return <FleetPage />;
   // Another project is another window: nothing of the one before is left over.
   return studio.project ? <Dock key={studio.project.folder} /> : <StartScreen />;
 }

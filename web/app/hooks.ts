@@ -106,6 +106,22 @@ export function useCommands(): readonly Command[] {
   );
 }
 
+/** The name of the fleet that is open; null: none. A robot that serves itself looks at none. */
+export function useFleetName(): string | null {
+  const mayLook = usePart('studio', {}, (is) => is !== undefined && is.serves !== true);
+  return usePart('fleet', mayLook ? {} : null, (is) =>
+    is && is.state !== 'none' ? (is.fleet ?? '') : null,
+  );
+}
+
+/** The window shows the fleet. */
+export function useFleetShown(): boolean {
+  const isOpen = useFleetName() !== null;
+  const hasProject = usePart('studio', {}, (is) => is?.project !== undefined);
+  const view = useWindow((state) => state.view);
+  return isOpen && (view ?? (hasProject ? 'project' : 'fleet')) === 'fleet';
+}
+
 export function useSettings(): Settings {
   return readSettings(useTopic('studio', {})?.settings);
 }

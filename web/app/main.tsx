@@ -49,7 +49,7 @@ function start(): void {
   for (const make of [
     editCommands,
     fileCommands,
-    problemCommands,
+    (one: Studio) => problemCommands(one, helpForDrawings(one)),
     (one: Studio) => viewCommands(one, panels),
     pastCommands,
     robotCommands,
@@ -75,6 +75,10 @@ function start(): void {
       </StrictMode>,
     );
 }
+
+/** It comes when it is needed first, with what draws. */
+const helpForDrawings = (studio: Studio) => async () =>
+  (await import('./views/plan/finding_acts')).drawnHelp(studio);
 
 /** The token leaves the address bar at once; a reload of this tab still has it. */
 function takeToken(): string {

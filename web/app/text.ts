@@ -1,4 +1,5 @@
-// Every word that a person reads, in one place, for translation. What the server says is its own.
+// Words that a person reads, in one place, for translation. What the server says is its own. Parts of the page
+// that are loaded apart may have words beside them, in a words.ts: what comes first stays small.
 
 const s = (count: number, one: string, many: string) => `${count} ${count === 1 ? one : many}`;
 
@@ -73,6 +74,7 @@ export const text = {
     'layout.Script': 'Layout Script',
     'layout.Debug': 'Layout Debug',
     'layout.Present': 'Layout Present',
+    'fleet.show': 'Show the fleet, or the project',
     'layout.reset': 'Reset the panels of this layout',
     'panel.next': 'Next panel',
     'panel.previous': 'Previous panel',
@@ -199,6 +201,7 @@ export const text = {
     'draw.into': 'Plan: step into the script',
     'draw.script': 'Plan: go to the script',
     'draw.fit': 'Plan: fit it into the window',
+    'draw.add': 'Plan: add an element…',
     'draw.find': 'Plan: find an element',
     'draw.tidy': 'Plan: tidy the selection, or what has no place yet, or all',
     'draw.zoomIn': 'Plan: zoom in',
@@ -443,9 +446,17 @@ export const text = {
     choose: 'Choose a target',
     found: 'Found',
     nothing: 'No robot found yet. Switch one on, or plug it in by USB.',
-    noAddress: 'Type an address first, as tcp:robot.local:33333.',
+    noAddress:
+      'Type an address first, as tcp:robot.local:33333, or mqtts://broker/lab for a fleet.',
     serves: 'This robot serves its own project on this target. Stop the service to use another.',
     address: 'Address',
+    ca: 'CA file',
+    login: 'Login file',
+    fileHint: 'of this studio’s computer',
+    fleet: (name: string) => `Fleet ${name}`,
+    leaveFleet: (name: string) => `Leave the fleet ${name}`,
+    views: 'What is shown',
+    project: 'Project',
     connect: 'Connect',
     leave: 'Disconnect',
     connecting: 'connecting',
@@ -542,6 +553,8 @@ export const text = {
     looksBack: (at: string, end: string) => `Looking back: ${at} of ${end} s`,
     keys: {
       next: 'next panel',
+      choose: 'choose',
+      studio: 'open its studio',
       commands: 'commands',
       keys: 'keys',
       fix: 'fix',
@@ -1031,37 +1044,6 @@ export const text = {
     address: 'New address',
     cancel: 'Cancel',
     close: 'Close',
-  },
-  templates: {
-    search: (count: number) => `Search ${s(count, 'template', 'templates')}`,
-    none: (typed: string) => `No template has “${typed}” in its name or help.`,
-    noPlan: 'Open a plan to add to it.',
-    add: (name: string, role: string) => `${name}, ${role}`,
-    hidden: (name: string, by: string, toolbox: string) =>
-      `This plan would use the ${name} of ${by}, which it lists first. List ${toolbox} before it to use this one.`,
-    variable: 'New variable',
-    note: 'New note',
-    newTemplate: 'New template…',
-    title: 'New template',
-    made: (name: string) => `${name} is in the palette. Fill it in here.`,
-    kind: 'Kind',
-    kinds: { actor: 'actor: does something', supervisor: 'supervisor: watches for something' },
-    name: 'Name',
-    onNode: 'On the node',
-    scriptOf: (node: string, file: string) => `${node} (${file})`,
-    helpText: 'What it does',
-    whatHappens:
-      'Its events and handlers are added to the script of that node, ready to be filled in. Until then it does no harm.',
-    noScripts: 'No script here can do work for a plan: add an .aesl file with a node first.',
-    make: 'Create',
-    cancel: 'Cancel',
-    badName: {
-      form: 'Letters, digits and _ only, not beginning with a digit.',
-      taken: 'There is a template of that name already.',
-      event: 'The scripts have events of that name already.',
-    },
-    whose:
-      'Select an actor or Start first: a supervisor watches for one of them. Or drop it there.',
   },
   draw: {
     canvas: (name: string) => `Plan ${name}, drawn`,

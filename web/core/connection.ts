@@ -203,6 +203,12 @@ export class Connection {
     return this.ahead.length ? Math.max(...this.ahead) + this.clock() + limits.act_ms : undefined;
   }
 
+  /** The wall clock of the server, whose computer may be another one. */
+  wall(): number {
+    return this.options.now() + this.wallAhead;
+  }
+  private wallAhead = 0;
+
   private clock(): number {
     return (this.options.clock ?? this.options.now)();
   }
@@ -235,6 +241,7 @@ export class Connection {
     this.retries = 0;
     this.ahead = [];
     this.tellTime(hello.now);
+    this.wallAhead = hello.wall - this.options.now();
     if (hello.client !== this.client) this.options.renamed?.(hello.client);
     this.client = hello.client;
     const isOther = this.epoch !== null && this.epoch !== hello.epoch;

@@ -59,6 +59,8 @@ export interface WindowState {
   plotTable: boolean;
   /** What F5 could not run, said in the document where it was pressed. */
   runNote: Readonly<{ doc: Doc | null; text: string; about: readonly Doc[] }> | null;
+  /** What fills the window where a fleet is open; null: the project, if there is one. */
+  view: 'project' | 'fleet' | null;
   /** The menu of targets is open. */
   targets: boolean;
   /** Nodes that the buttons of the network are for; none: all. */
@@ -89,6 +91,7 @@ export function createWindowStore() {
     events: { filter: allEvents, paused: false, counts: false, send: false },
     plotTable: false,
     runNote: null,
+    view: null,
     targets: false,
     chosenNodes: [],
   }));

@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
 import { boxOf, gone, reads, seen, test, until } from './support/studio.mjs';
-/** @import { Page, TestContext } from './support/studio.mjs' */
+/** @import { Locator, Page, TestContext } from './support/studio.mjs' */
 
 const wall = { words: ['--example', 'follow-wall'] };
 const kEmpty = `{
@@ -141,6 +141,60 @@ test('a plan of two actors is drawn from nothing by the keyboard', empty, async 
   });
   assert.deepEqual(saved.plan, wanted);
   assert.deepEqual(Object.keys(saved.places), ['greet', 'wait']);
+});
+
+test('a plan is drawn and corrected with keys alone', empty, async (studio) => {
+  const { page, press, type, place } = studio;
+  const focused = (/** @type {string} */ what, /** @type {Locator} */ one) =>
+    until(`${what} has the focus`, () => one.evaluate((is) => is === document.activeElement));
+  const drawing = page.getByRole('region', { name: 'Plan P, drawn' });
+  // F6 leads from panel to panel, and in the plan to the drawing.
+  const goToPlan = () =>
+    until('the plan has the focus', async () => {
+      await press('F6');
+      return drawing.evaluate((is) => is === document.activeElement);
+    });
+  await seen(drawing);
+  await goToPlan();
+  // Another layout leaves the keyboard to the plan.
+  for (const name of ['Layout Script', 'Layout Draw']) {
+    await press('Control+k');
+    await type(name);
+    await press('Enter');
+    await until('the layout is another', () =>
+      page.getByRole('radio', { name: name.replace('Layout ', ''), checked: true }).isVisible(),
+    );
+    await focused('the plan', drawing);
+  }
+  // What stands in the list of commands leads to the search.
+  await press('Control+k');
+  await type('add an element');
+  await press('Enter');
+  await focused('the search', page.getByRole('searchbox', { name: /Search \d+ templates/ }));
+  await type('wait');
+  await press('ArrowDown');
+  await focused('the first', page.getByRole('button', { name: 'Wait, actor', exact: true }));
+  await press('Enter');
+  await focused('the actor', element(page, 'wait, actor Wait'));
+  // What the bar below offers does what the selected element needs, one after the other.
+  await press('Alt+Enter');
+  await focused('its input', page.getByRole('combobox', { name: 'seconds' }));
+  await type('1 + 1');
+  await press('Enter');
+  await gone(page.getByRole('button', { name: 'Enter a value' }));
+  await press('Alt+Enter');
+  await seen(page.getByRole('menuitem', { name: 'terminate' }));
+  await type('term');
+  await press('Enter');
+  await seen(page.getByText('No problems.'));
+  await goToPlan();
+  await press('Enter');
+  await focused('its input', page.getByRole('combobox', { name: 'seconds' }));
+  await press('Control+s');
+  await until('it is saved', () => {
+    const { actors } = JSON.parse(readFileSync(join(place, 'P.plan.json'), 'utf8'));
+    return actors.wait?.in?.seconds === '1 + 1' && actors.wait.states?.Done === '@terminate';
+  });
 });
 
 test('supervisors, variables and findings: added, marked, deleted', empty, async (studio) => {

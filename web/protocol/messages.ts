@@ -38,6 +38,8 @@ export const limits = {
   events_kept: 20000,
   /** lines of the console that can be asked for again */
   lines_kept: 5000,
+  /** happenings of a fleet that can be asked for again */
+  fleet_events_kept: 5000,
 } as const;
 
 /** A document: the path of a file inside the project, with / between folders. The script of a node in an .aesl file is PATH#N, N counting the nodes of the file from 1. */
@@ -713,6 +715,60 @@ export interface Deployed {
   current: boolean;
 }
 
+/** A robot of a fleet, as it told it. */
+export interface FleetRobot {
+  /** offline: it said so; lost: the broker missed it */
+  connection: 'online' | 'offline' | 'lost' | 'unknown';
+  /** of its state: waiting: it has not told it since the broker was reached; stale: it has told nothing for 6 s, or the broker is gone */
+  age: 'fresh' | 'waiting' | 'stale';
+  /** missing: it never told it */
+  state?: 'running' | 'paused' | 'stopped' | 'fault';
+  /** what its plan does */
+  actor?: string;
+  /** since when, by the server's clock */
+  since_wall?: number;
+  /** of a stale one: when it told its state last */
+  told_wall?: number;
+  problems?: string[];
+  /** events that were too many, too old, or did not fit */
+  left_out?: number;
+  project?: string;
+  /** version of Vagus */
+  vagus?: string;
+  /** file of its plan */
+  plan?: string;
+  groups?: string[];
+  nodes?: string[];
+  /** events that it hears */
+  hear?: string[];
+  /** address of its own studio, http: or https: */
+  studio?: string;
+}
+
+/** What became of an order at a robot. */
+export interface FleetOutcome {
+  robot: string;
+  /** silent: it is online and did not answer; away: it is not online */
+  result: 'done' | 'refused' | 'silent' | 'away';
+  /** why it was not done */
+  what: string;
+}
+
+/** Something that happened in a fleet. */
+export interface FleetEvent {
+  /** counts up */
+  number: number;
+  wall: number;
+  /** order: what a page of this studio told robots */
+  kind: 'event' | 'connection' | 'order';
+  /** of an order: the page that gave it */
+  robot: string;
+  /** of the event; online, offline, lost; the order */
+  name: string;
+  args: Words;
+  text: string;
+}
+
 /** Someone who requests control. */
 export interface Asked {
   client: number;
@@ -1146,6 +1202,44 @@ export interface Commands {
     loaded: NodeId[];
     failed: Failed[];
   } };
+  /** Looks at a fleet, in place of the one that is open. A broker that is not there is looked for until it is. */
+  'fleet.open': { in: {
+    /** mqtt[s]://HOST[:PORT]/FLEET */
+    target: string;
+    /** a file of the server's computer, as the following: who signed the broker's certificate */
+    ca?: string;
+    /** user and password, two lines */
+    login?: string;
+    /** instead of a login */
+    certificate?: string;
+    key?: string;
+  }; out: Record<never, never> };
+  /** Looks at no fleet. */
+  'fleet.close': { in: Record<never, never>; out: Record<never, never> };
+  /** Tells robots of the fleet what to do. It is answered when each has, or within 10 s. */
+  'fleet.order': { in: {
+    verb: 'pause' | 'continue' | 'start' | 'set' | 'raise' | 'emit';
+    robots: string[];
+    /** of set; without it a variable of the plan */
+    node?: string;
+    /** of set */
+    name?: string;
+    /** of set; arguments of emit */
+    values?: number[];
+    /** of raise */
+    supervisor?: string;
+    /** of raise and emit */
+    event?: string;
+  }; out: {
+    outcomes: FleetOutcome[];
+  } };
+  /** Stops robots of the fleet, asking again until each has answered, for 10 s. */
+  'fleet.stop': { in: {
+    /** without it all */
+    robots?: string[];
+  }; out: {
+    outcomes: FleetOutcome[];
+  } };
   /** Lets a node run, or continues it. */
   'node.run': { in: {
     /** 0: all */
@@ -1541,6 +1635,24 @@ export interface Topics {
     lost: number;
     events_a_second: number;
   } };
+  /** The fleet that is looked at, with what each robot told last. */
+  'fleet': { kind: 'document'; of: Record<never, never>; is: {
+    /** of the connection to its broker */
+    state: 'none' | 'connecting' | 'connected' | 'lost';
+    target?: string;
+    /** its name */
+    fleet?: string;
+    /** of the login; empty: none */
+    user?: string;
+    /** why it is not connected */
+    why?: string;
+    robots: Record<string, FleetRobot>;
+  } };
+  /** Events that robots of the fleet sent, who came and went, what pages of this studio told them, from the last ones kept. */
+  'fleet_events': { kind: 'stream'; of: {
+    last?: number;
+    kinds?: string[];
+  }; is: FleetEvent };
   /** Links and who talks to whom. */
   'network': { kind: 'document'; of: Record<never, never>; is: {
     links: Link[];
@@ -1742,6 +1854,9 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   RunEnd: { number: 'number', t: 'number', wall: 'number', by: 'line(100)', why: 'word(stop|plan|error|died|signal|target|project|version|alone|slept)', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', nodes: '[StopNode; 1024]' },
   DeployFile: { path: 'Path', size: 'int(0..16777216)', sha256: 'line(64)' },
   Deployed: { version: 'int(0..4294967295)', name: 'line(200)', when_wall: 'number?', current: 'bool' },
+  FleetRobot: { connection: 'word(online|offline|lost|unknown)', age: 'word(fresh|waiting|stale)', state: 'word(running|paused|stopped|fault)?', actor: 'line(1000)?', since_wall: 'number?', told_wall: 'number?', problems: '[line(1000); 10]?', left_out: 'number?', project: 'line(1000)?', vagus: 'line(1000)?', plan: 'line(1000)?', groups: '[line(64); 32]?', nodes: '[line(64); 128]?', hear: '[line(64); 256]?', studio: 'line(1000)?' },
+  FleetOutcome: { robot: 'line(64)', result: 'word(done|refused|silent|away)', what: 'text(10000)' },
+  FleetEvent: { number: 'number', wall: 'number', kind: 'word(event|connection|order)', robot: 'line(100)', name: 'line(64)', args: 'Words', text: 'text(2000)' },
   Asked: { client: 'int(1..1000000000)', name: 'line(100)', until_wall: 'number' },
 };
 export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; kind: CommandKind; out: Fields }>> = {
@@ -1799,6 +1914,10 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'target.choose': { may: 'driver', kind: 'act', out: {} },
   'target.leave': { may: 'driver', kind: 'edit', out: {} },
   'node.load': { may: 'driver', kind: 'act', out: { loaded: '[NodeId; 1024]', failed: '[Failed; 1024]' } },
+  'fleet.open': { may: 'driver', kind: 'edit', out: {} },
+  'fleet.close': { may: 'driver', kind: 'edit', out: {} },
+  'fleet.order': { may: 'driver', kind: 'act', out: { outcomes: '[FleetOutcome; 10000]' } },
+  'fleet.stop': { may: 'look', kind: 'stop', out: { outcomes: '[FleetOutcome; 10000]' } },
   'node.run': { may: 'driver', kind: 'act', out: { failed: '[Failed; 1024]' } },
   'node.pause': { may: 'driver', kind: 'stop', out: { failed: '[Failed; 1024]' } },
   'node.step': { may: 'driver', kind: 'act', out: { failed: '[Failed; 1024]' } },
@@ -1854,6 +1973,8 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'script': { kind: 'document', is: { version: 'int(0..4294967295)', good: 'bool', node: 'Name', for: 'line(200)', bytecode: 'Meter', variables: 'Meter', stack: 'Meter', handlers: '[Handler; 1000]', code_lines: '[int(1..10000000); 65536]' } },
   'scripts': { kind: 'document', is: { parts: '[ScriptPart; 1000]', files: '[SharedFile; 200]' } },
   'robot': { kind: 'document', is: { target: 'line(256)', name: 'line(256)', kind: 'word(none|simulator|bus)', state: 'word(none|connecting|connected|lost|failed)', why: 'text(1000)?', since_wall: 'number?', nodes: '[Node; 1024]', twins: '[line(300); 100]', load: 'number?', lost: 'number', events_a_second: 'number' } },
+  'fleet': { kind: 'document', is: { state: 'word(none|connecting|connected|lost)', target: 'line(256)?', fleet: 'line(64)?', user: 'line(256)?', why: 'text(2000)?', robots: '{FleetRobot; 10000}' } },
+  'fleet_events': { kind: 'stream', item: 'FleetEvent' },
   'network': { kind: 'document', is: { links: '[Link; 256]', traffic: '[Traffic; 2000]' } },
   'node': { kind: 'document', is: { name: 'Name', variables: '[Variable; 4096]', events: '[LocalEvent; 256]', natives: '[Native; 512]' } },
   'breakpoints': { kind: 'document', is: { breakpoints: '[Breakpoint; 1000]', plans: '[PlanBreakpoint; 1000]' } },

@@ -1,13 +1,12 @@
 #include "cli/emulate/board.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 
 #include "base/nearest.hpp"
+#include "cli/programs.hpp"
 
 namespace vagus::cli {
 
@@ -54,17 +53,6 @@ Error no_board(std::string_view name) {
     return Error{Code::BadInput,
                  fmt::format("{}: no such board; there are {}{}", name, fmt::join(names, ", "),
                              near.empty() ? "" : ". Did you mean " + near + "?")};
-}
-
-bool is_in_path(const std::string& program) {
-    const char* const path = std::getenv("PATH");
-    std::string_view folders = path == nullptr ? "" : path;
-    while (!folders.empty()) {
-        const size_t end = std::min(folders.find(':'), folders.size());
-        if (access((fs::path(folders.substr(0, end)) / program).c_str(), X_OK) == 0) return true;
-        folders.remove_prefix(std::min(end + 1, folders.size()));
-    }
-    return false;
 }
 
 std::vector<std::string> qemu_words(const Board& board, uint16_t id, const fs::path& image) {
@@ -115,7 +103,7 @@ Result<Emulation> with_simavr(Emulation emulation, const Board& board, const fs:
 
 Result<Emulation> with_qemu(Emulation emulation, const Board& board, const fs::path& image,
                             uint16_t id) {
-    if (!is_in_path(kQemu)) {
+    if (!find_program(kQemu)) {
         return Error{Code::Unavailable,
                      fmt::format("{}: {} is not installed; apt-get install qemu-system-arm",
                                  board.name, kQemu)};

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 
 namespace vagus::cli {
 
@@ -28,12 +29,6 @@ constexpr char kInterrupt = '\x03';
 
 Error monitor_lost(const std::string& why) {
     return {Code::Unavailable, "QEMU cannot be asked for the memory of the board: " + why};
-}
-
-std::string hex_letters(std::string_view bytes) {
-    std::string text;
-    for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<uint8_t>(byte));
-    return text;
 }
 
 // Empty if it is not hex.
@@ -124,7 +119,7 @@ Status BoardMonitor::write(uint32_t at, std::string_view bytes) {
     for (size_t done = 0; done < bytes.size(); done += kBytesOfPacket) {
         const std::string_view piece = bytes.substr(done, kBytesOfPacket);
         const std::string said =
-            TRY(ask(fmt::format("M{:x},{:x}:{}", at + done, piece.size(), hex_letters(piece))));
+            TRY(ask(fmt::format("M{:x},{:x}:{}", at + done, piece.size(), hex_of(piece))));
         if (said != "OK") return monitor_lost("it refuses to write, " + said);
     }
     return Status::done();

@@ -76,14 +76,6 @@ std::string user_of_this_process() {
     return user == nullptr ? "mosquitto" : user->pw_name;
 }
 
-std::string random_password() {
-    std::string password;
-    for (const char byte : serve::random_bytes(kPasswordBytes)) {
-        password += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    }
-    return password;
-}
-
 class Maker {
 public:
     explicit Maker(const BrokerOptions& options)
@@ -191,7 +183,7 @@ private:
         for (const std::string& robot : options_.robots) users.push_back(fleet::escape(robot));
         for (const std::string& user : users) {
             if (has(user + ".login")) continue;
-            const std::string password = random_password();
+            const std::string password = hex_of(serve::random_bytes(kPasswordBytes));
             TRY(write(user + ".login", user + "\n" + password + "\n"));
             fresh += user + ":" + password + "\n";
         }
@@ -360,9 +352,9 @@ void add_broker_verbs(CLI::App& fleet, int& exit_code) {
     verb->footer(
         "Configuration, rights, a small authority with the certificate of the broker, and a login "
         "each for\n"
-        "operator (who orders), looker (who looks, and may stop), keeper, and every robot. What is "
-        "there\n"
-        "already stays: another --robot is added by another init.\n"
+        "the operator (may command robots), the looker (may watch and stop them), the keeper and "
+        "every\n"
+        "robot. What is already there is kept: run init again to add another --robot.\n"
         "Example:\n  vagus fleet init broker --host broker.local --robot r1 --robot r2");
     verb->callback([options, &exit_code] { exit_code = init(*options); });
 

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/options.hpp"
-#include "serve/field/fleet_robot.hpp"
+#include "serve/broker/fleet_options.hpp"
 
 namespace vagus::cli {
 

@@ -100,8 +100,7 @@ private:
 
 // Those that are there come first: they say at once whether it is a good version.
 std::vector<std::string> in_order(FleetSession& session, const FleetCall& call) {
-    std::vector<std::string> names =
-        session.desk().chosen({call.robot.empty() && call.group.empty(), call.group, call.robot});
+    std::vector<std::string> names = session.desk().chosen(chosen_by(call));
     const auto is_there = [&](const std::string& name) {
         const auto found = session.desk().robots().find(name);
         return found != session.desk().robots().end() && fleet::Operator::is_online(found->second);

@@ -27,6 +27,7 @@ using namespace std::chrono_literals;
 constexpr double kWaitMax_s = 86400;
 constexpr double kTold_s = fleet::kTellFor / 1s;
 constexpr Duration kForEver = Duration::max() / 4;
+constexpr uint64_t kForgotten = 1;  // number of the last message that is taken back
 
 using SharedCall = std::shared_ptr<FleetCall>;
 
@@ -71,8 +72,7 @@ std::string json_of(const std::string& name, const fleet::Known& robot) {
 }
 
 std::vector<std::string> names_of(FleetSession& session, const FleetCall& call) {
-    const fleet::Chosen to{call.robot.empty() && call.group.empty(), call.group, call.robot};
-    return session.desk().chosen(to);
+    return session.desk().chosen(chosen_by(call));
 }
 
 int list(FleetSession& session, const FleetCall& call) {
@@ -169,10 +169,10 @@ std::string outcome_line(const fleet::Outcome& one, const std::string& done) {
 
 int order(FleetSession& session, const FleetCall& call) {
     const fleet::Command& command = call.command;
-    const bool all = call.robot.empty() && call.group.empty();
-    session.desk().begin({command, {all, call.group, call.robot}}, session.now());
-    session.wait_until([&] { return session.desk().is_over(); }, wait_of(call));
-    const std::vector<fleet::Outcome> outcomes = session.desk().outcomes();
+    const fleet::OrderNumber number =
+        session.desk().begin({command, chosen_by(call)}, session.now());
+    session.wait_until([&] { return session.desk().is_over(number); }, wait_of(call));
+    const std::vector<fleet::Outcome> outcomes = session.desk().outcomes(number);
     if (outcomes.empty()) return complain("no robot is there that this is for");
     const std::string done = command.verb == "stop" ? "stopped" : "done";
     size_t good = 0;
@@ -181,6 +181,11 @@ int order(FleetSession& session, const FleetCall& call) {
         good += one.answered && one.answer.done ? 1 : 0;
     }
     print(fmt::format("{} of {} robots: {}\n", good, outcomes.size(), done));
+    const std::string refused = session.desk().refusal(number);
+    if (!refused.empty()) {
+        return complain("the broker does not pass it on: " + refused +
+                        "; use the --login of an operator");
+    }
     return good == outcomes.size() ? kExitDone : kExitFailed;
 }
 
@@ -212,7 +217,7 @@ int forget(FleetSession& session, const FleetCall& call) {
     std::optional<std::string> answered;
     session.on_event([&](const fleet::LinkEvent& event) {
         const auto* told = std::get_if<fleet::Acknowledged>(&event);
-        if (told != nullptr) answered = told->refused;
+        if (told != nullptr && told->number == kForgotten) answered = told->refused;
     });
     for (const Kind kind : {Kind::Description, Kind::State, Kind::Version, Kind::Connection}) {
         const bool last = kind == Kind::Connection;
@@ -221,7 +226,7 @@ int forget(FleetSession& session, const FleetCall& call) {
              .payload = "",
              .qos = 1,
              .retained = true,
-             .number = last ? uint64_t{1} : uint64_t{0}});
+             .number = last ? kForgotten : uint64_t{0}});
     }
     session.wait_until([&] { return answered.has_value(); }, wait_of(call));
     if (answered && answered->empty()) return kExitDone;

@@ -8,33 +8,25 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
 #include "base/text.hpp"
+#include "cli/programs.hpp"
 
 namespace vagus::cli {
 namespace {
 
 constexpr int kCannotExec = 127;
 constexpr size_t kLastWordsMax = 2000;
-constexpr const char* kFurtherFolder = "/usr/sbin";
 
 Error system_error(const std::string& what) {
     return {Code::Unavailable, what + ": " + std::strerror(errno)};
 }
 
-Result<std::string> find_program(const std::string& name) {
-    if (name.find('/') != std::string::npos) return name;
-    const char* const path = std::getenv("PATH");
-    const std::string folders = std::string(path == nullptr ? "" : path) + ":" + kFurtherFolder;
-    for (const std::string_view folder : split(folders, ':')) {
-        const std::string file = std::string(folder) + "/" + name;
-        if (!folder.empty() && access(file.c_str(), X_OK) == 0) return file;
-    }
+Error not_installed(const std::string& name) {
     const bool broker = name.starts_with("mosquitto");
-    return Error{
+    return {
         Code::NotFound,
         fmt::format("{} is not installed: apt-get install {}{}", name, broker ? "mosquitto" : name,
                     broker ? " (and, if its service is not wanted, systemctl disable "
@@ -45,7 +37,11 @@ Result<std::string> find_program(const std::string& name) {
 // `output` -1: where this program says what it has to say.
 Result<pid_t> start(const std::vector<std::string>& given, int output, int last_signal) {
     std::vector<std::string> words = given;
-    words[0] = TRY(find_program(given[0]));
+    if (given[0].find('/') == std::string::npos) {
+        const auto found = find_program(given[0]);
+        if (!found) return not_installed(given[0]);
+        words[0] = *found;
+    }
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);

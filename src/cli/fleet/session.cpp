@@ -1,13 +1,10 @@
 #include "cli/fleet/session.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 
 #include "cli/output.hpp"
 #include "net/end_signal.hpp"
-#include "serve/process.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -15,16 +12,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kLookForEndEvery = 50ms;
-constexpr size_t kNameBytes = 6;
-
-// A robot of that name is improbable, and another operator, too.
-std::string operator_name() {
-    std::string name = "operator-";
-    for (const char byte : serve::random_bytes(kNameBytes)) {
-        name += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    }
-    return name;
-}
 
 }  // namespace
 
@@ -33,14 +20,16 @@ int complain_of(const Error& error) {
     return complain(error, usage ? kExitUsage : kExitFailed);
 }
 
+fleet::Chosen chosen_by(const FleetCall& call) {
+    fleet::Chosen to{.all = call.robot.empty() && call.group.empty(), .group = call.group};
+    if (!call.robot.empty()) to.robots.push_back(call.robot);
+    return to;
+}
+
 Result<std::unique_ptr<FleetSession>> FleetSession::open(const FleetCall& call,
                                                          fleet::Operator::Options options) {
-    options.name = operator_name();
-    serve::LinkOptions link = TRY(serve::link_options(call.broker, options.name));
-    if (link.target.fleet.empty()) {
-        return Error{Code::BadInput,
-                     call.broker.target + ": which fleet? Write mqtt://HOST[:PORT]/FLEET"};
-    }
+    options.name = serve::operator_name();
+    serve::LinkOptions link = TRY(serve::link_of_fleet(call.broker, options.name));
     options.fleet = link.target.fleet;
     net::watch_for_end();
     std::unique_ptr<FleetSession> session(new FleetSession());

@@ -11,7 +11,7 @@
 #include "base/result.hpp"
 #include "cli/fleet/bell.hpp"
 #include "fleet/operator.hpp"
-#include "serve/field/fleet_robot.hpp"
+#include "serve/broker/fleet_options.hpp"
 
 namespace vagus::cli {
 
@@ -30,6 +30,9 @@ struct FleetCall {
     bool rollback = false;
 };
 
+// Whom it is for.
+fleet::Chosen chosen_by(const FleetCall& call);
+
 // What was called in the wrong way is told apart from what did not work. The exit code.
 int complain_of(const Error& error);
 
@@ -42,7 +45,7 @@ public:
     const std::string& fleet() const { return fleet_; }
     // Called with each event of the link, after the operator has heard it.
     void on_event(std::function<void(const fleet::LinkEvent&)> event) { event_ = std::move(event); }
-    // Until it holds (true), the time is over, or somebody wants the end.
+    // Until it holds (true), the time is over, or the program is asked to end.
     bool wait_until(const std::function<bool()>& holds, Duration within);
     // The connection was made, and all that was retained has come; the Error says why not.
     Status know_all(Duration within);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "cli/fleet/broker_options.hpp"
 #include "cli/log_lines.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
@@ -55,6 +56,10 @@ void add_studio(CLI::App& app, int& exit_code) {
                      "opens the newest copy of an example instead: --example follow-wall")
         ->type_name("NAME");
     add_door_options(*verb, options->door);
+    verb->add_option("--fleet", options->fleet.target,
+                     "also looks at the robots of this fleet: mqtt[s]://HOST[:PORT]/FLEET")
+        ->type_name("TARGET");
+    add_broker_options(*verb, options->fleet);
     verb->add_option("--data", options->data,
                      "folder of copies, new projects, token (default: ~/.local/share/vagus)")
         ->type_name("FOLDER");
@@ -68,6 +73,8 @@ void add_studio(CLI::App& app, int& exit_code) {
         "\n"
         "Example:\n"
         "  vagus studio examples/follow-wall\n"
+        "  vagus studio --fleet mqtts://localhost:8883/lab --tls-ca broker/ca.crt --login "
+        "broker/operator.login\n"
         "  vagus studio --listen 192.168.1.7 --token-file token --tls-cert me.pem --tls-key "
         "me.key");
     verb->callback([options, no_browser, &exit_code] {

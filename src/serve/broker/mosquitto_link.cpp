@@ -1,10 +1,12 @@
 #include "serve/broker/mosquitto_link.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <mosquitto.h>
 #include <mqtt_protocol.h>
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -81,6 +83,7 @@ public:
 
 private:
     bool run_session();
+    void obey_orders(Session& session);
     std::vector<Order> take_orders();
     bool ends();
 
@@ -172,32 +175,33 @@ public:
         const int sent = mosquitto_publish_v5(
             library_, &id, post.topic.c_str(), static_cast<int>(post.payload.size()),
             post.payload.data(), post.qos, post.retained, properties.list());
-        if (sent != MOSQ_ERR_SUCCESS) return;
-        ++under_way_;
-        if (post.number != 0) numbers_[id] = post.number;
+        if (sent == MOSQ_ERR_SUCCESS && post.number != 0) numbers_[id] = post.number;
     }
 
-    // What was published arrives first. The library closes its socket right behind its good-bye;
-    // with bytes unread the system would break it off, and the broker, which may miss the good-bye
-    // then, would publish the will. So what comes is read until nothing comes for a moment.
+    // What was published goes out first. A connection that is closed while something of the broker
+    // is unread is reset, which can overtake our good-bye, and then the will is published: so a
+    // descriptor of our own keeps it open until the broker has closed it.
     void say_good_bye() {
-        for (int i = 0; i < kGoodByeTurns; ++i) {
-            pollfd wait{mosquitto_socket(library_), POLLIN, 0};
-            if (wait.fd < 0) return;
-            if (mosquitto_want_write(library_)) mosquitto_loop_write(library_, 1);
-            const bool comes = poll(&wait, 1, kGoodByeTurnMs) > 0;
-            if (comes && mosquitto_loop_read(library_, 1) != MOSQ_ERR_SUCCESS) return;
-            if (!comes && under_way_ == 0) break;
+        for (int i = 0; i < kGoodByeTurns && mosquitto_want_write(library_); ++i) {
+            if (mosquitto_loop_write(library_, 1) != MOSQ_ERR_SUCCESS) return;
         }
+        const int kept = fcntl(mosquitto_socket(library_), F_DUPFD_CLOEXEC, 0);
         mosquitto_disconnect_v5(library_, MQTT_RC_NORMAL_DISCONNECTION, nullptr);
+        if (kept < 0) return;
+        shutdown(kept, SHUT_WR);
+        pollfd waits{kept, POLLIN, 0};
+        char unread[4096];
+        for (int i = 0; i < kGoodByeTurns && poll(&waits, 1, kLinkLastReadMs) > 0; ++i) {
+            if (recv(kept, unread, sizeof unread, 0) <= 0) break;
+        }
+        close(kept);
     }
 
     bool connected() const { return connected_; }
     const std::string& why() const { return why_; }
 
 private:
-    static constexpr int kGoodByeTurns = 90;  // below kLinkGoodByeMs together
-    static constexpr int kGoodByeTurnMs = 10;
+    static constexpr int kGoodByeTurns = 100;
     static constexpr int kFirstFailure = 0x80;  // of the reason codes of MQTT 5
 
     bool end(int result) {
@@ -216,14 +220,16 @@ private:
     }
     static void on_disconnect(mosquitto*, void* self, int code, const mosquitto_property*) {
         auto& session = *static_cast<Session*>(self);
-        if (session.refused_.empty()) {
+        if (!session.refused_.empty()) return;
+        if (code == MOSQ_ERR_SUCCESS) {
+            session.refused_ = "the broker has ended the connection";
+        } else {
             session.refused_ =
                 code >= kFirstFailure ? mosquitto_reason_string(code) : sentence_of(code);
         }
     }
     static void on_publish(mosquitto*, void* self, int id, int code, const mosquitto_property*) {
         auto& session = *static_cast<Session*>(self);
-        --session.under_way_;
         const auto found = session.numbers_.find(id);
         if (found == session.numbers_.end()) return;
         const char* const refused = code >= kFirstFailure ? mosquitto_reason_string(code) : "";
@@ -235,9 +241,13 @@ private:
         auto& session = *static_cast<Session*>(self);
         const std::string_view payload(static_cast<const char*>(message->payload),
                                        static_cast<size_t>(message->payloadlen));
-        // A retained message that was taken back.
-        if (payload.empty()) return;
-        auto heard = fleet::read(session.link_.options().target.fleet, message->topic, payload);
+        const std::string& fleet = session.link_.options().target.fleet;
+        if (payload.empty()) {
+            auto topic = fleet::parse_topic(fleet, message->topic);
+            if (topic) session.link_.give(fleet::TakenBack{std::move(*topic)});
+            return;
+        }
+        auto heard = fleet::read(fleet, message->topic, payload);
         if (heard.ok()) {
             session.link_.give(fleet::Received{std::move(heard.value()), message->retain});
         } else if (heard.error().code != Code::NotFound) {
@@ -250,7 +260,6 @@ private:
     bool connected_ = false;
     std::string refused_, why_;
     std::map<int, uint64_t> numbers_;  // by the library's
-    int64_t under_way_ = 0;            // published, and not acknowledged
 };
 
 // ---- Inside ----
@@ -315,6 +324,12 @@ void MosquittoLink::Inside::run() {
     ended_.notify_all();
 }
 
+void MosquittoLink::Inside::obey_orders(Session& session) {
+    for (const Order& order : take_orders()) {
+        std::visit([&session](const auto& one) { session.obey(one); }, order);
+    }
+}
+
 // False: it was ended by the owner.
 bool MosquittoLink::Inside::run_session() {
     Session session(*this);
@@ -322,17 +337,13 @@ bool MosquittoLink::Inside::run_session() {
     const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(kLinkConnectMs);
     while (why.empty() && !ends()) {
         const bool goes_on = session.turn(signal_);
-        for (const Order& order : take_orders()) {
-            std::visit([&session](const auto& one) { session.obey(one); }, order);
-        }
+        obey_orders(session);
         if (!goes_on) why = session.why();
         const bool late = std::chrono::steady_clock::now() > until;
         if (why.empty() && !session.connected() && late) why = "it did not answer";
     }
     if (why.empty()) {
-        for (const Order& order : take_orders()) {
-            std::visit([&session](const auto& one) { session.obey(one); }, order);
-        }
+        obey_orders(session);
         session.say_good_bye();
     }
     {

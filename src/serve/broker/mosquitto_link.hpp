@@ -25,6 +25,7 @@ constexpr int kLinkAgainMs = 1000;        // after a connection that failed or w
 constexpr int kLinkConnectMs = 10'000;    // for an answer of the broker
 constexpr int kLinkTurnMs = 500;          // keep-alive is looked at
 constexpr int kLinkGoodByeMs = 1000;      // for the last words; then nobody waits
+constexpr int kLinkLastReadMs = 500;      // of these, for each that the broker still says
 
 struct LinkOptions {
     fleet::FleetTarget target;

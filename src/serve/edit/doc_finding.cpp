@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/text.hpp"
 #include "serve/edit/text_places.hpp"
 #include "serve/json.hpp"
 
@@ -64,7 +65,7 @@ Json json_of(const DocFinding& finding) {
                  {"code", line_of(finding.code, 64)},
                  {"at", json_of(finding.at)},
                  {"end", json_of(std::max(finding.at, finding.end))},
-                 {"what", text_of(finding.what, 2000)},
+                 {"what", utf8_prefix(finding.what, 2000)},
                  {"fixes", std::move(fixes)}};
     if (!finding.keys.empty() && finding.keys.size() <= kKeysMax) json["keys"] = finding.keys;
     if (!finding.element.empty()) json["element"] = line_of(finding.element, 256);

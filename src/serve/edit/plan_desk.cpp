@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "plan/generate.hpp"
 #include "serve/edit/json_patch.hpp"
 #include "serve/edit/plan_findings.hpp"
@@ -109,7 +110,7 @@ void PlanDesk::code(const Call& call) {
     }
     const plan::MarkedText code = plan::generate_code(checked, own_toolboxes(library));
     call.done({{"name", line_of(checked.plans.front().name + ".cpp", kShownNameMax)},
-               {"text", text_of(code.text(), kCodeMax)},
+               {"text", utf8_prefix(code.text(), kCodeMax)},
                {"marks", marks_of(code)},
                {"findings", nlohmann::json::array()}});
 }

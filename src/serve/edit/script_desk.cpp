@@ -9,6 +9,7 @@
 #include "aesl/limits.hpp"
 #include "aesl/listing.hpp"
 #include "aesl/mentions.hpp"
+#include "base/text.hpp"
 #include "serve/edit/doc_finding.hpp"
 #include "serve/edit/edited_project.hpp"
 #include "serve/edit/seen.hpp"
@@ -39,7 +40,7 @@ Json suggestion_json(const Suggestion& one) {
     return {{"label", line_of(one.label, 200)},
             {"kind", one.kind},
             {"detail", line_of(one.detail, 300)},
-            {"help", text_of(one.help, 1000)},
+            {"help", utf8_prefix(one.help, 1000)},
             {"insert", line_of(one.insert, 400)}};
 }
 
@@ -193,7 +194,7 @@ void ScriptDesk::hover(const Call& call) {
                {"at", serve::json_of(found->at)},
                {"end", serve::json_of(found->end)},
                {"title", line_of(found->title, 300)},
-               {"help", text_of(found->help, 2000)}});
+               {"help", utf8_prefix(found->help, 2000)}});
 }
 
 Json ScriptDesk::spots_of(const std::vector<Spot>& spots, size_t most) {

@@ -92,15 +92,8 @@ std::string_view line_at(std::string_view text, size_t line) {
     return found;
 }
 
-std::string text_of(std::string_view text, size_t bytes_max) {
-    if (text.size() <= bytes_max) return std::string(text);
-    size_t size = bytes_max;
-    while (size > 0 && is_utf8_continuation(text[size])) --size;
-    return std::string(text.substr(0, size));
-}
-
 std::string line_of(std::string_view text, size_t bytes_max) {
-    std::string line = text_of(text, bytes_max);
+    std::string line(utf8_prefix(text, bytes_max));
     for (char& letter : line) {
         if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = ' ';
     }

@@ -57,7 +57,5 @@ private:
 std::string_view line_at(std::string_view text, size_t line);
 // At most so many bytes of a text, without control characters: for a line of the protocol.
 std::string line_of(std::string_view text, size_t bytes_max);
-// At most so many bytes of a text.
-std::string text_of(std::string_view text, size_t bytes_max);
 
 }  // namespace vagus::serve

@@ -43,9 +43,8 @@ TEST(TextPlaces, ACursorSaysTheSameOnOneWalk) {
 }
 
 TEST(TextPlaces, TextsAreCutBetweenCharacters) {
-    EXPECT_EQ(text_of("aé", 2), "a");
-    EXPECT_EQ(text_of("aé", 3), "aé");
     EXPECT_EQ(line_of("a\tb\n", 9), "a b ");
+    EXPECT_EQ(line_of("a\t\xc3\xa9", 3), "a ");
 }
 
 TEST(DocFinding, SentencesOfReadersAreTakenApart) {

@@ -11,6 +11,7 @@
 
 #include "base/file.hpp"
 #include "base/project_border.hpp"
+#include "base/text.hpp"
 #include "serve/edit/edited_project.hpp"
 #include "serve/edit/named_paths.hpp"
 #include "serve/json.hpp"
@@ -109,9 +110,7 @@ std::string sha256_of(std::string_view bytes) {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
     unsigned size = 0;
     EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr);
-    std::string text;
-    for (unsigned i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
-    return text;
+    return hex_of({reinterpret_cast<const char*>(digest.data()), size});
 }
 
 Result<CollectedBundle> collect_bundle(const std::string& project) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/file.hpp"
+#include "base/text.hpp"
 #include "fleet/limits.hpp"
 #include "fleet/topic.hpp"
 #include "serve/process.hpp"
@@ -15,12 +15,6 @@ namespace {
 
 constexpr size_t kInstanceBytes = 8;
 constexpr size_t kEpochBytes = 6;  // a whole number below 2^48
-
-std::string in_hex(const std::string& bytes) {
-    std::string text;
-    for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    return text;
-}
 
 int64_t as_number(const std::string& bytes) {
     int64_t number = 0;
@@ -45,9 +39,9 @@ std::vector<std::string> names_heard(const fleet::ProjectPart& part) {
 }
 
 fleet::Description description_of(const OpenedProject& project, const std::string& studio) {
-    return {.project = project.name.substr(0, fleet::kLineBytesMax),
+    return {.project = std::string(utf8_prefix(project.name, fleet::kLineBytesMax)),
             .vagus = VAGUS_VERSION,
-            .plan = project.plan.substr(0, fleet::kLineBytesMax),
+            .plan = std::string(utf8_prefix(project.plan, fleet::kLineBytesMax)),
             .studio = studio,
             .groups = project.fleet.groups,
             .nodes = {},
@@ -57,26 +51,12 @@ fleet::Description description_of(const OpenedProject& project, const std::strin
 
 }  // namespace
 
-Result<LinkOptions> link_options(const FleetOptions& options, const std::string& client) {
-    LinkOptions link{.target = TRY(fleet::parse_fleet_target(options.target)), .client = client};
-    for (const std::string& file : {options.ca, options.certificate, options.key}) {
-        if (!file.empty()) (void)TRY(read_file(file));
-    }
-    link.ca = options.ca;
-    link.certificate = options.certificate;
-    link.key = options.key;
-    if (options.login.empty()) return link;
-    const std::string login = TRY(read_file(options.login));
-    link.login = TRY(fleet::read_login(login, options.login));
-    return link;
-}
-
 Result<std::unique_ptr<FleetRobot>> FleetRobot::join(Workbench& bench, const FleetOptions& options,
                                                      Talk talk, Time now) {
     const OpenedProject none;
     const OpenedProject& project = bench.project() ? *bench.project() : none;
     fleet::MemberOptions member{.robot = options.robot.empty() ? host_name() : options.robot,
-                                .instance = in_hex(random_bytes(kInstanceBytes)),
+                                .instance = hex_of(random_bytes(kInstanceBytes)),
                                 .epoch = as_number(random_bytes(kEpochBytes)),
                                 .project = project.fleet,
                                 .description = description_of(project, talk.studio)};

@@ -12,21 +12,11 @@
 
 #include "base/result.hpp"
 #include "fleet/member.hpp"
-#include "fleet/target.hpp"
 #include "fleet/tell_list.hpp"
-#include "serve/broker/mosquitto_link.hpp"
+#include "serve/broker/fleet_options.hpp"
 #include "serve/workbench/workbench.hpp"
 
 namespace vagus::serve {
-
-struct FleetOptions {
-    std::string target = {};  // mqtt://HOST[:PORT]/FLEET; empty: in no fleet
-    std::string robot = {};   // its name; empty: that of this computer
-    std::string ca = {}, certificate = {}, key = {}, login = {};  // files
-};
-
-// How to reach the broker, of whatever asks: the files are read. `client` is the id.
-Result<LinkOptions> link_options(const FleetOptions& options, const std::string& client);
 
 class FleetRobot {
 public:

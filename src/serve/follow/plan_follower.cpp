@@ -16,9 +16,7 @@ namespace {
 
 std::string shortened(std::string_view text) {
     if (text.size() <= kShownTextMax) return std::string(text);
-    size_t end = kShownTextMax;
-    while (end > 0 && is_utf8_continuation(text[end])) --end;
-    return std::string(text.substr(0, end)) + "…";
+    return std::string(utf8_prefix(text, kShownTextMax)) + "…";
 }
 
 const PlanOutline::Actor* actor_of(const PlanOutline* plan, std::string_view name) {

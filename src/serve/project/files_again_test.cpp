@@ -1,13 +1,7 @@
 // Texts without a file, and names that another text had before: what pages that come back find.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "base/file.hpp"
-#include "serve/project/files.hpp"
+#include "serve/project/test_files.hpp"
 
 namespace vagus::serve {
 namespace {
@@ -15,29 +9,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 
-struct FilesAgainTest : testing::Test {
-    void SetUp() override {
-        root = fs::path(testing::TempDir()) /
-               ("again-" + std::to_string(::getpid()) + "-" +
-                testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(root);
-        fs::create_directories(root);
-        write("note.txt", "hello\n");
-    }
-    void TearDown() override { fs::remove_all(root); }
-    void write(const std::string& path, std::string_view text) {
-        std::ofstream(root / path) << text;
-    }
-    std::string on_disk(const std::string& path) {
-        return read_file((root / path).string()).value();
-    }
-    uint32_t edit(Files& files, const std::string& doc, std::vector<TextChange> changes) {
-        const auto edited = files.edit(doc, files.open(doc).value().version, changes, "me");
-        EXPECT_TRUE(edited.ok()) << edited.error().what;
-        return edited.ok() ? edited.value() : 0;
-    }
-    fs::path root;
-};
+struct FilesAgainTest : FilesTest {};
 
 // What was seen: delete a file that nothing was typed into, restart; its tab could not save it.
 TEST_F(FilesAgainTest, ADeletedTextThatIsOpenSurvivesManyRestarts) {

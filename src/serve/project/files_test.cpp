@@ -8,8 +8,8 @@
 #include <fstream>
 #include <semaphore>
 
-#include "base/file.hpp"
 #include "serve/project/paths.hpp"
+#include "serve/project/test_files.hpp"
 #include "serve/project/utf16.hpp"
 
 namespace vagus::serve {
@@ -45,32 +45,14 @@ TEST(Paths, OnlyWhatIsInside) {
     EXPECT_FALSE(check_path(std::string(129, 'a')).ok());
 }
 
-struct FilesTest : testing::Test {
+struct ProjectFilesTest : FilesTest {
     void SetUp() override {
-        root = fs::path(testing::TempDir()) /
-               ("files-" + std::to_string(::getpid()) + "-" +
-                testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(root);
-        fs::create_directories(root / "carbot");
+        FilesTest::SetUp();
         write("carbot/a.aesl", kProject);
-        write("note.txt", "hello\n");
     }
-    void TearDown() override { fs::remove_all(root); }
-    void write(const std::string& path, std::string_view text) {
-        std::ofstream(root / path) << text;
-    }
-    std::string on_disk(const std::string& path) {
-        return read_file((root / path).string()).value();
-    }
-    uint32_t edit(Files& files, const std::string& doc, std::vector<TextChange> changes) {
-        const auto edited = files.edit(doc, files.open(doc).value().version, changes, "me");
-        EXPECT_TRUE(edited.ok()) << edited.error().what;
-        return edited.ok() ? edited.value() : 0;
-    }
-    fs::path root;
 };
 
-TEST_F(FilesTest, AScriptIsADocumentOfItsOwn) {
+TEST_F(ProjectFilesTest, AScriptIsADocumentOfItsOwn) {
     Files files(root);
     EXPECT_EQ(files.open("carbot/a.aesl").value().language, "aesl-file");
     EXPECT_EQ(files.open("carbot/a.aesl#1").value().text, "var x <\n");
@@ -87,7 +69,7 @@ TEST_F(FilesTest, AScriptIsADocumentOfItsOwn) {
     EXPECT_EQ(on_disk("carbot/a.aesl"), expected);
 }
 
-TEST_F(FilesTest, ChangesCountInTheTextBeforeThem) {
+TEST_F(ProjectFilesTest, ChangesCountInTheTextBeforeThem) {
     Files files(root);
     EXPECT_EQ(edit(files, "note.txt", {{4, 5, "p!"}, {0, 1, "J"}}), 2u);
     EXPECT_EQ(files.open("note.txt").value().text, "Jellp!\n");
@@ -102,7 +84,7 @@ TEST_F(FilesTest, ChangesCountInTheTextBeforeThem) {
     EXPECT_FALSE(files.edit("note.txt", 2, {{0, 3, "a"}, {2, 4, "b"}}, "me").ok());  // overlap
 }
 
-TEST_F(FilesTest, SavingWhatWasNotChangedTouchesNothing) {
+TEST_F(ProjectFilesTest, SavingWhatWasNotChangedTouchesNothing) {
     Files files(root);
     ASSERT_TRUE(files.open("note.txt").ok());
     const auto written = fs::last_write_time(root / "note.txt");
@@ -110,7 +92,7 @@ TEST_F(FilesTest, SavingWhatWasNotChangedTouchesNothing) {
     EXPECT_EQ(fs::last_write_time(root / "note.txt"), written);
 }
 
-TEST_F(FilesTest, WhatWasTypedComesBackAfterACrash) {
+TEST_F(ProjectFilesTest, WhatWasTypedComesBackAfterACrash) {
     {
         Files files(root);
         edit(files, "note.txt", {{0, 5, "unsaved"}});
@@ -127,7 +109,7 @@ TEST_F(FilesTest, WhatWasTypedComesBackAfterACrash) {
     EXPECT_TRUE(Files(root).recovered().empty());
 }
 
-TEST_F(FilesTest, AfterACrashAChangedFileIsShownBesideTheText) {
+TEST_F(ProjectFilesTest, AfterACrashAChangedFileIsShownBesideTheText) {
     {
         Files files(root);
         edit(files, "note.txt", {{0, 5, "mine"}});
@@ -142,7 +124,7 @@ TEST_F(FilesTest, AfterACrashAChangedFileIsShownBesideTheText) {
     EXPECT_EQ(files.open("note.txt").value().text, "theirs\n");
 }
 
-TEST_F(FilesTest, BothCanBeKeptAndSaved) {
+TEST_F(ProjectFilesTest, BothCanBeKeptAndSaved) {
     {
         Files files(root);
         edit(files, "note.txt", {{0, 5, "mine"}});
@@ -156,7 +138,7 @@ TEST_F(FilesTest, BothCanBeKeptAndSaved) {
     EXPECT_EQ(on_disk("note.txt"), "mine\ntheirs\n");
 }
 
-TEST_F(FilesTest, BothLinesOfAScriptAreKeptWithoutTheTagBeforeThem) {
+TEST_F(ProjectFilesTest, BothLinesOfAScriptAreKeptWithoutTheTagBeforeThem) {
     const auto file = [](const std::string& left) {
         return "<network>\n<node nodeId=\"1\" name=\"left\">" + left +
                "</node>\n<node nodeId=\"2\" name=\"right\">var r\n</node>\n</network>\n";
@@ -173,7 +155,7 @@ TEST_F(FilesTest, BothLinesOfAScriptAreKeptWithoutTheTagBeforeThem) {
     EXPECT_EQ(on_disk("two.aesl"), file("var a = 1\nvar a = 2"));
 }
 
-TEST_F(FilesTest, AChangeOnDiskIsTakenOverByACleanTextAndShownBesideAnUnsavedOne) {
+TEST_F(ProjectFilesTest, AChangeOnDiskIsTakenOverByACleanTextAndShownBesideAnUnsavedOne) {
     Files files(root);
     ASSERT_TRUE(files.open("note.txt").ok());
     std::vector<std::string> changed;
@@ -193,7 +175,7 @@ TEST_F(FilesTest, AChangeOnDiskIsTakenOverByACleanTextAndShownBesideAnUnsavedOne
     EXPECT_EQ(on_disk("note.txt"), "two\n");
 }
 
-TEST_F(FilesTest, LinksThatLeaveTheProjectAreNotFollowed) {
+TEST_F(ProjectFilesTest, LinksThatLeaveTheProjectAreNotFollowed) {
     const fs::path outside = root.string() + "-outside";
     fs::create_directories(outside);
     std::ofstream(outside / "secret.txt") << "secret";
@@ -208,7 +190,7 @@ TEST_F(FilesTest, LinksThatLeaveTheProjectAreNotFollowed) {
     fs::remove_all(outside);
 }
 
-TEST_F(FilesTest, FilesAreMadeRenamedAndPutIntoTheTrash) {
+TEST_F(ProjectFilesTest, FilesAreMadeRenamedAndPutIntoTheTrash) {
     Files files(root);
     EXPECT_TRUE(files.make("new/b.txt", "b").ok());
     EXPECT_FALSE(files.make("new/b.txt", "c").ok());
@@ -226,7 +208,7 @@ TEST_F(FilesTest, FilesAreMadeRenamedAndPutIntoTheTrash) {
     EXPECT_FALSE(more);
 }
 
-TEST_F(FilesTest, WithoutAProjectEverythingIsRefused) {
+TEST_F(ProjectFilesTest, WithoutAProjectEverythingIsRefused) {
     Files files;
     EXPECT_FALSE(files.is_open());
     bool more = true;
@@ -248,7 +230,7 @@ TEST_F(FilesTest, WithoutAProjectEverythingIsRefused) {
     EXPECT_GT(files.next_tick(), 1000h);
 }
 
-TEST_F(FilesTest, LeavingKeepsWhatWasTypedInTheJournalAndForgetsTheRest) {
+TEST_F(ProjectFilesTest, LeavingKeepsWhatWasTypedInTheJournalAndForgetsTheRest) {
     Files files;
     files.enter(root);
     edit(files, "note.txt", {{0, 5, "typed"}});
@@ -261,7 +243,7 @@ TEST_F(FilesTest, LeavingKeepsWhatWasTypedInTheJournalAndForgetsTheRest) {
     EXPECT_EQ(files.open("note.txt").value().text, "typed\n");
 }
 
-TEST_F(FilesTest, AFileOpenedAloneIsListedAloneAndRecoversOnlyItself) {
+TEST_F(ProjectFilesTest, AFileOpenedAloneIsListedAloneAndRecoversOnlyItself) {
     {
         Files files(root);
         edit(files, "note.txt", {{0, 5, "typed"}});
@@ -277,7 +259,7 @@ TEST_F(FilesTest, AFileOpenedAloneIsListedAloneAndRecoversOnlyItself) {
     EXPECT_THAT(files.recovered(), ElementsAre("note.txt"));
 }
 
-TEST_F(FilesTest, AFileThatIsTakenAwayIsToldAndCanBeSavedAgain) {
+TEST_F(ProjectFilesTest, AFileThatIsTakenAwayIsToldAndCanBeSavedAgain) {
     Files files(root);
     ASSERT_TRUE(files.open("note.txt").ok());
     fs::remove(root / "note.txt");
@@ -292,7 +274,7 @@ TEST_F(FilesTest, AFileThatIsTakenAwayIsToldAndCanBeSavedAgain) {
 }
 
 // What was seen: type, delete the file in the tree, kill -9; the text was nowhere any more.
-TEST_F(FilesTest, WhatWasTypedIntoADeletedFileComesBackAfterACrash) {
+TEST_F(ProjectFilesTest, WhatWasTypedIntoADeletedFileComesBackAfterACrash) {
     {
         Files files(root);
         edit(files, "note.txt", {{0, 5, "typed"}});
@@ -320,7 +302,7 @@ TEST_F(FilesTest, WhatWasTypedIntoADeletedFileComesBackAfterACrash) {
     EXPECT_EQ(on_disk("note.txt"), "more and typed\n");
 }
 
-TEST_F(FilesTest, ATextWithoutAFileGoesIntoTheTrashItself) {
+TEST_F(ProjectFilesTest, ATextWithoutAFileGoesIntoTheTrashItself) {
     {
         Files files(root);
         edit(files, "note.txt", {{0, 5, "typed"}});
@@ -336,7 +318,7 @@ TEST_F(FilesTest, ATextWithoutAFileGoesIntoTheTrashItself) {
     EXPECT_TRUE(Files(root).recovered().empty());
 }
 
-TEST_F(FilesTest, ATextWhoseFileSomebodyTookAwaySurvivesARestart) {
+TEST_F(ProjectFilesTest, ATextWhoseFileSomebodyTookAwaySurvivesARestart) {
     {
         Files files(root);
         ASSERT_TRUE(files.open("note.txt").ok());
@@ -355,7 +337,7 @@ TEST_F(FilesTest, ATextWhoseFileSomebodyTookAwaySurvivesARestart) {
     }
 }
 
-TEST_F(FilesTest, AFileMadeInThePlaceOfADeletedOneIsShownBesideTheUnsavedText) {
+TEST_F(ProjectFilesTest, AFileMadeInThePlaceOfADeletedOneIsShownBesideTheUnsavedText) {
     Files files(root);
     edit(files, "note.txt", {{0, 5, "typed"}});
     EXPECT_TRUE(files.remove("note.txt").ok());
@@ -366,7 +348,7 @@ TEST_F(FilesTest, AFileMadeInThePlaceOfADeletedOneIsShownBesideTheUnsavedText) {
     EXPECT_FALSE(files.save("note.txt").ok());
 }
 
-TEST_F(FilesTest, LongAndBinaryFilesAreNotEdited) {
+TEST_F(ProjectFilesTest, LongAndBinaryFilesAreNotEdited) {
     write("long.txt", std::string(kTextBytesMax + 1, 'x'));
     write("binary.txt", "\xff\xfe");
     Files files(root);
@@ -382,7 +364,7 @@ TEST_F(FilesTest, LongAndBinaryFilesAreNotEdited) {
 // ---- what somebody else writes meanwhile ----
 
 // What was seen: a file that was overwritten although somebody had changed it a moment before.
-TEST_F(FilesTest, SavingLooksAtTheDiskAtThatMoment) {
+TEST_F(ProjectFilesTest, SavingLooksAtTheDiskAtThatMoment) {
     Files files(root);
     edit(files, "note.txt", {{0, 5, "mine"}});
     write("note.txt", "theirs\n");  // no tick has seen it
@@ -396,7 +378,7 @@ TEST_F(FilesTest, SavingLooksAtTheDiskAtThatMoment) {
     EXPECT_EQ(on_disk("note.txt"), "mine\n");
 }
 
-TEST_F(FilesTest, ContentCountsWhereTimeAndSizeSayNothing) {
+TEST_F(ProjectFilesTest, ContentCountsWhereTimeAndSizeSayNothing) {
     Files files(root);
     edit(files, "note.txt", {{0, 5, "mine"}});
     const auto written = fs::last_write_time(root / "note.txt");
@@ -406,7 +388,7 @@ TEST_F(FilesTest, ContentCountsWhereTimeAndSizeSayNothing) {
     EXPECT_EQ(on_disk("note.txt"), "HELLO\n");
 }
 
-TEST_F(FilesTest, AConflictInOneFileDoesNotKeepOthersFromBeingSaved) {
+TEST_F(ProjectFilesTest, AConflictInOneFileDoesNotKeepOthersFromBeingSaved) {
     write("other.txt", "other\n");
     Files files(root);
     edit(files, "note.txt", {{0, 5, "mine"}});
@@ -417,7 +399,7 @@ TEST_F(FilesTest, AConflictInOneFileDoesNotKeepOthersFromBeingSaved) {
     EXPECT_THAT(saved, ElementsAre("other.txt"));
 }
 
-TEST_F(FilesTest, OtherLinesThatChangeOnDiskAreTakenIntoAnUnsavedText) {
+TEST_F(ProjectFilesTest, OtherLinesThatChangeOnDiskAreTakenIntoAnUnsavedText) {
     write("three.txt", "one\ntwo\nthree\n");
     Files files(root);
     edit(files, "three.txt", {{0, 3, "ONE"}});
@@ -437,7 +419,7 @@ TEST_F(FilesTest, OtherLinesThatChangeOnDiskAreTakenIntoAnUnsavedText) {
 }
 
 // What was seen: for a script in an .aesl the page never shows that the file changed.
-TEST_F(FilesTest, AConflictIsOneOfEachScriptOfTheFile) {
+TEST_F(ProjectFilesTest, AConflictIsOneOfEachScriptOfTheFile) {
     Files files(root);
     edit(files, "carbot/a.aesl#1", {{4, 5, "z"}});
     std::string other(kProject);
@@ -451,7 +433,7 @@ TEST_F(FilesTest, AConflictIsOneOfEachScriptOfTheFile) {
     EXPECT_EQ(files.disk_text("carbot/a.aesl").value(), other);
 }
 
-TEST_F(FilesTest, WhatIsNoTextAnyMoreIsNotOverwritten) {
+TEST_F(ProjectFilesTest, WhatIsNoTextAnyMoreIsNotOverwritten) {
     Files files(root);
     edit(files, "note.txt", {{0, 0, "x"}});
     write("note.txt", "\xff\xfe");
@@ -464,7 +446,7 @@ TEST_F(FilesTest, WhatIsNoTextAnyMoreIsNotOverwritten) {
     EXPECT_EQ(on_disk("note.txt"), "xhello\n");
 }
 
-TEST_F(FilesTest, AFileThatGoesBackToWhatItWasIsNoConflictAnyMore) {
+TEST_F(ProjectFilesTest, AFileThatGoesBackToWhatItWasIsNoConflictAnyMore) {
     Files files(root);
     edit(files, "note.txt", {{0, 5, "mine"}});
     write("note.txt", "theirs\n");
@@ -476,7 +458,7 @@ TEST_F(FilesTest, AFileThatGoesBackToWhatItWasIsNoConflictAnyMore) {
 
 // ---- line ends ----
 
-TEST_F(FilesTest, LineEndsAndTheMarkStayWhereNobodyTypes) {
+TEST_F(ProjectFilesTest, LineEndsAndTheMarkStayWhereNobodyTypes) {
     write("dos.txt", "\xef\xbb\xbfone\r\ntwo\r\nthree\nfour");
     Files files(root);
     const DocumentView view = files.open("dos.txt").value();
@@ -490,7 +472,7 @@ TEST_F(FilesTest, LineEndsAndTheMarkStayWhereNobodyTypes) {
 
 // ---- the journal ----
 
-TEST_F(FilesTest, AfterACrashOtherLinesThatChangedOnDiskAreTakenIn) {
+TEST_F(ProjectFilesTest, AfterACrashOtherLinesThatChangedOnDiskAreTakenIn) {
     write("three.txt", "one\r\ntwo\r\nthree\r\n");
     {
         Files files(root);
@@ -506,7 +488,7 @@ TEST_F(FilesTest, AfterACrashOtherLinesThatChangedOnDiskAreTakenIn) {
 
 // A power cut may bring the old file back until the disk has the new one: so long the journal has
 // the text, too. Nobody waits for that.
-TEST_F(FilesTest, WhatIsSavedStaysInTheJournalUntilTheDiskHasIt) {
+TEST_F(ProjectFilesTest, WhatIsSavedStaysInTheJournalUntilTheDiskHasIt) {
     std::counting_semaphore<> news{0};
     Files files(root);
     files.on_wake([&] { news.release(); });
@@ -531,7 +513,7 @@ TEST_F(FilesTest, WhatIsSavedStaysInTheJournalUntilTheDiskHasIt) {
 }
 
 // Typed again, and taken back, while the disk is waited for.
-TEST_F(FilesTest, WhatIsTypedAndTakenBackBehindASaveLeavesNoOtherTextInTheJournal) {
+TEST_F(ProjectFilesTest, WhatIsTypedAndTakenBackBehindASaveLeavesNoOtherTextInTheJournal) {
     Files files(root);
     edit(files, "note.txt", {{0, 5, "saved"}});
     ASSERT_TRUE(files.save("note.txt").ok());
@@ -544,7 +526,7 @@ TEST_F(FilesTest, WhatIsTypedAndTakenBackBehindASaveLeavesNoOtherTextInTheJourna
 }
 
 // As on a full disk: told once, tried again, nothing lost meanwhile.
-TEST_F(FilesTest, AJournalThatCannotBeWrittenIsToldAndTriedAgain) {
+TEST_F(ProjectFilesTest, AJournalThatCannotBeWrittenIsToldAndTriedAgain) {
     Files files(root);
     fs::create_directories(root / ".vagus");
     write(".vagus/journal", "in the way");
@@ -574,7 +556,7 @@ struct FullDisk {
 };
 
 // What was seen: renamed while the disk was full, then killed; what was typed was lost.
-TEST_F(FilesTest, ARenamedTextKeepsItsOldEntryUntilItHasANewOne) {
+TEST_F(ProjectFilesTest, ARenamedTextKeepsItsOldEntryUntilItHasANewOne) {
     Files files(root);
     edit(files, "note.txt", {{0, 5, "typed"}});
     {

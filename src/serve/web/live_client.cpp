@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/text.hpp"
 #include "serve/process.hpp"
 #include "serve/protocol/protocol.hpp"
 #include "serve/web/beast.hpp"
@@ -127,10 +128,7 @@ public:
                                      "reached from here?",
                                      authority(address), failed.code().message())};
         }
-        std::string client;
-        for (const char byte : random_bytes(8)) {
-            client += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-        }
+        const std::string client = hex_of(random_bytes(8));
         const auto greeted =
             ask("hello", {{"token", address.token}, {"client", client}, {"name", name}});
         if (!greeted.ok()) return greeted.error();

@@ -1,6 +1,7 @@
 // The workbench of a robot that is a member of a fleet: what is shown of it, and what others want.
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "fleet/limits.hpp"
 #include "serve/json.hpp"
 #include "serve/workbench/workbench.hpp"
@@ -10,7 +11,7 @@ namespace vagus::serve {
 namespace {
 
 fleet::Answer refusal(const std::string& why) {
-    return {.done = false, .what = why.substr(0, fleet::kLineBytesMax)};
+    return {.done = false, .what = std::string(utf8_prefix(why, fleet::kLineBytesMax))};
 }
 
 fleet::Answer answer_of_why(const std::string& why) {
@@ -34,7 +35,8 @@ fleet::Shown Workbench::shown() const {
         shown.problems.push_back(node + " is not there");
     }
     if (shown.problems.size() > fleet::kProblemsMax) shown.problems.resize(fleet::kProblemsMax);
-    for (std::string& one : shown.problems) one = one.substr(0, fleet::kLineBytesMax);
+    for (std::string& one : shown.problems)
+        one.resize(utf8_prefix(one, fleet::kLineBytesMax).size());
     // Nodes of a bus may run without us.
     const bool nodes_run = bus_ && target_.counts().running > 0;
     const Life::State state = life_.state();

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "serve/fleet/fleet_desk.hpp"
 #include "serve/process.hpp"
 #include "serve/workbench/server_loop.hpp"
 
@@ -69,9 +70,16 @@ Status run_studio(const StudioOptions& options, const StudioTalk& talk) {
     TRY(server.open(door_of(options, talk, data), data, talk.log, places_of(options, data)));
     server.bench().on_end(
         [&server, &talk](const life::End&) { talk.log(server.bench().end_in_words()); });
+    net::Links& links = server.links();
+    FleetDesk fleet(server.desk(), [&links](LinkOptions link) {
+        return std::make_unique<MosquittoLink>(std::move(link), [&links] { links.wake(); });
+    });
+    if (!options.fleet.target.empty()) TRY(fleet.open(options.fleet, links.now()));
     TRY(open_first(options, server));
     tell_address(talk, server.door(), data);
-    server.run({});
+    server.run({.next_tick = [&fleet](Time) { return fleet.next_tick(); },
+                .tick = [&fleet](Time now) { fleet.tick(now); },
+                .before_end = [&fleet] { fleet.close(); }});
     return Status::done();
 }
 

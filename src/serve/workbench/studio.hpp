@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/result.hpp"
+#include "serve/broker/fleet_options.hpp"
 #include "serve/workbench/door.hpp"
 
 namespace vagus::serve {
@@ -12,6 +13,7 @@ namespace vagus::serve {
 struct StudioOptions {
     std::string project = {};  // a path; empty: the start screen
     std::string example = {};  // or an example
+    FleetOptions fleet = {};   // to look at
     DoorOptions door = {};
     std::string data = {}, config = {};  // folders; empty: the user's
 };

@@ -30,11 +30,19 @@ function hasFocus(region: HTMLElement): boolean {
   return region.contains(active) || (panelOf(region)?.contains(active) ?? false);
 }
 
+const all = (place: HTMLElement | null, what: string) => [
+  ...(place?.querySelectorAll<HTMLElement>(what) ?? []),
+];
+
+const isShown = (one: HTMLElement) => one.offsetParent !== null;
+
 /** What is in the panel comes first; an empty panel takes the focus on its tab. */
 function focusIn(region: HTMLElement): boolean {
   for (const place of [panelOf(region), region]) {
-    const all = [...(place?.querySelectorAll<HTMLElement>(inside) ?? [])];
-    const target = all.find((one) => one.offsetParent !== null && one.tabIndex >= 0);
+    // What the place is there for, as a canvas below its bar; else what comes first.
+    const target =
+      all(place, '[data-autofocus]').find(isShown) ??
+      all(place, inside).find((one) => isShown(one) && one.tabIndex >= 0);
     if (!target) continue;
     target.focus();
     return document.activeElement === target;

@@ -11,7 +11,20 @@ const titles = text.commands;
 /** A check that takes longer is not waited for. */
 const kCheckedWithinMs = 3000;
 
-export function problemCommands(studio: Studio): Command[] {
+/** What helps where no edit of the text does: in a drawing. */
+export interface FindingAct {
+  label: string;
+  run(): void;
+}
+
+export interface DrawnHelp {
+  /** null: nothing helps but a fix. */
+  actFor(finding: Finding): FindingAct | null;
+  /** Its element is selected in the drawing that is used. */
+  isChosen(finding: Finding): boolean;
+}
+
+export function problemCommands(studio: Studio, drawings: () => Promise<DrawnHelp>): Command[] {
   const some = () => findingsOf(studio).length > 0;
   return [
     {
@@ -36,7 +49,7 @@ export function problemCommands(studio: Studio): Command[] {
       group: text.groups.edit,
       keys: ['Alt+Enter'],
       enabled: () => drives(studio),
-      run: () => fixNext(studio),
+      run: () => fixNext(studio, drawings),
     },
   ];
 }
@@ -94,19 +107,29 @@ function stepProblem(studio: Studio, by: 1 | -1): void {
 }
 
 /** What is fixed is shown, wherever the caret was. */
-async function fixNext(studio: Studio): Promise<void> {
-  const finding = fixable(studio, ordered(await freshFindings(studio)));
+async function fixNext(studio: Studio, drawings: () => Promise<DrawnHelp>): Promise<void> {
+  const [findings, drawn] = await Promise.all([freshFindings(studio), drawings()]);
+  const finding = fixable(studio, ordered(findings), drawn);
   if (!finding) return toast(studio.window, 'note', text.problems.noFix);
+  if (finding.fixes.length === 0) return drawn.actFor(finding)?.run();
   if (!isOnLine(studio, finding)) revealDoc(studio.window, finding.doc, finding.at);
   await applyFix(studio, finding.fixes[0]);
 }
 
-/** A problem with a fix: on the caret's line, else the one chosen in the list, else the first. */
-function fixable(studio: Studio, findings: readonly Finding[]): Finding | undefined {
-  const { problem } = studio.window.getState();
+/**
+ * A problem that can be helped: of the element that is selected, on the caret's line, else the one
+ * chosen in the list, else the first.
+ */
+function fixable(
+  studio: Studio,
+  findings: readonly Finding[],
+  drawn: DrawnHelp,
+): Finding | undefined {
+  const { problem, doc } = studio.window.getState();
   const chosen = findings[problem];
-  const able = findings.filter((one) => one.fixes.length > 0);
+  const able = findings.filter((one) => one.fixes.length > 0 || drawn.actFor(one) !== null);
   return (
+    able.find((one) => one.doc === doc && drawn.isChosen(one)) ??
     able.find((one) => isOnLine(studio, one)) ??
     (chosen && able.includes(chosen) ? chosen : able[0])
   );

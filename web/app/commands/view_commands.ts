@@ -55,6 +55,17 @@ export function viewCommands(studio: Studio, panels: readonly Panel[]): Command[
       keys: ['Shift+F6'],
       run: () => focusRegion(-1),
     },
+    {
+      id: 'fleet.show',
+      title: titles['fleet.show'],
+      group,
+      enabled: () => (studio.topics.get('fleet', {})?.state ?? 'none') !== 'none',
+      run: () =>
+        update(
+          studio.window,
+          (draft) => void (draft.view = draft.view === 'fleet' ? 'project' : 'fleet'),
+        ),
+    },
     { id: 'theme.next', title: titles['theme.next'], group, run: () => nextTheme(studio) },
     {
       id: 'access.renew',

@@ -75,7 +75,10 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     const plan = planOf(layout, small, lacks);
     const next = openLayout(studio, { plan, key }, nonce > 0, extent.current);
     const opened = { model: next, plan };
-    if (before.current) carryDocuments(studio, before.current, opened, closed.current);
+    if (before.current) {
+      carryDocuments(studio, before.current, opened, closed.current);
+      keepFocus(studio);
+    }
     before.current = opened;
     notePlan(studio, next);
     setModel(next);
@@ -320,12 +323,23 @@ function firstIn(place: HTMLElement | null): HTMLElement | null {
 
 /** The tab's content may need a moment to be there. */
 function focusTab(id: string): void {
-  const place = () => document.querySelector<HTMLElement>(`[data-tab-content="${CSS.escape(id)}"]`);
+  takeFocus(() => focusInTab(id));
+}
+
+function focusInTab(id: string): boolean {
+  const place = document.querySelector<HTMLElement>(`[data-tab-content="${CSS.escape(id)}"]`);
+  const target = firstIn(place);
+  if (!target || target.offsetParent === null) return false;
+  target.focus();
+  return true;
+}
+
+/** Another layout makes its panels anew: the keyboard stays in the document, if nothing else has it. */
+function keepFocus(studio: Studio): void {
   takeFocus(() => {
-    const target = firstIn(place());
-    if (!target || target.offsetParent === null) return false;
-    target.focus();
-    return true;
+    if (document.activeElement !== document.body) return true;
+    const { doc } = studio.window.getState();
+    return doc === null || focusInTab(`doc:${doc}`);
   });
 }
 

@@ -8,24 +8,30 @@ import {
 import { countsOf } from '../../core/findings';
 import { shownTime } from '../../core/numbers';
 import { pausedLineOf } from '../../core/run_state';
-import { kindOf } from '../documents';
-import { useIsGone, usePart, useStudio, useTopic, useUnsent, useWindow } from '../hooks';
-import { Kbd } from '../parts/kbd';
+import {
+  useFleetShown,
+  useIsGone,
+  usePart,
+  useStudio,
+  useTopic,
+  useUnsent,
+  useWindow,
+} from '../hooks';
 import { kStroke } from '../parts/icons';
 import { timeOf } from '../parts/time_of';
 import { useEnd, usePastTime } from '../past_hooks';
 import { text } from '../text';
-
-const words = text.status.keys;
-type Hint = readonly [keys: string, word: string];
+import { FleetHints, Hints } from './hints';
 
 /** What is paused, what is unsaved, what runs; and the keys that help now. */
 export function StatusBar() {
-  const project = useTopic('studio', {})?.project;
+  const opened = useTopic('studio', {})?.project;
+  const isFleet = useFleetShown();
+  const project = isFleet ? undefined : opened;
   return (
     <footer className="status" data-region="status" aria-label={text.regions.status}>
       {project ? <Left /> : <span className="status__part">{text.status.ready}</span>}
-      <Hints started={!!project} />
+      {isFleet ? <FleetHints /> : <Hints started={!!project} />}
     </footer>
   );
 }
@@ -109,40 +115,5 @@ function ActiveActor() {
     <button type="button" className="status__actor" onClick={() => registry.run('plan.show')}>
       {text.status.showActor(actor)}
     </button>
-  );
-}
-
-function Hints({ started }: { started: boolean }) {
-  const layout = useWindow((state) => state.layout);
-  const doc = useWindow((state) => state.doc);
-  const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
-  const looksBack = usePastTime() !== null;
-  const paused = usePart('clock', {}, (is) => is?.state === 'paused');
-  const hints: Hint[] = [];
-  if (!started)
-    hints.push(
-      ['Tab', words.tab],
-      ['Enter', words.open],
-      ['Ctrl+K', words.commands],
-      ['F1', words.help],
-    );
-  else {
-    if (looksBack) hints.push(['Esc', text.past.escape], ['←→', words.step20]);
-    else if (paused) hints.push(['F5', words.continue], ['F10', words.step]);
-    else if (errors > 0) hints.push(['Alt+Enter', words.fix]);
-    if (doc !== null && kindOf(doc) === 'plan') hints.push(['F9', words.breakpoint]);
-    if (doc?.includes('#')) hints.push(['F9', words.breakpoint], ['Ctrl+Alt+U', words.upload]);
-    hints.push(['F6', words.next]);
-    if (layout === 'Draw' || !doc?.includes('#'))
-      hints.push(['Ctrl+K', words.commands], ['?', words.keys]);
-  }
-  return (
-    <span className="status__hints">
-      {hints.map(([keys, word]) => (
-        <span key={keys} className="status__part">
-          <Kbd keys={keys} /> {word}
-        </span>
-      ))}
-    </span>
   );
 }

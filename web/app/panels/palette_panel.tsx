@@ -1,17 +1,15 @@
 import { IconSearch } from '@tabler/icons-react';
-import { useState } from 'react';
+import { useState, type KeyboardEvent } from 'react';
 import { matching, usable } from '../../core/plan/templates';
 import { useDrives, useStudio, useTopic } from '../hooks';
 import { Quiet } from '../parts/blank';
 import { kStroke } from '../parts/icons';
-import { text } from '../text';
+import { words } from './palette/words';
 import { planDeskOf, usePlanDesk } from '../views/plan/plan_desk';
 import { NewTemplateButton } from './palette/new_template_button';
 import { SubPlans } from './palette/sub_plans';
 import { addTemplate, ToolboxList } from './palette/toolbox_list';
 import '../look/palette.css';
-
-const words = text.templates;
 
 /** What plans can be made of, by toolbox: dragged onto a plan, or added by a press. */
 export default function PalettePanel() {
@@ -24,11 +22,12 @@ export default function PalettePanel() {
   const count = toolboxes.reduce((sum, one) => sum + one.templates.length, 0);
   const may = drives && shown !== undefined;
   return (
-    <div className="palettepanel" data-place="plan-parts">
+    <div className="palettepanel" data-place="plan-parts" onKeyDown={stepByArrow}>
       <label className="search">
         <IconSearch className="icon" size={14} stroke={kStroke} aria-hidden />
         <input
           type="search"
+          data-autofocus
           placeholder={words.search(count)}
           aria-label={words.search(count)}
           value={typed}
@@ -71,4 +70,17 @@ export default function PalettePanel() {
       {shown ? null : <Quiet>{words.noPlan}</Quiet>}
     </div>
   );
+}
+
+/** Down and up, from the search through all that can be added. */
+function stepByArrow(event: KeyboardEvent<HTMLElement>): void {
+  const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+  if (by === undefined) return;
+  const all = [
+    ...event.currentTarget.querySelectorAll<HTMLElement>('input, .plantool:not(:disabled)'),
+  ];
+  const now = all.findIndex((one) => one === document.activeElement);
+  if (now < 0) return;
+  event.preventDefault();
+  all[now + by]?.focus();
 }

@@ -13,7 +13,7 @@ export default function SettingsPanel() {
   const drives = useDrives();
   const settings = useSettings();
   const version = useTopic('studio', {})?.version ?? '';
-  const put = <K extends keyof Settings>(key: K, value: Settings[K]) => (
+  const put = <K extends Exclude<keyof Settings, 'fleet'>>(key: K, value: Settings[K]) => (
     update(studio.window, (draft) => void (draft.theme = null)),
     studio.order('settings.put', { key, value })
   );

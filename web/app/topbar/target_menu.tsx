@@ -13,6 +13,7 @@ import { kStroke } from '../parts/icons';
 import { StudioPopover } from '../parts/popover';
 import { text } from '../text';
 import { AddressForm } from './address_form';
+import { FleetItem } from './fleet_item';
 
 const icons = {
   simulator: IconDeviceDesktop,
@@ -110,6 +111,7 @@ function TargetList({
         <IconDeviceDesktop className="icon" size={16} stroke={kStroke} aria-hidden />
         {text.target.simulator}
       </button>
+      <FleetItem onDone={onDone} />
       <hr className="menu__line" />
       <div className="menu__form">
         <AddressForm onDone={onDone} />

@@ -1,10 +1,11 @@
 import { IconCommand, IconContrast2, IconHelp } from '@tabler/icons-react';
-import { useCommands, useStudio, useTopic } from '../hooks';
+import { useCommands, useFleetShown, useStudio, useTopic } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke, Logo } from '../parts/icons';
 import { text } from '../text';
 import { Bus } from './bus';
 import { Clock } from './clock';
+import { FleetSwitch } from './fleet_switch';
 import { LayoutSwitch } from './layout_switch';
 import { Missing } from './missing';
 import { ProjectMenu } from './project_menu';
@@ -13,13 +14,15 @@ import { TargetMenu } from './target_menu';
 
 /** Where am I, what does the robot do, where does it run. */
 export function TopBar() {
-  const project = useTopic('studio', {})?.project;
+  const opened = useTopic('studio', {})?.project;
+  const project = useFleetShown() ? undefined : opened;
   return (
     <header className="topbar" data-region="top" aria-label={text.regions.top}>
       <div className="brand">
         <Logo />
         <span>{text.name}</span>
       </div>
+      <FleetSwitch project={opened?.name ?? null} />
       {project ? (
         <>
           <ProjectMenu name={project.name} />
@@ -29,7 +32,7 @@ export function TopBar() {
         </>
       ) : null}
       <div className="grow" />
-      <Missing />
+      {project ? <Missing /> : null}
       <TargetMenu />
       {project ? <Bus /> : null}
       <Tools />

@@ -12,7 +12,7 @@ import {
   type Supervisor,
 } from './model';
 import type { Routed } from './path';
-import type { Scene } from './place';
+import { blocksOf, type Scene } from './place';
 import { kTight, outOf, Routing, type Port, type Side, type Way } from './route';
 import { eventRow, kEntry, kTag, overlaps, stateRow, type Block, type Box } from './shape';
 
@@ -128,7 +128,7 @@ interface Row {
 
 function rowsOf(model: PlanModel, scene: Scene): Row[] {
   const boxOf = new Map(scene.actors.map((block) => [block.name, block.box]));
-  const blocks = new Map([scene.start, ...scene.actors].map((block) => [block.name, block]));
+  const blocks = new Map(blocksOf(scene).map((block) => [block.name, block]));
   const row = (source: string, box: Box, down: number, outcome: Outcome): Row => ({
     id: arrowId(source, outcome.name),
     source,
@@ -204,7 +204,7 @@ function toTag(tag: Tag, port: Port | undefined): Routed {
 }
 
 function boxesOf(scene: Scene): Box[] {
-  const blocks = [scene.start, ...scene.actors];
+  const blocks = blocksOf(scene);
   return [
     ...blocks.map((block) => block.box),
     ...blocks.flatMap((block) => block.supervisors.map(({ box }) => box)),

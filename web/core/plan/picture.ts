@@ -16,7 +16,7 @@ import {
   type PictureLook,
   type Row,
 } from './picture_parts';
-import type { Scene } from './place';
+import { blocksOf, type Scene } from './place';
 import type { Port } from './route';
 import { around, type Box } from './shape';
 import { dataPath, gapPath, gapsOf, kEventDash, shortened } from './strokes';
@@ -70,7 +70,7 @@ export function pictureOf(plan: Pictured, look: PictureLook): Picture {
 function frameOf({ scene, drawing, notes }: Pictured): Box {
   const points = [...drawing.routes.values()].flatMap((route) => route.points);
   const whole = around([
-    ...[scene.start, ...scene.actors].map((block) => block.whole),
+    ...blocksOf(scene).map((block) => block.whole),
     ...scene.pills.map(({ box }) => box),
     ...drawing.tags.map(({ box }) => box),
     ...notes.map(({ at: [x, y], size: [width, height] }) => ({ x, y, width, height })),
@@ -119,7 +119,7 @@ function dataLines({ model, scene }: Pictured, look: PictureLook): string[] {
       const { line, head } = dataPath(arrow, box, pill, index);
       return tag('path', { d: line, ...pen }) + tag('path', { d: head, ...pen });
     });
-  return [scene.start, ...scene.actors].flatMap((block) => [
+  return blocksOf(scene).flatMap((block) => [
     ...model.actors
       .filter((actor) => actor.name === block.name)
       .flatMap((actor) => linesOf(actor, block.box)),
@@ -131,7 +131,7 @@ function elements(plan: Pictured, look: PictureLook): string[] {
   const { model, scene, drawing } = plan;
   const rows = rowsBySource(drawing);
   const rowsOf = (key: string) => rows.get(key) ?? [];
-  const hanging = [scene.start, ...scene.actors].flatMap((block) => block.supervisors);
+  const hanging = blocksOf(scene).flatMap((block) => block.supervisors);
   const boxOf = new Map(scene.actors.map(({ name, box }) => [name, box]));
   const start = rowsOf(kStart)[0];
   return [

@@ -23,6 +23,9 @@ export interface Scene {
   configuration: Point;
 }
 
+/** All that takes room of its own and has supervisors below it: the start and each actor. */
+export const blocksOf = (scene: Scene): readonly Block[] => [scene.start, ...scene.actors];
+
 const kColumn = 240;
 const kGap = 48;
 const kFirst: Point = { x: 80, y: 80 };
@@ -241,7 +244,7 @@ function nearestIn(room: Box, scene: Scene, wanted: Point): Point | undefined {
 }
 
 function boxesOf(scene: Scene): Box[] {
-  const blocks = [scene.start, ...scene.actors].map((block) => block.whole);
+  const blocks = blocksOf(scene).map((block) => block.whole);
   return [...blocks, ...scene.pills.map((pill) => pill.box)];
 }
 

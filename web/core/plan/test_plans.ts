@@ -4,7 +4,7 @@ import type { Json, PlanTemplate, PlanToolbox } from '../../protocol/messages';
 import type { Drawing } from './arrows';
 import { eachStretch, stretchBox } from './path';
 import type { Note, PlanModel } from './model';
-import type { Scene } from './place';
+import { blocksOf, type Scene } from './place';
 import { overlaps, type Box } from './shape';
 
 export function template(
@@ -111,7 +111,7 @@ export function longPlan(random: (below: number) => number, count: number): Json
 
 /** Blocks of which one stands on another. */
 export function covered(scene: Scene): [Box, Box][] {
-  const boxes = [scene.start, ...scene.actors].map((block) => block.whole);
+  const boxes = blocksOf(scene).map((block) => block.whole);
   return boxes.flatMap((box, index) =>
     boxes
       .slice(index + 1)
@@ -121,7 +121,7 @@ export function covered(scene: Scene): [Box, Box][] {
 
 /** Notes on which an element stands. */
 export function coveredNotes({ notes }: PlanModel, scene: Scene): Box[] {
-  const boxes = [...[scene.start, ...scene.actors].map(({ whole }) => whole), ...pillsOf(scene)];
+  const boxes = [...blocksOf(scene).map(({ whole }) => whole), ...pillsOf(scene)];
   return notes.map(noteBox).filter((note) => boxes.some((box) => overlaps(box, note)));
 }
 
@@ -153,10 +153,7 @@ export function faultsOfArrows(
 
 function boxesOf(scene: Scene, drawing: Drawing): Box[] {
   return [
-    ...[scene.start, ...scene.actors].flatMap((block) => [
-      block.box,
-      ...block.supervisors.map(({ box }) => box),
-    ]),
+    ...blocksOf(scene).flatMap((block) => [block.box, ...block.supervisors.map(({ box }) => box)]),
     ...pillsOf(scene),
     ...drawing.tags.map(({ box }) => box),
   ];

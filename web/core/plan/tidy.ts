@@ -3,7 +3,7 @@
 
 import { kConfiguration, kStart, type PlanModel } from './model';
 import { noteKey } from './notes';
-import { sceneOf, snapped, type Scene } from './place';
+import { blocksOf, sceneOf, snapped, type Scene } from './place';
 import { overlaps, type Block, type Box, type Point } from './shape';
 
 export interface LayoutGraph {
@@ -26,7 +26,7 @@ export function layoutGraph(
   scene: Scene,
   wanted: ReadonlySet<string>,
 ): LayoutGraph {
-  const blocks = [scene.start, ...scene.actors];
+  const blocks = blocksOf(scene);
   const moved = blocks.filter((block) => wanted.has(block.name));
   return {
     boxes: moved.map(({ name, whole }) => ({ id: name, ...sizeOf(whole) })),

@@ -61,6 +61,7 @@ export function startProgram(test, command, { env = {}, pass = [] } = {}) {
     ended: undefined,
     stop,
     line,
+    done,
   };
   const ended = new Promise((done) =>
     child.on('exit', (status, signal) => done((program.ended = signal ?? status))),
@@ -83,6 +84,13 @@ export function startProgram(test, command, { env = {}, pass = [] } = {}) {
     const timer = setTimeout(() => child.kill('SIGKILL'), 5000);
     await ended;
     clearTimeout(timer);
+  }
+
+  /** Until it has ended by itself, well. */
+  async function done() {
+    await ended;
+    if (program.ended !== 0)
+      throw new Error(`${command[0]} ended with ${program.ended}; it said:\n${program.said}`);
   }
 
   /**

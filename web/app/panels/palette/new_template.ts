@@ -6,7 +6,7 @@ import { kStart } from '../../../core/plan/model';
 import type { Found } from '../../../core/plan/templates';
 import type { Studio } from '../../../core/studio';
 import { revealDoc, toast } from '../../../core/window_state';
-import { text } from '../../text';
+import { words } from './words';
 import { planDeskOf } from '../../views/plan/plan_desk';
 
 /** Toolboxes are read again within a moment. */
@@ -16,7 +16,7 @@ export async function newTemplate(studio: Studio, wanted: WantedTemplate): Promi
   const { toolbox, at } = await studio.change('template.new', wanted);
   const found = await known(studio, toolbox, wanted.name);
   if (found) addToPlan(studio, found);
-  toast(studio.window, 'ok', text.templates.made(wanted.name));
+  toast(studio.window, 'ok', words.made(wanted.name));
   revealDoc(studio.window, wanted.script, at);
 }
 

@@ -1,7 +1,7 @@
 import { useState } from 'react';
 import { useDrives } from '../../hooks';
 import { StudioPopover } from '../../parts/popover';
-import { text } from '../../text';
+import { words } from './words';
 import { NewTemplateForm } from './new_template_form';
 
 /** "New template…" below the templates that there are. */
@@ -10,7 +10,7 @@ export function NewTemplateButton() {
   const [isOpen, open] = useState(false);
   return (
     <StudioPopover
-      label={text.templates.newTemplate}
+      label={words.newTemplate}
       opened={isOpen}
       onChange={open}
       position="right-end"
@@ -22,7 +22,7 @@ export function NewTemplateButton() {
           disabled={!drives}
           onClick={() => open(!isOpen)}
         >
-          {text.templates.newTemplate}
+          {words.newTemplate}
         </button>
       }
     >

@@ -3,10 +3,8 @@ import { faultOfName, workingScripts, type WantedTemplate } from '../../../core/
 import { useStudio, useTopic } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { Button } from '../../parts/button';
-import { text } from '../../text';
+import { words } from './words';
 import { newTemplate } from './new_template';
-
-const words = text.templates;
 
 /** Asks what is needed for a template of one's own; what cannot be is said while it is typed. */
 export function NewTemplateForm({ onDone }: { onDone: () => void }) {

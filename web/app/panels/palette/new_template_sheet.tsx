@@ -1,5 +1,5 @@
 import { OverlayFrame, useCloseOverlay } from '../../parts/overlay_frame';
-import { text } from '../../text';
+import { words } from './words';
 import { NewTemplateForm } from './new_template_form';
 import '../../look/palette.css';
 
@@ -7,10 +7,10 @@ import '../../look/palette.css';
 export default function NewTemplateSheet() {
   const close = useCloseOverlay();
   return (
-    <OverlayFrame label={text.templates.newTemplate}>
+    <OverlayFrame label={words.newTemplate}>
       <div className="sheet sheet--small">
         <div className="sheet__head">
-          <h2>{text.templates.title}</h2>
+          <h2>{words.title}</h2>
         </div>
         <NewTemplateForm onDone={close} />
       </div>

@@ -1,6 +1,7 @@
 import { pathTo } from '../../../core/plan/sub_plans';
 import { useStudio, useTopic } from '../../hooks';
 import { text } from '../../text';
+import { words } from './words';
 import { TemplateIcon } from '../../views/plan/canvas/template_icon';
 import { usePlanDesk } from '../../views/plan/plan_desk';
 
@@ -27,7 +28,7 @@ export function SubPlans({ may, typed }: { may: boolean; typed: string }) {
             <button
               type="button"
               className="plantool"
-              aria-label={text.templates.add(path, text.draw.roles.subplan)}
+              aria-label={words.add(path, text.draw.roles.subplan)}
               disabled={!may}
               onClick={() =>
                 shown.focus(board.addSubPlan(pathTo(board.doc, path), shown.middle(), shown.room()))

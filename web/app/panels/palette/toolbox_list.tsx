@@ -6,11 +6,10 @@ import type { Studio } from '../../../core/studio';
 import { toast } from '../../../core/window_state';
 import { useChanges, useStudio, useTopic } from '../../hooks';
 import { text } from '../../text';
+import { words } from './words';
 import { RoleShape, TemplateIcon } from '../../views/plan/canvas/template_icon';
 import { planDeskOf, usePlanDesk } from '../../views/plan/plan_desk';
 import { dragged, kTemplateData } from '../../views/plan/template_drag';
-
-const words = text.templates;
 
 /** The templates of one toolbox. */
 export function ToolboxList({ group, may }: { group: Group; may: boolean }) {

@@ -6,15 +6,21 @@ import { wantedBy } from '../../../core/plan/row_findings';
 import type { Studio } from '../../../core/studio';
 import { revealPanel } from '../../../core/window_state';
 import type { Finding } from '../../../protocol/messages';
+import type { DrawnHelp, FindingAct } from '../../commands/problem_commands';
 import { takeFocus } from '../../parts/take_focus';
 import { text } from '../../text';
 import { planDeskOf } from './plan_desk';
 import { revealElement } from './reveal_element';
 
-export interface FindingAct {
-  label: string;
-  run(): void;
-}
+/** What Alt+Enter does for the findings of drawings. */
+export const drawnHelp = (studio: Studio): DrawnHelp => ({
+  actFor: (finding) => actFor(studio, finding),
+  isChosen({ doc, element }) {
+    const board = planDeskOf(studio).shown?.board;
+    if (board?.doc !== doc || board.selected === null || element === undefined) return false;
+    return board.keyOf(element) === board.selected;
+  },
+});
 
 /** The button for it; null if nothing but its fixes helps. */
 export function actFor(studio: Studio, finding: Finding): FindingAct | null {
@@ -25,7 +31,7 @@ export function actFor(studio: Studio, finding: Finding): FindingAct | null {
     return {
       label: wanted.is === 'value' ? text.draw.enterValue : text.draw.correctValue,
       run() {
-        revealElement(studio, doc, element);
+        revealElement(studio, doc, element, false);
         revealPanel(studio.window, 'properties', false);
         focusOn(`[data-plan-input="${CSS.escape(`${element}.${wanted.name}`)}"]`);
       },
@@ -33,7 +39,7 @@ export function actFor(studio: Studio, finding: Finding): FindingAct | null {
   return {
     label: text.draw.connectIt,
     run() {
-      revealElement(studio, doc, element);
+      revealElement(studio, doc, element, false);
       const port = () => {
         const { shown } = planDeskOf(studio);
         if (shown?.board.doc !== doc) return null;

@@ -3,16 +3,20 @@ import type { Studio } from '../../../core/studio';
 import { revealDoc } from '../../../core/window_state';
 import { planDeskOf, type ShownPlan } from './plan_desk';
 
-/** Opens a plan and chooses the actor, supervisor or variable of that name in it. */
-export function revealElement(studio: Studio, doc: Doc, name: string): void {
+/**
+ * Opens a plan and chooses the actor, supervisor or variable of that name in it. It gets the keyboard, unless that goes
+ * to something else of the element.
+ */
+export function revealElement(studio: Studio, doc: Doc, name: string, takesFocus = true): void {
   const desk = planDeskOf(studio);
-  revealDoc(studio.window, doc, null);
+  revealDoc(studio.window, doc, null, takesFocus);
   onceDrawn(studio, doc, (shown) => {
     desk.use(shown);
     const key = shown.board.keyOf(name);
     if (key === null) return;
     shown.board.select(key);
-    shown.focus(key);
+    if (takesFocus) shown.focus(key);
+    else shown.show(key);
   });
 }
 

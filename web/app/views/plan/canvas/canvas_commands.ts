@@ -3,7 +3,7 @@
 import { kStart } from '../../../../core/plan/model';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
-import { toast, update } from '../../../../core/window_state';
+import { revealPanel, toast, update } from '../../../../core/window_state';
 import { text } from '../../../text';
 import { withBreaks } from '../break_acts';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
@@ -82,6 +82,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       (plan) => extractChosen(studio, plan),
       ({ board }) => edits() && board.chosenActors.size > 0,
     ),
+    make('draw.add', ['A'], () => revealPanel(studio.window, 'palette'), edits),
     make('draw.fit', ['1'], () => acts.fit()),
     make('draw.find', ['Ctrl+F', '/'], () => acts.find()),
     make(

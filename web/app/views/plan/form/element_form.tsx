@@ -7,7 +7,7 @@ import type { Actor, Supervisor } from '../../../../core/plan/model';
 import { Quiet } from '../../../parts/blank';
 import { text } from '../../../text';
 import { Field } from '../../world/fields';
-import { FormulaField } from './formula_field';
+import { FormulaField, needsValue } from './formula_field';
 import { Leads } from './leads';
 import { ElementFindings, Findings, isWrong, useFindingsAt } from './row_findings';
 
@@ -21,21 +21,24 @@ export function ElementForm(props: {
   disabled: boolean;
 }) {
   const { board, chosen, element, disabled } = props;
+  const inputs = inputsOf(element);
+  const first = inputs.find((input) => needsValue(element, input)) ?? inputs[0];
   return (
     <>
       <ElementFindings doc={board.doc} keys={element.keys} />
       <section className="planform__part" aria-label={words.inputs}>
         <h3>{words.inputs}</h3>
-        {inputsOf(element).map((input) => (
+        {inputs.map((input) => (
           <FormulaField
             key={input.name}
             board={board}
             element={element}
             input={input}
             disabled={disabled}
+            isFirst={input === first}
           />
         ))}
-        {inputsOf(element).length === 0 ? <Quiet>{words.noInputs}</Quiet> : null}
+        {inputs.length === 0 ? <Quiet>{words.noInputs}</Quiet> : null}
       </section>
       <Outputs board={board} element={element} disabled={disabled} />
       <Leads board={board} source={chosen} outcomes={element.outcomes} disabled={disabled} />

@@ -19,8 +19,10 @@ export function FormulaField(props: {
   element: Actor | Supervisor;
   input: PlanInput;
   disabled: boolean;
+  /** The keyboard begins here. */
+  isFirst: boolean;
 }) {
-  const { board, element, input, disabled } = props;
+  const { board, element, input, disabled, isFirst } = props;
   const list = useId();
   const sentence = useId();
   const field = useRef<HTMLInputElement>(null);
@@ -40,7 +42,7 @@ export function FormulaField(props: {
   };
   const { offers, chosen } = completion;
   const mistake = mistakeOf(draft.shown, found);
-  const isUnfed = value === '' && input.default === undefined && draft.typed === null;
+  const isUnfed = needsValue(element, input) && draft.typed === null;
   return (
     <>
       <Field label={input.name} unit={input.unit}>
@@ -58,6 +60,7 @@ export function FormulaField(props: {
                 style={styleOf(mistake)}
                 onScroll={followText}
                 title={input.help}
+                data-autofocus={isFirst || undefined}
                 data-plan-input={`${element.name}.${input.name}`}
                 role="combobox"
                 aria-autocomplete="list"
@@ -89,6 +92,14 @@ export function FormulaField(props: {
       <Findings id={sentence} findings={found} />
     </>
   );
+}
+
+/** Nothing feeds it, and it has no default. */
+export function needsValue(
+  { inputs }: Actor | Supervisor,
+  { name, default: otherwise }: PlanInput,
+) {
+  return shownFormula(inputs[name]) === '' && otherwise === undefined;
 }
 
 /** The first mistake whose place is told. */

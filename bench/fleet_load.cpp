@@ -1,8 +1,8 @@
 // Members of a fleet in one process, each with a connection of its own, and an operator who stops
 // all robots and measures how long that takes. For bench/fleet.py.
 //
-//     fleet_crowd TARGET FOLDER members N      state at 1 Hz, three variables at 5 Hz, until killed
-//     fleet_crowd TARGET FOLDER stop ROUNDS    milliseconds of each round: from the order to the
+//     fleet_load TARGET FOLDER members N      state at 1 Hz, three variables at 5 Hz, until killed
+//     fleet_load TARGET FOLDER stop ROUNDS    milliseconds of each round: from the order to the
 //                                              last answer; all robots are started again between
 //
 // FOLDER is that of `vagus fleet init`, with logins m0 to m(N-1) and operator.

@@ -1,0 +1,165 @@
+// Many robots of a fleet for tests that look at one: real members with real connections, which do
+// nothing but tell a state, obey, and send the events that they are told to emit. A variable that
+// is set becomes a fault of that name.
+//
+//     fleet_crowd TARGET ROBOTS CHANGING
+//
+// Robots are r1 to rN. Those up to CHANGING do something else five times a second. It prints
+// "crowd N" when all of them are in the fleet, and ends with SIGINT or SIGTERM.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "fleet/limits.hpp"
+#include "fleet/member.hpp"
+#include "net/end_signal.hpp"
+#include "serve/broker/fleet_options.hpp"
+
+namespace {
+
+using namespace vagus;
+using namespace std::chrono_literals;
+
+Time now() {
+    return std::chrono::duration_cast<Duration>(
+        std::chrono::steady_clock::now().time_since_epoch());
+}
+
+class Robot {
+public:
+    Robot(const std::string& target, const std::string& name, std::function<void()> wake)
+        : member_(options_of(target, name), now()) {
+        serve::LinkOptions link = serve::link_options({.target = target}, name).value();
+        link.will = member_.will();
+        link_ = std::make_unique<serve::MosquittoLink>(std::move(link), std::move(wake));
+    }
+
+    void turn() {
+        for (const fleet::LinkEvent& event : link_->take()) member_.hear(event, now());
+        member_.show(shown_, now());
+        member_.tick(now());
+        for (const fleet::MemberAction& action : member_.take()) perform(action);
+    }
+    void leave() {
+        member_.leave();
+        turn();
+    }
+    void do_something_else(int64_t beat) {
+        if (shown_.state == "running") shown_.actor = fmt::format("step{}", beat);
+    }
+    bool is_in() const { return member_.standing() == fleet::Member::Standing::Holding; }
+
+private:
+    static fleet::MemberOptions options_of(const std::string& target, const std::string& name) {
+        fleet::MemberOptions options{.fleet = fleet::parse_fleet_target(target).value().fleet,
+                                     .robot = name,
+                                     .instance = serve::operator_name(),
+                                     .epoch = 1};
+        options.project.send = {"alarm"};
+        options.description = {.project = "crowd",
+                               .vagus = "1.0.0",
+                               .studio = "http://127.0.0.1:1/" + name,
+                               .groups = {name.size() % 2 == 0 ? "red" : "blue"},
+                               .send = {"alarm"},
+                               .hear = {"alarm"}};
+        return options;
+    }
+
+    void perform(const fleet::MemberAction& action) {
+        if (const auto* filters = std::get_if<fleet::Subscribe>(&action)) {
+            link_->subscribe(filters->filters);
+        } else if (const auto* post = std::get_if<fleet::Post>(&action)) {
+            link_->publish(*post);
+        } else if (const auto* obey = std::get_if<fleet::Obey>(&action)) {
+            this->obey(obey->command);
+        }
+    }
+
+    // What is set becomes its problem.
+    void fail(const std::string& why) {
+        shown_.state = "fault";
+        shown_.problems = {why};
+    }
+
+    void obey(const fleet::Command& command) {
+        if (command.verb == "stop") shown_ = {.state = "stopped"};
+        if (command.verb == "start" || command.verb == "continue") shown_ = {.state = "running"};
+        if (command.verb == "pause") shown_.state = "paused";
+        if (command.verb == "set") fail(command.name);
+        if (command.verb == "emit") member_.emitted(command.event, command.values, now());
+        member_.answer(command, {.done = true});
+    }
+
+    fleet::Member member_;
+    std::unique_ptr<serve::MosquittoLink> link_;
+    fleet::Shown shown_{.state = "running", .actor = "wait"};
+};
+
+// Wakes the loop from the threads of the links.
+struct Bell {
+    std::mutex guard;
+    std::condition_variable rung;
+    bool rings = false;
+
+    void ring() {
+        const std::lock_guard lock(guard);
+        rings = true;
+        rung.notify_one();
+    }
+    void wait(Duration within) {
+        std::unique_lock lock(guard);
+        rung.wait_for(lock, within, [this] { return rings; });
+        rings = false;
+    }
+};
+
+void live(std::vector<std::unique_ptr<Robot>>& robots, size_t changing, Bell& bell) {
+    Time next = now();
+    int64_t beat = 0;
+    bool told = false;
+    while (!net::end_asked()) {
+        if (now() >= next) {
+            next = now() + fleet::kStateEveryMin;
+            ++beat;
+            for (size_t i = 0; i < changing; ++i) robots[i]->do_something_else(beat);
+        }
+        size_t in = 0;
+        for (const auto& robot : robots) {
+            robot->turn();
+            in += robot->is_in() ? 1 : 0;
+        }
+        if (in == robots.size() && !told) {
+            told = true;
+            std::printf("crowd %zu\n", in);
+            std::fflush(stdout);
+        }
+        bell.wait(std::max(Duration{}, next - now()));
+    }
+    for (const auto& robot : robots) robot->leave();
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    if (count != 4) {
+        std::fputs("fleet_crowd mqtt://HOST:PORT/FLEET ROBOTS CHANGING\n", stderr);
+        return 2;
+    }
+    net::watch_for_end();
+    Bell bell;
+    std::vector<std::unique_ptr<Robot>> robots;
+    const size_t size = std::strtoul(words[2], nullptr, 10);
+    for (size_t i = 1; i <= size; ++i) {
+        robots.push_back(
+            std::make_unique<Robot>(words[1], "r" + std::to_string(i), [&bell] { bell.ring(); }));
+    }
+    live(robots, std::min<size_t>(size, std::strtoul(words[3], nullptr, 10)), bell);
+    return 0;
+}

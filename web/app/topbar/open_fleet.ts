@@ -1,0 +1,16 @@
+import type { FleetAddress } from '../../core/settings';
+import type { Studio } from '../../core/studio';
+import { update } from '../../core/window_state';
+
+/** Looks at a fleet, and keeps its address for the next time. '' or why it cannot be. */
+export async function openFleet(studio: Studio, address: FleetAddress): Promise<string> {
+  const { target, ca, login } = address;
+  try {
+    await studio.send('fleet.open', { target, ...(ca && { ca }), ...(login && { login }) });
+  } catch (problem) {
+    return problem instanceof Error ? problem.message : String(problem);
+  }
+  studio.order('settings.put', { key: 'fleet', value: { target, ca, login } });
+  update(studio.window, (draft) => void (draft.view = 'fleet'));
+  return '';
+}

@@ -38,13 +38,20 @@ void Operator::on(const Connected&) {
     filters.push_back({filter_of(options_.fleet, Kind::Answer)});
     filters.push_back({filter_of_commands(options_.fleet, options_.name)});
     actions_.push_back(Subscribe{std::move(filters)});
+    connected_ = true;
+    send_echo();
+}
+
+// Again until it is back: what does not fit into the queue that a broker has for us is dropped.
+void Operator::send_echo() {
+    echo_at_ = now_ + kAskAgainEvery;
     publish({.kind = Kind::Command, .robot = options_.name, .name = "stop"},
             Command{.verb = "stop", .id = kEcho, .reply = options_.name}, kEchoNumber);
 }
 
 // What was heard before says nothing of now.
 void Operator::on(const Lost&) {
-    knows_all_ = false;
+    connected_ = knows_all_ = false;
     for (auto& [name, robot] : robots_) robot.state_at.reset();
 }
 
@@ -183,12 +190,13 @@ void Operator::publish(const Topic& topic, const Message& message, uint64_t numb
 
 void Operator::tick(Time now) {
     now_ = now;
+    if (connected_ && !knows_all_ && now_ >= echo_at_) send_echo();
     choose();
     send();
 }
 
 Time Operator::next_tick() const {
-    Time next = Time::max();
+    Time next = connected_ && !knows_all_ ? echo_at_ : Time::max();
     for (const auto& [number, given] : given_) {
         const bool repeats = given.stops() && given.is_chosen && !given.is_over();
         if (repeats) next = std::min(next, given.again_at);

@@ -113,6 +113,7 @@ private:
     void on(const Received& received);
     void hear_robot(const Topic& topic, const Message& message, bool retained);
     void hear_answer(const std::string& robot, const Answer& answer);
+    void send_echo();
     void choose();
     void send();
     void send_stop(OrderNumber number, Given& given);
@@ -122,7 +123,8 @@ private:
     const Options options_;
     std::vector<OperatorAction> actions_;
     Time now_{};
-    bool knows_all_ = false;
+    bool connected_ = false, knows_all_ = false;
+    Time echo_at_{};
     std::string refused_;
     std::map<std::string, Known> robots_;
     std::map<OrderNumber, Given> given_;

@@ -68,6 +68,21 @@ TEST(Operator, KnowsAllOnceItsOwnMessageIsBack) {
     EXPECT_TRUE(c.desk.all_are_fresh());
 }
 
+// A broker drops what does not fit into the queue of a client: of a large fleet, our own message.
+TEST(Operator, ItsOwnMessageIsRepeatedUntilItIsBack) {
+    Case c;
+    c.hear(Connected{});
+    EXPECT_EQ(c.desk.next_tick(), kAskAgainEvery);
+    c.tick(kAskAgainEvery - 1us);
+    EXPECT_EQ(c.posts.size(), 1u);
+    c.tick(kAskAgainEvery);
+    ASSERT_EQ(c.posts.size(), 2u);
+    EXPECT_EQ(c.posts[1].topic, "vagus/1/lab/cmd/desk/stop");
+    c.all_is_known();
+    c.tick(1min);
+    EXPECT_EQ(c.posts.size(), 2u);
+}
+
 TEST(Operator, StopIsRepeatedUntilEverybodyHasAnswered) {
     Case c;
     const auto order =

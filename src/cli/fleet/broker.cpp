@@ -16,6 +16,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "fleet/limits.hpp"
+#include "fleet/operator.hpp"
 #include "fleet/topic.hpp"
 #include "keeper/keeper.hpp"
 #include "net/end_signal.hpp"
@@ -32,8 +33,10 @@ constexpr int kLookEveryMs = 200;                            // whether children
 constexpr auto kKeeperAgainAfter = std::chrono::seconds(1);  // one that cannot run is no flood
 constexpr size_t kPasswordBytes = 16;
 constexpr int kCertificateDays = 3650;
-// For one that is slow: a keeper that comes finds all of its records.
-constexpr size_t kQueuedMax = 2 * (keeper::kTasksMax + keeper::kKeysMax);
+// For one client: what is retained of the most robots, three messages of each; the records that a
+// keeper finds are fewer.
+constexpr size_t kQueuedMax = 3 * fleet::kRobotsMax;
+static_assert(kQueuedMax > keeper::kTasksMax + keeper::kKeysMax);
 constexpr size_t kQueuedBytesMax = size_t{128} << 20;
 constexpr mode_t kForOwner = 0600;
 constexpr mode_t kFolderForOwner = 0700;

@@ -16,7 +16,10 @@ const kMosquitto = process.env.MOSQUITTO ?? '/usr/sbin/mosquitto';
 export async function startBroker(t) {
   const port = await freePort();
   const file = join(temporaryFolder(t), 'mosquitto.conf');
-  writeFileSync(file, `listener ${port} 127.0.0.1\nallow_anonymous true\npersistence false\n`);
+  writeFileSync(
+    file,
+    `listener ${port} 127.0.0.1\nallow_anonymous true\npersistence false\nmax_queued_messages 30000\n`,
+  );
   const start = async () => {
     const program = startProgram(t, [kMosquitto, '-c', file]);
     await listening(port);

@@ -3,7 +3,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # In the order of the layers: each needs those before it.
-set(VAGUS_INSTALLED_MODULES base isa wire vm fastvm node hub plan fleet run toolbox aesl sim debug net session embed)
+set(VAGUS_INSTALLED_MODULES base keeper isa wire vm fastvm node hub plan fleet run toolbox aesl sim debug net session embed)
 
 foreach(module IN LISTS VAGUS_INSTALLED_MODULES)
   # Toolboxes of others are shared libraries that link these.

@@ -12,7 +12,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # An arrow means "may include" (docs/ARCHITECTURE.md). Nothing else may.
-BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "fleet", "node", "hub", "plan", "aesl", "fastvm", "vm", "base", "isa", "wire"]
+BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "fleet", "keeper", "node", "hub", "plan", "aesl", "fastvm", "vm", "base", "isa", "wire"]
 MAY_INCLUDE = {
     "base": [],
     "keeper": ["base"],
@@ -24,7 +24,7 @@ MAY_INCLUDE = {
     "hub": ["wire", "base"],
     "plan": ["base"],
     "aesl": ["isa", "base"],
-    "fleet": ["base"],
+    "fleet": ["keeper", "base"],
     "run": ["plan", "base"],
     "toolbox": ["run", "plan", "wire", "base"],
     "embed": ["session"] + BELOW_SESSION,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "embed/robot_plan.hpp"
+#include "fleet/limits.hpp"
 #include "run/traced_variables.hpp"
 #include "session/trace.hpp"
 #include "wire/protocol.hpp"
@@ -11,6 +12,40 @@ namespace vagus::embed {
 
 using session::NoteKind;
 using session::RobotBus;
+
+namespace {
+
+bool has_in_state(const RobotBus& robot, debug::ProgramState state) {
+    const std::vector<session::NodeState> nodes = robot.session->nodes();
+    return std::any_of(nodes.begin(), nodes.end(), [state](const auto& node) {
+        return node.has_script && node.state == state;
+    });
+}
+
+fleet::Shown shown(const RobotBus& robot) {
+    fleet::Shown shown;
+    for (const session::NodeState& node : robot.session->nodes()) {
+        if (node.fault.empty() || shown.problems.size() >= fleet::kProblemsMax) continue;
+        shown.problems.push_back((node.name + ": " + node.fault).substr(0, fleet::kLineBytesMax));
+    }
+    const bool runs = has_in_state(robot, debug::ProgramState::Running);
+    shown.state = !shown.problems.empty() ? "fault" : runs ? "running" : "stopped";
+    return shown;
+}
+
+std::vector<int16_t> values_of(const RobotBus& robot, const fleet::Tells& variable) {
+    for (const session::NodeState& node : robot.session->nodes()) {
+        if (node.name != variable.node) continue;
+        for (const auto& [name, values] : robot.session->script_variables(node.id)) {
+            if (name == variable.name) return {values.begin(), values.end()};
+        }
+        const auto values = robot.session->node_variable(node.robot, variable.name);
+        return {values.begin(), values.end()};
+    }
+    return {};
+}
+
+}  // namespace
 
 RobotsRun::RobotsRun(std::unique_ptr<session::WorldBuses> buses) : buses_(std::move(buses)) {}
 
@@ -21,6 +56,7 @@ Result<std::unique_ptr<RobotsRun>> RobotsRun::open(const RobotsOptions& options)
     // make_unique cannot reach the constructor.
     std::unique_ptr<RobotsRun> made(new RobotsRun(std::move(buses)));
     made->traced_ = options.sim.traced;
+    made->door_ = options.door;
     made->seed_ = options.sim.world.seed.value_or(made->buses_->world().definition().seed);
     for (RobotBus& robot : made->buses_->robots()) {
         const Status added = made->add_plan(robot);
@@ -43,7 +79,7 @@ Status RobotsRun::add_plan(RobotBus& robot) {
 Status RobotsRun::start() {
     if (!has_projects()) return Status::done();
     (void)buses_->settle();
-    fleet_ = std::make_unique<session::WorldFleet>(buses_->world().definition(), seed_);
+    fleet_ = std::make_unique<session::WorldFleet>(buses_->world().definition(), seed_, door_);
     for (size_t i = 0; i < plans_.size(); ++i) {
         const RobotBus& robot = buses_->robots()[i];
         const Status begun = begin(i);
@@ -82,9 +118,30 @@ session::WorldFleet::Ears RobotsRun::ears_of(RobotBus& robot, RobotPlan* plan) {
         if (plan) plan->abort();
         robot.session->stop_nodes();
     };
-    return {.hear = hear, .stop = stop, .say = [this, &robot](const std::string& text) {
-                say(robot, text);
-            }};
+    session::WorldFleet::Ears ears{
+        .hear = hear, .stop = stop, .say = [this, &robot](const std::string& text) {
+            say(robot, text);
+        }};
+    if (door_) add_ears_of_broker(ears, robot);
+    return ears;
+}
+
+void RobotsRun::add_ears_of_broker(session::WorldFleet::Ears& ears, RobotBus& robot) {
+    ears.shown = [&robot] { return shown(robot); };
+    ears.values = [&robot](const fleet::Tells& variable) { return values_of(robot, variable); };
+    ears.is_at_rest = [&robot] { return !has_in_state(robot, debug::ProgramState::Running); };
+    ears.obey = [this, &robot,
+                 stop = ears.stop](const fleet::Command& command) -> std::optional<fleet::Answer> {
+        if (command.verb == "stop") {
+            stop("the fleet says stop");
+            return std::nullopt;
+        }
+        if (command.verb != "emit") {
+            return fleet::Answer{.what = command.verb + " is no command for a robot of a world"};
+        }
+        const Status sent = robot.session->emit(command.event, command.values, buses_->now());
+        return sent.ok() ? fleet::Answer{.done = true} : fleet::Answer{.what = sent.error().what};
+    };
 }
 
 void RobotsRun::see(RobotBus& robot, const plan::TraceEvent& event) {
@@ -121,6 +178,7 @@ void RobotsRun::end() {
     while (std::any_of(plans_.begin(), plans_.end(), running) && buses_->now() < latest) {
         instant();
     }
+    if (door_) fleet_.reset();  // its members say that they go
 }
 
 Status RobotsRun::restart() {
@@ -143,7 +201,7 @@ void RobotsRun::instant() {
     run_plans_before(at);
     buses_->begin_instant();
     for (size_t i = 0; i < plans_.size(); ++i) hear(i, at);
-    fleet_->pass(at);
+    if (fleet_) fleet_->pass(at);
     for (const auto& plan : plans_) {
         while (plan && !plan->over() && plan->now() <= at) plan->step();
     }
@@ -176,7 +234,8 @@ void RobotsRun::hear(size_t index, Time at) {
 
 void RobotsRun::tell_fleet(const RobotBus& robot, const debug::Event& event, Time at) {
     const auto* sent = std::get_if<debug::UserEvent>(&event.what);
-    if (sent == nullptr || event.node == wire::kHostId || sent->name.empty()) return;
+    const bool is_named = sent != nullptr && !sent->name.empty();
+    if (!fleet_ || !is_named || event.node == wire::kHostId) return;
     fleet_->emitted(robot.id, sent->name, sent->arguments, at);
 }
 

@@ -31,6 +31,8 @@ namespace vagus::embed {
 struct RobotsOptions {
     std::string world = {};
     session::SimOptions sim = {};
+    // Robots with a project are members at a real broker, in real time.
+    std::optional<session::WorldFleet::Door> door = {};
 };
 
 class RobotPlan;
@@ -68,12 +70,14 @@ private:
     void hear(size_t index, Time at);
     void tell_fleet(const session::RobotBus& robot, const debug::Event& event, Time at);
     session::WorldFleet::Ears ears_of(session::RobotBus& robot, RobotPlan* plan);
+    void add_ears_of_broker(session::WorldFleet::Ears& ears, session::RobotBus& robot);
     void see(session::RobotBus& robot, const plan::TraceEvent& event);
     void say(session::RobotBus& robot, const std::string& text);
 
     std::unique_ptr<session::WorldBuses> buses_;
     std::vector<std::unique_ptr<RobotPlan>> plans_;  // by place in buses().robots(); may be nullptr
     std::unique_ptr<session::WorldFleet> fleet_;     // nullptr until start()
+    std::optional<session::WorldFleet::Door> door_;
     bool traced_ = false;
     uint64_t seed_ = 1;
     Duration rest_{};

@@ -29,14 +29,14 @@ Numbers::Seen& Numbers::seen_of(const Sender& sender) {
 }
 
 bool Rates::allows(const std::string& name, Time now) {
-    // Names whose second is over say nothing any more.
+    // Names whose window is over say nothing any more.
     if (counts_.size() >= kRatesRemembered && !counts_.contains(name)) {
-        std::erase_if(counts_, [now](const auto& one) { return now - one.second.since >= 1s; });
+        std::erase_if(counts_, [&](const auto& one) { return now - one.second.since >= window_; });
         if (counts_.size() >= kRatesRemembered) return false;
     }
     Count& count = counts_[name];
-    if (count.events == 0 || now - count.since >= 1s) count = {now, 0};
-    return ++count.events <= kEventsASecond;
+    if (count.events == 0 || now - count.since >= window_) count = {now, 0};
+    return ++count.events <= kEventsASecond * (window_ / 1s);
 }
 
 }  // namespace vagus::fleet

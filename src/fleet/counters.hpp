@@ -35,9 +35,11 @@ private:
     std::list<Sender> used_;  // the last to be used is in front
 };
 
-// At most kEventsASecond of each name within any second that begins with one of them.
+// At most kEventsASecond of each name, counted over `window`s that begin with one of them: within a
+// second 20, within ten seconds 200.
 class Rates {
 public:
+    explicit Rates(Duration window) : window_(window) {}
     bool allows(const std::string& name, Time now);
     size_t names() const { return counts_.size(); }
 
@@ -46,6 +48,7 @@ private:
         Time since{};
         int64_t events = 0;
     };
+    const Duration window_;
     std::map<std::string, Count> counts_;
 };
 

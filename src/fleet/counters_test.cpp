@@ -38,15 +38,23 @@ TEST(Numbers, RememberTheSendersThatWereHeardLast) {
 }
 
 TEST(Rates, TwentyOfANameInASecond) {
-    Rates rates;
+    Rates rates(1s);
     for (int64_t i = 0; i < kEventsASecond; ++i) EXPECT_TRUE(rates.allows("alarm", 10ms * i));
     EXPECT_FALSE(rates.allows("alarm", 999ms));
     EXPECT_TRUE(rates.allows("other", 999ms));
     EXPECT_TRUE(rates.allows("alarm", 1s));
 }
 
+// What a sender may send in the ten seconds that it is cut off comes at once.
+TEST(Rates, TwoHundredOfANameInTenSeconds) {
+    Rates rates(10s);
+    for (int i = 0; i < 200; ++i) EXPECT_TRUE(rates.allows("alarm", 1ms * i));
+    EXPECT_FALSE(rates.allows("alarm", 9'999ms));
+    EXPECT_TRUE(rates.allows("alarm", 10s));
+}
+
 TEST(Rates, NamesAreForgottenWhenTheirSecondIsOver) {
-    Rates rates;
+    Rates rates(1s);
     for (size_t i = 0; i < kRatesRemembered; ++i) rates.allows(std::to_string(i), 0s);
     EXPECT_FALSE(rates.allows("one more", 500ms));
     EXPECT_TRUE(rates.allows("one more", 1s));

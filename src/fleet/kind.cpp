@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "fleet/limits.hpp"
 #include "fleet/topic.hpp"
+#include "keeper/keeper.hpp"
 
 namespace vagus::fleet {
 namespace {
@@ -18,6 +19,7 @@ constexpr Need kMust = Need::Required;
 constexpr Need kMay = Need::Optional;
 // Whole numbers that every program reads as such, whatever its numbers are.
 constexpr double kWholeMax = 9'007'199'254'740'991;
+constexpr double kLeaseMsMax = static_cast<double>(keeper::kLeaseMax / 1ms);
 
 constexpr Field kEpoch = {
     "epoch",
@@ -94,7 +96,84 @@ constexpr std::array kRaise = {
 constexpr std::array kEmit = {Field{"event", T::Name, kMust, 0, 0, "", "of the project"},
                               Field{"args", T::Words, kMust, 0, kWordsMax, "", ""}};
 
-constexpr std::array<VerbInfo, 7> kVerbs = {{
+constexpr std::array kQuestion = {kNumber, kEpoch};
+constexpr Field kTerm = {"term", T::Term, kMust, 0, 0, "", "of the lease"};
+constexpr Field kLength = {"length", T::Int, kMust, 0, kLeaseMsMax, "", "of the lease, ms"};
+constexpr std::array kGive = {
+    Field{"queue", T::Name, kMust, 0, 0, "", ""},
+    Field{"id", T::Name, kMust, 0, 0, "", "the giver chooses it: given twice, it is there once"},
+    Field{"data", T::Value, kMay, 0, 0, "", "what is to be done"}};
+constexpr std::array kTake = {Field{"queue", T::Name, kMust, 0, 0, "", ""}, kLength};
+constexpr std::array kClaim = {
+    Field{"name", T::Name, kMust, 0, 0, "", "that one robot has at a time"}, kLength};
+constexpr std::array kRenew = {kTerm};
+constexpr std::array kFinish = {kTerm, Field{"result", T::Value, kMay, 0, 0, "", ""}};
+constexpr std::array kWrite = {
+    Field{"key", T::Name, kMust, 0, 0, "", ""},
+    Field{"seen", T::Term, kMay, 0, 0, "", "the version that is overwritten; none: it is new"},
+    Field{"value", T::Value, kMust, 0, 0, "", ""}};
+
+constexpr std::array<VerbInfo, 7> kQuestions = {{
+    {"give", "Keeps a task.", kGive},
+    {"take", "The next task of a queue that waits, on a lease.", kTake},
+    {"claim", "A name, on a lease.", kClaim},
+    {"renew", "The lease lasts for another of its lengths.", kRenew},
+    {"finish", "The task of that lease is done.", kFinish},
+    {"release", "The lease is given back: a task waits again, a name is free.", kRenew},
+    {"write", "A shared value, if nobody has written it since.", kWrite},
+}};
+
+constexpr std::array kReply = {
+    Field{"number", T::Int, kMust, 0, kWholeMax, "", "of the question"},
+    Field{"epoch", T::Int, kMust, 0, kWholeMax, "", "of the question"},
+    Field{"outcome", T::Word, kMust, 0, 0, "done|nothing|refused",
+          "nothing: no task waits, another has the name, or the version is another"},
+    Field{"why", T::Line, kMay, 0, 0, "", "of nothing and refused: a sentence"},
+    Field{"keeper", T::Int, kMust, 0, kWholeMax, "", "epoch of the keeper that replies"},
+    Field{"topic", T::Line, kMay, 0, 0, "", "of the record that it is about"},
+    Field{"record", T::Object, kMay, 0, 0, "", "as it is there now"}};
+
+constexpr Field kHolder = {"robot", T::Name, kMay, 0, 0, "", "who has the lease"};
+constexpr Field kHeldTerm = {"term", T::Term, kMay, 0, 0, "", "of the last lease"};
+constexpr Field kHeldFor = {"length", T::Int, kMay, 0, kLeaseMsMax, "", "of the lease, ms"};
+
+constexpr std::array kTask = {
+    Field{"work", T::Word, kMust, 0, 0, "waiting|leased|done", ""},
+    Field{"given", T::Term, kMust, 0, 0, "", "tasks are handed out in this order"},
+    Field{"data", T::Value, kMay, 0, 0, "", "what is to be done"},
+    kHolder,
+    kHeldTerm,
+    kHeldFor,
+    Field{"result", T::Value, kMay, 0, 0, "", "of who has finished it"}};
+constexpr std::array kShared = {
+    Field{"is", T::Word, kMust, 0, 0, "value|name", "a name: that one robot has at a time"},
+    Field{"version", T::Term, kMay, 0, 0, "", "of a value"},
+    Field{"value", T::Value, kMay, 0, 0, "", ""},
+    kHolder,
+    kHeldTerm,
+    kHeldFor};
+constexpr std::array kBeat = {
+    Field{"epoch", T::Int, kMust, 0, kWholeMax, "", "of the keeper: a later one has a higher one"},
+    Field{"instance", T::Name, kMust, 0, 0, "", "of its process"},
+    Field{"number", T::Int, kMust, 0, kWholeMax, "", "counts up"}};
+
+constexpr Field kRollout = {
+    "number", T::Int, kMust, 1, kWholeMax, "", "of the roll-out: another one each time"};
+constexpr std::array kWant = {
+    kRollout, Field{"sha256", T::Line, kMust, 0, 0, "", "of what is at the address"},
+    Field{"address", T::Line, kMust, 0, 0, "",
+          "to fetch it from by HTTPS; nobody else knows it, and it is good during the roll-out"},
+    Field{"back", T::Bool, kMay, 0, 0, "", "true: instead, the version before is in force again"}};
+constexpr std::array kVersion = {
+    kRollout, Field{"sha256", T::Line, kMust, 0, 0, "", "as it was wanted"},
+    Field{"result", T::Word, kMust, 0, 0, "taken|started|stopped|refused|rolled_back|waiting",
+          "taken: it is being fetched and checked; waiting: it is in force, and does not run"},
+    Field{"why", T::Line, kMay, 0, 0, "", "a sentence"}};
+
+constexpr std::array kTellThis = {Field{"node", T::Name, kMust, 0, 0, "", "of the variable"},
+                                  Field{"name", T::Line, kMust, 0, 0, "", "of the variable"}};
+
+constexpr std::array<VerbInfo, 9> kVerbs = {{
     {"stop", "Everything stops. Repeated until it is answered; also to a group and to all.", {}},
     {"pause", "What runs is paused.", {}},
     {"continue", "What is paused goes on.", {}},
@@ -102,9 +181,13 @@ constexpr std::array<VerbInfo, 7> kVerbs = {{
     {"set", "Writes a variable.", kSet},
     {"raise", "A supervisor of the plan raises an event.", kRaise},
     {"emit", "An event of the bus.", kEmit},
+    {"tell", "A variable is told for a minute, as those under tell.", kTellThis},
+    {"identify",
+     "The event identify of the robot's project: it blinks, or whatever it does then.",
+     {}},
 }};
 
-constexpr std::array<KindInfo, 8> kKinds = {{
+constexpr std::array<KindInfo, 15> kKinds = {{
     {Kind::Connection, Folder::Robot, "connection", 0, "robot/R/connection", 1, true,
      "Whether the robot is there; its last will says lost.", kConnection},
     {Kind::Description, Folder::Robot, "description", 0, "robot/R/description", 1, true,
@@ -123,6 +206,21 @@ constexpr std::array<KindInfo, 8> kKinds = {{
     {Kind::Command, Folder::Command, "cmd", 1, "cmd/R/VERB", 1, false,
      "What somebody wants the robot R to do; stop also on cmd/group/G/stop and cmd/all/stop.",
      kCommand},
+    {Kind::Question, Folder::Robot, "ask", 1, "robot/R/ask/QUESTION", 1, false,
+     "What the robot R asks the keeper; asked again, with the same number, until it is answered.",
+     kQuestion},
+    {Kind::Reply, Folder::Keeper, "answer", 1, "keeper/answer/R", 1, false,
+     "What the keeper replies to the robot R.", kReply},
+    {Kind::Task, Folder::Task, "", 2, "task/QUEUE/ID", 1, true,
+     "A task, and who has it: the keeper's alone.", kTask},
+    {Kind::Shared, Folder::Shared, "", 1, "shared/KEY", 1, true,
+     "A shared value, or a name that is claimed: the keeper's alone.", kShared},
+    {Kind::Beat, Folder::Keeper, "beat", 0, "keeper/beat", 1, true,
+     "A sign of life of the keeper, each second.", kBeat},
+    {Kind::Want, Folder::Robot, "want", 0, "robot/R/want", 1, true,
+     "The version that the robot should have; of an operator.", kWant},
+    {Kind::Version, Folder::Robot, "version", 0, "robot/R/version", 1, true,
+     "What became of the version that was wanted last.", kVersion},
 }};
 
 std::string list_of_words(std::string_view words) {
@@ -148,6 +246,12 @@ std::string expected(const Field& field) {
             return fmt::format("at most {:.0f} names", field.high);
         case T::Lines:
             return fmt::format("at most {:.0f} texts", field.high);
+        case T::Term:
+            return "a term: EPOCH.NUMBER";
+        case T::Value:
+            return "any value";
+        case T::Object:
+            return "an object";
     }
     return "";
 }
@@ -193,8 +297,20 @@ bool fits(const JsonValue& value, const Field& field) {
             return all_fit(value, field, is_name_value);
         case T::Lines:
             return all_fit(value, field, is_line);
+        case T::Term:
+            return value.kind == JsonKind::String && keeper::read_term(value.text);
+        case T::Value:
+            return true;
+        case T::Object:
+            return value.kind == JsonKind::Object;
     }
     return false;
+}
+
+const VerbInfo* find(std::span<const VerbInfo> verbs, std::string_view verb) {
+    const auto found = std::find_if(verbs.begin(), verbs.end(),
+                                    [verb](const VerbInfo& one) { return one.verb == verb; });
+    return found == verbs.end() ? nullptr : &*found;
 }
 
 std::string row_of(const Field& field) {
@@ -223,9 +339,15 @@ std::span<const VerbInfo> verbs() {
 }
 
 const VerbInfo* verb_of(std::string_view verb) {
-    const auto found = std::find_if(kVerbs.begin(), kVerbs.end(),
-                                    [verb](const VerbInfo& one) { return one.verb == verb; });
-    return found == kVerbs.end() ? nullptr : &*found;
+    return find(kVerbs, verb);
+}
+
+std::span<const VerbInfo> questions() {
+    return kQuestions;
+}
+
+const VerbInfo* question_of(std::string_view verb) {
+    return find(kQuestions, verb);
 }
 
 std::optional<std::string> fault_of(const JsonValue& value, std::span<const Field> fields) {
@@ -256,9 +378,12 @@ std::string page_of_messages() {
                             info.retained ? ", retained" : "");
         page += table_of(info.fields);
     }
-    for (const VerbInfo& verb : kVerbs) {
-        page += fmt::format("\n### cmd/R/{}\n\n{}\n", verb.verb, verb.help);
-        if (!verb.fields.empty()) page += "\n" + table_of(verb.fields);
+    for (const auto& [topic, list] :
+         {std::pair("cmd/R", verbs()), std::pair("robot/R/ask", questions())}) {
+        for (const VerbInfo& verb : list) {
+            page += fmt::format("\n### {}/{}\n\n{}\n", topic, verb.verb, verb.help);
+            if (!verb.fields.empty()) page += "\n" + table_of(verb.fields);
+        }
     }
     return page;
 }

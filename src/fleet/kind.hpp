@@ -18,7 +18,23 @@
 
 namespace vagus::fleet {
 
-enum class Kind { Connection, Description, State, Variable, Event, Ask, Answer, Command };
+enum class Kind {
+    Connection,
+    Description,
+    State,
+    Variable,
+    Event,
+    Ask,
+    Answer,
+    Command,
+    Question,  // to the keeper
+    Reply,     // of the keeper
+    Task,
+    Shared,
+    Beat,
+    Want,    // the version that a robot should have
+    Version  // what became of it
+};
 
 enum class FieldType {
     Bool,
@@ -28,7 +44,10 @@ enum class FieldType {
     Word,   // one of `words`, with | between
     Words,  // values of the bus: whole numbers of 16 bits, at most `high` of them
     Names,  // at most `high` names
-    Lines   // at most `high` lines
+    Lines,  // at most `high` lines
+    Term,   // of the keeper: EPOCH.NUMBER
+    Value,  // any value
+    Object
 };
 
 struct Field {
@@ -41,7 +60,7 @@ struct Field {
 };
 
 // The first level of a topic below vagus/1/FLEET/.
-enum class Folder { Robot, Command };
+enum class Folder { Robot, Command, Shared, Task, Keeper };
 
 struct KindInfo {
     Kind kind = Kind::State;
@@ -66,6 +85,10 @@ struct VerbInfo {
 };
 std::span<const VerbInfo> verbs();
 const VerbInfo* verb_of(std::string_view verb);
+
+// The same of questions to the keeper: robot/R/ask/give, robot/R/ask/take, …
+std::span<const VerbInfo> questions();
+const VerbInfo* question_of(std::string_view verb);
 
 // What is wrong with a value: a sentence that names the field, what was expected and found.
 // Members that the list does not have are passed over: a later version may add some.

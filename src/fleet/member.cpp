@@ -36,6 +36,10 @@ void Member::on(const Received& received) {
     if (const auto* command = std::get_if<Command>(&message)) return hear_command(topic, *command);
     if (topic.robot != options_.robot) return;
     if (const auto* said = std::get_if<Connection>(&message)) return hear_connection(*said);
+    if (const auto* want = std::get_if<Want>(&message)) {
+        if (standing_ == Standing::Holding) act(Fetch{*want});
+        return;
+    }
     if (const auto* ask = std::get_if<Ask>(&message)) return hear_question(*ask);
     if (const auto* answer = std::get_if<Answer>(&message)) return hear_answer(*answer);
 }
@@ -77,13 +81,26 @@ bool Member::hears(const std::string& event, const std::vector<std::string>& gro
 
 void Member::hear_event(const Topic& topic, const Event& event) {
     const bool ours = topic.robot == options_.robot;
-    if (ours || standing_ != Standing::Holding || !hears(topic.name, event.groups)) return;
+    if (ours || standing_ == Standing::Out || !hears(topic.name, event.groups)) return;
+    if (standing_ != Standing::Holding) {
+        if (early_.size() >= kEarlyMax) {
+            early_.pop_front();
+            ++left_out_;
+        }
+        return early_.push_back({topic, event, now_});
+    }
     if (!heard_.is_new(topic.robot, event.epoch, event.number)) return;
     if (!heard_rates_.allows(topic.robot + "/" + topic.name, now_)) {
         ++left_out_;
         return;
     }
     act(EmitOnBus{topic.name, event.args, topic.robot});
+}
+
+void Member::hear_early_events() {
+    for (const Early& early : std::exchange(early_, {})) {
+        if (now_ - early.at <= kEventAgeMax) hear_event(early.topic, early.event);
+    }
 }
 
 // ---- commands ----
@@ -154,6 +171,12 @@ void Member::publish_answer(const Command& command, const Answer& answer) {
 
 void Member::publish_description() {
     act(post_of(Kind::Description, "", options_.description));
+    if (version_) act(post_of(Kind::Version, "", *version_));
+}
+
+void Member::deployed(const Version& version) {
+    version_ = version;
+    if (standing_ == Standing::Holding) act(post_of(Kind::Version, "", version));
 }
 
 void Member::show(const Shown& shown, Time now) {

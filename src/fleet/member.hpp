@@ -21,6 +21,7 @@
 
 #include "base/time.hpp"
 #include "fleet/counters.hpp"
+#include "fleet/limits.hpp"
 #include "fleet/link.hpp"
 #include "fleet/outbox.hpp"
 #include "fleet/project_part.hpp"
@@ -61,10 +62,14 @@ struct Obey {
 struct StopAlone {
     std::string why;
 };
+// Another version is wanted; deployed() follows. It comes again at each connection.
+struct Fetch {
+    Want want;
+};
 struct Say {
     std::string kind, text;  // "note", "warning"
 };
-using MemberAction = std::variant<Subscribe, Post, EmitOnBus, Obey, StopAlone, Say>;
+using MemberAction = std::variant<Subscribe, Post, EmitOnBus, Obey, StopAlone, Fetch, Say>;
 
 class Member {
 public:
@@ -85,6 +90,8 @@ public:
     void changed(const std::string& node, const std::string& name, std::vector<int16_t> values);
     // Of a command that was to be obeyed; once for each.
     void answer(const Command& command, Answer answer);
+    // What became of the version that was wanted; the last one is told at each connection.
+    void deployed(const Version& version);
     // The program ends: the robot says that it is offline.
     void leave();
     void tick(Time now);
@@ -125,6 +132,7 @@ private:
     void on(const TakenBack&) {}
     void on(const Malformed&) { ++left_out_; }
     void hear_event(const Topic& topic, const Event& event);
+    void hear_early_events();
     bool hears(const std::string& event, const std::vector<std::string>& groups) const;
     void hear_command(const Topic& topic, const Command& command);
     bool is_for_us(const Topic& topic) const;
@@ -156,7 +164,8 @@ private:
     Outbox outbox_;
     int64_t numbers_ = 0;  // of events and states
     Numbers heard_;
-    Rates sent_rates_, heard_rates_;
+    Rates sent_rates_{1s};
+    Rates heard_rates_{kEventAgeMax};  // what waited while the link was cut comes at once
     uint64_t left_out_ = 0;
 
     Shown shown_;
@@ -164,6 +173,14 @@ private:
     bool state_news_ = true;
     Time state_at_{};  // when it was told last
     std::map<std::pair<std::string, std::string>, Telling> telling_;
+    // Heard before the name was ours: the broker gives what waited for us as soon as we are there.
+    struct Early {
+        Topic topic;
+        Event event;
+        Time at{};
+    };
+    std::deque<Early> early_;
+    std::optional<Version> version_;
     Told told_;  // answers by id of their command
     std::deque<std::string> told_order_;
 };

@@ -41,7 +41,9 @@ std::vector<Filter> Member::filters_of_name() const {
 }
 
 std::vector<Filter> Member::filters_of_work() const {
-    std::vector<Filter> filters = {{filter_of_commands(options_.fleet, options_.robot)}};
+    std::vector<Filter> filters = {
+        {filter_of_commands(options_.fleet, options_.robot)},
+        {text_of(options_.fleet, {.kind = Kind::Want, .robot = options_.robot})}};
     for (const Hears& one : options_.project.hear) {
         filters.push_back({filter_of_event(options_.fleet, one.event), false});
     }
@@ -98,10 +100,12 @@ void Member::claim() {
     state_at_ = now_ - kStateEveryMax;
     say("note", fmt::format("fleet: this robot is \"{}\" of the fleet \"{}\"", options_.robot,
                             options_.fleet));
+    hear_early_events();
     tick(now_);
 }
 
 void Member::stay_out(const std::string& why) {
+    early_.clear();
     if (standing_ == Standing::Holding) apart_since_ = now_;
     standing_ = Standing::Out;
     say("error", fmt::format("fleet: \"{}\" of the fleet \"{}\": {}; this one stays out of the "

@@ -16,6 +16,7 @@
 #include "base/json.hpp"
 #include "base/result.hpp"
 #include "fleet/topic.hpp"
+#include "keeper/keeper.hpp"
 
 namespace vagus::fleet {
 
@@ -70,7 +71,35 @@ struct Command {
     friend bool operator==(const Command&, const Command&) = default;
 };
 
-using Message = std::variant<Connection, Description, State, Variable, Event, Ask, Answer, Command>;
+// To the keeper, and its reply: `epoch` is that of the robot, `number` that of the question.
+struct Question {
+    int64_t epoch = 0;
+    uint64_t number = 0;
+    keeper::Request request;
+    friend bool operator==(const Question&, const Question&) = default;
+};
+struct Reply {
+    int64_t epoch = 0;
+    uint64_t number = 0;
+    keeper::Reply reply;
+    friend bool operator==(const Reply&, const Reply&) = default;
+};
+
+struct Want {
+    int64_t number = 0;
+    std::string sha256 = {}, address = {};
+    bool back = false;
+    friend bool operator==(const Want&, const Want&) = default;
+};
+struct Version {
+    int64_t number = 0;
+    std::string sha256 = {}, result = {}, why = {};
+    friend bool operator==(const Version&, const Version&) = default;
+};
+
+// Kind::Task and Kind::Shared are records of the keeper, Kind::Beat its sign of life.
+using Message = std::variant<Connection, Description, State, Variable, Event, Ask, Answer, Command,
+                             Question, Reply, keeper::Record, keeper::Beat, Want, Version>;
 
 struct Heard {
     Topic topic;
@@ -83,7 +112,11 @@ Result<Heard> read(std::string_view fleet, std::string_view topic, std::string_v
 // Groups, events: is it one of them?
 bool contains(const std::vector<std::string>& names, const std::string& name);
 
-// The payload of a message.
-std::string payload_of(const Message& message);
+// The topic of a record, and of a question.
+Topic topic_of(const keeper::Record& record);
+Topic topic_of(const std::string& robot, const keeper::Request& request);
+
+// The payload of a message of that fleet; its name matters to a reply alone, which names a topic.
+std::string payload_of(const Message& message, std::string_view fleet = "");
 
 }  // namespace vagus::fleet

@@ -18,6 +18,50 @@ std::string why(std::string_view topic, std::string_view payload) {
     return heard.ok() ? "" : heard.error().what;
 }
 
+const keeper::Task kTask{
+    "pick", "t1", {12, 3}, "{ \"shelf\": 4 }", keeper::Work::Leased, {"r1", {12, 4}, 1500ms}, ""};
+
+// How each request looks as JSON; worked out from docs/fleet-messages.md.
+TEST(Message, QuestionsToTheKeeperHaveATopicEach) {
+    const std::pair<keeper::Request, std::pair<const char*, const char*>> all[] = {
+        {keeper::Give{"pick", "t1", "[4]"},
+         {"give", R"("queue": "pick", "id": "t1", "data": [4])"}},
+        {keeper::Take{"pick", 1500ms}, {"take", R"("queue": "pick", "length": 1500)"}},
+        {keeper::ClaimName{"aisle", 2s}, {"claim", R"("name": "aisle", "length": 2000)"}},
+        {keeper::Renew{{12, 4}}, {"renew", R"("term": "12.4")"}},
+        {keeper::Finish{{12, 4}, "true"}, {"finish", R"("term": "12.4", "result": true)"}},
+        {keeper::Release{{12, 4}}, {"release", R"("term": "12.4")"}},
+        {keeper::Write{"map", {12, 6}, "1"},
+         {"write", R"("key": "map", "seen": "12.6", "value": 1)"}},
+    };
+    for (const auto& [request, looks] : all) {
+        const std::string topic = text_of("lab", topic_of("r1", request));
+        EXPECT_EQ(topic, std::string("vagus/1/lab/robot/r1/ask/") + looks.first);
+        const std::string payload = payload_of(Question{7, 3, request});
+        EXPECT_EQ(payload, fmt::format(R"({{ "number": 3, "epoch": 7, {} }})", looks.second));
+        const auto heard = read("lab", topic, payload);
+        ASSERT_TRUE(heard.ok()) << heard.error().what;
+        EXPECT_EQ(payload_of(heard.value().message), payload);
+    }
+}
+
+TEST(Message, WhatTheKeeperCannotReadIsNamed) {
+    const std::string take = "vagus/1/lab/robot/r1/ask/take";
+    const auto with = [](const char* rest) {
+        return fmt::format(R"({{ "number": 3, "epoch": 7, "queue": "pick", {} }})", rest);
+    };
+    EXPECT_EQ(why(take, with(R"("length": 60000)")), "");
+    EXPECT_EQ(why(take, with(R"("length": 60001)")),
+              take + ": \"length\": expected a whole number from 0 to 60000, found a whole number");
+    EXPECT_EQ(why("vagus/1/lab/robot/r1/ask/renew", with(R"("term": "12")")),
+              "vagus/1/lab/robot/r1/ask/renew: \"term\": expected a term: EPOCH.NUMBER, found a "
+              "string");
+    EXPECT_EQ(why("vagus/1/lab/keeper/answer/r1",
+                  R"({ "number": 3, "epoch": 7, "outcome": "done", "keeper": 2, "record": {} })"),
+              "vagus/1/lab/keeper/answer/r1: \"topic\": expected that of a task or of a shared "
+              "value");
+}
+
 TEST(Message, EveryKindIsReadAsItIsWritten) {
     const std::pair<Topic, Message> all[] = {
         {{.kind = Kind::Connection, .robot = "r1"}, Connection{"online", "i1", 7}},
@@ -49,10 +93,22 @@ TEST(Message, EveryKindIsReadAsItIsWritten) {
                  .values = {3}}},
         {{.kind = Kind::Command, .name = "stop"},
          Command{.verb = "stop", .id = "c1", .reply = "op"}},
+        {{.kind = Kind::Want, .robot = "r1"}, Want{7, "ab", "https://desk:8443/x", true}},
+        {{.kind = Kind::Version, .robot = "r1"}, Version{7, "ab", "refused", "it has mistakes"}},
+        {{.kind = Kind::Beat}, keeper::Beat{12, "k1", 3}},
+        {{.kind = Kind::Task, .name = "t1", .queue = "pick"}, keeper::Record(kTask)},
+        {{.kind = Kind::Shared, .name = "aisle"},
+         keeper::Record(keeper::Claim{"aisle", {"", {12, 5}, 10s}})},
+        {{.kind = Kind::Shared, .name = "map"},
+         keeper::Record(keeper::Shared{"map", {12, 6}, "[1, 2]"})},
+        {{.kind = Kind::Reply, .robot = "r1"},
+         Reply{7, 4, {keeper::Outcome::Done, "", 12, keeper::Record(kTask)}}},
+        {{.kind = Kind::Reply, .robot = "r1"},
+         Reply{7, 5, {keeper::Outcome::Nothing, "no task waits in pick", 12, {}}}},
     };
     for (const auto& [topic, message] : all) {
         const std::string text = text_of("lab", topic);
-        const auto heard = read("lab", text, payload_of(message));
+        const auto heard = read("lab", text, payload_of(message, "lab"));
         ASSERT_TRUE(heard.ok()) << heard.error().what;
         EXPECT_TRUE(heard.value().message == message) << text << payload_of(message);
     }

@@ -50,12 +50,23 @@ std::optional<Topic> topic_of_robot(const std::vector<std::string>& levels) {
     for (const KindInfo& info : kinds()) {
         if (info.folder != Folder::Robot || info.word != word) continue;
         if (levels.size() != 3 + info.names) continue;
+        // Both are asked at one place; the keeper's have names of their own.
+        if (info.kind == Kind::Ask && question_of(levels.back())) continue;
+        if (info.kind == Kind::Question && !question_of(levels.back())) continue;
         Topic topic{.kind = info.kind, .robot = robot};
         if (info.names > 0) topic.name = levels.back();
         if (info.names > 1) topic.node = levels[3];
         return topic;
     }
     return std::nullopt;
+}
+
+// keeper/beat, keeper/answer/R
+std::optional<Topic> topic_of_keeper(const std::vector<std::string>& levels) {
+    if (levels.size() == 2 && levels[1] == "beat") return Topic{.kind = Kind::Beat};
+    if (levels.size() != 3 || levels[1] != "answer") return std::nullopt;
+    if (!is_robot_name(levels[2])) return std::nullopt;
+    return Topic{.kind = Kind::Reply, .robot = levels[2]};
 }
 
 // cmd/R/VERB, cmd/all/VERB, cmd/group/G/VERB
@@ -117,10 +128,16 @@ std::optional<std::string> unescape(std::string_view level) {
 
 std::optional<Topic> parse_topic(std::string_view fleet, std::string_view text) {
     const std::vector<std::string> levels = levels_of(fleet, text);
-    if (levels.size() < 3) return std::nullopt;
-    if (levels[0] == "robot") return topic_of_robot(levels);
-    if (levels[0] == "cmd") return topic_of_command(levels);
-    return std::nullopt;
+    if (levels.size() < 2) return std::nullopt;
+    const std::string& folder = levels[0];
+    if (folder == "robot" && levels.size() > 2) return topic_of_robot(levels);
+    if (folder == "cmd" && levels.size() > 2) return topic_of_command(levels);
+    if (folder == "shared" && levels.size() == 2)
+        return Topic{.kind = Kind::Shared, .name = levels[1]};
+    if (folder == "task" && levels.size() == 3) {
+        return Topic{.kind = Kind::Task, .name = levels[2], .queue = levels[1]};
+    }
+    return folder == "keeper" ? topic_of_keeper(levels) : std::nullopt;
 }
 
 std::string text_of(std::string_view fleet, const Topic& topic) {
@@ -134,6 +151,12 @@ std::string text_of(std::string_view fleet, const Topic& topic) {
         }
         return text + "/" + escape(topic.name);
     }
+    if (topic.kind == Kind::Shared) return text + "shared/" + escape(topic.name);
+    if (topic.kind == Kind::Task) {
+        return text + fmt::format("task/{}/{}", escape(topic.queue), escape(topic.name));
+    }
+    if (topic.kind == Kind::Beat) return text + "keeper/beat";
+    if (topic.kind == Kind::Reply) return text + "keeper/answer/" + escape(topic.robot);
     text += fmt::format("robot/{}/{}", escape(topic.robot), info.word);
     if (info.names > 1) text += "/" + escape(topic.node);
     if (info.names > 0) text += "/" + escape(topic.name);
@@ -142,6 +165,10 @@ std::string text_of(std::string_view fleet, const Topic& topic) {
 
 std::string filter_of(std::string_view fleet, Kind kind) {
     const KindInfo& info = info_of(kind);
+    if (info.folder == Folder::Shared) return prefix(fleet) + "shared/+";
+    if (info.folder == Folder::Task) return prefix(fleet) + "task/+/+";
+    if (kind == Kind::Beat) return prefix(fleet) + "keeper/beat";
+    if (kind == Kind::Reply) return prefix(fleet) + "keeper/answer/+";
     std::string text = fmt::format("{}robot/+/{}", prefix(fleet), info.word);
     for (size_t i = 0; i < info.names; ++i) text += "/+";
     return text;

@@ -30,8 +30,9 @@ struct Topic {
     Kind kind = Kind::State;
     std::string robot = {};  // whose; of a command: to whom, empty: to many
     std::string group = {};  // of a command to a group
-    std::string name = {};   // event, verb, variable, who asked
+    std::string name = {};   // event, verb, question, variable, key, id of a task
     std::string node = {};   // of a variable
+    std::string queue = {};  // of a task
 };
 
 // What a topic below vagus/1/FLEET/ means; nothing for one that is none of ours, or not known yet.
@@ -39,7 +40,7 @@ std::optional<Topic> parse_topic(std::string_view fleet, std::string_view text);
 // The text of a topic. Kind::Command without a robot: to the group, or to all.
 std::string text_of(std::string_view fleet, const Topic& topic);
 
-// What to subscribe to: the topics of that kind of all robots, with any name.
+// What to subscribe to: all topics of that kind, with any name.
 std::string filter_of(std::string_view fleet, Kind kind);
 // Events of that name, of all robots.
 std::string filter_of_event(std::string_view fleet, std::string_view event);

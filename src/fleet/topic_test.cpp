@@ -39,6 +39,12 @@ TEST(Topic, EveryKindIsReadAsItIsWritten) {
         {.kind = Kind::Command, .robot = "r1", .name = "start"},
         {.kind = Kind::Command, .group = "red", .name = "stop"},
         {.kind = Kind::Command, .name = "stop"},
+        {.kind = Kind::Ask, .robot = "r1", .name = "name"},
+        {.kind = Kind::Question, .robot = "r1", .name = "take"},
+        {.kind = Kind::Reply, .robot = "r1"},
+        {.kind = Kind::Task, .name = "t/1", .queue = "pick"},
+        {.kind = Kind::Shared, .name = "aisle 3"},
+        {.kind = Kind::Beat},
     };
     const char* const texts[] = {"vagus/1/lab/robot/r1/connection",
                                  "vagus/1/lab/robot/a%2Fb/state",
@@ -46,7 +52,13 @@ TEST(Topic, EveryKindIsReadAsItIsWritten) {
                                  "vagus/1/lab/robot/r1/event/alarm",
                                  "vagus/1/lab/cmd/r1/start",
                                  "vagus/1/lab/cmd/group/red/stop",
-                                 "vagus/1/lab/cmd/all/stop"};
+                                 "vagus/1/lab/cmd/all/stop",
+                                 "vagus/1/lab/robot/r1/ask/name",
+                                 "vagus/1/lab/robot/r1/ask/take",
+                                 "vagus/1/lab/keeper/answer/r1",
+                                 "vagus/1/lab/task/pick/t%2F1",
+                                 "vagus/1/lab/shared/aisle%203",
+                                 "vagus/1/lab/keeper/beat"};
     for (size_t i = 0; i < std::size(topics); ++i) {
         EXPECT_EQ(text_of("lab", topics[i]), texts[i]);
         const auto read = parse_topic("lab", texts[i]);
@@ -56,6 +68,7 @@ TEST(Topic, EveryKindIsReadAsItIsWritten) {
         EXPECT_EQ(read->group, topics[i].group);
         EXPECT_EQ(read->name, topics[i].name);
         EXPECT_EQ(read->node, topics[i].node);
+        EXPECT_EQ(read->queue, topics[i].queue);
     }
 }
 
@@ -63,8 +76,10 @@ TEST(Topic, WhatIsNoneOfOursIsNothing) {
     for (const char* const text :
          {"", "vagus/1/lab", "vagus/1/other/robot/r1/state", "vagus/1/lab/robot/r1",
           "vagus/1/lab/robot/r1/state/x", "vagus/1/lab/robot/all/state", "vagus/1/lab/robot/r1/new",
-          "vagus/1/lab/robot//state", "vagus/1/lab/cmd/r1/stop/x", "vagus/1/lab/shared/key",
-          "vagus/2/lab/robot/r1/state", "vagus/1/lab/robot/r%2f/state"}) {
+          "vagus/1/lab/robot//state", "vagus/1/lab/cmd/r1/stop/x", "vagus/1/lab/shared/key/x",
+          "vagus/1/lab/task/pick", "vagus/1/lab/task/pick/t1/x", "vagus/1/lab/keeper/beat/x",
+          "vagus/1/lab/keeper/answer/all", "vagus/1/lab/keeper", "vagus/2/lab/robot/r1/state",
+          "vagus/1/lab/robot/r%2f/state"}) {
         EXPECT_FALSE(parse_topic("lab", text)) << text;
     }
     const std::string event = "vagus/1/lab/robot/r1/event/";

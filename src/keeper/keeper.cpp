@@ -31,10 +31,6 @@ Term last_term(const Record& record) {
     return std::get<Claim>(record).lease.term;
 }
 
-std::string text_of(Term term) {
-    return std::to_string(term.epoch) + "." + std::to_string(term.number);
-}
-
 // Robots' clocks and this one may drift apart by 2 % before two leases of one thing overlap.
 Duration with_drift(Duration length) {
     return length + length / 50;
@@ -385,15 +381,23 @@ void Keeper::obey(const Asker& asker, const Write& write) {
 
 // ---- replies ----
 
-// A question that was answered is answered again, one that is being answered is not asked twice,
-// and those of an earlier life are not heard.
+// Of a life that is new the oldest one makes room: of that robot if it had many, else of all.
+Keeper::Kept& Keeper::kept_of(const Life& life) {
+    if (const auto known = kept_.find(life); known != kept_.end()) return known->second;
+    const auto first = kept_.lower_bound({life.first, 0});
+    const auto last = kept_.upper_bound({life.first, UINT64_MAX});
+    const auto asked = [](const auto& kept) { return kept.second.asked; };
+    if (std::distance(first, last) >= std::ptrdiff_t{kLivesMax})
+        kept_.erase(std::min_element(
+            first, last, [&](const auto& a, const auto& b) { return asked(a) < asked(b); }));
+    else if (kept_.size() >= kAskersMax)
+        kept_.erase(std::ranges::min_element(kept_, {}, asked));
+    return kept_[life];
+}
+
+// A question that was answered is answered again, one that is being answered is not asked twice.
 bool Keeper::is_repeated(const Asker& asker) {
-    if (!kept_.contains(asker.robot) && kept_.size() >= kAskersMax)
-        kept_.erase(std::ranges::min_element(kept_, {},
-                                             [](const auto& kept) { return kept.second.asked; }));
-    Kept& kept = kept_[asker.robot];
-    if (asker.epoch < kept.epoch) return true;
-    if (asker.epoch > kept.epoch) kept = {asker.epoch};
+    Kept& kept = kept_of({asker.robot, asker.epoch});
     kept.asked = ++questions_;
     auto& replies = kept.replies;
     if (const auto known = replies.find(asker.number); known != replies.end()) {
@@ -420,8 +424,8 @@ void Keeper::refuse(const Asker& asker, std::string why) {
 }
 
 void Keeper::answer(const Asker& asker, Reply reply) {
-    const auto kept = kept_.find(asker.robot);
-    if (kept == kept_.end() || kept->second.epoch != asker.epoch) return;  // of an earlier life
+    const auto kept = kept_.find({asker.robot, asker.epoch});
+    if (kept == kept_.end()) return;  // forgotten meanwhile
     if (const auto known = kept->second.replies.find(asker.number);
         known != kept->second.replies.end())
         known->second = reply;

@@ -40,7 +40,8 @@ constexpr size_t kKeysMax = 1'000;    // shared values and names together
 constexpr size_t kTextMax = 4'096;    // bytes of data, a result, a value
 constexpr size_t kNameMax = 64;       // bytes of a queue, an id, a key, a name
 constexpr size_t kRepliesKept = 64;   // for a robot that asks the same again
-constexpr size_t kAskersMax = 2'000;  // robots whose replies are kept
+constexpr size_t kAskersMax = 2'000;  // lives of robots whose replies are kept
+constexpr size_t kLivesMax = 4;       // of one robot among them
 
 // ---- what it is told ----
 
@@ -60,6 +61,7 @@ struct Beat {
     uint64_t epoch = 0;
     std::string instance;
     uint64_t number = 0;
+    bool operator==(const Beat&) const = default;
 };
 // The broker has the record of that publication.
 struct Acknowledged {
@@ -121,9 +123,10 @@ private:
         Topic topic;
         std::vector<Answer> answers;
     };
-    // Replies to the last questions of one life of a robot; none yet: not acknowledged.
+    // A robot, and the epoch of one of its lives.
+    using Life = std::pair<std::string, uint64_t>;
+    // Replies to the last questions of one life; none yet: not acknowledged.
     struct Kept {
-        uint64_t epoch = 0;
         uint64_t asked = 0;  // the older, the earlier forgotten
         std::map<uint64_t, std::optional<Reply>> replies = {};
     };
@@ -172,6 +175,7 @@ private:
     void answer(const Asker& asker, Reply reply);
     void refuse(const Asker& asker, std::string why);
     bool is_repeated(const Asker& asker);
+    Kept& kept_of(const Life& life);
     bool fits(const Asker& asker, size_t count, size_t most, const char* what);
 
     Options options_;
@@ -189,7 +193,7 @@ private:
     std::deque<std::pair<Time, Topic>> finished_;
     std::vector<Record> strange_;  // found when the broker came back, and not known
     std::map<uint64_t, Waiting> unacknowledged_;
-    std::map<std::string, Kept> kept_;
+    std::map<Life, Kept> kept_;
     Actions actions_;
 };
 

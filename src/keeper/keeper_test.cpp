@@ -347,14 +347,33 @@ TEST(Keeper, RefusesOneMoreThanItsLimits) {
     EXPECT_EQ(desk.ask("b", Write{"more", {}, ""})->outcome, Outcome::Refused);
 }
 
-TEST(Keeper, QuestionsOfAnEarlierLifeOfARobotAreNotHeard) {
+// Epochs of robots are random numbers: a robot that was started again must be heard whatever its
+// new one is, and its questions are counted from 1 again.
+TEST(Keeper, ARobotThatWasStartedAgainIsHeard) {
     Desk desk;
     desk.serve();
-    desk.tell(Asked{{"r1", 2, 1}, Write{"a", {}, "1"}});
-    EXPECT_TRUE(desk.last);
+    for (const uint64_t epoch : {9u, 4u, 7u}) {
+        desk.last.reset();
+        desk.tell(Asked{{"r1", epoch, 1}, Write{"k" + std::to_string(epoch), {}, "1"}});
+        ASSERT_TRUE(desk.last) << epoch;
+        EXPECT_EQ(desk.last->outcome, Outcome::Done);
+    }
+}
+
+// Else one robot that is started again and again would make the keeper forget all others.
+TEST(Keeper, OneRobotHasFewLivesAmongThoseThatAreRemembered) {
+    Desk desk;
+    desk.serve();
+    desk.tell(Asked{{"r2", 1, 1}, Write{"k", {}, "1"}});
+    for (uint64_t life = 1; life <= kAskersMax; ++life)
+        desk.tell(Asked{{"r1", life, 1}, Write{"a" + std::to_string(life % 7), {}, "1"}});
     desk.last.reset();
-    desk.tell(Asked{{"r1", 1, 9}, Write{"b", {}, "1"}});
-    EXPECT_FALSE(desk.last);
+    desk.tell(Asked{{"r2", 1, 1}, Write{"k", {}, "1"}});
+    EXPECT_EQ(desk.last->outcome, Outcome::Done);
+    desk.tell(Asked{{"r1", kAskersMax - kLivesMax + 1, 1}, Write{"b", {}, "1"}});
+    EXPECT_NE(desk.last->outcome, Outcome::Done);  // remembered, and refused as before
+    desk.tell(Asked{{"r1", kAskersMax - kLivesMax, 1}, Write{"b", {}, "1"}});
+    EXPECT_EQ(desk.last->outcome, Outcome::Done);  // one more than are remembered
 }
 
 TEST(Keeper, ForgetsTheOldestReplyOfARobotThatAsksMuch) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "base/time.hpp"
@@ -18,6 +19,9 @@ struct Term {
     uint64_t number = 0;
     auto operator<=>(const Term&) const = default;
 };
+// "12.3" of epoch 12 and number 3.
+std::string text_of(Term term);
+std::optional<Term> read_term(std::string_view text);
 
 // Whose something is for a while. Without a robot it is nobody's; the term then is the last one.
 struct Lease {
@@ -63,35 +67,43 @@ struct Give {
     std::string queue;
     std::string id;
     std::string data;
+    bool operator==(const Give&) const = default;
 };
 struct Take {
     std::string queue;
     Duration length{};  // of the lease
+    bool operator==(const Take&) const = default;
 };
 struct ClaimName {
     std::string name;
     Duration length{};
+    bool operator==(const ClaimName&) const = default;
 };
 // The lease of that term: for another length from now on, over with a result, or given back. A task
 // that is released waits again.
 struct Renew {
     Term term;
+    bool operator==(const Renew&) const = default;
 };
 struct Finish {
     Term term;
     std::string result;
+    bool operator==(const Finish&) const = default;
 };
 struct Release {
     Term term;
+    bool operator==(const Release&) const = default;
 };
 struct Write {
     std::string key;
     Term seen;  // none: the key is new
     std::string value;
+    bool operator==(const Write&) const = default;
 };
 using Request = std::variant<Give, Take, ClaimName, Renew, Finish, Release, Write>;
 
-// Who asked: a name, the epoch of its life, and the number of the question in it.
+// Who asked: a name, the epoch of its life (another one each time, in no order), and the number of
+// the question in it.
 struct Asker {
     std::string robot;
     uint64_t epoch = 0;

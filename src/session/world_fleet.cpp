@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <variant>
 
 #include "fleet/limits.hpp"
@@ -17,23 +18,47 @@ fleet::WayModel model_of(const sim::FleetDefinition& fleet) {
         .latency = fleet.latency, .jitter = fleet.jitter, .loss = fleet.loss, .twice = fleet.twice};
 }
 
-// Of a run that is the same each time: names and numbers that real robots draw at random.
-fleet::MemberOptions member_of(const RobotBus& robot) {
-    return {.fleet = robot.project.fleet.name,
-            .robot = robot.name,
-            .instance = "simulated-" + std::to_string(robot.id.number),
-            .epoch = robot.id.number,
-            .project = robot.project.fleet,
-            .description = {}};
-}
-
 }  // namespace
 
-WorldFleet::WorldFleet(const sim::WorldDefinition& world, uint64_t seed)
-    : world_(world), broker_(model_of(world.fleet), seed), by_id_(world.robots.size(), nullptr) {}
+WorldFleet::WorldFleet(const sim::WorldDefinition& world, uint64_t seed, std::optional<Door> door)
+    : world_(world),
+      broker_(model_of(world.fleet), seed),
+      door_(std::move(door)),
+      by_id_(world.robots.size(), nullptr) {}
+
+WorldFleet::~WorldFleet() {
+    if (!door_) return;
+    for (const auto& robot : robots_) {
+        robot->member.leave();
+        perform(*robot);
+    }
+}
+
+// In virtual time each run is the same: no name or number is random as those of real robots.
+fleet::MemberOptions WorldFleet::member_of(const RobotBus& robot) const {
+    fleet::MemberOptions member{.fleet = robot.project.fleet.name,
+                                .robot = robot.name,
+                                .instance = "simulated-" + std::to_string(robot.id.number),
+                                .epoch = robot.id.number,
+                                .project = robot.project.fleet,
+                                .description = {}};
+    if (!door_) return member;
+    if (!door_->fleet.empty()) member.fleet = door_->fleet;
+    std::tie(member.instance, member.epoch) = door_->instance_and_epoch();
+    member.description.project = robot.project.name.substr(0, fleet::kLineBytesMax);
+    member.description.plan = robot.project.plan.substr(0, fleet::kLineBytesMax);
+    member.description.groups = robot.project.fleet.groups;
+    member.description.send = robot.project.fleet.send;
+    for (const fleet::Hears& one : robot.project.fleet.hear) {
+        if (fleet::contains(member.description.hear, one.event)) continue;
+        member.description.hear.push_back(one.event);
+    }
+    return member;
+}
 
 Status WorldFleet::join(const RobotBus& robot, Ears ears) {
-    if (robot.project.fleet.name.empty()) return Status::done();
+    const fleet::MemberOptions options = member_of(robot);
+    if (options.fleet.empty()) return Status::done();
     if (!fleet::is_robot_name(robot.name)) {
         return Error{
             Code::BadInput,
@@ -41,13 +66,19 @@ Status WorldFleet::join(const RobotBus& robot, Ears ears) {
                         "bytes, neither \"all\" nor \"group\"; give it another name",
                         robot.name, fleet::kNameBytesMax)};
     }
-    fleet::Member member(member_of(robot), Time{});
-    fleet::Post will = member.will();
-    auto& way = broker_.add(robot.project.fleet.name, std::move(will));
-    robots_.push_back(
-        std::make_unique<Robot>(Robot{std::move(member), &way, robot.name, std::move(ears)}));
-    by_id_[robot.id.number - 1] = robots_.back().get();
-    broker_.connect(way);
+    auto one = std::make_unique<Robot>(Robot{.member = fleet::Member(options, Time{}),
+                                             .name = robot.name,
+                                             .ears = std::move(ears),
+                                             .tell = robot.project.fleet.tell});
+    fleet::Post will = one->member.will();
+    if (door_) {
+        one->real = TRY(door_->connect(options, std::move(will)));
+    } else {
+        one->modelled = &broker_.add(options.fleet, std::move(will));
+        broker_.connect(*one->modelled);
+    }
+    by_id_[robot.id.number - 1] = one.get();
+    robots_.push_back(std::move(one));
     return Status::done();
 }
 
@@ -70,31 +101,68 @@ void WorldFleet::run_timeline(Time now) {
     }
 }
 
+// A real way is cut by who has the cable.
 void WorldFleet::act(const sim::CutFleet& action) {
     for (const auto& robot : robots_) {
+        if (robot->modelled == nullptr) continue;
         if (!action.robot.empty() && robot->name != action.robot) continue;
-        action.cut ? broker_.cut(*robot->way) : broker_.restore(*robot->way);
+        action.cut ? broker_.cut(*robot->modelled) : broker_.restore(*robot->modelled);
     }
 }
 
 void WorldFleet::turn(Robot& robot, Time now) {
-    if (robot.way->has_news()) {
-        for (const fleet::LinkEvent& event : robot.way->take()) robot.member.hear(event, now);
+    if (robot.modelled == nullptr || robot.modelled->has_news()) {
+        for (const fleet::LinkEvent& event : robot.way().take()) robot.member.hear(event, now);
     }
+    if (door_) show(robot, now);
     if (robot.member.next_tick() <= now) robot.member.tick(now);
+    perform(robot);
+}
+
+// What everybody may see of it, and answers to those who wait until it is at rest.
+void WorldFleet::show(Robot& robot, Time now) {
+    if (!robot.stopping.empty() && robot.ears.is_at_rest()) {
+        for (const fleet::Command& command : std::exchange(robot.stopping, {})) {
+            robot.member.answer(command, {.done = true});
+        }
+    }
+    if (now < robot.show_at) return;
+    robot.show_at = now + kShowEvery;
+    robot.member.show(robot.ears.shown(), now);
+    for (const fleet::Tells& variable : robot.tell) {
+        std::vector<int16_t> values = robot.ears.values(variable);
+        if (values.empty()) continue;
+        robot.member.changed(variable.node, variable.name, std::move(values));
+    }
+}
+
+// In virtual time nobody gives commands.
+void WorldFleet::obey(Robot& robot, const fleet::Command& command) {
+    if (!robot.ears.obey) return;
+    const auto answer = robot.ears.obey(command);
+    if (answer) {
+        robot.member.answer(command, *answer);
+    } else {
+        robot.stopping.push_back(command);
+    }
+}
+
+void WorldFleet::perform(Robot& robot) {
     for (const fleet::MemberAction& action : robot.member.take()) {
         if (const auto* filters = std::get_if<fleet::Subscribe>(&action)) {
-            robot.way->subscribe(filters->filters);
+            robot.way().subscribe(filters->filters);
         } else if (const auto* post = std::get_if<fleet::Post>(&action)) {
-            robot.way->publish(*post);
+            robot.way().publish(*post);
         } else if (const auto* event = std::get_if<fleet::EmitOnBus>(&action)) {
             robot.ears.hear(*event);
         } else if (const auto* stop = std::get_if<fleet::StopAlone>(&action)) {
             robot.ears.stop(stop->why);
         } else if (const auto* said = std::get_if<fleet::Say>(&action)) {
             robot.ears.say(said->text);
+        } else if (const auto* command = std::get_if<fleet::Obey>(&action)) {
+            obey(robot, command->command);
         } else {
-            // A command: nobody gives any in virtual time.
+            // Another version: what a world runs is what its file says.
         }
     }
 }

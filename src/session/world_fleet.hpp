@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.hpp"
@@ -22,6 +24,8 @@
 
 namespace vagus::session {
 
+constexpr Duration kShowEvery = std::chrono::milliseconds(100);  // to a real broker
+
 class WorldFleet {
 public:
     // What a robot does for the fleet. Called within pass().
@@ -29,10 +33,27 @@ public:
         std::function<void(const fleet::EmitOnBus&)> hear;
         std::function<void(const std::string& why)> stop;
         std::function<void(const std::string& text)> say;
+        // Of members at a real broker: what is shown of the robot, the values of a variable (empty:
+        // there is none), a command. Nothing: it is answered when all nodes are at rest.
+        std::function<fleet::Shown()> shown = {};
+        std::function<std::vector<int16_t>(const fleet::Tells& variable)> values = {};
+        std::function<std::optional<fleet::Answer>(const fleet::Command&)> obey = {};
+        std::function<bool()> is_at_rest = {};
+    };
+    // To a real broker, in real time: a way for each robot instead of the modelled ones.
+    struct Door {
+        std::string fleet = {};  // instead of those that the projects name; empty: those
+        // Unlike what any other member has, so that nobody takes it for that one.
+        std::function<std::pair<std::string, int64_t>()> instance_and_epoch = {};
+        std::function<Result<std::unique_ptr<fleet::Link>>(const fleet::MemberOptions& member,
+                                                           fleet::Post will)>
+            connect = {};
     };
 
     // The definition is borrowed.
-    WorldFleet(const sim::WorldDefinition& world, uint64_t seed);
+    WorldFleet(const sim::WorldDefinition& world, uint64_t seed, std::optional<Door> door = {});
+    // Members at a real broker say that they go.
+    ~WorldFleet();
 
     // A robot whose project names no fleet is in none. The Error says why it cannot be a member.
     Status join(const RobotBus& robot, Ears ears);
@@ -45,16 +66,27 @@ public:
 private:
     struct Robot {
         fleet::Member member;
-        fleet::ModelledBroker::Way* way = nullptr;
-        std::string name;
-        Ears ears;
+        fleet::ModelledBroker::Way* modelled = nullptr;  // or `real`
+        std::unique_ptr<fleet::Link> real = {};
+        std::string name = {};
+        Ears ears = {};
+        std::vector<fleet::Tells> tell = {};
+        Time show_at = {};
+        std::vector<fleet::Command> stopping = {};  // to be answered at rest
+
+        fleet::Link& way() { return modelled ? static_cast<fleet::Link&>(*modelled) : *real; }
     };
+    fleet::MemberOptions member_of(const RobotBus& robot) const;
     void run_timeline(Time now);
     void act(const sim::CutFleet& action);
     void turn(Robot& robot, Time now);
+    void show(Robot& robot, Time now);
+    void obey(Robot& robot, const fleet::Command& command);
+    void perform(Robot& robot);
 
     const sim::WorldDefinition& world_;
     fleet::ModelledBroker broker_;
+    const std::optional<Door> door_;
     std::vector<std::unique_ptr<Robot>> robots_;
     std::vector<Robot*> by_id_;  // by robot of the world; nullptr: in no fleet
     size_t timeline_next_ = 0;

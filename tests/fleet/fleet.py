@@ -52,8 +52,8 @@ class Case(unittest.TestCase):
         done = self.command("init", folder or self.broker_folder, "--port", self.port, "--web-port", free_port(), *words)
         self.assertEqual(done.returncode, 0, done.stdout)
 
-    def serve_broker(self):
-        program = self.enterContext(vagus("fleet", "serve", self.broker_folder))
+    def serve_broker(self, *arguments):
+        program = self.enterContext(vagus("fleet", "serve", self.broker_folder, *arguments))
         program.wait_line(rf"^fleet mqtts://localhost:{self.port}$")
         return program
 
@@ -70,14 +70,14 @@ class Case(unittest.TestCase):
 
     # ---- robots ----
 
-    def robot(self, name, *arguments, login=None, script=SCRIPT, **part):
+    def robot(self, name, *arguments, login=None, script=SCRIPT, aesl=AESL, target=None, **part):
         folder = self.folder / f"{name}-{free_port()}"
         projects.thymio(folder, script="", fleet={**PART, **part})
-        projects.write(folder, "robot.aesl", AESL.format(script=script))
+        projects.write(folder, "robot.aesl", aesl.format(script=script))
         projects.write(folder, "pages/index.html", "<!doctype html>\n")
         program = self.enterContext(vagus(
             "serve", folder, "--start", "--port", 0, "--data", folder / "data", "--config", folder / "config", "--pages",
-            folder / "pages", "--fleet", self.target, "--robot", name, *self.login(login or name), *arguments))
+            folder / "pages", "--fleet", target or self.target, "--robot", name, *self.login(login or name), *arguments))
         program.wait_line(r"^serve http")
         return program
 
@@ -168,7 +168,10 @@ class Fleet(Case):
         done = self.desk("continue", "r1")
         self.assertEqual(done.returncode, 1)
         self.assertIn("r1: not done: it is not paused", done.stdout)
-        self.do("start", "r1")
+        done = self.desk("start")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("which robots? Write a name, all, or --group GROUP", done.stdout)
+        self.do("start", "--group", "red")
         self.wait_state("r1", "running")
 
     def test_events_are_logged_and_emitted(self):
@@ -302,13 +305,15 @@ class Rights(Case):
         self.assertEqual(missing.returncode, 2)
         self.assertIn("vagus fleet init", missing.stdout)
 
-    def test_mosquitto_ends_with_the_program(self):
+    def test_mosquitto_and_keeper_end_with_the_program(self):
         broker = self.broker()
         children = pathlib.Path(f"/proc/{broker.process.pid}/task/{broker.process.pid}/children")
-        child, = children.read_text(encoding="ascii").split()
+        wait_until("there was no keeper", lambda: len(children.read_text(encoding="ascii").split()) == 2)
+        both = children.read_text(encoding="ascii").split()
         broker.kill()
-        wait_until("mosquitto went on", lambda: not pathlib.Path(f"/proc/{child}").exists() or
-                   "Z" in pathlib.Path(f"/proc/{child}/stat").read_text(encoding="ascii").rsplit(")", 1)[1][:3])
+        for child in both:
+            wait_until("mosquitto or the keeper went on", lambda: not pathlib.Path(f"/proc/{child}").exists() or
+                       "Z" in pathlib.Path(f"/proc/{child}/stat").read_text(encoding="ascii").rsplit(")", 1)[1][:3])
 
 
 if __name__ == "__main__":

@@ -50,10 +50,11 @@ def thymio(folder, *robots, script=SCRIPT, **more):
     return folder
 
 
-def bus(folder, target, node=1, name="rover", script=SCRIPT):
-    """A script for a node of a bus."""
+def bus(folder, target, node=1, name="rover", script=SCRIPT, **more):
+    """A script for a node of a bus; `more` goes into vagus.json."""
     write(folder, "robot.aesl", AESL.format(node=node, name=name, script=script))
-    write(folder, "vagus.json", {"format": "vagus-project/1", "name": "Rover", "scripts": ["robot.aesl"], "target": target})
+    write(folder, "vagus.json", {"format": "vagus-project/1", "name": "Rover", "scripts": ["robot.aesl"], "target": target,
+                                 **more})
     return folder
 
 

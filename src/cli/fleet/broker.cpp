@@ -1,11 +1,13 @@
 #include "cli/fleet/broker.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 
 #include "base/file.hpp"
@@ -16,6 +18,7 @@
 #include "fleet/limits.hpp"
 #include "fleet/operator.hpp"
 #include "fleet/topic.hpp"
+#include "keeper/keeper.hpp"
 #include "net/end_signal.hpp"
 #include "serve/process.hpp"
 
@@ -24,10 +27,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Clock = std::chrono::steady_clock;
+
+constexpr int kLookEveryMs = 200;                            // whether children go on
+constexpr auto kKeeperAgainAfter = std::chrono::seconds(1);  // one that cannot run is no flood
 constexpr size_t kPasswordBytes = 16;
 constexpr int kCertificateDays = 3650;
-// For one client: what is retained of the most robots, three messages of each.
+// For one client: what is retained of the most robots, three messages of each; the records that a
+// keeper finds are fewer.
 constexpr size_t kQueuedMax = 3 * fleet::kRobotsMax;
+static_assert(kQueuedMax > keeper::kTasksMax + keeper::kKeysMax);
+constexpr size_t kQueuedBytesMax = size_t{128} << 20;
 constexpr mode_t kForOwner = 0600;
 constexpr mode_t kFolderForOwner = 0700;
 constexpr const char* kUsers[] = {"operator", "looker", "keeper"};
@@ -40,6 +50,7 @@ pattern readwrite vagus/1/+/robot/%u/#
 pattern read vagus/1/+/robot/+/connection
 pattern read vagus/1/+/robot/+/description
 pattern read vagus/1/+/robot/+/state
+pattern read vagus/1/+/robot/+/version
 pattern read vagus/1/+/robot/+/var/#
 pattern read vagus/1/+/robot/+/event/+
 pattern read vagus/1/+/robot/+/ask/#
@@ -47,6 +58,7 @@ pattern read vagus/1/+/robot/+/answer/#
 pattern read vagus/1/+/cmd/#
 pattern read vagus/1/+/shared/#
 pattern read vagus/1/+/task/#
+pattern read vagus/1/+/keeper/#
 
 user operator
 topic readwrite vagus/1/+/cmd/#
@@ -59,6 +71,7 @@ topic write vagus/1/+/cmd/group/+/stop
 user keeper
 topic readwrite vagus/1/+/shared/#
 topic readwrite vagus/1/+/task/#
+topic readwrite vagus/1/+/keeper/#
 )";
 
 std::string user_of_this_process() {
@@ -155,11 +168,13 @@ private:
                    "# Made by `vagus fleet init`; yours to change. mosquitto.conf(5)\n"
                    "user {}\nallow_anonymous false\npassword_file {}\nacl_file {}\n"
                    "persistence true\npersistence_location {}/\nautosave_interval 60\n"
-                   "max_packet_size {}\nmax_queued_messages {}\nset_tcp_nodelay true\n"
+                   "max_packet_size {}\nmax_queued_messages {}\nmax_queued_bytes "
+                   "{}\nset_tcp_nodelay true\n"
                    "log_dest stderr\nlog_type error\nlog_type warning\nlog_type notice\n"
                    "connection_messages false\n",
                    user_of_this_process(), path("passwords"), path("access"), path("data"),
-                   fleet::kPayloadBytesMax + 2 * fleet::kTopicBytesMax, kQueuedMax) +
+                   fleet::kPayloadBytesMax + 2 * fleet::kTopicBytesMax, kQueuedMax,
+                   kQueuedBytesMax) +
                listener(options_.port, "mqtt") + listener(options_.web_port, "websockets");
     }
 
@@ -230,6 +245,66 @@ std::string port_in(const std::string& configuration) {
     return "1883";
 }
 
+// `vagus fleet TARGET keep` for one fleet of this broker, in a process of its own: what happens to
+// it happens to nobody else.
+class KeeperChild {
+public:
+    KeeperChild(const std::string& folder, const std::string& port, const std::string& fleet)
+        : fleet_(fleet),
+          words_({serve::kThisProgram, "fleet",
+                  fmt::format("mqtts://localhost:{}/{}", port, fleet::escape(fleet)), "keep",
+                  "--tls-ca", (fs::absolute(folder) / "ca.crt").string(), "--login",
+                  (fs::absolute(folder) / "keeper.login").string()}) {}
+
+    // Starts it where it does not run.
+    void look() {
+        if (child_) {
+            const auto ended = child_->ended();
+            if (!ended) return;
+            child_.reset();
+            again_at_ = Clock::now() + kKeeperAgainAfter;
+            say(fmt::format("the keeper of {} {}, and is started again\n", fleet_, *ended));
+        }
+        if (Clock::now() < again_at_) return;
+        auto started = Companion::start(words_);
+        if (started.ok()) child_.emplace(std::move(started.value()));
+    }
+    void end() {
+        if (child_) child_->end();
+    }
+
+private:
+    std::string fleet_;
+    std::vector<std::string> words_;
+    std::optional<Companion> child_;
+    Clock::time_point again_at_{};
+};
+
+// Until an end is asked for, or mosquitto has ended: how.
+std::optional<std::string> run_until_end(Companion& broker, std::vector<KeeperChild>& keepers) {
+    while (!net::end_asked()) {
+        if (const auto end = broker.ended()) return end;
+        for (KeeperChild& keeper : keepers) keeper.look();
+        pollfd wait{net::end_descriptor(), POLLIN, 0};
+        poll(&wait, 1, kLookEveryMs);
+    }
+    return std::nullopt;
+}
+
+Status check_fleets(const std::vector<std::string>& fleets) {
+    if (fleets.size() > kKeptFleetsMax) {
+        return Error{Code::Limit,
+                     fmt::format("--fleet: {} at most, found {}", kKeptFleetsMax, fleets.size())};
+    }
+    for (const std::string& fleet : fleets) {
+        if (fleet::is_name(fleet)) continue;
+        return Error{Code::BadInput,
+                     fmt::format("\"{}\" cannot be the name of a fleet: expected 1 to {} bytes",
+                                 visible(fleet), fleet::kNameBytesMax)};
+    }
+    return Status::done();
+}
+
 }  // namespace
 
 Status make_broker(const BrokerOptions& options) {
@@ -237,7 +312,7 @@ Status make_broker(const BrokerOptions& options) {
     return Maker(options).make();
 }
 
-int serve_broker(const std::string& folder) {
+int serve_broker(const std::string& folder, const std::vector<std::string>& fleets) {
     const std::string file = (fs::absolute(folder) / "mosquitto.conf").string();
     const auto configuration = read_file(file);
     if (!configuration.ok()) {
@@ -245,12 +320,20 @@ int serve_broker(const std::string& folder) {
             configuration.error().what + "; make one with `vagus fleet init " + folder + "`",
             kExitUsage);
     }
+    if (const Status good = check_fleets(fleets); !good.ok()) {
+        return complain(good.error(), kExitUsage);
+    }
     net::watch_for_end();
     auto broker = Companion::start({"mosquitto", "-c", file});
     if (!broker.ok()) return complain(broker.error());
-    print("fleet mqtts://localhost:" + port_in(configuration.value()) + "\n");
-    // The keeper of tasks and shared values will run here, too (docs/fleet.md).
-    const auto end = broker.value().wait_for_end();
+    const std::string port = port_in(configuration.value());
+    print("fleet mqtts://localhost:" + port + "\n");
+    std::vector<KeeperChild> keepers;
+    for (const std::string& fleet : fleets) keepers.emplace_back(folder, port, fleet);
+    const auto end = run_until_end(broker.value(), keepers);
+    // They say good-bye before the broker goes.
+    for (KeeperChild& keeper : keepers) keeper.end();
+    broker.value().end();
     if (!end) return kExitDone;
     return complain("mosquitto " + *end + "; its last words are above");
 }
@@ -272,17 +355,25 @@ void add_broker_verbs(CLI::App& fleet, int& exit_code) {
     verb->footer(
         "Configuration, rights, a small authority with the certificate of the broker, and a login "
         "each for\n"
-        "the operator (may command robots), the looker (may watch and stop them), the keeper and every\n"
+        "the operator (may command robots), the looker (may watch and stop them), the keeper and "
+        "every\n"
         "robot. What is already there is kept: run init again to add another --robot.\n"
         "Example:\n  vagus fleet init broker --host broker.local --robot r1 --robot r2");
     verb->callback([options, &exit_code] { exit_code = init(*options); });
 
-    verb = fleet.add_subcommand("serve", "runs mosquitto with what `init` made");
+    const auto fleets = std::make_shared<std::vector<std::string>>(1, "lab");
+    verb = fleet.add_subcommand("serve", "runs mosquitto with what `init` made, and keepers");
     verb->add_option("FOLDER", options->folder, "of `vagus fleet init`")->required();
+    verb->add_option("--fleet", *fleets,
+                     "a fleet that gets a keeper of its tasks and shared values (default: lab)")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
     verb->footer(
         "Needs Debian's package mosquitto, whose own service need not run. Ends with Ctrl-C; "
-        "mosquitto ends\nwith it.\nExample:\n  vagus fleet serve broker");
-    verb->callback([options, &exit_code] { exit_code = serve_broker(options->folder); });
+        "mosquitto and\nthe keepers end with it; a keeper that dies is started again.\n"
+        "Example:\n  vagus fleet serve broker --fleet lab");
+    verb->callback(
+        [options, fleets, &exit_code] { exit_code = serve_broker(options->folder, *fleets); });
 }
 
 }  // namespace vagus::cli

@@ -1,5 +1,5 @@
 // A broker of one's own: `vagus fleet init FOLDER` makes what it needs, `vagus fleet serve FOLDER`
-// runs Debian's mosquitto with it.
+// runs Debian's mosquitto with it, and the keepers of its fleets beside it.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,11 @@ struct BrokerOptions {
 // What is there already stays as it is; robots that are new get a login.
 Status make_broker(const BrokerOptions& options);
 
-// Until a signal comes, or mosquitto ends by itself. The exit code.
-int serve_broker(const std::string& folder);
+constexpr size_t kKeptFleetsMax = 16;  // fleets of one `serve`
+
+// Until a signal comes, or mosquitto ends by itself. A keeper that ends is started again. The exit
+// code.
+int serve_broker(const std::string& folder, const std::vector<std::string>& fleets);
 
 void add_broker_verbs(CLI::App& fleet, int& exit_code);
 

@@ -9,6 +9,8 @@
 #include "base/text.hpp"
 #include "cli/fleet/broker.hpp"
 #include "cli/fleet/broker_options.hpp"
+#include "cli/fleet/deploy.hpp"
+#include "cli/fleet/keep.hpp"
 #include "cli/fleet/session.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
@@ -23,6 +25,7 @@ using fleet::Kind;
 using namespace std::chrono_literals;
 
 constexpr double kWaitMax_s = 86400;
+constexpr double kTold_s = fleet::kTellFor / 1s;
 constexpr Duration kForEver = Duration::max() / 4;
 constexpr uint64_t kForgotten = 1;  // number of the last message that is taken back
 
@@ -31,12 +34,6 @@ using SharedCall = std::shared_ptr<FleetCall>;
 Duration wait_of(const FleetCall& call) {
     return std::chrono::duration_cast<Duration>(
         std::chrono::duration<double>(call.wait_s.value_or(kFleetWait_s)));
-}
-
-// What was called in the wrong way is told apart from what did not work.
-int complain_of(const Error& error) {
-    const bool usage = error.code == Code::BadInput || error.code == Code::NotFound;
-    return complain(error, usage ? kExitUsage : kExitFailed);
 }
 
 // ---- who is there ----
@@ -72,12 +69,6 @@ std::string json_of(const std::string& name, const fleet::Known& robot) {
     if (robot.description) add("description", *robot.description);
     if (is_fresh(robot)) add("state", *robot.state);
     return format_json_line(json_object(std::move(members)));
-}
-
-fleet::Chosen chosen_by(const FleetCall& call) {
-    fleet::Chosen to{.all = call.robot.empty() && call.group.empty(), .group = call.group};
-    if (!call.robot.empty()) to.robots.push_back(call.robot);
-    return to;
 }
 
 std::vector<std::string> names_of(FleetSession& session, const FleetCall& call) {
@@ -198,6 +189,19 @@ int order(FleetSession& session, const FleetCall& call) {
     return good == outcomes.size() ? kExitDone : kExitFailed;
 }
 
+// Those that answered are followed.
+int tell_variable(FleetSession& session, const FleetCall& call) {
+    FleetCall asks = call;
+    if (call.command.node.empty()) {
+        return complain("\"" + visible(call.variable) + "\": expected NODE.NAME", kExitUsage);
+    }
+    asks.wait_s = kFleetWait_s;
+    const int asked = order(session, asks);
+    if (asked != kExitDone) return asked;
+    asks.wait_s = std::min(call.wait_s.value_or(kTold_s), kTold_s);
+    return follow(session, asks, false);
+}
+
 // What a broker keeps of a robot that is gone for good. It needs the rights of the robot itself.
 int forget(FleetSession& session, const FleetCall& call) {
     // A robot's own login says nothing that comes back to it (FleetSession::know_all).
@@ -215,7 +219,7 @@ int forget(FleetSession& session, const FleetCall& call) {
         const auto* told = std::get_if<fleet::Acknowledged>(&event);
         if (told != nullptr && told->number == kForgotten) answered = told->refused;
     });
-    for (const Kind kind : {Kind::Description, Kind::State, Kind::Connection}) {
+    for (const Kind kind : {Kind::Description, Kind::State, Kind::Version, Kind::Connection}) {
         const bool last = kind == Kind::Connection;
         session.publish(
             {.topic = fleet::text_of(session.fleet(), {.kind = kind, .robot = call.robot}),
@@ -260,20 +264,28 @@ void is_for(CLI::App* verb, const SharedCall& call) {
     verb->add_option("--group", call->group, "those of this group")->type_name("GROUP");
 }
 
+void need_target(const FleetCall& call) {
+    if (!call.broker.target.empty()) return;
+    throw CLI::ValidationError(
+        "TARGET", "which fleet? Write vagus fleet mqtt://HOST[:PORT]/FLEET " + call.command.verb);
+}
+
 void acts(CLI::App* verb, const SharedCall& call, int& exit_code, Act act,
           fleet::Operator::Options wants = {}) {
     verb->callback([call, &exit_code, act = std::move(act), wants = std::move(wants)] {
-        if (call->broker.target.empty()) {
-            throw CLI::ValidationError("TARGET",
-                                       "which fleet? Write vagus fleet "
-                                       "mqtt://HOST[:PORT]/FLEET " +
-                                           call->command.verb);
-        }
+        need_target(*call);
         exit_code = run(*call, wants, act);
     });
 }
 
-// Whom an order is for is always said.
+// Whom it is for is always said: for verbs that take nothing behind it.
+void need_choice(const CLI::App& verb) {
+    const bool is_said =
+        verb.get_option("ROBOT")->count() + verb.get_option("--group")->count() > 0;
+    if (is_said) return;
+    throw CLI::ValidationError("ROBOT", "which robots? Write a name, all, or --group GROUP");
+}
+
 void order_acts(CLI::App* verb, const SharedCall& call, int& exit_code) {
     verb->get_option("ROBOT")->required();
     acts(verb, call, exit_code, order);
@@ -306,6 +318,63 @@ void add_looking_verbs(CLI::App& app, const SharedCall& call, int& exit_code) {
     acts(verb, call, exit_code, forget);
 }
 
+// It needs no operator beside it: the keeper is a machine of its own.
+void add_keep(CLI::App& app, const SharedCall& call, int& exit_code) {
+    CLI::App* verb =
+        add_verb(app, call, "keep", "keeps tasks and shared values of the fleet, until Ctrl-C",
+                 "Only the user keeper may do that. While another keeper is there, this one stays "
+                 "out; it\ntakes its place when that one is gone.\n"
+                 "Example:\n  vagus fleet mqtts://broker/lab keep --login keeper.login");
+    verb->callback([call, &exit_code] {
+        need_target(*call);
+        exit_code = keep(call->broker);
+    });
+}
+
+void add_deploy(CLI::App& app, const SharedCall& call, int& exit_code) {
+    CLI::App* verb =
+        add_verb(app, call, "deploy", "another version of their project for robots, in steps",
+                 "Robots fetch it from this program, check it, stop, and start it, as with `vagus "
+                 "deploy`. A robot is\nwell that has started and has no fault for 3 s. The first "
+                 "that is not ends the roll-out: those that have\nthe version keep it until "
+                 "--rollback takes it back. --wait: for each robot, 60 s unless told.\n"
+                 "Example:\n"
+                 "  vagus fleet mqtts://broker/lab deploy all --project picker --listen "
+                 "0.0.0.0:8443 \\\n"
+                 "    --host broker --serve-cert broker/broker.crt --serve-key broker/broker.key\n"
+                 "  vagus fleet mqtts://broker/lab deploy all --rollback");
+    is_for(verb, call);
+    CLI::Option* project =
+        verb->add_option("--project", call->project, "a folder with a vagus.json");
+    takes_file(*project, {"vagus.json"});
+    CLI::Option* back = verb->add_flag("--rollback", call->rollback,
+                                       "instead: the version before is in force again");
+    back->excludes(project);
+    verb->add_option("--steps", call->steps,
+                     "how many robots have it after each step (default: 1,10%,100%)")
+        ->type_name("STEPS");
+    verb->add_option("--listen", call->listen,
+                     "where robots fetch it (default: 127.0.0.1, a free port)")
+        ->type_name("ADDRESS:PORT");
+    verb->add_option("--host", call->host, "name of this computer for robots")->type_name("NAME");
+    CLI::Option* certificate = verb->add_option("--serve-cert", call->certificate,
+                                                "PEM: certificate of that name; robots trust who "
+                                                "signed it by their --tls-ca");
+    CLI::Option* key = verb->add_option("--serve-key", call->key, "PEM: its key");
+    takes_file(*certificate, {".crt", ".pem"});
+    takes_file(*key, {".key", ".pem"});
+    certificate->needs(key);
+    key->needs(certificate);
+    verb->parse_complete_callback([call, verb] {
+        need_choice(*verb);
+        if (call->project.empty() && !call->rollback) {
+            throw CLI::ValidationError("--project",
+                                       "which version? Name its folder, or --rollback");
+        }
+    });
+    acts(verb, call, exit_code, deploy);
+}
+
 struct PlainVerb {
     const char* name;
     const char* what;
@@ -319,6 +388,10 @@ constexpr PlainVerb kPlainVerbs[] = {
     {"continue", "lets robots go on that are paused",
      "Example:\n  vagus fleet mqtt://broker/lab continue r1"},
     {"start", "starts scripts and plans", "Example:\n  vagus fleet mqtt://broker/lab start all"},
+    {"identify",
+     "the event identify on the bus of robots: what their projects do then shows which "
+     "ones they are",
+     "Example:\n  vagus fleet mqtt://broker/lab identify r1"},
 };
 
 int16_t word_of(int value) {
@@ -342,7 +415,8 @@ void add_ordering_verbs(CLI::App& app, const SharedCall& call, int& exit_code) {
     for (const PlainVerb& one : kPlainVerbs) {
         CLI::App* verb = add_verb(app, call, one.name, one.what, one.footer);
         is_for(verb, call);
-        order_acts(verb, call, exit_code);
+        verb->parse_complete_callback([verb] { need_choice(*verb); });
+        acts(verb, call, exit_code, order);
     }
     CLI::App* set =
         add_verb(app, call, "set", "writes a variable of a node, or of the plan",
@@ -368,7 +442,15 @@ void add_ordering_verbs(CLI::App& app, const SharedCall& call, int& exit_code) {
     emit->add_option("EVENT", call->command.event, "of their projects")->required();
     takes_whole_number(*emit->add_option("ARGUMENT", call->values, "words"), INT16_MIN, INT16_MAX);
     order_acts(emit, call, exit_code);
-    for (CLI::App* verb : {set, raise, emit}) {
+    CLI::App* tell = add_verb(app, call, "tell", "asks robots to tell a variable, and prints it",
+                              "For a minute; ends then, with Ctrl-C, or after --wait seconds.\n"
+                              "Example:\n  vagus fleet mqtt://broker/lab tell r1 thymio-II.speed");
+    is_for(tell, call);
+    tell->add_option("VARIABLE", call->variable, "NODE.NAME")->required();
+    tell->get_option("ROBOT")->required();
+    acts(tell, call, exit_code, tell_variable, {.variables = true});
+
+    for (CLI::App* verb : {set, raise, emit, tell}) {
         verb->parse_complete_callback([call] {
             take_values(*call);
             if (!call->variable.empty()) take_variable(*call);
@@ -394,8 +476,10 @@ void add_fleet(CLI::App& app, int& exit_code) {
         "  vagus fleet mqtts://localhost:8883/lab stop all --tls-ca broker/ca.crt --login "
         "broker/operator.login");
     add_broker_verbs(*verb, exit_code);
+    add_keep(*verb, call, exit_code);
     add_looking_verbs(*verb, call, exit_code);
     add_ordering_verbs(*verb, call, exit_code);
+    add_deploy(*verb, call, exit_code);
 }
 
 }  // namespace vagus::cli

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,13 +13,11 @@
 
 #include "base/text.hpp"
 #include "cli/programs.hpp"
-#include "net/end_signal.hpp"
 
 namespace vagus::cli {
 namespace {
 
 constexpr int kCannotExec = 127;
-constexpr int kLookEveryMs = 200;  // whether it goes on
 constexpr size_t kLastWordsMax = 2000;
 
 Error system_error(const std::string& what) {
@@ -29,20 +26,22 @@ Error system_error(const std::string& what) {
 
 Error not_installed(const std::string& name) {
     const bool broker = name.starts_with("mosquitto");
-    return {Code::NotFound,
-            fmt::format("{} is not installed: apt-get install {}{}", name,
-                        broker ? "mosquitto" : name,
-                        broker ? " (and, if its service is not wanted, systemctl disable "
-                                 "--now mosquitto)"
-                               : "")};
+    return {
+        Code::NotFound,
+        fmt::format("{} is not installed: apt-get install {}{}", name, broker ? "mosquitto" : name,
+                    broker ? " (and, if its service is not wanted, systemctl disable "
+                             "--now mosquitto)"
+                           : "")};
 }
 
 // `output` -1: where this program says what it has to say.
 Result<pid_t> start(const std::vector<std::string>& given, int output, int last_signal) {
     std::vector<std::string> words = given;
-    const auto found = find_program(given[0]);
-    if (!found) return not_installed(given[0]);
-    words[0] = *found;
+    if (given[0].find('/') == std::string::npos) {
+        const auto found = find_program(given[0]);
+        if (!found) return not_installed(given[0]);
+        words[0] = *found;
+    }
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
@@ -101,9 +100,7 @@ Result<Companion> Companion::start(const std::vector<std::string>& words) {
 }
 
 Companion::~Companion() {
-    if (process_ <= 0) return;
-    kill(process_, SIGTERM);
-    waitpid(process_, nullptr, 0);
+    end();
 }
 
 Companion::Companion(Companion&& other) noexcept : process_(std::exchange(other.process_, -1)) {}
@@ -113,19 +110,17 @@ Companion& Companion::operator=(Companion&& other) noexcept {
     return *this;
 }
 
-std::optional<std::string> Companion::wait_for_end() {
+std::optional<std::string> Companion::ended() {
     int status = 0;
-    while (!net::end_asked()) {
-        if (waitpid(process_, &status, WNOHANG) == process_) {
-            process_ = -1;
-            return how_it_ended(status);
-        }
-        pollfd wait{net::end_descriptor(), POLLIN, 0};
-        poll(&wait, 1, kLookEveryMs);
-    }
+    if (process_ <= 0 || waitpid(process_, &status, WNOHANG) != process_) return std::nullopt;
+    process_ = -1;
+    return how_it_ended(status);
+}
+
+void Companion::end() {
+    if (process_ <= 0) return;
     kill(process_, SIGTERM);
-    waitpid(std::exchange(process_, -1), &status, 0);
-    return std::nullopt;
+    waitpid(std::exchange(process_, -1), nullptr, 0);
 }
 
 }  // namespace vagus::cli

@@ -1,5 +1,5 @@
 // Programs of the system that a broker needs: openssl, mosquitto_passwd, mosquitto. They are looked
-// for in PATH and in /usr/sbin, where Debian has mosquitto.
+// for in PATH and in /usr/sbin, where Debian has mosquitto; one with a / is taken as it is.
 #pragma once
 
 #include <optional>
@@ -21,9 +21,10 @@ public:
     Companion(Companion&& other) noexcept;
     Companion& operator=(Companion&& other) noexcept;
 
-    // Until an end is asked for (net/end_signal.hpp): then it is told to end, and has ended when
-    // this returns. If it ends by itself, how: "exited with status 1".
-    std::optional<std::string> wait_for_end();
+    // If it has ended by itself, how: "exited with status 1"; each end is told once.
+    std::optional<std::string> ended();
+    // It is told to end, and has ended when this returns.
+    void end();
 
 private:
     explicit Companion(int process) : process_(process) {}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cli/output.hpp"
 #include "net/end_signal.hpp"
 
 namespace vagus::cli {
@@ -14,6 +15,17 @@ constexpr Duration kLookForEndEvery = 50ms;
 
 }  // namespace
 
+int complain_of(const Error& error) {
+    const bool usage = error.code == Code::BadInput || error.code == Code::NotFound;
+    return complain(error, usage ? kExitUsage : kExitFailed);
+}
+
+fleet::Chosen chosen_by(const FleetCall& call) {
+    fleet::Chosen to{.all = call.robot.empty() && call.group.empty(), .group = call.group};
+    if (!call.robot.empty()) to.robots.push_back(call.robot);
+    return to;
+}
+
 Result<std::unique_ptr<FleetSession>> FleetSession::open(const FleetCall& call,
                                                          fleet::Operator::Options options) {
     options.name = serve::operator_name();
@@ -23,11 +35,7 @@ Result<std::unique_ptr<FleetSession>> FleetSession::open(const FleetCall& call,
     std::unique_ptr<FleetSession> session(new FleetSession());
     session->fleet_ = options.fleet;
     session->desk_ = std::make_unique<fleet::Operator>(std::move(options));
-    const auto wake = [raw = session.get()] {
-        const std::lock_guard lock(raw->guard_);
-        raw->wakes_ = true;
-        raw->woken_.notify_one();
-    };
+    const auto wake = [raw = session.get()] { raw->bell_.ring(); };
     session->link_ = std::make_unique<serve::MosquittoLink>(std::move(link), wake);
     return session;
 }
@@ -60,9 +68,7 @@ bool FleetSession::wait_until(const std::function<bool()>& holds, Duration withi
         if (holds()) return true;
         if (now() >= until || net::end_asked()) return false;
         const Duration next = std::min({until, desk_->next_tick(), now() + kLookForEndEvery});
-        std::unique_lock lock(guard_);
-        woken_.wait_for(lock, std::max(next - now(), Duration{}), [this] { return wakes_; });
-        wakes_ = false;
+        bell_.wait(std::max(next - now(), Duration{}));
     }
 }
 

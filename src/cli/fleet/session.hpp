@@ -2,15 +2,14 @@
 // and the time. Every wait has an end: a deadline, an answer, Ctrl-C.
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.hpp"
+#include "cli/fleet/bell.hpp"
 #include "fleet/operator.hpp"
 #include "serve/broker/fleet_options.hpp"
 
@@ -26,7 +25,16 @@ struct FleetCall {
     fleet::Command command;    // of verbs that want something
     std::vector<int> values;
     std::string variable;
+    std::string project, steps = "1,10%,100%";  // of deploy
+    std::string listen = "127.0.0.1:0", host, certificate, key;
+    bool rollback = false;
 };
+
+// Whom it is for.
+fleet::Chosen chosen_by(const FleetCall& call);
+
+// What was called in the wrong way is told apart from what did not work. The exit code.
+int complain_of(const Error& error);
 
 class FleetSession {
 public:
@@ -42,6 +50,7 @@ public:
     // The connection was made, and all that was retained has come; the Error says why not.
     Status know_all(Duration within);
     void publish(const fleet::Post& post) { link_->publish(post); }
+    void subscribe(const std::vector<fleet::Filter>& filters) { link_->subscribe(filters); }
     Duration now() const;
 
 private:
@@ -52,9 +61,7 @@ private:
     std::unique_ptr<fleet::Operator> desk_;
     std::string lost_;  // the last trouble
     std::function<void(const fleet::LinkEvent&)> event_ = [](auto&) {};
-    std::mutex guard_;
-    std::condition_variable woken_;
-    bool wakes_ = false;
+    Bell bell_;
     std::unique_ptr<serve::MosquittoLink> link_;  // ends before what its thread wakes
 };
 

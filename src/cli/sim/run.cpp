@@ -13,6 +13,7 @@
 #include "cli/live_screen.hpp"
 #include "cli/output.hpp"
 #include "cli/screen/pace.hpp"
+#include "cli/sim/fleet_door.hpp"
 #include "cli/sim/hands.hpp"
 #include "cli/sim/lines.hpp"
 #include "cli/sim/view.hpp"
@@ -365,13 +366,28 @@ void SimRun::show() {
     closed_ = !screen_->paint(std::move(view), links_.now()) || closed_;
 }
 
+// A broker knows no other time than the real one.
+Status check_fleet(const SimRunOptions& options) {
+    if (options.fleet.target.empty() || options.speed == 1) return Status::done();
+    return Error{Code::BadInput, "--fleet needs real time; leave --speed out"};
+}
+
 Result<std::unique_ptr<embed::RobotsRun>> open_robots(const SimRunOptions& options) {
     session::SimOptions made{{}, options.compile, !options.trace.empty()};
     made.world.seed = options.seed;
     made.world.threads = options.threads;
     made.world.sd_folder = options.sd_folder;
     if (!options.listen.empty()) made.guests = TRY(session::safe_stop_around(options.world, {}));
-    auto robots = TRY(embed::RobotsRun::open({.world = options.world, .sim = made}));
+    TRY(check_fleet(options));
+    auto door = TRY(door_to_fleet(options));
+    auto robots =
+        TRY(embed::RobotsRun::open({.world = options.world, .sim = made, .door = std::move(door)}));
+    if (!options.fleet.target.empty() && !robots->has_projects()) {
+        return Error{Code::BadInput,
+                     options.world +
+                         ": --fleet: no robot of this world has a \"project\"; those "
+                         "that have one become members of the fleet"};
+    }
     for (const std::string& path : options.loads) {
         const std::string text = TRY(read_file(path));
         robots->buses().common().load(path, text);

@@ -10,6 +10,7 @@
 
 #include "aesl/compile.hpp"
 #include "base/result.hpp"
+#include "serve/field/fleet_robot.hpp"
 
 namespace vagus::cli {
 
@@ -28,6 +29,8 @@ struct SimRunOptions {
     std::string listen;
     std::string trace;
     std::string sd_folder;
+    serve::FleetOptions fleet = {};  // robots with projects are members there
+    std::string logins;              // a folder with NAME.login for each
     std::string theme;  // "dark", "light"; empty: found out
     aesl::Options compile;
 };

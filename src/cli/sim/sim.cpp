@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "cli/fleet/broker_options.hpp"
 #include "cli/live_screen.hpp"
 #include "cli/options.hpp"
 #include "cli/sim/run.hpp"
@@ -86,6 +87,14 @@ void add_sim(CLI::App& app, int& exit_code) {
     takes_file(
         *verb->add_option("--trace", options->trace, "writes what happens, one JSON object a line"),
         {});
+    verb->add_option("--fleet", options->fleet.target,
+                     "robots with a project are members of this fleet, in real time: "
+                     "mqtt[s]://HOST[:PORT][/FLEET]")
+        ->type_name("TARGET");
+    add_broker_options(*verb, options->fleet);
+    verb->add_option("--logins", options->logins,
+                     "with --fleet: a folder with NAME.login for each robot")
+        ->type_name("FOLDER");
     add_dialect_options(*verb, options->compile);
     verb->footer(
         "On a terminal it shows the arena from above; keys are listed at the bottom. Without a "

@@ -64,7 +64,7 @@ std::string new_plan(std::string_view name) {
     const auto place = [](int x, int y) {
         return json_array({json_integer(x), json_integer(y)});
     };
-    // What has no place of its own is placed anew each time the file is opened, around what has.
+    // What has no place of its own is placed again each time the file is opened, around what has.
     const Members layout = {json_member("@start", place(80, 80)),
                             json_member("wait", place(80, 160))};
     return format_json(json_object(

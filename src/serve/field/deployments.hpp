@@ -74,6 +74,8 @@ public:
     // Stop was pressed: what is in force stays so, and is stopped.
     void stopped();
 
+    // Nothing is under way that another version would wait for.
+    bool may_begin() const { return !busy() && !trying_; }
     bool busy() const { return done_ != nullptr || working_ > 0; }
     const DeployCounts& counts() const { return counts_; }
 

@@ -22,6 +22,12 @@ int64_t as_number(const std::string& bytes) {
     return number;
 }
 
+bool is_for_nodes(const fleet::MemberAction& action) {
+    return std::holds_alternative<fleet::EmitOnBus>(action) ||
+           std::holds_alternative<fleet::Obey>(action) ||
+           std::holds_alternative<fleet::StopAlone>(action);
+}
+
 std::vector<std::string> names_heard(const fleet::ProjectPart& part) {
     std::vector<std::string> names;
     for (const fleet::Hears& one : part.hear) {
@@ -79,15 +85,20 @@ FleetRobot::FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptio
       talk_(std::move(talk)),
       project_(options.project),
       member_(options, now),
+      tell_list_(options.project.tell),
       link_(std::move(link), talk_.wake),
       now_(now) {
+    tell_variables();
+}
+
+void FleetRobot::tell_variables() {
     const auto event = [this](const std::string& name, const std::vector<int16_t>& args) {
         member_.emitted(name, args, now_);
     };
     const auto variable = [this](const fleet::Tells& one, const std::vector<int16_t>& values) {
         member_.changed(one.node, one.name, values);
     };
-    bench_.on_tells(options.project.tell, {.event = event, .variable = variable});
+    bench_.on_tells(tell_list_.all(), {.event = event, .variable = variable});
 }
 
 FleetRobot::~FleetRobot() {
@@ -103,14 +114,21 @@ bool FleetRobot::is_of(const OpenedProject& project) const {
 void FleetRobot::tick(Time now) {
     now_ = now;
     for (const fleet::LinkEvent& event : link_.take()) member_.hear(event, now);
+    if (tell_list_.forget_old(now)) tell_variables();
     member_.show(bench_.shown(), now);
     member_.tick(now);
     perform_all();
 }
 
 void FleetRobot::perform_all() {
-    for (const fleet::MemberAction& action : member_.take()) {
-        std::visit([this](const auto& one) { perform(one); }, action);
+    for (;;) {
+        const std::vector<fleet::MemberAction> actions = member_.take();
+        if (actions.empty()) return;
+        for (const fleet::MemberAction& action : actions) {
+            std::visit([this](const auto& one) { perform(one); }, action);
+        }
+        // What nodes are to do leaves now, and not when something else happens.
+        if (std::any_of(actions.begin(), actions.end(), is_for_nodes)) bench_.tick(now_);
     }
 }
 
@@ -121,9 +139,24 @@ void FleetRobot::perform(const fleet::EmitOnBus& event) {
                                      event.event, event.from, sent.error().what));
 }
 
+fleet::Answer FleetRobot::tell_for_a_minute(const fleet::Command& command) {
+    const Status known = bench_.find_variable(command.node, command.name);
+    if (!known.ok()) return {.what = known.error().what.substr(0, fleet::kLineBytesMax)};
+    if (!tell_list_.add({command.node, command.name}, now_)) {
+        return {.what = fmt::format("{} variables are told already because somebody asked for "
+                                    "them; wait a minute",
+                                    fleet::kTellMax)};
+    }
+    tell_variables();
+    return {.done = true};
+}
+
 // The answer may come at once, or in a later turn.
 void FleetRobot::perform(const fleet::Obey& obey) {
     talk_.log("note", fmt::format("fleet: {}", obey.command.verb));
+    if (obey.command.verb == "tell") {
+        return member_.answer(obey.command, tell_for_a_minute(obey.command));
+    }
     bench_.obey(obey.command, [this, command = obey.command](fleet::Answer answer) {
         member_.answer(command, std::move(answer));
     });

@@ -5,12 +5,14 @@
 //     robot->tick(now);
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "base/result.hpp"
 #include "fleet/member.hpp"
+#include "fleet/tell_list.hpp"
 #include "serve/broker/fleet_options.hpp"
 #include "serve/workbench/workbench.hpp"
 
@@ -22,6 +24,8 @@ public:
         std::function<void()> wake;  // from another thread
         std::function<void(const std::string& kind, const std::string& text)> log;
         std::string studio;  // address of the robot's pages
+        // Another version is wanted; it comes again at each connection.
+        std::function<void(const fleet::Want& want)> want = [](auto&) {};
     };
     // The Error says what is wrong with the options or the files that they name.
     static Result<std::unique_ptr<FleetRobot>> join(Workbench& bench, const FleetOptions& options,
@@ -31,23 +35,29 @@ public:
     // Whether it joined for this project, as its file says now.
     bool is_of(const OpenedProject& project) const;
     void tick(Time now);
-    Time next_tick() const { return member_.next_tick(); }
+    // What became of the version that was wanted.
+    void deployed(const fleet::Version& version) { member_.deployed(version); }
+    Time next_tick() const { return std::min(member_.next_tick(), tell_list_.next()); }
 
 private:
     FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptions link, Talk talk,
                Time now);
     void perform_all();
+    void tell_variables();
+    fleet::Answer tell_for_a_minute(const fleet::Command& command);
     void perform(const fleet::Subscribe& one) { link_.subscribe(one.filters); }
     void perform(const fleet::Post& post) { link_.publish(post); }
     void perform(const fleet::EmitOnBus& event);
     void perform(const fleet::Obey& obey);
     void perform(const fleet::StopAlone& stop);
+    void perform(const fleet::Fetch& fetch) { talk_.want(fetch.want); }
     void perform(const fleet::Say& said) { talk_.log(said.kind, said.text); }
 
     Workbench& bench_;
     const Talk talk_;
     const fleet::ProjectPart project_;
     fleet::Member member_;
+    fleet::TellList tell_list_;
     MosquittoLink link_;
     Time now_{};
 };

@@ -14,7 +14,9 @@
 #include "serve/field/metrics.hpp"
 #include "serve/field/starter.hpp"
 #include "serve/field/stop_only.hpp"
+#include "serve/field/wanted.hpp"
 #include "serve/process.hpp"
+#include "serve/web/fetch.hpp"
 #include "serve/workbench/server_loop.hpp"
 #include "serve/worker.hpp"
 
@@ -41,7 +43,8 @@ public:
                     .start = [this](auto done) { bench().start_run(std::move(done)); },
                     .log = talk.log}),
           versions_(fs::absolute(options.project)),
-          deployments_(versions_, starter_, callbacks()) {}
+          deployments_(versions_, starter_, callbacks()),
+          wanted_(deployments_, wanted_callbacks()) {}
 
     Status run() {
         TRY(begin());
@@ -80,8 +83,10 @@ private:
         robot_ = TRY(FleetRobot::join(bench(), options_.fleet,
                                       {.wake = [this] { server_.links().wake(); },
                                        .log = talk_.log,
-                                       .studio = server_.door().address()},
+                                       .studio = server_.door().address(),
+                                       .want = [this](auto& want) { wanted_.want(want); }},
                                       server_.links().now()));
+        if (wanted_.last()) robot_->deployed(*wanted_.last());
         return Status::done();
     }
 
@@ -93,6 +98,7 @@ private:
             const Status joined = join_fleet();
             if (!joined.ok()) return talk_.log("error", joined.error().what);
         }
+        wanted_.tick();
         robot_->tick(now);
     }
 
@@ -126,6 +132,20 @@ private:
                 .work = [this](Worker::Work work) { worker_.post(std::move(work)); }};
     }
 
+    Wanted::Callbacks wanted_callbacks() {
+        const auto fetched = [authority = options_.fleet.ca](const std::string& address) {
+            return fetch(address, authority, kPackedBytesMax);
+        };
+        return {.file = (fs::absolute(options_.project) / ".vagus" / "want.json").string(),
+                .fetch = fetched,
+                .work = [this](Worker::Work work) { fetcher_.post(std::move(work)); },
+                .tell =
+                    [this](const fleet::Version& version) {
+                        if (robot_) robot_->deployed(version);
+                    },
+                .log = talk_.log};
+    }
+
     WorkbenchPlaces places(const fs::path& data) const {
         const fs::path config = user_config_folder(options_.config);
         return {.library = {data, share_folder() / "examples"},
@@ -152,6 +172,7 @@ private:
 
     void tick(Time now) {
         worker_.tick();
+        fetcher_.tick();
         starter_.tick(now);
         deployments_.tick(now);
         tick_fleet(now);
@@ -216,7 +237,9 @@ private:
     Starter starter_;
     Versions versions_;
     Deployments deployments_;
+    Wanted wanted_;
     Worker worker_{[this] { server_.links().wake(); }};  // ends before what its work uses
+    Worker fetcher_{[this] { server_.links().wake(); }};
     std::unique_ptr<FleetRobot> robot_;  // ends before the server
     bool was_ready_ = false;
     std::string told_;

@@ -101,6 +101,13 @@ Status Target::emit(const std::string& event, const std::vector<int16_t>& args) 
     return Status::done();
 }
 
+Status Target::find_variable(const std::string& node, const std::string& name) const {
+    if (!network_) return Error{Code::Unavailable, kNoRobot};
+    const uint16_t id = TRY(network_->find(node));
+    (void)TRY(network_->variable(id, name));
+    return Status::done();
+}
+
 void Target::write(const std::string& node, const std::string& variable,
                    const std::vector<int16_t>& values, std::function<void(std::string why)> done) {
     if (!network_) return done(kNoRobot);

@@ -181,6 +181,8 @@ public:
     // Writes "NAME", "NAME[3]" or "NAME[2:5]" of a node; `done` gets why not, or nothing.
     void write(const std::string& node, const std::string& variable,
                const std::vector<int16_t>& values, std::function<void(std::string why)> done);
+    // Whether a node of that name has that variable; the Error names what there is.
+    Status find_variable(const std::string& node, const std::string& name) const;
     // What people should know of nodes: faults, nodes that are away.
     std::vector<std::string> problems() const;
     // A node is paused at a line of its script.

@@ -35,7 +35,8 @@ fleet::Shown Workbench::shown() const {
         shown.problems.push_back(node + " is not there");
     }
     if (shown.problems.size() > fleet::kProblemsMax) shown.problems.resize(fleet::kProblemsMax);
-    for (std::string& one : shown.problems) one.resize(utf8_prefix(one, fleet::kLineBytesMax).size());
+    for (std::string& one : shown.problems)
+        one.resize(utf8_prefix(one, fleet::kLineBytesMax).size());
     // Nodes of a bus may run without us.
     const bool nodes_run = bus_ && target_.counts().running > 0;
     const Life::State state = life_.state();
@@ -67,6 +68,11 @@ void Workbench::obey(const fleet::Command& command, Obeyed done) {
     if (verb == "pause") {
         tell_life(life::Pause{keep(call_for(Json::object(), std::move(done)))});
         return live();
+    }
+    if (verb == "identify") {
+        const Status sent = emit(verb, {});
+        const std::string why = sent.ok() ? "" : sent.error().what;
+        return done(answer_of_why(why));
     }
     if (verb == "emit") {
         const Status sent = emit(command.event, command.values);

@@ -128,6 +128,10 @@ public:
     Status emit(const std::string& event, const std::vector<int16_t>& args) {
         return target_.emit(event, args);
     }
+    // Whether a node of that name has it; the Error names those that there are.
+    Status find_variable(const std::string& node, const std::string& name) const {
+        return target_.find_variable(node, name);
+    }
     // What somebody of the fleet wants; `done` gets the answer, once.
     using Obeyed = std::function<void(fleet::Answer answer)>;
     void obey(const fleet::Command& command, Obeyed done);

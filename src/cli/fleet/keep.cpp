@@ -1,0 +1,102 @@
+#include "cli/fleet/keep.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "cli/fleet/bell.hpp"
+#include "cli/output.hpp"
+#include "fleet/keeping.hpp"
+#include "net/end_signal.hpp"
+#include "serve/process.hpp"
+
+namespace vagus::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kListenAgainAfter = 5s;  // for a keeper that was there
+constexpr size_t kInstanceBytes = 8;
+
+Duration now() {
+    return std::chrono::duration_cast<Duration>(
+        std::chrono::steady_clock::now().time_since_epoch());
+}
+
+// For a broker that has lost what it kept: later than every keeper before.
+uint64_t epoch_of_today() {
+    return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::seconds>(
+                                     std::chrono::system_clock::now().time_since_epoch())
+                                     .count());
+}
+
+std::string random_instance() {
+    std::string name = "keeper-";
+    for (const char byte : serve::random_bytes(kInstanceBytes)) {
+        name += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+    }
+    return name;
+}
+
+// One keeper, from its connection on.
+class Post {
+public:
+    explicit Post(serve::LinkOptions options)
+        : keeping_({options.target.fleet,
+                    {.instance = options.client, .first_epoch = epoch_of_today()}}),
+          link_(std::move(options), [this] { bell_.ring(); }) {}
+
+    // Until it is out, or an end is asked for. What it says the first time is said.
+    void keep(std::string& told_why) {
+        while (!net::end_asked()) {
+            for (const fleet::LinkEvent& event : link_.take()) keeping_.hear(event, now());
+            keeping_.tick(now());
+            for (const fleet::KeepingAction& action : keeping_.take()) {
+                std::visit([&](const auto& one) { perform(one, told_why); }, action);
+            }
+            if (keeping_.is_out()) return;
+            bell_.wait(fleet::kKeeperTickEvery);
+        }
+    }
+
+private:
+    void perform(const fleet::Subscribe& one, std::string&) { link_.subscribe(one.filters); }
+    void perform(const fleet::Post& post, std::string&) { link_.publish(post); }
+    // A second keeper that listens again and again says so once.
+    void perform(const fleet::Say& said, std::string& told_why) {
+        const bool serves = keeping_.state() == keeper::Keeper::State::Serving;
+        if (!told_why.empty() && !keeping_.is_out() && !serves) return;
+        if (keeping_.is_out() && std::exchange(told_why, keeping_.why_out()) != "") return;
+        if (serves) told_why.clear();
+        say(said.text + "\n");
+    }
+
+    Bell bell_;
+    fleet::Keeping keeping_;
+    serve::MosquittoLink link_;  // ends before what its thread rings
+};
+
+}  // namespace
+
+int keep(const serve::FleetOptions& broker) {
+    const OutputNeverWaits never;
+    net::watch_for_end();
+    std::string told_why;
+    while (!net::end_asked()) {
+        auto options = serve::link_options(broker, random_instance());
+        if (!options.ok()) return complain(options.error(), kExitUsage);
+        if (options.value().target.fleet.empty()) {
+            return complain(broker.target + ": which fleet? Write mqtt://HOST[:PORT]/FLEET",
+                            kExitUsage);
+        }
+        Post(std::move(options.value())).keep(told_why);
+        Bell nobody_rings;
+        for (const Duration until = now() + kListenAgainAfter;
+             now() < until && !net::end_asked();) {
+            nobody_rings.wait(fleet::kKeeperTickEvery);
+        }
+    }
+    return kExitDone;
+}
+
+}  // namespace vagus::cli

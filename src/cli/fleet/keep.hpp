@@ -1,0 +1,12 @@
+// `vagus fleet TARGET keep`: the keeper of a fleet, at a broker anywhere.
+#pragma once
+
+#include "serve/field/fleet_robot.hpp"
+
+namespace vagus::cli {
+
+// Until a signal comes. While another keeper is there, this one stays out, and takes its place when
+// it is gone. The exit code.
+int keep(const serve::FleetOptions& broker);
+
+}  // namespace vagus::cli

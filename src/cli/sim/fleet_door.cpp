@@ -1,0 +1,58 @@
+#include "cli/sim/fleet_door.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "fleet/topic.hpp"
+#include "serve/broker/mosquitto_link.hpp"
+#include "serve/process.hpp"
+
+namespace vagus::cli {
+namespace {
+
+constexpr size_t kInstanceBytes = 8;
+constexpr size_t kEpochBytes = 6;  // a whole number below 2^48
+
+std::pair<std::string, int64_t> random_identity() {
+    std::string instance;
+    for (const char byte : serve::random_bytes(kInstanceBytes)) {
+        instance += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+    }
+    int64_t epoch = 0;
+    for (const char byte : serve::random_bytes(kEpochBytes)) {
+        epoch = epoch * 256 + static_cast<unsigned char>(byte);
+    }
+    return {instance, epoch};
+}
+
+// Each robot has a login of its own, for it may write below its own name alone.
+Result<std::unique_ptr<fleet::Link>> connect(serve::FleetOptions broker, const std::string& logins,
+                                             const fleet::MemberOptions& member, fleet::Post will) {
+    if (!logins.empty()) {
+        const std::string file = fleet::escape(member.robot) + ".login";
+        broker.login = (std::filesystem::path(logins) / file).string();
+    }
+    serve::LinkOptions link =
+        TRY(serve::link_options(broker, member.robot + "-" + member.instance));
+    link.target.fleet = member.fleet;
+    link.will = std::move(will);
+    // The world looks at each instant whether something has come.
+    return std::unique_ptr<fleet::Link>(
+        std::make_unique<serve::MosquittoLink>(std::move(link), [] {}));
+}
+
+}  // namespace
+
+Result<std::optional<session::WorldFleet::Door>> door_to_fleet(const SimRunOptions& options) {
+    if (options.fleet.target.empty()) return std::optional<session::WorldFleet::Door>();
+    const fleet::FleetTarget target = TRY(fleet::parse_fleet_target(options.fleet.target));
+    const auto way = [broker = options.fleet, logins = options.logins](
+                         const fleet::MemberOptions& member, fleet::Post will) {
+        return connect(broker, logins, member, std::move(will));
+    };
+    return std::optional(session::WorldFleet::Door{
+        .fleet = target.fleet, .instance_and_epoch = random_identity, .connect = way});
+}
+
+}  // namespace vagus::cli

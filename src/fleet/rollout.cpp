@@ -1,0 +1,154 @@
+#include "fleet/rollout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/text.hpp"
+#include "fleet/limits.hpp"
+
+namespace vagus::fleet {
+namespace {
+
+// "3" or "10%" of so many; nothing: it is neither.
+std::optional<size_t> read_step(std::string_view text, size_t robots) {
+    const bool percent = text.ends_with('%');
+    if (percent) text.remove_suffix(1);
+    size_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number);
+    if (read.ec != std::errc() || read.ptr != end || number == 0) return std::nullopt;
+    if (percent && number > 100) return std::nullopt;
+    return std::min(percent ? (robots * number + 99) / 100 : number, robots);
+}
+
+}  // namespace
+
+Result<std::vector<size_t>> read_steps(const std::string& text, size_t robots) {
+    std::vector<size_t> steps;
+    for (const std::string_view one : split(text, ',')) {
+        const auto step = read_step(one, robots);
+        if (!step) {
+            return Error{Code::BadInput,
+                         fmt::format("--steps {}: expected numbers of robots or percent, such as "
+                                     "1,10%,100%, found \"{}\"",
+                                     text, one)};
+        }
+        if (steps.empty() || *step > steps.back()) steps.push_back(*step);
+    }
+    if (robots > 0 && (steps.empty() || steps.back() < robots)) steps.push_back(robots);
+    return steps;
+}
+
+Rollout::Rollout(Options options) : options_(std::move(options)) {
+    for (const std::string& robot : options_.robots) robots_[robot];
+}
+
+void Rollout::hear(const LinkEvent& event, Time now) {
+    now_ = now;
+    const auto* received = std::get_if<Received>(&event);
+    if (received == nullptr) return;
+    const auto found = robots_.find(received->heard.topic.robot);
+    if (found == robots_.end()) return;
+    const Message& message = received->heard.message;
+    if (const auto* version = std::get_if<Version>(&message)) hear_version(found->second, *version);
+    if (const auto* state = std::get_if<State>(&message)) hear_state(found->second, *state);
+}
+
+// A robot that was told twice tells once more what came of it.
+void Rollout::hear_version(Robot& robot, const Version& version) {
+    if (version.number != options_.want.number || robot.place != Place::Wanted) return;
+    if (version.result == "taken") return;
+    if (version.result != "started") return fail(robot, version.result + ": " + version.why);
+    robot.place = Place::Started;
+    robot.until = now_ + kHealthyFor;
+}
+
+void Rollout::hear_state(Robot& robot, const State& state) {
+    const bool counts = robot.place == Place::Started || robot.place == Place::Well;
+    if (!counts || state.state != "fault") return;
+    fail(robot, state.problems.empty() ? "a fault" : "a fault: " + state.problems.front());
+}
+
+void Rollout::fail(Robot& robot, std::string why) {
+    robot.place = Place::Failed;
+    robot.why = std::move(why);
+}
+
+void Rollout::tick(Time now) {
+    now_ = now;
+    for (auto& [name, robot] : robots_) {
+        if (now_ < robot.until) continue;
+        if (robot.place == Place::Started) robot.place = Place::Well;
+        if (robot.place == Place::Wanted)
+            fail(robot, "did not answer; it finds it when it is back");
+    }
+    const bool all_well = std::all_of(
+        options_.robots.begin(), options_.robots.begin() + static_cast<std::ptrdiff_t>(wanted_),
+        [this](const auto& name) { return robots_.at(name).place == Place::Well; });
+    if (all_well && step_ < options_.steps.size()) begin_step();
+}
+
+void Rollout::begin_step() {
+    const size_t end = options_.steps[step_++];
+    for (; wanted_ < end; ++wanted_) {
+        const std::string& name = options_.robots[wanted_];
+        robots_.at(name) = {Place::Wanted, now_ + options_.within, {}};
+        posts_.push_back({.topic = text_of(options_.fleet, {.kind = Kind::Want, .robot = name}),
+                          .payload = payload_of(options_.want),
+                          .qos = info_of(Kind::Want).qos,
+                          .retained = info_of(Kind::Want).retained});
+    }
+}
+
+Time Rollout::next_tick() const {
+    Time next = Time::max();
+    for (const auto& [name, robot] : robots_) {
+        const bool waits = robot.place == Place::Wanted || robot.place == Place::Started;
+        if (waits) next = std::min(next, robot.until);
+    }
+    return next;
+}
+
+// Of a step that failed the others come to their end, too.
+bool Rollout::is_over() const {
+    bool failed = false, waits = false;
+    for (const auto& [name, robot] : robots_) {
+        failed = failed || robot.place == Place::Failed;
+        waits = waits || robot.place == Place::Wanted || robot.place == Place::Started;
+    }
+    return !waits && (failed || all_are_well());
+}
+
+bool Rollout::all_are_well() const {
+    return std::all_of(robots_.begin(), robots_.end(),
+                       [](const auto& one) { return one.second.place == Place::Well; });
+}
+
+std::vector<std::pair<std::string, std::string>> Rollout::table() const {
+    std::vector<std::pair<std::string, std::string>> lines;
+    for (const std::string& name : options_.robots) {
+        const Robot& robot = robots_.at(name);
+        switch (robot.place) {
+            case Place::Later:
+                lines.emplace_back(name, "as it was");
+                break;
+            case Place::Wanted:
+                lines.emplace_back(name, "on its way");
+                break;
+            case Place::Started:
+                lines.emplace_back(name, "started");
+                break;
+            case Place::Well:
+                lines.emplace_back(name, "well");
+                break;
+            case Place::Failed:
+                lines.emplace_back(name, robot.why);
+                break;
+        }
+    }
+    return lines;
+}
+
+}  // namespace vagus::fleet

@@ -1,0 +1,72 @@
+// Another version for many robots, in steps: who should have it, who has it and is well, and when
+// the next ones follow. The first robot that is not well stops it. A state machine, as Operator is.
+//
+//     Rollout rollout({.fleet = "lab", .want = want, .robots = {"r1", "r2"}, .steps = {1, 2}});
+//     for (const LinkEvent& event : link.take()) rollout.hear(event, now);
+//     rollout.tick(now);
+//     for (const Post& post : rollout.take()) link.publish(post);
+//     if (rollout.is_over()) for (const auto& [robot, line] : rollout.table()) show(robot, line);
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.hpp"
+#include "base/time.hpp"
+#include "fleet/limits.hpp"
+#include "fleet/link.hpp"
+
+namespace vagus::fleet {
+
+constexpr Duration kHealthyFor = 3s;  // without a fault, after its start
+
+// "1,10%,100%": how many of so many robots have it after each step. The last step is all.
+Result<std::vector<size_t>> read_steps(const std::string& text, size_t robots);
+
+class Rollout {
+public:
+    enum class Place { Later, Wanted, Started, Well, Failed };
+
+    struct Options {
+        std::string fleet = {};
+        Want want = {};
+        std::vector<std::string> robots = {};  // in this order
+        std::vector<size_t> steps = {};        // how many of them; the last is all
+        Duration within = 60s;                 // of a robot, from the want to its start
+    };
+    explicit Rollout(Options options);
+
+    // Also what was said before it began.
+    void hear(const LinkEvent& event, Time now);
+    void tick(Time now);
+    Time next_tick() const;
+    std::vector<Post> take() { return std::exchange(posts_, {}); }
+
+    // All are well, or one is not: then nobody else gets it.
+    bool is_over() const;
+    bool all_are_well() const;
+    // What became of each robot: "well", "did not answer", "refused: it has mistakes".
+    std::vector<std::pair<std::string, std::string>> table() const;
+
+private:
+    struct Robot {
+        Place place = Place::Later;
+        Time until{};  // Wanted: it has started; Started: it is well
+        std::string why = {};
+    };
+    void hear_version(Robot& robot, const Version& version);
+    void hear_state(Robot& robot, const State& state);
+    void fail(Robot& robot, std::string why);
+    void begin_step();
+
+    const Options options_;
+    std::map<std::string, Robot> robots_;
+    size_t step_ = 0;    // the next one
+    size_t wanted_ = 0;  // so many robots, of the first
+    std::vector<Post> posts_;
+    Time now_{};
+};
+
+}  // namespace vagus::fleet

@@ -1,0 +1,110 @@
+#include "fleet/rollout.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fleet/limits.hpp"
+
+namespace vagus::fleet {
+namespace {
+
+using Steps = std::vector<size_t>;
+using Texts = std::vector<std::string>;
+
+TEST(Steps, AreNumbersOrPercentAndEndWithAll) {
+    EXPECT_EQ(read_steps("1,10%,100%", 30).value(), (Steps{1, 3, 30}));
+    EXPECT_EQ(read_steps("1,10%,100%", 1).value(), (Steps{1}));
+    EXPECT_EQ(read_steps("5", 7).value(), (Steps{5, 7}));
+    EXPECT_EQ(read_steps("10%", 11).value(), (Steps{2, 11}));
+    for (const char* const text : {"", "0", "101%", "x", "1,,2", "-1", "1 %"}) {
+        EXPECT_FALSE(read_steps(text, 7).ok()) << text;
+    }
+}
+
+class Case {
+public:
+    Case() : rollout({"lab", kWant, {"r1", "r2", "r3"}, {1, 3}, 60s}) { pass(0s); }
+
+    static inline const Want kWant{7, "ab", "https://desk/x", false};
+
+    Texts wanted() {
+        Texts robots;
+        for (const Post& post : rollout.take()) {
+            const auto heard = read("lab", post.topic, post.payload);
+            EXPECT_TRUE(heard.ok() && post.retained);
+            robots.push_back(heard.value().topic.robot);
+        }
+        return robots;
+    }
+    void pass(Duration time) { rollout.tick(now += time); }
+    void tells(const std::string& robot, const std::string& result, int64_t number = 7) {
+        const Topic topic{.kind = Kind::Version, .robot = robot};
+        rollout.hear(Received{{topic, Version{number, "ab", result, "why"}}, false}, now);
+        pass(0s);
+    }
+    void is(const std::string& robot, const std::string& state) {
+        const Topic topic{.kind = Kind::State, .robot = robot};
+        rollout.hear(Received{{topic, State{.state = state, .problems = {"stuck"}}}, false}, now);
+        pass(0s);
+    }
+    std::string line(size_t robot) { return rollout.table()[robot].second; }
+
+    Rollout rollout;
+    Time now{};
+};
+
+TEST(Rollout, TheNextStepFollowsWhenTheFirstIsWell) {
+    Case c;
+    EXPECT_EQ(c.wanted(), Texts{"r1"});
+    c.tells("r1", "taken");
+    c.tells("r1", "started");
+    c.pass(kHealthyFor - 1us);
+    EXPECT_EQ(c.wanted(), Texts{});
+    c.pass(1us);
+    EXPECT_EQ(c.wanted(), (Texts{"r2", "r3"}));
+    c.tells("r2", "started");
+    c.tells("r3", "started");
+    EXPECT_FALSE(c.rollout.is_over());
+    c.pass(kHealthyFor);
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_TRUE(c.rollout.all_are_well());
+}
+
+TEST(Rollout, TheFirstThatIsNotWellStopsIt) {
+    for (const char* const result : {"refused", "rolled_back", "waiting", "stopped"}) {
+        Case c;
+        c.tells("r1", result);
+        EXPECT_TRUE(c.rollout.is_over());
+        EXPECT_EQ(c.line(0), std::string(result) + ": why");
+        EXPECT_EQ(c.line(1), "as it was");
+        EXPECT_EQ(c.wanted(), Texts{"r1"});
+    }
+}
+
+TEST(Rollout, AFaultWithinThreeSecondsIsNotWell) {
+    Case c;
+    c.tells("r1", "started");
+    c.is("r1", "running");
+    c.is("r1", "fault");
+    c.pass(kHealthyFor);
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_EQ(c.line(0), "a fault: stuck");
+}
+
+TEST(Rollout, WhoDoesNotAnswerStopsItToo) {
+    Case c;
+    c.pass(60s - 1us);
+    EXPECT_FALSE(c.rollout.is_over());
+    c.pass(1us);
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_EQ(c.line(0), "did not answer; it finds it when it is back");
+}
+
+TEST(Rollout, WhatCameOfAnotherOneSaysNothing) {
+    Case c;
+    c.tells("r1", "started", 6);
+    c.pass(kHealthyFor);
+    EXPECT_EQ(c.line(0), "on its way");
+}
+
+}  // namespace
+}  // namespace vagus::fleet

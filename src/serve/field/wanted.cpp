@@ -1,0 +1,124 @@
+#include "serve/field/wanted.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "base/file.hpp"
+#include "base/text.hpp"
+#include "fleet/limits.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+Result<Packed> checked(const fleet::Want& want, const Result<std::string>& bytes) {
+    if (!bytes.ok()) return bytes.error();
+    if (sha256_of(bytes.value()) == want.sha256) return unpack(bytes.value());
+    return Error{Code::BadInput,
+                 want.address + ": what is there is not what is wanted: it has another SHA-256"};
+}
+
+const char* word_of(DeployOutcome::Result result) {
+    switch (result) {
+        case DeployOutcome::Result::Started:
+            return "started";
+        case DeployOutcome::Result::Stopped:
+            return "stopped";
+        case DeployOutcome::Result::Refused:
+            return "refused";
+        case DeployOutcome::Result::RolledBack:
+            return "rolled_back";
+        case DeployOutcome::Result::Waiting:
+            return "waiting";
+    }
+    return "refused";
+}
+
+std::string reason_of(const DeployOutcome& outcome) {
+    for (const DocFinding& finding : outcome.findings) {
+        if (finding.severity != Severity::Error) continue;
+        return fmt::format("{}; {}:{}: {}", outcome.why, finding.doc, finding.at.line,
+                           finding.what);
+    }
+    return outcome.why;
+}
+
+// None, if there is none that can be read: then the roll-out is done once more.
+std::optional<fleet::Version> read_last(const std::string& file) {
+    const auto text = read_file(file);
+    if (!text.ok()) return std::nullopt;
+    const auto heard = fleet::read("robot", "vagus/1/robot/robot/robot/version", text.value());
+    if (!heard.ok()) return std::nullopt;
+    return std::get<fleet::Version>(heard.value().message);
+}
+
+}  // namespace
+
+Wanted::Wanted(Deployments& deployments, Callbacks calls)
+    : deployments_(deployments), call_(std::move(calls)), last_(read_last(call_.file)) {}
+
+void Wanted::want(const fleet::Want& want) {
+    const bool known = (last_ && last_->number == want.number && !under_way_) ||
+                       (under_way_ && under_way_->number == want.number);
+    if (known) return call_.tell(*last_);
+    next_ = want;
+    tick();
+}
+
+void Wanted::tick() {
+    if (next_ && !under_way_ && deployments_.may_begin()) begin();
+}
+
+void Wanted::begin() {
+    under_way_ = std::exchange(next_, std::nullopt);
+    const fleet::Want want = *under_way_;
+    last_ = fleet::Version{want.number, want.sha256, "taken", ""};
+    call_.tell(*last_);
+    call_.log("note", fmt::format("fleet: roll-out {}: {}", want.number,
+                                  want.back ? "back to the version before" : want.address));
+    if (want.back) {
+        return deployments_.back([this](const DeployOutcome& outcome) { over(outcome); });
+    }
+    worked<vagus::Result<Packed>>(
+        call_.work, [want, fetch = call_.fetch] { return checked(want, fetch(want.address)); },
+        [this](const vagus::Result<Packed>& packed) { fetched(packed); });
+}
+
+void Wanted::fetched(const vagus::Result<Packed>& packed) {
+    if (!packed.ok()) return told("refused", packed.error().what);
+    const Status begun = deployments_.begin(packed.value().bundle);
+    if (!begun.ok()) return told("refused", begun.error().what);
+    send(std::make_shared<const Packed>(packed.value()), 0);
+}
+
+// One file after the other, as they come from `vagus deploy`.
+void Wanted::send(const std::shared_ptr<const Packed>& packed, size_t file) {
+    if (file == packed->contents.size()) {
+        return deployments_.commit([this](const DeployOutcome& outcome) { over(outcome); });
+    }
+    deployments_.part(packed->bundle.files[file].path, 0, packed->contents[file],
+                      [this, packed, file](const Status& taken) {
+                          if (!taken.ok()) return told("refused", taken.error().what);
+                          send(packed, file + 1);
+                      });
+}
+
+void Wanted::over(const DeployOutcome& outcome) {
+    told(word_of(outcome.result), reason_of(outcome));
+}
+
+void Wanted::told(const std::string& result, const std::string& why) {
+    const fleet::Want want = *std::exchange(under_way_, std::nullopt);
+    last_ = fleet::Version{want.number, want.sha256, result,
+                           visible_lines(why).substr(0, fleet::kLineBytesMax)};
+    std::error_code failed;  // then it cannot be written either, and that is said
+    std::filesystem::create_directories(std::filesystem::path(call_.file).parent_path(), failed);
+    const Status kept = write_file(call_.file, fleet::payload_of(*last_) + "\n");
+    if (!kept.ok()) call_.log("warning", "fleet: " + kept.error().what);
+    call_.tell(*last_);
+    call_.log("note", fmt::format("fleet: roll-out {}: {}{}", want.number, result,
+                                  why.empty() ? "" : ": " + why));
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,56 @@
+// The version that a fleet wants of this robot (docs/fleet.md, "Another version for many"):
+// fetched, checked against its hash, put in force as one that `vagus deploy` sends, and told. Each
+// roll-out has a number, and is done once, also if the robot was started again meanwhile: what came
+// of the last one is in PROJECT/.vagus/want.json.
+//
+//     Wanted wanted(deployments, {.file = …, .fetch = …, .work = worker.poster(), .tell = …});
+//     wanted.want(want);   // as often as it comes
+//     wanted.tick();       // when something may have changed
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/result.hpp"
+#include "fleet/message.hpp"
+#include "serve/field/deployments.hpp"
+#include "serve/field/pack.hpp"
+#include "serve/worker.hpp"
+
+namespace vagus::serve {
+
+class Wanted {
+public:
+    struct Callbacks {
+        std::string file = {};  // where it is remembered
+        // What is at that address; called on the other thread.
+        std::function<Result<std::string>(const std::string& address)> fetch;
+        Worker::Post work = Worker::at_once;
+        std::function<void(const fleet::Version& version)> tell;
+        std::function<void(const std::string& kind, const std::string& text)> log;
+    };
+    // `deployments` is borrowed.
+    Wanted(Deployments& deployments, Callbacks calls);
+
+    void want(const fleet::Want& want);
+    void tick();
+    // What came of the last one.
+    const std::optional<fleet::Version>& last() const { return last_; }
+
+private:
+    void begin();
+    void fetched(const vagus::Result<Packed>& packed);
+    void send(const std::shared_ptr<const Packed>& packed, size_t file);
+    void over(const DeployOutcome& outcome);
+    void told(const std::string& result, const std::string& why);
+
+    Deployments& deployments_;
+    Callbacks call_;
+    std::optional<fleet::Want> next_;  // it waits for its turn
+    std::optional<fleet::Want> under_way_;
+    std::optional<fleet::Version> last_;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,145 @@
+#include "serve/field/wanted.hpp"
+
+#include <gmock/gmock.h>
+
+#include "base/file.hpp"
+#include "base/test_folder.hpp"
+
+namespace vagus::serve {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// A robot whose runs start at once; the disk is real, what is at an address is in `served`.
+class WantedTest : public testing::Test {
+protected:
+    WantedTest() {
+        EXPECT_TRUE(write_file((project / "vagus.json").string(), "0").ok());
+        EXPECT_TRUE(deployments.boot(true, 0s).ok());
+        turn();
+    }
+
+    Wanted::Callbacks callbacks() {
+        return {.file = (fs::path(project) / ".vagus" / "want.json").string(),
+                .fetch = [this](const std::string& address) -> Result<std::string> {
+                    ++fetches;
+                    if (address == "https://desk/x") return served;
+                    return Error{Code::Unavailable, address + ": cannot be fetched"};
+                },
+                .tell =
+                    [this](const fleet::Version& version) {
+                        told.push_back(version.result);
+                        why = version.why;
+                    },
+                .log = [](auto&, auto&) {}};
+    }
+
+    // What comes of it; the robot takes what time it needs.
+    void wants(const fleet::Want& want) {
+        wanted.want(want);
+        for (int i = 0; i < 8; ++i) turn();
+    }
+    void turn() {
+        now += kProvesWithin;
+        deployments.tick(now);
+        starter.tick(now);
+        wanted.tick();
+    }
+    fleet::Want serve(int64_t number, const std::string& content) {
+        const Bundle bundle{.name = "Rover",
+                            .project = "",
+                            .files = {{"vagus.json", content.size(), sha256_of(content)}}};
+        served = to_json(bundle).dump() + "\n" + content;
+        return {number, sha256_of(served), "https://desk/x", false};
+    }
+
+    test::Folder project;
+    std::string served, opened, why;
+    std::vector<std::string> told;
+    std::vector<DocFinding> findings;
+    int fetches = 0;
+    Time now{};
+    Versions versions{project};
+    Starter starter{{.missing = [] { return std::vector<std::string>(); },
+                     .start = [](auto done) { done(""); },
+                     .log = [](auto&, auto&) {}}};
+    Deployments deployments{
+        versions,
+        starter,
+        {.check = [this] { return [this](const fs::path&) { return findings; }; },
+         .stop = [](auto done) { done(); },
+         .open =
+             [this](const fs::path& folder) {
+                 opened = read_file((folder / "vagus.json").string()).value();
+                 return Status::done();
+             },
+         .log = [](auto&, auto&) {},
+         .wall_ms = [] { return 0.0; }}};
+    Wanted wanted{deployments, callbacks()};
+};
+
+TEST_F(WantedTest, ItIsFetchedAndStartedAndToldOnce) {
+    const fleet::Want want = serve(7, "one");
+    wants(want);
+    EXPECT_EQ(opened, "one");
+    EXPECT_THAT(told, ElementsAre("taken", "started"));
+    wants(want);  // the broker tells it again at each connection
+    EXPECT_EQ(fetches, 1);
+    EXPECT_THAT(told, ElementsAre("taken", "started", "started"));
+    Wanted again(deployments, callbacks());  // the robot was started again
+    again.want(want);
+    EXPECT_EQ(fetches, 1);
+    EXPECT_EQ(told.back(), "started");
+}
+
+TEST_F(WantedTest, WhatIsNotWhatWasWantedIsRefused) {
+    fleet::Want want = serve(7, "one");
+    served += "x";
+    wants(want);
+    EXPECT_THAT(told, ElementsAre("taken", "refused"));
+    EXPECT_THAT(why, HasSubstr("another SHA-256"));
+    want.number = 8;
+    want.sha256 = sha256_of(served);
+    wants(want);
+    EXPECT_THAT(why, HasSubstr("1 bytes behind the last file"));
+    want = {9, "", "https://desk/gone", false};
+    wants(want);
+    EXPECT_THAT(why, HasSubstr("cannot be fetched"));
+    EXPECT_EQ(opened, "0");
+}
+
+TEST_F(WantedTest, WhatHasMistakesIsRefusedWithTheFirstOfThem) {
+    DocFinding mistake;
+    mistake.doc = "a.aesl";
+    mistake.at.line = 3;
+    mistake.what = "unknown name";
+    findings = {mistake};
+    wants(serve(7, "one"));
+    EXPECT_EQ(told.back(), "refused");
+    EXPECT_THAT(why, HasSubstr("a.aesl:3: unknown name"));
+    EXPECT_EQ(opened, "0");
+}
+
+TEST_F(WantedTest, BackIsTheVersionBefore) {
+    wants(serve(7, "one"));
+    wants(serve(8, "two"));
+    EXPECT_EQ(opened, "two");
+    wants({9, "", "", true});
+    EXPECT_EQ(opened, "one");
+    EXPECT_EQ(told.back(), "started");
+}
+
+TEST_F(WantedTest, TheLastOfTwoThatComeAtOnceStays) {
+    wanted.want(serve(7, "one"));
+    const fleet::Want second = serve(8, "two");
+    wanted.want(second);
+    EXPECT_THAT(told, ElementsAre("taken")) << "the first is being started";
+    for (int i = 0; i < 8; ++i) turn();
+    EXPECT_EQ(opened, "two");
+    EXPECT_THAT(told, ElementsAre("taken", "started", "taken", "started"));
+}
+
+}  // namespace
+}  // namespace vagus::serve

@@ -1,0 +1,82 @@
+#include "serve/web/fetch.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/use_future.hpp>
+
+#include "serve/web/beast.hpp"
+#include "serve/web/live_client.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+struct Place {
+    ServerAddress server;
+    std::string path;
+};
+
+// "https://HOST:PORT/PATH"
+Result<Place> place_of(const std::string& url) {
+    const size_t scheme = url.find("://");
+    const size_t path = scheme == url.npos ? url.npos : url.find('/', scheme + 3);
+    if (path == url.npos) {
+        return Error{Code::BadInput, url + ": expected https://HOST:PORT/PATH"};
+    }
+    Place place{TRY(parse_address(url.substr(0, path))), url.substr(path)};
+    const std::string& host = place.server.host;
+    const bool here = host == "localhost" || host == "127.0.0.1" || host == "::1";
+    if (place.server.secure || here) return place;
+    return Error{Code::Refused, url + ": expected https, for it is not on this computer"};
+}
+
+awaitable<std::string> get(asio::io_context& io, asio::ssl::context& tls, Place place,
+                           size_t bytes_max) {
+    const ServerAddress& server = place.server;
+    Tcp::resolver resolver(io);
+    const auto found =
+        co_await resolver.async_resolve(server.host, std::to_string(server.port), use_awaitable);
+    beast::tcp_stream tcp(io);
+    tcp.expires_after(kFetchWithin);
+    co_await tcp.async_connect(found, use_awaitable);
+    Stream stream(std::move(tcp));
+    if (server.secure) co_await stream.connect_tls(tls, server.host);
+    stream.expires_after(kFetchWithin);
+    http::request<http::empty_body> asked(http::verb::get, place.path, 11);
+    asked.set(http::field::host, fmt::format("{}:{}", server.host, server.port));
+    asked.keep_alive(false);
+    co_await http::async_write(stream, asked, use_awaitable);
+    beast::flat_buffer buffer;
+    http::response_parser<http::string_body> answer;
+    answer.body_limit(bytes_max);
+    co_await http::async_read(stream, buffer, answer, use_awaitable);
+    if (answer.get().result() != http::status::ok) {
+        throw boost::system::system_error(
+            make_error_code(boost::system::errc::no_such_file_or_directory),
+            std::to_string(answer.get().result_int()));
+    }
+    co_return std::move(answer.get().body());
+}
+
+}  // namespace
+
+Result<std::string> fetch(const std::string& url, const std::string& authority, size_t bytes_max) {
+    Place place = TRY(place_of(url));
+    try {
+        asio::io_context io{1};
+        asio::ssl::context tls{asio::ssl::context::tls_client};
+        tls.set_default_verify_paths();
+        if (!authority.empty()) tls.load_verify_file(authority);
+        tls.set_verify_mode(asio::ssl::verify_peer);
+        auto future =
+            asio::co_spawn(io, get(io, tls, std::move(place), bytes_max), asio::use_future);
+        io.run();
+        return future.get();
+    } catch (const boost::system::system_error& failed) {
+        return Error{Code::Unavailable,
+                     fmt::format("{}: cannot be fetched: {}", url, failed.code().message())};
+    }
+}
+
+}  // namespace vagus::serve

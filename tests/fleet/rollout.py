@@ -1,0 +1,105 @@
+"""Another version for robots of a fleet, in steps: fetched, checked, started, and taken back."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from fleet import AESL, Case, PART, SCRIPT  # noqa: E402
+import projects  # noqa: E402
+from harness import GIVE_UP_AFTER, vagus  # noqa: E402
+
+
+class Rollout(Case):
+    def version(self, script="var edition = 2\n" + SCRIPT):
+        """A folder with another version of the project of the robots."""
+        folder = self.folder / "version"
+        projects.thymio(folder, script="", fleet=PART)
+        projects.write(folder, "robot.aesl", AESL.format(script=script))
+        return folder
+
+    def words(self, *arguments):
+        return ["deploy", *arguments, "--serve-cert", self.broker_folder / "broker.crt", "--serve-key", self.broker_folder / "broker.key"]
+
+    def deploy(self, *arguments, **options):
+        return self.desk(*self.words(*arguments), **options)
+
+    def edition(self, robot):
+        """What that robot tells of the variable that only the other version has."""
+        return self.desk("tell", robot, "thymio-II.edition", wait=1).stdout
+
+    def two_robots(self):
+        self.broker("r1", "r2")
+        for name in ("r1", "r2"):
+            self.joined(name)
+            self.wait_state(name, "running")
+
+    def test_all_get_it_in_steps_and_give_it_back(self):
+        self.two_robots()
+        done = self.deploy("all", "--project", self.version())
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout, r"(?s)r1: on its way.*r1: well.*r2: on its way.*r2: well.*2 of 2 robots: well")
+        self.assertIn("r2: thymio-II.edition = 2", self.edition("r2"))
+        done = self.desk("deploy", "all", "--rollback")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("2 of 2 robots: well", done.stdout)
+        self.assertRegex(self.edition("r2"), r'r2: not done: .*edition')
+
+    def test_the_first_that_is_not_well_stops_it(self):
+        self.two_robots()
+        done = self.deploy("all", "--project", self.version(script="onevent nobody.knows.this\n\tx = 1\n"))
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r"r1: refused: it has mistakes; nothing was changed; robot\.aesl#1:\d+: ")
+        self.assertRegex(done.stdout, r"(?s)r2: as it was.*0 of 2 robots: well")
+        self.assertEqual(self.state("r1"), "running")
+
+    def test_a_robot_that_was_away_finds_it_when_it_is_back(self):
+        self.broker("r1")
+        first = self.joined("r1")
+        self.wait_state("r1", "running")
+        first.kill()
+        with vagus("fleet", self.target, *self.words("r1", "--project", self.version()), *self.login("operator"), "--wait",
+                   GIVE_UP_AFTER) as program:
+            program.wait_line(r"^r1: on its way$")
+            self.joined("r1")
+            program.wait_line(r"^r1: well$")
+            self.assertEqual(program.wait_end(), 0)
+
+    def test_a_roll_out_says_what_it_cannot_do(self):
+        self.broker("r1")
+        for words, what in ((("r1", "--project", self.version(), "--steps", "1,0"), "--steps 1,0: expected numbers of robots"),
+                            (("r1", "--project", self.version(), "--listen", "0.0.0.0"), "--listen 0.0.0.0: expected ADDRESS:PORT"),
+                            (("r1",), "which version?"), (("all", "--project", self.folder / "none"), "no robot is there")):
+            done = self.desk("deploy", *words)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(what, done.stdout)
+        done = self.desk("deploy", "r1", "--project", self.version(), "--listen", "0.0.0.0:0")
+        self.assertIn("by HTTPS alone", done.stdout)
+
+
+class Tell(Case):
+    def test_a_variable_is_told_because_somebody_asks(self):
+        self.broker("r1")
+        self.joined("r1", tell=[])
+        self.wait_state("r1", "running")
+        self.assertIn("r1: thymio-II.heard = 0", self.do("tell", "r1", "thymio-II.heard", wait=2))
+        done = self.desk("tell", "r1", "thymio-II.nothing")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, r"r1: not done: .*nothing")
+
+    def test_a_robot_identifies_itself_as_its_project_says(self):
+        self.broker("r1", "r2")
+        declared = AESL.replace('<event size="1" name="alarm"/>', '<event size="1" name="alarm"/>\n<event size="0" name="identify"/>')
+        script = SCRIPT + "\nonevent identify\n\tlast = 99\n"
+        self.joined("r1", script=script, aesl=declared), self.joined("r2")
+        self.wait_state("r1", "running"), self.wait_state("r2", "running")
+        watch = self.watch()
+        self.do("identify", "r1")
+        watch.wait_line(r"^r1: thymio-II\.last = 99$")
+        done = self.desk("identify", "r2")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, r"r2: not done: .*identify")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *(f"-k{name}" for name in sys.argv[1:])], verbosity=2, warnings="ignore")

@@ -1,6 +1,6 @@
 import { pathTo } from '../../../core/plan/sub_plans';
 import { useStudio, useTopic } from '../../hooks';
-import { text } from '../../text';
+import { drawWords } from '../../views/plan/words';
 import { words } from './words';
 import { TemplateIcon } from '../../views/plan/canvas/template_icon';
 import { usePlanDesk } from '../../views/plan/plan_desk';
@@ -13,7 +13,7 @@ export function SubPlans({ may, typed }: { may: boolean; typed: string }) {
   const plans = files.filter(
     ({ path, kind }) => kind === 'plan' && path.toLowerCase().includes(wanted),
   );
-  const { subPlans } = text.draw;
+  const { subPlans } = drawWords;
   if (plans.length === 0 || !shown) return null;
   const { board } = shown;
   return (
@@ -28,7 +28,7 @@ export function SubPlans({ may, typed }: { may: boolean; typed: string }) {
             <button
               type="button"
               className="plantool"
-              aria-label={words.add(path, text.draw.roles.subplan)}
+              aria-label={words.add(path, drawWords.roles.subplan)}
               disabled={!may}
               onClick={() =>
                 shown.focus(board.addSubPlan(pathTo(board.doc, path), shown.middle(), shown.room()))

@@ -5,7 +5,7 @@ import { hiddenBy, type Found, type Group } from '../../../core/plan/templates';
 import type { Studio } from '../../../core/studio';
 import { toast } from '../../../core/window_state';
 import { useChanges, useStudio, useTopic } from '../../hooks';
-import { text } from '../../text';
+import { drawWords } from '../../views/plan/words';
 import { words } from './words';
 import { RoleShape, TemplateIcon } from '../../views/plan/canvas/template_icon';
 import { planDeskOf, usePlanDesk } from '../../views/plan/plan_desk';
@@ -50,7 +50,7 @@ function Tool(props: { toolbox: string; template: PlanTemplate; may: boolean }) 
       type="button"
       className="plantool"
       title={hider === null ? template.help : words.hidden(template.name, hider, toolbox)}
-      aria-label={words.add(template.name, text.draw.roles[template.kind])}
+      aria-label={words.add(template.name, drawWords.roles[template.kind])}
       disabled={!can}
       draggable={can}
       onDragStart={(event) => {
@@ -61,7 +61,7 @@ function Tool(props: { toolbox: string; template: PlanTemplate; may: boolean }) 
     >
       <TemplateIcon icon={template.icon} />
       <span className="ellipsis grow">{template.name}</span>
-      <RoleShape kind={template.kind} label={text.draw.roles[template.kind]} />
+      <RoleShape kind={template.kind} label={drawWords.roles[template.kind]} />
     </button>
   );
 }

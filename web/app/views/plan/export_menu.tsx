@@ -1,9 +1,9 @@
 import { IconPhoto } from '@tabler/icons-react';
 import { kStroke } from '../../parts/icons';
 import { CommandItem, StudioMenu } from '../../parts/menu';
-import { text } from '../../text';
+import { drawWords } from './words';
 
-const words = text.draw;
+const words = drawWords;
 
 /** The drawing as a picture. */
 export function ExportMenu() {

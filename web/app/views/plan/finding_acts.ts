@@ -29,7 +29,7 @@ export function actFor(studio: Studio, finding: Finding): FindingAct | null {
   const { doc, element = '' } = finding;
   if (wanted.is !== 'arrow')
     return {
-      label: wanted.is === 'value' ? text.draw.enterValue : text.draw.correctValue,
+      label: wanted.is === 'value' ? text.problems.enterValue : text.problems.correctValue,
       run() {
         revealElement(studio, doc, element, false);
         revealPanel(studio.window, 'properties', false);
@@ -37,7 +37,7 @@ export function actFor(studio: Studio, finding: Finding): FindingAct | null {
       },
     };
   return {
-    label: text.draw.connectIt,
+    label: text.problems.connectIt,
     run() {
       revealElement(studio, doc, element, false);
       const port = () => {

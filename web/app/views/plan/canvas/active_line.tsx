@@ -1,10 +1,10 @@
 import { aheadText, inputsAhead } from '../../../../core/plan/ahead';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { useBoard } from '../plan_desk';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { useLive } from './live_store';
 
-const words = text.draw.active;
+const words = drawWords.active;
 
 /** Below the drawing while the plan runs: who works, and what its formulas gave. */
 export function ActiveLine({ board, onShow }: { board: PlanBoard; onShow: (key: string) => void }) {

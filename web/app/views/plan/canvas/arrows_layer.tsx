@@ -5,7 +5,7 @@ import type { PlanBoard } from '../../../../core/plan/board';
 import { roundedPath, straightPath, type Crossing, type Routed } from '../../../../core/plan/path';
 import { gapPath, gapsOf, shortened } from '../../../../core/plan/strokes';
 import { useBoard } from '../plan_desk';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { ArrowNames } from './arrow_names';
 import { DataArrows } from './data_layer';
 import { useFar } from './distance';
@@ -88,7 +88,7 @@ const ActionArrow = memo(function ActionArrow(props: {
     <g
       className={classOf(kind, arrow.source)}
       role="img"
-      aria-label={text.draw.arrow(arrow.source, arrow.outcome, arrow.target)}
+      aria-label={drawWords.arrow(arrow.source, arrow.outcome, arrow.target)}
       onClick={() => board.select(arrow.id)}
     >
       {gaps?.map((gap) => (

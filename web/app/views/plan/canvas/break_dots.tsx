@@ -2,7 +2,7 @@ import { createContext, useContext, useMemo } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { discOf, keyOfBreak, type Disc } from '../../../../core/plan/breaks';
 import { useTopic } from '../../../hooks';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { useBoard } from '../plan_desk';
 import { useLive } from './live_store';
 
@@ -23,7 +23,7 @@ export function useDots(board: PlanBoard): ReadonlyMap<string, Dot> {
     const dots = (all ?? []).flatMap((one): [string, Dot][] => {
       const key = one.doc === board.doc ? keyOfBreak(model, one) : null;
       if (key === null) return [];
-      return [[key, { number: one.number, disc: discOf(one), label: text.draw.break.dot(one) }]];
+      return [[key, { number: one.number, disc: discOf(one), label: drawWords.break.dot(one) }]];
     });
     return JSON.stringify(dots);
   }, [all, model, board]);

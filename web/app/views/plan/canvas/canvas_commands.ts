@@ -5,6 +5,7 @@ import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
 import { revealPanel, toast, update } from '../../../../core/window_state';
 import { text } from '../../../text';
+import { drawWords } from '../words';
 import { withBreaks } from '../break_acts';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { exportPng, exportSvg } from './export_picture';
@@ -145,7 +146,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       'draw.note',
       ['N'],
       ({ board, middle }) => {
-        if (board.addNote(middle()) === null) toast(studio.window, 'error', text.draw.noNotes);
+        if (board.addNote(middle()) === null) toast(studio.window, 'error', drawWords.noNotes);
       },
       edits,
     ),

@@ -4,7 +4,7 @@ import { dataArrows, type DataArrow } from '../../../../core/plan/data';
 import { supervisorsOf, type Actor, type Supervisor } from '../../../../core/plan/model';
 import type { Box } from '../../../../core/plan/shape';
 import { dataPath } from '../../../../core/plan/strokes';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { useLive } from './live_store';
 
 /** Thin arrows from variables to inputs and back: of what is selected, or all. */
@@ -67,7 +67,7 @@ function Thin(props: { arrow: DataArrow; box: Box; pill: Box; index: number }) {
   const gave = useLive((live) =>
     arrow.is === 'in' && live.actor === arrow.element ? live.inputs.get(arrow.port) : undefined,
   );
-  const label = text.draw.dataNow(arrow, value, gave);
+  const label = drawWords.dataNow(arrow, value, gave);
   const { line, head } = dataPath(arrow, box, pill, index);
   return (
     <g role="img" aria-label={label}>

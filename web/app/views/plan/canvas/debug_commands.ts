@@ -6,6 +6,7 @@ import type { Studio } from '../../../../core/studio';
 import { revealDoc, toast } from '../../../../core/window_state';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
+import { drawWords } from '../words';
 import { toggleBreak } from '../break_acts';
 import { planDeskOf } from '../plan_desk';
 
@@ -82,7 +83,7 @@ async function goToScript(
   const { spots } = await studio.send(command, { events });
   const first = spots[0];
   if (first) revealDoc(studio.window, first.doc, first.at);
-  else toast(studio.window, 'note', text.draw.noScript(events.join(', ')));
+  else toast(studio.window, 'note', drawWords.noScript(events.join(', ')));
 }
 
 function focusedRow(): string | undefined {

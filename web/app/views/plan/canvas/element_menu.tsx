@@ -1,6 +1,7 @@
 import { Menu } from '@mantine/core';
 import { CommandItem, StudioMenu } from '../../../parts/menu';
 import { text } from '../../../text';
+import { drawWords } from '../words';
 import type { MenuAt } from './use_element_menu';
 
 const debugging = ['draw.break', 'draw.breakEdit', 'draw.into', 'draw.script'];
@@ -26,7 +27,7 @@ export function ElementMenu({ at, onClose }: { at: MenuAt; onClose: () => void }
       button={<span className="pasked" style={{ left: at.x, top: at.y }} />}
     >
       <CommandItem id="draw.runFrom" title={text.plan.from.menu} />
-      <Menu.Label>{text.draw.debugging}</Menu.Label>
+      <Menu.Label>{drawWords.debugging}</Menu.Label>
       {debugging.map((id) => (
         <CommandItem key={id} id={id} />
       ))}

@@ -3,7 +3,7 @@
 import ELK from 'elkjs/lib/elk-api.js';
 import workerUrl from 'elkjs/lib/elk-worker.min.js?url';
 import { elkGraph, type LayoutGraph } from '../../../../core/plan/tidy';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import type { Point } from '../../../../core/plan/shape';
 
 /** A layout that takes longer is cancelled. */
@@ -15,7 +15,7 @@ export class TooLong extends Error {}
 export async function elkLayout(graph: LayoutGraph): Promise<Map<string, Point>> {
   const elk = new ELK({ workerUrl });
   const late = new Promise<never>((_done, reject) =>
-    setTimeout(() => reject(new TooLong(text.draw.tidyTooLong)), kLayoutMs),
+    setTimeout(() => reject(new TooLong(drawWords.tidyTooLong)), kLayoutMs),
   );
   try {
     const laid = await Promise.race([elk.layout(elkGraph(graph)), late]);

@@ -5,7 +5,7 @@ import type { PictureLook } from '../../../../core/plan/picture_parts';
 import { baseName } from '../../../../core/paths';
 import type { Studio } from '../../../../core/studio';
 import { download } from '../../../commands/download';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import type { ShownPlan } from '../plan_desk';
 import { planOptionsOf } from '../plan_options';
 
@@ -26,7 +26,7 @@ const nameOf = ({ board }: ShownPlan) => baseName(board.doc).replace(/\.plan\.js
 function pictured(studio: Studio, { board }: ShownPlan): Picture {
   const { model, scene, drawing, notes } = board;
   const { data } = planOptionsOf(studio).getState();
-  return pictureOf({ model, scene, drawing, notes, data, start: text.draw.start }, lookNow());
+  return pictureOf({ model, scene, drawing, notes, data, start: drawWords.start }, lookNow());
 }
 
 function lookNow(): PictureLook {
@@ -64,7 +64,7 @@ async function drawn({ svg, width, height }: Picture): Promise<Blob> {
     canvas.height = Math.round(height * scale);
     canvas.getContext('2d')?.drawImage(image, 0, 0, canvas.width, canvas.height);
     const png = await new Promise<Blob | null>((done) => canvas.toBlob(done, 'image/png'));
-    if (!png) throw new Error(text.draw.noPicture);
+    if (!png) throw new Error(drawWords.noPicture);
     return png;
   } finally {
     URL.revokeObjectURL(url);

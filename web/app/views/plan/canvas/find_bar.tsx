@@ -1,9 +1,9 @@
 import { useId, useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { findInPlan } from '../../../../core/plan/find';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 
-const words = text.draw;
+const words = drawWords;
 
 /** Looks for an element by what is typed: arrows and Enter choose, Escape goes back. */
 export function FindBar(props: {

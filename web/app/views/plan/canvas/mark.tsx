@@ -1,6 +1,6 @@
 import { IconAlertOctagon, IconAlertTriangle } from '@tabler/icons-react';
 import type { Counts } from '../../../../core/findings';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 
 /** What the checker has found at an element: an octagon or a triangle, with the number. */
 export function Mark({ errors, warnings }: Counts) {
@@ -11,7 +11,7 @@ export function Mark({ errors, warnings }: Counts) {
     <span
       className={isError ? 'pmark' : 'pmark pmark--warning'}
       role="img"
-      aria-label={text.draw.findings(errors, warnings)}
+      aria-label={drawWords.findings(errors, warnings)}
     >
       <Icon size={13} stroke={2} aria-hidden />
       {isError ? errors : warnings}

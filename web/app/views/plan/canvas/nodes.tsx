@@ -4,7 +4,7 @@ import type { NodeProps } from '@xyflow/react';
 import { arrowId, supervisorKey } from '../../../../core/plan/arrows';
 import { kStart } from '../../../../core/plan/model';
 import { kStroke } from '../../../parts/icons';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { BreakDot } from './break_dots';
 import { useFar } from './distance';
 import type { ActorNode, StartNode, SupervisorNode } from './flow_nodes';
@@ -16,7 +16,7 @@ import { Port, Row } from './port';
 import { Pill, Tag } from './small_nodes';
 import { TemplateIcon } from './template_icon';
 
-const words = text.draw;
+const words = drawWords;
 
 export const Start = memo(function Start({ data, selected }: NodeProps<StartNode>) {
   return (

@@ -6,7 +6,7 @@ import type { PlanBoard } from '../../../../core/plan/board';
 import { kSnap } from '../../../../core/plan/place';
 import { useMayEdit, useStudio } from '../../../hooks';
 import { Blank } from '../../../parts/blank';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
 import { ActiveLine } from './active_line';
@@ -30,7 +30,7 @@ import { useConnecting } from './use_connecting';
 import { usePlanBoard } from './use_board';
 import '../../../look/draw.css';
 
-const words = text.draw;
+const words = drawWords;
 
 /** A plan drawn: chosen, moved, connected by mouse and keyboard. */
 export default function PlanCanvas({ doc }: { doc: Doc }) {

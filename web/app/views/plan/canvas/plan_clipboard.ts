@@ -5,10 +5,10 @@ import { useMemo } from 'react';
 import { parsePart, partText } from '../../../../core/plan/part';
 import type { Studio } from '../../../../core/studio';
 import { toast } from '../../../../core/window_state';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import type { ShownPlan } from '../plan_desk';
 
-const words = text.draw;
+const words = drawWords;
 
 /** The text of what is chosen; null: nothing that can be copied. */
 export function copied({ board }: ShownPlan): string | null {

@@ -1,6 +1,6 @@
 import { memo, useContext } from 'react';
 import type { Side } from '../../../../core/plan/route';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { BreakDot } from './break_dots';
 import { ConnectContext } from './use_connecting';
 
@@ -38,15 +38,15 @@ export function Port(props: {
 }) {
   const { id, source, outcome, side, leads, y } = props;
   const connect = useContext(ConnectContext);
-  const name = outcome === '' ? text.draw.start : outcome;
-  const label = leads === null ? text.draw.loosePort(name) : text.draw.port(name, leads);
+  const name = outcome === '' ? drawWords.start : outcome;
+  const label = leads === null ? drawWords.loosePort(name) : drawWords.port(name, leads);
   return (
     <button
       type="button"
       className={`pport pport--${side} nodrag nopan`}
       style={{ top: y - 9 }}
       aria-label={label}
-      title={text.draw.portHelp}
+      title={drawWords.portHelp}
       data-plan-port={id}
       disabled={connect === null}
       onPointerDown={(event) => connect?.begin(event, { id, source, outcome })}

@@ -1,7 +1,7 @@
 import { MiniMap, useStore, type PanelPosition } from '@xyflow/react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { overlaps, type Box } from '../../../../core/plan/shape';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 
 const corners: readonly PanelPosition[] = ['bottom-right', 'bottom-left', 'top-right', 'top-left'];
 /** With its distance from the border. */
@@ -21,7 +21,7 @@ export function SmallMap({ board }: { board: PlanBoard }) {
     ),
   );
   return corner === null ? null : (
-    <MiniMap pannable zoomable position={corner} ariaLabel={text.draw.map} />
+    <MiniMap pannable zoomable position={corner} ariaLabel={drawWords.map} />
   );
 }
 

@@ -6,10 +6,10 @@ import { pathTo, subPlanDoc } from '../../../../core/plan/sub_plans';
 import type { Doc } from '../../../../protocol/messages';
 import type { Studio } from '../../../../core/studio';
 import { revealDoc, toast, update } from '../../../../core/window_state';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import type { ShownPlan } from '../plan_desk';
 
-const words = text.draw.subPlans;
+const words = drawWords.subPlans;
 
 /** The document of the sub-plan that is chosen. */
 export function chosenSubPlan({ board }: ShownPlan): Doc | null {

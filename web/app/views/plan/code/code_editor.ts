@@ -10,7 +10,7 @@ import {
   type ViewUpdate,
 } from '@codemirror/view';
 import type { CodeMark } from '../../../../protocol/messages';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { cppColours } from './cpp_colours';
 
 const setMarks = StateEffect.define<readonly CodeMark[]>();
@@ -51,7 +51,7 @@ export function codeEditor(parent: HTMLElement, onLine: (line: number) => void):
           { key: 'ArrowUp', run: byLine(-1) },
         ]),
         EditorView.updateListener.of(moved),
-        EditorView.contentAttributes.of({ 'aria-label': text.draw.codeLabel, tabindex: '0' }),
+        EditorView.contentAttributes.of({ 'aria-label': drawWords.codeLabel, tabindex: '0' }),
       ],
     }),
   });

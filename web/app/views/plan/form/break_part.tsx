@@ -7,9 +7,10 @@ import { mistakeIn } from '../../../../core/condition';
 import { useStudio, useTopic } from '../../../hooks';
 import { useTyped } from '../../../parts/use_draft';
 import { text } from '../../../text';
+import { drawWords } from '../words';
 import { changeBreak, setBreak, toggleBreak } from '../break_acts';
 
-const words = text.draw.break;
+const words = drawWords.break;
 
 /** Where a plan can stop at an element: before an actor, at each of its states, at each event. */
 export function BreakPart(props: {

@@ -7,7 +7,7 @@ import type { Actor, Supervisor } from '../../../../core/plan/model';
 import { useTopic } from '../../../hooks';
 import { useDraft } from '../../../parts/use_draft';
 import { Field } from '../../world/fields';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { offerId, Offers } from './offers';
 import { Findings, isWrong, useFindingsAt } from './row_findings';
 import { useCompletion } from './use_completion';
@@ -72,7 +72,7 @@ export function FormulaField(props: {
                 autoComplete="off"
                 spellCheck={false}
                 value={draft.shown}
-                placeholder={otherwise === '' ? text.draw.unfed : text.draw.default(otherwise)}
+                placeholder={otherwise === '' ? drawWords.unfed : drawWords.default(otherwise)}
                 disabled={disabled}
                 onChange={({ target }) => {
                   draft.set(target.value);

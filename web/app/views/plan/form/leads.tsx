@@ -8,11 +8,11 @@ import {
   type Outcome,
   type Supervisor,
 } from '../../../../core/plan/model';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { targetName } from '../canvas/connect_menu';
 import { Findings, isWrong, useFindingsAt } from './row_findings';
 
-const words = text.draw;
+const words = drawWords;
 
 /** Where each state or event leads. */
 export function Leads(props: {

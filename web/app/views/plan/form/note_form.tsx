@@ -5,9 +5,9 @@ import { kSnap } from '../../../../core/plan/place';
 import { useDraft } from '../../../parts/use_draft';
 import { Field } from '../../world/fields';
 import { NumberField } from '../../world/number_field';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 
-const words = text.draw;
+const words = drawWords;
 
 /** A note by the keyboard: its text, how wide and high it is. */
 export function NoteForm(props: { board: PlanBoard; note: Note; disabled: boolean }) {

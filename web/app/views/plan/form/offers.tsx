@@ -1,7 +1,7 @@
 import { Popover } from '@mantine/core';
 import { useEffect, useRef, type ReactElement } from 'react';
 import type { Offer } from '../../../../core/plan/completion';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 
 /** What may be written at the caret, below the field that is typed into. */
 export function Offers(props: {
@@ -23,7 +23,7 @@ export function Offers(props: {
     >
       <Popover.Target>{field}</Popover.Target>
       <Popover.Dropdown>
-        <ul id={id} role="listbox" aria-label={text.draw.offers}>
+        <ul id={id} role="listbox" aria-label={drawWords.offers}>
           {offers.map((offer, index) => (
             <Item
               key={`${offer.is} ${offer.name}`}

@@ -4,6 +4,7 @@ import { kStart } from '../../../../core/plan/model';
 import { useDrives } from '../../../hooks';
 import { Quiet } from '../../../parts/blank';
 import { text } from '../../../text';
+import { drawWords } from '../words';
 import { RoleShape } from '../canvas/template_icon';
 import { useBoard, type ShownPlan } from '../plan_desk';
 import { BreakPart } from './break_part';
@@ -14,7 +15,7 @@ import { NoteForm } from './note_form';
 import { RaisePart } from './raise_part';
 import { VariableForm } from './variable_form';
 
-const words = text.draw;
+const words = drawWords;
 
 /** What is chosen in a plan, to be changed exactly. */
 export function PlanForm({ plan }: { plan: ShownPlan }) {

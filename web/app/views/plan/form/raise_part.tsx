@@ -5,10 +5,10 @@ import type { Supervisor } from '../../../../core/plan/model';
 import { typedValue } from '../../../../core/plan_view';
 import { useDrives, useStudio, useTopic } from '../../../hooks';
 import { Button } from '../../../parts/button';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { Field } from '../../world/fields';
 
-const words = text.draw.raise;
+const words = drawWords.raise;
 
 /** While a supervisor watches: its events, raised by hand, with the outputs that they give. */
 export function RaisePart({ board, supervisor }: { board: PlanBoard; supervisor: Supervisor }) {

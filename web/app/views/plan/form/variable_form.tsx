@@ -1,10 +1,10 @@
 import type { PlanBoard } from '../../../../core/plan/board';
 import { dropSteps, formulaJson, setSteps, shownFormula } from '../../../../core/plan/edit';
 import { memberOf, textOf } from '../../../../core/plan/json';
-import { text } from '../../../text';
+import { drawWords } from '../words';
 import { ChoiceField, TextField } from '../../world/fields';
 
-const words = text.draw;
+const words = drawWords;
 const types = ['bool', 'int', 'float', 'string', 'object'] as const;
 const accesses = ['', 'in', 'out', 'inout', 'shared'] as const;
 

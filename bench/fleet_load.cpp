@@ -137,8 +137,9 @@ public:
     // Milliseconds until all have answered.
     double order(const std::string& verb) {
         const Duration begun = now();
-        desk_.begin({{.verb = verb}, {.all = true}}, begun);
-        while (!desk_.is_over() && now() < begun + kRoundWithin) {
+        desk_.end(order_);
+        order_ = desk_.begin({{.verb = verb}, {.all = true}}, begun);
+        while (!desk_.is_over(order_) && now() < begun + kRoundWithin) {
             for (const fleet::LinkEvent& event : link_.take()) desk_.hear(event, now());
             desk_.tick(now());
             for (const fleet::OperatorAction& action : desk_.take()) {
@@ -154,14 +155,15 @@ public:
     }
     size_t answered() const {
         size_t good = 0;
-        for (const fleet::Outcome& one : desk_.outcomes()) {
+        for (const fleet::Outcome& one : desk_.outcomes(order_)) {
             good += one.answered && one.answer.done ? 1 : 0;
         }
         return good;
     }
-    size_t asked() const { return desk_.outcomes().size(); }
+    size_t asked() const { return desk_.outcomes(order_).size(); }
 
 private:
+    fleet::OrderNumber order_ = 0;
     Bell bell_;
     fleet::Operator desk_;
     serve::MosquittoLink link_;

@@ -1,6 +1,7 @@
 """Robots of a fleet: served simulated Thymios, a broker (Debian's mosquitto), and somebody who tells them what to do."""
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -99,6 +100,11 @@ class Case(unittest.TestCase):
         done = self.desk(*arguments, **options)
         self.assertEqual(done.returncode, 0, done.stdout)
         return done.stdout
+
+    def is_told(self, robot, variable, value):
+        """Somebody asks for a variable, and waits until the robot tells that value."""
+        with vagus("fleet", self.target, "tell", robot, variable, *self.login("operator"), "--wait", GIVE_UP_AFTER) as program:
+            program.wait_line(rf"^{robot}: {re.escape(variable)} = {value}$")
 
     def states(self):
         """What each robot shows, by name."""

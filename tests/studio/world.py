@@ -33,7 +33,8 @@ class AWorldUnderAHand(Case):
         return self.people.value["project"].get("world_changed", False)
 
     def ids(self):
-        return [one["id"] for one in self.scene.value["objects"]]
+        """Of the objects of the world; none before there is one."""
+        return [one["id"] for one in self.scene.value.get("objects", [])]
 
     def post(self, world):
         world["objects"].append({"id": "post", "kind": "cylinder", "at": [1, 2], "radius": 0.1})
@@ -42,6 +43,7 @@ class AWorldUnderAHand(Case):
         self.open()
         self.wait_node(described=True)
         saved = (self.folder / FILE).read_text(encoding="utf-8")
+        self.wait(lambda: self.ids() == ["box"], "the world of the file")
         opening = self.scene.value["opening"]
         self.edit(self.post)
         self.wait(lambda: self.ids() == ["box", "post"], "the post that was drawn")

@@ -196,8 +196,18 @@ int tell_variable(FleetSession& session, const FleetCall& call) {
         return complain("\"" + visible(call.variable) + "\": expected NODE.NAME", kExitUsage);
     }
     asks.wait_s = kFleetWait_s;
+    // The first value may be faster than the answer, and is the last one if it never changes.
+    std::string early;
+    session.on_event([&](const fleet::LinkEvent& event) {
+        const auto* received = std::get_if<fleet::Received>(&event);
+        if (received == nullptr || received->heard.topic.kind != Kind::Variable) return;
+        if (!is_meant(session, call, received->heard.topic.robot)) return;
+        early += heard_line(received->heard, call, session) + "\n";
+    });
     const int asked = order(session, asks);
+    session.on_event([](auto&) {});
     if (asked != kExitDone) return asked;
+    print(early);
     asks.wait_s = std::min(call.wait_s.value_or(kTold_s), kTold_s);
     return follow(session, asks, false);
 }

@@ -11,28 +11,12 @@ namespace {
 
 constexpr size_t kFindingsTold = 2000;  // as the protocol has it
 
-const char* word_of_result(DeployOutcome::Result result) {
-    switch (result) {
-        case DeployOutcome::Result::Started:
-            return "started";
-        case DeployOutcome::Result::Stopped:
-            return "stopped";
-        case DeployOutcome::Result::Refused:
-            return "refused";
-        case DeployOutcome::Result::RolledBack:
-            return "rolled_back";
-        case DeployOutcome::Result::Waiting:
-            return "waiting";
-    }
-    return "refused";
-}
-
 Json json_of(const DeployOutcome& outcome) {
     Json findings = Json::array();
     for (const DocFinding& finding : outcome.findings) {
         if (findings.size() < kFindingsTold) findings.push_back(serve::json_of(finding));
     }
-    Json json = {{"result", word_of_result(outcome.result)},
+    Json json = {{"result", word_of(outcome.result)},
                  {"version", outcome.version},
                  {"findings", std::move(findings)}};
     if (!outcome.why.empty()) json["why"] = outcome.why;

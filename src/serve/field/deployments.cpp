@@ -32,6 +32,22 @@ bool is_empty_place(const fs::path& folder) {
 
 }  // namespace
 
+const char* word_of(DeployOutcome::Result result) {
+    switch (result) {
+        case DeployOutcome::Result::Started:
+            return "started";
+        case DeployOutcome::Result::Stopped:
+            return "stopped";
+        case DeployOutcome::Result::Refused:
+            return "refused";
+        case DeployOutcome::Result::RolledBack:
+            return "rolled_back";
+        case DeployOutcome::Result::Waiting:
+            return "waiting";
+    }
+    return "refused";
+}
+
 // ---- the boot ----
 
 Status Deployments::boot(bool start, Time now) {

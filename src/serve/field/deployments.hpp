@@ -36,6 +36,9 @@ struct DeployOutcome {
     std::string why = {};  // a sentence; of Started, how its plan is by then
 };
 
+// "started", as the protocol and fleets have it.
+const char* word_of(DeployOutcome::Result result);
+
 struct DeployCounts {
     uint64_t started = 0, refused = 0, rolled_back = 0;
 };

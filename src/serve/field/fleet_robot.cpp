@@ -141,7 +141,9 @@ void FleetRobot::perform(const fleet::EmitOnBus& event) {
 
 fleet::Answer FleetRobot::tell_for_a_minute(const fleet::Command& command) {
     const Status known = bench_.find_variable(command.node, command.name);
-    if (!known.ok()) return {.what = known.error().what.substr(0, fleet::kLineBytesMax)};
+    if (!known.ok()) {
+        return {.what = std::string(utf8_prefix(known.error().what, fleet::kLineBytesMax))};
+    }
     if (!tell_list_.add({command.node, command.name}, now_)) {
         return {.what = fmt::format("{} variables are told already because somebody asked for "
                                     "them; wait a minute",

@@ -19,22 +19,6 @@ Result<Packed> checked(const fleet::Want& want, const Result<std::string>& bytes
                  want.address + ": what is there is not what is wanted: it has another SHA-256"};
 }
 
-const char* word_of(DeployOutcome::Result result) {
-    switch (result) {
-        case DeployOutcome::Result::Started:
-            return "started";
-        case DeployOutcome::Result::Stopped:
-            return "stopped";
-        case DeployOutcome::Result::Refused:
-            return "refused";
-        case DeployOutcome::Result::RolledBack:
-            return "rolled_back";
-        case DeployOutcome::Result::Waiting:
-            return "waiting";
-    }
-    return "refused";
-}
-
 std::string reason_of(const DeployOutcome& outcome) {
     for (const DocFinding& finding : outcome.findings) {
         if (finding.severity != Severity::Error) continue;
@@ -111,7 +95,7 @@ void Wanted::over(const DeployOutcome& outcome) {
 void Wanted::told(const std::string& result, const std::string& why) {
     const fleet::Want want = *std::exchange(under_way_, std::nullopt);
     last_ = fleet::Version{want.number, want.sha256, result,
-                           visible_lines(why).substr(0, fleet::kLineBytesMax)};
+                           std::string(utf8_prefix(visible_lines(why), fleet::kLineBytesMax))};
     std::error_code failed;  // then it cannot be written either, and that is said
     std::filesystem::create_directories(std::filesystem::path(call_.file).parent_path(), failed);
     const Status kept = write_file(call_.file, fleet::payload_of(*last_) + "\n");

@@ -31,7 +31,7 @@ struct SimRunOptions {
     std::string sd_folder;
     serve::FleetOptions fleet = {};  // robots with projects are members there
     std::string logins;              // a folder with NAME.login for each
-    std::string theme;  // "dark", "light"; empty: found out
+    std::string theme;               // "dark", "light"; empty: found out
     aesl::Options compile;
 };
 

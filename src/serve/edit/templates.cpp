@@ -61,9 +61,7 @@ std::string new_plan(std::string_view name) {
     const Members wait = {json_member("template", "Wait"),
                           json_member("in", {json_member("seconds", "1")}),
                           json_member("states", {json_member("Done", "@terminate")})};
-    const auto place = [](int x, int y) {
-        return json_array({json_integer(x), json_integer(y)});
-    };
+    const auto place = [](int x, int y) { return json_array({json_integer(x), json_integer(y)}); };
     // What has no place of its own is placed again each time the file is opened, around what has.
     const Members layout = {json_member("@start", place(80, 80)),
                             json_member("wait", place(80, 160))};

@@ -9,17 +9,16 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "fleet/member.hpp"
 #include "fleet/operator.hpp"
-#include "serve/field/fleet_robot.hpp"
+#include "serve/broker/bell.hpp"
+#include "serve/broker/fleet_options.hpp"
 
 using namespace vagus;
 using namespace std::chrono_literals;
@@ -36,23 +35,6 @@ Duration now() {
         std::chrono::steady_clock::now().time_since_epoch());
 }
 
-struct Bell {
-    std::mutex guard;
-    std::condition_variable heard;
-    bool rung = false;
-
-    void ring() {
-        const std::lock_guard lock(guard);
-        rung = true;
-        heard.notify_one();
-    }
-    void wait(Duration at_most) {
-        std::unique_lock lock(guard);
-        heard.wait_for(lock, at_most, [this] { return rung; });
-        rung = false;
-    }
-};
-
 serve::LinkOptions link_to(const std::string& target, const std::string& folder,
                            const std::string& user) {
     auto options = serve::link_options(
@@ -64,7 +46,8 @@ serve::LinkOptions link_to(const std::string& target, const std::string& folder,
 }
 
 struct Robot {
-    Robot(const std::string& target, const std::string& folder, const std::string& name, Bell& bell)
+    Robot(const std::string& target, const std::string& folder, const std::string& name,
+          serve::Bell& bell)
         : member({.fleet = "lab",
                   .robot = name,
                   .instance = name + "-bench",
@@ -105,7 +88,7 @@ void change(Robot& robot, int turn) {
 }
 
 void members(const std::string& target, const std::string& folder, int count) {
-    Bell bell;
+    serve::Bell bell;
     std::vector<std::unique_ptr<Robot>> robots;
     for (int i = 0; i < count; ++i)
         robots.push_back(std::make_unique<Robot>(target, folder, fmt::format("m{}", i), bell));
@@ -164,7 +147,7 @@ public:
 
 private:
     fleet::OrderNumber order_ = 0;
-    Bell bell_;
+    serve::Bell bell_;
     fleet::Operator desk_;
     serve::MosquittoLink link_;
 };

@@ -159,7 +159,7 @@ void Control::start_next() {
 void Control::begin_turn() {
     if (started_ || requests_.empty()) return out_.requests.leave(view_.id);
     started_ = true;
-    wait_anew(requests_.front());
+    restart_deadline(requests_.front());
     start(requests_.front());
 }
 
@@ -218,8 +218,8 @@ void Control::start(Request& request) {
 
 // The node, or somebody on the way, may have had too much to do. Only what is the same twice is
 // said twice: a step is not, nor is what the user would see happen again.
-// What was sent last has all its time to be answered.
-void Control::wait_anew(Request& request) {
+// The whole time for an answer counts from now.
+void Control::restart_deadline(Request& request) {
     request.deadline = out_.now + kAnswerWithin;
     ask_again_ = out_.now + kAskAgain;
 }
@@ -359,7 +359,7 @@ Control::Answer Control::answer_load(Request& request, const wire::ExecutionStat
     if (request.acked == all) return is_stepping_state(state) ? Answer{} : Outcome{};
     if (!is_loaded_state(state, request.program)) return {};  // of what was said before
     request.acked++;
-    wait_anew(request);
+    restart_deadline(request);
     out_.requests.progress(view_.id, out_.now);
     send_fragments(request);
     if (request.acked < all) return {};
@@ -395,7 +395,7 @@ void Control::receive(const wire::Variables& variables) {
 // for it for ever.
 void Control::after_mark(Request& load, std::optional<uint32_t> told) {
     load.asks_mark = false;
-    wait_anew(load);
+    restart_deadline(load);
     const bool same = !told || *told == mark_of(load.program->bytecode);
     Answer done = same ? loaded(load) : load_again(load, *told);
     if (!done) return;

@@ -105,7 +105,7 @@ private:
     Request* active(Kind kind);
     bool uploading();
 
-    void wait_anew(Request& request);
+    void restart_deadline(Request& request);
     void start(Request& request);
     void repeat(Request& request);
     void start_run(Request& request);

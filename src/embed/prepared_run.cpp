@@ -9,6 +9,7 @@
 #include "base/file.hpp"
 #include "base/line_sink.hpp"
 #include "base/text.hpp"
+#include "embed/bus_check.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/plan_bus.hpp"
 #include "net/links.hpp"
@@ -78,18 +79,6 @@ Status check_words(const RunWords& words) {
         return usage("--trace-all goes with --world; for the plan alone there is --trace");
     }
     return Status::done();
-}
-
-plan::Findings missing_names(const session::BusNames& names, const LoadedPlan& what) {
-    return names.check(what.plans(), what.library().templates());
-}
-
-Status check_names(const session::BusNames& names, const LoadedPlan& what) {
-    const plan::Findings findings = missing_names(names, what);
-    if (findings.empty()) return Status::done();
-    std::string lines = format_findings(findings);
-    lines.pop_back();  // the last newline
-    return usage("the plan names events that its bus does not have\n" + lines);
 }
 
 Result<LoadedPlan> start_of(const LoadedPlan& what, const std::string& actor) {
@@ -336,15 +325,17 @@ Result<run::Ended> PreparedRun::Insides::run_beside_world() {
     world_used = true;
     Pace pace(*hosts);
     sim::WorldThreads threads(world->session().world(), !words.threads.empty());
+    const auto clock = [this] { return hosts->now(); };
     const bool paced = words.clock != "virtual";
-    world->before_each([this, &pace, &threads, paced](Time at) {
-        threads.end(hosts->now(), sim::kNodeStep);
+    world->before_each([this, &pace, &threads, clock, paced](Time at) {
+        threads.end(clock, sim::kNodeStep);
         if (!listening.empty()) (void)hosts->poll(hosts->now());
-        if (wait)
+        if (wait) {
             wait(at);
-        else if (paced)
+        } else if (paced) {
             pace.wait(at);
-        threads.begin(hosts->now());
+        }
+        threads.begin(clock);
     });
     world->join(how);
     const run::Ended ended =

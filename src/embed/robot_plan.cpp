@@ -1,5 +1,6 @@
 #include "embed/robot_plan.hpp"
 
+#include "embed/bus_check.hpp"
 #include "embed/prepared_run.hpp"
 #include "session/toolboxes.hpp"
 
@@ -40,12 +41,7 @@ Result<std::unique_ptr<RobotPlan>> RobotPlan::load(session::RobotBus& robot) {
 
 Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, Seen seen) {
     names_.emplace(robot_.session->common(), "the scripts of " + robot_.project.file);
-    const plan::Findings missing = names_->check(plan_->plans(), library_.templates());
-    if (!missing.empty()) {
-        std::string lines = format_findings(missing);
-        lines.pop_back();  // the last newline
-        return Error{Code::BadInput, "its plan names events that its bus does not have\n" + lines};
-    }
+    TRY(check_names(*names_, *plan_, "its"));
     if (!ears_) ears_.emplace(nodes_);  // in a second run it knows who is there
     for (const debug::Event& event : before) (void)ears_->hear(event);
     heard_.clear();  // what scripts said before time 0 is not for the plan

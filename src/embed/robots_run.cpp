@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "embed/robot_plan.hpp"
 #include "fleet/limits.hpp"
 #include "run/traced_variables.hpp"
@@ -26,7 +27,8 @@ fleet::Shown shown(const RobotBus& robot) {
     fleet::Shown shown;
     for (const session::NodeState& node : robot.session->nodes()) {
         if (node.fault.empty() || shown.problems.size() >= fleet::kProblemsMax) continue;
-        shown.problems.push_back((node.name + ": " + node.fault).substr(0, fleet::kLineBytesMax));
+        shown.problems.emplace_back(
+            utf8_prefix(node.name + ": " + node.fault, fleet::kLineBytesMax));
     }
     const bool runs = has_in_state(robot, debug::ProgramState::Running);
     shown.state = !shown.problems.empty() ? "fault" : runs ? "running" : "stopped";
@@ -208,7 +210,7 @@ void RobotsRun::instant() {
     buses_->end_instant();
 }
 
-// Most have nothing to do before the next instant, and have come to it already.
+// Most plans have nothing to do before the next instant and are already there.
 void RobotsRun::run_plans_before(Time at) {
     std::vector<RobotPlan*> early;
     for (const auto& plan : plans_) {
@@ -223,7 +225,7 @@ void RobotsRun::run_plans_before(Time at) {
     }
 }
 
-// What nodes say goes to the fleet; what hosts say does not: it may have come from there.
+// Events of nodes go to the fleet. Events of hosts do not: they may come from the fleet.
 void RobotsRun::hear(size_t index, Time at) {
     RobotBus& robot = buses_->robots()[index];
     for (const debug::Event& event : robot.session->take_heard()) {

@@ -7,8 +7,8 @@
 //     for (const KeepingAction& action : keeping.take()) perform(action);
 //     if (keeping.is_out()) tell(keeping.why_out());  // another keeper is there
 //
-// The machine is told of a connection when all that the broker has retained has come: when a beat
-// of its own that goes out behind the subscriptions has come back.
+// The machine is told of a connection once all retained messages have been received: when a beat of
+// its own, sent after the subscriptions, has returned.
 #pragma once
 
 #include <deque>
@@ -54,7 +54,7 @@ private:
     void on(const Received& received);
     void on(const Acknowledged& acknowledged);
     void on(const Malformed& malformed);
-    void on(const TakenBack&) {}  // by whoever published it; what is ours is published again
+    void on(const TakenBack&) {}  // the keeper's own records are published again
 
     void tell(const keeper::Input& input);
     void perform(const keeper::Actions& actions);
@@ -73,9 +73,9 @@ private:
     keeper::Keeper keeper_;
     std::vector<KeepingAction> actions_;
     Time now_{};
-    uint64_t echoes_ = 0;               // sent so far; the last one tells that all has come
-    bool knows_all_ = false;            // it has come back
-    std::vector<keeper::Input> early_;  // what came before it
+    uint64_t echoes_ = 0;               // sent so far
+    bool knows_all_ = false;            // the last one has returned, after all retained messages
+    std::vector<keeper::Input> early_;  // received before that
     std::deque<Post> waiting_;          // records
     std::set<uint64_t> in_flight_;
     keeper::Keeper::State told_state_ = keeper::Keeper::State::Away;

@@ -7,7 +7,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -52,6 +54,10 @@ struct Malformed {
 };
 
 using LinkEvent = std::variant<Connected, Lost, Received, Acknowledged, TakenBack, Malformed>;
+
+// What a message that a broker delivers is; nothing: it is none of that fleet.
+std::optional<LinkEvent> event_of(std::string_view fleet, std::string_view topic,
+                                  std::string_view payload, bool retained);
 
 class Link {
 public:

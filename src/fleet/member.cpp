@@ -4,12 +4,26 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
+
 namespace vagus::fleet {
 namespace {
 
 constexpr std::string_view kStop = "stop";
 
 }  // namespace
+
+Description description_of(const ProjectPart& part, std::string_view project,
+                           std::string_view plan) {
+    Description said{.project = std::string(utf8_prefix(project, kLineBytesMax)),
+                     .plan = std::string(utf8_prefix(plan, kLineBytesMax)),
+                     .groups = part.groups,
+                     .send = part.send};
+    for (const Hears& one : part.hear) {
+        if (!contains(said.hear, one.event)) said.hear.push_back(one.event);
+    }
+    return said;
+}
 
 Member::Member(MemberOptions options, Time now)
     : options_(std::move(options)), now_(now), apart_since_(now) {

@@ -16,6 +16,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -35,6 +36,10 @@ struct MemberOptions {
     ProjectPart project = {};
     Description description = {};
 };
+
+// What a robot says of the project of that name, with that plan. Its program adds the rest.
+Description description_of(const ProjectPart& part, std::string_view project,
+                           std::string_view plan);
 
 // What is shown of the robot: its state without what the member itself adds.
 struct Shown {

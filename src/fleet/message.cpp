@@ -460,17 +460,14 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 std::string payload_of(const Message& message, std::string_view fleet) {
-    if (const auto* reply = std::get_if<Reply>(&message)) {
-        return format_json_line(json_object(members_of(*reply, fleet)));
-    }
-    return std::visit(
-        [](const auto& said) {
-            if constexpr (std::is_same_v<decltype(said), const Reply&>)
-                return std::string();
-            else
-                return format_json_line(json_object(members_of(said)));
-        },
-        message);
+    const auto members = [fleet](const auto& said) {
+        if constexpr (std::is_same_v<decltype(said), const Reply&>) {
+            return members_of(said, fleet);
+        } else {
+            return members_of(said);
+        }
+    };
+    return format_json_line(json_object(std::visit(members, message)));
 }
 
 Topic topic_of(const keeper::Record& record) {

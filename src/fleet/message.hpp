@@ -27,8 +27,8 @@ struct Connection {
     friend bool operator==(const Connection&, const Connection&) = default;
 };
 struct Description {
-    std::string project, vagus, plan, studio;
-    std::vector<std::string> groups, nodes, send, hear;
+    std::string project = {}, vagus = {}, plan = {}, studio = {};
+    std::vector<std::string> groups = {}, nodes = {}, send = {}, hear = {};
     friend bool operator==(const Description&, const Description&) = default;
 };
 struct State {

@@ -166,7 +166,7 @@ void ModelledBroker::each_topic(ByTopic& all, const Filter& filter, const Do& ac
     }
 }
 
-// Who has several filters for a topic gets it once.
+// A client with several matching filters gets a message once.
 void ModelledBroker::add_match(std::vector<Match>& matches, Way& way, const Filter& filter) {
     const auto known = std::find_if(matches.begin(), matches.end(),
                                     [&way](const Match& one) { return one.way == &way; });
@@ -197,14 +197,9 @@ void ModelledBroker::publish(const Post& post, const Way* by) {
 
 void ModelledBroker::deliver(Way& way, const Post& post, bool retained) {
     if (!way.connected_) return;
-    Result<Heard> heard = read(way.fleet_, post.topic, post.payload);
-    LinkEvent event = Malformed{};
-    if (heard.ok()) {
-        event = Received{std::move(heard.value()), retained};
-    } else {
-        event = Malformed{heard.error().what};
-    }
-    send({.way = &way, .connection = way.connection_, .what = std::move(event)}, post.qos);
+    auto event = event_of(way.fleet_, post.topic, post.payload, retained);
+    if (!event) return;
+    send({.way = &way, .connection = way.connection_, .what = std::move(*event)}, post.qos);
 }
 
 }  // namespace vagus::fleet

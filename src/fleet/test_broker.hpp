@@ -87,8 +87,8 @@ private:
     }
 
     static void deliver(Client& client, const Post& post, bool retained) {
-        auto heard = read("lab", post.topic, post.payload);
-        if (heard.ok()) client.inbox.emplace_back(Received{std::move(heard.value()), retained});
+        auto event = event_of("lab", post.topic, post.payload, retained);
+        if (event) client.inbox.push_back(std::move(*event));
     }
 
     std::vector<std::unique_ptr<Client>> clients_;

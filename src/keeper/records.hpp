@@ -102,7 +102,7 @@ struct Write {
 };
 using Request = std::variant<Give, Take, ClaimName, Renew, Finish, Release, Write>;
 
-// Who asked: a name, the epoch of its life (another one each time, in no order), and the number of
+// The asker: a name, the epoch of its life (another one each time, in no order), and the number of
 // the question in it.
 struct Asker {
     std::string robot;

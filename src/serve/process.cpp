@@ -346,4 +346,10 @@ std::string random_bytes(size_t count) {
     return bytes;
 }
 
+int64_t random_number() {
+    int64_t number = 0;
+    for (const char byte : random_bytes(6)) number = number * 256 + static_cast<uint8_t>(byte);
+    return number;
+}
+
 }  // namespace vagus::serve

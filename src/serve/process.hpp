@@ -131,5 +131,7 @@ std::string own_program();
 std::string host_name();
 // Random bytes of the system, for tokens.
 std::string random_bytes(size_t count);
+// A random whole number from 0 to below 2^48, which JSON carries exactly.
+int64_t random_number();
 
 }  // namespace vagus::serve

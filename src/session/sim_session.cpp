@@ -391,10 +391,11 @@ std::vector<std::pair<std::string, std::span<const int16_t>>> SimSession::script
     uint16_t id) const {
     std::vector<std::pair<std::string, std::span<const int16_t>>> list;
     const debug::NodeView* node = network_.node(id);
-    if (node == nullptr || !node->program || find(id) == nullptr) return list;
+    const Node* const own_node = find(id);
+    if (node == nullptr || !node->program || own_node == nullptr) return list;
     size_t own = 0;
     for (const aesl::NamedVariable& variable : node->target->variables) own += variable.size;
-    const std::span<const int16_t> memory = world_->variables(find(id)->robot, id);
+    const std::span<const int16_t> memory = world_->variables(own_node->robot, id);
     for (const aesl::VariablePlace& place : node->program->variables) {
         if (place.address < own || size_t{place.address} + place.size > memory.size()) continue;
         list.emplace_back(place.name, memory.subspan(place.address, place.size));

@@ -140,7 +140,7 @@ public:
     Time now() const { return world_->now(); }
     // Time 0 again, and the same scripts are sent again.
     void reset();
-    // The same where somebody else has reset the world.
+    // The same after another session has reset the world.
     void begin_again();
     // Everything that was loaded runs on its node, or has mistakes.
     bool settled() const;
@@ -197,7 +197,7 @@ public:
     std::vector<std::string> without_script() const;
 
     std::vector<Note> take_notes();
-    // One more note, of whoever runs what belongs to this bus.
+    // Adds a note of code that runs beside this session.
     void tell(NoteKind kind, std::string text) { note(kind, std::move(text)); }
     std::string take_trace();
     // What is doubtful about the world file: FILE:LINE:COL: warning: sentence. Also a note.
@@ -310,8 +310,8 @@ private:
     std::string trace_;
 };
 
-// Whether robots with a project of their own have somebody who runs it (world_buses.hpp), or stand
-// still in a session of the common bus alone, which says so in a hint.
+// Whether the projects of robots are run (world_buses.hpp), or those robots stand still in a
+// session of the common bus alone, which says so in a hint.
 enum class Projects { StandStill, Run };
 
 // Opens a world file and loads the scripts that it names for its robots, from the file's folder.

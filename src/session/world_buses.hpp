@@ -69,7 +69,7 @@ public:
     // Of all buses since the last call.
     std::vector<Note> take_notes();
     std::string take_trace();
-    // Lines of somebody else, in their place among those of the buses.
+    // Adds lines of other code, in their place among those of the buses.
     void trace(const std::string& lines);
     std::vector<Diagnostic> mistakes() const;
     std::vector<std::string> without_script() const;

@@ -45,14 +45,8 @@ fleet::MemberOptions WorldFleet::member_of(const RobotBus& robot) const {
     if (!door_) return member;
     if (!door_->fleet.empty()) member.fleet = door_->fleet;
     std::tie(member.instance, member.epoch) = door_->instance_and_epoch();
-    member.description.project = robot.project.name.substr(0, fleet::kLineBytesMax);
-    member.description.plan = robot.project.plan.substr(0, fleet::kLineBytesMax);
-    member.description.groups = robot.project.fleet.groups;
-    member.description.send = robot.project.fleet.send;
-    for (const fleet::Hears& one : robot.project.fleet.hear) {
-        if (fleet::contains(member.description.hear, one.event)) continue;
-        member.description.hear.push_back(one.event);
-    }
+    member.description =
+        fleet::description_of(robot.project.fleet, robot.project.name, robot.project.plan);
     return member;
 }
 

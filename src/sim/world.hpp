@@ -189,8 +189,8 @@ public:
     // How often a node was looked at, all together: one that has nothing to do is not.
     uint64_t turns_taken() const;
     unsigned threads() const;
-    // From now on one thread does all, or all of threads(): whoever sees how long it takes chooses
-    // (thread_choice.hpp). The bytes are the same.
+    // From now on one thread steps the world, or all of threads() do: the caller chooses by how
+    // long each takes (thread_choice.hpp). The bytes are the same.
     void use_one_thread(bool one);
 
     // ---- Looking ----

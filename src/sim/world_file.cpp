@@ -90,7 +90,7 @@ RobotDefinition read_robot(JsonObject& in, int64_t node) {
     robot.project = in.text("project", Need::Optional);
     if (!robot.project.empty()) node = 1;  // it is alone on its bus
     robot.node =
-        static_cast<uint16_t>(in.integer("node", {.low = 1, .high = 65534, .fallback = node}));
+        static_cast<uint16_t>(in.integer("node", {.low = 1, .high = kNodeLast, .fallback = node}));
     if (in.find("port", Need::Optional) != nullptr)
         robot.port = static_cast<uint16_t>(in.integer("port", {.low = 0, .high = 65535}));
     robot.script = in.text("script", Need::Optional);

@@ -9,17 +9,16 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "fleet/limits.hpp"
 #include "fleet/member.hpp"
 #include "net/end_signal.hpp"
+#include "serve/broker/bell.hpp"
 #include "serve/broker/fleet_options.hpp"
 
 namespace {
@@ -102,25 +101,7 @@ private:
     fleet::Shown shown_{.state = "running", .actor = "wait"};
 };
 
-// Wakes the loop from the threads of the links.
-struct Bell {
-    std::mutex guard;
-    std::condition_variable rung;
-    bool rings = false;
-
-    void ring() {
-        const std::lock_guard lock(guard);
-        rings = true;
-        rung.notify_one();
-    }
-    void wait(Duration within) {
-        std::unique_lock lock(guard);
-        rung.wait_for(lock, within, [this] { return rings; });
-        rings = false;
-    }
-};
-
-void live(std::vector<std::unique_ptr<Robot>>& robots, size_t changing, Bell& bell) {
+void live(std::vector<std::unique_ptr<Robot>>& robots, size_t changing, serve::Bell& bell) {
     Time next = now();
     int64_t beat = 0;
     bool told = false;
@@ -153,7 +134,7 @@ int main(int count, char** words) {
         return 2;
     }
     net::watch_for_end();
-    Bell bell;
+    serve::Bell bell;
     std::vector<std::unique_ptr<Robot>> robots;
     const size_t size = std::strtoul(words[2], nullptr, 10);
     for (size_t i = 1; i <= size; ++i) {

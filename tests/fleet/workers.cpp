@@ -10,18 +10,17 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 
 #include "base/rng.hpp"
 #include "fleet/keeper_client.hpp"
-#include "serve/field/fleet_robot.hpp"
+#include "serve/broker/bell.hpp"
+#include "serve/broker/fleet_options.hpp"
 
 using namespace vagus;
 using namespace std::chrono_literals;
@@ -40,28 +39,11 @@ Duration now() {
         std::chrono::steady_clock::now().time_since_epoch());
 }
 
-struct Bell {
-    std::mutex guard;
-    std::condition_variable heard;
-    bool rung = false;
-
-    void ring() {
-        const std::lock_guard lock(guard);
-        rung = true;
-        heard.notify_one();
-    }
-    void wait() {
-        std::unique_lock lock(guard);
-        heard.wait_for(lock, 20ms, [this] { return rung; });
-        rung = false;
-    }
-};
-
 // A robot's name, its connection, and what it asks.
 class Robot {
 public:
     Robot(const std::string& target, const std::string& folder, const std::string& robot,
-          int64_t epoch, Bell& bell)
+          int64_t epoch, serve::Bell& bell)
         : name(robot), client({.fleet = "lab", .robot = robot, .epoch = epoch}) {
         serve::FleetOptions options{
             .target = target, .ca = folder + "/ca.crt", .login = folder + "/" + robot + ".login"};
@@ -111,7 +93,7 @@ public:
             turn_of_boss();
             for (const auto& worker : workers_) turn_of(*worker);
             look();
-            bell_.wait();
+            bell_.wait(20ms);
         }
         fmt::print("{}\n",
                    wrong_.empty() ? fmt::format("all {} tasks are finished", tasks_) : wrong_);
@@ -203,7 +185,7 @@ private:
 
     const int tasks_;
     SplitMix64 rng_;
-    Bell bell_;  // before those who ring it
+    serve::Bell bell_;  // before those who ring it
     Robot boss_;
     std::vector<std::unique_ptr<Worker>> workers_;
     int given_ = 0;

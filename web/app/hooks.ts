@@ -8,7 +8,7 @@ import type { Emitter } from '../core/emitter';
 import { readSettings, type Settings } from '../core/settings';
 import type { Studio } from '../core/studio';
 import type { DocumentTopic } from '../core/topics';
-import type { WindowState } from '../core/window_state';
+import { showsFleet, type WindowState } from '../core/window_state';
 import type { Command } from '../core/registry';
 
 export const StudioContext = createContext<Studio | null>(null);
@@ -118,8 +118,8 @@ export function useFleetName(): string | null {
 export function useFleetShown(): boolean {
   const isOpen = useFleetName() !== null;
   const hasProject = usePart('studio', {}, (is) => is?.project !== undefined);
-  const view = useWindow((state) => state.view);
-  return isOpen && (view ?? (hasProject ? 'project' : 'fleet')) === 'fleet';
+  const isChosen = useWindow((state) => showsFleet(state, hasProject));
+  return isOpen && isChosen;
 }
 
 export function useSettings(): Settings {

@@ -1,9 +1,7 @@
 // Words that a person reads, in one place, for translation. What the server says is its own. Parts of the page
 // that are loaded apart may have words beside them, in a words.ts: what comes first stays small.
 
-/** "1 node", "2 nodes". */
-export const s = (count: number, one: string, many: string) =>
-  `${count} ${count === 1 ? one : many}`;
+const s = (count: number, one: string, many: string) => `${count} ${count === 1 ? one : many}`;
 
 export const text = {
   name: 'Vagus Studio',
@@ -353,32 +351,6 @@ export const text = {
       `${path}: no plan of this project has the name of its plan, so only the timeline is shown.`,
     refused: (path: string, count: number) =>
       `${path}: ${count} lines could not be read as trace lines and were left out.`,
-  },
-  timeline: {
-    cursor: 'Instant that is shown',
-    help: 'Left and right go 20 ms, with Shift to the steps of the plan; plus and minus zoom; Home shows everything; Escape leads back to now.',
-    now: 'now',
-    at: (seconds: string) => `${seconds} seconds`,
-    nothing: 'Nothing has run yet. What runs can be looked back at here.',
-    actors: 'Actors',
-    supervisors: 'Supervisors',
-    events: 'Events',
-    curves: 'Plots',
-    loads: 'Bus load',
-    main: 'main',
-    span: (from: string, to: string) => `${from} to ${to} s`,
-    many: (count: number) => `${count} times`,
-    leftOut: (count: number) => `${count} events of sources without room here`,
-    notKept: 'Not kept',
-    goesOn: 'goes on',
-    lanes: (lanes: string) => `Timeline of ${lanes}`,
-    table: 'What actors did in the seconds that are shown',
-    columns: { what: 'Actor or event', from: 'From', to: 'Until', how: 'How it ended' },
-    fit: 'Everything that is kept',
-    follow: 'Follow the newest',
-    larger: 'Zoom in',
-    smaller: 'Zoom out',
-    save: 'Save the trace as a file of the project',
   },
   empty: {
     properties: 'Select something in a plan or a world to see and change its properties.',
@@ -1129,3 +1101,6 @@ export const text = {
     small: 'Some buttons could not be loaded: try again',
   },
 } as const;
+
+/** "1 node", "2 nodes". */
+export { s as counted };

@@ -5,6 +5,7 @@ import { deskFor } from './desk';
 import { Emitter } from './emitter';
 import { inBatches, noChoice, type Choice, type Sort } from './fleet';
 import type { Studio } from './studio';
+import { whyOf } from './why';
 
 export const kFleetEventsKept = 5000;
 
@@ -95,7 +96,7 @@ export class FleetDesk {
       const answers = await Promise.all(this.send(verb, robots, words));
       report({ is: 'answered', outcomes: answers.flatMap(({ outcomes }) => outcomes) });
     } catch (problem) {
-      report({ is: 'failed', why: problem instanceof Error ? problem.message : String(problem) });
+      report({ is: 'failed', why: whyOf(problem) });
     }
   }
 

@@ -6,6 +6,7 @@ import type { Connection } from './connection';
 import { Emitter } from './emitter';
 import type { Span } from './ring';
 import type { Lanes } from './timeline';
+import { whyOf } from './why';
 
 export type LanesWish = Commands['history.lanes']['in'];
 
@@ -48,7 +49,7 @@ export class LanesFeed {
       this.problem = null;
     } catch (problem) {
       this.lanes = null;
-      this.problem = problem instanceof Error ? problem.message : String(problem);
+      this.problem = whyOf(problem);
     }
     this.changed.emit();
     this.later(kLanesMs, () => {

@@ -69,6 +69,10 @@ export interface WindowState {
 
 export type WindowStore = ReturnType<typeof createWindowStore>;
 
+/** Whether an open fleet fills the window. */
+export const showsFleet = ({ view }: Pick<WindowState, 'view'>, hasProject: boolean): boolean =>
+  (view ?? (hasProject ? 'project' : 'fleet')) === 'fleet';
+
 export function createWindowStore() {
   return createStore<WindowState>()(() => ({
     layout: 'Script',

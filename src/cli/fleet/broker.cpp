@@ -245,8 +245,8 @@ std::string port_in(const std::string& configuration) {
     return "1883";
 }
 
-// `vagus fleet TARGET keep` for one fleet of this broker, in a process of its own: what happens to
-// it happens to nobody else.
+// `vagus fleet TARGET keep` for one fleet of this broker, in a process of its own, so that a
+// fault in it affects nothing else.
 class KeeperChild {
 public:
     KeeperChild(const std::string& folder, const std::string& port, const std::string& fleet)

@@ -20,23 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t kTokenBytes = 24;
-constexpr size_t kNumberBytes = 6;  // a whole number below 2^48
-
-std::string random_hex(size_t count) {
-    std::string text;
-    for (const char byte : serve::random_bytes(count)) {
-        text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    }
-    return text;
-}
-
-int64_t random_number() {
-    int64_t number = 1;
-    for (const char byte : serve::random_bytes(kNumberBytes)) {
-        number = number * 256 + static_cast<unsigned char>(byte);
-    }
-    return number;
-}
 
 // A folder with one file, whose name nobody can guess, served while this lives.
 class Shelf {
@@ -93,7 +76,7 @@ private:
     }
 
     fs::path folder_;
-    const std::string token_ = random_hex(kTokenBytes);
+    const std::string token_ = hex_of(serve::random_bytes(kTokenBytes));
     std::string address_;
     std::unique_ptr<serve::WebServer> server_;
 };
@@ -142,7 +125,7 @@ int deploy(FleetSession& session, const FleetCall& call) {
     if (robots.empty()) return complain("no robot is there that this is for");
     const auto steps = fleet::read_steps(call.steps, robots.size());
     if (!steps.ok()) return complain_of(steps.error());
-    fleet::Want want{.number = random_number(), .back = call.rollback};
+    fleet::Want want{.number = 1 + serve::random_number(), .back = call.rollback};
     std::unique_ptr<Shelf> shelf;
     if (!call.rollback) {
         const auto collected = serve::collect_bundle(call.project);

@@ -1,13 +1,12 @@
 #include "cli/fleet/keep.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
 
-#include "cli/fleet/bell.hpp"
+#include "base/text.hpp"
 #include "cli/output.hpp"
 #include "fleet/keeping.hpp"
 #include "net/end_signal.hpp"
+#include "serve/broker/bell.hpp"
 #include "serve/process.hpp"
 
 namespace vagus::cli {
@@ -31,11 +30,7 @@ uint64_t epoch_of_today() {
 }
 
 std::string random_instance() {
-    std::string name = "keeper-";
-    for (const char byte : serve::random_bytes(kInstanceBytes)) {
-        name += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    }
-    return name;
+    return "keeper-" + hex_of(serve::random_bytes(kInstanceBytes));
 }
 
 // One keeper, from its connection on.
@@ -71,7 +66,7 @@ private:
         say(said.text + "\n");
     }
 
-    Bell bell_;
+    serve::Bell bell_;
     fleet::Keeping keeping_;
     serve::MosquittoLink link_;  // ends before what its thread rings
 };
@@ -83,14 +78,10 @@ int keep(const serve::FleetOptions& broker) {
     net::watch_for_end();
     std::string told_why;
     while (!net::end_asked()) {
-        auto options = serve::link_options(broker, random_instance());
+        auto options = serve::link_of_fleet(broker, random_instance());
         if (!options.ok()) return complain(options.error(), kExitUsage);
-        if (options.value().target.fleet.empty()) {
-            return complain(broker.target + ": which fleet? Write mqtt://HOST[:PORT]/FLEET",
-                            kExitUsage);
-        }
         Post(std::move(options.value())).keep(told_why);
-        Bell nobody_rings;
+        serve::Bell nobody_rings;
         for (const Duration until = now() + kListenAgainAfter;
              now() < until && !net::end_asked();) {
             nobody_rings.wait(fleet::kKeeperTickEvery);

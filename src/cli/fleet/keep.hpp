@@ -1,7 +1,7 @@
 // `vagus fleet TARGET keep`: the keeper of a fleet, at a broker anywhere.
 #pragma once
 
-#include "serve/field/fleet_robot.hpp"
+#include "serve/broker/fleet_options.hpp"
 
 namespace vagus::cli {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "cli/fleet/bell.hpp"
 #include "fleet/operator.hpp"
+#include "serve/broker/bell.hpp"
 #include "serve/broker/fleet_options.hpp"
 
 namespace vagus::cli {
@@ -61,7 +61,7 @@ private:
     std::unique_ptr<fleet::Operator> desk_;
     std::string lost_;  // the last trouble
     std::function<void(const fleet::LinkEvent&)> event_ = [](auto&) {};
-    Bell bell_;
+    serve::Bell bell_;
     std::unique_ptr<serve::MosquittoLink> link_;  // ends before what its thread wakes
 };
 

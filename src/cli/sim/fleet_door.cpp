@@ -1,30 +1,12 @@
 #include "cli/sim/fleet_door.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 #include "fleet/topic.hpp"
 #include "serve/broker/mosquitto_link.hpp"
-#include "serve/process.hpp"
 
 namespace vagus::cli {
 namespace {
-
-constexpr size_t kInstanceBytes = 8;
-constexpr size_t kEpochBytes = 6;  // a whole number below 2^48
-
-std::pair<std::string, int64_t> random_identity() {
-    std::string instance;
-    for (const char byte : serve::random_bytes(kInstanceBytes)) {
-        instance += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    }
-    int64_t epoch = 0;
-    for (const char byte : serve::random_bytes(kEpochBytes)) {
-        epoch = epoch * 256 + static_cast<unsigned char>(byte);
-    }
-    return {instance, epoch};
-}
 
 // Each robot has a login of its own, for it may write below its own name alone.
 Result<std::unique_ptr<fleet::Link>> connect(serve::FleetOptions broker, const std::string& logins,
@@ -37,7 +19,7 @@ Result<std::unique_ptr<fleet::Link>> connect(serve::FleetOptions broker, const s
         TRY(serve::link_options(broker, member.robot + "-" + member.instance));
     link.target.fleet = member.fleet;
     link.will = std::move(will);
-    // The world looks at each instant whether something has come.
+    // The world polls its links at each instant, so nothing has to be woken.
     return std::unique_ptr<fleet::Link>(
         std::make_unique<serve::MosquittoLink>(std::move(link), [] {}));
 }
@@ -52,7 +34,7 @@ Result<std::optional<session::WorldFleet::Door>> door_to_fleet(const SimRunOptio
         return connect(broker, logins, member, std::move(will));
     };
     return std::optional(session::WorldFleet::Door{
-        .fleet = target.fleet, .instance_and_epoch = random_identity, .connect = way});
+        .fleet = target.fleet, .instance_and_epoch = serve::member_identity, .connect = way});
 }
 
 }  // namespace vagus::cli

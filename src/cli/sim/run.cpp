@@ -256,9 +256,10 @@ Duration SimRun::to_next_step() const {
 
 void SimRun::advance(Duration span) {
     const Duration passes = std::min(span, end() - session_.now());
-    threads_.begin(links_.now());
+    const auto clock = [this] { return links_.now(); };
+    threads_.begin(clock);
     robots_.step(passes);
-    threads_.end(links_.now(), passes);
+    threads_.end(clock, passes);
     // Plain lines stand for moments of simulated time, however many of them pass in a turn.
     if (running_ && !on_terminal()) tell_notes();
 }
@@ -330,8 +331,7 @@ void SimRun::act_on_robot(Key key) {
 }
 
 void SimRun::restart() {
-    const Status begun = robots_.has_projects() ? robots_.restart() : Status::done();
-    if (!robots_.has_projects()) session_.reset();
+    const Status begun = robots_.restart();
     view_.forget();
     hands_.forget();
     pace_.forget();

@@ -10,7 +10,7 @@
 
 #include "aesl/compile.hpp"
 #include "base/result.hpp"
-#include "serve/field/fleet_robot.hpp"
+#include "serve/broker/fleet_options.hpp"
 
 namespace vagus::cli {
 

@@ -9,6 +9,7 @@ namespace vagus::serve {
 namespace {
 
 constexpr size_t kNameBytes = 6;
+constexpr size_t kInstanceBytes = 8;
 
 }  // namespace
 
@@ -37,6 +38,10 @@ Result<LinkOptions> link_of_fleet(const FleetOptions& options, const std::string
 
 std::string operator_name() {
     return "operator-" + hex_of(random_bytes(kNameBytes));
+}
+
+std::pair<std::string, int64_t> member_identity() {
+    return {hex_of(random_bytes(kInstanceBytes)), random_number()};
 }
 
 }  // namespace vagus::serve

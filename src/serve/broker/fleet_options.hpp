@@ -3,7 +3,9 @@
 //     LinkOptions link = TRY(link_options({.target = "mqtt://broker/lab"}, operator_name()));
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <utility>
 
 #include "base/result.hpp"
 #include "serve/broker/mosquitto_link.hpp"
@@ -23,5 +25,7 @@ Result<LinkOptions> link_of_fleet(const FleetOptions& options, const std::string
 
 // Of an operator: a robot of that name is improbable, and another operator, too.
 std::string operator_name();
+// Instance and epoch of a member, unlike those of any other and of its life before.
+std::pair<std::string, int64_t> member_identity();
 
 }  // namespace vagus::serve

@@ -241,18 +241,9 @@ private:
         auto& session = *static_cast<Session*>(self);
         const std::string_view payload(static_cast<const char*>(message->payload),
                                        static_cast<size_t>(message->payloadlen));
-        const std::string& fleet = session.link_.options().target.fleet;
-        if (payload.empty()) {
-            auto topic = fleet::parse_topic(fleet, message->topic);
-            if (topic) session.link_.give(fleet::TakenBack{std::move(*topic)});
-            return;
-        }
-        auto heard = fleet::read(fleet, message->topic, payload);
-        if (heard.ok()) {
-            session.link_.give(fleet::Received{std::move(heard.value()), message->retain});
-        } else if (heard.error().code != Code::NotFound) {
-            session.link_.give(fleet::Malformed{heard.error().what});
-        }
+        auto event = fleet::event_of(session.link_.options().target.fleet, message->topic, payload,
+                                     message->retain);
+        if (event) session.link_.give(std::move(*event));
     }
 
     Inside& link_;

@@ -13,40 +13,10 @@ namespace vagus::serve {
 
 namespace {
 
-constexpr size_t kInstanceBytes = 8;
-constexpr size_t kEpochBytes = 6;  // a whole number below 2^48
-
-int64_t as_number(const std::string& bytes) {
-    int64_t number = 0;
-    for (const char byte : bytes) number = number * 256 + static_cast<unsigned char>(byte);
-    return number;
-}
-
 bool is_for_nodes(const fleet::MemberAction& action) {
     return std::holds_alternative<fleet::EmitOnBus>(action) ||
            std::holds_alternative<fleet::Obey>(action) ||
            std::holds_alternative<fleet::StopAlone>(action);
-}
-
-std::vector<std::string> names_heard(const fleet::ProjectPart& part) {
-    std::vector<std::string> names;
-    for (const fleet::Hears& one : part.hear) {
-        if (std::find(names.begin(), names.end(), one.event) == names.end()) {
-            names.push_back(one.event);
-        }
-    }
-    return names;
-}
-
-fleet::Description description_of(const OpenedProject& project, const std::string& studio) {
-    return {.project = std::string(utf8_prefix(project.name, fleet::kLineBytesMax)),
-            .vagus = VAGUS_VERSION,
-            .plan = std::string(utf8_prefix(project.plan, fleet::kLineBytesMax)),
-            .studio = studio,
-            .groups = project.fleet.groups,
-            .nodes = {},
-            .send = project.fleet.send,
-            .hear = names_heard(project.fleet)};
 }
 
 }  // namespace
@@ -55,11 +25,15 @@ Result<std::unique_ptr<FleetRobot>> FleetRobot::join(Workbench& bench, const Fle
                                                      Talk talk, Time now) {
     const OpenedProject none;
     const OpenedProject& project = bench.project() ? *bench.project() : none;
-    fleet::MemberOptions member{.robot = options.robot.empty() ? host_name() : options.robot,
-                                .instance = hex_of(random_bytes(kInstanceBytes)),
-                                .epoch = as_number(random_bytes(kEpochBytes)),
-                                .project = project.fleet,
-                                .description = description_of(project, talk.studio)};
+    auto [instance, epoch] = member_identity();
+    fleet::MemberOptions member{
+        .robot = options.robot.empty() ? host_name() : options.robot,
+        .instance = std::move(instance),
+        .epoch = epoch,
+        .project = project.fleet,
+        .description = fleet::description_of(project.fleet, project.name, project.plan)};
+    member.description.vagus = VAGUS_VERSION;
+    member.description.studio = talk.studio;
     LinkOptions link = TRY(link_options(options, member.robot + "-" + member.instance));
     if (link.target.fleet.empty()) link.target.fleet = project.fleet.name;
     member.fleet = link.target.fleet;

@@ -122,7 +122,7 @@ TEST(FleetView, ARobotThatIsForgottenGoes) {
     EXPECT_EQ(c.robot("r1"), Json());
 }
 
-// Whoever can write to a fleet must not run a script in the page of who looks at it.
+// A robot must not be able to run a script in an observer's page.
 TEST(FleetView, OnlyPagesAreLinkedTo) {
     Case c;
     c.connect();

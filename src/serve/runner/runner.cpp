@@ -285,10 +285,10 @@ private:
         while (!has_to_end()) {
             instant();
             if (has_to_end()) return;
-            threads.begin(wall_now());
+            threads.begin(wall_now);
             session_->begin_instant();
             session_->end_instant();
-            threads.end(wall_now(), sim::kNodeStep);
+            threads.end(wall_now, sim::kNodeStep);
             (void)session_->take_notes();
         }
     }

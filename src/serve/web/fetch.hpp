@@ -1,4 +1,4 @@
-// One file by HTTP or HTTPS, from whoever serves it: what a robot of a fleet is told to run.
+// One file by HTTP or HTTPS: the version that a robot of a fleet is told to run.
 //
 //     const std::string bytes = TRY(fetch("https://desk.local:8443/TOKEN/version", "ca.crt", most));
 //

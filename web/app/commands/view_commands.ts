@@ -2,7 +2,7 @@ import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
 import { layoutNames, type LayoutName } from '../../core/layouts';
 import { readSettings, type Theme } from '../../core/settings';
-import { revealDoc, revealPanel, update } from '../../core/window_state';
+import { revealDoc, revealPanel, showsFleet, update } from '../../core/window_state';
 import { text } from '../text';
 import { shownEditor } from './editor_handles';
 import { focusRegion } from './focus';
@@ -60,11 +60,13 @@ export function viewCommands(studio: Studio, panels: readonly Panel[]): Command[
       title: titles['fleet.show'],
       group,
       enabled: () => (studio.topics.get('fleet', {})?.state ?? 'none') !== 'none',
-      run: () =>
+      run() {
+        const hasProject = projectOf(studio) !== null;
         update(
           studio.window,
-          (draft) => void (draft.view = draft.view === 'fleet' ? 'project' : 'fleet'),
-        ),
+          (draft) => void (draft.view = showsFleet(draft, hasProject) ? 'project' : 'fleet'),
+        );
+      },
     },
     { id: 'theme.next', title: titles['theme.next'], group, run: () => nextTheme(studio) },
     {

@@ -334,7 +334,7 @@ function focusInTab(id: string): boolean {
   return true;
 }
 
-/** Another layout makes its panels anew: the keyboard stays in the document, if nothing else has it. */
+/** Another layout recreates its panels: the focus stays in the document, unless something else has it. */
 function keepFocus(studio: Studio): void {
   takeFocus(() => {
     if (document.activeElement !== document.body) return true;

@@ -4,6 +4,7 @@ import type { Json, JsonStep } from '../../protocol/messages';
 import { Emitter } from '../emitter';
 import type { Row } from './row';
 import type { TextSession } from './text_session';
+import { whyOf } from '../why';
 
 export class JsonFile {
   readonly changed = new Emitter<void>();
@@ -59,7 +60,7 @@ export class JsonFile {
       this.broken = null;
       this.isKnown = true;
     } catch (error) {
-      this.broken = error instanceof Error ? error.message : String(error);
+      this.broken = whyOf(error);
     }
   }
 }

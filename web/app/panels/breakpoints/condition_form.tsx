@@ -4,6 +4,7 @@ import { kindOf } from '../../documents';
 import { useDrives, useStudio, useTopic, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
+import { whyOf } from '../../../core/why';
 
 const words = text.breakpoints;
 
@@ -30,7 +31,7 @@ export function ConditionForm() {
       setCondition('');
     } catch (problem) {
       // A variable that the plan does not have: what was typed stays.
-      setRefused(problem instanceof Error ? problem.message : String(problem));
+      setRefused(whyOf(problem));
     }
   };
   return (

@@ -1,9 +1,9 @@
 // Words of the network: apart from text.ts, as they come with that panel alone.
 
-import { s } from '../../text';
+import { counted } from '../../text';
 
 export const words = {
-  picture: (nodes: number) => `The bus with ${s(nodes, 'node', 'nodes')}`,
+  picture: (nodes: number) => `The bus with ${counted(nodes, 'node', 'nodes')}`,
   bus: 'Bus',
   host: 'computer',
   hostHelp: 'and the plan',
@@ -42,7 +42,7 @@ export const words = {
     current: 'up to date',
   },
   forAll: 'All nodes',
-  forSome: (count: number) => s(count, 'node', 'nodes'),
+  forSome: (count: number) => counted(count, 'node', 'nodes'),
   choose: (name: string) => `Choose ${name}`,
   run: 'Run',
   pause: 'Pause',

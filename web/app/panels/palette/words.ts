@@ -1,7 +1,9 @@
 // Words of the palette: apart from text.ts, as they come with that panel alone.
 
+import { counted } from '../../text';
+
 export const words = {
-  search: (count: number) => `Search ${count} ${count === 1 ? 'template' : 'templates'}`,
+  search: (count: number) => `Search ${counted(count, 'template', 'templates')}`,
   none: (typed: string) => `No template has “${typed}” in its name or help.`,
   noPlan: 'Open a plan to add to it.',
   add: (name: string, role: string) => `${name}, ${role}`,

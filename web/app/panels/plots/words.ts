@@ -1,6 +1,6 @@
 // Words of plots: apart from text.ts, as they come with that panel alone.
 
-import { s } from '../../text';
+import { counted } from '../../text';
 
 export const words = {
   label: (names: string) => `Plot of ${names}`,
@@ -23,7 +23,7 @@ export const words = {
   head: { curve: 'Curve', now: 'Value', least: 'Lowest', most: 'Highest', mean: 'Mean' },
   time: 'Time',
   keys: 'Left and right move the cursor, + and - zoom, Home goes back to the newest.',
-  tableLabel: (rows: number) => `The last ${s(rows, 'row', 'rows')} in sight`,
+  tableLabel: (rows: number) => `The last ${counted(rows, 'row', 'rows')} in sight`,
   curves: 'Curves',
   noSamples: 'No value yet.',
   more: 'More',

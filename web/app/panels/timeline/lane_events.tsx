@@ -1,8 +1,6 @@
 import { placeIn } from '../../../core/timeline';
-import { text } from '../../text';
+import { words } from './words';
 import { extentOf, fitting, type LaneShape } from './lane_view';
-
-const words = text.timeline;
 
 /** Events of one source: marks, and bars where they come one after the other. */
 export function Events({ lane, view, height }: LaneShape) {

@@ -3,10 +3,9 @@ import { placeIn } from '../../../core/timeline';
 import { Curve } from './lane_curve';
 import { Events } from './lane_events';
 import { extentOf, fitting, type LaneShape, type LaneView } from './lane_view';
-import { text } from '../../text';
+import { words } from './words';
 import type { Row } from './rows';
 
-const words = text.timeline;
 /** What is in one row; drawn again when something in it looks different. */
 export const LaneShapes = memo(Shapes, (a, b) => a.row === b.row && looksAlike(a, b));
 

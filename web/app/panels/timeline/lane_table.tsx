@@ -1,8 +1,7 @@
 import { shownTime } from '../../../core/numbers';
-import { text } from '../../text';
+import { words } from './words';
 import type { Row } from './rows';
 
-const words = text.timeline;
 /** So many rows; for more, look at fewer seconds. */
 const kRowsMax = 200;
 

@@ -3,14 +3,13 @@ import { shownTime } from '../../../core/numbers';
 import { movedSpan, placeIn, timeAt } from '../../../core/timeline';
 import { useStudio } from '../../hooks';
 import { usePastTime } from '../../past_hooks';
-import { text } from '../../text';
+import { words } from './words';
 import { Background } from './background';
 import { LaneShapes } from './lane_marks';
 import type { LaneView } from './lane_view';
 import { snapped, snapsOf, type Row } from './rows';
 import { showAll, viewOf, zoomBy } from './view_store';
 
-const words = text.timeline;
 /** The pointer means an edge or a mark that is so near. */
 const kSnapPx = 4;
 

@@ -1,7 +1,7 @@
 // The rows of a timeline: what is in which, how high it is, what it is called.
 
 import type { Lanes } from '../../../core/timeline';
-import { text } from '../../text';
+import { words } from './words';
 
 export type HistoryLane = Lanes['lanes'][number];
 export type HistoryCurve = Lanes['curves'][number];
@@ -31,7 +31,6 @@ export interface CurveName {
   note: string;
 }
 
-const words = text.timeline;
 const kHeights = { actors: 28, supervisor: 18, events: 20, curve: 52, load: 24 } as const;
 const kGroups = { actors: words.actors, supervisor: words.supervisors, events: words.events };
 

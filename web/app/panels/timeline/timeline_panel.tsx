@@ -4,7 +4,7 @@ import { useStudio, useTopic } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { useEnd, usePastTime } from '../../past_hooks';
 import { useShown } from '../../robot_hooks';
-import { text } from '../../text';
+import { words } from './words';
 import { Lanes } from './lanes';
 import { LaneTable } from './lane_table';
 import { rowsOf, type CurveName, type Row } from './rows';
@@ -12,7 +12,6 @@ import { Ruler } from './ruler';
 import { useLanes } from './use_lanes';
 import '../../look/timeline.css';
 
-const words = text.timeline;
 const kLabels = 148;
 
 /** What happened when: actors, supervisors, events, curves over time, and the cursor of all panels. */

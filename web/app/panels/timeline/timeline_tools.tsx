@@ -8,10 +8,9 @@ import {
 import { useCommands, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
-import { text } from '../../text';
+import { words } from './words';
 import { followNewest, showAll, useTimelineView, zoomBy } from './view_store';
 
-const words = text.timeline;
 const icon = { size: 14, stroke: kStroke };
 
 /** At the head of the panel: which seconds, larger and smaller, everything, the newest, save. */

@@ -51,10 +51,8 @@ export function FleetGrid() {
     desk.set({ choice: next });
   };
   const pointed = (event: MouseEvent<HTMLElement>) => {
-    const target = event.target instanceof Element ? event.target : null;
-    const name = target?.closest<HTMLElement>('[data-robot]')?.dataset['robot'];
+    const { name, act } = partOf(event);
     if (name === undefined) return;
-    const act = target?.closest<HTMLElement>('[data-act]')?.dataset['act'];
     if (act === 'open') return open(name);
     const hold = holdOf(event);
     desk.set({
@@ -63,9 +61,8 @@ export function FleetGrid() {
     });
   };
   const opened = (event: MouseEvent<HTMLElement>) => {
-    const target = event.target instanceof Element ? event.target : null;
-    const name = target?.closest<HTMLElement>('[data-robot]')?.dataset['robot'];
-    if (name !== undefined && !target?.closest('[data-act]')) open(name);
+    const { name, act } = partOf(event);
+    if (name !== undefined && act === undefined) open(name);
   };
 
   if (isEmpty)
@@ -103,6 +100,15 @@ export function FleetGrid() {
       ))}
     </div>
   );
+}
+
+/** Whose tile was pressed, and what in it. */
+function partOf({ target }: MouseEvent): { name?: string; act?: string } {
+  const of = (what: 'robot' | 'act') =>
+    target instanceof Element
+      ? target.closest<HTMLElement>(`[data-${what}]`)?.dataset[what]
+      : undefined;
+  return { name: of('robot'), act: of('act') };
 }
 
 function tileOf(grid: HTMLElement | null, name: string | null): HTMLElement | null {

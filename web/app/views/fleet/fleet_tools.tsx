@@ -63,7 +63,7 @@ const plain: readonly [Exclude<Verb, 'set' | 'emit' | 'raise'>, typeof IconPlaye
   ['start', IconPlayerPlay],
 ];
 
-/** What the robots that are chosen are told. Who only looks may stop them. */
+/** Orders for the chosen robots. An observer may only stop them. */
 export function FleetOrders() {
   const desk = useFleetDesk();
   const list = useList();

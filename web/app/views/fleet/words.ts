@@ -3,8 +3,9 @@
 import type { FleetEvent } from '../../../protocol/messages';
 import type { Doing, Sort } from '../../../core/fleet';
 import type { Verb } from '../../../core/fleet_desk';
+import { counted } from '../../text';
 
-const robots = (count: number) => (count === 1 ? '1 robot' : `${count} robots`);
+const robots = (count: number) => counted(count, 'robot', 'robots');
 const listed = (names: readonly string[]) =>
   names.length <= 12
     ? names.join(', ')
@@ -112,9 +113,6 @@ export const words = {
   },
   since: (span: string) => `for ${span}`,
   silentFor: (span: string) => `told nothing for ${span}`,
-  problems: (count: number) => (count === 1 ? '1 problem' : `${count} problems`),
-  leftOut: (count: number) =>
-    `${count} ${count === 1 ? 'event was' : 'events were'} left out: too many, too old, or not fitting`,
   vagus: (version: string) => `Vagus ${version}`,
   events: {
     title: 'Events',

@@ -1,9 +1,7 @@
 import { IconPhoto } from '@tabler/icons-react';
 import { kStroke } from '../../parts/icons';
 import { CommandItem, StudioMenu } from '../../parts/menu';
-import { drawWords } from './words';
-
-const words = drawWords;
+import { drawWords as words } from './words';
 
 /** The drawing as a picture. */
 export function ExportMenu() {

@@ -11,12 +11,11 @@ import { useDrives, useStudio, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
-import { drawWords } from './words';
+import { drawWords as words } from './words';
 import { ExportMenu } from './export_menu';
 import { usePlanDesk } from './plan_desk';
 import { togglePlanOption, usePlanOptions, type PlanOptions } from './plan_options';
 
-const words = drawWords;
 const size = { size: 14, stroke: kStroke };
 
 /** Above the drawing: undo, and what is shown beside and in it. */

@@ -1,6 +1,6 @@
 // Words of drawings: apart from text.ts, as they come with what draws.
 
-import { s } from '../../text';
+import { counted } from '../../text';
 
 export const drawWords = {
   canvas: (name: string) => `Plan ${name}, drawn`,
@@ -23,12 +23,12 @@ export const drawWords = {
   startLabel: (first: string | null) =>
     first === null ? 'Start, leads nowhere yet' : `Start, leads to ${first}`,
   elementLabel: (role: string, name: string, template: string, errors: number) =>
-    `${name}, ${role} ${template}${errors > 0 ? `, ${s(errors, 'error', 'errors')}` : ''}`,
+    `${name}, ${role} ${template}${errors > 0 ? `, ${counted(errors, 'error', 'errors')}` : ''}`,
   variableLabel: (name: string, type: string) => `${name}, variable, ${type}`,
   findings: (errors: number, warnings: number) =>
     [
-      errors > 0 ? s(errors, 'error', 'errors') : '',
-      warnings > 0 ? s(warnings, 'warning', 'warnings') : '',
+      errors > 0 ? counted(errors, 'error', 'errors') : '',
+      warnings > 0 ? counted(warnings, 'warning', 'warnings') : '',
     ]
       .filter(Boolean)
       .join(', '),

@@ -5,6 +5,7 @@ import { useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
 import { useTyped } from '../../parts/use_draft';
 import { text } from '../../text';
+import { whyOf } from '../../../core/why';
 
 const words = text.editor;
 
@@ -25,7 +26,7 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
       await studio.send('break.set', { doc, line, condition, ignore: Number(ignore), enabled });
     } catch (problem) {
       // A name that the script does not have: what was typed stays.
-      return setRefused(problem instanceof Error ? problem.message : String(problem));
+      return setRefused(whyOf(problem));
     }
     onEnd();
   };

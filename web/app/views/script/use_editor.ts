@@ -27,6 +27,7 @@ import { revealSentence } from './reveal_sentence';
 import { backKeys, makeState } from './setup';
 import { editBreakpoint, toggleBreakpoint } from './editor_acts';
 import { placeOf } from './places';
+import { whyOf } from '../../../core/why';
 
 /** Undo is the session's: the editor only shows what it does. */
 const fromSession = Annotation.define<boolean>();
@@ -60,8 +61,7 @@ export function useEditor(doc: Doc): EditorLife {
         end = made.end;
         setView(made.view);
       },
-      (problem: unknown) =>
-        gone || setFailed(problem instanceof Error ? problem.message : String(problem)),
+      (problem: unknown) => gone || setFailed(whyOf(problem)),
     );
     return () => {
       gone = true;

@@ -13,6 +13,7 @@ import { useMayAct, usePastTime } from '../../past_hooks';
 import { FileActs } from './file_acts';
 import { keptHand } from './kept_hand';
 import { LiveActs } from './live_acts';
+import { whyOf } from '../../../core/why';
 
 /** Frames a second that are asked for; a slow page gets fewer. */
 const kPosesRate = 30;
@@ -129,7 +130,7 @@ export function useJsonFile(doc: Doc | null): { file: JsonFile | null; failed: s
         setFailed(null);
         setFile(opened.file());
       },
-      (problem: unknown) => setFailed(problem instanceof Error ? problem.message : String(problem)),
+      (problem: unknown) => setFailed(whyOf(problem)),
     );
     return () => {
       gone = true;

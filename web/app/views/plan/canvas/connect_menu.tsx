@@ -6,11 +6,9 @@ import type { Point } from '../../../../core/plan/shape';
 import { usable, type Found } from '../../../../core/plan/templates';
 import { useTopic } from '../../../hooks';
 import { StudioMenu } from '../../../parts/menu';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { TemplateIcon } from './template_icon';
 import type { Asked } from './use_connecting';
-
-const words = drawWords;
 
 /** "Connect to…": all that a state or event may lead to, by keyboard or after a drop on nothing. */
 export function ConnectMenu(props: {

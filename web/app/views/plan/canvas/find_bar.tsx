@@ -1,9 +1,7 @@
 import { useId, useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { findInPlan } from '../../../../core/plan/find';
-import { drawWords } from '../words';
-
-const words = drawWords;
+import { drawWords as words } from '../words';
 
 /** Looks for an element by what is typed: arrows and Enter choose, Escape goes back. */
 export function FindBar(props: {

@@ -17,11 +17,9 @@ import {
 import { eventRow, stateRow, type Box } from '../../../../core/plan/shape';
 import { noteKey } from '../../../../core/plan/notes';
 import type { Side } from '../../../../core/plan/route';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import type { NoteNode } from './note';
 import type { RowData } from './port';
-
-const words = drawWords;
 
 export type StartNode = Node<{ side: Side; leads: string | null }, 'start'>;
 export type ActorNode = Node<{ actor: Actor; rows: RowData[]; findings: Counts }, 'actor'>;

@@ -4,7 +4,7 @@ import type { NodeProps } from '@xyflow/react';
 import { arrowId, supervisorKey } from '../../../../core/plan/arrows';
 import { kStart } from '../../../../core/plan/model';
 import { kStroke } from '../../../parts/icons';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { BreakDot } from './break_dots';
 import { useFar } from './distance';
 import type { ActorNode, StartNode, SupervisorNode } from './flow_nodes';
@@ -15,8 +15,6 @@ import { NoteCard } from './note';
 import { Port, Row } from './port';
 import { Pill, Tag } from './small_nodes';
 import { TemplateIcon } from './template_icon';
-
-const words = drawWords;
 
 export const Start = memo(function Start({ data, selected }: NodeProps<StartNode>) {
   return (

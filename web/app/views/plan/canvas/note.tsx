@@ -4,13 +4,11 @@ import type { Note as PlanNote } from '../../../../core/plan/model';
 import { kNoteLeast, noteKey } from '../../../../core/plan/notes';
 import { useStudio } from '../../../hooks';
 import { useDraft } from '../../../parts/use_draft';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { planDeskOf } from '../plan_desk';
 import { NoteContext } from './note_context';
 
 export type NoteNode = Node<{ note: PlanNote }, 'note'>;
-
-const words = drawWords;
 
 /** What a person wrote beside the plan: written in place, dragged, drawn larger at its corner. */
 export const NoteCard = memo(function NoteCard({ data, selected }: NodeProps<NoteNode>) {

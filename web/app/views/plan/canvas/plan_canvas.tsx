@@ -6,7 +6,7 @@ import type { PlanBoard } from '../../../../core/plan/board';
 import { kSnap } from '../../../../core/plan/place';
 import { useMayEdit, useStudio } from '../../../hooks';
 import { Blank } from '../../../parts/blank';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
 import { ActiveLine } from './active_line';
@@ -29,8 +29,6 @@ import { useElementMenu } from './use_element_menu';
 import { useConnecting } from './use_connecting';
 import { usePlanBoard } from './use_board';
 import '../../../look/draw.css';
-
-const words = drawWords;
 
 /** A plan drawn: chosen, moved, connected by mouse and keyboard. */
 export default function PlanCanvas({ doc }: { doc: Doc }) {

@@ -5,10 +5,8 @@ import { useMemo } from 'react';
 import { parsePart, partText } from '../../../../core/plan/part';
 import type { Studio } from '../../../../core/studio';
 import { toast } from '../../../../core/window_state';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import type { ShownPlan } from '../plan_desk';
-
-const words = drawWords;
 
 /** The text of what is chosen; null: nothing that can be copied. */
 export function copied({ board }: ShownPlan): string | null {

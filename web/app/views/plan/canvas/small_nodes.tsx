@@ -1,11 +1,9 @@
 import { IconMinus, IconSquareFilled } from '@tabler/icons-react';
 import type { NodeProps } from '@xyflow/react';
 import { memo } from 'react';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import type { PillNode, TagNode } from './flow_nodes';
 import { useLive } from './live_store';
-
-const words = drawWords;
 
 /** A variable, with the value that it has now. */
 export const Pill = memo(function Pill({ data, selected }: NodeProps<PillNode>) {

@@ -3,14 +3,12 @@ import { useEffect, useRef, useState } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { elementAt, marksOf } from '../../../../core/plan/code';
 import { useStudio } from '../../../hooks';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { Findings } from '../form/row_findings';
 import { useBoard, usePlanDesk } from '../plan_desk';
 import { codeEditor, showCode, showMarks } from './code_editor';
 import { usePlanCode, type PlanCode } from './use_code';
 import '../../../look/editor.css';
-
-const words = drawWords;
 
 /** The C++ program of a plan: what is chosen on the drawing is marked in it, and the other way round. */
 export default function PlanCodeView({ doc }: { doc: string }) {

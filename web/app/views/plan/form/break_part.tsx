@@ -9,6 +9,7 @@ import { useTyped } from '../../../parts/use_draft';
 import { text } from '../../../text';
 import { drawWords } from '../words';
 import { changeBreak, setBreak, toggleBreak } from '../break_acts';
+import { whyOf } from '../../../../core/why';
 
 const words = drawWords.break;
 
@@ -76,10 +77,7 @@ function Details({ one, disabled }: { one: PlanBreakpoint; disabled: boolean }) 
     if (!good || wrong !== '') return false;
     const to = { condition: condition.trim(), stop_at: Number(count) };
     setRefused('');
-    if (isTyped)
-      setBreak(studio, one, to).catch((problem: unknown) =>
-        setRefused(problem instanceof Error ? problem.message : String(problem)),
-      );
+    if (isTyped) setBreak(studio, one, to).catch((problem: unknown) => setRefused(whyOf(problem)));
     return true;
   };
   useTyped(isTyped, save);

@@ -5,13 +5,11 @@ import { keepSteps } from '../../../../core/plan/edit';
 import { textOf } from '../../../../core/plan/json';
 import type { Actor, Supervisor } from '../../../../core/plan/model';
 import { Quiet } from '../../../parts/blank';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { Field } from '../../world/fields';
 import { FormulaField, needsValue } from './formula_field';
 import { Leads } from './leads';
 import { ElementFindings, Findings, isWrong, useFindingsAt } from './row_findings';
-
-const words = drawWords;
 
 /** Inputs, outputs, and where the states or events of an element lead. */
 export function ElementForm(props: {

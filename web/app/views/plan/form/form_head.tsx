@@ -7,12 +7,11 @@ import { Button } from '../../../parts/button';
 import { kStroke } from '../../../parts/icons';
 import { takeFocus } from '../../../parts/take_focus';
 import { useDraft } from '../../../parts/use_draft';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { withBreaks } from '../break_acts';
 import { TemplateIcon } from '../canvas/template_icon';
 import { planDeskOf } from '../plan_desk';
 
-const words = drawWords;
 const size = { size: 14, stroke: kStroke };
 
 /** The name of what is chosen, to be changed in place; beside it what it is. */

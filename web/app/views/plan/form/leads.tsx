@@ -8,11 +8,9 @@ import {
   type Outcome,
   type Supervisor,
 } from '../../../../core/plan/model';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { targetName } from '../canvas/connect_menu';
 import { Findings, isWrong, useFindingsAt } from './row_findings';
-
-const words = drawWords;
 
 /** Where each state or event leads. */
 export function Leads(props: {

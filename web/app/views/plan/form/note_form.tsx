@@ -5,9 +5,7 @@ import { kSnap } from '../../../../core/plan/place';
 import { useDraft } from '../../../parts/use_draft';
 import { Field } from '../../world/fields';
 import { NumberField } from '../../world/number_field';
-import { drawWords } from '../words';
-
-const words = drawWords;
+import { drawWords as words } from '../words';
 
 /** A note by the keyboard: its text, how wide and high it is. */
 export function NoteForm(props: { board: PlanBoard; note: Note; disabled: boolean }) {

@@ -4,7 +4,7 @@ import { kStart } from '../../../../core/plan/model';
 import { useDrives } from '../../../hooks';
 import { Quiet } from '../../../parts/blank';
 import { text } from '../../../text';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { RoleShape } from '../canvas/template_icon';
 import { useBoard, type ShownPlan } from '../plan_desk';
 import { BreakPart } from './break_part';
@@ -14,8 +14,6 @@ import { Leads } from './leads';
 import { NoteForm } from './note_form';
 import { RaisePart } from './raise_part';
 import { VariableForm } from './variable_form';
-
-const words = drawWords;
 
 /** What is chosen in a plan, to be changed exactly. */
 export function PlanForm({ plan }: { plan: ShownPlan }) {

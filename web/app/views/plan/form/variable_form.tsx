@@ -1,10 +1,9 @@
 import type { PlanBoard } from '../../../../core/plan/board';
 import { dropSteps, formulaJson, setSteps, shownFormula } from '../../../../core/plan/edit';
 import { memberOf, textOf } from '../../../../core/plan/json';
-import { drawWords } from '../words';
+import { drawWords as words } from '../words';
 import { ChoiceField, TextField } from '../../world/fields';
 
-const words = drawWords;
 const types = ['bool', 'int', 'float', 'string', 'object'] as const;
 const accesses = ['', 'in', 'out', 'inout', 'shared'] as const;
 

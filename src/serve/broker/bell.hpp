@@ -1,4 +1,5 @@
-// What another thread rings when there is something to take: a loop waits for it, or for a time.
+// What the thread of a link rings when there is something to take: a loop waits for it, or for a
+// time.
 #pragma once
 
 #include <condition_variable>
@@ -6,7 +7,7 @@
 
 #include "base/time.hpp"
 
-namespace vagus::cli {
+namespace vagus::serve {
 
 class Bell {
 public:
@@ -28,4 +29,4 @@ private:
     bool rung_ = false;
 };
 
-}  // namespace vagus::cli
+}  // namespace vagus::serve

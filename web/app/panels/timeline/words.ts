@@ -1,0 +1,28 @@
+// Words of the timeline: apart from text.ts, as they come with that panel alone.
+
+export const words = {
+  cursor: 'Instant that is shown',
+  help: 'Left and right go 20 ms, with Shift to the steps of the plan; plus and minus zoom; Home shows everything; Escape leads back to now.',
+  now: 'now',
+  at: (seconds: string) => `${seconds} seconds`,
+  nothing: 'Nothing has run yet. What runs can be looked back at here.',
+  actors: 'Actors',
+  supervisors: 'Supervisors',
+  events: 'Events',
+  curves: 'Plots',
+  loads: 'Bus load',
+  main: 'main',
+  span: (from: string, to: string) => `${from} to ${to} s`,
+  many: (count: number) => `${count} times`,
+  leftOut: (count: number) => `${count} events of sources without room here`,
+  notKept: 'Not kept',
+  goesOn: 'goes on',
+  lanes: (lanes: string) => `Timeline of ${lanes}`,
+  table: 'What actors did in the seconds that are shown',
+  columns: { what: 'Actor or event', from: 'From', to: 'Until', how: 'How it ended' },
+  fit: 'Everything that is kept',
+  follow: 'Follow the newest',
+  larger: 'Zoom in',
+  smaller: 'Zoom out',
+  save: 'Save the trace as a file of the project',
+};

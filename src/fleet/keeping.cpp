@@ -34,12 +34,14 @@ void Keeping::hear(const LinkEvent& event, Time now) {
 
 void Keeping::tick(Time now) {
     now_ = now;
+    if (connected_ && !knows_all_ && now_ >= echo_at_) send_echo();
     perform(keeper_.tick(now));
     tell_state();
 }
 
 // Its own records do not come back to it; those of another keeper do.
 void Keeping::on(const Connected&) {
+    connected_ = true;
     knows_all_ = false;
     early_.clear();
     const auto filter = [this](Kind kind, bool own) {
@@ -47,7 +49,14 @@ void Keeping::on(const Connected&) {
     };
     actions_.emplace_back(Subscribe{{filter(Kind::Task, false), filter(Kind::Shared, false),
                                      filter(Kind::Question, false), filter(Kind::Beat, true)}});
-    // Not retained: it says nothing to anybody else.
+    first_echo_ = echoes_ + 1;
+    send_echo();
+}
+
+// Again until one is back: what does not fit into the queue that a broker has for us is dropped. Not
+// retained: it says nothing to anybody else.
+void Keeping::send_echo() {
+    echo_at_ = now_ + kAskAgainEvery;
     Post echo =
         post({.kind = Kind::Beat}, keeper::Beat{0, echo_of(options_.keeper.instance), ++echoes_});
     echo.retained = false;
@@ -56,7 +65,7 @@ void Keeping::on(const Connected&) {
 }
 
 void Keeping::on(const Lost& lost) {
-    knows_all_ = false;
+    connected_ = knows_all_ = false;
     waiting_.clear();  // the machine publishes all again
     in_flight_.clear();
     perform(keeper_.take(keeper::Lost{}, now_));
@@ -80,7 +89,7 @@ void Keeping::on(const Received& received) {
     if (received.retained) return tell(keeper::LastBeat{beat->epoch});
     if (!beat->instance.ends_with(".echo")) return tell(*beat);
     const bool ours = beat->instance == echo_of(options_.keeper.instance);
-    if (!ours || beat->number != echoes_ || knows_all_) return;
+    if (!ours || beat->number < first_echo_ || knows_all_) return;
     knows_all_ = true;
     perform(keeper_.take(keeper::Connected{}, now_));
     for (const keeper::Input& input : std::exchange(early_, {})) tell(input);

@@ -62,6 +62,7 @@ private:
     void perform(const keeper::Publish& publish);
     void perform(const keeper::Answer& answer);
     void perform(const keeper::Leave& leave);
+    void send_echo();
     void send_records();
     void tell_state();
     Post post(const Topic& topic, const Message& message) const;
@@ -73,8 +74,11 @@ private:
     keeper::Keeper keeper_;
     std::vector<KeepingAction> actions_;
     Time now_{};
+    bool connected_ = false;
     uint64_t echoes_ = 0;               // sent so far
-    bool knows_all_ = false;            // the last one has returned, after all retained messages
+    uint64_t first_echo_ = 1;           // of this connection
+    Time echo_at_{};                    // when the next one is sent
+    bool knows_all_ = false;            // one has returned, after all retained messages
     std::vector<keeper::Input> early_;  // received before that
     std::deque<Post> waiting_;          // records
     std::set<uint64_t> in_flight_;

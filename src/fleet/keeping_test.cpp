@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <climits>
 #include <map>
 
 #include "fleet/keeper_client.hpp"
@@ -59,6 +60,7 @@ public:
     std::map<std::string, std::string> retained;
     std::vector<Post> records;  // that wait for their acknowledgement, if `acknowledges` is not set
     bool acknowledges = true;
+    int drops = 0;  // beats that the broker has no room for
     std::string said;
 
 private:
@@ -77,7 +79,10 @@ private:
             records.push_back(post);
             if (acknowledges) keeping->hear(Acknowledged{post.number, ""}, now);
         }
-        if (post.topic == "vagus/1/lab/keeper/beat") hear(post.topic, post.payload);
+        if (post.topic == "vagus/1/lab/keeper/beat") {
+            if (drops == 0) return hear(post.topic, post.payload);
+            --drops;
+        }
         if (post.topic == "vagus/1/lab/keeper/answer/r1") {
             auto heard = read("lab", post.topic, post.payload);
             ASSERT_TRUE(heard.ok()) << heard.error().what;
@@ -86,6 +91,16 @@ private:
         carry();
     }
 };
+
+// A broker drops what does not fit into its queue for a client, behind all that it has retained.
+TEST(Keeping, AsksAgainWhetherAllIsKnown) {
+    Desk desk;
+    desk.drops = 1;
+    desk.connect();
+    EXPECT_EQ(desk.keeping->state(), Standing::Away);
+    desk.pass(kAskAgainEvery + 2 * kKeeperTickEvery);
+    EXPECT_EQ(desk.keeping->state(), Standing::Listening);
+}
 
 TEST(Keeping, WhatItDecidesIsRetainedUnderTopicsOfItsOwn) {
     Desk desk;
@@ -134,8 +149,8 @@ TEST(Keeping, ASecondOneStaysOut) {
 // lease would be given away again.
 TEST(Keeping, ItDoesNothingBeforeAllThatWasRetainedHasCome) {
     Desk desk;
-    desk.keeping->hear(Connected{}, desk.now);
-    desk.keeping->take();  // the echo is under way for long
+    desk.drops = INT_MAX;  // its echoes are under way for long
+    desk.connect();
     desk.pass(60s);
     EXPECT_EQ(desk.keeping->state(), Standing::Away);
 }

@@ -53,7 +53,7 @@ void Keeping::on(const Connected&) {
     send_echo();
 }
 
-// Again until one is back: what does not fit into the queue that a broker has for us is dropped. Not
+// Sent again until one returns: a broker drops what does not fit into its queue for a client. Not
 // retained: it says nothing to anybody else.
 void Keeping::send_echo() {
     echo_at_ = now_ + kAskAgainEvery;

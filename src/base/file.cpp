@@ -2,18 +2,26 @@
 #include "base/file.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cassert>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
+#include <optional>
 
 namespace vagus {
 namespace {
 
 constexpr size_t kReadBytes = 64u << 10;
+
+// Of the one FilesRead that there may be.
+std::mutex kept_mutex;
+std::optional<std::map<std::string, std::string>> kept_files;  // guarded by kept_mutex
 
 // Owns one open file; closes it at the end of the scope.
 class OpenFile {
@@ -175,7 +183,74 @@ Result<std::string> read_file(const std::string& path) {
     const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.get() < 0) return failure(path, "read");
     TRY(refuse_pipe(file, path));
-    return read_all(file, path);
+    std::string content = TRY(read_all(file, path));
+    const std::lock_guard lock(kept_mutex);
+    if (kept_files) kept_files->emplace(path, content);
+    return content;
+}
+
+FilesRead::FilesRead() {
+    const std::lock_guard lock(kept_mutex);
+    assert(!kept_files);
+    kept_files.emplace();
+}
+
+FilesRead::~FilesRead() {
+    const std::lock_guard lock(kept_mutex);
+    kept_files.reset();
+}
+
+std::map<std::string, std::string> FilesRead::all() const {
+    const std::lock_guard lock(kept_mutex);
+    return *kept_files;
+}
+
+// ---- files of any size ----
+
+Result<MappedFile> MappedFile::open(const std::string& path) {
+    const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    struct stat opened = {};
+    if (file.get() < 0 || ::fstat(file.get(), &opened) != 0) return failure(path, "read");
+    if (!S_ISREG(opened.st_mode)) {
+        return Error{Code::BadInput, path + ": cannot be read: expected a file"};
+    }
+    const auto size = static_cast<size_t>(opened.st_size);
+    if (size == 0) return MappedFile(nullptr, 0);
+    void* const data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
+    if (data == MAP_FAILED) return failure(path, "read");
+    return MappedFile(static_cast<const char*>(data), size);
+}
+
+MappedFile::MappedFile(MappedFile&& other) noexcept
+    : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+
+MappedFile::~MappedFile() {
+    // munmap asks for memory that may be written; it does not.
+    if (data_ != nullptr) ::munmap(const_cast<char*>(data_), size_);
+}
+
+Result<GrowingFile> GrowingFile::create(const std::string& path) {
+    const int descriptor =
+        ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
+    if (descriptor < 0) return failure(path, "written");
+    return GrowingFile(path, descriptor);
+}
+
+GrowingFile::GrowingFile(GrowingFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+GrowingFile::~GrowingFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Status GrowingFile::append(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return failure(path_, "written");
+        bytes.remove_prefix(static_cast<size_t>(count));
+    }
+    return Status::done();
 }
 
 Status write_file(const std::string& path, std::string_view content) {

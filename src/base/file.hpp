@@ -1,8 +1,10 @@
 // Files: the only part of `base` that touches the system.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/result.hpp"
 
@@ -12,6 +14,53 @@ constexpr size_t kFileBytesMax = 256u << 20;
 
 // The whole file. The Error names the file and the system's reason. "-" is standard input.
 Result<std::string> read_file(const std::string& path);
+
+// The bytes of a file, as the system pages them in: for files of any size that are only read.
+class MappedFile {
+public:
+    static Result<MappedFile> open(const std::string& path);
+    ~MappedFile();
+    MappedFile(MappedFile&& other) noexcept;
+    MappedFile& operator=(MappedFile&&) = delete;
+    std::string_view bytes() const { return {data_, size_}; }
+
+private:
+    MappedFile(const char* data, size_t size) : data_(data), size_(size) {}
+    const char* data_ = nullptr;  // owned
+    size_t size_ = 0;
+};
+
+// A new file that grows. What was in a file of that name is gone.
+class GrowingFile {
+public:
+    static Result<GrowingFile> create(const std::string& path);
+    ~GrowingFile();
+    GrowingFile(GrowingFile&& other) noexcept;
+    GrowingFile& operator=(GrowingFile&&) = delete;
+    // They are with the system when it returns.
+    Status append(std::string_view bytes);
+
+private:
+    GrowingFile(std::string path, int descriptor)
+        : path_(std::move(path)), descriptor_(descriptor) {}
+    std::string path_;
+    int descriptor_ = -1;
+};
+
+// Keeps all that read_file() reads in this process, by path as it was named; of a file that is read
+// again, what was read first. One at a time; from any thread.
+//
+//     FilesRead files;
+//     … a run is prepared …
+//     for (const auto& [path, content] : files.all()) pack(path, content);
+class FilesRead {
+public:
+    FilesRead();
+    ~FilesRead();
+    FilesRead(const FilesRead&) = delete;
+    FilesRead& operator=(const FilesRead&) = delete;
+    std::map<std::string, std::string> all() const;
+};
 
 // Writes beside the file and renames over it, so that a crash leaves the old file or the new one,
 // never half of it.

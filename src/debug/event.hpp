@@ -156,6 +156,7 @@ struct Event {
     Time at{};
     NodeId node = 0;  // for UserEvent the emitter: 0 is a host
     Happening what;
+    uint32_t frame = 0;  // UserEvent: number of the frame that brought it, where frames have one
 };
 
 }  // namespace vagus::debug

@@ -141,6 +141,8 @@ public:
     run::Ended run_with(run::Clock clock, const std::function<run::Ended(run::Execution&)>& go);
     void abort(const std::string& by);
     void abort_this();
+    void defer_aborts() { deferred_ = true; }
+    std::optional<std::string> take_abort();
     // What ended this run; empty if it ended by itself.
     std::string ended_by() {
         const std::lock_guard lock(mutex_);
@@ -178,6 +180,8 @@ private:
     bool abort_asked_ = false;  // this run, and each that follows
     std::string who_aborts_;
     std::string ended_by_;  // this run
+    bool deferred_ = false;
+    std::optional<std::string> asked_by_;  // where it is deferred, and not done yet
 };
 
 // ---- making it ready ----
@@ -414,10 +418,24 @@ run::Ended PreparedRun::Insides::run_with(run::Clock clock,
 // The robot is stopped while the plan ends, not when it has: nothing is waited for.
 void PreparedRun::Insides::abort_it(const std::string& by) {
     if (!execution_) return;
+    if (deferred_) {
+        asked_by_ = by;
+        return;
+    }
     ended_by_ = by;
     execution_->abort();
     if (bus) bus->stop_robot();
     if (world) world->close_but_for(session::stop_events(what.library().templates()));
+}
+
+std::optional<std::string> PreparedRun::Insides::take_abort() {
+    const std::lock_guard lock(mutex_);
+    std::optional<std::string> by = std::exchange(asked_by_, std::nullopt);
+    if (!by) return by;
+    deferred_ = false;
+    abort_it(*by);
+    deferred_ = true;
+    return by;
 }
 
 void PreparedRun::Insides::abort_this() {
@@ -505,6 +523,14 @@ int PreparedRun::exit_status(const run::Ended& ended) {
 
 void PreparedRun::abort_this() {
     insides_->abort_this();
+}
+
+void PreparedRun::defer_aborts() {
+    if (insides_->world) insides_->defer_aborts();
+}
+
+std::optional<std::string> PreparedRun::take_abort() {
+    return insides_->take_abort();
 }
 
 bool PreparedRun::abort_asked() const {

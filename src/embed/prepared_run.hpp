@@ -96,6 +96,10 @@ public:
     bool abort_asked() const;
     // Ends this run only; the next one begins as usual.
     void abort_this();
+    // Before run(), beside a world: from now on what was asked of abort() and abort_this() is done
+    // by take_abort(), on the deciding thread. Gives by whom, if it was asked for since.
+    void defer_aborts();
+    std::optional<std::string> take_abort();
 
 private:
     class Insides;

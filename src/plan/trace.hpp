@@ -79,6 +79,7 @@ struct TraceEvent {
     std::variant<PlanStarted, PlanEnded, ActorStarted, ActorEnded, EventRaised, ActorInterrupted,
                  VariableWritten, CheckLate, TextLogged, ErrorFound, PlanChanged>
         what;
+    uint32_t frame = 0;  // number of the frame of a bus that it follows from, where frames have one
 };
 
 // One line of JSON, without the newline. With a robot, where there are several with plans, the line

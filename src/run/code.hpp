@@ -41,6 +41,11 @@ struct BusEvent {
     std::string name;
     std::vector<int16_t> arguments;
     uint16_t from = 0;  // the node that emitted it; 0: a host, or the plan itself
+    uint32_t frame = 0;  // number of the frame that brought it, where frames have one
+    // Of what the plan emits in virtual time: the element whose code it was, and the number of the
+    // frame that this code heard last. The name is the Graph's.
+    std::string_view by = {};
+    uint32_t cause = 0;
 };
 
 // Thrown by waits when the code is told to stop. No error; catch it only to put things in order.

@@ -30,10 +30,13 @@ Time after(Time now, Duration length) {
 
 class VirtualTime::WatchContext final : public SupervisorContext {
 public:
-    explicit WatchContext(VirtualTime& run) : run_(run), number_(run.numbers_.next()) {}
+    WatchContext(VirtualTime& run, std::string_view name)
+        : run_(run), name_(name), number_(run.numbers_.next()) {}
 
     void emit(BusEvent event) override {
         if (!over_) throw_if_refused(run_.options_, event);
+        event.by = name_;
+        event.cause = run_.trigger_;
         run_.emit(event);
     }
     uint64_t number() const override { return number_; }
@@ -42,6 +45,7 @@ public:
 
 private:
     VirtualTime& run_;
+    std::string_view name_;
     uint64_t number_;
     bool over_ = false;
 };
@@ -74,6 +78,7 @@ struct VirtualTime::Watching {
 // The code of the innermost actor: it runs, or has run to its end.
 struct VirtualTime::Code {
     plan::ActivationId activation = 0;
+    std::string_view name;
     std::unique_ptr<Actor> actor;
     std::unique_ptr<Context> context;
     std::unique_ptr<CodeThread> thread;
@@ -87,6 +92,7 @@ struct VirtualTime::Code {
     Time grace_ends = kNever;
     std::string event;        // that ends its wait; empty: any
     bool waits_kept = false;  // a kept event ends its wait
+    uint32_t heard = 0;       // number of the frame that it heard last
     Machine* machine = nullptr;
 };
 
@@ -110,6 +116,8 @@ public:
     // The executor waits while code runs, so its state is the code's to use.
     void emit(BusEvent event) override {
         throw_if_refused(run_.options_, event);
+        event.by = code_.name;
+        event.cause = code_.heard;
         run_.emit(event);
     }
 
@@ -127,6 +135,7 @@ protected:
         code_.wake = woken_.event ? run_.now_ : after(run_.now_, at_most);
         code_.event = std::string(event);
         code_.thread->give_back();
+        if (woken_.event) code_.heard = woken_.event->frame;
         return std::move(woken_);
     }
 
@@ -137,7 +146,9 @@ protected:
             code_.waits_kept = false;
             if (woken.stop) return woken;
         }
-        return {.stop = false, .event = kept_.take()};
+        Woken woken{.stop = false, .event = kept_.take()};
+        if (woken.event) code_.heard = woken.event->frame;
+        return woken;
     }
 
 private:
@@ -189,6 +200,7 @@ void VirtualTime::step() {
         machine_.abort(now_);
     }
     obey();
+    trigger_ = 0;
 }
 
 Ended VirtualTime::finish() {
@@ -225,7 +237,8 @@ void VirtualTime::obey() {
 void VirtualTime::obey(plan::StartWatch& command) {
     auto watching = std::make_unique<Watching>(Watching{
         command.watch, command.level, command.global, command.index, command.supervisor,
-        library_.make_supervisor(*command.supervisor->of), WatchContext(*this), now_, now_});
+        library_.make_supervisor(*command.supervisor->of),
+        WatchContext(*this, command.supervisor->name), now_, now_});
     const auto place = std::find_if(watching_.begin(), watching_.end(), [&](const auto& other) {
         return watching->rank() < other->rank();
     });
@@ -265,6 +278,7 @@ void VirtualTime::obey(plan::StartCode& command) {
     code_ = std::make_unique<Code>();
     Code& code = *code_;
     code.activation = command.activation;
+    code.name = command.actor->name;
     code.actor = library_.make_actor(*command.actor->of);
     code.context = std::make_unique<Context>(*this, code, std::move(command.in),
                                              command.actor->of->outputs.size());
@@ -362,6 +376,7 @@ void VirtualTime::take_check(Watching& watching) {
         check.in = watching.in;
         check.event = &event;
     }
+    trigger_ = check.event != nullptr ? check.event->frame : 0;
     try {
         this->check(watching, check);
     } catch (const std::exception& error) {
@@ -391,6 +406,7 @@ void VirtualTime::take_code() {
         return;
     }
     const plan::ActivationId activation = code.activation;
+    trigger_ = code.heard;
     if (code.told) {
         if (code.told_at < now_) leave_out_missed(machine_.stopping_level());
         machine_.stopped(activation, now_);
@@ -558,7 +574,8 @@ void VirtualTime::write_from_outside() {
 }
 
 void VirtualTime::hand_out_trace() {
-    for (const plan::TraceEvent& event : machine_.take_trace()) {
+    for (plan::TraceEvent& event : machine_.take_trace()) {
+        event.frame = trigger_;
         if (options_.debugger) options_.debugger->see(event);
         if (options_.on_trace) options_.on_trace(event);
     }

@@ -110,6 +110,7 @@ private:
     std::optional<plan::Activate> begin_due_;
     std::optional<plan::SubPlanOver> over_due_;
     std::unique_ptr<Code> code_;
+    uint32_t trigger_ = 0;  // number of the frame that what is decided now follows from
     bool gate_closed_ = false;
     HeldEvents held_;
     uint64_t last_held_ = 0;         // its number

@@ -16,7 +16,7 @@ std::optional<run::BusEvent> BusEars::hear(const debug::Event& event) {
     if (!only_.empty() && !of_a_host && !only_.contains(event.node)) return std::nullopt;
     if (const auto* sent = std::get_if<debug::UserEvent>(&event.what)) {
         if (sent->name.empty()) return std::nullopt;
-        return run::BusEvent{sent->name, sent->arguments, event.node};
+        return run::BusEvent{sent->name, sent->arguments, event.node, event.frame};
     }
     if (const auto* described = std::get_if<debug::NodeDescribed>(&event.what)) {
         const auto before = gone(event.node);  // it came back, perhaps under another name

@@ -149,7 +149,7 @@ void PlanWorld::emit(Time at, const run::BusEvent& event) {
         if (only_ && !only_->contains(event.name)) return;
     }
     // Refused is only what a supervisor emits as it stops: may_emit() was not asked.
-    (void)session_.emit(event.name, event.arguments, at).ok();
+    (void)session_.emit(event.name, event.arguments, at, event.cause).ok();
 }
 
 std::vector<run::BusEvent> PlanWorld::begin() {

@@ -106,6 +106,7 @@ void SimSession::after_bodies(size_t told) {
     for (const hub::SharedId& shared : bus().take_shared_ids()) {
         note(NoteKind::Trouble, sentence(shared));
     }
+    if (told_of_instant_) told_of_instant_();
 }
 
 void SimSession::before_hold() {
@@ -143,7 +144,10 @@ std::vector<wire::Frame> SimSession::take_frames() {
 void SimSession::listen(const std::vector<wire::Frame>& delivered) {
     clock_ += kExchangeEvery;
     if (options_.traced) trace_happenings(0);
-    for (const wire::Frame& frame : delivered) network_.receive(clock_, frame);
+    for (const wire::Frame& frame : delivered) {
+        number_heard(frame);
+        network_.receive(clock_, frame);
+    }
     if (network_.next_tick() <= clock_) network_.tick(clock_);
     for (const debug::Event& event : network_.take_events()) hear(event);
     if (guests_) guests_->tick(clock_);
@@ -157,6 +161,7 @@ void SimSession::speak() {
 
 void SimSession::send_frames() {
     for (const wire::Frame& out : network_.take_frames()) {
+        number_own(out);
         if (emits_to_ && wire::is_user_event(out.type)) {
             world_->send_to(*emits_to_, link_, out);
         } else {
@@ -165,10 +170,35 @@ void SimSession::send_frames() {
     }
 }
 
+// ---- which frame is which ----
+
+void SimSession::number_own(const wire::Frame& frame) {
+    sim::FrameNumbers* const numbers = world_->frame_numbers();
+    uint32_t cause = 0;
+    if (wire::is_user_event(frame.type) && !emit_causes_.empty()) {
+        cause = emit_causes_.front();
+        emit_causes_.pop_front();
+    }
+    if (numbers == nullptr) return;
+    const uint32_t number = numbers->sent(frame, cause);
+    if (told_of_frame_) told_of_frame_(frame, number);
+}
+
+void SimSession::number_heard(const wire::Frame& frame) {
+    sim::FrameNumbers* const numbers = world_->frame_numbers();
+    if (numbers == nullptr) return;
+    const uint32_t number = numbers->find(frame, last_frame_);
+    if (number != 0) last_frame_ = number;
+    if (wire::is_user_event(frame.type)) event_frames_.push_back(number);
+    if (told_of_frame_) told_of_frame_(frame, number);
+}
+
 // ---- a plan beside it ----
 
-Status SimSession::emit(const std::string& event, std::span<const int16_t> arguments, Time at) {
+Status SimSession::emit(const std::string& event, std::span<const int16_t> arguments, Time at,
+                        uint32_t cause) {
     const Status sent = network_.emit(event, arguments);
+    if (sent.ok()) emit_causes_.push_back(cause);
     if (!sent.ok() || !options_.traced) return sent;
     trace_ += trace_line(at, "event")
                   .number("node", wire::kHostId)
@@ -185,6 +215,7 @@ std::vector<debug::Event> SimSession::take_heard() {
 void SimSession::hear_ahead() {
     for (const wire::Frame& frame : take_frames()) {
         if (wire::is_user_event(frame.type)) {
+            number_heard(frame);
             network_.receive(clock_, frame);
         } else {
             put_off_.push_back(frame);
@@ -241,7 +272,15 @@ std::vector<StopNode> SimSession::guests() const {
 // ---- what the bus says ----
 
 void SimSession::hear(const debug::Event& event) {
-    if (options_.heard && heard_.size() < kHeardMax) heard_.push_back(event);
+    uint32_t frame = 0;
+    if (std::holds_alternative<debug::UserEvent>(event.what) && !event_frames_.empty()) {
+        frame = event_frames_.front();
+        event_frames_.pop_front();
+    }
+    if (options_.heard && heard_.size() < kHeardMax) {
+        heard_.push_back(event);
+        heard_.back().frame = frame;
+    }
     if (guests_) guests_->hear(event);
     if (const auto* sent = std::get_if<debug::UserEvent>(&event.what)) {
         hear_user_event(event, *sent);
@@ -385,6 +424,11 @@ std::vector<NodeState> SimSession::nodes() const {
         states.push_back(std::move(state));
     }
     return states;
+}
+
+const aesl::Program* SimSession::program(uint16_t id) const {
+    const debug::NodeView* const node = network_.node(id);
+    return node != nullptr && node->program ? &*node->program : nullptr;
 }
 
 std::vector<std::pair<std::string, std::span<const int16_t>>> SimSession::script_variables(

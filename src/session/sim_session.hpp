@@ -18,6 +18,8 @@
 #pragma once
 
 #include <array>
+#include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -149,7 +151,9 @@ public:
     // Sends a user event as a host; `at` is for the trace. It is delivered at the next instant.
     // Fails for an event that no project of the robots declares, and for another number of
     // arguments than is declared.
-    Status emit(const std::string& event, std::span<const int16_t> arguments, Time at);
+    // `cause` is the number of the frame that it follows from, where frames have one.
+    Status emit(const std::string& event, std::span<const int16_t> arguments, Time at,
+                uint32_t cause = 0);
     // From now on only this robot takes what is emitted: a plan is for one robot.
     void emit_to(sim::RobotId robot) { emits_to_ = robot; }
     // What the bus told since, user events and all else, in its order; with SimOptions::heard.
@@ -170,6 +174,17 @@ public:
     // All have been read back at rest, or are gone.
     bool guests_rest() const { return !guests_ || guests_->settled(); }
     std::vector<StopNode> guests() const;
+
+    // ---- recording ----
+    // Is told of each frame with its number (World::number_frames()): of its own as they leave, of
+    // all others as they reach hosts.
+    void on_frame(std::function<void(const wire::Frame&, uint32_t number)> told) {
+        told_of_frame_ = std::move(told);
+    }
+    // Is told at the end of each instant, when the bodies have moved.
+    void on_instant(std::function<void()> told) { told_of_instant_ = std::move(told); }
+    // What runs on a node; nullptr without a script.
+    const aesl::Program* program(uint16_t node) const;
 
     // ---- looking ----
     const sim::World& world() const { return *world_; }
@@ -247,6 +262,8 @@ private:
     void listen(const std::vector<wire::Frame>& delivered);
     void speak();
     void send_frames();
+    void number_own(const wire::Frame& frame);
+    void number_heard(const wire::Frame& frame);
     void note(NoteKind kind, std::string text);
     void hear(const debug::Event& event);
     void hear_user_event(const debug::Event& event, const debug::UserEvent& sent);
@@ -306,6 +323,11 @@ private:
     std::vector<Note> notes_;
     std::vector<std::string> hints_;
     std::vector<debug::Event> heard_;
+    std::function<void(const wire::Frame&, uint32_t)> told_of_frame_;
+    std::function<void()> told_of_instant_;
+    uint32_t last_frame_ = 0;           // that it took, by its number
+    std::deque<uint32_t> emit_causes_;  // of user events that have not left yet
+    std::deque<uint32_t> event_frames_;  // of user events that were received, not yet heard
     std::optional<Stopping> guests_;
     std::string trace_;
 };

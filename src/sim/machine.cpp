@@ -1,6 +1,7 @@
 #include "sim/machine.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "fastvm/run.hpp"
 #include "isa/isa.hpp"
@@ -54,6 +55,8 @@ void Machine::restart() {
     node::init(node_, config_, *definition_.description, kBoard, this);
     pending_.clear();
     sent_.clear();
+    origins_.clear();
+    cause_ = 0;
     used_ = 0;
     heard_is_old_ = true;
 }
@@ -67,25 +70,35 @@ void Machine::notify(node::Node& node, vm::Notice notice) {
 void Machine::send(const wire::Frame& frame) {
     if (is_fault(frame)) break_off();
     sent_.push_back(frame);
+    origins_.push_back({cause_, node_.vm.pc});
 }
 
 // Many nodes describe themselves once, and each in a hundred frames: that room is given back.
 void Machine::forget_sent() {
     sent_.clear();
-    if (sent_.capacity() > kSentKept) sent_.shrink_to_fit();
+    origins_.clear();
+    if (sent_.capacity() > kSentKept) {
+        sent_.shrink_to_fit();
+        origins_.shrink_to_fit();
+    }
 }
 
 void Machine::break_off() const {
     if (definition_.broken_off != nullptr) definition_.broken_off(definition_.robot);
 }
 
-void Machine::receive(const wire::Frame& frame) {
+void Machine::receive(const wire::Frame& frame, uint32_t number) {
     --frames_left_;
+    const uint32_t before = std::exchange(cause_, number);
     node::receive(node_, frame);
     if (is_stop_for(node_.vm.id, frame)) break_off();
     if (!wire::is_user_event(frame.type)) {
         heard_is_old_ = true;  // it may have been part of a program
+        cause_ = before;
         return;
+    }
+    if (witness_ != nullptr && vm::is_active(node_.vm)) {
+        witness_->began_by_frame(witnessed_, number, frame.type);
     }
     used_ = 0;
     run();
@@ -120,7 +133,11 @@ bool Machine::start_pending() {
     if (vm::is_active(node_.vm) && used_ < kInstructionsPerMillisecond) return false;
     const uint8_t event = pending_.front();
     pending_.erase(pending_.begin());
+    cause_ = 0;
     node::local_event(node_, event);
+    if (witness_ != nullptr && vm::is_active(node_.vm)) {
+        witness_->began_by_itself(witnessed_, event);
+    }
     used_ = 0;
     return true;
 }
@@ -135,12 +152,58 @@ void Machine::run() {
         if (!vm::is_active(node_.vm) || budget_ == 0) return;
         uint32_t limit = budget_;
         if (!pending_.empty()) limit = std::min(limit, kInstructionsPerMillisecond - used_);
-        const uint16_t done = fastvm::run(node_.vm, bytecode_, static_cast<uint16_t>(limit));
+        const uint16_t done = witness_ != nullptr
+                                  ? run_watched()
+                                  : fastvm::run(node_.vm, bytecode_, static_cast<uint16_t>(limit));
         budget_ = static_cast<uint16_t>(budget_ - done);
         used_ += done;
         if (done == 0) return;
     }
     pending_.clear();  // paused inside an event: others are dropped (docs/spec, 3.6)
+}
+
+std::string Machine::state() const {
+    std::string bytes;
+    const auto add = [&bytes](uint16_t word) {
+        bytes += static_cast<char>(word & 0xff);
+        bytes += static_cast<char>(word >> 8);
+    };
+    for (const uint16_t word : {node_.vm.flags, node_.vm.pc, node_.vm.depth}) add(word);
+    for (uint16_t i = 0; i < node_.vm.depth; ++i) add(static_cast<uint16_t>(stack_[i]));
+    for (const int16_t word : variables_) add(static_cast<uint16_t>(word));
+    for (const uint8_t event : pending_) bytes += static_cast<char>(event);
+    return bytes;
+}
+
+// One instruction: what it writes is seen by comparing.
+uint16_t Machine::run_watched() {
+    const uint16_t pc = node_.vm.pc;
+    const uint16_t word = bytecode_.memory()[pc];
+    const isa::Opcode opcode = isa::opcode_of(word);
+    if (opcode != isa::Opcode::Store && opcode != isa::Opcode::StoreInd &&
+        opcode != isa::Opcode::Native) {
+        return fastvm::run(node_.vm, bytecode_, 1);
+    }
+    const std::vector<int16_t> before = variables_;
+    if (opcode == isa::Opcode::Native) witness_->called(witnessed_, pc, isa::argument_of(word));
+    const uint16_t done = fastvm::run(node_.vm, bytecode_, 1);
+    if (opcode == isa::Opcode::Store) {
+        // Written also where the value is the same again.
+        const uint16_t address = isa::argument_of(word);
+        if (address < variables_.size()) {
+            witness_->wrote(witnessed_, pc, address, variables_[address]);
+        }
+        return done;
+    }
+    tell_writes(pc, before);
+    return done;
+}
+
+void Machine::tell_writes(uint16_t pc, const std::vector<int16_t>& before) {
+    for (size_t i = 0; i < variables_.size(); ++i) {
+        if (variables_[i] == before[i]) continue;
+        witness_->wrote(witnessed_, pc, static_cast<uint16_t>(i), variables_[i]);
+    }
 }
 
 }  // namespace vagus::sim

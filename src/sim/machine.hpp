@@ -9,11 +9,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "fastvm/bytecode.hpp"
 #include "node/frame_maker.hpp"
 #include "node/node.hpp"
+#include "sim/witness.hpp"
 #include "wire/frame.hpp"
 
 namespace vagus::sim {
@@ -54,8 +56,9 @@ public:
     }
     // It would look at another frame in this millisecond.
     bool wants_frame() const { return frames_left_ > 0 && budget_ > 0; }
-    // Obeys the frame; a user event runs at once.
-    void receive(const wire::Frame& frame);
+    // Obeys the frame; a user event runs at once. `number` is that of the frame, where frames are
+    // numbered.
+    void receive(const wire::Frame& frame, uint32_t number = 0);
     // The local event has happened: it runs in this run() or a later one. Below kLocalEventsMax.
     void raise(uint8_t event);
     // The same of one that has no handler, some time ago while nothing ran.
@@ -79,8 +82,21 @@ public:
     const std::vector<int16_t>& variables() const { return variables_; }
     // Frames sent since they were last forgotten, by the code that carries them on.
     const std::vector<wire::Frame>& sent() const { return sent_; }
+    // Of each of them, which frame it followed from (0: none), and where the program was.
+    struct Origin {
+        uint32_t frame = 0;
+        uint16_t pc = 0;
+    };
+    const std::vector<Origin>& origins() const { return origins_; }
     void forget_sent();
+    // Borrowed; nullptr: nobody any more.
+    void watch(Witness* witness, WitnessedNode as) {
+        witness_ = witness;
+        witnessed_ = as;
+    }
     const vm::Vm& vm() const { return node_.vm; }
+    // Registers, stack, variables and what waits, as bytes: equal states give equal bytes.
+    std::string state() const;
 
     // For natives: what is `robot` in the definition of the machine that the node belongs
     // to.
@@ -94,6 +110,8 @@ private:
     void send(const wire::Frame& frame);
     void break_off() const;
     bool start_pending();
+    uint16_t run_watched();
+    void tell_writes(uint16_t pc, const std::vector<int16_t>& before);
     static const node::Board kBoard;
 
     MachineDefinition definition_;
@@ -108,6 +126,10 @@ private:
     bool heard_is_old_ = true;      // the program may have changed since
     std::vector<uint8_t> pending_;  // local events, oldest first
     std::vector<wire::Frame> sent_;
+    std::vector<Origin> origins_;  // of sent_
+    uint32_t cause_ = 0;           // the frame that what happens now follows from
+    Witness* witness_ = nullptr;
+    WitnessedNode witnessed_;
     uint16_t budget_ = 0;
     uint16_t frames_left_ = 0;
     uint32_t used_ = 0;  // instructions of the handler that runs

@@ -75,6 +75,7 @@ Status NodeTurns::take_berths(size_t index, Bus& bus) {
 // several on a bus have its name before them.
 void NodeTurns::move_in(Inhabitants& inhabitants) {
     inhabitants_ = &inhabitants;
+    watch(witness_);
     schedule_.start(units_.size());
     wheels_turn_.assign(units_.size(), 1);
     for (Berth& berth : berths_) {
@@ -213,7 +214,7 @@ void NodeTurns::deliver(size_t index) {
                             : bus.hub->take(berth.link, frame);
     };
     while (node.wants_frame() && take()) {
-        if (!berth.for_others.take(frame)) node.receive(frame);
+        if (!berth.for_others.take(frame)) receive(berth, frame);
     }
     hub::Hub* const own_bus = private_buses_[berth.robot].get();
     while (own_bus != nullptr && node.wants_frame() && own_bus->take(berth.private_link, frame))
@@ -221,12 +222,43 @@ void NodeTurns::deliver(size_t index) {
     berth.sent_to = !node.wants_frame();  // it may look at no more in this millisecond
 }
 
+void NodeTurns::receive(Berth& berth, const wire::Frame& frame) {
+    uint32_t number = 0;
+    if (numbers_) {
+        number = numbers_->find(frame, berth.last_frame);
+        if (number != 0) berth.last_frame = number;
+    }
+    machine(berth).receive(frame, number);
+}
+
+FrameNumbers& NodeTurns::number_frames() {
+    if (!numbers_) numbers_ = std::make_unique<FrameNumbers>();
+    return *numbers_;
+}
+
+void NodeTurns::watch(Witness* witness) {
+    witness_ = witness;
+    for (const Berth& berth : berths_) {
+        machine(berth).watch(
+            witness, {static_cast<uint32_t>(berth.robot + 1), machine(berth).id()});
+    }
+}
+
 void NodeTurns::collect(size_t index, Time now, Crossing crossing) {
     const Berth& berth = berths_[index];
     Bus& bus = buses_[berth.bus];
     Machine& node = machine(berth);
     hub::Hub* const own_bus = private_buses_[berth.robot].get();
-    for (const wire::Frame& frame : node.sent()) {
+    for (size_t i = 0; i < node.sent().size(); ++i) {
+        const wire::Frame& frame = node.sent()[i];
+        if (numbers_) {
+            const Machine::Origin& origin = node.origins()[i];
+            const uint32_t number = numbers_->sent(frame, origin.frame);
+            if (witness_ != nullptr) {
+                witness_->sent({static_cast<uint32_t>(berth.robot + 1), node.id()}, number,
+                               origin.pc);
+            }
+        }
         if (!bus.node_bus)
             bus.hub->receive(berth.link, frame);
         else if (crossing == Crossing::Timed)
@@ -266,12 +298,18 @@ std::span<const int16_t> NodeTurns::variables_of(uint16_t node, Time now) {
 }
 
 std::span<const int16_t> NodeTurns::variables_of(size_t index, uint16_t node, Time now) {
-    for (Machine* const machine : robot(index).machines()) {
+    const Machine* const machine = machine_of(index, node, now);
+    return machine != nullptr ? std::span<const int16_t>(machine->variables())
+                              : std::span<const int16_t>();
+}
+
+const Machine* NodeTurns::machine_of(size_t index, uint16_t node, Time now) {
+    for (const Machine* const machine : robot(index).machines()) {
         if (machine->id() != node) continue;
         robot(index).catch_up(now);
-        return machine->variables();
+        return machine;
     }
-    return {};
+    return nullptr;
 }
 
 }  // namespace vagus::sim

@@ -22,6 +22,7 @@
 #include "base/result.hpp"
 #include "hub/hub.hpp"
 #include "sim/crew.hpp"
+#include "sim/frame_numbers.hpp"
 #include "sim/frames_for_others.hpp"
 #include "sim/inhabitants.hpp"
 #include "sim/node_bus.hpp"
@@ -70,6 +71,13 @@ public:
     // As they are at `now`; empty if there is no such node, on the common bus or of that robot.
     std::span<const int16_t> variables_of(uint16_t node, Time now);
     std::span<const int16_t> variables_of(size_t robot, uint16_t node, Time now);
+    // From now on frames have numbers; they are counted on when the next robots move in.
+    FrameNumbers& number_frames();
+    FrameNumbers* frame_numbers() { return numbers_.get(); }
+    // Of all nodes; nullptr: nobody any more.
+    void watch(Witness* witness);
+    // As variables_of(); nullptr if there is no such node.
+    const Machine* machine_of(size_t robot, uint16_t node, Time now);
     // How often a robot had its turn since the first one moved in.
     uint64_t turns_taken() const { return turns_taken_; }
 
@@ -83,6 +91,7 @@ private:
         hub::LinkId private_link;  // on that behind the robot's own port, if it has one
         FramesForOthers for_others = {};
         bool sent_to = false;  // something may wait in its queues
+        uint32_t last_frame = 0;  // that it took, by its number
     };
     // A robot, and which berths are those of its nodes.
     struct Unit {
@@ -116,6 +125,7 @@ private:
     void deliver(size_t index);
     void collect(size_t index, Time now, Crossing crossing);
     void drain(const Berth& berth);
+    void receive(Berth& berth, const wire::Frame& frame);
 
     const WorldDefinition& definition_;
     hub::Hub& bus_;
@@ -133,6 +143,8 @@ private:
     Schedule schedule_;                 // of the units
     std::vector<uint8_t> wheels_turn_;  // by index of the robot: its drive() has something new
     uint64_t turns_taken_ = 0;
+    std::unique_ptr<FrameNumbers> numbers_;  // nullptr: frames have none
+    Witness* witness_ = nullptr;
 };
 
 }  // namespace vagus::sim

@@ -58,6 +58,9 @@ struct World::Insides {
     void knock(size_t index);
     void push_button(size_t index, std::string_view button, bool pressed);
     Status set_button(RobotId id, std::string_view button, bool pressed);
+    Status move_robot(RobotId robot, const Pose& to);
+    Status tap(RobotId robot);
+    Status do_act(const Act& act);
     Robot& robot(size_t index) { return *inhabitants->robots()[index]; }
 
     WorldDefinition definition;
@@ -74,6 +77,8 @@ struct World::Insides {
     Duration rest{};  // asked for, but less than a step
     std::vector<Happening> happenings;
     uint64_t happenings_lost = 0;
+    std::function<void(const Act&)> told_of_act;
+    std::function<void(size_t)> told_of_timeline;
 };
 
 Result<World> World::load(std::string_view text, std::string_view file, WorldOptions options) {
@@ -204,8 +209,10 @@ void World::Insides::hold_instant() {
 
 void World::Insides::run_timeline() {
     while (timeline_next < definition.timeline.size() &&
-           definition.timeline[timeline_next].at <= now)
+           definition.timeline[timeline_next].at <= now) {
+        if (told_of_timeline) told_of_timeline(timeline_next);
         act(definition.timeline[timeline_next++].action);
+    }
 }
 
 namespace {
@@ -473,15 +480,23 @@ Result<ObjectId> World::add(const ObjectDefinition& object) {
 }
 
 Status World::remove(ObjectId object) {
-    return insides_->inhabitants->remove(object);
+    return act({.kind = Act::Kind::Remove, .object = object});
 }
 
 Status World::move(ObjectId object, const Pose& to) {
-    return insides_->inhabitants->move(object, to);
+    return act({.kind = Act::Kind::Move, .object = object, .to = to});
 }
 
 Status World::move(RobotId robot, const Pose& to) {
-    const auto index = index_of(insides_->definition, robot);
+    return act({.kind = Act::Kind::MoveRobot, .robot = robot, .to = to});
+}
+
+Status World::switch_light(ObjectId light, bool on) {
+    return act({.kind = Act::Kind::Light, .object = light, .on = on});
+}
+
+Status World::Insides::move_robot(RobotId robot, const Pose& to) {
+    const auto index = index_of(definition, robot);
     if (!index) return no_robot();
     const auto is_far = [](double value) {
         return !(value >= -kWorldSizeMax && value <= 2 * kWorldSizeMax);
@@ -491,12 +506,8 @@ Status World::move(RobotId robot, const Pose& to) {
                      "the robot would be outside of every world; places are in "
                      "metres, angles in radians"};
     }
-    insides_->inhabitants->move_robot(*index, to);
+    inhabitants->move_robot(*index, to);
     return Status::done();
-}
-
-Status World::switch_light(ObjectId light, bool on) {
-    return insides_->inhabitants->switch_light(light, on);
 }
 
 void World::Insides::knock(size_t index) {
@@ -527,18 +538,78 @@ Status World::Insides::set_button(RobotId id, std::string_view button, bool pres
 }
 
 Status World::press(RobotId robot, std::string_view button) {
-    return insides_->set_button(robot, button, true);
+    return act({.kind = Act::Kind::Press, .robot = robot, .button = std::string(button)});
 }
 
 Status World::release(RobotId robot, std::string_view button) {
-    return insides_->set_button(robot, button, false);
+    return act({.kind = Act::Kind::Release, .robot = robot, .button = std::string(button)});
 }
 
 Status World::tap(RobotId robot) {
-    const auto index = index_of(insides_->definition, robot);
+    return act({.kind = Act::Kind::Tap, .robot = robot});
+}
+
+Status World::Insides::tap(RobotId robot) {
+    const auto index = index_of(definition, robot);
     if (!index) return no_robot();
-    insides_->knock(*index);
+    knock(*index);
     return Status::done();
+}
+
+Status World::Insides::do_act(const Act& act) {
+    switch (act.kind) {
+        case Act::Kind::Press:
+            return set_button(act.robot, act.button, true);
+        case Act::Kind::Release:
+            return set_button(act.robot, act.button, false);
+        case Act::Kind::Tap:
+            return tap(act.robot);
+        case Act::Kind::MoveRobot:
+            return move_robot(act.robot, act.to);
+        case Act::Kind::Move:
+            return inhabitants->move(act.object, act.to);
+        case Act::Kind::Remove:
+            return inhabitants->remove(act.object);
+        case Act::Kind::Light:
+            return inhabitants->switch_light(act.object, act.on);
+    }
+    return no_robot();
+}
+
+Status World::act(const Act& act) {
+    TRY(insides_->do_act(act));
+    if (insides_->told_of_act) insides_->told_of_act(act);
+    return Status::done();
+}
+
+void World::on_act(std::function<void(const Act&)> told) {
+    insides_->told_of_act = std::move(told);
+}
+
+std::string World::state_of(RobotId robot, uint16_t node) const {
+    const auto index = index_of(insides_->definition, robot);
+    if (!index) return "";
+    const Machine* const machine = insides_->turns.machine_of(*index, node, insides_->now);
+    return machine != nullptr ? machine->state() : "";
+}
+
+// ---- Why it happens ----
+
+FrameNumbers& World::number_frames() {
+    return insides_->turns.number_frames();
+}
+
+FrameNumbers* World::frame_numbers() {
+    return insides_->turns.frame_numbers();
+}
+
+void World::watch(Witness* witness) {
+    if (witness != nullptr) insides_->crew.work_alone(true);
+    insides_->turns.watch(witness);
+}
+
+void World::on_timeline(std::function<void(size_t)> told) {
+    insides_->told_of_timeline = std::move(told);
 }
 
 }  // namespace vagus::sim

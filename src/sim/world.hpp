@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,7 +33,9 @@
 #include "sim/can_bus.hpp"
 #include "sim/definitions.hpp"
 #include "sim/drawing.hpp"
+#include "sim/frame_numbers.hpp"
 #include "sim/ground.hpp"
+#include "sim/witness.hpp"
 
 namespace vagus::sim {
 
@@ -126,6 +129,18 @@ struct NodeLoad {
 struct BusLoad {
     CanLoad all;
     std::vector<NodeLoad> nodes;
+};
+
+// What is done to a world from outside, as by a hand from above: what World::act() does, and
+// those below that are named as its kinds.
+struct Act {
+    enum class Kind : uint8_t { Press, Release, Tap, MoveRobot, Move, Remove, Light };
+    Kind kind = Kind::Tap;
+    RobotId robot = {};        // Press, Release, Tap, MoveRobot
+    ObjectId object = {};      // Move, Remove, Light
+    std::string button = {};   // Press, Release
+    Pose to = {};              // MoveRobot, Move
+    bool on = false;           // Light
 };
 
 class World {
@@ -222,6 +237,25 @@ public:
     Status release(RobotId robot, std::string_view button);
     // A knock on the body.
     Status tap(RobotId robot);
+    // Any of these, but adding.
+    Status act(const Act& act);
+    // Is told of each that was done.
+    void on_act(std::function<void(const Act&)> told);
+
+    // ---- Recording ----
+    // Registers, stack and variables of a node as bytes: equal states give equal bytes. Empty if
+    // there is no such node.
+    std::string state_of(RobotId robot, uint16_t node) const;
+
+    // ---- Why it happens ----
+    // From now on the frames of all buses have numbers (frame_numbers.hpp).
+    FrameNumbers& number_frames();
+    // nullptr if they have none.
+    FrameNumbers* frame_numbers();
+    // Follows the scripts instruction by instruction (witness.hpp); nullptr: nobody any more.
+    void watch(Witness* witness);
+    // Is told of each entry of the timeline that is carried out, by its index in the definition.
+    void on_timeline(std::function<void(size_t entry)> told);
 
 private:
     struct Insides;

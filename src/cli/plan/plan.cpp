@@ -216,6 +216,9 @@ void add_run(CLI::App& plan, int& exit_code) {
                    "beside a world: plain lines also on a terminal");
     verb->add_flag("--quiet", options->quiet, "no lines of what happens, and no view");
     add_theme_option(*verb, options->theme);
+    takes_file(*verb->add_option("--record", options->record,
+                                 "records the run, to be run again by `vagus replay`"),
+               {".mcap"});
     verb->add_flag("--watch", options->watch,
                    "a plan that is saved takes over while it runs; any other file that it read "
                    "starts it again");

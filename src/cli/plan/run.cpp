@@ -20,6 +20,8 @@ std::unique_ptr<TerminalRun> TerminalRun::prepare(const PlanRunOptions& options)
     std::unique_ptr<TerminalRun> made(
         new TerminalRun());  // make_unique cannot reach the constructor
     const embed::RunWords& words = options.words;
+    std::optional<FilesRead> files;  // all that is read from here on
+    if (!options.record.empty()) files.emplace();
     const Status added = session::add_toolboxes(made->library_, made->parts_, words.toolboxes);
     if (!added.ok()) {
         complain(added.error());
@@ -36,6 +38,13 @@ std::unique_ptr<TerminalRun> TerminalRun::prepare(const PlanRunOptions& options)
     made->prepared_ = std::move(prepared.value());
     made->prepared_->tell([](const std::string& sentence) { complain(sentence); });
     if (options.quiet) made->prepared_->report([](const std::string&) {});
+    if (files) {
+        const Status begun = made->begin_recording(options, *files);
+        if (!begun.ok()) {
+            complain(begun.error());
+            return nullptr;
+        }
+    }
     const std::string listening = made->prepared_->listening();
     if (!listening.empty()) print("listening " + listening + "\n");
     return made;
@@ -47,8 +56,66 @@ std::vector<std::string> TerminalRun::files() const {
     return files;
 }
 
+namespace {
+
+// What cannot be run again is not recorded as if it could.
+Status check_recording(const PlanRunOptions& options) {
+    const embed::RunWords& words = options.words;
+    const std::string file = "--record " + options.record + ": ";
+    if (!words.bus.empty()) {
+        return Error{Code::Refused, file + "a run on a real bus is not recorded; record one "
+                                           "beside a --world"};
+    }
+    if (!words.listen.empty() || options.watch) {
+        return Error{Code::Refused, file + "not together with " +
+                                        (options.watch ? "--watch" : "--listen") +
+                                        "; leave one of them out"};
+    }
+    if (words.world.empty() && words.clock != "virtual") {
+        return Error{Code::Refused, file + "a run in real time cannot be run again; give it a "
+                                           "--world, or --clock virtual"};
+    }
+    return Status::done();
+}
+
+}  // namespace
+
+Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRead& files) {
+    TRY(check_recording(options));
+    const embed::RunWords& words = options.words;
+    record::RunFile about;
+    about.verb = "plan run";
+    about.plan = options.file;
+    about.world = words.world;
+    about.toolboxes = words.toolboxes;
+    about.set = words.set;
+    about.from = words.from;
+    about.seed = words.seed;
+    about.max_time = words.max_time;
+    about.robot = words.robot;
+    const auto pace =
+        words.clock == "virtual" ? record::Pace::Waits : record::Pace::NeverWaits;
+    recording_ = TRY(record::PlanRecording::begin(options.record, about, files, *prepared_, pace));
+    record_ = options.record;
+    return Status::done();
+}
+
+void TerminalRun::end_recording() {
+    if (!recording_) return;
+    const Status written = recording_->end();
+    if (!written.ok()) complain(written.error());
+    const uint64_t dropped = recording_->dropped();
+    if (dropped > 0) {
+        complain(record_ + ": the disk was too slow, " + std::to_string(dropped) + " samples" +
+                 " of variables and poses were left out");
+    }
+    recording_.reset();
+}
+
 run::Ended TerminalRun::run() {
+    if (!record_.empty() && !recording_) complain(record_ + " has the first run only");
     Result<run::Ended> ended = prepared_->run(debugger_);
+    end_recording();
     if (ended.ok()) return ended.value();
     complain(ended.error());
     return {.result = plan::PlanResult::Error, .message = {}};

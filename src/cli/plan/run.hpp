@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "base/file.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/prepared_run.hpp"
 #include "plan/check.hpp"
 #include "plan/graph.hpp"
+#include "record/plan_recording.hpp"
 #include "run/code.hpp"
 #include "run/options.hpp"
 #include "toolbox/parts.hpp"
@@ -32,6 +34,7 @@ struct PlanRunOptions {
     bool quiet = false;     // neither lines nor a view
     std::string theme;      // "dark", "light"; empty: found out
     bool watch = false;     // starts again when a file is saved
+    std::string record;     // a file for the recording of the first run; empty: none
 };
 
 void add_plan_file(CLI::App& verb, std::string& file);
@@ -57,12 +60,16 @@ public:
 
 private:
     TerminalRun();
+    Status begin_recording(const PlanRunOptions& options, const FilesRead& files);
+    void end_recording();
 
     toolbox::Parts parts_;  // before the library, whose code looks at them
     run::CodeLibrary library_;
     std::optional<embed::LoadedPlan> plan_;
     std::unique_ptr<embed::PreparedRun> prepared_;
     run::Debugger* debugger_ = nullptr;
+    std::string record_;  // the file; empty: nothing is recorded, or not any more
+    std::unique_ptr<record::PlanRecording> recording_;
 };
 
 }  // namespace vagus::cli

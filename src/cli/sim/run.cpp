@@ -20,6 +20,7 @@
 #include "embed/robots_run.hpp"
 #include "net/end_signal.hpp"
 #include "net/links.hpp"
+#include "record/sim_recording.hpp"
 #include "session/safe_stop.hpp"
 #include "sim/world_threads.hpp"
 
@@ -53,6 +54,7 @@ public:
 
     Status listen();
     Status open_trace();
+    Status begin_recording(const FilesRead& files);
     // Steps until the scripts run, so that their mistakes are known before the screen appears.
     // False if there are some, or a script did not arrive, and nobody watches their files.
     bool settle();
@@ -80,6 +82,7 @@ private:
     void act_on_robot(Key key);
     void select(size_t step);
     void restart();
+    void end_recording();
     std::vector<KeyHelp> key_help() const;
     void show();
 
@@ -94,6 +97,7 @@ private:
     std::string listening_;
     std::string notice_;
     LineSink trace_;
+    std::unique_ptr<record::SimRecording> recording_;
     Pace pace_;
     sim::WorldThreads threads_;
     bool running_ = false;  // run() has begun
@@ -129,6 +133,55 @@ Status SimRun::open_trace() {
     if (options_.trace == "-") return Status::done();
     trace_ = TRY(LineSink::open(options_.trace, LineSink::When::WithinASecond));
     return Status::done();
+}
+
+namespace {
+
+// What cannot be run again is not recorded as if it could.
+Status check_recording(const SimRunOptions& options, bool has_projects) {
+    const auto refuse = [&](const std::string& why) {
+        return Error{Code::Refused, "--record " + options.record + ": " + why};
+    };
+    if (!options.listen.empty()) return refuse("not together with --listen; leave one of them out");
+    if (options.watch) return refuse("not together with --watch; leave one of them out");
+    if (!options.fleet.target.empty()) {
+        return refuse("not together with --fleet; leave one of them out");
+    }
+    if (has_projects) {
+        return refuse("a world whose robots have projects is not recorded yet; --trace writes "
+                      "what happens there");
+    }
+    const aesl::Options usual;
+    if (options.compile.dialect != usual.dialect || !options.compile.ontimer.empty()) {
+        return refuse("not together with --dialect or --ontimer; leave them out");
+    }
+    return Status::done();
+}
+
+}  // namespace
+
+Status SimRun::begin_recording(const FilesRead& files) {
+    TRY(check_recording(options_, robots_.has_projects()));
+    record::RunFile about;
+    about.verb = "sim";
+    about.world = options_.world;
+    about.loads = options_.loads;
+    if (options_.seed) about.seed = std::to_string(*options_.seed);
+    const auto pace = pace_.hurries() ? record::Pace::Waits : record::Pace::NeverWaits;
+    recording_ = TRY(record::SimRecording::begin(options_.record, about, files, session_, pace));
+    return Status::done();
+}
+
+void SimRun::end_recording() {
+    if (!recording_) return;
+    const Status written = recording_->end();
+    if (!written.ok()) complain(written.error());
+    if (recording_->dropped() > 0) {
+        complain(options_.record + ": the disk was too slow, " +
+                 std::to_string(recording_->dropped()) +
+                 " samples of variables and poses were left out");
+    }
+    recording_.reset();
 }
 
 bool SimRun::settle() {
@@ -175,6 +228,7 @@ void SimRun::pass_all() {
     running_ = true;
     real_before_ = links_.now();
     while (!ended()) turn();
+    end_recording();
     robots_.end();
     tell_notes();
     write_trace();
@@ -331,12 +385,15 @@ void SimRun::act_on_robot(Key key) {
 }
 
 void SimRun::restart() {
+    const bool recorded = recording_ != nullptr;
+    end_recording();
     const Status begun = robots_.restart();
     view_.forget();
     hands_.forget();
     pace_.forget();
     screen_->scroll_to_latest();
     notice_ = begun.ok() ? "restarted" : begun.error().what;
+    if (recorded) notice_ += "; " + options_.record + " has the run before";
 }
 
 std::vector<KeyHelp> SimRun::key_help() const {
@@ -398,11 +455,15 @@ Result<std::unique_ptr<embed::RobotsRun>> open_robots(const SimRunOptions& optio
 }  // namespace
 
 int run_sim(const SimRunOptions& options) {
+    std::optional<FilesRead> files;  // all that is read from here on
+    if (!options.record.empty()) files.emplace();
     const auto robots = open_robots(options);
     if (!robots.ok()) return complain(robots.error(), kExitUsage);
     SimRun run(options, *robots.value());
     const Status traced = run.open_trace();
     if (!traced.ok()) return complain(traced.error(), kExitUsage);
+    const Status recording = files ? run.begin_recording(*files) : Status::done();
+    if (!recording.ok()) return complain(recording.error(), kExitUsage);
     const Status listening = run.listen();
     if (!listening.ok()) {
         const bool wrong = listening.error().code == Code::BadInput;

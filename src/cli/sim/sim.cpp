@@ -87,6 +87,9 @@ void add_sim(CLI::App& app, int& exit_code) {
     takes_file(
         *verb->add_option("--trace", options->trace, "writes what happens, one JSON object a line"),
         {});
+    takes_file(*verb->add_option("--record", options->record,
+                                 "records the run, to be run again by `vagus replay`"),
+               {".mcap"});
     verb->add_option("--fleet", options->fleet.target,
                      "robots with a project are members of this fleet, in real time: "
                      "mqtt[s]://HOST[:PORT][/FLEET]")

@@ -1,0 +1,216 @@
+#include "mcap/writer.hpp"
+
+#include <zstd.h>
+
+#include <algorithm>
+
+namespace vagus::mcap {
+
+namespace {
+
+constexpr int kLevel = 1;  // of zstd: the fastest
+
+void append_record(std::string& to, Opcode opcode, std::string_view content) {
+    Put(to).u8(static_cast<uint8_t>(opcode)).u64(content.size()).bytes(content);
+}
+
+std::string compressed(const std::string& bytes) {
+    std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+    const size_t size =
+        ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kLevel);
+    // With as much room as the bound says it fails only for want of memory.
+    if (ZSTD_isError(size) != 0) throw std::bad_alloc();
+    packed.resize(size);
+    return packed;
+}
+
+}  // namespace
+
+Writer::Writer(Sink sink, std::string_view library) : sink_(std::move(sink)) {
+    put(kMagic);
+    std::string header;
+    Put(header).string("").string(library);
+    put_record(Opcode::Header, header);
+}
+
+void Writer::put(std::string_view bytes) {
+    if (!state_.ok()) return;
+    state_ = sink_(bytes);
+    offset_ += bytes.size();
+}
+
+void Writer::put_record(Opcode opcode, std::string_view content) {
+    std::string record;
+    append_record(record, opcode, content);
+    put(record);
+}
+
+uint16_t Writer::add_schema(Schema schema) {
+    if (schemas_.size() >= kSchemasMax) return 0;
+    schema.id = static_cast<uint16_t>(schemas_.size() + 1);
+    append_record(chunk_, Opcode::Schema, content_of(schema));
+    schemas_.push_back(std::move(schema));
+    return schemas_.back().id;
+}
+
+uint16_t Writer::add_channel(Channel channel) {
+    if (channels_.size() >= kChannelsMax) return 0;
+    channel.id = static_cast<uint16_t>(channels_.size() + 1);
+    append_record(chunk_, Opcode::Channel, content_of(channel));
+    channels_.push_back(std::move(channel));
+    counts_.push_back(0);
+    return channels_.back().id;
+}
+
+void Writer::write(uint16_t channel, uint64_t log_time, std::string_view data) {
+    if (!state_.ok() || channel == 0 || channel > channels_.size()) return;
+    const bool first = chunk_index_.empty();
+    chunk_from_ = first ? log_time : std::min(chunk_from_, log_time);
+    chunk_to_ = first ? log_time : std::max(chunk_to_, log_time);
+    chunk_index_[channel].emplace_back(log_time, chunk_.size());
+    constexpr size_t kMessageHead = 2 + 4 + 8 + 8;
+    Put put(chunk_);
+    put.u8(static_cast<uint8_t>(Opcode::Message)).u64(kMessageHead + data.size());
+    put.u16(channel).u32(counts_[channel - 1u]++).u64(log_time).u64(log_time).bytes(data);
+    if (chunk_.size() >= kChunkBytes) write_chunk();
+}
+
+void Writer::attach(const Attachment& attachment) {
+    write_chunk();
+    std::string content;
+    Put put(content);
+    put.u64(attachment.log_time).u64(0).string(attachment.name).string(attachment.media_type);
+    put.u64(attachment.data.size()).bytes(attachment.data).u32(crc32(content));
+    const uint64_t offset = offset_;
+    put_record(Opcode::Attachment, content);
+    attachments_.push_back({offset, offset_ - offset, attachment.log_time, attachment.data.size(),
+                            attachment.name, attachment.media_type});
+}
+
+void Writer::write_chunk() {
+    if (chunk_.empty()) return;
+    const std::string packed = compressed(chunk_);
+    ChunkPlace place;
+    place.from = chunk_from_;
+    place.to = chunk_to_;
+    place.offset = offset_;
+    place.compressed = packed.size();
+    place.uncompressed = chunk_.size();
+    std::string content;
+    Put put(content);
+    put.u64(place.from).u64(place.to).u64(place.uncompressed).u32(crc32(chunk_));
+    put.string("zstd").u64(packed.size()).bytes(packed);
+    put_record(Opcode::Chunk, content);
+    place.length = offset_ - place.offset;
+    put_indexes(place);
+    chunks_.push_back(std::move(place));
+    chunk_.clear();
+    chunk_index_.clear();
+    chunk_from_ = chunk_to_ = 0;
+}
+
+void Writer::put_indexes(ChunkPlace& place) {
+    const uint64_t begin = offset_;
+    for (const auto& [channel, entries] : chunk_index_) {
+        place.indexes[channel] = offset_;
+        std::string content;
+        Put put(content);
+        put.u16(channel).u32(static_cast<uint32_t>(entries.size() * 16));
+        for (const auto& [time, offset] : entries) put.u64(time).u64(offset);
+        put_record(Opcode::MessageIndex, content);
+    }
+    place.indexes_length = offset_ - begin;
+}
+
+Status Writer::flush() {
+    write_chunk();
+    return state_;
+}
+
+std::string Writer::statistics() const {
+    uint64_t messages = 0;
+    uint64_t from = 0;
+    uint64_t to = 0;
+    bool some = false;
+    for (const uint32_t count : counts_) messages += count;
+    for (const ChunkPlace& chunk : chunks_) {
+        if (chunk.indexes.empty()) continue;
+        from = some ? std::min(from, chunk.from) : chunk.from;
+        to = some ? std::max(to, chunk.to) : chunk.to;
+        some = true;
+    }
+    std::string by_channel;
+    for (const Channel& channel : channels_) {
+        const uint32_t count = counts_[channel.id - 1u];
+        if (count > 0) Put(by_channel).u16(channel.id).u64(count);
+    }
+    std::string content;
+    Put put(content);
+    put.u64(messages).u16(static_cast<uint16_t>(schemas_.size()));
+    put.u32(static_cast<uint32_t>(channels_.size()));
+    put.u32(static_cast<uint32_t>(attachments_.size())).u32(0);
+    put.u32(static_cast<uint32_t>(chunks_.size())).u64(from).u64(to).string(by_channel);
+    return content;
+}
+
+void Writer::put_summary() {
+    std::string summary;
+    std::string offsets;
+    const uint64_t begin = offset_;
+    const auto group = [&](Opcode opcode, const std::vector<std::string>& contents) {
+        const uint64_t from = begin + summary.size();
+        for (const std::string& content : contents) append_record(summary, opcode, content);
+        if (contents.empty()) return;
+        std::string content;
+        Put put(content);
+        put.u8(static_cast<uint8_t>(opcode)).u64(from).u64(begin + summary.size() - from);
+        append_record(offsets, Opcode::SummaryOffset, content);
+    };
+    std::vector<std::string> contents;
+    for (const Schema& schema : schemas_) contents.push_back(content_of(schema));
+    group(Opcode::Schema, contents);
+    contents.clear();
+    for (const Channel& channel : channels_) contents.push_back(content_of(channel));
+    group(Opcode::Channel, contents);
+    group(Opcode::Statistics, {statistics()});
+    contents.clear();
+    for (const ChunkPlace& chunk : chunks_) {
+        std::string indexes;
+        for (const auto& [channel, offset] : chunk.indexes) Put(indexes).u16(channel).u64(offset);
+        std::string content;
+        Put put(content);
+        put.u64(chunk.from).u64(chunk.to).u64(chunk.offset).u64(chunk.length).string(indexes);
+        put.u64(chunk.indexes_length).string("zstd").u64(chunk.compressed).u64(chunk.uncompressed);
+        contents.push_back(std::move(content));
+    }
+    group(Opcode::ChunkIndex, contents);
+    contents.clear();
+    for (const AttachmentPlace& one : attachments_) {
+        std::string content;
+        Put put(content);
+        put.u64(one.offset).u64(one.length).u64(one.log_time).u64(0).u64(one.size);
+        put.string(one.name).string(one.media_type);
+        contents.push_back(std::move(content));
+    }
+    group(Opcode::AttachmentIndex, contents);
+    const uint64_t offsets_begin = begin + summary.size();
+    summary += offsets;
+    // The footer's checksum is of the summary and of the footer up to it.
+    Put put(summary);
+    put.u8(static_cast<uint8_t>(Opcode::Footer)).u64(20).u64(begin).u64(offsets_begin);
+    put.u32(crc32(summary));
+    this->put(summary);
+}
+
+Status Writer::end() {
+    if (std::exchange(ended_, true)) return state_;
+    write_chunk();
+    std::string content;
+    Put(content).u32(0);  // no checksum of the data: each chunk has one
+    put_record(Opcode::DataEnd, content);
+    put_summary();
+    put(kMagic);
+    return state_;
+}
+
+}  // namespace vagus::mcap

@@ -1,0 +1,66 @@
+// What a run says when it is run again, compared with what is recorded of it: the first difference,
+// with its instant and place.
+//
+//     CompareTape tape(reader);
+//     Recorder recorder(tape, run);           // … and the run
+//     tape.end();
+//     if (const auto& found = tape.difference()) say(found->place);
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "mcap/reader.hpp"
+#include "record/topics.hpp"
+
+namespace vagus::record {
+
+struct Difference {
+    Time at{};
+    std::string topic;
+    std::string place;  // in the message: "set.motor.left.target"; empty: the message itself
+    std::string then;   // as JSON; empty: there was none
+    std::string now;
+};
+
+// Where two messages of JSON differ first, and both values there; for bytes, and for what is no
+// JSON, nothing and both whole.
+Difference first_difference(const std::string& then, const std::string& now);
+
+class CompareTape final : public Tape {
+public:
+    // Borrowed. With `only`, no other topics are compared; /vagus/run never is.
+    explicit CompareTape(const mcap::Reader& reader, std::set<std::string> only = {});
+
+    uint16_t declare(const Topic& topic) override;
+    void put(uint16_t topic, Time at, std::string data) override;
+    // All that was recorded up to `at` must have come again; nothing more is compared.
+    void end(Time at);
+    // A difference that is found later may be of an earlier instant, until end().
+    const std::optional<Difference>& difference() const { return difference_; }
+    uint64_t compared() const { return compared_; }
+
+private:
+    struct Recorded {
+        Time at{};
+        std::string data;
+    };
+    bool counts(const std::string& name) const;
+    std::optional<Recorded> take(uint16_t topic);
+    void differs(Difference found);
+
+    const mcap::Reader& reader_;
+    mcap::Cursor cursor_;
+    std::set<std::string> only_;
+    std::vector<Topic> topics_;                      // by number - 1
+    std::map<std::string, std::deque<Recorded>> ahead_;  // read, but not yet compared
+    std::optional<Difference> difference_;
+    uint64_t compared_ = 0;
+    bool over_ = false;
+};
+
+}  // namespace vagus::record

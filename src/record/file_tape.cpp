@@ -1,0 +1,125 @@
+#include "record/file_tape.hpp"
+
+#include <utility>
+
+namespace vagus::record {
+
+Result<std::unique_ptr<FileTape>> FileTape::create(const std::string& path, Pace pace) {
+    // Owner: the sink, which lives as long as the tape.
+    const auto file = std::make_shared<GrowingFile>(TRY(GrowingFile::create(path)));
+    auto tape = std::make_unique<FileTape>(
+        [file](std::string_view bytes) { return file->append(bytes); }, pace);
+    return tape;
+}
+
+Result<std::unique_ptr<FileTape>> start_tape(const std::string& path, RunFile& about,
+                                             const FilesRead& files, Pace pace) {
+    const PackedFiles packed = pack(files.all());
+    for (std::string* const one : {&about.plan, &about.world}) *one = packed.name_of(*one);
+    for (std::string& one : about.toolboxes) one = packed.name_of(one);
+    for (std::string& one : about.loads) one = packed.name_of(one);
+    auto tape = TRY(FileTape::create(path, pace));
+    for (const auto& [name, content] : packed.files) tape->attach(name, content);
+    return tape;
+}
+
+FileTape::FileTape(mcap::Writer::Sink sink, Pace pace) : pace_(pace), writer_(std::move(sink)) {
+    thread_ = std::thread([this] { work(); });
+}
+
+FileTape::~FileTape() {
+    (void)end().ok();
+}
+
+void FileTape::attach(const std::string& name, std::string_view content) {
+    const std::lock_guard lock(writing_);
+    const bool json = name.ends_with(".json");
+    writer_.attach({name, json ? "application/json" : "application/octet-stream", 0, content});
+}
+
+uint16_t FileTape::declare(const Topic& topic) {
+    const std::lock_guard lock(writing_);
+    mcap::Channel channel{.topic = topic.name, .encoding = topic.json ? "json" : "vagus-frame"};
+    if (!topic.schema.empty()) {
+        channel.schema = writer_.add_schema({.name = std::string(topic.schema),
+                                             .encoding = "jsonschema",
+                                             .data = std::string(schema_text(topic.schema))});
+    }
+    const std::lock_guard also(mutex_);
+    topics_.push_back(topic);
+    return writer_.add_channel(std::move(channel));
+}
+
+void FileTape::put(uint16_t topic, Time at, std::string data) {
+    std::unique_lock lock(mutex_);
+    if (pace_ == Pace::Waits) {
+        room_.wait(lock, [this] { return waiting_bytes_ < kDropFrom || !state_.ok(); });
+    }
+    if (over_ || !state_.ok() || topic == 0) return;
+    if (waiting_bytes_ >= kDropFrom && topics_[topic - 1u].may_be_dropped) {
+        ++dropped_;
+        return;
+    }
+    const size_t before = waiting_bytes_;
+    waiting_bytes_ += data.size();
+    waiting_.push_back({topic, at, std::move(data)});
+    if (before < kWakeAt && waiting_bytes_ >= kWakeAt) more_.notify_one();
+    if (waiting_bytes_ < kWaitingMax) return;
+    state_ = Error{Code::Limit, "the recording ends here: the disk is too slow, " +
+                                    std::to_string(kWaitingMax >> 20) +
+                                    " MB wait to be written; record to a faster disk"};
+}
+
+void FileTape::work() {
+    bool last = false;
+    while (!last) {
+        std::vector<Message> messages;
+        {
+            std::unique_lock lock(mutex_);
+            more_.wait_for(lock, kFlushEvery,
+                           [this] { return over_ || waiting_bytes_ >= kWakeAt; });
+            messages = std::exchange(waiting_, {});
+            last = over_;
+        }
+        write(messages, last);
+    }
+}
+
+void FileTape::write(const std::vector<Message>& messages, bool last) {
+    size_t bytes = 0;
+    Status written = Status::done();
+    {
+        const std::lock_guard lock(writing_);
+        for (const Message& message : messages) {
+            writer_.write(message.topic, nanoseconds(message.at), message.data);
+            bytes += message.data.size();
+        }
+        written = last ? writer_.end() : writer_.flush();
+    }
+    const std::lock_guard lock(mutex_);
+    waiting_bytes_ -= bytes;
+    if (state_.ok()) state_ = written;
+    room_.notify_one();
+}
+
+Status FileTape::end() {
+    {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+    }
+    more_.notify_one();
+    if (thread_.joinable()) thread_.join();
+    return state();
+}
+
+Status FileTape::state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+}
+
+uint64_t FileTape::dropped() const {
+    const std::lock_guard lock(mutex_);
+    return dropped_;
+}
+
+}  // namespace vagus::record

@@ -1,0 +1,84 @@
+// A recording on its way to the disk. Messages are compressed and written by a thread of their own,
+// each second, so that the run that is recorded waits for nothing.
+//
+//     auto tape = TRY(FileTape::create("run.mcap"));
+//     const uint16_t trace = tape->declare({.name = "/plan/trace"});
+//     tape->put(trace, at, "{\"t\":0.5}");
+//     const Status written = tape->end();
+//
+// Where the disk is too slow, and the run is one that may not wait (Pace::NeverWaits): from
+// kDropFrom on messages that may be dropped are dropped and counted; at kWaitingMax the recording
+// ends, and says so. A run in virtual time waits.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/file.hpp"
+#include "base/result.hpp"
+#include "mcap/writer.hpp"
+#include "record/run_file.hpp"
+#include "record/topics.hpp"
+
+namespace vagus::record {
+
+constexpr size_t kDropFrom = 64u << 20;     // bytes that wait
+constexpr size_t kWaitingMax = 256u << 20;  // the same
+constexpr size_t kWakeAt = 1u << 20;        // the thread begins earlier than it must
+constexpr std::chrono::milliseconds kFlushEvery{1000};
+
+enum class Pace { NeverWaits, Waits };
+
+class FileTape final : public Tape {
+public:
+    // Writes what is attached, by name, at once. The Error names the file and why it cannot be
+    // written.
+    static Result<std::unique_ptr<FileTape>> create(const std::string& path, Pace pace);
+    // For tests: bytes go there instead of to a file.
+    FileTape(mcap::Writer::Sink sink, Pace pace);
+    // As end(), whose answer nobody hears.
+    ~FileTape() override;
+
+    void attach(const std::string& name, std::string_view content);
+    uint16_t declare(const Topic& topic) override;
+    void put(uint16_t topic, Time at, std::string data) override;
+    // Waits until all is written. The first thing that went wrong since the beginning.
+    Status end();
+    // So far.
+    Status state() const;
+    uint64_t dropped() const;
+
+private:
+    struct Message {
+        uint16_t topic = 0;
+        Time at{};
+        std::string data;
+    };
+    void work();
+    void write(const std::vector<Message>& messages, bool last);
+
+    const Pace pace_;
+    std::mutex writing_;           // guards the next two
+    mcap::Writer writer_;
+    std::vector<Topic> topics_;    // by number - 1
+    mutable std::mutex mutex_;     // guards what follows
+    std::condition_variable more_;
+    std::condition_variable room_;
+    std::vector<Message> waiting_;
+    size_t waiting_bytes_ = 0;     // and those that are being written
+    uint64_t dropped_ = 0;
+    bool over_ = false;
+    Status state_ = Status::done();
+    std::thread thread_;
+};
+
+// A tape that begins with the files of the run; the paths in `about` become their names.
+Result<std::unique_ptr<FileTape>> start_tape(const std::string& path, RunFile& about,
+                                             const FilesRead& files, Pace pace);
+
+}  // namespace vagus::record

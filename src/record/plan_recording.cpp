@@ -1,0 +1,46 @@
+#include "record/plan_recording.hpp"
+
+#include <fmt/format.h>
+
+#include "base/json.hpp"
+#include "base/seconds.hpp"
+#include "session/plan_world.hpp"
+
+namespace vagus::record {
+
+std::string abort_input(Time at, const std::string& by) {
+    return fmt::format(R"({{"t":{},"do":"abort","by":{}}})", seconds_text(at), json_quote(by));
+}
+
+void attach(Recorder& recorder, embed::PreparedRun& run) {
+    run.listen([&recorder](const plan::TraceEvent& event) { recorder.trace(event); });
+    if (run.world() == nullptr) return;
+    recorder.follow(run.world()->session());
+    // Ended by a person at an instant, so that the same run can be ended there again.
+    run.defer_aborts();
+    recorder.after_instant([&recorder, &run](Time at) {
+        const std::optional<std::string> by = run.take_abort();
+        if (by) recorder.input(at, abort_input(at, *by));
+    });
+}
+
+Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& path, RunFile about,
+                                                            const FilesRead& files,
+                                                            embed::PreparedRun& run, Pace pace) {
+    auto tape = TRY(start_tape(path, about, files, pace));
+    // make_unique cannot reach the constructor.
+    std::unique_ptr<PlanRecording> made(new PlanRecording(std::move(tape), format_run(about)));
+    attach(*made->recorder_, run);
+    run.listen([recording = made.get()](const plan::TraceEvent& event) {
+        recording->last_ = event.at;
+    });
+    return made;
+}
+
+Status PlanRecording::end() {
+    if (recorder_) recorder_->end(last_);
+    recorder_.reset();
+    return tape_->end();
+}
+
+}  // namespace vagus::record

@@ -1,0 +1,48 @@
+// The recording of a run that `vagus plan run` prepares: from before its first instant to its end.
+//
+//     FilesRead files;                                       // before anything is read
+//     … auto prepared = embed::PreparedRun::prepare(…);
+//     auto recording = TRY(PlanRecording::begin("run.mcap", run, files, *prepared, Pace::Waits));
+//     const run::Ended ended = prepared->run();
+//     const Status written = recording->end();
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/file.hpp"
+#include "embed/prepared_run.hpp"
+#include "record/file_tape.hpp"
+#include "record/recorder.hpp"
+#include "record/run_file.hpp"
+
+namespace vagus::record {
+
+// Connects a recorder with a run that has not begun; what a person does to the run is an input.
+void attach(Recorder& recorder, embed::PreparedRun& run);
+
+// The message of /vagus/input that ends a run.
+std::string abort_input(Time at, const std::string& by);
+
+class PlanRecording {
+public:
+    // Paths in `run` are as they were typed. The Error says why there can be no recording. `run`
+    // is borrowed, until end().
+    static Result<std::unique_ptr<PlanRecording>> begin(const std::string& path, RunFile about,
+                                                        const FilesRead& files,
+                                                        embed::PreparedRun& run, Pace pace);
+    // After the run, while its world is there. The first thing that went wrong.
+    Status end();
+    // Messages that were dropped, for the disk was too slow.
+    uint64_t dropped() const { return tape_->dropped(); }
+
+private:
+    PlanRecording(std::unique_ptr<FileTape> tape, std::string_view run)
+        : tape_(std::move(tape)), recorder_(std::make_unique<Recorder>(*tape_, run)) {}
+
+    std::unique_ptr<FileTape> tape_;
+    std::unique_ptr<Recorder> recorder_;
+    Time last_{};  // line of the trace
+};
+
+}  // namespace vagus::record

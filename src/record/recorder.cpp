@@ -1,0 +1,376 @@
+#include "record/recorder.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/json.hpp"
+#include "base/seconds.hpp"
+#include "base/trig.hpp"
+#include "mcap/records.hpp"
+#include "wire/bytes.hpp"
+#include "wire/protocol.hpp"
+
+namespace vagus::record {
+
+namespace {
+
+std::string hex(uint64_t hash) {
+    return fmt::format("{:016x}", hash);
+}
+
+uint64_t hash_of(std::string_view bytes, uint64_t seed = 0) {
+    return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
+}
+
+// The bits themselves: a pose that differs in the last of them is another.
+std::string bytes_of(const sim::Pose& pose) {
+    std::string bytes(sizeof pose, '\0');
+    std::array<double, 3> numbers = {pose.at.x, pose.at.y, pose.angle};
+    std::copy_n(reinterpret_cast<const char*>(numbers.data()), sizeof numbers, bytes.data());
+    return bytes;
+}
+
+std::string words_json(std::span<const int16_t> words) {
+    std::string text = "[";
+    for (size_t i = 0; i < words.size(); ++i) {
+        text += fmt::format("{}{}", i > 0 ? "," : "", words[i]);
+    }
+    return text + "]";
+}
+
+std::string key_of(const sim::ObjectView& object) {
+    const std::string& id = object.definition->id;
+    return id.empty() ? fmt::format("object {}", object.id.number) : id;
+}
+
+// ---- foxglove.SceneUpdate ----
+
+struct Shape {
+    std::string id;
+    sim::Pose pose;
+    double height = 0.1;
+    double x = 0;  // sizes; a cylinder has radius instead
+    double y = 0;
+    double radius = 0;
+    sim::Colour colour;
+};
+
+std::string stamp(Time at) {
+    const int64_t us = at.count();
+    return fmt::format(R"({{"sec":{},"nsec":{}}})", us / 1000000, us % 1000000 * 1000);
+}
+
+std::string entity(const Shape& shape, Time at) {
+    const std::string pose = fmt::format(
+        R"("pose":{{"position":{{"x":{:.6f},"y":{:.6f},"z":{:.3f}}},)"
+        R"("orientation":{{"x":0,"y":0,"z":{:.6f},"w":{:.6f}}}}})",
+        shape.pose.at.x, shape.pose.at.y, shape.height / 2, trig::sin(shape.pose.angle / 2),
+        trig::cos(shape.pose.angle / 2));
+    const bool round = shape.radius > 0;
+    const double x = round ? 2 * shape.radius : shape.x;
+    const double y = round ? 2 * shape.radius : shape.y;
+    const std::string more = round ? R"(,"bottom_scale":1,"top_scale":1)" : "";
+    return fmt::format(
+        R"({{"timestamp":{},"frame_id":"world","id":{},"lifetime":{{"sec":0,"nsec":0}},)"
+        R"("frame_locked":false,"metadata":[],"{}":[{{{},)"
+        R"("size":{{"x":{:.4f},"y":{:.4f},"z":{:.4f}}},)"
+        R"("color":{{"r":{:.3f},"g":{:.3f},"b":{:.3f},"a":1}}{}}}]}})",
+        stamp(at), json_quote(shape.id), round ? "cylinders" : "cubes", pose, x, y, shape.height,
+        shape.colour.r, shape.colour.g, shape.colour.b, more);
+}
+
+Shape shape_of(const sim::ObjectView& object) {
+    const sim::ObjectDefinition& of = *object.definition;
+    return {"object/" + key_of(object), object.pose, of.height, of.width, of.length, of.radius,
+            of.colour};
+}
+
+// Its hull as the smallest box around it.
+Shape shape_of(const sim::RobotView& robot) {
+    constexpr double kHeight = 0.1;  // for the eye only
+    double x = 0;
+    double y = 0;
+    for (const sim::Point& point : robot.outline) {
+        x = std::max(x, 2 * std::abs(point.x));
+        y = std::max(y, 2 * std::abs(point.y));
+    }
+    return {"robot/" + std::string(robot.name), robot.pose, kHeight, x, y, 0, robot.paint};
+}
+
+std::string scene_update(const std::vector<Shape>& shapes, Time at) {
+    std::string text = R"({"deletions":[],"entities":[)";
+    for (size_t i = 0; i < shapes.size(); ++i) text += (i > 0 ? "," : "") + entity(shapes[i], at);
+    return text + "]}";
+}
+
+// ---- inputs ----
+
+std::string_view name_of(sim::Act::Kind kind) {
+    switch (kind) {
+        case sim::Act::Kind::Press:
+            return "press";
+        case sim::Act::Kind::Release:
+            return "release";
+        case sim::Act::Kind::Tap:
+            return "tap";
+        case sim::Act::Kind::MoveRobot:
+            return "move-robot";
+        case sim::Act::Kind::Move:
+            return "move";
+        case sim::Act::Kind::Remove:
+            return "remove";
+        case sim::Act::Kind::Light:
+            return "light";
+    }
+    return "";
+}
+
+}  // namespace
+
+std::string input_of(const sim::Act& act, Time at) {
+    // 17 digits bring a double back as it was.
+    return fmt::format(R"({{"t":{},"do":"{}","robot":{},"object":{},"button":{},)"
+                       R"("x":{:.17g},"y":{:.17g},"angle":{:.17g},"on":{}}})",
+                       seconds_text(at), name_of(act.kind), act.robot.number, act.object.number,
+                       json_quote(act.button), act.to.at.x, act.to.at.y, act.to.angle, act.on);
+}
+
+// ---- the recorder ----
+
+Recorder::Recorder(Tape& tape, std::string_view run) : tape_(tape) {
+    const uint16_t about = tape_.declare({.name = std::string(kRunTopic)});
+    input_ = tape_.declare({.name = std::string(kInputTopic)});
+    check_ = tape_.declare({.name = std::string(kCheckTopic)});
+    trace_ = tape_.declare({.name = std::string(kTraceTopic)});
+    states_ = tape_.declare({.name = std::string(kStatesTopic)});
+    tape_.put(about, Time{}, std::string(run));
+}
+
+Recorder::~Recorder() {
+    if (session_ == nullptr) return;
+    session_->on_frame({});
+    session_->on_instant({});
+    session_->world().on_act({});
+}
+
+void Recorder::follow(session::SimSession& session) {
+    session_ = &session;
+    frames_ = tape_.declare({.name = std::string(kFramesTopic), .json = false});
+    events_ = tape_.declare({.name = std::string(kEventsTopic)});
+    poses_ = tape_.declare({.name = std::string(kPosesTopic),
+                            .schema = "foxglove.SceneUpdate",
+                            .may_be_dropped = true});
+    scene_ = tape_.declare(
+        {.name = std::string(kSceneTopic), .schema = "foxglove.SceneUpdate"});
+    session.world().number_frames();
+    session.on_frame([this](const wire::Frame& one, uint32_t number) { frame(one, number); });
+    session.on_instant([this] { instant(); });
+    session.world().on_act(
+        [this](const sim::Act& act) { input(now(), input_of(act, now())); });
+    scene(now());
+    poses(now());
+}
+
+void Recorder::instant() {
+    const Time at = now();
+    if (at % kVariablesEvery == Duration::zero()) {
+        look_for_nodes();
+        const bool all = at % kPictureEvery == Duration::zero();
+        for (Node& node : nodes_) variables(node, at, all);
+    }
+    if (at % kPosesEvery == Duration::zero()) poses(at);
+    if (at % kCheckEvery == Duration::zero()) check(at);
+    if (after_instant_) after_instant_(at);
+}
+
+void Recorder::input(Time at, std::string json) {
+    tape_.put(input_, at, std::move(json));
+}
+
+void Recorder::end(Time at) {
+    check(at);
+}
+
+// ---- the plan ----
+
+void Recorder::trace(const plan::TraceEvent& event) {
+    std::string line = plan::format_trace(event);
+    plan_hash_ = hash_of(line, plan_hash_);
+    // What plotters draw as lanes: names as numbers, in the order in which they came.
+    const auto number = [this](std::string_view of, std::string_view name) {
+        auto& known = numbers_[std::string(of)];
+        return known.emplace(name, static_cast<int>(known.size()) + 1).first->second;
+    };
+    if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
+        tape_.put(states_, event.at,
+                  fmt::format(R"({{"t":{},"plan":{},"actor":{},"name":{},"state":0}})",
+                              seconds_text(event.at), json_quote(event.plan),
+                              number(event.plan, started->actor), json_quote(started->actor)));
+    } else if (const auto* ended = std::get_if<plan::ActorEnded>(&event.what)) {
+        tape_.put(states_, event.at,
+                  fmt::format(R"({{"t":{},"plan":{},"actor":{},"name":{},"state":{},)"
+                              R"("state_name":{}}})",
+                              seconds_text(event.at), json_quote(event.plan),
+                              number(event.plan, ended->actor), json_quote(ended->actor),
+                              number(event.plan + "/" + std::string(ended->actor), ended->state),
+                              json_quote(ended->state)));
+    }
+    tape_.put(trace_, event.at, std::move(line));
+}
+
+// ---- the bus ----
+
+void Recorder::frame(const wire::Frame& frame, uint32_t number) {
+    const Time at = now();
+    std::array<uint8_t, wire::kFrameMax> bytes;
+    const uint16_t size = wire::encode(frame, bytes.data());
+    std::string data;
+    mcap::Put put(data);
+    put.u32(number).u32(session_->world().frame_numbers()->cause_of(number)).u16(frame.source);
+    put.bytes({reinterpret_cast<const char*>(bytes.data()), size});
+    tape_.put(frames_, at, std::move(data));
+    if (wire::is_user_event(frame.type)) event(frame, number, at);
+}
+
+void Recorder::event(const wire::Frame& frame, uint32_t number, Time at) {
+    const auto& events = session_->common().events;
+    const std::string name =
+        frame.type < events.size() ? events[frame.type].name : std::to_string(frame.type);
+    std::vector<int16_t> words;
+    wire::Reader reader(frame.payload, frame.size);
+    while (reader.left() >= 2) words.push_back(static_cast<int16_t>(reader.u16()));
+    tape_.put(events_, at,
+              fmt::format(R"({{"t":{},"frame":{},"node":{},"name":{},"args":{}}})",
+                          seconds_text(at), number, frame.source, json_quote(name),
+                          words_json(words)));
+}
+
+// ---- nodes ----
+
+std::string Recorder::label_of(sim::RobotId robot, const std::string& name) const {
+    const auto& robots = session_->world().definition().robots;
+    return robots.size() == 1 ? name : robots[robot.number - 1].name + "/" + name;
+}
+
+void Recorder::look_for_nodes() {
+    const bool all_known = std::all_of(nodes_.begin(), nodes_.end(),
+                                       [](const Node& node) { return node.topic != 0; });
+    if (!nodes_.empty() && all_known) return;
+    const std::vector<session::NodeState> states = session_->nodes();
+    nodes_.resize(states.size());
+    for (size_t i = 0; i < states.size(); ++i) {
+        Node& node = nodes_[i];
+        if (node.topic != 0 || states[i].name.empty()) continue;
+        node.robot = states[i].robot;
+        node.id = states[i].id;
+        node.label = label_of(states[i].robot, states[i].name);
+        node.topic = tape_.declare(
+            {.name = "/node/" + node.label + "/variables", .may_be_dropped = true});
+    }
+}
+
+void Recorder::learn_variables(Node& node) {
+    const aesl::Target* const target = session_->target(node.id);
+    const aesl::Program* const program = session_->program(node.id);
+    if (target == nullptr || (!node.variables.empty() && program == node.program)) return;
+    node.program = program;
+    node.variables.clear();
+    node.pictured = false;
+    uint16_t address = 0;
+    for (const aesl::NamedVariable& one : target->variables) {
+        node.variables.push_back({one.name, address, one.size});
+        address = static_cast<uint16_t>(address + one.size);
+    }
+    if (program == nullptr) return;
+    for (const aesl::VariablePlace& one : program->variables) {
+        if (one.address >= address) node.variables.push_back({one.name, one.address, one.size});
+    }
+}
+
+void Recorder::variables(Node& node, Time at, bool all) {
+    if (node.topic == 0) return;
+    learn_variables(node);
+    const auto words = session_->world().variables(node.robot, node.id);
+    const bool picture = all || !node.pictured || words.size() != node.words.size();
+    if (!picture && std::equal(words.begin(), words.end(), node.words.begin())) return;
+    std::string set;
+    for (const Variable& variable : node.variables) {
+        if (size_t{variable.address} + variable.size > words.size()) continue;
+        const auto now = words.subspan(variable.address, variable.size);
+        const bool same =
+            !picture && std::equal(now.begin(), now.end(), node.words.begin() + variable.address);
+        if (same) continue;
+        set += fmt::format("{}{}:{}", set.empty() ? "" : ",", json_quote(variable.name),
+                           variable.size == 1 ? std::to_string(now[0]) : words_json(now));
+    }
+    node.words.assign(words.begin(), words.end());
+    node.pictured = true;
+    if (set.empty()) return;
+    tape_.put(node.topic, at,
+              fmt::format(R"({{"t":{},"all":{},"set":{{{}}}}})", seconds_text(at), picture, set));
+}
+
+// ---- the world ----
+
+void Recorder::poses(Time at) {
+    std::vector<Shape> shapes;
+    std::string objects;
+    for (const sim::RobotView& robot : session_->world().robots()) {
+        shapes.push_back(shape_of(robot));
+    }
+    for (const sim::ObjectView& object : session_->world().objects()) {
+        objects += key_of(object) + "\n";
+        if (object.definition->mass > 0) shapes.push_back(shape_of(object));
+    }
+    if (objects != objects_) scene(at);
+    tape_.put(poses_, at, scene_update(shapes, at));
+}
+
+// All that is in the world; what has gone is deleted by that.
+void Recorder::scene(Time at) {
+    std::vector<Shape> shapes;
+    objects_.clear();
+    for (const sim::ObjectView& object : session_->world().objects()) {
+        objects_ += key_of(object) + "\n";
+        shapes.push_back(shape_of(object));
+    }
+    std::string update = scene_update(shapes, at);
+    // 1: all entities of this topic before these.
+    const std::string all =
+        fmt::format(R"("deletions":[{{"timestamp":{},"type":1,"id":""}}])", stamp(at));
+    update.replace(update.find(R"("deletions":[])"), std::string_view(R"("deletions":[])").size(),
+                   all);
+    tape_.put(scene_, at, std::move(update));
+}
+
+// ---- checks ----
+
+void Recorder::check(Time at) {
+    std::string text = fmt::format(R"({{"t":{},"plan":"{}")", seconds_text(at), hex(plan_hash_));
+    if (session_ != nullptr) {
+        sim::World& world = session_->world();
+        std::string nodes;
+        for (const session::NodeState& node : session_->nodes()) {
+            const std::string name = node.name.empty() ? std::to_string(node.id) : node.name;
+            nodes += fmt::format("{}{}:\"{}\"", nodes.empty() ? "" : ",",
+                                 json_quote(label_of(node.robot, name)),
+                                 hex(hash_of(world.state_of(node.robot, node.id))));
+        }
+        std::string bodies;
+        const auto add = [&bodies](const std::string& name, const sim::Pose& pose) {
+            bodies += fmt::format("{}{}:\"{}\"", bodies.empty() ? "" : ",", json_quote(name),
+                                  hex(hash_of(bytes_of(pose))));
+        };
+        for (const sim::RobotView& robot : world.robots()) {
+            add(std::string(robot.name), robot.pose);
+        }
+        for (const sim::ObjectView& object : world.objects()) add(key_of(object), object.pose);
+        text += fmt::format(R"(,"nodes":{{{}}},"bodies":{{{}}})", nodes, bodies);
+    }
+    tape_.put(check_, at, text + "}");
+}
+
+}  // namespace vagus::record

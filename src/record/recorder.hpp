@@ -1,0 +1,102 @@
+// What is recorded of a run in a world, or of a plan alone: put on a tape (topics.hpp), which is a
+// file, or what compares it with one.
+//
+//     Recorder recorder(tape, {.run = "{…}"});
+//     recorder.follow(session);                     // a world: before its first instant
+//     run.listen([&](const plan::TraceEvent& event) { recorder.trace(event); });
+//     …
+//     recorder.end(at);
+//
+// At the end of each instant of the world, on the thread that steps it: what has changed of nodes
+// each kVariablesEvery, poses each kPosesEvery, checks each kCheckEvery.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plan/trace.hpp"
+#include "record/topics.hpp"
+#include "session/sim_session.hpp"
+
+namespace vagus::record {
+
+constexpr Duration kVariablesEvery = std::chrono::milliseconds(20);
+constexpr Duration kPictureEvery = std::chrono::seconds(10);  // all variables of a node
+constexpr Duration kPosesEvery = std::chrono::milliseconds(100);
+constexpr Duration kCheckEvery = std::chrono::seconds(1);
+
+// How an act is written in /vagus/input, and read from there. Empty: it is none.
+std::string input_of(const sim::Act& act, Time at);
+
+class Recorder {
+public:
+    // `run` is the message of /vagus/run. The tape is borrowed.
+    Recorder(Tape& tape, std::string_view run);
+    ~Recorder();
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+
+    // Borrowed until the recorder goes, or the session before it, which forget() tells.
+    void follow(session::SimSession& session);
+    void forget() { session_ = nullptr; }
+    // After what is recorded of each instant: things may be done to the world here.
+    void after_instant(std::function<void(Time)> act) { after_instant_ = std::move(act); }
+
+    void trace(const plan::TraceEvent& event);
+    // A message of /vagus/input, as JSON.
+    void input(Time at, std::string json);
+    // The last check.
+    void end(Time at);
+
+private:
+    struct Variable {
+        std::string name;
+        uint16_t address = 0;
+        uint16_t size = 0;
+    };
+    struct Node {
+        sim::RobotId robot;
+        uint16_t id = 0;
+        std::string label;  // in topics and checks
+        uint16_t topic = 0;
+        std::vector<Variable> variables;
+        const void* program = nullptr;  // whose variables these are
+        std::vector<int16_t> words;     // as they were recorded
+        bool pictured = false;
+    };
+
+    void instant();
+    void frame(const wire::Frame& frame, uint32_t number);
+    void event(const wire::Frame& frame, uint32_t number, Time at);
+    void look_for_nodes();
+    void learn_variables(Node& node);
+    void variables(Node& node, Time at, bool all);
+    void scene(Time at);
+    void poses(Time at);
+    void check(Time at);
+    std::string label_of(sim::RobotId robot, const std::string& name) const;
+    Time now() const { return session_->now(); }
+
+    Tape& tape_;
+    session::SimSession* session_ = nullptr;
+    std::function<void(Time)> after_instant_;
+    uint16_t input_ = 0;
+    uint16_t check_ = 0;
+    uint16_t trace_ = 0;
+    uint16_t states_ = 0;
+    uint16_t frames_ = 0;
+    uint16_t events_ = 0;
+    uint16_t poses_ = 0;
+    uint16_t scene_ = 0;
+    std::vector<Node> nodes_;
+    std::string objects_;      // as the scene told them last
+    uint64_t plan_hash_ = 0;   // of all lines of the trace so far
+    std::map<std::string, std::map<std::string, int, std::less<>>, std::less<>> numbers_;
+};
+
+}  // namespace vagus::record

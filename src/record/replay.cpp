@@ -1,0 +1,279 @@
+#include "record/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/file.hpp"
+#include "base/json.hpp"
+#include "base/seconds.hpp"
+#include "base/text.hpp"
+#include "embed/loaded_plan.hpp"
+#include "embed/prepared_run.hpp"
+#include "embed/robots_run.hpp"
+#include "record/plan_recording.hpp"
+#include "session/plan_world.hpp"
+#include "session/toolboxes.hpp"
+
+namespace vagus::record {
+
+namespace {
+
+std::string last_part(const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+}
+
+std::string names_of_files(const mcap::Reader& reader) {
+    std::vector<std::string_view> names;
+    for (const mcap::Attachment& one : reader.attachments()) names.emplace_back(one.name);
+    return list_of(names);
+}
+
+std::optional<sim::Act::Kind> kind_of(std::string_view name) {
+    using Kind = sim::Act::Kind;
+    static const std::map<std::string_view, Kind> kKinds = {
+        {"press", Kind::Press},          {"release", Kind::Release}, {"tap", Kind::Tap},
+        {"move-robot", Kind::MoveRobot}, {"move", Kind::Move},       {"remove", Kind::Remove},
+        {"light", Kind::Light}};
+    const auto found = kKinds.find(name);
+    return found == kKinds.end() ? std::nullopt : std::optional(found->second);
+}
+
+double number_of(const JsonValue& from, std::string_view key) {
+    const JsonValue* const value = from.find(key);
+    return value != nullptr && value->is_number() ? value->number : 0;
+}
+
+std::string string_of(const JsonValue& from, std::string_view key) {
+    const JsonValue* const value = from.find(key);
+    return value != nullptr ? value->text : "";
+}
+
+sim::Act act_of(const JsonValue& from, sim::Act::Kind kind) {
+    sim::Act act;
+    act.kind = kind;
+    act.robot.number = static_cast<uint32_t>(number_of(from, "robot"));
+    act.object.number = static_cast<uint32_t>(number_of(from, "object"));
+    act.button = string_of(from, "button");
+    act.to = {{number_of(from, "x"), number_of(from, "y")}, number_of(from, "angle")};
+    const JsonValue* const on = from.find("on");
+    act.on = on != nullptr && on->boolean;
+    return act;
+}
+
+Result<RunFile> run_file_of(const mcap::Reader& reader) {
+    const mcap::Channel* const channel = reader.find(kRunTopic);
+    mcap::Cursor cursor(reader);
+    while (const auto message = cursor.next()) {
+        if (channel != nullptr && message->channel == channel->id) {
+            return read_run(message->data, reader.name());
+        }
+    }
+    return read_run("", reader.name());
+}
+
+}  // namespace
+
+Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reader,
+                                                       const std::string& typed) {
+    const size_t equals = typed.find('=');
+    const std::string path = equals == std::string::npos ? typed : typed.substr(equals + 1);
+    std::vector<std::string> found;
+    for (const mcap::Attachment& one : reader.attachments()) {
+        const bool meant = equals == std::string::npos ? last_part(one.name) == last_part(path)
+                                                       : one.name == typed.substr(0, equals);
+        if (meant) found.push_back(one.name);
+    }
+    if (found.size() == 1) return std::pair(found.front(), path);
+    return Error{Code::NotFound,
+                 fmt::format("--with {}: {} of the recording {}; its files are {}; name one, as "
+                             "--with NAME=FILE",
+                             typed, found.empty() ? "no file" : "more than one file",
+                             found.empty() ? "is called so" : "are called so",
+                             names_of_files(reader))};
+}
+
+Time end_of(const mcap::Reader& reader) {
+    Time end{};
+    mcap::Cursor cursor(reader);
+    while (const auto message = cursor.next()) end = std::max(end, time_of(message->log_time));
+    return end;
+}
+
+// ---- what is done again ----
+
+Result<std::vector<Rerun::Input>> Rerun::inputs_of(const mcap::Reader& reader) {
+    std::vector<Input> inputs;
+    const mcap::Channel* const channel = reader.find(kInputTopic);
+    mcap::Cursor cursor(reader);
+    while (const auto message = cursor.next()) {
+        if (channel == nullptr || message->channel != channel->id) continue;
+        const auto json = read_json(message->data);
+        const auto* const tree = std::get_if<JsonValue>(&json);
+        Input input{.at = time_of(message->log_time), .what = {}, .text = {}};
+        input.text = message->data;
+        if (tree != nullptr) input.what = string_of(*tree, "do");
+        if (const auto kind = kind_of(input.what)) input.act = act_of(*tree, *kind);
+        if (tree != nullptr) input.by = string_of(*tree, "by");
+        if (!input.act && input.what != "abort" && input.what != "end") {
+            return Error{Code::BadInput,
+                         fmt::format("{}: the input at {} s cannot be done again: expected one "
+                                     "that this version of Vagus knows, found {}",
+                                     reader.name(), seconds_text(input.at), input.text)};
+        }
+        inputs.push_back(std::move(input));
+    }
+    return inputs;
+}
+
+bool Rerun::after_instant(Time at, Recorder& recorder, session::SimSession& session) {
+    for (const auto& look : looks_) look(at);
+    for (; next_input_ < inputs_.size() && inputs_[next_input_].at <= at; ++next_input_) {
+        const Input& input = inputs_[next_input_];
+        if (input.act) (void)session.world().act(*input.act).ok();  // it worked then
+        if (input.what != "abort") continue;
+        ended_by_ = input.by;
+        recorder.input(at, input.text);
+        return true;
+    }
+    return stopped_ || (until_ && at >= *until_);
+}
+
+std::string Rerun::name_of(const std::string& path) const {
+    const std::string root = folder_.path_of(".");
+    const auto relative = std::filesystem::path(path).lexically_relative(
+        std::filesystem::path(root).lexically_normal());
+    const std::string name = relative.generic_string();
+    return name.empty() || name.starts_with("..") ? path : name;
+}
+
+// ---- a plan, alone or beside a world ----
+
+class PlanRerun final : public Rerun {
+public:
+    PlanRerun(RunFile about, UnpackedFolder folder) : Rerun(std::move(about), std::move(folder)) {}
+
+    Status prepare() {
+        embed::RunWords words;
+        for (const std::string& one : about_.toolboxes) {
+            words.toolboxes.push_back(folder_.path_of(one));
+        }
+        words.world = folder_.path_of(about_.world);
+        words.set = about_.set;
+        words.from = about_.from;
+        words.seed = about_.seed;
+        words.max_time = about_.max_time;
+        words.robot = about_.robot;
+        words.clock = "virtual";
+        TRY(session::add_toolboxes(library_, parts_, words.toolboxes));
+        plan_ = embed::LoadedPlan::from_file(folder_.path_of(about_.plan), library_);
+        if (!plan_->ok()) {
+            return Error{Code::BadInput, embed::format_findings(plan_->findings())};
+        }
+        prepared_ = TRY(embed::PreparedRun::prepare(*plan_, words, parts_));
+        prepared_->tell([](const std::string&) {});
+        return Status::done();
+    }
+
+    Result<Ended> run(Tape& tape) override {
+        Recorder recorder(tape, format_run(about_));
+        attach(recorder, *prepared_);
+        recorder.after_instant([this, &recorder](Time at) {
+            if (over_ || !after_instant(at, recorder, *session())) return;
+            over_ = true;
+            prepared_->abort(ended_by_.empty() ? "the replay" : ended_by_);
+            (void)prepared_->take_abort();
+        });
+        Time last{};
+        prepared_->listen([&last](const plan::TraceEvent& event) { last = event.at; });
+        const run::Ended ended = TRY(prepared_->run());
+        if (!until_ && !stopped_) recorder.end(last);
+        return Ended{last, std::string(plan::name_of(ended.result)), ended.message};
+    }
+
+    void listen(std::function<void(const plan::TraceEvent&)> listener) override {
+        prepared_->listen(std::move(listener));
+    }
+    session::SimSession* session() override {
+        return prepared_->world() != nullptr ? &prepared_->world()->session() : nullptr;
+    }
+    const embed::LoadedPlan* plan() const override { return &*plan_; }
+
+private:
+    toolbox::Parts parts_;  // before the library, whose code looks at them
+    run::CodeLibrary library_;
+    std::optional<embed::LoadedPlan> plan_;
+    std::unique_ptr<embed::PreparedRun> prepared_;
+    bool over_ = false;
+};
+
+// ---- a world with its scripts ----
+
+class WorldRerun final : public Rerun {
+public:
+    WorldRerun(RunFile about, UnpackedFolder folder) : Rerun(std::move(about), std::move(folder)) {}
+
+    Status prepare() {
+        embed::RobotsOptions options{.world = folder_.path_of(about_.world)};
+        if (!about_.seed.empty()) options.sim.world.seed = TRY(embed::parse_seed(about_.seed));
+        robots_ = TRY(embed::RobotsRun::open(options));
+        for (const std::string& one : about_.loads) {
+            const std::string path = folder_.path_of(one);
+            const std::string text = TRY(read_file(path));
+            robots_->buses().common().load(path, text);
+        }
+        return Status::done();
+    }
+
+    Result<Ended> run(Tape& tape) override {
+        Recorder recorder(tape, format_run(about_));
+        recorder.follow(*session());
+        bool over = false;
+        recorder.after_instant([&](Time at) {
+            over = over || after_instant(at, recorder, *session());
+        });
+        const Time end = inputs_.empty() ? Time{} : inputs_.back().at;
+        while (!over && session()->now() < end) session()->step(sim::kNodeStep);
+        if (!until_ && !stopped_ && !inputs_.empty()) {
+            recorder.input(inputs_.back().at, inputs_.back().text);
+            recorder.end(session()->now());
+        }
+        return Ended{session()->now(), "", ""};
+    }
+
+    void listen(std::function<void(const plan::TraceEvent&)>) override {}
+    session::SimSession* session() override { return &robots_->buses().common(); }
+    const embed::LoadedPlan* plan() const override { return nullptr; }
+
+private:
+    std::unique_ptr<embed::RobotsRun> robots_;
+};
+
+Result<std::unique_ptr<Rerun>> Rerun::open(const mcap::Reader& reader,
+                                           const RerunOptions& options) {
+    RunFile run = TRY(run_file_of(reader));
+    if (run.kind != "simulated") {
+        return Error{Code::Refused, reader.name() + ": is a recording of a real bus, whose robot "
+                                                    "cannot be run again"};
+    }
+    UnpackedFolder folder = TRY(UnpackedFolder::make());
+    for (const mcap::Attachment& one : reader.attachments()) {
+        const auto instead = options.with.find(one.name);
+        TRY(folder.add(one.name, instead == options.with.end() ? one.data
+                                                               : std::string_view(instead->second)));
+    }
+    std::vector<Input> inputs = TRY(inputs_of(reader));
+    const auto finish = [&](auto made) -> Result<std::unique_ptr<Rerun>> {
+        made->inputs_ = std::move(inputs);
+        made->until_ = options.until;
+        TRY(made->prepare());
+        return std::unique_ptr<Rerun>(std::move(made));
+    };
+    if (run.verb == "sim") {
+        return finish(std::make_unique<WorldRerun>(std::move(run), std::move(folder)));
+    }
+    return finish(std::make_unique<PlanRerun>(std::move(run), std::move(folder)));
+}
+
+}  // namespace vagus::record

@@ -1,0 +1,101 @@
+// Runs a recorded run again, from its files and its inputs.
+//
+//     const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), "run.mcap"));
+//     auto rerun = TRY(Rerun::open(reader, {}));
+//     CompareTape tape(reader);
+//     const Rerun::Ended ended = TRY(rerun->run(tape));
+//     tape.end(ended.at);
+//
+// In virtual time, by the same code that ran it: `plan run`, alone or beside a world, and `sim`.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mcap/reader.hpp"
+#include "record/recorder.hpp"
+#include "record/run_file.hpp"
+
+namespace vagus::embed {
+class LoadedPlan;
+}
+
+namespace vagus::record {
+
+struct RerunOptions {
+    // Files in place of those of the recording, by name in it: their content.
+    std::map<std::string, std::string> with = {};
+    std::optional<Time> until = {};  // it ends there, as if somebody had ended it
+    bool witnessed = false;          // somebody follows its scripts (sim::Witness): one thread
+};
+
+// The file of the recording that a path on a command line means: "NAME=PATH", or a PATH whose last
+// part is the last part of one name. The Error lists the names.
+Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reader,
+                                                       const std::string& typed);
+
+// When the last thing of it was recorded.
+Time end_of(const mcap::Reader& reader);
+
+class Rerun {
+public:
+    struct Ended {
+        Time at{};
+        std::string how;  // "Ok", "Interrupted", "Error"; empty: of a world without a plan
+        std::string message;
+    };
+
+    // Writes its files into a folder of its own and prepares the run. The Error says what is wrong
+    // with the recording, or with a file that was replaced.
+    static Result<std::unique_ptr<Rerun>> open(const mcap::Reader& reader,
+                                               const RerunOptions& options);
+    virtual ~Rerun() = default;
+
+    // What it says goes to the tape. Once.
+    virtual Result<Ended> run(Tape& tape) = 0;
+    // Before run(): is told of each line of the trace, and of the end of each instant.
+    virtual void listen(std::function<void(const plan::TraceEvent&)> listener) = 0;
+    void each_instant(std::function<void(Time)> look) { looks_.push_back(std::move(look)); }
+    // From a listener: no more of it is wanted.
+    void stop() { stopped_ = true; }
+
+    // nullptr for a plan alone. Valid while this is.
+    virtual session::SimSession* session() = 0;
+    // nullptr without one.
+    virtual const embed::LoadedPlan* plan() const = 0;
+    const RunFile& about() const { return about_; }
+    // A path of the folder as its name in the recording.
+    std::string name_of(const std::string& path) const;
+
+protected:
+    Rerun(RunFile about, UnpackedFolder folder) : about_(std::move(about)), folder_(std::move(folder)) {}
+    struct Input {
+        Time at{};
+        std::string what;
+        std::string text;  // the message
+        std::optional<sim::Act> act = {};
+        std::string by = {};
+    };
+    static Result<std::vector<Input>> inputs_of(const mcap::Reader& reader);
+    // What was done at `at` is done again; true if the run is to end.
+    bool after_instant(Time at, Recorder& recorder, session::SimSession& session);
+
+    RunFile about_;
+    UnpackedFolder folder_;
+    std::vector<Input> inputs_;
+    size_t next_input_ = 0;
+    std::optional<Time> until_;
+    std::vector<std::function<void(Time)>> looks_;
+    bool stopped_ = false;
+    std::string ended_by_;  // who ended it then
+
+private:
+    friend class PlanRerun;
+    friend class WorldRerun;
+};
+
+}  // namespace vagus::record

@@ -1,0 +1,71 @@
+// What a recording says of its run, and the files that the run read: what is needed to run it
+// again, anywhere.
+//
+//     RunFile run;
+//     run.verb = "plan run";
+//     const PackedFiles files = pack(read.all());           // FilesRead (base/file.hpp)
+//     run.plan = files.name_of("examples/follow-wall/WallFollow.plan.json");
+//     tape.attach(…);                                       // each of files.files
+//     tape.put(about, Time{}, format_run(run));
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace vagus::record {
+
+// Paths are names of attachments.
+struct RunFile {
+    std::string kind = "simulated";         // or "bus"
+    std::string verb = {};                  // "plan run", "sim"
+    std::vector<std::string> command = {};  // as it was typed, for people
+    std::string plan = {};
+    std::string world = {};
+    std::vector<std::string> toolboxes = {};
+    std::vector<std::string> set = {};
+    std::string from = {};
+    std::string seed = {};
+    std::string max_time = {};
+    std::string robot = {};
+    std::vector<std::string> loads = {};  // --load of sim
+};
+
+// One line of JSON.
+std::string format_run(const RunFile& run);
+// The Error names what is wrong; `name` is the recording, for its sentence.
+Result<RunFile> read_run(std::string_view text, const std::string& name);
+
+struct PackedFiles {
+    std::string root;                          // the folder below which all of them are
+    std::map<std::string, std::string> files;  // by name: the path from there
+
+    // The name of a file, by a path as a person would type it.
+    std::string name_of(const std::string& path) const;
+};
+
+// `read` by path, as it was read.
+PackedFiles pack(const std::map<std::string, std::string>& read);
+
+// A folder for the files of a recording, which goes with its owner.
+class UnpackedFolder {
+public:
+    static Result<UnpackedFolder> make();
+    ~UnpackedFolder();
+    UnpackedFolder(UnpackedFolder&& other) noexcept;
+    UnpackedFolder& operator=(UnpackedFolder&&) = delete;
+    // Refuses names that lead out of it.
+    Status add(const std::string& name, std::string_view content) const;
+    std::string path_of(const std::string& name) const;
+
+private:
+    explicit UnpackedFolder(std::string path) : path_(std::move(path)) {}
+    std::string path_;
+};
+
+}  // namespace vagus::record

@@ -1,0 +1,43 @@
+// The recording of `vagus sim`: from before the first instant of its world to the end.
+//
+//     FilesRead files;                                   // before anything is read
+//     … embed::RobotsRun::open(…);
+//     auto recording = TRY(SimRecording::begin("run.mcap", about, files, buses.common(), pace));
+//     … steps …
+//     const Status written = recording->end();
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/file.hpp"
+#include "record/file_tape.hpp"
+#include "record/recorder.hpp"
+#include "record/run_file.hpp"
+
+namespace vagus::record {
+
+// The message of /vagus/input with which a recording of a world ends.
+std::string end_input(Time at);
+
+class SimRecording {
+public:
+    // Paths in `about` are as they were typed. The session is borrowed, until end().
+    static Result<std::unique_ptr<SimRecording>> begin(const std::string& path, RunFile about,
+                                                       const FilesRead& files,
+                                                       session::SimSession& session, Pace pace);
+    // The first thing that went wrong.
+    Status end();
+    uint64_t dropped() const { return tape_->dropped(); }
+
+private:
+    SimRecording(std::unique_ptr<FileTape> tape, std::string_view run, session::SimSession& session)
+        : tape_(std::move(tape)), recorder_(std::make_unique<Recorder>(*tape_, run)),
+          session_(session) {}
+
+    std::unique_ptr<FileTape> tape_;
+    std::unique_ptr<Recorder> recorder_;
+    session::SimSession& session_;
+};
+
+}  // namespace vagus::record

@@ -1,0 +1,29 @@
+#include "record/topics.hpp"
+
+namespace vagus::record {
+
+namespace {
+
+// Of the public schemas of Foxglove, what we write (https://docs.foxglove.dev, SceneUpdate).
+constexpr std::string_view kSceneUpdate =
+    R"({"title":"foxglove.SceneUpdate","type":"object","properties":{)"
+    R"("deletions":{"type":"array","items":{"type":"object","properties":{)"
+    R"("timestamp":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
+    R"("type":{"type":"integer"},"id":{"type":"string"}}}},)"
+    R"("entities":{"type":"array","items":{"type":"object","properties":{)"
+    R"("timestamp":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
+    R"("frame_id":{"type":"string"},"id":{"type":"string"},)"
+    R"("lifetime":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
+    R"("frame_locked":{"type":"boolean"},"cubes":{"type":"array","items":{"type":"object"}},)"
+    R"("cylinders":{"type":"array","items":{"type":"object"}}}}}}})";
+
+constexpr std::string_view kAnyObject = R"({"type":"object"})";
+
+}  // namespace
+
+std::string_view schema_text(std::string_view name) {
+    if (name == "foxglove.SceneUpdate") return kSceneUpdate;
+    return kAnyObject;
+}
+
+}  // namespace vagus::record

@@ -1,0 +1,54 @@
+// The channels of a recording (docs/recordings.md): which there are, and how a message of each
+// looks. The same values go to a file, and are compared with those of a file when a run is run
+// again.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/time.hpp"
+
+namespace vagus::record {
+
+constexpr std::string_view kRunTopic = "/vagus/run";
+constexpr std::string_view kInputTopic = "/vagus/input";
+constexpr std::string_view kCheckTopic = "/vagus/check";
+constexpr std::string_view kTraceTopic = "/plan/trace";
+constexpr std::string_view kStatesTopic = "/plan/states";
+constexpr std::string_view kFramesTopic = "/bus/frames";
+constexpr std::string_view kEventsTopic = "/bus/events";
+constexpr std::string_view kPosesTopic = "/world/poses";
+constexpr std::string_view kSceneTopic = "/world/scene";
+
+// How a channel is declared.
+struct Topic {
+    std::string name;
+    bool json = true;  // else bytes
+    std::string_view schema = {};  // name of one of schemas(); empty: none
+    bool may_be_dropped = false;   // where the disk is too slow
+};
+
+// Times of MCAP, which counts nanoseconds.
+constexpr uint64_t nanoseconds(Time at) {
+    return static_cast<uint64_t>(std::chrono::nanoseconds(at).count());
+}
+constexpr Time time_of(uint64_t ns) {
+    return Time(static_cast<int64_t>(ns / 1000));
+}
+
+// The JSON schema of that name: "foxglove.SceneUpdate". Empty: there is none.
+std::string_view schema_text(std::string_view name);
+
+// Where messages go. Topics are declared before their first message; each has its number.
+class Tape {
+public:
+    Tape() = default;
+    Tape(const Tape&) = delete;
+    Tape& operator=(const Tape&) = delete;
+    virtual ~Tape() = default;
+    virtual uint16_t declare(const Topic& topic) = 0;
+    virtual void put(uint16_t topic, Time at, std::string data) = 0;
+};
+
+}  // namespace vagus::record

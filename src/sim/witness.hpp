@@ -1,0 +1,40 @@
+// Is told, instruction by instruction, what the scripts of a world do: who wrote a variable last,
+// which native was called from where, what started a handler. A world that has one runs on one
+// thread and several times as slow; what happens is the same.
+//
+//     class Log final : public sim::Witness { … };
+//     world.watch(&log);                                 // borrowed, until watch(nullptr)
+#pragma once
+
+#include <cstdint>
+
+#include "base/time.hpp"
+
+namespace vagus::sim {
+
+// A node of a world: which robot it belongs to, and its id.
+struct WitnessedNode {
+    uint32_t robot = 0;  // RobotId
+    uint16_t id = 0;
+};
+
+class Witness {
+public:
+    Witness() = default;
+    Witness(const Witness&) = delete;
+    Witness& operator=(const Witness&) = delete;
+    virtual ~Witness() = default;
+
+    // A handler begins: by the frame with that number (sim/frame_numbers.hpp; 0: not known) …
+    virtual void began_by_frame(const WitnessedNode& node, uint32_t frame, uint16_t event) = 0;
+    // … or by the local event, counted from 0.
+    virtual void began_by_itself(const WitnessedNode& node, uint8_t event) = 0;
+    // The instruction at pc wrote a value into a variable.
+    virtual void wrote(const WitnessedNode& node, uint16_t pc, uint16_t address, int16_t value) = 0;
+    // The instruction at pc called a native.
+    virtual void called(const WitnessedNode& node, uint16_t pc, uint16_t native) = 0;
+    // The handler that runs at pc has sent this frame.
+    virtual void sent(const WitnessedNode& node, uint32_t frame, uint16_t pc) = 0;
+};
+
+}  // namespace vagus::sim

@@ -64,8 +64,8 @@ Difference first_difference(const std::string& then, const std::string& now) {
     return {.topic = {}, .place = {}, .then = then, .now = now};
 }
 
-CompareTape::CompareTape(const mcap::Reader& reader, std::set<std::string> only)
-    : reader_(reader), cursor_(reader), only_(std::move(only)) {}
+CompareTape::CompareTape(const mcap::Reader& reader, std::set<std::string> only, Time until)
+    : reader_(reader), cursor_(reader), only_(std::move(only)), until_(until) {}
 
 bool CompareTape::counts(const std::string& name) const {
     if (name == kRunTopic || name.starts_with("/camera/")) return false;
@@ -100,7 +100,7 @@ void CompareTape::differs(Difference found) {
 
 void CompareTape::put(uint16_t topic, Time at, std::string data) {
     if (over_ || topic == 0 || !counts(topics_[topic - 1u].name)) return;
-    if (difference_ && at > difference_->at) return;
+    if (at > until_ || (difference_ && at > difference_->at)) return;
     std::optional<Recorded> recorded = take(topic);
     // One that is not there was dropped, or the recording was cut off: that is no difference.
     const bool dropped = topics_[topic - 1u].may_be_dropped;
@@ -125,10 +125,10 @@ void CompareTape::put(uint16_t topic, Time at, std::string data) {
     differs(std::move(found));
 }
 
-void CompareTape::end(Time at) {
+void CompareTape::end() {
     over_ = true;
     const auto missing = [&](const std::string& topic, Time when, const std::string& data) {
-        if (when > at) return;
+        if (when > until_) return;
         differs({.at = when, .topic = topic, .place = {}, .then = data, .now = {}});
     };
     for (const auto& [topic, kept] : ahead_) {
@@ -138,7 +138,6 @@ void CompareTape::end(Time at) {
         const mcap::Channel* const channel = reader_.channel(message->channel);
         if (channel == nullptr || !counts(channel->topic)) continue;
         missing(channel->topic, time_of(message->log_time), std::string(message->data));
-        if (time_of(message->log_time) > at) return;
     }
 }
 

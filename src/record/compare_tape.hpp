@@ -33,13 +33,18 @@ Difference first_difference(const std::string& then, const std::string& now);
 
 class CompareTape final : public Tape {
 public:
-    // Borrowed. With `only`, no other topics are compared; /vagus/run never is.
-    explicit CompareTape(const mcap::Reader& reader, std::set<std::string> only = {});
+    // Borrowed. With `only`, no other topics are compared; /vagus/run never is. Nothing is that
+    // comes later than `until`.
+    explicit CompareTape(const mcap::Reader& reader, std::set<std::string> only = {},
+                         Time until = Time::max());
 
     uint16_t declare(const Topic& topic) override;
     void put(uint16_t topic, Time at, std::string data) override;
-    // All that was recorded up to `at` must have come again; nothing more is compared.
-    void end(Time at);
+    void put_later(uint16_t topic, Time at, size_t, Word word) override {
+        put(topic, at, word());
+    }
+    // All that was recorded must have come again; nothing more is compared.
+    void end();
     // A difference that is found later may be of an earlier instant, until end().
     const std::optional<Difference>& difference() const { return difference_; }
     uint64_t compared() const { return compared_; }
@@ -56,6 +61,7 @@ private:
     const mcap::Reader& reader_;
     mcap::Cursor cursor_;
     std::set<std::string> only_;
+    Time until_;
     std::vector<Topic> topics_;                      // by number - 1
     std::map<std::string, std::deque<Recorded>> ahead_;  // read, but not yet compared
     std::optional<Difference> difference_;

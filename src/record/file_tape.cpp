@@ -51,18 +51,27 @@ uint16_t FileTape::declare(const Topic& topic) {
 }
 
 void FileTape::put(uint16_t topic, Time at, std::string data) {
+    const size_t bytes = data.size();
+    wait_for({topic, at, std::move(data), {}, bytes});
+}
+
+void FileTape::put_later(uint16_t topic, Time at, size_t about_bytes, Word word) {
+    wait_for({topic, at, {}, std::move(word), about_bytes});
+}
+
+void FileTape::wait_for(Message message) {
     std::unique_lock lock(mutex_);
     if (pace_ == Pace::Waits) {
         room_.wait(lock, [this] { return waiting_bytes_ < kDropFrom || !state_.ok(); });
     }
-    if (over_ || !state_.ok() || topic == 0) return;
-    if (waiting_bytes_ >= kDropFrom && topics_[topic - 1u].may_be_dropped) {
+    if (over_ || !state_.ok() || message.topic == 0) return;
+    if (waiting_bytes_ >= kDropFrom && topics_[message.topic - 1u].may_be_dropped) {
         ++dropped_;
         return;
     }
     const size_t before = waiting_bytes_;
-    waiting_bytes_ += data.size();
-    waiting_.push_back({topic, at, std::move(data)});
+    waiting_bytes_ += message.bytes;
+    waiting_.push_back(std::move(message));
     if (before < kWakeAt && waiting_bytes_ >= kWakeAt) more_.notify_one();
     if (waiting_bytes_ < kWaitingMax) return;
     state_ = Error{Code::Limit, "the recording ends here: the disk is too slow, " +
@@ -91,8 +100,9 @@ void FileTape::write(const std::vector<Message>& messages, bool last) {
     {
         const std::lock_guard lock(writing_);
         for (const Message& message : messages) {
-            writer_.write(message.topic, nanoseconds(message.at), message.data);
-            bytes += message.data.size();
+            writer_.write(message.topic, nanoseconds(message.at),
+                          message.word ? message.word() : message.data);
+            bytes += message.bytes;
         }
         written = last ? writer_.end() : writer_.flush();
     }

@@ -47,6 +47,7 @@ public:
     void attach(const std::string& name, std::string_view content);
     uint16_t declare(const Topic& topic) override;
     void put(uint16_t topic, Time at, std::string data) override;
+    void put_later(uint16_t topic, Time at, size_t about_bytes, Word word) override;
     // Waits until all is written. The first thing that went wrong since the beginning.
     Status end();
     // So far.
@@ -58,7 +59,10 @@ private:
         uint16_t topic = 0;
         Time at{};
         std::string data;
+        Word word;  // instead of the data
+        size_t bytes = 0;
     };
+    void wait_for(Message message);
     void work();
     void write(const std::vector<Message>& messages, bool last);
 

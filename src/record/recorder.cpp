@@ -250,6 +250,24 @@ void Recorder::event(const wire::Frame& frame, uint32_t number, Time at) {
 
 // ---- nodes ----
 
+// Those that are not as they were before, or all.
+std::string Recorder::variables_json(const std::vector<Variable>& variables,
+                                     const std::vector<int16_t>& before,
+                                     const std::vector<int16_t>& now, bool all, Time at) {
+    std::string set;
+    for (const Variable& variable : variables) {
+        if (size_t{variable.address} + variable.size > now.size()) continue;
+        const auto begin = now.begin() + variable.address;
+        if (!all && std::equal(begin, begin + variable.size, before.begin() + variable.address)) {
+            continue;
+        }
+        set += (set.empty() ? "" : ",") + json_quote(variable.name) + ":";
+        set += variable.size == 1 ? std::to_string(*begin)
+                                  : words_json({begin, begin + variable.size});
+    }
+    return fmt::format(R"({{"t":{},"all":{},"set":{{{}}}}})", seconds_text(at), all, set);
+}
+
 std::string Recorder::label_of(sim::RobotId robot, const std::string& name) const {
     const auto& robots = session_->world().definition().robots;
     return robots.size() == 1 ? name : robots[robot.number - 1].name + "/" + name;
@@ -275,19 +293,21 @@ void Recorder::look_for_nodes() {
 void Recorder::learn_variables(Node& node) {
     const aesl::Target* const target = session_->target(node.id);
     const aesl::Program* const program = session_->program(node.id);
-    if (target == nullptr || (!node.variables.empty() && program == node.program)) return;
+    if (target == nullptr || (node.variables && program == node.program)) return;
     node.program = program;
-    node.variables.clear();
     node.pictured = false;
+    auto variables = std::make_shared<std::vector<Variable>>();
     uint16_t address = 0;
     for (const aesl::NamedVariable& one : target->variables) {
-        node.variables.push_back({one.name, address, one.size});
+        variables->push_back({one.name, address, one.size});
         address = static_cast<uint16_t>(address + one.size);
     }
-    if (program == nullptr) return;
-    for (const aesl::VariablePlace& one : program->variables) {
-        if (one.address >= address) node.variables.push_back({one.name, one.address, one.size});
+    if (program != nullptr) {
+        for (const aesl::VariablePlace& one : program->variables) {
+            if (one.address >= address) variables->push_back({one.name, one.address, one.size});
+        }
     }
+    node.variables = std::move(variables);
 }
 
 void Recorder::variables(Node& node, Time at, bool all) {
@@ -296,21 +316,13 @@ void Recorder::variables(Node& node, Time at, bool all) {
     const auto words = session_->world().variables(node.robot, node.id);
     const bool picture = all || !node.pictured || words.size() != node.words.size();
     if (!picture && std::equal(words.begin(), words.end(), node.words.begin())) return;
-    std::string set;
-    for (const Variable& variable : node.variables) {
-        if (size_t{variable.address} + variable.size > words.size()) continue;
-        const auto now = words.subspan(variable.address, variable.size);
-        const bool same =
-            !picture && std::equal(now.begin(), now.end(), node.words.begin() + variable.address);
-        if (same) continue;
-        set += fmt::format("{}{}:{}", set.empty() ? "" : ",", json_quote(variable.name),
-                           variable.size == 1 ? std::to_string(now[0]) : words_json(now));
-    }
-    node.words.assign(words.begin(), words.end());
+    constexpr size_t kBytesOfWord = 8;  // of JSON, about
+    const size_t bytes = kBytesOfWord * words.size();
+    std::vector<int16_t> before = std::exchange(node.words, {words.begin(), words.end()});
     node.pictured = true;
-    if (set.empty()) return;
-    tape_.put(node.topic, at,
-              fmt::format(R"({{"t":{},"all":{},"set":{{{}}}}})", seconds_text(at), picture, set));
+    tape_.put_later(node.topic, at, bytes,
+                    [names = node.variables, before = std::move(before), now = node.words, picture,
+                     at] { return variables_json(*names, before, now, picture, at); });
 }
 
 // ---- the world ----
@@ -326,7 +338,10 @@ void Recorder::poses(Time at) {
         if (object.definition->mass > 0) shapes.push_back(shape_of(object));
     }
     if (objects != objects_) scene(at);
-    tape_.put(poses_, at, scene_update(shapes, at));
+    constexpr size_t kBytesOfShape = 400;
+    const size_t bytes = kBytesOfShape * shapes.size();
+    tape_.put_later(poses_, at, bytes,
+                    [shapes = std::move(shapes), at] { return scene_update(shapes, at); });
 }
 
 // All that is in the world; what has gone is deleted by that.

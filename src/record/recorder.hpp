@@ -64,7 +64,7 @@ private:
         uint16_t id = 0;
         std::string label;  // in topics and checks
         uint16_t topic = 0;
-        std::vector<Variable> variables;
+        std::shared_ptr<const std::vector<Variable>> variables;  // shared with what is worded
         const void* program = nullptr;  // whose variables these are
         std::vector<int16_t> words;     // as they were recorded
         bool pictured = false;
@@ -76,6 +76,9 @@ private:
     void look_for_nodes();
     void learn_variables(Node& node);
     void variables(Node& node, Time at, bool all);
+    static std::string variables_json(const std::vector<Variable>& variables,
+                                      const std::vector<int16_t>& before,
+                                      const std::vector<int16_t>& now, bool all, Time at);
     void scene(Time at);
     void poses(Time at);
     void check(Time at);

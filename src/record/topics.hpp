@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -49,6 +50,10 @@ public:
     virtual ~Tape() = default;
     virtual uint16_t declare(const Topic& topic) = 0;
     virtual void put(uint16_t topic, Time at, std::string data) = 0;
+    // The same of a message that is still to be worded, perhaps on another thread, and soon: what
+    // it needs it owns.
+    using Word = std::function<std::string()>;
+    virtual void put_later(uint16_t topic, Time at, size_t about_bytes, Word word) = 0;
 };
 
 }  // namespace vagus::record

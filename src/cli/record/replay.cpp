@@ -125,14 +125,14 @@ int replay(const ReplayOptions& options) {
     std::set<std::string> only;
     const bool has_plan = rerun.value()->plan() != nullptr;
     if (!options.with.empty() && has_plan) only.insert(std::string(record::kTraceTopic));
-    record::CompareTape tape(reader.value(), only);
+    record::CompareTape tape(reader.value(), only, how.value().until.value_or(Time::max()));
     const bool first_only = options.with.empty();
     rerun.value()->each_instant([&](Time) {
         if (first_only && tape.difference()) rerun.value()->stop();
     });
     const auto ended = rerun.value()->run(tape);
     if (!ended.ok()) return complain(ended.error());
-    tape.end(std::min(ended.value().at, how.value().until.value_or(Time::max())));
+    tape.end();
     if (options.until) tell_state(*rerun.value());
     if (!tape.difference()) {
         print(fmt::format("{}: {} s again, {} messages compared: no difference\n", options.file,

@@ -151,8 +151,7 @@ Recorder::Recorder(Tape& tape, std::string_view run) : tape_(tape) {
 
 Recorder::~Recorder() {
     if (session_ == nullptr) return;
-    session_->on_frame({});
-    session_->on_instant({});
+    session_->forget_listeners();
     session_->world().on_act({});
 }
 

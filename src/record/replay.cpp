@@ -131,6 +131,7 @@ bool Rerun::after_instant(Time at, Recorder& recorder, session::SimSession& sess
     for (const auto& look : looks_) look(at);
     for (; next_input_ < inputs_.size() && inputs_[next_input_].at <= at; ++next_input_) {
         const Input& input = inputs_[next_input_];
+        if (input.act && told_of_act_) told_of_act_(*input.act);
         if (input.act) (void)session.world().act(*input.act).ok();  // it worked then
         if (input.what != "abort") continue;
         ended_by_ = input.by;
@@ -198,6 +199,7 @@ public:
     session::SimSession* session() override {
         return prepared_->world() != nullptr ? &prepared_->world()->session() : nullptr;
     }
+    session::PlanWorld* plan_world() override { return prepared_->world(); }
     const embed::LoadedPlan* plan() const override { return &*plan_; }
 
 private:
@@ -244,6 +246,7 @@ public:
 
     void listen(std::function<void(const plan::TraceEvent&)>) override {}
     session::SimSession* session() override { return &robots_->buses().common(); }
+    session::PlanWorld* plan_world() override { return nullptr; }
     const embed::LoadedPlan* plan() const override { return nullptr; }
 
 private:

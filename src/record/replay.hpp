@@ -23,6 +23,9 @@
 namespace vagus::embed {
 class LoadedPlan;
 }
+namespace vagus::session {
+class PlanWorld;
+}
 
 namespace vagus::record {
 
@@ -30,7 +33,6 @@ struct RerunOptions {
     // Files in place of those of the recording, by name in it: their content.
     std::map<std::string, std::string> with = {};
     std::optional<Time> until = {};  // it ends there, as if somebody had ended it
-    bool witnessed = false;          // somebody follows its scripts (sim::Witness): one thread
 };
 
 // The file of the recording that a path on a command line means: "NAME=PATH", or a PATH whose last
@@ -60,16 +62,22 @@ public:
     // Before run(): is told of each line of the trace, and of the end of each instant.
     virtual void listen(std::function<void(const plan::TraceEvent&)> listener) = 0;
     void each_instant(std::function<void(Time)> look) { looks_.push_back(std::move(look)); }
+    // Before run(): is told of each act of a person, before it is done again.
+    void before_act(std::function<void(const sim::Act&)> told) { told_of_act_ = std::move(told); }
     // From a listener: no more of it is wanted.
     void stop() { stopped_ = true; }
 
     // nullptr for a plan alone. Valid while this is.
     virtual session::SimSession* session() = 0;
+    // nullptr for a plan alone, and for a world without one.
+    virtual session::PlanWorld* plan_world() = 0;
     // nullptr without one.
     virtual const embed::LoadedPlan* plan() const = 0;
     const RunFile& about() const { return about_; }
     // A path of the folder as its name in the recording.
     std::string name_of(const std::string& path) const;
+    // Where a file of the recording lies while it is run again.
+    std::string path_of(const std::string& name) const { return folder_.path_of(name); }
 
 protected:
     Rerun(RunFile about, UnpackedFolder folder) : about_(std::move(about)), folder_(std::move(folder)) {}
@@ -90,6 +98,7 @@ protected:
     size_t next_input_ = 0;
     std::optional<Time> until_;
     std::vector<std::function<void(Time)>> looks_;
+    std::function<void(const sim::Act&)> told_of_act_;
     bool stopped_ = false;
     std::string ended_by_;  // who ended it then
 

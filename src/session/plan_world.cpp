@@ -148,6 +148,7 @@ void PlanWorld::emit(Time at, const run::BusEvent& event) {
         const std::lock_guard lock(mutex_);
         if (only_ && !only_->contains(event.name)) return;
     }
+    if (told_of_emit_) told_of_emit_(at, event);
     // Refused is only what a supervisor emits as it stops: may_emit() was not asked.
     (void)session_.emit(event.name, event.arguments, at, event.cause).ok();
 }

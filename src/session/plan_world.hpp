@@ -59,6 +59,10 @@ public:
     // From now on only these of what the plan emits go out: a robot that is being stopped is not
     // told to move again by what the plan says as it ends. From any thread.
     void close_but_for(std::set<std::string> events);
+    // Is told of what the plan emits, before it leaves.
+    void on_emit(std::function<void(Time, const run::BusEvent&)> told) {
+        told_of_emit_ = std::move(told);
+    }
     // Called at each instant, on the deciding thread, before anything of it happens: to pace the
     // run, to look at it, to act on the world.
     void before_each(std::function<void(Time)> act) { before_each_ = std::move(act); }
@@ -84,6 +88,7 @@ private:
     BusNames names_;
     BusEars ears_;
     std::function<void(Time)> before_each_;
+    std::function<void(Time, const run::BusEvent&)> told_of_emit_;
     std::mutex mutex_;  // guards what follows
     std::optional<std::set<std::string>> only_;
 };

@@ -181,7 +181,7 @@ void SimSession::number_own(const wire::Frame& frame) {
     }
     if (numbers == nullptr) return;
     const uint32_t number = numbers->sent(frame, cause);
-    if (told_of_frame_) told_of_frame_(frame, number);
+    for (const FrameListener& told : told_of_frame_) told(frame, number);
 }
 
 void SimSession::number_heard(const wire::Frame& frame) {
@@ -190,7 +190,7 @@ void SimSession::number_heard(const wire::Frame& frame) {
     const uint32_t number = numbers->find(frame, last_frame_);
     if (number != 0) last_frame_ = number;
     if (wire::is_user_event(frame.type)) event_frames_.push_back(number);
-    if (told_of_frame_) told_of_frame_(frame, number);
+    for (const FrameListener& told : told_of_frame_) told(frame, number);
 }
 
 // ---- a plan beside it ----
@@ -424,6 +424,12 @@ std::vector<NodeState> SimSession::nodes() const {
         states.push_back(std::move(state));
     }
     return states;
+}
+
+std::optional<std::pair<std::string, int>> SimSession::place_of(uint16_t id, int line) const {
+    const Node* const node = find(debug::NodeId{id});
+    if (node == nullptr || !node->script || line <= 0) return std::nullopt;
+    return std::pair(node->script->path, line + node->script->script->first_line - 1);
 }
 
 const aesl::Program* SimSession::program(uint16_t id) const {

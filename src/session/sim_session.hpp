@@ -178,11 +178,17 @@ public:
     // ---- recording ----
     // Is told of each frame with its number (World::number_frames()): of its own as they leave, of
     // all others as they reach hosts.
-    void on_frame(std::function<void(const wire::Frame&, uint32_t number)> told) {
-        told_of_frame_ = std::move(told);
-    }
+    using FrameListener = std::function<void(const wire::Frame&, uint32_t number)>;
+    void on_frame(FrameListener told) { told_of_frame_.push_back(std::move(told)); }
     // Is told at the end of each instant, when the bodies have moved.
     void on_instant(std::function<void()> told) { told_of_instant_ = std::move(told); }
+    // Nobody is told any more.
+    void forget_listeners() {
+        told_of_frame_.clear();
+        told_of_instant_ = {};
+    }
+    // The place in a file of a line of the program of a node; empty without one.
+    std::optional<std::pair<std::string, int>> place_of(uint16_t node, int line) const;
     // What runs on a node; nullptr without a script.
     const aesl::Program* program(uint16_t node) const;
 
@@ -323,7 +329,7 @@ private:
     std::vector<Note> notes_;
     std::vector<std::string> hints_;
     std::vector<debug::Event> heard_;
-    std::function<void(const wire::Frame&, uint32_t)> told_of_frame_;
+    std::vector<FrameListener> told_of_frame_;
     std::function<void()> told_of_instant_;
     uint32_t last_frame_ = 0;           // that it took, by its number
     std::deque<uint32_t> emit_causes_;  // of user events that have not left yet

@@ -70,7 +70,8 @@ void Machine::notify(node::Node& node, vm::Notice notice) {
 void Machine::send(const wire::Frame& frame) {
     if (is_fault(frame)) break_off();
     sent_.push_back(frame);
-    origins_.push_back({cause_, node_.vm.pc});
+    origins_.push_back(cause_);
+    if (witness_ != nullptr) witness_->sends(witnessed_, node_.vm.pc);
 }
 
 // Many nodes describe themselves once, and each in a hundred frames: that room is given back.
@@ -98,7 +99,7 @@ void Machine::receive(const wire::Frame& frame, uint32_t number) {
         return;
     }
     if (witness_ != nullptr && vm::is_active(node_.vm)) {
-        witness_->began_by_frame(witnessed_, number, frame.type);
+        witness_->began_by_frame(witnessed_, node_.vm.pc, number);
     }
     used_ = 0;
     run();
@@ -136,7 +137,7 @@ bool Machine::start_pending() {
     cause_ = 0;
     node::local_event(node_, event);
     if (witness_ != nullptr && vm::is_active(node_.vm)) {
-        witness_->began_by_itself(witnessed_, event);
+        witness_->began_by_itself(witnessed_, node_.vm.pc, event);
     }
     used_ = 0;
     return true;

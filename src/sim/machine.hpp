@@ -82,12 +82,8 @@ public:
     const std::vector<int16_t>& variables() const { return variables_; }
     // Frames sent since they were last forgotten, by the code that carries them on.
     const std::vector<wire::Frame>& sent() const { return sent_; }
-    // Of each of them, which frame it followed from (0: none), and where the program was.
-    struct Origin {
-        uint32_t frame = 0;
-        uint16_t pc = 0;
-    };
-    const std::vector<Origin>& origins() const { return origins_; }
+    // Of each of them, the number of the frame that it followed from; 0: none.
+    const std::vector<uint32_t>& origins() const { return origins_; }
     void forget_sent();
     // Borrowed; nullptr: nobody any more.
     void watch(Witness* witness, WitnessedNode as) {
@@ -126,8 +122,8 @@ private:
     bool heard_is_old_ = true;      // the program may have changed since
     std::vector<uint8_t> pending_;  // local events, oldest first
     std::vector<wire::Frame> sent_;
-    std::vector<Origin> origins_;  // of sent_
-    uint32_t cause_ = 0;           // the frame that what happens now follows from
+    std::vector<uint32_t> origins_;  // of sent_
+    uint32_t cause_ = 0;             // the frame that what happens now follows from
     Witness* witness_ = nullptr;
     WitnessedNode witnessed_;
     uint16_t budget_ = 0;

@@ -252,11 +252,9 @@ void NodeTurns::collect(size_t index, Time now, Crossing crossing) {
     for (size_t i = 0; i < node.sent().size(); ++i) {
         const wire::Frame& frame = node.sent()[i];
         if (numbers_) {
-            const Machine::Origin& origin = node.origins()[i];
-            const uint32_t number = numbers_->sent(frame, origin.frame);
+            const uint32_t number = numbers_->sent(frame, node.origins()[i]);
             if (witness_ != nullptr) {
-                witness_->sent({static_cast<uint32_t>(berth.robot + 1), node.id()}, number,
-                               origin.pc);
+                witness_->sent({static_cast<uint32_t>(berth.robot + 1), node.id()}, number);
             }
         }
         if (!bus.node_bus)

@@ -25,16 +25,18 @@ public:
     Witness& operator=(const Witness&) = delete;
     virtual ~Witness() = default;
 
-    // A handler begins: by the frame with that number (sim/frame_numbers.hpp; 0: not known) …
-    virtual void began_by_frame(const WitnessedNode& node, uint32_t frame, uint16_t event) = 0;
+    // A handler begins at pc: by the frame with that number (sim/frame_numbers.hpp; 0: not known) …
+    virtual void began_by_frame(const WitnessedNode& node, uint16_t pc, uint32_t frame) = 0;
     // … or by the local event, counted from 0.
-    virtual void began_by_itself(const WitnessedNode& node, uint8_t event) = 0;
+    virtual void began_by_itself(const WitnessedNode& node, uint16_t pc, uint8_t event) = 0;
     // The instruction at pc wrote a value into a variable.
     virtual void wrote(const WitnessedNode& node, uint16_t pc, uint16_t address, int16_t value) = 0;
     // The instruction at pc called a native.
     virtual void called(const WitnessedNode& node, uint16_t pc, uint16_t native) = 0;
-    // The handler that runs at pc has sent this frame.
-    virtual void sent(const WitnessedNode& node, uint32_t frame, uint16_t pc) = 0;
+    // A frame is sent, by the handler that runs at pc if one does …
+    virtual void sends(const WitnessedNode& node, uint16_t pc) = 0;
+    // … and has its number now, in the same order.
+    virtual void sent(const WitnessedNode& node, uint32_t frame) = 0;
 };
 
 }  // namespace vagus::sim

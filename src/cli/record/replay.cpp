@@ -80,17 +80,21 @@ void tell_ends(const mcap::Reader& reader, const record::Rerun::Ended& ended) {
 }
 
 // What there is at the instant at which it was ended.
-void tell_state(record::Rerun& rerun) {
+void tell_state(record::Rerun& rerun, Time at) {
     const session::SimSession* const session = rerun.session();
     if (session == nullptr) return;
+    print(fmt::format("at {} s:\n", seconds_text(at)));
     for (const sim::RobotView& robot : session->world().robots()) {
         print(fmt::format("{} is at {:.3f}, {:.3f} m, {:.1f} deg\n", robot.name, robot.pose.at.x,
                           robot.pose.at.y, robot.pose.angle * 180 / 3.14159265358979));
     }
     for (const session::NodeState& node : session->nodes()) {
         print(fmt::format("{} is {}", node.name, debug::name_of(node.state)));
+        const char* between = ": ";
         for (const auto& [name, words] : session->script_variables(node.id)) {
-            if (words.size() == 1) print(fmt::format(", {} = {}", name, words[0]));
+            if (words.size() != 1) continue;
+            print(fmt::format("{}{} = {}", between, name, words[0]));
+            between = ", ";
         }
         print("\n");
     }
@@ -127,16 +131,19 @@ int replay(const ReplayOptions& options) {
     if (!options.with.empty() && has_plan) only.insert(std::string(record::kTraceTopic));
     record::CompareTape tape(reader.value(), only, how.value().until.value_or(Time::max()));
     const bool first_only = options.with.empty();
-    rerun.value()->each_instant([&](Time) {
+    bool told = false;
+    rerun.value()->each_instant([&](Time at) {
         if (first_only && tape.difference()) rerun.value()->stop();
+        if (!how.value().until || at < *how.value().until || std::exchange(told, true)) return;
+        tell_state(*rerun.value(), at);
     });
     const auto ended = rerun.value()->run(tape);
     if (!ended.ok()) return complain(ended.error());
     tape.end();
-    if (options.until) tell_state(*rerun.value());
     if (!tape.difference()) {
+        const Time end = std::min(ended.value().at, how.value().until.value_or(Time::max()));
         print(fmt::format("{}: {} s again, {} messages compared: no difference\n", options.file,
-                          seconds_text(ended.value().at), tape.compared()));
+                          seconds_text(end), tape.compared()));
         return kExitDone;
     }
     tell(*tape.difference());

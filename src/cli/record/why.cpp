@@ -1,0 +1,81 @@
+// vagus why: tells from a recording why something is as it is.
+#include "record/why.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "base/file.hpp"
+#include "base/seconds.hpp"
+#include "cli/options.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+
+namespace vagus::cli {
+
+namespace {
+
+constexpr size_t kShown = 20;  // links, before the last
+
+struct WhyOptions {
+    std::string file;
+    std::vector<std::string> question;
+    std::optional<double> at;
+    bool json = false;
+    bool all = false;
+};
+
+int tell_why(const WhyOptions& options) {
+    const auto question = record::read_question(options.question);
+    if (!question.ok()) return complain(question.error(), kExitUsage);
+    const auto file = MappedFile::open(options.file);
+    if (!file.ok()) return complain(file.error(), kExitUsage);
+    const auto reader = mcap::Reader::open(file.value().bytes(), options.file);
+    if (!reader.ok()) return complain(reader.error(), kExitUsage);
+    std::optional<Time> at;
+    if (options.at) at = from_seconds(*options.at);
+    const auto chain = record::why(reader.value(), question.value(), at);
+    if (!chain.ok()) return complain(chain.error());
+    if (options.json) {
+        print(record::format_chain_json(chain.value()));
+        return kExitDone;
+    }
+    const record::Chain& links = chain.value();
+    const bool whole = options.all || links.size() <= kShown + 1;
+    for (size_t i = 0; i < links.size(); ++i) {
+        if (!whole && i == kShown) {
+            print(fmt::format("{:>14} {} more (--all shows them), and it began with:\n", "…",
+                              links.size() - kShown - 1));
+            i = links.size() - 1;
+        }
+        print(record::format_link(links[i]) + "\n");
+    }
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_why(CLI::App& app, int& exit_code) {
+    CLI::App* verb = app.add_subcommand("why", "tells from a recording why something happened");
+    auto options = std::make_shared<WhyOptions>();  // owners: CLI11's options and the callback
+    takes_file(*verb->add_option("FILE", options->file, "the recording")->required(), {".mcap"});
+    verb->add_option("QUESTION", options->question,
+                     "actor NAME, variable NODE.NAME, variable NAME, motor ROBOT, event NAME, end")
+        ->required()
+        ->expected(1, 2);
+    verb->add_option("--at", options->at, "the instant that the question is about (the end)")
+        ->type_name("S");
+    verb->add_flag("--all", options->all, "all of a long chain");
+    verb->add_flag("--json", options->json, "the chain as a JSON array on stdout");
+    verb->footer(
+        "Prints what happened before it, the newest first, one line each: when, what, its value, "
+        "and where it is written. The last line is where it began: something in the world, a "
+        "person, a timer, the beginning. Plans, scripts and worlds are those in the recording.\n"
+        "Exit codes: 0 answered, 1 there is no such thing by then, 2 not valid.\n\nExample:\n"
+        "  vagus why run.mcap motor carbot --at 83\n"
+        "  vagus why run.mcap actor backupCollision\n"
+        "  vagus why run.mcap variable drive.token --at 20");
+    verb->callback([options, &exit_code] { exit_code = tell_why(*options); });
+}
+
+}  // namespace vagus::cli

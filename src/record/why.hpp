@@ -1,0 +1,50 @@
+// Answers why something is as it is, as a chain of happenings, the newest first, each with where it
+// is written: down to something in the world, a person, a timer, or the beginning.
+//
+//     const Question question = TRY(read_question({"motor", "carbot"}));
+//     const Chain chain = TRY(why(reader, question, std::nullopt));
+//     for (const Link& link : chain) print(format_link(link));
+//
+// The run is run again up to the instant in question (replay.hpp), and its scripts are followed
+// instruction by instruction.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mcap/reader.hpp"
+#include "record/causes.hpp"
+
+namespace vagus::record {
+
+constexpr size_t kLinksMax = 1000;  // of a chain; what is beyond is said, not shown
+
+struct Link {
+    Time at{};
+    std::string what;   // a sentence without its full stop
+    std::string place;  // "carbot/carbot.aesl:42", "WallFollow.plan.json:61"; empty: nowhere
+    std::string value;  // of what it wrote or carried; empty: none
+    bool root = false;  // nothing in the run comes before it
+    friend bool operator==(const Link&, const Link&) = default;
+};
+using Chain = std::vector<Link>;
+
+struct Question {
+    enum class About { Actor, Variable, Motor, Event, End };
+    About about = About::End;
+    std::string name = {};
+};
+
+// "actor NAME", "variable NODE.NAME" or "variable NAME", "motor ROBOT", "event NAME", "end".
+Result<Question> read_question(const std::vector<std::string>& words);
+
+// At the end of the recording, unless `at` says when. The Error says what is not there, and what
+// there is.
+Result<Chain> why(const mcap::Reader& reader, const Question& question, std::optional<Time> at);
+
+// One line, and a JSON array.
+std::string format_link(const Link& link);
+std::string format_chain_json(const Chain& chain);
+
+}  // namespace vagus::record

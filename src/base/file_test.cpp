@@ -30,6 +30,34 @@ TEST_F(FileTest, ReadsWhatWasWritten) {
     EXPECT_EQ(read_file(path("x")).value(), content);
 }
 
+TEST_F(FileTest, AFileThatGrowsIsReadAsItIsMapped) {
+    {
+        auto file = GrowingFile::create(path("x"));
+        ASSERT_TRUE(file.ok());
+        EXPECT_TRUE(file.value().append("one ").ok());
+        EXPECT_TRUE(file.value().append("two").ok());
+    }
+    EXPECT_EQ(MappedFile::open(path("x")).value().bytes(), "one two");
+    ASSERT_TRUE(GrowingFile::create(path("x")).ok());
+    EXPECT_EQ(MappedFile::open(path("x")).value().bytes(), "");
+    EXPECT_EQ(MappedFile::open(path("no")).error().code, Code::NotFound);
+    EXPECT_EQ(MappedFile::open(folder_.string()).error().what,
+              folder_.string() + ": cannot be read: expected a file");
+    EXPECT_FALSE(GrowingFile::create(path("no/x")).ok());
+}
+
+TEST_F(FileTest, WhatIsReadIsKept) {
+    ASSERT_TRUE(write_file(path("x"), "1").ok());
+    ASSERT_TRUE(write_file(path("y"), "2").ok());
+    (void)read_file(path("y"));
+    const FilesRead files;
+    (void)read_file(path("x"));
+    ASSERT_TRUE(write_file(path("x"), "3").ok());
+    (void)read_file(path("x"));
+    (void)read_file(path("no"));
+    EXPECT_EQ(files.all(), (std::map<std::string, std::string>{{path("x"), "1"}}));
+}
+
 TEST_F(FileTest, APipeThatIsNamedIsRefusedWithoutWaiting) {
     ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
     const Result<std::string> read = read_file(path("pipe"));

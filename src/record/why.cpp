@@ -449,13 +449,11 @@ Status Walk::end() {
             const auto* const over = what<plan::ActorEnded>(j);
             if (raised == nullptr && over == nullptr) continue;
             const std::string_view target = raised != nullptr ? raised->target : over->target;
-            if (!target.starts_with('@')) {
-                add({event.at, "somebody ended the run, or its time was over", "", ""});
-            } else {
-                line(j);
-            }
-            break;
+            if (!target.starts_with('@')) break;
+            line(j);
+            return Status::done();
         }
+        add({event.at, "somebody ended the run, or its time was over", "", ""});
         return Status::done();
     }
     return Error{Code::NotFound, "by then no plan had ended"};

@@ -11,6 +11,7 @@
 // Of equal frames of which a bus has dropped one, the numbers may be those of their neighbours.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>

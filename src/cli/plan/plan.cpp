@@ -223,6 +223,12 @@ void add_run(CLI::App& plan, int& exit_code) {
                    "a plan that is saved takes over while it runs; any other file that it read "
                    "starts it again");
     verb->callback([options, &exit_code] {
+        if (options->watch && !options->record.empty()) {
+            exit_code = complain("--record " + options->record +
+                                     ": not together with --watch; leave one of them out",
+                                 kExitUsage);
+            return;
+        }
         exit_code = options->watch ? run_watched(*options) : run_once(*options);
     });
 }

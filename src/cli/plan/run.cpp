@@ -66,10 +66,8 @@ Status check_recording(const PlanRunOptions& options) {
         return Error{Code::Refused, file + "a run on a real bus is not recorded; record one "
                                            "beside a --world"};
     }
-    if (!words.listen.empty() || options.watch) {
-        return Error{Code::Refused, file + "not together with " +
-                                        (options.watch ? "--watch" : "--listen") +
-                                        "; leave one of them out"};
+    if (!words.listen.empty()) {
+        return Error{Code::Refused, file + "not together with --listen; leave one of them out"};
     }
     if (words.world.empty() && words.clock != "virtual") {
         return Error{Code::Refused, file + "a run in real time cannot be run again; give it a "

@@ -1,0 +1,284 @@
+// Recordings in memory: what is told of a run, what is kept of it, and where a rerun differs.
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+
+#include "base/rng.hpp"
+#include "base/test_folder.hpp"
+#include "base/test_places.hpp"
+#include "embed/robots_run.hpp"
+#include "mcap/reader.hpp"
+#include "record/compare_tape.hpp"
+#include "record/file_tape.hpp"
+#include "record/replay.hpp"
+#include "record/run_file.hpp"
+#include "record/sim_recording.hpp"
+
+namespace vagus::record {
+namespace {
+
+using namespace std::chrono_literals;
+
+// ---- the description of a run ----
+
+TEST(RunFile, IsReadAsItWasWritten) {
+    RunFile run;
+    run.verb = "plan run";
+    run.plan = "a \"quoted\"/x.plan.json";
+    run.set = {"n=1", "s=\"\\n\""};
+    run.seed = "18446744073709551615";
+    const Result<RunFile> read = read_run(format_run(run), "a.mcap");
+    ASSERT_TRUE(read.ok());
+    EXPECT_EQ(read.value().verb, "plan run");
+    EXPECT_EQ(read.value().plan, run.plan);
+    EXPECT_EQ(read.value().set, run.set);
+    EXPECT_EQ(read.value().seed, run.seed);
+}
+
+TEST(RunFile, AnotherFormatIsRefused) {
+    const Result<RunFile> read = read_run(R"({"format":"vagus-recording/2"})", "a.mcap");
+    ASSERT_FALSE(read.ok());
+    EXPECT_EQ(read.error().what,
+              "a.mcap: is no recording that can be run again: expected the format "
+              "\"vagus-recording/1\", found \"vagus-recording/2\"; record with `vagus plan run … "
+              "--record FILE` or `vagus sim … --record FILE`");
+    EXPECT_FALSE(read_run("", "a.mcap").ok());
+}
+
+TEST(RunFile, NamesAreThePathsFromTheSharedFolder) {
+    const PackedFiles packed =
+        pack({{"/a/b/x.plan.json", "1"}, {"/a/c/../c/y.aesl", "2"}, {"/a/b/d/z.png", "3"}});
+    EXPECT_EQ(packed.root, "/a");
+    EXPECT_EQ(packed.files.at("b/x.plan.json"), "1");
+    EXPECT_EQ(packed.files.at("c/y.aesl"), "2");
+    EXPECT_EQ(packed.files.at("b/d/z.png"), "3");
+    EXPECT_EQ(packed.name_of("/a/b/./x.plan.json"), "b/x.plan.json");
+}
+
+TEST(RunFile, ANameThatLeadsOutIsNotWritten) {
+    const auto folder = UnpackedFolder::make();
+    ASSERT_TRUE(folder.ok());
+    for (const std::string name : {"../x", "a/../../x", "/etc/x", ""}) {
+        EXPECT_FALSE(folder.value().add(name, "1").ok()) << name;
+    }
+    EXPECT_TRUE(folder.value().add("a/../b/x", "1").ok());
+}
+
+// ---- differences ----
+
+TEST(FirstDifference, IsThePlaceInBothMessages) {
+    const Difference found = first_difference(R"({"t":1.5,"set":{"a":1,"b":[1,2]}})",
+                                              R"({"t":1.5,"set":{"a":1,"b":[1,3]}})");
+    EXPECT_EQ(found.place, "set.b");
+    EXPECT_EQ(found.then, "[1,2]");
+    EXPECT_EQ(found.now, "[1,3]");
+    const Difference added = first_difference(R"({"a":1})", R"({"a":1,"b":true})");
+    EXPECT_EQ(added.place, "b");
+    EXPECT_EQ(added.then, "");
+    EXPECT_EQ(added.now, "true");
+}
+
+// ---- a tape on the disk ----
+
+// A disk that is as slow as the test wants.
+struct SlowDisk {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool works = true;
+    bool waits = false;
+    std::string bytes;
+
+    Status write(std::string_view more) {
+        std::unique_lock lock(mutex);
+        waits = !works;
+        changed.notify_all();
+        changed.wait(lock, [this] { return works; });
+        waits = false;
+        bytes += more;
+        return Status::done();
+    }
+    void let(bool work) {
+        const std::lock_guard lock(mutex);
+        works = work;
+        changed.notify_all();
+    }
+    void wait_until_it_waits() {
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [this] { return waits; });
+    }
+};
+
+// Messages of a megabyte that do not get smaller.
+std::string noise(SplitMix64& random) {
+    std::string data;
+    while (data.size() < 1u << 20) data += static_cast<char>(random.next());
+    return data;
+}
+
+TEST(FileTape, OnASlowDiskSamplesAreDroppedAndThenItEnds) {
+    SlowDisk disk;
+    FileTape tape([&disk](std::string_view bytes) { return disk.write(bytes); }, Pace::NeverWaits);
+    const uint16_t inputs = tape.declare({.name = "/in"});
+    const uint16_t samples = tape.declare({.name = "/samples", .may_be_dropped = true});
+    disk.let(false);
+    SplitMix64 random(1);
+    const std::string big = noise(random);
+    tape.put(inputs, 0s, big);
+    disk.wait_until_it_waits();
+    for (int i = 0; i < 80; ++i) tape.put(samples, 1s, big);
+    EXPECT_GT(tape.dropped(), 0u);
+    EXPECT_TRUE(tape.state().ok());
+    for (int i = 0; i < 200; ++i) tape.put(inputs, 2s, big);
+    ASSERT_FALSE(tape.state().ok());
+    EXPECT_EQ(tape.state().error().what,
+              "the recording ends here: the disk is too slow, 256 MB wait to be written; record "
+              "to a faster disk");
+    disk.let(true);
+    EXPECT_FALSE(tape.end().ok());
+    EXPECT_TRUE(mcap::Reader::open(disk.bytes, "slow.mcap").ok());
+}
+
+TEST(FileTape, ARunInVirtualTimeWaitsForTheDisk) {
+    std::string bytes;
+    uint64_t count = 0;
+    {
+        FileTape tape(
+            [&bytes](std::string_view more) {
+                bytes += more;
+                return Status::done();
+            },
+            Pace::Waits);
+        const uint16_t samples = tape.declare({.name = "/samples", .may_be_dropped = true});
+        SplitMix64 random(2);
+        const std::string big = noise(random);
+        for (int i = 0; i < 150; ++i) tape.put(samples, 1s, big);
+        EXPECT_TRUE(tape.end().ok());
+        EXPECT_EQ(tape.dropped(), 0u);
+    }
+    const auto reader = mcap::Reader::open(bytes, "a.mcap");
+    ASSERT_TRUE(reader.ok());
+    mcap::Cursor cursor(reader.value());
+    while (cursor.next()) ++count;
+    EXPECT_EQ(count, 150u);
+}
+
+// ---- worlds that are run again ----
+
+struct Recorded {
+    std::string bytes;
+    int acts = 0;
+};
+
+// Thirty seconds of a Thymio that explores, in which a person taps it, presses its buttons and
+// moves it at random instants.
+Recorded explore(uint64_t seed, const std::string& file) {
+    const std::string examples = test::examples("thymio/");
+    FilesRead files;
+    auto robots = embed::RobotsRun::open({.world = examples + "arena.world.json"});
+    EXPECT_TRUE(robots.ok());
+    session::SimSession& session = robots.value()->buses().common();
+    session.load(examples + "explore.aesl", read_file(examples + "explore.aesl").value());
+    RunFile about;
+    about.verb = "sim";
+    about.world = examples + "arena.world.json";
+    about.loads = {examples + "explore.aesl"};
+    auto recording = SimRecording::begin(file, about, files, session, Pace::Waits);
+    EXPECT_TRUE(recording.ok());
+    SplitMix64 random(seed);
+    Recorded recorded;
+    const sim::RobotId thymio{1};
+    while (session.now() < 30s) {
+        session.step(Duration(1000 * (1 + static_cast<int64_t>(random.next() % 3000))));
+        sim::World& world = session.world();
+        const auto kind = random.next() % 4;
+        const Status done =
+            kind == 0   ? world.tap(thymio)
+            : kind == 1 ? world.press(thymio, "forward")
+            : kind == 2 ? world.release(thymio, "forward")
+                        : world.move(thymio, {{0.4 + 0.01 * recorded.acts, 0.5}, 1});
+        EXPECT_TRUE(done.ok());
+        ++recorded.acts;
+    }
+    EXPECT_TRUE(recording.value()->end().ok());
+    recorded.bytes = read_file(file).value();
+    return recorded;
+}
+
+std::optional<Difference> run_again(const std::string& bytes) {
+    const auto reader = mcap::Reader::open(bytes, "a.mcap");
+    EXPECT_TRUE(reader.ok());
+    auto rerun = Rerun::open(reader.value(), {});
+    EXPECT_TRUE(rerun.ok());
+    CompareTape tape(reader.value());
+    EXPECT_TRUE(rerun.value()->run(tape).ok());
+    tape.end();
+    EXPECT_GT(tape.compared(), 100u);
+    return tape.difference();
+}
+
+TEST(Replay, WhatAPersonDidIsDoneAgain) {
+    test::Folder folder;
+    for (uint64_t seed = 1; seed <= 5; ++seed) {
+        const Recorded recorded = explore(seed, (folder / "run.mcap").string());
+        EXPECT_GT(recorded.acts, 5) << "seed " << seed;
+        const auto found = run_again(recorded.bytes);
+        EXPECT_FALSE(found) << "seed " << seed << ": " << found->topic << " " << found->place;
+    }
+}
+
+// The recording with the input at its place changed to another.
+std::string with_input(const std::string& bytes, int index, const std::string& from,
+                       const std::string& to, Time& at) {
+    const auto reader = mcap::Reader::open(bytes, "a.mcap");
+    std::string changed;
+    mcap::Writer writer([&changed](std::string_view more) {
+        changed += more;
+        return Status::done();
+    });
+    for (const auto& one : reader.value().attachments()) writer.attach(one);
+    for (const auto& one : reader.value().channels()) (void)writer.add_channel(one);
+    const uint16_t inputs = reader.value().find(kInputTopic)->id;
+    mcap::Cursor cursor(reader.value());
+    while (const auto message = cursor.next()) {
+        std::string data(message->data);
+        if (message->channel == inputs && data.find(from) != std::string::npos && index-- == 0) {
+            data.replace(data.find(from), from.size(), to);
+            at = time_of(message->log_time);
+        }
+        writer.write(message->channel, message->log_time, data);
+    }
+    EXPECT_TRUE(writer.end().ok());
+    return changed;
+}
+
+TEST(Replay, OneFlippedInputIsFoundAtItsInstant) {
+    test::Folder folder;
+    const Recorded recorded = explore(1, (folder / "run.mcap").string());
+    Time at{};
+    const std::string changed =
+        with_input(recorded.bytes, 0, R"("do":"move-robot","robot":1)", R"("do":"tap","robot":1)", at);
+    ASSERT_GT(at, 0s);
+    const auto found = run_again(changed);
+    ASSERT_TRUE(found);
+    // Its pose is another from the next picture of the world on, its sensors a little later.
+    EXPECT_GE(found->at, at);
+    EXPECT_LE(found->at, at + 100ms);
+    EXPECT_TRUE(found->topic == kPosesTopic || found->topic.starts_with("/node/")) << found->topic;
+}
+
+TEST(Replay, AnInputThatIsNotKnownIsRefused) {
+    test::Folder folder;
+    const Recorded recorded = explore(1, (folder / "run.mcap").string());
+    Time at{};
+    const std::string changed =
+        with_input(recorded.bytes, 0, R"("do":"tap")", R"("do":"paint")", at);
+    const auto reader = mcap::Reader::open(changed, "a.mcap");
+    const auto rerun = Rerun::open(reader.value(), {});
+    ASSERT_FALSE(rerun.ok());
+    EXPECT_NE(rerun.error().what.find("cannot be done again"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vagus::record

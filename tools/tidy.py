@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 BELOW_SESSION = ["run", "toolbox", "sim", "debug", "net", "fleet", "keeper", "node", "hub", "plan", "aesl", "fastvm", "vm", "base", "isa", "wire"]
 MAY_INCLUDE = {
     "base": [],
+    "mcap": ["base"],
     "keeper": ["base"],
     "isa": [],
     "wire": [],
@@ -33,8 +34,9 @@ MAY_INCLUDE = {
     "net": ["hub", "wire", "base"],
     "conformance": ["debug", "aesl", "isa", "wire", "base"],
     "session": BELOW_SESSION,
+    "record": ["embed", "session", "mcap"] + BELOW_SESSION,
     "serve": ["embed", "session"] + BELOW_SESSION,
-    "cli": ["conformance", "serve", "embed", "session"] + BELOW_SESSION,
+    "cli": ["conformance", "serve", "record", "embed", "session", "mcap"] + BELOW_SESSION,
 }
 # Inside a module, too, an arrow points down: a file may include what is in its own room or in one before it. Rooms
 # from the ground up; a name is that of a file without its ending, a name with / at its end that of a folder. Tests may
@@ -59,12 +61,12 @@ ROOMS = {
         ("the whole", "examine report_text"),
     ],
     "sim": [
-        ("values", "definitions schedule crew drawing noise cell_grid texture png ground"),
+        ("values", "definitions schedule crew drawing noise cell_grid texture png ground witness frame_numbers"),
         ("bodies", "moving_grid sight spacing arena fan wheels camera"),
         ("devices", "node_variables machine robot sd_card can_bus"),
         ("robots", "thymio2/ epuck/ carbot/"),
         ("files", "standing world_check robot_grid world_file"),
-        ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world thread_choice world_threads"),
+        ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world_insides world world_acts thread_choice world_threads"),
     ],
     "serve": [
         ("ground", "process access base64 bytes json plan_value thrown worker"),

@@ -51,7 +51,7 @@ private:
 // again, what was read first. One at a time; from any thread.
 //
 //     FilesRead files;
-//     … a run is prepared …
+//     …                                                  // a run is prepared
 //     for (const auto& [path, content] : files.all()) pack(path, content);
 class FilesRead {
 public:

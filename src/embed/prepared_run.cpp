@@ -572,46 +572,4 @@ Result<plan::Findings> check_bus(const LoadedPlan& plan, const RunWords& words) 
     return missing_names(world->names(), plan);
 }
 
-// ---- options ----
-
-Result<uint64_t> parse_seed(const std::string& text) {
-    if (const auto seed = decimal_number(text)) return *seed;
-    return usage(
-        fmt::format("--seed {}: expected a whole number from 0 to {} in digits", text, UINT64_MAX));
-}
-
-Result<unsigned> parse_threads(const std::string& text) {
-    const auto threads = decimal_number(text);
-    if (threads && *threads >= 1 && *threads <= sim::kThreadsMax)
-        return static_cast<unsigned>(*threads);
-    return usage(
-        fmt::format("--threads {}: expected a whole number from 1 to {}", text, sim::kThreadsMax));
-}
-
-Result<std::pair<int, plan::Value>> parse_set(const plan::GraphPlan& plan,
-                                              const std::string& text) {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-        return usage(fmt::format("--set {}: expected NAME=VALUE, as --set speed=12", text));
-    }
-    const std::string name = text.substr(0, equals);
-    for (size_t slot = 0; slot < plan.variables.size(); ++slot) {
-        if (plan.variables[slot].name != name) continue;
-        Result<plan::Value> value =
-            plan::convert(plan::Value(text.substr(equals + 1)), plan.variables[slot].type);
-        if (value.ok()) return std::pair(static_cast<int>(slot), std::move(value.value()));
-        return usage(fmt::format("--set {}: {}", text, value.error().what));
-    }
-    return Error{Code::NotFound, fmt::format("--set {}: the plan {} has no variable \"{}\"", text,
-                                             plan.name, name)};
-}
-
-Result<std::optional<Duration>> parse_max_time(const std::string& text) {
-    const Result<double> seconds = plan::float_from_text(text);
-    const Duration time = seconds.ok() ? toolbox::duration_of(seconds.value()) : Duration{0};
-    if (time == run::kNever) return std::optional<Duration>();
-    if (time.count() > 0) return std::optional(time);
-    return usage(fmt::format("--max-time {}: expected seconds above 0, as --max-time 2.5", text));
-}
-
 }  // namespace vagus::embed

@@ -21,7 +21,8 @@ Written write_some(bool end) {
         written.bytes += bytes;
         return Status::done();
     });
-    const uint16_t schema = writer.add_schema({.name = "s", .encoding = "jsonschema", .data = "{}"});
+    const uint16_t schema =
+        writer.add_schema({.name = "s", .encoding = "jsonschema", .data = "{}"});
     const uint16_t trace =
         writer.add_channel({.schema = schema, .topic = "/trace", .encoding = "json"});
     const uint16_t raw = writer.add_channel(

@@ -84,9 +84,8 @@ Causes::Causes(Rerun& rerun) : rerun_(rerun) {
              .with = done.with,
              .entry = entry});
     });
-    session->on_frame([this](const wire::Frame& frame, uint32_t number) {
-        frame_on_bus(frame, number);
-    });
+    session->on_frame(
+        [this](const wire::Frame& frame, uint32_t number) { frame_on_bus(frame, number); });
     rerun.each_instant([this](Time at) { look(at); });
     rerun.before_act([this](const sim::Act& act) {
         add({.at = now(),
@@ -211,8 +210,7 @@ void Causes::add(Happening happening) {
     happenings_.push_back(std::move(happening));
 }
 
-uint32_t Causes::last_happening(uint32_t robot, Happening::Kind kind,
-                                std::string_view with) const {
+uint32_t Causes::last_happening(uint32_t robot, Happening::Kind kind, std::string_view with) const {
     for (size_t i = happenings_.size(); i-- > 0;) {
         const Happening& one = happenings_[i];
         if (one.kind != kind || (robot != 0 && one.robot != robot)) continue;

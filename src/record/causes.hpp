@@ -5,7 +5,7 @@
 //     Causes causes(*rerun);                        // before rerun->run()
 //     NullTape tape;
 //     TRY(rerun->run(tape));
-//     const Causes::Frame& frame = causes.frame(number);
+//     const Causes::Frame* frame = causes.frame(number);
 #pragma once
 
 #include <array>
@@ -71,10 +71,10 @@ public:
         enum class Kind : uint8_t { Contact, Timeline, Person };
         Time at{};
         Kind kind = Kind::Contact;
-        uint32_t robot = 0;  // concerned; 0: none
-        std::string what;    // the sentence
-        std::string with;    // id of the object, or the button
-        size_t entry = 0;    // of the timeline
+        uint32_t robot = 0;   // concerned; 0: none
+        std::string what;     // the sentence
+        std::string with;     // id of the object, or the button
+        size_t entry = 0;     // of the timeline
         uint32_t before = 0;  // the happening that it followed from
     };
     struct Line {

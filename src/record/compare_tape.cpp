@@ -19,7 +19,8 @@ std::string text_of(const JsonValue* value) {
         text += (text.size() > 1 ? "," : "") + text_of(&item);
     }
     for (const JsonMember& member : value->members) {
-        text += (text.size() > 1 ? "," : "") + json_quote(member.key) + ":" + text_of(&member.value);
+        text +=
+            (text.size() > 1 ? "," : "") + json_quote(member.key) + ":" + text_of(&member.value);
     }
     return text + (value->kind == JsonKind::Array ? "]" : "}");
 }
@@ -86,8 +87,7 @@ std::optional<CompareTape::Recorded> CompareTape::take(uint16_t topic) {
         if (!message) return std::nullopt;
         const mcap::Channel* const channel = reader_.channel(message->channel);
         if (channel == nullptr || !counts(channel->topic)) continue;
-        ahead_[channel->topic].push_back(
-            {time_of(message->log_time), std::string(message->data)});
+        ahead_[channel->topic].push_back({time_of(message->log_time), std::string(message->data)});
     }
     Recorded recorded = std::move(kept.front());
     kept.pop_front();
@@ -111,8 +111,8 @@ void CompareTape::put(uint16_t topic, Time at, std::string data) {
     }
     ++compared_;
     if (recorded && recorded->at == at && recorded->data == data) return;
-    Difference found = recorded && recorded->at == at ? first_difference(recorded->data, data)
-                                                      : Difference{};
+    Difference found =
+        recorded && recorded->at == at ? first_difference(recorded->data, data) : Difference{};
     if (!recorded || recorded->at != at) {
         const bool later = !recorded || recorded->at > at;
         found.at = later ? at : recorded->at;

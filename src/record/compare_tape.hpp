@@ -2,9 +2,9 @@
 // with its instant and place.
 //
 //     CompareTape tape(reader);
-//     Recorder recorder(tape, run);           // … and the run
+//     Recorder recorder(tape, run);           // follows the run
 //     tape.end();
-//     if (const auto& found = tape.difference()) say(found->place);
+//     if (const auto& found = tape.difference()) show(found->place);
 #pragma once
 
 #include <deque>
@@ -40,9 +40,7 @@ public:
 
     uint16_t declare(const Topic& topic) override;
     void put(uint16_t topic, Time at, std::string data) override;
-    void put_later(uint16_t topic, Time at, size_t, Word word) override {
-        put(topic, at, word());
-    }
+    void put_later(uint16_t topic, Time at, size_t, Word word) override { put(topic, at, word()); }
     // All that was recorded must have come again; nothing more is compared.
     void end();
     // A difference that is found later may be of an earlier instant, until end().
@@ -62,7 +60,7 @@ private:
     mcap::Cursor cursor_;
     std::set<std::string> only_;
     Time until_;
-    std::vector<Topic> topics_;                      // by number - 1
+    std::vector<Topic> topics_;                          // by number - 1
     std::map<std::string, std::deque<Recorded>> ahead_;  // read, but not yet compared
     std::optional<Difference> difference_;
     uint64_t compared_ = 0;

@@ -1,7 +1,7 @@
 // A recording on its way to the disk. Messages are compressed and written by a thread of their own,
 // each second, so that the run that is recorded waits for nothing.
 //
-//     auto tape = TRY(FileTape::create("run.mcap"));
+//     auto tape = TRY(FileTape::create("run.mcap", Pace::Waits));
 //     const uint16_t trace = tape->declare({.name = "/plan/trace"});
 //     tape->put(trace, at, "{\"t\":0.5}");
 //     const Status written = tape->end();
@@ -67,14 +67,14 @@ private:
     void write(const std::vector<Message>& messages, bool last);
 
     const Pace pace_;
-    std::mutex writing_;           // guards the next two
+    std::mutex writing_;  // guards the next two
     mcap::Writer writer_;
-    std::vector<Topic> topics_;    // by number - 1
-    mutable std::mutex mutex_;     // guards what follows
+    std::vector<Topic> topics_;  // by number - 1
+    mutable std::mutex mutex_;   // guards what follows
     std::condition_variable more_;
     std::condition_variable room_;
     std::vector<Message> waiting_;
-    size_t waiting_bytes_ = 0;     // and those that are being written
+    size_t waiting_bytes_ = 0;  // and those that are being written
     uint64_t dropped_ = 0;
     bool over_ = false;
     Status state_ = Status::done();

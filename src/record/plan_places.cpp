@@ -42,8 +42,8 @@ const plan::Plan* PlanPlaces::find(const std::string& path) const {
         if (index < 0) return nullptr;
         const plan::Actor& actor = at->actors[static_cast<size_t>(index)];
         if (!actor.plan) return nullptr;
-        const auto file = (std::filesystem::path(at->file).parent_path() / *actor.plan)
-                              .lexically_normal();
+        const auto file =
+            (std::filesystem::path(at->file).parent_path() / *actor.plan).lexically_normal();
         const auto found = std::find_if(plans.begin(), plans.end(), [&file](const auto& one) {
             return std::filesystem::path(one.file).lexically_normal() == file;
         });

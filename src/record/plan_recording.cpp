@@ -31,9 +31,8 @@ Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& p
     // make_unique cannot reach the constructor.
     std::unique_ptr<PlanRecording> made(new PlanRecording(std::move(tape), format_run(about)));
     attach(*made->recorder_, run);
-    run.listen([recording = made.get()](const plan::TraceEvent& event) {
-        recording->last_ = event.at;
-    });
+    run.listen(
+        [recording = made.get()](const plan::TraceEvent& event) { recording->last_ = event.at; });
     return made;
 }
 

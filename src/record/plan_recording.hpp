@@ -1,9 +1,9 @@
 // The recording of a run that `vagus plan run` prepares: from before its first instant to its end.
 //
 //     FilesRead files;                                       // before anything is read
-//     … auto prepared = embed::PreparedRun::prepare(…);
+//     …                                                      // the run is prepared
 //     auto recording = TRY(PlanRecording::begin("run.mcap", run, files, *prepared, Pace::Waits));
-//     const run::Ended ended = prepared->run();
+//     const run::Ended ended = TRY(prepared->run());
 //     const Status written = recording->end();
 #pragma once
 

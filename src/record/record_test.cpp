@@ -193,11 +193,11 @@ Recorded explore(uint64_t seed, const std::string& file) {
         session.step(Duration(1000 * (1 + static_cast<int64_t>(random.next() % 3000))));
         sim::World& world = session.world();
         const auto kind = random.next() % 4;
-        const Status done =
-            kind == 0   ? world.tap(thymio)
-            : kind == 1 ? world.press(thymio, "forward")
-            : kind == 2 ? world.release(thymio, "forward")
-                        : world.move(thymio, {{0.4 + 0.01 * recorded.acts, 0.5}, 1});
+        const Status done = kind == 0   ? world.tap(thymio)
+                            : kind == 1 ? world.press(thymio, "forward")
+                            : kind == 2
+                                ? world.release(thymio, "forward")
+                                : world.move(thymio, {{0.4 + 0.01 * recorded.acts, 0.5}, 1});
         EXPECT_TRUE(done.ok());
         ++recorded.acts;
     }
@@ -257,8 +257,8 @@ TEST(Replay, OneFlippedInputIsFoundAtItsInstant) {
     test::Folder folder;
     const Recorded recorded = explore(1, (folder / "run.mcap").string());
     Time at{};
-    const std::string changed =
-        with_input(recorded.bytes, 0, R"("do":"move-robot","robot":1)", R"("do":"tap","robot":1)", at);
+    const std::string changed = with_input(recorded.bytes, 0, R"("do":"move-robot","robot":1)",
+                                           R"("do":"tap","robot":1)", at);
     ASSERT_GT(at, 0s);
     const auto found = run_again(changed);
     ASSERT_TRUE(found);

@@ -64,11 +64,11 @@ std::string stamp(Time at) {
 }
 
 std::string entity(const Shape& shape, Time at) {
-    const std::string pose = fmt::format(
-        R"("pose":{{"position":{{"x":{:.6f},"y":{:.6f},"z":{:.3f}}},)"
-        R"("orientation":{{"x":0,"y":0,"z":{:.6f},"w":{:.6f}}}}})",
-        shape.pose.at.x, shape.pose.at.y, shape.height / 2, trig::sin(shape.pose.angle / 2),
-        trig::cos(shape.pose.angle / 2));
+    const std::string pose =
+        fmt::format(R"("pose":{{"position":{{"x":{:.6f},"y":{:.6f},"z":{:.3f}}},)"
+                    R"("orientation":{{"x":0,"y":0,"z":{:.6f},"w":{:.6f}}}}})",
+                    shape.pose.at.x, shape.pose.at.y, shape.height / 2,
+                    trig::sin(shape.pose.angle / 2), trig::cos(shape.pose.angle / 2));
     const bool round = shape.radius > 0;
     const double x = round ? 2 * shape.radius : shape.x;
     const double y = round ? 2 * shape.radius : shape.y;
@@ -84,7 +84,12 @@ std::string entity(const Shape& shape, Time at) {
 
 Shape shape_of(const sim::ObjectView& object) {
     const sim::ObjectDefinition& of = *object.definition;
-    return {"object/" + key_of(object), object.pose, of.height, of.width, of.length, of.radius,
+    return {"object/" + key_of(object),
+            object.pose,
+            of.height,
+            of.width,
+            of.length,
+            of.radius,
             of.colour};
 }
 
@@ -162,13 +167,11 @@ void Recorder::follow(session::SimSession& session) {
     poses_ = tape_.declare({.name = std::string(kPosesTopic),
                             .schema = "foxglove.SceneUpdate",
                             .may_be_dropped = true});
-    scene_ = tape_.declare(
-        {.name = std::string(kSceneTopic), .schema = "foxglove.SceneUpdate"});
+    scene_ = tape_.declare({.name = std::string(kSceneTopic), .schema = "foxglove.SceneUpdate"});
     session.world().number_frames();
     session.on_frame([this](const wire::Frame& one, uint32_t number) { frame(one, number); });
     session.on_instant([this] { instant(); });
-    session.world().on_act(
-        [this](const sim::Act& act) { input(now(), input_of(act, now())); });
+    session.world().on_act([this](const sim::Act& act) { input(now(), input_of(act, now())); });
     scene(now());
     poses(now());
 }
@@ -241,10 +244,10 @@ void Recorder::event(const wire::Frame& frame, uint32_t number, Time at) {
     std::vector<int16_t> words;
     wire::Reader reader(frame.payload, frame.size);
     while (reader.left() >= 2) words.push_back(static_cast<int16_t>(reader.u16()));
-    tape_.put(events_, at,
-              fmt::format(R"({{"t":{},"frame":{},"node":{},"name":{},"args":{}}})",
-                          seconds_text(at), number, frame.source, json_quote(name),
-                          words_json(words)));
+    tape_.put(
+        events_, at,
+        fmt::format(R"({{"t":{},"frame":{},"node":{},"name":{},"args":{}}})", seconds_text(at),
+                    number, frame.source, json_quote(name), words_json(words)));
 }
 
 // ---- nodes ----
@@ -273,8 +276,8 @@ std::string Recorder::label_of(sim::RobotId robot, const std::string& name) cons
 }
 
 void Recorder::look_for_nodes() {
-    const bool all_known = std::all_of(nodes_.begin(), nodes_.end(),
-                                       [](const Node& node) { return node.topic != 0; });
+    const bool all_known =
+        std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.topic != 0; });
     if (!nodes_.empty() && all_known) return;
     const std::vector<session::NodeState> states = session_->nodes();
     nodes_.resize(states.size());
@@ -284,8 +287,8 @@ void Recorder::look_for_nodes() {
         node.robot = states[i].robot;
         node.id = states[i].id;
         node.label = label_of(states[i].robot, states[i].name);
-        node.topic = tape_.declare(
-            {.name = "/node/" + node.label + "/variables", .may_be_dropped = true});
+        node.topic =
+            tape_.declare({.name = "/node/" + node.label + "/variables", .may_be_dropped = true});
     }
 }
 

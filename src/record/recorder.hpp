@@ -1,7 +1,7 @@
 // What is recorded of a run in a world, or of a plan alone: put on a tape (topics.hpp), which is a
 // file, or what compares it with one.
 //
-//     Recorder recorder(tape, {.run = "{…}"});
+//     Recorder recorder(tape, format_run(about));
 //     recorder.follow(session);                     // a world: before its first instant
 //     run.listen([&](const plan::TraceEvent& event) { recorder.trace(event); });
 //     …
@@ -65,8 +65,8 @@ private:
         std::string label;  // in topics and checks
         uint16_t topic = 0;
         std::shared_ptr<const std::vector<Variable>> variables;  // shared with what is worded
-        const void* program = nullptr;  // whose variables these are
-        std::vector<int16_t> words;     // as they were recorded
+        const void* program = nullptr;                           // whose variables these are
+        std::vector<int16_t> words;                              // as they were recorded
         bool pictured = false;
     };
 
@@ -97,8 +97,8 @@ private:
     uint16_t poses_ = 0;
     uint16_t scene_ = 0;
     std::vector<Node> nodes_;
-    std::string objects_;      // as the scene told them last
-    uint64_t plan_hash_ = 0;   // of all lines of the trace so far
+    std::string objects_;     // as the scene told them last
+    uint64_t plan_hash_ = 0;  // of all lines of the trace so far
     std::map<std::string, std::map<std::string, int, std::less<>>, std::less<>> numbers_;
 };
 

@@ -86,12 +86,12 @@ Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reade
         if (meant) found.push_back(one.name);
     }
     if (found.size() == 1) return std::pair(found.front(), path);
-    return Error{Code::NotFound,
-                 fmt::format("--with {}: {} of the recording {}; its files are {}; name one, as "
-                             "--with NAME=FILE",
-                             typed, found.empty() ? "no file" : "more than one file",
-                             found.empty() ? "is called so" : "are called so",
-                             names_of_files(reader))};
+    return Error{
+        Code::NotFound,
+        fmt::format("--with {}: {} of the recording {}; its files are {}; name one, as "
+                    "--with NAME=FILE",
+                    typed, found.empty() ? "no file" : "more than one file",
+                    found.empty() ? "is called so" : "are called so", names_of_files(reader))};
 }
 
 Time end_of(const mcap::Reader& reader) {
@@ -232,9 +232,8 @@ public:
         Recorder recorder(tape, format_run(about_));
         recorder.follow(*session());
         bool over = false;
-        recorder.after_instant([&](Time at) {
-            over = over || after_instant(at, recorder, *session());
-        });
+        recorder.after_instant(
+            [&](Time at) { over = over || after_instant(at, recorder, *session()); });
         const Time end = inputs_.empty() ? Time{} : inputs_.back().at;
         while (!over && session()->now() < end) session()->step(sim::kNodeStep);
         if (!until_ && !stopped_ && !inputs_.empty()) {
@@ -257,14 +256,15 @@ Result<std::unique_ptr<Rerun>> Rerun::open(const mcap::Reader& reader,
                                            const RerunOptions& options) {
     RunFile run = TRY(run_file_of(reader));
     if (run.kind != "simulated") {
-        return Error{Code::Refused, reader.name() + ": is a recording of a real bus, whose robot "
-                                                    "cannot be run again"};
+        return Error{Code::Refused, reader.name() +
+                                        ": is a recording of a real bus, whose robot "
+                                        "cannot be run again"};
     }
     UnpackedFolder folder = TRY(UnpackedFolder::make());
     for (const mcap::Attachment& one : reader.attachments()) {
         const auto instead = options.with.find(one.name);
-        TRY(folder.add(one.name, instead == options.with.end() ? one.data
-                                                               : std::string_view(instead->second)));
+        const bool as_it_was = instead == options.with.end();
+        TRY(folder.add(one.name, as_it_was ? one.data : std::string_view(instead->second)));
     }
     std::vector<Input> inputs = TRY(inputs_of(reader));
     const auto finish = [&](auto made) -> Result<std::unique_ptr<Rerun>> {

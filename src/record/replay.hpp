@@ -80,7 +80,8 @@ public:
     std::string path_of(const std::string& name) const { return folder_.path_of(name); }
 
 protected:
-    Rerun(RunFile about, UnpackedFolder folder) : about_(std::move(about)), folder_(std::move(folder)) {}
+    Rerun(RunFile about, UnpackedFolder folder)
+        : about_(std::move(about)), folder_(std::move(folder)) {}
     struct Input {
         Time at{};
         std::string what;

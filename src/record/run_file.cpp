@@ -23,10 +23,10 @@ struct TextKey {
     std::string_view key;
     std::string RunFile::*at;
 };
-constexpr TextKey kTexts[] = {
-    {"kind", &RunFile::kind},     {"verb", &RunFile::verb},   {"plan", &RunFile::plan},
-    {"world", &RunFile::world},   {"from", &RunFile::from},   {"seed", &RunFile::seed},
-    {"max_time", &RunFile::max_time}, {"robot", &RunFile::robot}};
+constexpr TextKey kTexts[] = {{"kind", &RunFile::kind},         {"verb", &RunFile::verb},
+                              {"plan", &RunFile::plan},         {"world", &RunFile::world},
+                              {"from", &RunFile::from},         {"seed", &RunFile::seed},
+                              {"max_time", &RunFile::max_time}, {"robot", &RunFile::robot}};
 struct ListKey {
     std::string_view key;
     std::vector<std::string> RunFile::*at;
@@ -117,8 +117,9 @@ Result<UnpackedFolder> UnpackedFolder::make() {
     std::error_code error;
     std::string path = (fs::temp_directory_path(error) / "vagus-recording-XXXXXX").string();
     if (!error && ::mkdtemp(path.data()) != nullptr) return UnpackedFolder(path);
-    return Error{Code::Unavailable,
-                 path + ": no folder can be made for the files of the recording; is the disk full?"};
+    return Error{Code::Unavailable, path +
+                                        ": no folder can be made for the files of the "
+                                        "recording; is the disk full?"};
 }
 
 UnpackedFolder::UnpackedFolder(UnpackedFolder&& other) noexcept

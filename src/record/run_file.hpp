@@ -5,7 +5,7 @@
 //     run.verb = "plan run";
 //     const PackedFiles files = pack(read.all());           // FilesRead (base/file.hpp)
 //     run.plan = files.name_of("examples/follow-wall/WallFollow.plan.json");
-//     tape.attach(…);                                       // each of files.files
+//     …                                                     // each of files.files is attached
 //     tape.put(about, Time{}, format_run(run));
 #pragma once
 

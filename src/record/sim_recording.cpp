@@ -12,8 +12,7 @@ std::string end_input(Time at) {
 
 Result<std::unique_ptr<SimRecording>> SimRecording::begin(const std::string& path, RunFile about,
                                                           const FilesRead& files,
-                                                          session::SimSession& session,
-                                                          Pace pace) {
+                                                          session::SimSession& session, Pace pace) {
     auto tape = TRY(start_tape(path, about, files, pace));
     // make_unique cannot reach the constructor.
     std::unique_ptr<SimRecording> made(

@@ -1,9 +1,9 @@
 // The recording of `vagus sim`: from before the first instant of its world to the end.
 //
 //     FilesRead files;                                   // before anything is read
-//     … embed::RobotsRun::open(…);
+//     …                                                  // the world is opened
 //     auto recording = TRY(SimRecording::begin("run.mcap", about, files, buses.common(), pace));
-//     … steps …
+//     …                                                  // time passes
 //     const Status written = recording->end();
 #pragma once
 
@@ -32,7 +32,8 @@ public:
 
 private:
     SimRecording(std::unique_ptr<FileTape> tape, std::string_view run, session::SimSession& session)
-        : tape_(std::move(tape)), recorder_(std::make_unique<Recorder>(*tape_, run)),
+        : tape_(std::move(tape)),
+          recorder_(std::make_unique<Recorder>(*tape_, run)),
           session_(session) {}
 
     std::unique_ptr<FileTape> tape_;

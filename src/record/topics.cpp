@@ -8,12 +8,15 @@ namespace {
 constexpr std::string_view kSceneUpdate =
     R"({"title":"foxglove.SceneUpdate","type":"object","properties":{)"
     R"("deletions":{"type":"array","items":{"type":"object","properties":{)"
-    R"("timestamp":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
+    R"("timestamp":{"type":"object","properties":{)"
+    R"("sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
     R"("type":{"type":"integer"},"id":{"type":"string"}}}},)"
     R"("entities":{"type":"array","items":{"type":"object","properties":{)"
-    R"("timestamp":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
+    R"("timestamp":{"type":"object","properties":{)"
+    R"("sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
     R"("frame_id":{"type":"string"},"id":{"type":"string"},)"
-    R"("lifetime":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
+    R"("lifetime":{"type":"object","properties":{)"
+    R"("sec":{"type":"integer"},"nsec":{"type":"integer"}}},)"
     R"("frame_locked":{"type":"boolean"},"cubes":{"type":"array","items":{"type":"object"}},)"
     R"("cylinders":{"type":"array","items":{"type":"object"}}}}}}})";
 

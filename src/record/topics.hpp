@@ -25,7 +25,7 @@ constexpr std::string_view kSceneTopic = "/world/scene";
 // How a channel is declared.
 struct Topic {
     std::string name;
-    bool json = true;  // else bytes
+    bool json = true;              // else bytes
     std::string_view schema = {};  // name of one of schemas(); empty: none
     bool may_be_dropped = false;   // where the disk is too slow
 };

@@ -119,6 +119,7 @@ private:
     std::string node_name(const sim::WitnessedNode& node) const;
     std::string place_of(const sim::WitnessedNode& node, uint16_t pc) const;
     std::string local_name(const sim::WitnessedNode& node, int event) const;
+    std::string local_help(const sim::WitnessedNode& node, int event) const;
 
     const Causes& causes_;
     Rerun& rerun_;
@@ -149,6 +150,14 @@ std::string Walk::local_name(const sim::WitnessedNode& node, int event) const {
                : std::to_string(event);
 }
 
+std::string Walk::local_help(const sim::WitnessedNode& node, int event) const {
+    const aesl::Target* const target = rerun_.session()->target(node.id);
+    const auto index = static_cast<size_t>(event);
+    return target != nullptr && index < target->local_events.size()
+               ? target->local_events[index].doc
+               : "";
+}
+
 // ---- frames, handlers, the world ----
 
 void Walk::frame(uint32_t number) {
@@ -172,11 +181,9 @@ void Walk::frame_of_plan(const Causes::Frame& frame) {
         const auto* const started = what<plan::ActorStarted>(i);
         const bool is_it = started != nullptr && started->actor == frame.by;
         if (!is_it) continue;
-        const bool more = add({frame.at,
-                               fmt::format("the actor {} of the plan sent {}", frame.by,
-                                           frame.event),
-                               places_.element(lines()[i].event.plan, frame.by),
-                               words_of(frame.arguments)});
+        const bool more =
+            add({frame.at, fmt::format("the actor {} of the plan sent {}", frame.by, frame.event),
+                 places_.element(lines()[i].event.plan, frame.by), words_of(frame.arguments)});
         if (!more) return;
         const Causes::Frame* const heard = causes_.frame(frame.cause);
         if (heard != nullptr && heard->at >= lines()[i].event.at) return this->frame(frame.cause);
@@ -193,9 +200,9 @@ void Walk::run(uint32_t number) {
     if (one->event >= 0) return local_event(*one);
     const Causes::Frame* const by = causes_.frame(one->frame);
     const std::string event = by != nullptr ? by->event : "an event of a host";
-    const bool more = add({one->at, fmt::format("{} heard {}", node_name(one->node), event),
-                           place_of(one->node, one->pc),
-                           by != nullptr ? words_of(by->arguments) : ""});
+    const bool more =
+        add({one->at, fmt::format("{} heard {}", node_name(one->node), event),
+             place_of(one->node, one->pc), by != nullptr ? words_of(by->arguments) : ""});
     if (more) frame(one->frame);
 }
 
@@ -205,11 +212,12 @@ void Walk::local_event(const Causes::HandlerRun& run) {
     const std::string place = place_of(run.node, run.pc);
     const std::string felt = is_timer(event) ? fmt::format("a timer of {} ran out: {}", node, event)
                                              : fmt::format("{} felt {}", node, event);
+    const std::string about = local_help(run.node, run.event);
     if (!kDone.contains(event) || run.call == 0) {
-        if (add({run.at, felt, place, ""})) happening(run.happening);
+        if (add({run.at, felt, place, about})) happening(run.happening);
         return;
     }
-    if (add({run.at, fmt::format("{} was done with it: {}", node, event), place, ""})) {
+    if (add({run.at, fmt::format("{} was done with it: {}", node, event), place, about})) {
         call(run.call);
     }
 }
@@ -244,16 +252,15 @@ void Walk::line(size_t index) {
         }
     } else if (const auto* ended = what<plan::ActorEnded>(index)) {
         const std::string place = places_.element(event.plan, ended->actor);
-        if (add({event.at,
-                 fmt::format("the actor {} ended with {}", ended->actor, ended->state), place,
-                 ""})) {
+        if (add({event.at, fmt::format("the actor {} ended with {}", ended->actor, ended->state),
+                 place, ""})) {
             before_ended(index, *ended);
         }
     } else if (const auto* raised = what<plan::EventRaised>(index)) {
         const std::string place = places_.element(event.plan, raised->supervisor);
         const bool more =
-            add({event.at, fmt::format("the supervisor {} raised {}", raised->supervisor,
-                                       raised->event),
+            add({event.at,
+                 fmt::format("the supervisor {} raised {}", raised->supervisor, raised->event),
                  place, ""});
         if (more && event.frame != 0) frame(event.frame);
     } else if (std::holds_alternative<plan::PlanStarted>(event.what)) {
@@ -299,8 +306,7 @@ Error nothing_of(std::string_view kind, const std::string& name, std::vector<std
         : known.empty()
             ? ""
             : "; there is " + list_of(std::vector<std::string_view>(known.begin(), known.end()));
-    return {Code::NotFound,
-            fmt::format("by then there was no {} \"{}\"{}", kind, name, hint)};
+    return {Code::NotFound, fmt::format("by then there was no {} \"{}\"{}", kind, name, hint)};
 }
 
 Status Walk::actor(const std::string& name) {
@@ -332,8 +338,8 @@ Status Walk::variable(const std::string& name) {
     const size_t dot = name.find('.');
     if (dot != std::string::npos) {
         const std::string node = name.substr(0, dot);
-        for (const session::NodeState& one : rerun_.session() ? rerun_.session()->nodes()
-                                                              : std::vector<session::NodeState>()) {
+        for (const session::NodeState& one :
+             rerun_.session() ? rerun_.session()->nodes() : std::vector<session::NodeState>()) {
             if (one.name == node) return variable_of_node(node, name.substr(dot + 1));
         }
     }
@@ -500,8 +506,8 @@ Result<Chain> why(const mcap::Reader& reader, const Question& question, std::opt
 }
 
 std::string format_link(const Link& link) {
-    std::string text = fmt::format("{:>11} s  {}", fmt::format("{:.3f}", seconds_of(link.at)),
-                                   link.what);
+    std::string text =
+        fmt::format("{:>11} s  {}", fmt::format("{:.3f}", seconds_of(link.at)), link.what);
     if (!link.value.empty()) text += " (" + link.value + ")";
     if (!link.place.empty()) text += "  " + link.place;
     return text;

@@ -40,7 +40,7 @@ constexpr Duration kNever = Duration::max();  // a wait that only an event or St
 struct BusEvent {
     std::string name;
     std::vector<int16_t> arguments;
-    uint16_t from = 0;  // the node that emitted it; 0: a host, or the plan itself
+    uint16_t from = 0;   // the node that emitted it; 0: a host, or the plan itself
     uint32_t frame = 0;  // number of the frame that brought it, where frames have one
     // Of what the plan emits in virtual time: the element whose code it was, and the number of the
     // frame that this code heard last. The name is the Graph's.

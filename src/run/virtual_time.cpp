@@ -235,10 +235,10 @@ void VirtualTime::obey() {
 }
 
 void VirtualTime::obey(plan::StartWatch& command) {
-    auto watching = std::make_unique<Watching>(Watching{
-        command.watch, command.level, command.global, command.index, command.supervisor,
-        library_.make_supervisor(*command.supervisor->of),
-        WatchContext(*this, command.supervisor->name), now_, now_});
+    auto watching = std::make_unique<Watching>(
+        Watching{command.watch, command.level, command.global, command.index, command.supervisor,
+                 library_.make_supervisor(*command.supervisor->of),
+                 WatchContext(*this, command.supervisor->name), now_, now_});
     const auto place = std::find_if(watching_.begin(), watching_.end(), [&](const auto& other) {
         return watching->rank() < other->rank();
     });

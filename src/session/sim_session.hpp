@@ -331,8 +331,8 @@ private:
     std::vector<debug::Event> heard_;
     std::vector<FrameListener> told_of_frame_;
     std::function<void()> told_of_instant_;
-    uint32_t last_frame_ = 0;           // that it took, by its number
-    std::deque<uint32_t> emit_causes_;  // of user events that have not left yet
+    uint32_t last_frame_ = 0;            // that it took, by its number
+    std::deque<uint32_t> emit_causes_;   // of user events that have not left yet
     std::deque<uint32_t> event_frames_;  // of user events that were received, not yet heard
     std::optional<Stopping> guests_;
     std::string trace_;

@@ -239,8 +239,8 @@ FrameNumbers& NodeTurns::number_frames() {
 void NodeTurns::watch(Witness* witness) {
     witness_ = witness;
     for (const Berth& berth : berths_) {
-        machine(berth).watch(
-            witness, {static_cast<uint32_t>(berth.robot + 1), machine(berth).id()});
+        machine(berth).watch(witness,
+                             {static_cast<uint32_t>(berth.robot + 1), machine(berth).id()});
     }
 }
 

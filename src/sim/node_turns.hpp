@@ -90,7 +90,7 @@ private:
         hub::LinkId link;          // on that bus, if it is ideal
         hub::LinkId private_link;  // on that behind the robot's own port, if it has one
         FramesForOthers for_others = {};
-        bool sent_to = false;  // something may wait in its queues
+        bool sent_to = false;     // something may wait in its queues
         uint32_t last_frame = 0;  // that it took, by its number
     };
     // A robot, and which berths are those of its nodes.

@@ -9,10 +9,9 @@
 #include "base/trig.hpp"
 #include "sim/camera.hpp"
 #include "sim/frame_notes.hpp"
-#include "sim/inhabitants.hpp"
-#include "sim/node_turns.hpp"
 #include "sim/world_check.hpp"
 #include "sim/world_file.hpp"
+#include "sim/world_insides.hpp"
 
 namespace vagus::sim {
 
@@ -32,54 +31,17 @@ unsigned threads_for(const WorldDefinition& definition, const WorldOptions& opti
 
 }  // namespace
 
-struct World::Insides {
-    Insides(WorldDefinition its_definition, Picture its_picture, WorldOptions its_options)
-        : definition(std::move(its_definition)),
-          picture(std::move(its_picture)),
-          options(std::move(its_options)),
-          somebody_sees_colours(
-              std::any_of(definition.robots.begin(), definition.robots.end(),
-                          [](const RobotDefinition& each) { return sees_colours(each.type); })),
-          crew(threads_for(definition, options)),
-          turns(definition, bus,
-                [this](size_t index, const wire::Frame& frame) { note_frame(index, frame); }) {}
-
-    void populate();
-    void forget_happenings();
-    void begin_instant();
-    void end_instant();
-    void hold_instant();
-    void run_timeline();
-    void act(const Action& action);
-    void note_frame(size_t robot, const wire::Frame& frame);
-    void move_bodies();
-    void note_touches();
-    void note(size_t robot, decltype(Happening::what) what, uint16_t node = 0);
-    void knock(size_t index);
-    void push_button(size_t index, std::string_view button, bool pressed);
-    Status set_button(RobotId id, std::string_view button, bool pressed);
-    Status move_robot(RobotId robot, const Pose& to);
-    Status tap(RobotId robot);
-    Status do_act(const Act& act);
-    Robot& robot(size_t index) { return *inhabitants->robots()[index]; }
-
-    WorldDefinition definition;
-    Picture picture;
-    WorldOptions options;
-    std::unique_ptr<Inhabitants> inhabitants;
-    hub::Hub bus;
-    bool somebody_sees_colours;  // else nobody asks which they are
-    bool clock_stops_with_nodes = false;
-    Crew crew;
-    NodeTurns turns;
-    size_t timeline_next = 0;
-    Time now{};
-    Duration rest{};  // asked for, but less than a step
-    std::vector<Happening> happenings;
-    uint64_t happenings_lost = 0;
-    std::function<void(const Act&)> told_of_act;
-    std::function<void(size_t)> told_of_timeline;
-};
+World::Insides::Insides(WorldDefinition its_definition, Picture its_picture,
+                        WorldOptions its_options)
+    : definition(std::move(its_definition)),
+      picture(std::move(its_picture)),
+      options(std::move(its_options)),
+      somebody_sees_colours(
+          std::any_of(definition.robots.begin(), definition.robots.end(),
+                      [](const RobotDefinition& each) { return sees_colours(each.type); })),
+      crew(threads_for(definition, options)),
+      turns(definition, bus,
+            [this](size_t index, const wire::Frame& frame) { note_frame(index, frame); }) {}
 
 Result<World> World::load(std::string_view text, std::string_view file, WorldOptions options) {
     Result<World> world = create(TRY(read_world(text, file)), std::move(options));
@@ -340,20 +302,6 @@ std::optional<BusLoad> World::bus_load(RobotId robot) const {
     return insides_->turns.load_of(robot.number - 1);
 }
 
-namespace {
-
-// A handle from outside as an index, checked.
-std::optional<size_t> index_of(const WorldDefinition& definition, RobotId robot) {
-    if (robot.number == 0 || robot.number > definition.robots.size()) return std::nullopt;
-    return robot.number - 1;
-}
-
-Error no_robot() {
-    return {Code::NotFound, "there is no such robot in this world; look it up by its name"};
-}
-
-}  // namespace
-
 hub::Hub* World::private_bus(RobotId robot) {
     const auto index = index_of(insides_->definition, robot);
     return index ? insides_->turns.private_bus(*index) : nullptr;
@@ -470,146 +418,6 @@ std::span<const int16_t> World::variables(RobotId robot, uint16_t node) const {
 
 std::span<const int16_t> World::variables_of(uint16_t node) const {
     return insides_->turns.variables_of(node, insides_->now);
-}
-
-Result<ObjectId> World::add(const ObjectDefinition& object) {
-    if (find_robot(object.id)) {
-        return Error{Code::Refused, "\"" + object.id + "\" is the name of a robot; choose another"};
-    }
-    return insides_->inhabitants->add(object);
-}
-
-Status World::remove(ObjectId object) {
-    return act({.kind = Act::Kind::Remove, .object = object});
-}
-
-Status World::move(ObjectId object, const Pose& to) {
-    return act({.kind = Act::Kind::Move, .object = object, .to = to});
-}
-
-Status World::move(RobotId robot, const Pose& to) {
-    return act({.kind = Act::Kind::MoveRobot, .robot = robot, .to = to});
-}
-
-Status World::switch_light(ObjectId light, bool on) {
-    return act({.kind = Act::Kind::Light, .object = light, .on = on});
-}
-
-Status World::Insides::move_robot(RobotId robot, const Pose& to) {
-    const auto index = index_of(definition, robot);
-    if (!index) return no_robot();
-    const auto is_far = [](double value) {
-        return !(value >= -kWorldSizeMax && value <= 2 * kWorldSizeMax);
-    };
-    if (is_far(to.at.x) || is_far(to.at.y) || !(to.angle >= -kAngleMax && to.angle <= kAngleMax)) {
-        return Error{Code::BadInput,
-                     "the robot would be outside of every world; places are in "
-                     "metres, angles in radians"};
-    }
-    inhabitants->move_robot(*index, to);
-    return Status::done();
-}
-
-void World::Insides::knock(size_t index) {
-    robot(index).knock();
-    turns.call(index);
-}
-
-void World::Insides::push_button(size_t index, std::string_view button, bool pressed) {
-    robot(index).catch_up(now);
-    robot(index).set_button(button, pressed);
-    turns.call(index);
-}
-
-Status World::Insides::set_button(RobotId id, std::string_view button, bool pressed) {
-    const auto index = index_of(definition, id);
-    if (!index) return no_robot();
-    const auto names = buttons_of(definition.robots[*index].type);
-    if (std::find(names.begin(), names.end(), button) == names.end()) {
-        std::string all;
-        for (const std::string_view name : names)
-            all += (all.empty() ? "" : ", ") + std::string(name);
-        return Error{Code::NotFound, definition.robots[*index].name + " has no button \"" +
-                                         std::string(button) +
-                                         "\"; it has: " + (all.empty() ? "none" : all)};
-    }
-    push_button(*index, button, pressed);
-    return Status::done();
-}
-
-Status World::press(RobotId robot, std::string_view button) {
-    return act({.kind = Act::Kind::Press, .robot = robot, .button = std::string(button)});
-}
-
-Status World::release(RobotId robot, std::string_view button) {
-    return act({.kind = Act::Kind::Release, .robot = robot, .button = std::string(button)});
-}
-
-Status World::tap(RobotId robot) {
-    return act({.kind = Act::Kind::Tap, .robot = robot});
-}
-
-Status World::Insides::tap(RobotId robot) {
-    const auto index = index_of(definition, robot);
-    if (!index) return no_robot();
-    knock(*index);
-    return Status::done();
-}
-
-Status World::Insides::do_act(const Act& act) {
-    switch (act.kind) {
-        case Act::Kind::Press:
-            return set_button(act.robot, act.button, true);
-        case Act::Kind::Release:
-            return set_button(act.robot, act.button, false);
-        case Act::Kind::Tap:
-            return tap(act.robot);
-        case Act::Kind::MoveRobot:
-            return move_robot(act.robot, act.to);
-        case Act::Kind::Move:
-            return inhabitants->move(act.object, act.to);
-        case Act::Kind::Remove:
-            return inhabitants->remove(act.object);
-        case Act::Kind::Light:
-            return inhabitants->switch_light(act.object, act.on);
-    }
-    return no_robot();
-}
-
-Status World::act(const Act& act) {
-    TRY(insides_->do_act(act));
-    if (insides_->told_of_act) insides_->told_of_act(act);
-    return Status::done();
-}
-
-void World::on_act(std::function<void(const Act&)> told) {
-    insides_->told_of_act = std::move(told);
-}
-
-std::string World::state_of(RobotId robot, uint16_t node) const {
-    const auto index = index_of(insides_->definition, robot);
-    if (!index) return "";
-    const Machine* const machine = insides_->turns.machine_of(*index, node, insides_->now);
-    return machine != nullptr ? machine->state() : "";
-}
-
-// ---- Why it happens ----
-
-FrameNumbers& World::number_frames() {
-    return insides_->turns.number_frames();
-}
-
-FrameNumbers* World::frame_numbers() {
-    return insides_->turns.frame_numbers();
-}
-
-void World::watch(Witness* witness) {
-    if (witness != nullptr) insides_->crew.work_alone(true);
-    insides_->turns.watch(witness);
-}
-
-void World::on_timeline(std::function<void(size_t)> told) {
-    insides_->told_of_timeline = std::move(told);
 }
 
 }  // namespace vagus::sim

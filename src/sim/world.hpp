@@ -136,11 +136,11 @@ struct BusLoad {
 struct Act {
     enum class Kind : uint8_t { Press, Release, Tap, MoveRobot, Move, Remove, Light };
     Kind kind = Kind::Tap;
-    RobotId robot = {};        // Press, Release, Tap, MoveRobot
-    ObjectId object = {};      // Move, Remove, Light
-    std::string button = {};   // Press, Release
-    Pose to = {};              // MoveRobot, Move
-    bool on = false;           // Light
+    RobotId robot = {};       // Press, Release, Tap, MoveRobot
+    ObjectId object = {};     // Move, Remove, Light
+    std::string button = {};  // Press, Release
+    Pose to = {};             // MoveRobot, Move
+    bool on = false;          // Light
 };
 
 class World {

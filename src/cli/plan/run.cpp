@@ -63,15 +63,17 @@ Status check_recording(const PlanRunOptions& options) {
     const embed::RunWords& words = options.words;
     const std::string file = "--record " + options.record + ": ";
     if (!words.bus.empty()) {
-        return Error{Code::Refused, file + "a run on a real bus is not recorded; record one "
-                                           "beside a --world"};
+        return Error{Code::Refused, file +
+                                        "a run on a real bus is not recorded; record one "
+                                        "beside a --world"};
     }
     if (!words.listen.empty()) {
         return Error{Code::Refused, file + "not together with --listen; leave one of them out"};
     }
     if (words.world.empty() && words.clock != "virtual") {
-        return Error{Code::Refused, file + "a run in real time cannot be run again; give it a "
-                                           "--world, or --clock virtual"};
+        return Error{Code::Refused, file +
+                                        "a run in real time cannot be run again; give it a "
+                                        "--world, or --clock virtual"};
     }
     return Status::done();
 }
@@ -91,8 +93,7 @@ Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRe
     about.seed = words.seed;
     about.max_time = words.max_time;
     about.robot = words.robot;
-    const auto pace =
-        words.clock == "virtual" ? record::Pace::Waits : record::Pace::NeverWaits;
+    const auto pace = words.clock == "virtual" ? record::Pace::Waits : record::Pace::NeverWaits;
     recording_ = TRY(record::PlanRecording::begin(options.record, about, files, *prepared_, pace));
     record_ = options.record;
     return Status::done();

@@ -122,8 +122,9 @@ int replay(const ReplayOptions& options) {
     auto rerun = record::Rerun::open(reader.value(), how.value());
     if (!rerun.ok()) return complain(rerun.error(), kExitUsage);
     if (!reader.value().is_complete()) {
-        complain(options.file + ": has no end (the run was killed, or the file is cut off); it is "
-                                "compared up to its last whole chunk");
+        complain(options.file +
+                 ": has no end (the run was killed, or the file is cut off); it is "
+                 "compared up to its last whole chunk");
     }
     // With another file all else differs, too: what the plan did is what parts the two runs.
     std::set<std::string> only;

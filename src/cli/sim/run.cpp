@@ -148,8 +148,9 @@ Status check_recording(const SimRunOptions& options, bool has_projects) {
         return refuse("not together with --fleet; leave one of them out");
     }
     if (has_projects) {
-        return refuse("a world whose robots have projects is not recorded yet; --trace writes "
-                      "what happens there");
+        return refuse(
+            "a world whose robots have projects is not recorded yet; --trace writes "
+            "what happens there");
     }
     const aesl::Options usual;
     if (options.compile.dialect != usual.dialect || !options.compile.ontimer.empty()) {

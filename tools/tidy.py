@@ -27,7 +27,7 @@ MAY_INCLUDE = {
     "aesl": ["isa", "base"],
     "fleet": ["keeper", "base"],
     "run": ["plan", "base"],
-    "toolbox": ["run", "plan", "wire", "base"],
+    "toolbox": ["run", "plan", "keeper", "wire", "base"],
     "embed": ["session"] + BELOW_SESSION,
     "sim": ["hub", "node", "fastvm", "vm", "isa", "wire", "base"],
     "debug": ["aesl", "wire", "base"],

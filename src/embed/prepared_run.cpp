@@ -201,6 +201,7 @@ Status PreparedRun::Insides::take_options() {
     how.on_trace = [this](const plan::TraceEvent& event) { trace(event); };
     if (!words.world.empty()) TRY(open_world());
     if (words.world.empty() && words.bus.empty()) TRY(check_alone());
+    if (parts.fleet == nullptr) TRY(toolbox::check_without_fleet(what.graph()));
     // On a bus scripts begin to run: all that may be wrong with the command is found before.
     PlanBusOptions on_bus;
     if (!words.bus.empty()) on_bus = TRY(bus_options());

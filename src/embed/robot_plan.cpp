@@ -3,6 +3,7 @@
 #include "embed/bus_check.hpp"
 #include "embed/prepared_run.hpp"
 #include "session/toolboxes.hpp"
+#include "toolbox/needs_bus.hpp"
 
 namespace vagus::embed {
 
@@ -55,6 +56,11 @@ Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, 
     run_.emplace(plan_->graph(), library_, options_);
     run_->start();
     return Status::done();
+}
+
+Status RobotPlan::join(toolbox::Fleet* fleet) {
+    parts_.fleet = fleet;
+    return fleet != nullptr ? Status::done() : toolbox::check_without_fleet(plan_->graph());
 }
 
 void RobotPlan::hear(const debug::Event& event) {

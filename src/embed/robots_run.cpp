@@ -7,6 +7,7 @@
 #include "fleet/limits.hpp"
 #include "run/traced_variables.hpp"
 #include "session/trace.hpp"
+#include "toolbox/fleet/fleet.hpp"
 #include "wire/protocol.hpp"
 
 namespace vagus::embed {
@@ -101,6 +102,7 @@ Status RobotsRun::begin(size_t index) {
                         [this, &robot](const plan::TraceEvent& event) { see(robot, event); }));
     }
     TRY(fleet_->join(robot, ears_of(robot, plan)));
+    if (plan != nullptr) TRY(plan->join(fleet_->asked_by(robot.id)));
     // What scripts say as they are loaded is for the fleet, too.
     for (const debug::Event& event : before) tell_fleet(robot, event, Time{});
     return Status::done();
@@ -113,7 +115,10 @@ session::WorldFleet::Ears RobotsRun::ears_of(RobotBus& robot, RobotPlan* plan) {
             return say(robot, "the event " + event.event + " of " + event.from +
                                   " could not be passed on: " + sent.error().what);
         }
-        if (plan) plan->hear(run::BusEvent{event.event, event.args, wire::kHostId});
+        if (!plan) return;
+        plan->hear(run::BusEvent{event.event, event.args, wire::kHostId});
+        plan->hear(run::BusEvent{toolbox::fleet_event(event.event, event.from), event.args,
+                                 wire::kHostId});
     };
     const auto stop = [this, &robot, plan](const std::string& why) {
         say(robot, why + "; the robot stops, as its project says");
@@ -124,6 +129,7 @@ session::WorldFleet::Ears RobotsRun::ears_of(RobotBus& robot, RobotPlan* plan) {
         .hear = hear, .stop = stop, .say = [this, &robot](const std::string& text) {
             say(robot, text);
         }};
+    if (plan) ears.news = [plan] { plan->hear({std::string(toolbox::kFleetNews), {}}); };
     if (door_) add_ears_of_broker(ears, robot);
     return ears;
 }

@@ -34,6 +34,7 @@ public:
     std::vector<Post> take() { return std::exchange(posts_, {}); }
 
     keeper::Leases& leases() { return leases_; }
+    const keeper::Leases& leases() const { return leases_; }
 
 private:
     const Options options_;

@@ -102,7 +102,7 @@ void ModelledBroker::lose(Way& way) {
     way.filters_.clear();
     matches_.clear();
     way.inbox_.emplace_back(Lost{"the broker does not answer any more"});
-    publish(way.will_, nullptr);
+    if (!way.will_.topic.empty()) publish(way.will_, nullptr);
 }
 
 void ModelledBroker::pass(Time now) {

@@ -63,7 +63,8 @@ struct Template {
     int64_t period_ms = kPeriodDefaultMs;  // supervisors; 0: it waits for events itself (P22b)
     int64_t grace_ms = kGraceDefaultMs;    // actors
     BusUse bus = {};
-    int line = 0;  // in the file of its toolbox; 0: declared in C++
+    bool needs_fleet = false;  // it asks the other robots, or their keeper
+    int line = 0;              // in the file of its toolbox; 0: declared in C++
 };
 
 struct Toolbox {

@@ -62,7 +62,7 @@ Done describe(const sim::Action& action) {
                             light->on ? "on" : "off"),
                 light->id, ""};
     }
-    return {"the timeline of the world cut or joined a fleet", "", ""};
+    return {"the timeline of the world did something to its fleet", "", ""};
 }
 
 }  // namespace

@@ -70,6 +70,11 @@ Status WorldFleet::join(const RobotBus& robot, Ears ears) {
     } else {
         one->modelled = &broker_.add(options.fleet, std::move(will));
         broker_.connect(*one->modelled);
+        one->asks = std::make_unique<MemberFleet>(fleet::KeeperClient::Options{
+            .fleet = options.fleet, .robot = options.robot, .epoch = options.epoch});
+        one->asks_way = &broker_.add(options.fleet, {});
+        broker_.connect(*one->asks_way);
+        add_keeper(options.fleet);
     }
     by_id_[robot.id.number - 1] = one.get();
     robots_.push_back(std::move(one));
@@ -81,17 +86,89 @@ void WorldFleet::emitted(sim::RobotId robot, const std::string& event,
     if (Robot* const one = by_id_[robot.number - 1]) one->member.emitted(event, args, now);
 }
 
+toolbox::Fleet* WorldFleet::asked_by(sim::RobotId robot) {
+    Robot* const one = by_id_[robot.number - 1];
+    return one != nullptr ? one->asks.get() : nullptr;
+}
+
 void WorldFleet::pass(Time now) {
     broker_.pass(now);
     run_timeline(now);
+    for (Keeper& keeper : keepers_) turn(keeper, now);
     for (const auto& robot : robots_) turn(*robot, now);
+}
+
+// ---- the keepers ----
+
+void WorldFleet::add_keeper(const std::string& fleet) {
+    const bool known = std::any_of(keepers_.begin(), keepers_.end(),
+                                   [&fleet](const Keeper& one) { return one.fleet == fleet; });
+    if (!known) start(keepers_.emplace_back(Keeper{.fleet = fleet}));
+}
+
+void WorldFleet::start(Keeper& keeper) {
+    ++keepers_started_;
+    keeper.keeping = std::make_unique<fleet::Keeping>(fleet::KeepingOptions{
+        .fleet = keeper.fleet,
+        .keeper = {.instance = "simulated-" + std::to_string(keepers_started_)}});
+    keeper.way = &broker_.add(keeper.fleet, {});
+    broker_.connect(*keeper.way);
+}
+
+// A process that is killed says nothing more; another one knows what the broker has kept.
+void WorldFleet::act(const sim::RunKeeper& action) {
+    for (Keeper& keeper : keepers_) {
+        if (action.on && !keeper.keeping) start(keeper);
+        if (action.on || !keeper.keeping) continue;
+        broker_.cut(*keeper.way);
+        keeper.keeping.reset();
+    }
+}
+
+void WorldFleet::turn(Keeper& keeper, Time now) {
+    if (!keeper.keeping) return;
+    if (keeper.way->has_news()) {
+        for (const fleet::LinkEvent& event : keeper.way->take()) keeper.keeping->hear(event, now);
+    }
+    if (now >= keeper.tick_at) {
+        keeper.keeping->tick(now);
+        keeper.tick_at = now + fleet::kKeeperTickEvery;
+    }
+    for (const fleet::KeepingAction& action : keeper.keeping->take()) {
+        if (const auto* filters = std::get_if<fleet::Subscribe>(&action)) {
+            keeper.way->subscribe(filters->filters);
+        } else if (const auto* post = std::get_if<fleet::Post>(&action)) {
+            keeper.way->publish(*post);
+        }
+    }
+}
+
+// ---- the robots ----
+
+// What its plan asks.
+void WorldFleet::ask(Robot& robot, Time now) {
+    MemberFleet& asks = *robot.asks;
+    if (robot.asks_way->has_news()) {
+        for (const fleet::LinkEvent& event : robot.asks_way->take()) {
+            const bool connected = std::holds_alternative<fleet::Connected>(event);
+            if (connected) robot.asks_way->subscribe(asks.filters());
+            asks.hear(event, now);
+        }
+    }
+    asks.tick(now);
+    for (const fleet::Post& post : asks.take()) robot.asks_way->publish(post);
+    for (MemberFleet::Told& told : asks.take_told()) {
+        robot.member.changed("plan", told.name, std::move(told.values));
+    }
+    if (asks.take_news() && robot.ears.news) robot.ears.news();
 }
 
 void WorldFleet::run_timeline(Time now) {
     const auto& timeline = world_.timeline;
     while (timeline_next_ < timeline.size() && timeline[timeline_next_].at <= now) {
-        const auto* cut = std::get_if<sim::CutFleet>(&timeline[timeline_next_++].action);
-        if (cut != nullptr) act(*cut);
+        const sim::Action& action = timeline[timeline_next_++].action;
+        if (const auto* cut = std::get_if<sim::CutFleet>(&action)) act(*cut);
+        if (const auto* keeper = std::get_if<sim::RunKeeper>(&action)) act(*keeper);
     }
 }
 
@@ -100,7 +177,9 @@ void WorldFleet::act(const sim::CutFleet& action) {
     for (const auto& robot : robots_) {
         if (robot->modelled == nullptr) continue;
         if (!action.robot.empty() && robot->name != action.robot) continue;
-        action.cut ? broker_.cut(*robot->modelled) : broker_.restore(*robot->modelled);
+        for (fleet::ModelledBroker::Way* const way : {robot->modelled, robot->asks_way}) {
+            action.cut ? broker_.cut(*way) : broker_.restore(*way);
+        }
     }
 }
 
@@ -108,6 +187,7 @@ void WorldFleet::turn(Robot& robot, Time now) {
     if (robot.modelled == nullptr || robot.modelled->has_news()) {
         for (const fleet::LinkEvent& event : robot.way().take()) robot.member.hear(event, now);
     }
+    if (robot.asks) ask(robot, now);
     if (door_) show(robot, now);
     if (robot.member.next_tick() <= now) robot.member.tick(now);
     perform(robot);

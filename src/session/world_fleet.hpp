@@ -17,8 +17,10 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "fleet/keeping.hpp"
 #include "fleet/member.hpp"
 #include "fleet/modelled_broker.hpp"
+#include "session/member_fleet.hpp"
 #include "session/world_buses.hpp"
 #include "sim/world.hpp"
 
@@ -33,6 +35,8 @@ public:
         std::function<void(const fleet::EmitOnBus&)> hear;
         std::function<void(const std::string& why)> stop;
         std::function<void(const std::string& text)> say;
+        // There is something new for templates that ask the fleet.
+        std::function<void()> news = {};
         // Of members at a real broker: what is shown of the robot, the values of a variable (empty:
         // there is none), a command. Nothing: it is answered when all nodes are at rest.
         std::function<fleet::Shown()> shown = {};
@@ -59,6 +63,8 @@ public:
     Status join(const RobotBus& robot, Ears ears);
     void emitted(sim::RobotId robot, const std::string& event, const std::vector<int16_t>& args,
                  Time now);
+    // What the plan of a robot asks; nullptr: it is in no fleet, or at a real broker.
+    toolbox::Fleet* asked_by(sim::RobotId robot);
     // What is due by `now`, at each instant: the broker, then the timeline, then the members in the
     // order in which they joined.
     void pass(Time now);
@@ -73,12 +79,26 @@ private:
         std::vector<fleet::Tells> tell = {};
         Time show_at = {};
         std::vector<fleet::Command> stopping = {};  // to be answered at rest
+        std::unique_ptr<MemberFleet> asks = {};     // with a way of its own
+        fleet::ModelledBroker::Way* asks_way = nullptr;
 
         fleet::Link& way() { return modelled ? static_cast<fleet::Link&>(*modelled) : *real; }
+    };
+    // Of one fleet, as a process of its own would be.
+    struct Keeper {
+        std::string fleet;
+        std::unique_ptr<fleet::Keeping> keeping = {};  // nullptr: it was killed
+        fleet::ModelledBroker::Way* way = nullptr;
+        Time tick_at = {};
     };
     fleet::MemberOptions member_of(const RobotBus& robot) const;
     void run_timeline(Time now);
     void act(const sim::CutFleet& action);
+    void act(const sim::RunKeeper& action);
+    void add_keeper(const std::string& fleet);
+    void start(Keeper& keeper);
+    void turn(Keeper& keeper, Time now);
+    static void ask(Robot& robot, Time now);
     void turn(Robot& robot, Time now);
     void show(Robot& robot, Time now);
     void obey(Robot& robot, const fleet::Command& command);
@@ -88,6 +108,8 @@ private:
     fleet::ModelledBroker broker_;
     const std::optional<Door> door_;
     std::vector<std::unique_ptr<Robot>> robots_;
+    std::vector<Keeper> keepers_;  // in the order in which their fleets were named
+    uint64_t keepers_started_ = 0;
     std::vector<Robot*> by_id_;  // by robot of the world; nullptr: in no fleet
     size_t timeline_next_ = 0;
 };

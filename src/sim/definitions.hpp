@@ -133,8 +133,13 @@ struct CutFleet {
     bool cut = true;
     bool operator==(const CutFleet&) const = default;
 };
-using Action =
-    std::variant<AddObject, RemoveObject, MoveObject, PressButton, SwitchLight, CutFleet>;
+// The keepers of the fleets are killed, or others start; the world's opener sees to it.
+struct RunKeeper {
+    bool on = true;
+    bool operator==(const RunKeeper&) const = default;
+};
+using Action = std::variant<AddObject, RemoveObject, MoveObject, PressButton, SwitchLight, CutFleet,
+                            RunKeeper>;
 
 struct TimelineEntry {
     Time at{};

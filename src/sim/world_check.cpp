@@ -211,6 +211,7 @@ private:
                            "\" with a project of its own in this world; use the name of one, or "
                            "leave \"robot\" out to mean all of them"};
     }
+    static Found apply(const RunKeeper&) { return std::nullopt; }
     Found apply(const SwitchLight& light) {
         if (auto found = known(light.id)) return found;
         const ObjectKind kind = ids_[light.id];

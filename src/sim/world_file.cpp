@@ -210,6 +210,10 @@ Action read_action(JsonObject& in, const std::string& verb, Complaints& complain
     if (verb == "cut" || verb == "restore") {
         return CutFleet{.robot = in.text("robot", Need::Optional), .cut = verb == "cut"};
     }
+    if (verb == "keeper") {
+        const bool given = in.find("on", JsonKind::Bool, Need::Required) != nullptr;
+        return RunKeeper{.on = given && in.boolean("on", true)};
+    }
     return RemoveObject{in.text("id", Need::Required)};
 }
 
@@ -219,9 +223,9 @@ TimelineEntry read_entry(const JsonValue& json, const std::string& name, Complai
     const double seconds =
         in.number("t", {.low = 0, .high = kTimelineEndMax, .need = Need::Required});
     entry.at = Time(static_cast<Time::rep>(std::floor(seconds * 1e6 + 0.5)));
-    const std::string verb =
-        in.word("do", {"add", "remove", "move", "press", "release", "light", "cut", "restore"},
-                Need::Required);
+    const std::string verb = in.word(
+        "do", {"add", "remove", "move", "press", "release", "light", "cut", "restore", "keeper"},
+        Need::Required);
     if (verb.empty()) return entry;  // complained of; its other keys mean nothing
     entry.action = read_action(in, verb, complaints);
     in.finish();

@@ -8,6 +8,7 @@
 #include "toolbox/bus_template.hpp"
 #include "toolbox/carbot/templates.hpp"
 #include "toolbox/core.hpp"
+#include "toolbox/fleet/templates.hpp"
 #include "toolbox/toolbox_file.hpp"
 
 namespace vagus::toolbox {
@@ -42,10 +43,11 @@ void add_builtin(run::CodeLibrary& library, const Parts& parts) {
     add_core(library);
     add_drive(library, parts);
     add_carbot(library, parts);
+    add_fleet(library, parts);
 }
 
 bool is_builtin(std::string_view toolbox) {
-    return toolbox == "core" || toolbox == "drive" || toolbox == "carbot";
+    return toolbox == "core" || toolbox == "drive" || toolbox == "carbot" || toolbox == "fleet";
 }
 
 void add_drive(run::CodeLibrary& library, const Parts& parts) {

@@ -43,6 +43,19 @@ Status check_without_bus(const plan::Graph& graph) {
     return found;
 }
 
+Status check_without_fleet(const plan::Graph& graph) {
+    Status found = Status::done();
+    for_each_element(graph, [&found](const plan::GraphPlan& plan, const auto& element) {
+        if (!element.of->needs_fleet || !found.ok()) return;
+        found = Error{Code::Unavailable,
+                      fmt::format("the plan {} needs a fleet: the template {} of \"{}\" asks the "
+                                  "other robots; name one in the robot's vagus.json, as \"fleet\": "
+                                  "{{ \"name\": \"lab\" }}, and run it in a world with `vagus sim`",
+                                  plan.name, element.of->name, element.name)};
+    });
+    return found;
+}
+
 std::vector<NodeNames> nodes_needed(const plan::Graph& graph) {
     std::vector<NodeNames> needed;
     for_each_element(graph, [&needed](const plan::GraphPlan&, const auto& element) {

@@ -16,6 +16,8 @@ namespace vagus::toolbox {
 // Done if no template of the plans works over a bus; else an Error that names the first that does,
 // without a fix: that is for the code that offers buses.
 Status check_without_bus(const plan::Graph& graph);
+// The same of a robot that is in no fleet.
+Status check_without_fleet(const plan::Graph& graph);
 
 // The nodes that the plans' templates work on: one of each list. No list twice.
 std::vector<NodeNames> nodes_needed(const plan::Graph& graph);

@@ -6,10 +6,12 @@ namespace vagus::toolbox {
 
 class BusNodes;
 class Camera;
+class Fleet;
 
 struct Parts {
     const BusNodes* bus = nullptr;  // null: nobody knows which nodes there are, none is looked for
     Camera* camera = nullptr;       // null: templates that need it say so when they start
+    Fleet* fleet = nullptr;         // the same
 };
 
 }  // namespace vagus::toolbox

@@ -9,6 +9,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support
 from harness import ROOT, run_vagus
 
 ALARM = ROOT / "examples/alarm/class.world.json"
+WAREHOUSE = ROOT / "examples/warehouse/hall.world.json"
 PLAN = {
     "format": "vagus-plan/1", "name": "Ask",
     "start": {"actor": "ask"},
@@ -140,6 +141,91 @@ class LargeWorlds(unittest.TestCase):
                                                               "states": {"Done": "@terminate"}}}})
         said = run_vagus("plan", "run", plan, "--world", world, "--clock", "virtual")
         self.assertIn("1 robot with a project of its own stands still here; `vagus sim` runs", said)
+
+    # ---- tasks and names of a fleet ----
+
+    def warehouse(self, *more, duration=700, timeline=()):
+        """A run of the warehouse; gives the lines of its trace."""
+        world = WAREHOUSE
+        if timeline:
+            content = json.loads(WAREHOUSE.read_text())
+            for robot in content["robots"]:
+                robot["project"] = str(WAREHOUSE.parent / robot["project"])
+            world = self.write("w.world.json", {**content, "timeline": list(timeline)})
+        trace = self.folder / "warehouse.jsonl"
+        sim(world, "--duration", duration, "--trace", trace, *more)
+        self.trace = trace.read_bytes()
+        return lines_of(trace)
+
+    @staticmethod
+    def ended(lines, actor):
+        return [line for line in lines if line["kind"] == "actor-end" and line["actor"] == actor]
+
+    @staticmethod
+    def most_in_one_aisle(lines):
+        """Shelves end 3 m from the wall; aisles are 1.4 m apart. The most robots that were in one at a time."""
+        most, at, inside = 0, None, {}
+        for line in lines:
+            if line["kind"] != "pose":
+                continue
+            if line["t"] != at:
+                at, inside = line["t"], {}
+            if line["y"] > 3.1:
+                aisle = round((line["x"] + 0.05) / 1.4)
+                inside[aisle] = inside.get(aisle, 0) + 1
+                most = max(most, inside[aisle])
+        return most
+
+    def test_ten_robots_share_the_tasks_and_never_an_aisle(self):
+        for seed in (1, 2):
+            with self.subTest(seed=seed):
+                lines = self.warehouse("--seed", seed)
+                self.assertEqual([line["state"] for line in self.ended(lines, "finish")], ["Finished"] * 10)
+                self.assertEqual(len([line for line in self.ended(lines, "takeTask") if line["state"] == "Taken"]), 10)
+                self.assertGreater(len({line["robot"] for line in self.ended(lines, "finish")}), 5)
+                self.assertEqual(self.most_in_one_aisle(lines), 1)
+                self.assertEqual([line for line in lines if line["kind"] == "contact"], [])
+                ends = [line for line in lines if line["kind"] == "plan-end"]
+                self.assertEqual([line["result"] for line in ends], ["OK"] * 10)
+
+    def test_the_warehouse_is_the_same_to_the_byte(self):
+        runs = []
+        for more in ([], [], ["--threads", 2]):
+            self.warehouse(*more, duration=120)
+            runs.append(self.trace)
+        self.assertEqual(runs[0], runs[1])
+        self.assertEqual(runs[0], runs[2])
+
+    def test_a_keeper_that_is_killed_and_a_robot_that_is_cut_off(self):
+        """Leases end, others take the tasks; nobody touches anybody, and each task is finished."""
+        lines = self.warehouse(duration=1400, timeline=[
+            {"t": 60, "do": "keeper", "on": False}, {"t": 62, "do": "keeper", "on": True},
+            {"t": 150, "do": "cut", "robot": "r4"}, {"t": 156, "do": "restore", "robot": "r4"},
+            {"t": 300, "do": "keeper", "on": False}, {"t": 340, "do": "keeper", "on": True}])
+        self.assertEqual([line for line in lines if line["kind"] == "contact"], [])
+        finished = [line for line in self.ended(lines, "finish") if line["state"] == "Finished"]
+        self.assertEqual(len(finished), 10)
+        lost = [line for line in lines if line["kind"] == "event" and line.get("event") == "LeaseLost"]
+        self.assertGreater(len(lost), 0)
+
+    def test_a_robot_that_stands_in_an_aisle_is_not_touched(self):
+        """Cut off for longer it stops where it is, as its project says; others find its aisle taken, and turn back."""
+        lines = self.warehouse(duration=800, timeline=[
+            {"t": 150, "do": "cut", "robot": "r4"}, {"t": 190, "do": "restore", "robot": "r4"}])
+        self.assertEqual([line for line in lines if line["kind"] == "contact"], [])
+        finished = [line for line in self.ended(lines, "finish") if line["state"] == "Finished"]
+        self.assertGreaterEqual(len(finished), 7)
+        self.assertLess(len(finished), 10)
+        self.assertGreater(len(self.ended(lines, "retreatHome")), 0)
+
+    def test_templates_of_a_fleet_need_one(self):
+        plan = {"format": "vagus-plan/1", "name": "Ask", "toolboxes": ["fleet"], "start": {"actor": "who"},
+                "actors": {"who": {"template": "RobotsOnline", "states": {"Done": "@terminate"}}}}
+        self.project("alone", plan)
+        world = self.world({"name": "t", "type": "thymio2", "at": [1, 1], "project": "alone/"})
+        for said in (sim(world, status=2), run_vagus("plan", "run", self.folder / "alone/p.plan.json", status=2)):
+            self.assertIn('the plan Ask needs a fleet: the template RobotsOnline of "who" asks the other robots; name one in '
+                          'the robot\'s vagus.json', said)
 
 
 if __name__ == "__main__":

@@ -58,6 +58,10 @@ Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, 
     return Status::done();
 }
 
+bool RobotPlan::needs_fleet() const {
+    return !toolbox::check_without_fleet(plan_->graph()).ok();
+}
+
 Status RobotPlan::join(toolbox::Fleet* fleet) {
     parts_.fleet = fleet;
     return fleet != nullptr ? Status::done() : toolbox::check_without_fleet(plan_->graph());

@@ -46,6 +46,8 @@ public:
     // A run from time 0 on; `before` tells who is on the bus. The Error names events that the
     // robot's scripts do not have.
     Status begin(uint64_t seed, const std::vector<debug::Event>& before, Seen seen);
+    // Whether a template of it asks the fleet.
+    bool needs_fleet() const;
     // Before its first step: what its templates ask of the fleet; nullptr: there is none. The Error
     // says which template needs one. Borrowed.
     Status join(toolbox::Fleet* fleet);

@@ -101,7 +101,8 @@ Status RobotsRun::begin(size_t index) {
         TRY(plan->begin(seed_ + robot.id.number, before,
                         [this, &robot](const plan::TraceEvent& event) { see(robot, event); }));
     }
-    TRY(fleet_->join(robot, ears_of(robot, plan)));
+    const bool asks = plan != nullptr && plan->needs_fleet();
+    TRY(fleet_->join(robot, ears_of(robot, plan), asks));
     if (plan != nullptr) TRY(plan->join(fleet_->asked_by(robot.id)));
     // What scripts say as they are loaded is for the fleet, too.
     for (const debug::Event& event : before) tell_fleet(robot, event, Time{});

@@ -173,7 +173,7 @@ TEST_F(OpenProject, EveryExampleIsOne) {
         EXPECT_TRUE(project.ok()) << project.error().what;
         ++opened;
     }
-    EXPECT_EQ(opened, 15u);
+    EXPECT_EQ(opened, 17u);
 }
 
 }  // namespace

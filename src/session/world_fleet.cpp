@@ -50,7 +50,7 @@ fleet::MemberOptions WorldFleet::member_of(const RobotBus& robot) const {
     return member;
 }
 
-Status WorldFleet::join(const RobotBus& robot, Ears ears) {
+Status WorldFleet::join(const RobotBus& robot, Ears ears, bool asks) {
     const fleet::MemberOptions options = member_of(robot);
     if (options.fleet.empty()) return Status::done();
     if (!fleet::is_robot_name(robot.name)) {
@@ -70,11 +70,7 @@ Status WorldFleet::join(const RobotBus& robot, Ears ears) {
     } else {
         one->modelled = &broker_.add(options.fleet, std::move(will));
         broker_.connect(*one->modelled);
-        one->asks = std::make_unique<MemberFleet>(fleet::KeeperClient::Options{
-            .fleet = options.fleet, .robot = options.robot, .epoch = options.epoch});
-        one->asks_way = &broker_.add(options.fleet, {});
-        broker_.connect(*one->asks_way);
-        add_keeper(options.fleet);
+        if (asks) let_ask(*one, options);
     }
     by_id_[robot.id.number - 1] = one.get();
     robots_.push_back(std::move(one));
@@ -96,6 +92,14 @@ void WorldFleet::pass(Time now) {
     run_timeline(now);
     for (Keeper& keeper : keepers_) turn(keeper, now);
     for (const auto& robot : robots_) turn(*robot, now);
+}
+
+void WorldFleet::let_ask(Robot& robot, const fleet::MemberOptions& options) {
+    robot.asks = std::make_unique<MemberFleet>(fleet::KeeperClient::Options{
+        .fleet = options.fleet, .robot = options.robot, .epoch = options.epoch});
+    robot.asks_way = &broker_.add(options.fleet, {});
+    broker_.connect(*robot.asks_way);
+    add_keeper(options.fleet);
 }
 
 // ---- the keepers ----
@@ -178,6 +182,7 @@ void WorldFleet::act(const sim::CutFleet& action) {
         if (robot->modelled == nullptr) continue;
         if (!action.robot.empty() && robot->name != action.robot) continue;
         for (fleet::ModelledBroker::Way* const way : {robot->modelled, robot->asks_way}) {
+            if (way == nullptr) continue;
             action.cut ? broker_.cut(*way) : broker_.restore(*way);
         }
     }

@@ -60,10 +60,12 @@ public:
     ~WorldFleet();
 
     // A robot whose project names no fleet is in none. The Error says why it cannot be a member.
-    Status join(const RobotBus& robot, Ears ears);
+    // With `asks`, its plan asks the fleet: asked_by().
+    Status join(const RobotBus& robot, Ears ears, bool asks = false);
     void emitted(sim::RobotId robot, const std::string& event, const std::vector<int16_t>& args,
                  Time now);
-    // What the plan of a robot asks; nullptr: it is in no fleet, or at a real broker.
+    // What the plan of a robot asks; nullptr: it is in no fleet, or at a real broker, or was not
+    // to ask.
     toolbox::Fleet* asked_by(sim::RobotId robot);
     // What is due by `now`, at each instant: the broker, then the timeline, then the members in the
     // order in which they joined.
@@ -95,6 +97,7 @@ private:
     void run_timeline(Time now);
     void act(const sim::CutFleet& action);
     void act(const sim::RunKeeper& action);
+    void let_ask(Robot& robot, const fleet::MemberOptions& options);
     void add_keeper(const std::string& fleet);
     void start(Keeper& keeper);
     void turn(Keeper& keeper, Time now);

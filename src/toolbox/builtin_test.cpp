@@ -18,13 +18,13 @@ protected:
     run::CodeLibrary library_;
 };
 
-TEST_F(Builtin, AreCoreDriveAndCarbot) {
+TEST_F(Builtin, AreCoreDriveCarbotAndFleet) {
     std::vector<std::string> names;
     for (const auto& toolbox : library_.templates().toolboxes()) {
         names.push_back(toolbox.name);
         EXPECT_TRUE(is_builtin(toolbox.name));
     }
-    EXPECT_THAT(names, ElementsAre("core", "drive", "carbot"));
+    EXPECT_THAT(names, ElementsAre("core", "drive", "carbot", "fleet"));
     EXPECT_FALSE(is_builtin("lamp"));
 }
 

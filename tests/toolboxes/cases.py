@@ -58,7 +58,7 @@ class Toolboxes(unittest.TestCase):
         self.assertTrue(any(line.split()[:2] == ["Timeout", "supervisor"] for line in lines if line))
         code, out, _ = vagus("toolbox", "list", "--json")
         boxes = json.loads(out)
-        self.assertEqual([box["name"] for box in boxes], ["core", "drive", "carbot"])
+        self.assertEqual([box["name"] for box in boxes], ["core", "drive", "carbot", "fleet"])
         self.assertEqual(boxes[0]["templates"][0],
                          {"name": "Wait", "kind": "actor", "help": "Waits so long."})
 

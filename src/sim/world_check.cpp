@@ -170,7 +170,7 @@ public:
                                      "times count from the start of the run"))
             return found;
         element_ = &element;
-        return std::visit([this](const auto& action) { return apply(action); }, entry.action);
+        return std::visit([this](const auto& action) { return this->apply(action); }, entry.action);
     }
 
 private:

@@ -35,8 +35,9 @@ MAY_INCLUDE = {
     "conformance": ["debug", "aesl", "isa", "wire", "base"],
     "session": BELOW_SESSION,
     "record": ["embed", "session", "mcap"] + BELOW_SESSION,
+    "trial": ["record", "embed", "session", "mcap"] + BELOW_SESSION,
     "serve": ["embed", "session"] + BELOW_SESSION,
-    "cli": ["conformance", "serve", "record", "embed", "session", "mcap"] + BELOW_SESSION,
+    "cli": ["conformance", "serve", "trial", "record", "embed", "session", "mcap"] + BELOW_SESSION,
 }
 # Inside a module, too, an arrow points down: a file may include what is in its own room or in one before it. Rooms
 # from the ground up; a name is that of a file without its ending, a name with / at its end that of a folder. Tests may

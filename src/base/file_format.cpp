@@ -14,11 +14,12 @@ struct Known {
     std::string_view name;
 };
 
-constexpr std::array<Known, 6> kKnown = {{
+constexpr std::array<Known, 7> kKnown = {{
     {FileFormat::Plan, "vagus-plan/1", "a plan file"},
     {FileFormat::World, "vagus-world/1", "a world file"},
     {FileFormat::Toolbox, "vagus-toolbox/1", "a toolbox file"},
     {FileFormat::Project, "vagus-project/1", "a project file"},
+    {FileFormat::Test, "vagus-test/1", "a test file"},
     {FileFormat::Node, "", "a node file"},
     {FileFormat::Script, "", "a script (.aesl)"},
 }};

@@ -10,7 +10,7 @@
 
 namespace vagus {
 
-enum class FileFormat { Plan, World, Toolbox, Project, Node, Script };
+enum class FileFormat { Plan, World, Toolbox, Project, Test, Node, Script };
 
 // The value of the key "format"; empty for formats that have none (node file, script).
 std::string_view format_text(FileFormat format);

@@ -1,6 +1,9 @@
 // Values of the options of `plan run`, read from the words on a command line: prepared_run.hpp.
 #include <fmt/format.h>
 
+#include <array>
+#include <numbers>
+
 #include "base/text.hpp"
 #include "embed/prepared_run.hpp"
 #include "plan/value.hpp"
@@ -15,12 +18,35 @@ Error usage(std::string sentence) {
     return {Code::BadInput, std::move(sentence)};
 }
 
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+
 }  // namespace
 
 Result<uint64_t> parse_seed(const std::string& text) {
     if (const auto seed = decimal_number(text)) return *seed;
     return usage(
         fmt::format("--seed {}: expected a whole number from 0 to {} in digits", text, UINT64_MAX));
+}
+
+Result<sim::RobotStart> parse_pose(const std::string& text) {
+    const size_t equals = text.find('=');
+    const std::string numbers = equals == std::string::npos ? "" : text.substr(equals + 1);
+    std::array<double, 3> values{};
+    const auto parts = split(numbers, ',');
+    bool good = equals > 0 && parts.size() == values.size();
+    for (size_t i = 0; good && i < values.size(); ++i) {
+        const Result<double> number = plan::float_from_text(std::string(parts[i]));
+        good = number.ok();
+        if (good) values[i] = number.value();
+    }
+    if (!good) {
+        return usage(fmt::format(
+            "--pose {}: expected a robot's name, x and y in metres and an angle in degrees, as "
+            "--pose carbot=1.5,0.8,90",
+            text));
+    }
+    return sim::RobotStart{text.substr(0, equals),
+                           {{values[0], values[1]}, values[2] * kRadiansPerDegree}};
 }
 
 Result<unsigned> parse_threads(const std::string& text) {

@@ -72,6 +72,9 @@ Status check_words(const RunWords& words) {
     if (!words.robot.empty() && words.world.empty()) {
         return usage("--robot goes with --world: it names one of its robots");
     }
+    if (!words.poses.empty() && words.world.empty()) {
+        return usage("--pose goes with --world: it says where one of its robots begins");
+    }
     if (!words.threads.empty() && words.world.empty()) {
         return usage("--threads goes with --world: they sense and run scripts for its robots");
     }
@@ -223,8 +226,11 @@ Status PreparedRun::Insides::open_world() {
     hosts.reset();
     std::optional<unsigned> threads;
     if (!words.threads.empty()) threads = TRY(parse_threads(words.threads));
+    std::vector<sim::RobotStart> starts;
+    for (const std::string& pose : words.poses) starts.push_back(TRY(parse_pose(pose)));
     session::PlanWorldOptions options{.path = words.world,
                                       .seed = seed,
+                                      .starts = starts,
                                       .threads = threads,
                                       .traced = !words.trace_all.empty(),
                                       .robot = words.robot,

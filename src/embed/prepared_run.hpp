@@ -25,6 +25,7 @@
 #include "plan/graph.hpp"
 #include "run/code.hpp"
 #include "run/options.hpp"
+#include "sim/world.hpp"
 #include "toolbox/parts.hpp"
 
 namespace vagus::session {
@@ -116,6 +117,9 @@ Result<std::pair<int, plan::Value>> parse_set(const plan::GraphPlan& plan, const
 
 // The number of `--seed`.
 Result<uint64_t> parse_seed(const std::string& text);
+
+// The robot, and where it begins, of `--pose ROBOT=X,Y,DEG`: m, and degrees counter-clockwise.
+Result<sim::RobotStart> parse_pose(const std::string& text);
 
 // The number of `--threads`.
 Result<unsigned> parse_threads(const std::string& text);

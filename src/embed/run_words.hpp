@@ -21,7 +21,8 @@ struct RunWords {
     std::string max_time = {};
     std::string trace = {};  // a file, or - for stdout
     std::string world = {};
-    std::string robot = {};      // of the world
+    std::string robot = {};  // of the world
+    std::vector<std::string> poses = {};
     std::string threads = {};    // that sense and run the scripts of the world
     std::string trace_all = {};  // the trace with what happens in the world
     std::string listen = {};     // where the bus of the world is open for others

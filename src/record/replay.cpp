@@ -166,6 +166,7 @@ public:
         words.seed = about_.seed;
         words.max_time = about_.max_time;
         words.robot = about_.robot;
+        words.poses = about_.poses;
         words.clock = "virtual";
         TRY(session::add_toolboxes(library_, parts_, words.toolboxes));
         plan_ = embed::LoadedPlan::from_file(folder_.path_of(about_.plan), library_);

@@ -34,6 +34,7 @@ struct ListKey {
 constexpr ListKey kLists[] = {{"command", &RunFile::command},
                               {"toolboxes", &RunFile::toolboxes},
                               {"set", &RunFile::set},
+                              {"poses", &RunFile::poses},
                               {"loads", &RunFile::loads}};
 
 fs::path absolute(const std::string& path) {

@@ -109,6 +109,7 @@ Result<std::unique_ptr<PlanWorld>> PlanWorld::open(const PlanWorldOptions& optio
                                                    toolbox::BusNodes& nodes) {
     SimOptions how;
     how.world.seed = options.seed;
+    how.world.starts = options.starts;
     how.world.threads = options.threads;
     how.traced = options.traced;
     how.heard = true;

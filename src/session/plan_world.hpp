@@ -33,9 +33,10 @@ namespace vagus::session {
 
 struct PlanWorldOptions {
     std::string path = {};
-    std::optional<uint64_t> seed = {};     // instead of that of the file
-    std::optional<unsigned> threads = {};  // as sim::WorldOptions
-    bool traced = false;                   // keep lines for session().take_trace()
+    std::optional<uint64_t> seed = {};         // instead of that of the file
+    std::vector<sim::RobotStart> starts = {};  // as sim::WorldOptions
+    std::optional<unsigned> threads = {};      // likewise
+    bool traced = false;                       // keep lines for session().take_trace()
     std::string robot = {};  // of several that the plan could drive; empty: the only one
     std::vector<toolbox::NodeNames> needs = {};  // nodes that the plan works on, one of each list
     SafeStop guests = shipped_safe_stop();       // as SimOptions

@@ -106,7 +106,7 @@ void SimSession::after_bodies(size_t told) {
     for (const hub::SharedId& shared : bus().take_shared_ids()) {
         note(NoteKind::Trouble, sentence(shared));
     }
-    if (told_of_instant_) told_of_instant_();
+    for (const auto& told : told_of_instant_) told();
 }
 
 void SimSession::before_hold() {

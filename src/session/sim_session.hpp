@@ -181,11 +181,11 @@ public:
     using FrameListener = std::function<void(const wire::Frame&, uint32_t number)>;
     void on_frame(FrameListener told) { told_of_frame_.push_back(std::move(told)); }
     // Is told at the end of each instant, when the bodies have moved.
-    void on_instant(std::function<void()> told) { told_of_instant_ = std::move(told); }
+    void on_instant(std::function<void()> told) { told_of_instant_.push_back(std::move(told)); }
     // Nobody is told any more.
     void forget_listeners() {
         told_of_frame_.clear();
-        told_of_instant_ = {};
+        told_of_instant_.clear();
     }
     // The place in a file of a line of the program of a node; empty without one.
     std::optional<std::pair<std::string, int>> place_of(uint16_t node, int line) const;
@@ -330,7 +330,7 @@ private:
     std::vector<std::string> hints_;
     std::vector<debug::Event> heard_;
     std::vector<FrameListener> told_of_frame_;
-    std::function<void()> told_of_instant_;
+    std::vector<std::function<void()>> told_of_instant_;
     uint32_t last_frame_ = 0;            // that it took, by its number
     std::deque<uint32_t> emit_causes_;   // of user events that have not left yet
     std::deque<uint32_t> event_frames_;  // of user events that were received, not yet heard

@@ -179,6 +179,7 @@ std::string Machine::state() const {
 // One instruction: what it writes is seen by comparing.
 uint16_t Machine::run_watched() {
     const uint16_t pc = node_.vm.pc;
+    witness_->executes(witnessed_, pc);
     const uint16_t word = bytecode_.memory()[pc];
     const isa::Opcode opcode = isa::opcode_of(word);
     if (opcode != isa::Opcode::Store && opcode != isa::Opcode::StoreInd &&

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "node/natives.hpp"
@@ -78,6 +79,36 @@ const std::vector<uint16_t> kProgram = {
     0x300a, 0x1001, 0x8002, 0x400a, 0x9ffc,             // 7: v10 = v10 + 1, and back to 7
     0x300b, 0x1001, 0x8002, 0x400b, 0x0000,             // 12: v11 = v11 + 1
     0x300c, 0x1001, 0x8002, 0x400c, 0x0000};            // 17: v12 = v12 + 1
+
+// Where it was each time, and what variable 12 was by then.
+struct Steps final : Witness {
+    explicit Steps(const Machine& watched) : machine(watched) {}
+
+    void executes(const WitnessedNode& node, uint16_t pc) override {
+        EXPECT_EQ(node.robot, 3u);
+        EXPECT_EQ(node.id, kId);
+        steps.emplace_back(pc, machine.variable(12));
+    }
+
+    const Machine& machine;
+    std::vector<std::pair<int, int>> steps;
+};
+
+// User event 0, heard once: five instructions from word 17 on, of which the fourth writes.
+TEST(Machine, AWitnessSeesEachInstructionBeforeItIsExecuted) {
+    Tested tested;
+    tested.load(kProgram);
+    tested.machine.begin_millisecond();
+    Steps seen(tested.machine);
+    tested.machine.watch(&seen, {3, kId});
+    tested.user_event(0);
+    using Expected = std::vector<std::pair<int, int>>;
+    EXPECT_EQ(seen.steps, (Expected{{17, 0}, {18, 0}, {19, 0}, {20, 0}, {21, 1}}));
+    tested.machine.watch(nullptr, {3, kId});
+    tested.user_event(0);
+    EXPECT_EQ(seen.steps.size(), 5u);
+    EXPECT_EQ(tested.machine.variable(12), 2);
+}
 
 TEST(Machine, AMillisecondIsAThousandInstructions) {
     Tested tested;

@@ -25,18 +25,24 @@ public:
     Witness& operator=(const Witness&) = delete;
     virtual ~Witness() = default;
 
+    // What one does not ask for passes unseen.
+
     // A handler begins at pc: by the frame with that number (sim/frame_numbers.hpp; 0: not known) …
-    virtual void began_by_frame(const WitnessedNode& node, uint16_t pc, uint32_t frame) = 0;
+    virtual void began_by_frame(const WitnessedNode&, uint16_t /*pc*/, uint32_t /*frame*/) {}
     // … or by the local event, counted from 0.
-    virtual void began_by_itself(const WitnessedNode& node, uint16_t pc, uint8_t event) = 0;
+    virtual void began_by_itself(const WitnessedNode&, uint16_t /*pc*/, uint8_t /*event*/) {}
+    // The instruction at pc is executed next: all memories are still as they were. One at which a
+    // breakpoint holds the node is told again when the node goes on.
+    virtual void executes(const WitnessedNode&, uint16_t /*pc*/) {}
     // The instruction at pc wrote a value into a variable.
-    virtual void wrote(const WitnessedNode& node, uint16_t pc, uint16_t address, int16_t value) = 0;
+    virtual void wrote(const WitnessedNode&, uint16_t /*pc*/, uint16_t /*address*/,
+                       int16_t /*value*/) {}
     // The instruction at pc called a native.
-    virtual void called(const WitnessedNode& node, uint16_t pc, uint16_t native) = 0;
+    virtual void called(const WitnessedNode&, uint16_t /*pc*/, uint16_t /*native*/) {}
     // A frame is sent, by the handler that runs at pc if one does …
-    virtual void sends(const WitnessedNode& node, uint16_t pc) = 0;
+    virtual void sends(const WitnessedNode&, uint16_t /*pc*/) {}
     // … and has its number now, in the same order.
-    virtual void sent(const WitnessedNode& node, uint32_t frame) = 0;
+    virtual void sent(const WitnessedNode&, uint32_t /*frame*/) {}
 };
 
 }  // namespace vagus::sim

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "base/file.hpp"
+#include "base/nearest.hpp"
 #include "base/project_border.hpp"
 #include "base/trig.hpp"
 #include "sim/camera.hpp"
@@ -77,7 +78,30 @@ Result<Picture> read_ground(const std::string& folder, const std::string& named)
 
 }  // namespace
 
+namespace {
+
+Status put_at_starts(WorldDefinition& definition, const std::vector<RobotStart>& starts) {
+    for (const RobotStart& start : starts) {
+        const auto found =
+            std::find_if(definition.robots.begin(), definition.robots.end(),
+                         [&](const RobotDefinition& robot) { return robot.name == start.robot; });
+        if (found == definition.robots.end()) {
+            std::vector<std::string> names;
+            for (const RobotDefinition& robot : definition.robots) names.push_back(robot.name);
+            return Error{Code::NotFound, "there is no robot \"" + start.robot +
+                                             "\" in this world; " +
+                                             known_instead(start.robot, names)};
+        }
+        found->at = start.pose.at;
+        found->angle = start.pose.angle;
+    }
+    return Status::done();
+}
+
+}  // namespace
+
 Result<World> World::create(WorldDefinition definition, WorldOptions options) {
+    TRY(put_at_starts(definition, options.starts));
     const Status checked = check_world(definition);
     if (!checked.ok()) return checked.error();
     const Status fits = check_can(definition, options.bus);
@@ -392,6 +416,14 @@ Result<Picture> World::render(RobotId robot) const {
 
 Colour World::ground_at(Point at) const {
     return insides_->inhabitants->ground().colour_at(at);
+}
+
+bool World::touches(RobotId robot) const {
+    const auto index = index_of(insides_->definition, robot);
+    if (!index) return false;
+    std::vector<TouchedPart> parts;
+    insides_->inhabitants->arena().touched_parts(insides_->robot(*index).body(), parts);
+    return !parts.empty();
 }
 
 std::optional<RobotId> World::find_robot(std::string_view name) const {

@@ -59,11 +59,18 @@ enum class BusModel : uint8_t {
     Can,    // over a CAN bus of 1 Mbit/s with all its nodes on it (can_bus.hpp)
 };
 
+// Where a robot begins instead of where its file says.
+struct RobotStart {
+    std::string robot;  // its name
+    Pose pose;
+};
+
 struct WorldOptions {
     std::optional<uint64_t> seed = {};  // instead of that of the file
-    std::string folder = ".";           // where paths of the file start
-    std::string sd_folder = {};         // the card of every robot that has a slot; empty: no card
-    std::optional<BusModel> bus = {};   // of each bus; empty: Can with a Carbot, otherwise Ideal
+    std::vector<RobotStart> starts = {};
+    std::string folder = ".";          // where paths of the file start
+    std::string sd_folder = {};        // the card of every robot that has a slot; empty: no card
+    std::optional<BusModel> bus = {};  // of each bus; empty: Can with a Carbot, otherwise Ideal
     // How many threads sense and run scripts, 1 to kThreadsMax; empty: one for a few robots; for
     // many, there is one for each processor, and the first is alone until use_one_thread(false).
     // The bytes are the same. Robots that share something, a folder of cards or the energy of
@@ -218,6 +225,8 @@ public:
     // What the robot's camera sees now (camera.hpp). Fails with NotFound if it has none.
     Result<Picture> render(RobotId robot) const;
     Colour ground_at(Point at) const;
+    // Something solid touches the robot's body.
+    bool touches(RobotId robot) const;
     std::optional<RobotId> find_robot(std::string_view name) const;
     std::optional<ObjectId> find_object(std::string_view id) const;
     // The variables of the robot's first node, of any of its nodes, of any node on the common bus:

@@ -93,6 +93,7 @@ Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRe
     about.seed = words.seed;
     about.max_time = words.max_time;
     about.robot = words.robot;
+    about.poses = words.poses;
     const auto pace = words.clock == "virtual" ? record::Pace::Waits : record::Pace::NeverWaits;
     recording_ = TRY(record::PlanRecording::begin(options.record, about, files, *prepared_, pace));
     record_ = options.record;

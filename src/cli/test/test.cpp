@@ -1,0 +1,366 @@
+// vagus test: runs tests of behaviour over their seeds, and tells what was not as expected.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "base/file.hpp"
+#include "cli/options.hpp"
+#include "cli/output.hpp"
+#include "cli/test/pool.hpp"
+#include "cli/verbs.hpp"
+#include "embed/loaded_plan.hpp"
+#include "session/toolboxes.hpp"
+#include "trial/drawing.hpp"
+#include "trial/from_recording.hpp"
+#include "trial/report.hpp"
+
+namespace vagus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kTestsMax = 10'000;         // files of one command
+constexpr size_t kFailuresShown = 10;        // of one test; all are in the JUnit file
+constexpr char kDone = '=', kInvalid = '!';  // what a process begins its text with
+
+struct TestOptions {
+    std::vector<std::string> files = {"."};
+    int64_t at_once = 0;  // 0: as many as there are processors
+    std::string seeds;
+    std::string junit;
+    std::string coverage;
+    std::string results = "test-results";
+    bool signals = false;
+};
+
+// ---- which tests ----
+
+bool is_test(const fs::path& path) {
+    return path.filename().string().ends_with(trial::kTestEnding);
+}
+
+Result<std::vector<std::string>> tests_in(const std::string& folder) {
+    std::vector<std::string> found;
+    std::error_code error;
+    auto entry = fs::recursive_directory_iterator(folder, error);
+    for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+        const bool hidden = entry->path().filename().string().starts_with('.');
+        if (hidden && entry->is_directory(error)) {
+            entry.disable_recursion_pending();
+        } else if (is_test(entry->path())) {
+            found.push_back(entry->path().lexically_normal().string());
+        }
+        if (found.size() <= kTestsMax) continue;
+        return Error{Code::Limit, fmt::format("{}: has more than {} tests; name a part of it",
+                                              folder, kTestsMax)};
+    }
+    if (error) {
+        return Error{Code::Unavailable,
+                     fmt::format("{}: cannot be looked through: {}", folder, error.message())};
+    }
+    if (found.empty()) {
+        return Error{Code::NotFound, fmt::format("{}: there is no test, no file NAME{}, in this "
+                                                 "folder; docs/testing.md shows one",
+                                                 folder, trial::kTestEnding)};
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+Result<std::vector<trial::TestFile>> read_tests(const TestOptions& options) {
+    std::vector<std::string> paths;
+    for (const std::string& given : options.files) {
+        if (!fs::is_directory(given)) {
+            paths.push_back(given);
+            continue;
+        }
+        const auto found = TRY(tests_in(given));
+        paths.insert(paths.end(), found.begin(), found.end());
+    }
+    std::vector<trial::TestFile> tests;
+    for (const std::string& path : paths) {
+        tests.push_back(TRY(trial::read_test(TRY(read_file(path)), path)));
+        if (!options.seeds.empty()) tests.back().seeds = TRY(trial::parse_seeds(options.seeds));
+    }
+    return tests;
+}
+
+std::string name_of(const trial::TestFile& test) {
+    const std::string file = fs::path(test.path).filename().string();
+    return file.ends_with(trial::kTestEnding)
+               ? file.substr(0, file.size() - trial::kTestEnding.size())
+               : file;
+}
+
+// ---- running ----
+
+class Session {
+public:
+    Session(TestOptions options, std::vector<trial::TestFile> tests)
+        : options_(std::move(options)) {
+        for (trial::TestFile& test : tests) {
+            for (uint64_t seed = test.seeds.first;; ++seed) {
+                jobs_.push_back({results_.size(), seed});
+                if (seed == test.seeds.last) break;
+            }
+            results_.push_back({.test = std::move(test), .seeds = {}});
+        }
+    }
+
+    int run() {
+        const size_t processors = std::max(1u, std::thread::hardware_concurrency());
+        const int at_once = static_cast<int>(
+            options_.at_once > 0 ? static_cast<size_t>(options_.at_once) : processors);
+        outcomes_.resize(jobs_.size());
+        run_jobs(
+            jobs_.size(), at_once, [this](size_t i) { return work(jobs_[i]); },
+            [this](size_t i, JobResult result) { return take(i, std::move(result)); });
+        if (!invalid_.empty()) return complain(invalid_, kExitUsage);
+        for (size_t i = 0; i < jobs_.size(); ++i) {
+            results_[jobs_[i].test].seeds.push_back(std::move(outcomes_[i]));
+        }
+        return report();
+    }
+
+private:
+    struct Job {
+        size_t test = 0;
+        uint64_t seed = 0;
+    };
+
+    // Two tests of one name have the folder in the names of their recordings.
+    std::string recording_of(const Job& job) const {
+        const trial::TestFile& test = results_[job.test].test;
+        const std::string name = name_of(test);
+        const auto same = std::ranges::count_if(
+            results_, [&](const auto& one) { return name_of(one.test) == name; });
+        const std::string folder =
+            same > 1 ? fs::absolute(test.path).parent_path().filename().string() + "-" : "";
+        return (fs::path(options_.results) /
+                fmt::format("{}{}.seed-{}.mcap", folder, name, job.seed))
+            .string();
+    }
+
+    // In a process of its own. A run that failed is run again, to be recorded.
+    std::string work(const Job& job) const {
+        const trial::TestFile& test = results_[job.test].test;
+        const auto outcome =
+            trial::run_trial(test, job.seed, {.scripts = !options_.coverage.empty()});
+        if (!outcome.ok()) return kInvalid + outcome.error().what;
+        std::string recording;
+        if (!outcome.value().as_expected()) {
+            std::error_code error;
+            fs::create_directories(options_.results, error);
+            recording = recording_of(job);
+            const auto again = trial::run_trial(test, job.seed, {.record = recording});
+            if (!again.ok()) {
+                complain(again.error());
+                recording.clear();
+            }
+        }
+        return kDone + recording + "\n" + trial::format_outcome(outcome.value());
+    }
+
+    bool take(size_t index, JobResult result) {
+        trial::SeedResult& seed = outcomes_[index];
+        seed.seed = jobs_[index].seed;
+        seed.seconds = result.seconds;
+        seed.trouble = std::move(result.trouble);
+        const std::string& text = result.text;
+        if (!seed.trouble.empty()) return true;
+        if (text.starts_with(kInvalid)) {
+            invalid_ = text.substr(1);
+            return false;
+        }
+        const size_t line = text.find('\n');
+        if (!text.starts_with(kDone) || line == std::string::npos) {
+            seed.trouble = "its process said nothing";
+            return true;
+        }
+        seed.recording = text.substr(1, line - 1);
+        seed.outcome = trial::read_outcome(std::string_view(text).substr(line + 1));
+        return true;
+    }
+
+    // ---- telling ----
+
+    int report() {
+        size_t failed = 0, runs = 0;
+        trial::Coverage coverage;
+        for (const trial::TestResult& result : results_) {
+            failed += tell(result);
+            runs += result.seeds.size();
+            for (const trial::SeedResult& seed : result.seeds) coverage.add(seed.outcome.coverage);
+        }
+        print("\n" + trial::format_table(coverage));
+        print(fmt::format("\n{} of {} runs as expected\n", runs - failed, runs));
+        const Status written = write_files(coverage);
+        if (!written.ok()) return complain(written.error());
+        return failed == 0 ? kExitDone : kExitFailed;
+    }
+
+    // How many seeds of it failed.
+    static size_t tell(const trial::TestResult& result) {
+        const auto failed = static_cast<size_t>(std::ranges::count_if(
+            result.seeds, [](const auto& one) { return !trial::as_expected(one); }));
+        print(fmt::format("{} {}: {} of {} seeds\n", failed == 0 ? "ok    " : "FAILED",
+                          result.test.path, result.seeds.size() - failed, result.seeds.size()));
+        size_t shown = 0;
+        for (const trial::SeedResult& seed : result.seeds) {
+            if (trial::as_expected(seed)) continue;
+            if (++shown > kFailuresShown) {
+                print(fmt::format("  and {} more\n", failed - kFailuresShown));
+                break;
+            }
+            print(trial::describe_failure(result.test, seed) + "\n");
+            if (!seed.recording.empty()) print(commands_for(seed));
+        }
+        return failed;
+    }
+
+    static std::string commands_for(const trial::SeedResult& seed) {
+        Time first = Time::max();
+        for (const trial::Verdict& one : seed.outcome.verdicts) {
+            if (!one.as_expected) first = std::min(first, one.at);
+        }
+        return fmt::format("  vagus replay {} --until {}\n", seed.recording,
+                           plan::text_of(seconds_of(first)));
+    }
+
+    Status write_files(const trial::Coverage& coverage) const {
+        if (!options_.junit.empty()) {
+            TRY(write_file(options_.junit, trial::format_junit(results_)));
+        }
+        if (options_.coverage.empty()) return Status::done();
+        const fs::path folder(options_.coverage);
+        std::error_code error;
+        fs::create_directories(folder, error);
+        std::string text = trial::format_table(coverage);
+        for (const auto& [file, plan] : coverage.plans) {
+            const std::string missing = trial::format_missing(plan);
+            if (!missing.empty()) text += "\nnever, " + file + ":\n" + missing;
+        }
+        TRY(write_file((folder / "coverage.txt").string(), text));
+        TRY(write_file((folder / "scripts.info").string(), trial::format_lcov(coverage)));
+        return draw_plans(coverage, folder);
+    }
+
+    Status draw_plans(const trial::Coverage& coverage, const fs::path& folder) const {
+        std::set<std::string> drawn;
+        for (const trial::TestResult& result : results_) {
+            toolbox::Parts parts;
+            run::CodeLibrary library;
+            TRY(session::add_toolboxes(library, parts, result.test.toolboxes));
+            const auto loaded = embed::LoadedPlan::from_file(result.test.plan, library);
+            for (const plan::Plan& plan : loaded.plans()) {
+                const auto counted = coverage.plans.find(plan.file);
+                if (counted == coverage.plans.end() || !drawn.insert(plan.file).second) continue;
+                TRY(write_file((folder / (plan.name + ".svg")).string(),
+                               trial::draw_coverage(plan, counted->second)));
+            }
+        }
+        return Status::done();
+    }
+
+    TestOptions options_;
+    std::vector<trial::TestResult> results_;
+    std::vector<Job> jobs_;
+    std::vector<trial::SeedResult> outcomes_;  // of each job
+    std::string invalid_;
+};
+
+int test(const TestOptions& options) {
+    if (options.signals) {
+        print(trial::describe_signals());
+        return kExitDone;
+    }
+    auto tests = read_tests(options);
+    if (!tests.ok()) return complain(tests.error(), kExitUsage);
+    return Session(options, std::move(tests.value())).run();
+}
+
+// ---- vagus test new ----
+
+int draft(const std::string& recording, const std::string& to) {
+    if (!is_test(to)) {
+        return complain(to + ": a test is called NAME" + std::string(trial::kTestEnding),
+                        kExitUsage);
+    }
+    if (fs::exists(to)) return complain(to + ": is there already; choose another name", kExitUsage);
+    const auto file = MappedFile::open(recording);
+    if (!file.ok()) return complain(file.error(), kExitUsage);
+    const auto reader = mcap::Reader::open(file.value().bytes(), recording);
+    if (!reader.ok()) return complain(reader.error(), kExitUsage);
+    const auto made = trial::draft_test(reader.value());
+    if (!made.ok()) return complain(made.error(), kExitUsage);
+    const Status written = write_file(to, made.value().text);
+    if (!written.ok()) return complain(written.error());
+    for (const std::string& hint : made.value().hints) say(to + ": " + hint + "\n");
+    for (const std::string& name : {made.value().plan, made.value().world}) {
+        const fs::path path = fs::path(to).parent_path() / name;
+        if (name.empty() || fs::exists(path)) continue;
+        say(fmt::format("{}: {} is not beside it; write where it is\n", to, name));
+    }
+    print(to + "\n");
+    return kExitDone;
+}
+
+void add_new(CLI::App& test, int& exit_code) {
+    struct Options {
+        std::string recording, to;
+    };
+    CLI::App* verb = test.add_subcommand("new", "writes a test from the recording of a run");
+    auto options = std::make_shared<Options>();  // owners: CLI11's options and the callback
+    takes_file(*verb->add_option("RECORDING", options->recording, "of a plan's run")->required(),
+               {".mcap"});
+    takes_file(*verb->add_option("FILE", options->to, "the test, beside its plan")->required(),
+               {std::string(trial::kTestEnding)});
+    verb->footer(
+        "The order in which actors first came, by when the last of them had, and how the run "
+        "ended, with a quarter of room: trim it.\n\nExample:\n"
+        "  vagus test new run.mcap follow-wall/Wall.test.json");
+    verb->callback([options, &exit_code] { exit_code = draft(options->recording, options->to); });
+}
+
+}  // namespace
+
+void add_test(CLI::App& app, int& exit_code) {
+    CLI::App* verb = app.add_subcommand("test", "runs tests of behaviour, NAME.test.json");
+    auto options = std::make_shared<TestOptions>();  // owners: CLI11's options and the callback
+    takes_file(*verb->add_option("FILE", options->files,
+                                 "tests, or folders with tests in them and below (.)"),
+               {std::string(trial::kTestEnding)});
+    takes_whole_number(
+        *verb->add_option("-j", options->at_once, "runs at once (one for each processor)"), 1,
+        kJobsAtOnceMax);
+    verb->add_option("--seeds", options->seeds, "these instead of those of the tests")
+        ->type_name("A..B");
+    takes_file(*verb->add_option("--junit", options->junit, "writes what came of each run, as XML"),
+               {".xml"});
+    verb->add_option("--coverage", options->coverage,
+                     "writes into this folder what the runs went through: plans as drawings, "
+                     "scripts for lcov")
+        ->type_name("FOLDER");
+    verb->add_option("--results", options->results,
+                     "where recordings of runs go that failed (test-results)")
+        ->type_name("FOLDER");
+    verb->add_flag("--signals", options->signals, "lists what conditions can name, and ends");
+    verb->footer(
+        "Runs each test with each of its seeds, in virtual time, and tells what was not as "
+        "expected: seed, instant and values, and the command that shows it. The table tells what "
+        "the runs went through.\n"
+        "Exit codes: 0 all as expected, 1 something was not, 2 not valid.\n\nExample:\n"
+        "  vagus test examples/follow-wall --junit junit.xml --coverage coverage\n"
+        "  vagus test Wall.test.json --seeds 7\n"
+        "  vagus test --signals");
+    add_new(*verb, exit_code);
+    verb->callback([verb, options, &exit_code] {
+        if (verb->get_subcommands().empty()) exit_code = test(*options);
+    });
+}
+
+}  // namespace vagus::cli

@@ -1,0 +1,57 @@
+// A condition of a test: a formula (docs/formulas.md) over signals, variables of the plan and words
+// of nodes.
+//
+//     Condition near = TRY(Condition::parse("contact < 2 and node('drive', 'token') > 0"));
+//     TRY(near.bind(graph.plans.front(), true));
+//     const Result<bool> holds = near.holds(values);     // one Value for each of names()
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "plan/formula.hpp"
+#include "plan/graph.hpp"
+#include "trial/signals.hpp"
+
+namespace vagus::trial {
+
+class Condition {
+public:
+    // What a name in it stands for.
+    struct Name {
+        enum class Of : uint8_t { Unknown, Signal, Variable, Word };
+        std::string shown;  // as it is written
+        Of of = Of::Unknown;
+        const Signal* signal = nullptr;
+        std::string variable = {};  // of the plan, or of the node
+        int slot = -1;              // of the plan's variable
+        std::string node = {};
+        uint16_t element = 0;  // of the node's array
+    };
+
+    // The Error says what is wrong with the text, without a place in a file.
+    static Result<Condition> parse(std::string_view text);
+    // Which variables the plan has, and whether there is a world. The Error names what is unknown,
+    // and the nearest that is not.
+    Status bind(const plan::GraphPlan& plan, bool has_world);
+
+    const std::string& text() const { return text_; }
+    const std::vector<Name>& names() const { return names_; }
+    bool uses(SignalId signal) const;
+    // With the values of names(), in that order.
+    Result<bool> holds(std::span<const plan::Value> values) const;
+
+private:
+    explicit Condition(std::string text, plan::Formula formula)
+        : text_(std::move(text)), formula_(std::move(formula)) {}
+
+    std::string text_;
+    plan::Formula formula_;
+    std::vector<Name> names_;
+};
+
+}  // namespace vagus::trial

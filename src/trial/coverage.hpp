@@ -1,0 +1,90 @@
+// What a set of runs went through: actors, states, supervisors, events and pairs of consecutive
+// actors of plans; lines and branches of scripts. What nothing went through is there too, with 0.
+//
+//     PlanCounter plans(graph);
+//     run.listen([&](const plan::TraceEvent& event) { plans.see(event); });
+//     …
+//     all.add(plans.coverage());
+//     print(format_table(all));
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/json.hpp"
+#include "plan/graph.hpp"
+#include "plan/trace.hpp"
+
+namespace vagus::trial {
+
+struct PlanCoverage {
+    // How often, by name: "followWall", "followWall: WallLost", "touch",
+    // "touch: TouchSensorPressed" and "searchFirstWall, findWallAngle". Supervisors of actors are
+    // named with them: "followWall.wallTouch".
+    using Counts = std::map<std::string, uint64_t>;
+    Counts actors, states, supervisors, events, pairs;
+};
+
+struct ScriptCoverage {
+    std::map<int, uint64_t> lines;  // how often the busiest instruction of a line was executed
+    // By line, and number among its branches: how often the condition held, and did not.
+    std::map<std::pair<int, int>, std::array<uint64_t, 2>> branches;
+};
+
+// By file.
+struct Coverage {
+    std::map<std::string, PlanCoverage> plans;
+    std::map<std::string, ScriptCoverage> scripts;
+
+    // Sums.
+    void add(const Coverage& other);
+};
+
+// The kinds of a PlanCoverage, with the words of the table.
+struct CoverageKind {
+    std::string_view name;
+    PlanCoverage::Counts PlanCoverage::*counts;
+};
+const std::vector<CoverageKind>& coverage_kinds();
+
+// Counts what a run's trace tells.
+class PlanCounter {
+public:
+    // The graph is borrowed. `names`: of the plans' files, for coverage().
+    explicit PlanCounter(const plan::Graph& graph);
+    void see(const plan::TraceEvent& event);
+    Coverage coverage() const;
+
+private:
+    struct Level {
+        size_t plan = 0;
+        std::string actor = {};  // that started last
+        int sub_plan = -1;       // that it calls
+    };
+    void start(size_t level, std::string_view actor);
+    PlanCoverage& counts_of(size_t level) { return counts_[levels_[level].plan]; }
+
+    const plan::Graph& graph_;
+    std::vector<PlanCoverage> counts_;  // by plan of the graph
+    std::vector<Level> levels_;
+};
+
+// ---- what is shown of it ----
+
+// For people: a line for each plan and each script, "19 of 22".
+std::string format_table(const Coverage& coverage);
+// Those that nothing went through, by kind, a line each.
+std::string format_missing(const PlanCoverage& coverage);
+// Scripts as the tracefile of lcov 1.16 (man geninfo, "FILES").
+std::string format_lcov(const Coverage& coverage);
+
+// One line of JSON, for a pipe between our own processes, and back.
+std::string format_coverage(const Coverage& coverage);
+Coverage read_coverage(const JsonValue& json);
+
+}  // namespace vagus::trial

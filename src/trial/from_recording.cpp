@@ -1,0 +1,194 @@
+#include "trial/from_recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/json.hpp"
+#include "base/text.hpp"
+#include "plan/value.hpp"
+#include "record/run_file.hpp"
+#include "record/topics.hpp"
+
+namespace vagus::trial {
+
+namespace {
+
+std::string last_part(const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+}
+
+std::string text_at(const JsonValue& json, std::string_view key) {
+    const JsonValue* const value = json.find(key);
+    return value == nullptr ? "" : value->text;
+}
+
+// What the trace says, of the outermost plan.
+struct Told {
+    struct Came {
+        std::string actor;
+        double at = 0;
+    };
+    std::vector<Came> came;  // for the first time
+    std::string ends, by;
+    double end = 0;
+
+    void line(const JsonValue& json) {
+        if (text_at(json, "plan").find('/') != std::string::npos) return;
+        const JsonValue* const t = json.find("t");
+        if (t != nullptr) end = t->number;
+        const std::string kind = text_at(json, "kind");
+        if (kind == "actor-start") {
+            const std::string actor = text_at(json, "actor");
+            if (std::ranges::find(came, actor, &Came::actor) == came.end()) {
+                came.push_back({actor, end});
+            }
+        } else if (kind == "event" && text_at(json, "target") == "@terminate") {
+            by = text_at(json, "supervisor");
+        } else if (kind == "plan-end") {
+            ends = text_at(json, "result");
+        }
+    }
+};
+
+struct Recorded {
+    record::RunFile run;
+    Told told;
+    size_t inputs = 0;
+};
+
+Result<Recorded> read_recorded(const mcap::Reader& reader) {
+    Recorded recorded;
+    std::string run;
+    const auto id_of = [&reader](std::string_view topic) {
+        const mcap::Channel* const channel = reader.find(topic);
+        return channel == nullptr ? -1 : int{channel->id};
+    };
+    const int run_id = id_of(record::kRunTopic);
+    const int trace_id = id_of(record::kTraceTopic);
+    const int input_id = id_of(record::kInputTopic);
+    mcap::Cursor cursor(reader);
+    while (const auto message = cursor.next()) {
+        if (message->channel == run_id) run = message->data;
+        if (message->channel == input_id) ++recorded.inputs;
+        if (message->channel != trace_id) continue;
+        const auto json = read_json(message->data);
+        if (const auto* tree = std::get_if<JsonValue>(&json)) recorded.told.line(*tree);
+    }
+    recorded.run = TRY(record::read_run(run, reader.name()));
+    return recorded;
+}
+
+// 1 % of it, or finer, so that the numbers are those that a person would write.
+double round_up(double seconds) {
+    const double step = seconds > 20 ? 1 : 0.1;
+    return std::ceil(seconds * kRoom / step) * step;
+}
+
+std::string number(double value) {
+    return plan::text_of(std::round(value * 10) / 10);
+}
+
+std::string quoted_list(const std::vector<Told::Came>& came) {
+    std::string text;
+    for (const Told::Came& one : came) text += (text.empty() ? "" : ", ") + json_quote(one.actor);
+    return text;
+}
+
+// `NAME=VALUE`: as a number where it is one.
+std::string set_member(const std::string& word) {
+    const size_t equals = word.find('=');
+    const std::string value = word.substr(equals + 1);
+    const bool plain = value == "true" || value == "false" ||
+                       (plan::float_from_text(value).ok() && !value.starts_with('+'));
+    return json_quote(word.substr(0, equals)) + ": " + (plain ? value : json_quote(value));
+}
+
+std::vector<std::string> expectations(const Told& told, bool timed_out) {
+    std::vector<std::string> lines;
+    if (!told.came.empty()) {
+        const Told::Came& last = told.came.back();
+        lines.push_back(fmt::format("{{ \"order\": [{}] }}", quoted_list(told.came)));
+        lines.push_back(fmt::format("{{ \"within\": {}, \"eventually\": {} }}",
+                                    number(round_up(std::max(last.at, 0.1))),
+                                    json_quote("actor == '" + last.actor + "'")));
+    }
+    if (timed_out) {
+        lines.emplace_back("{ \"ends\": \"MaxTime\" }");
+    } else {
+        lines.push_back(fmt::format("{{ \"ends\": {}{} }}", json_quote(told.ends),
+                                    told.by.empty() || told.ends != "Interrupted"
+                                        ? ""
+                                        : ", \"by\": " + json_quote(told.by)));
+    }
+    return lines;
+}
+
+}  // namespace
+
+Result<Draft> draft_test(const mcap::Reader& reader) {
+    const Recorded recorded = TRY(read_recorded(reader));
+    const record::RunFile& run = recorded.run;
+    const Told& told = recorded.told;
+    if (run.plan.empty()) {
+        return Error{Code::Refused, reader.name() +
+                                        ": is the recording of a world without a plan; a test is "
+                                        "of a plan: record with `vagus plan run … --record FILE`"};
+    }
+    if (told.ends.empty()) {
+        return Error{Code::Refused, reader.name() +
+                                        ": the plan had not ended when the recording "
+                                        "did; record a run to its end"};
+    }
+    // Interrupted, and neither an event nor a person did it.
+    const bool timed_out = told.ends == "Interrupted" && told.by.empty() && recorded.inputs == 0;
+    Draft draft{.plan = last_part(run.plan), .world = last_part(run.world)};
+    std::vector<std::string> members = {
+        "\"format\": \"vagus-test/1\"",
+        fmt::format("\"help\": {}", json_quote("Made from " + last_part(reader.name()) +
+                                               ": trim it to what matters.")),
+        "\"plan\": " + json_quote(draft.plan)};
+    if (!draft.world.empty()) members.push_back("\"world\": " + json_quote(draft.world));
+    if (!run.robot.empty()) members.push_back("\"robot\": " + json_quote(run.robot));
+    std::string toolboxes, set;
+    for (const std::string& one : run.toolboxes) {
+        toolboxes += (toolboxes.empty() ? "" : ", ") + json_quote(last_part(one));
+    }
+    if (!toolboxes.empty()) members.push_back("\"toolboxes\": [" + toolboxes + "]");
+    for (const std::string& one : run.set) set += (set.empty() ? "" : ", ") + set_member(one);
+    if (!set.empty()) members.push_back("\"set\": { " + set + " }");
+    const std::string seed = run.seed.empty() ? "1" : run.seed;
+    members.push_back(fmt::format("\"seeds\": [{0}, {0}]", seed));
+    members.push_back("\"max_time\": " + number(timed_out ? told.end : round_up(told.end)));
+    std::string expect;
+    for (const std::string& line : expectations(told, timed_out)) {
+        expect += (expect.empty() ? "\n    " : ",\n    ") + line;
+    }
+    members.push_back("\"expect\": [" + expect + "\n  ]");
+    draft.text = "{";
+    for (size_t i = 0; i < members.size(); ++i) {
+        draft.text += fmt::format("{}\n  {}", i > 0 ? "," : "", members[i]);
+    }
+    draft.text += "\n}\n";
+    if (recorded.inputs > 0) {
+        draft.hints.push_back(fmt::format(
+            "{} times somebody did something to that run (/vagus/input); a test does not: put what "
+            "is to happen into the timeline of the world",
+            recorded.inputs));
+    }
+    if (run.seed.empty() && !run.world.empty()) {
+        draft.hints.emplace_back(
+            "the run took the seed of its world; the test begins with 1: change \"seeds\" if that "
+            "is another");
+    }
+    if (!run.poses.empty()) {
+        draft.hints.emplace_back(
+            "the run began at a place of its own (--pose); the test begins "
+            "where the world says: add \"starts\"");
+    }
+    return draft;
+}
+
+}  // namespace vagus::trial

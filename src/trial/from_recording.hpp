@@ -1,0 +1,28 @@
+// Writes a test from a recording of a plan's run: the order in which actors first came, by when the
+// last of them had, and how it ended, with some room: for a person to trim.
+//
+//     const Draft draft = TRY(draft_test(reader, {}));
+//     write_file("Wall.test.json", draft.text);
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "mcap/reader.hpp"
+
+namespace vagus::trial {
+
+constexpr double kRoom = 1.25;  // times what it took then
+
+struct Draft {
+    std::string text = {};                // of the test file
+    std::string plan = {}, world = {};    // files that it names, as it names them
+    std::vector<std::string> hints = {};  // what a test cannot do again
+};
+
+// Files of the run are named by the last part of their paths: the test is to lie beside them. The
+// Error says why there can be no test of it.
+Result<Draft> draft_test(const mcap::Reader& reader);
+
+}  // namespace vagus::trial

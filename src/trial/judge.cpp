@@ -1,0 +1,170 @@
+#include "trial/judge.hpp"
+
+#include <fmt/format.h>
+
+#include "base/json.hpp"
+
+namespace vagus::trial {
+
+namespace {
+
+std::string shown(const plan::Value& value) {
+    if (value.type() == plan::Type::String) return json_quote(value.string());
+    const Result<std::string> text = plan::text_of(value);
+    return text.ok() ? text.value() : "an object";
+}
+
+std::string seconds(Time at) {
+    return plan::text_of(seconds_of(at));
+}
+
+// Its name, or that with the actors of the plans around it: "calibrate/turn".
+bool is_called(const std::string& name, const std::string& plan, std::string_view actor) {
+    if (name == actor) return true;
+    const size_t slash = plan.find('/');
+    return slash != std::string::npos && name == plan.substr(slash + 1) + "/" + std::string(actor);
+}
+
+}  // namespace
+
+std::string_view way_of(const run::Ended& ended) {
+    return ended.timed_out ? "MaxTime" : plan::name_of(ended.result);
+}
+
+Judge::Judge(const TestFile& test, const plan::Graph& graph, session::PlanWorld* world)
+    : readings_(graph, world) {
+    for (const Expectation& one : test.expect) cases_.push_back({.expectation = &one});
+}
+
+Status Judge::check() const {
+    for (const Case& one : cases_) {
+        if (!one.expectation->condition) continue;
+        for (const Condition::Name& name : one.expectation->condition->names()) {
+            TRY(readings_.check(name));
+        }
+    }
+    return Status::done();
+}
+
+// ---- as the run goes on ----
+
+void Judge::line(const plan::TraceEvent& event) {
+    if (over_) return;
+    const bool outermost = run::level_of(event) == 0;
+    readings_.line(event);
+    over_ = outermost && std::holds_alternative<plan::PlanEnded>(event.what);
+    if (over_) return;  // its variables are gone with it
+    started_ = true;
+    if (const auto* raised = std::get_if<plan::EventRaised>(&event.what)) {
+        if (outermost && raised->target == "@terminate") ended_by_ = raised->supervisor;
+    }
+    if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
+        follow_order(event, *started);
+    }
+    ask();
+}
+
+void Judge::instant() {
+    if (!started_ || over_) return;
+    readings_.instant();
+    if (readings_.now() % kAskedEvery == Duration::zero()) ask();
+}
+
+void Judge::follow_order(const plan::TraceEvent& event, const plan::ActorStarted& started) {
+    for (Case& one : cases_) {
+        const std::vector<std::string>& order = one.expectation->order;
+        if (one.came_to >= order.size()) continue;
+        if (!is_called(order[one.came_to], event.plan, started.actor)) continue;
+        ++one.came_to;
+        one.came_at = event.at;
+    }
+}
+
+void Judge::ask() {
+    for (Case& one : cases_) {
+        if (!one.decided && one.expectation->condition) ask(one);
+    }
+}
+
+void Judge::ask(Case& one) {
+    const Condition& condition = *one.expectation->condition;
+    const bool eventually = one.expectation->kind == Expectation::Kind::Eventually;
+    const Time now = readings_.now();
+    if (eventually && one.expectation->within && seconds_of(now) > *one.expectation->within) {
+        fail(one, now,
+             fmt::format("it did not come about within {} s; then {}",
+                         plan::text_of(*one.expectation->within), values_of(condition)));
+        return;
+    }
+    std::vector<plan::Value> values;
+    for (const Condition::Name& name : condition.names()) {
+        Result<plan::Value> value = readings_.value(name);
+        if (!value.ok()) return fail(one, now, value.error().what);
+        values.push_back(std::move(value.value()));
+    }
+    const Result<bool> holds = condition.holds(values);
+    if (!holds.ok()) return fail(one, now, holds.error().what + "; " + values_of(condition));
+    if (eventually) {
+        one.decided = holds.value();
+    } else if (holds.value() != (one.expectation->kind == Expectation::Kind::Always)) {
+        fail(one, now, values_of(condition));
+    }
+}
+
+void Judge::fail(Case& one, Time at, std::string what) {
+    one.decided = true;
+    one.verdict = {.as_expected = false, .at = at, .what = std::move(what)};
+}
+
+// The values of its names, and the actor that runs.
+std::string Judge::values_of(const Condition& condition) const {
+    std::string text;
+    const auto add = [&](const Condition::Name& name) {
+        const Result<plan::Value> value = readings_.value(name);
+        if (!value.ok()) return;
+        text +=
+            fmt::format("{}{} = {}", text.empty() ? "" : ", ", name.shown, shown(value.value()));
+    };
+    for (const Condition::Name& name : condition.names()) add(name);
+    if (!condition.uses(SignalId::Actor)) {
+        add({.shown = "actor", .of = Condition::Name::Of::Signal, .signal = find_signal("actor")});
+    }
+    return text;
+}
+
+// ---- when it is over ----
+
+std::vector<Verdict> Judge::end(const run::Ended& ended) {
+    std::vector<Verdict> verdicts;
+    for (Case& one : cases_) {
+        if (!one.decided) end(one, ended);
+        verdicts.push_back(one.verdict);
+    }
+    return verdicts;
+}
+
+void Judge::end(Case& one, const run::Ended& ended) {
+    const Expectation& expected = *one.expectation;
+    const Time now = readings_.now();
+    if (expected.kind == Expectation::Kind::Eventually) {
+        fail(one, now,
+             fmt::format("it had not come about when the run ended, at {} s", seconds(now)));
+    } else if (expected.kind == Expectation::Kind::Order && one.came_to < expected.order.size()) {
+        const std::string& missing = expected.order[one.came_to];
+        fail(one, now,
+             one.came_to == 0
+                 ? fmt::format("the plan never came to {}", missing)
+                 : fmt::format("the plan came to {} at {} s, and never to {} after that",
+                               expected.order[one.came_to - 1], seconds(one.came_at), missing));
+    } else if (expected.kind == Expectation::Kind::Ends) {
+        const bool same =
+            expected.ends == way_of(ended) && (expected.by.empty() || expected.by == ended_by_);
+        if (same) return;
+        fail(one, now,
+             fmt::format("it ended {}{}{}, at {} s", way_of(ended),
+                         ended_by_.empty() ? "" : " by " + ended_by_,
+                         ended.message.empty() ? "" : " (" + ended.message + ")", seconds(now)));
+    }
+}
+
+}  // namespace vagus::trial

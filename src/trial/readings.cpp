@@ -1,0 +1,154 @@
+#include "trial/readings.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "base/nearest.hpp"
+
+namespace vagus::trial {
+
+namespace {
+
+constexpr double kPercent = 100;
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+
+// -180 < degrees <= 180.
+double degrees_of(double radians) {
+    const double degrees = std::remainder(radians * kDegreesPerRadian, 360);
+    return degrees == -180 ? 180 : degrees;
+}
+
+}  // namespace
+
+void Readings::line(const plan::TraceEvent& event) {
+    now_ = event.at;
+    variables_.see(event);
+    const auto level = static_cast<size_t>(run::level_of(event));
+    const auto* const raised = std::get_if<plan::EventRaised>(&event.what);
+    event_ = raised != nullptr ? std::string(raised->event) : "";
+    if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
+        actors_.resize(level + 1);
+        actors_[level] = started->actor;
+    } else if (std::holds_alternative<plan::ActorEnded>(event.what) ||
+               std::holds_alternative<plan::ActorInterrupted>(event.what) ||
+               std::holds_alternative<plan::PlanEnded>(event.what)) {
+        actors_.resize(level);
+    }
+}
+
+void Readings::instant() {
+    now_ = session().now();
+    event_.clear();
+    const bool touched = session().world().touches(world_->robot());
+    contact_ = touched ? contact_ + sim::kNodeStep : Duration{};
+}
+
+plan::Value Readings::of_robot(SignalId id) const {
+    const auto robots = session().world().robots();
+    for (const sim::RobotView& robot : robots) {
+        if (robot.id != world_->robot()) continue;
+        if (id == SignalId::X) return plan::Value(robot.pose.at.x);
+        if (id == SignalId::Y) return plan::Value(robot.pose.at.y);
+        return plan::Value(degrees_of(robot.pose.angle));
+    }
+    return plan::Value(0.0);
+}
+
+double Readings::bus_percent() const {
+    const auto load = session().world().bus_load(world_->robot());
+    return load ? load->all.share_of_last_second * kPercent : 0;
+}
+
+plan::Value Readings::signal(SignalId id) const {
+    switch (id) {
+        case SignalId::Actor:
+            return plan::Value(actors_.empty() ? std::string() : actors_.back());
+        case SignalId::Event:
+            return plan::Value(event_);
+        case SignalId::Time:
+            return plan::Value(seconds_of(now_));
+        case SignalId::Contact:
+            return plan::Value(seconds_of(contact_));
+        case SignalId::Bus:
+            return plan::Value(bus_percent());
+        case SignalId::X:
+        case SignalId::Y:
+        case SignalId::Angle:
+            break;
+    }
+    return of_robot(id);
+}
+
+// ---- words of nodes ----
+
+// Of the plan's robot; for a robot's name before it, "thymio/thymio-II", of that one.
+const session::NodeState* Readings::find_node(std::string_view name,
+                                              const std::vector<session::NodeState>& nodes) const {
+    sim::RobotId robot = world_->robot();
+    const size_t slash = name.find('/');
+    if (slash != std::string_view::npos) {
+        const auto found = session().world().find_robot(name.substr(0, slash));
+        if (!found) return nullptr;
+        robot = *found;
+        name.remove_prefix(slash + 1);
+    }
+    for (const session::NodeState& node : nodes) {
+        if (node.robot == robot && node.name == name) return &node;
+    }
+    return nullptr;
+}
+
+Result<int16_t> Readings::word(const Condition::Name& name) const {
+    const std::vector<session::NodeState> nodes = session().nodes();
+    const session::NodeState* const node = find_node(name.node, nodes);
+    if (node == nullptr) {
+        std::vector<std::string> names;
+        for (const session::NodeState& one : nodes) {
+            if (one.robot == world_->robot()) names.push_back(one.name);
+        }
+        return Error{Code::NotFound, fmt::format("{}: the robot has no node \"{}\"; {}", name.shown,
+                                                 name.node, known_instead(name.node, names))};
+    }
+    std::vector<std::string> known;
+    const std::span<const int16_t> memory = session().world().variables_of(node->id);
+    const auto take = [&](const std::string& its, size_t address,
+                          size_t size) -> std::optional<Result<int16_t>> {
+        known.push_back(its);
+        if (its != name.variable) return std::nullopt;
+        if (name.element < size && address + name.element < memory.size()) {
+            return Result<int16_t>(memory[address + name.element]);
+        }
+        return Result<int16_t>(Error{
+            Code::NotFound,
+            fmt::format("{}: \"{}\" has {} elements, counted from 0", name.shown, its, size)});
+    };
+    if (const aesl::Program* program = session().program(node->id)) {
+        for (const aesl::VariablePlace& place : program->variables) {
+            if (auto found = take(place.name, place.address, place.size)) return *found;
+        }
+    } else if (const aesl::Target* target = session().target(node->id)) {
+        size_t address = 0;
+        for (const aesl::NamedVariable& variable : target->variables) {
+            if (auto found = take(variable.name, address, variable.size)) return *found;
+            address += variable.size;
+        }
+    }
+    return Error{Code::NotFound,
+                 fmt::format("{}: the node \"{}\" has no variable \"{}\"; {}", name.shown,
+                             name.node, name.variable, known_instead(name.variable, known))};
+}
+
+Status Readings::check(const Condition::Name& name) const {
+    if (name.of != Condition::Name::Of::Word) return Status::done();
+    (void)TRY(word(name));
+    return Status::done();
+}
+
+Result<plan::Value> Readings::value(const Condition::Name& name) const {
+    if (name.of == Condition::Name::Of::Signal) return signal(name.signal->id);
+    if (name.of == Condition::Name::Of::Word) return plan::Value(int64_t{TRY(word(name))});
+    return variables_.value(0, name.slot);
+}
+
+}  // namespace vagus::trial

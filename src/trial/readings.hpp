@@ -1,0 +1,54 @@
+// What the conditions of a test read, as it is now in a run.
+//
+//     Readings readings(graph, world);               // world: nullptr without one
+//     readings.line(event);                          // each line of the trace
+//     readings.instant();                            // at the end of each instant of the world
+//     const Result<plan::Value> now = readings.value(name);
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "plan/trace.hpp"
+#include "run/traced_variables.hpp"
+#include "session/plan_world.hpp"
+#include "trial/condition.hpp"
+
+namespace vagus::trial {
+
+class Readings {
+public:
+    // Both are borrowed.
+    Readings(const plan::Graph& graph, session::PlanWorld* world)
+        : variables_(graph), world_(world) {}
+
+    void line(const plan::TraceEvent& event);
+    // The line of an event is over; bodies have moved.
+    void instant();
+
+    Time now() const { return now_; }
+    // Only once the plan has started. The Error says why there is none.
+    Result<plan::Value> value(const Condition::Name& name) const;
+    // Whether the node and its word are there. The Error names what is not, and what is.
+    Status check(const Condition::Name& name) const;
+
+private:
+    plan::Value signal(SignalId id) const;
+    plan::Value of_robot(SignalId id) const;
+    double bus_percent() const;
+    const session::NodeState* find_node(std::string_view name,
+                                        const std::vector<session::NodeState>& nodes) const;
+    Result<int16_t> word(const Condition::Name& name) const;
+    session::SimSession& session() const { return world_->session(); }
+
+    run::TracedVariables variables_;
+    session::PlanWorld* world_;
+    Time now_{};
+    std::vector<std::string> actors_;  // that run, the outermost first; empty text: between two
+    std::string event_;
+    Duration contact_{};
+};
+
+}  // namespace vagus::trial

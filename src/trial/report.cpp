@@ -1,0 +1,95 @@
+#include "trial/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+
+namespace vagus::trial {
+
+namespace {
+
+// Characters that XML 1.0 has no way to hold are shown as visible() does.
+std::string xml(std::string_view text) {
+    std::string out;
+    for (const char c : visible_lines(text)) {
+        switch (c) {
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '&':
+                out += "&amp;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+std::string test_case(const TestFile& test, const SeedResult& result) {
+    const std::string head =
+        fmt::format("    <testcase classname=\"{}\" name=\"seed {}\" time=\"{:.3f}\"",
+                    xml(test.path), result.seed, result.seconds);
+    if (as_expected(result)) return head + "/>\n";
+    const std::string what = xml(describe_failure(test, result));
+    const std::string_view kind = result.trouble.empty() ? "failure" : "error";
+    return fmt::format("{}>\n      <{} message=\"{}\">{}</{}>\n    </testcase>\n", head, kind,
+                       what.substr(0, what.find('\n')), what, kind);
+}
+
+}  // namespace
+
+bool as_expected(const SeedResult& result) {
+    return result.trouble.empty() && result.outcome.as_expected();
+}
+
+std::string describe_failure(const TestFile& test, const SeedResult& result) {
+    if (!result.trouble.empty()) {
+        return fmt::format("{}: seed {}: {}", test.path, result.seed, result.trouble);
+    }
+    std::vector<std::string> lines;
+    for (size_t i = 0; i < test.expect.size(); ++i) {
+        const Verdict& verdict = result.outcome.verdicts[i];
+        if (verdict.as_expected) continue;
+        const Expectation& one = test.expect[i];
+        lines.push_back(
+            at_place(test.path, one.at,
+                     fmt::format("seed {}, at {} s: {}: {}{}", result.seed,
+                                 plan::text_of(seconds_of(verdict.at)), text_of(one), verdict.what,
+                                 one.help.empty() ? "" : " (" + one.help + ")")));
+    }
+    return joined_lines(lines);
+}
+
+std::string format_junit(const std::vector<TestResult>& results) {
+    std::string suites;
+    for (const TestResult& result : results) {
+        const auto& seeds = result.seeds;
+        const auto troubles = std::ranges::count_if(
+            seeds, [](const SeedResult& one) { return !one.trouble.empty(); });
+        const auto bad =
+            std::ranges::count_if(seeds, [](const SeedResult& one) { return !as_expected(one); });
+        double seconds = 0;
+        std::string cases;
+        for (const SeedResult& one : seeds) {
+            seconds += one.seconds;
+            cases += test_case(result.test, one);
+        }
+        suites += fmt::format(
+            "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
+            "time=\"{:.3f}\">\n{}  </testsuite>\n",
+            xml(result.test.path), seeds.size(), bad - troubles, troubles, seconds, cases);
+    }
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" + suites +
+           "</testsuites>\n";
+}
+
+}  // namespace vagus::trial

@@ -1,0 +1,37 @@
+// What came of a set of tests, as programs read it: JUnit XML.
+//
+//     write_file("junit.xml", format_junit(suites));
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trial/trial.hpp"
+
+namespace vagus::trial {
+
+// One seed of a test.
+struct SeedResult {
+    uint64_t seed = 0;
+    Outcome outcome = {};        // unless `trouble` says that there is none
+    std::string trouble = {};    // why it could not be run, or that it crashed
+    std::string recording = {};  // of one that failed; empty: none
+    double seconds = 0;          // of wall clock
+};
+
+struct TestResult {
+    TestFile test;
+    std::vector<SeedResult> seeds;
+};
+
+bool as_expected(const SeedResult& result);
+
+// What is wrong with one seed: a line for each expectation that failed, without a newline at the
+// end, each beginning with its place.
+std::string describe_failure(const TestFile& test, const SeedResult& result);
+
+// A test suite for each test, a test case for each seed (the schema of Ant's and Jenkins' JUnit
+// reports).
+std::string format_junit(const std::vector<TestResult>& results);
+
+}  // namespace vagus::trial

@@ -1,0 +1,262 @@
+#include "trial/trial.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <numbers>
+
+#include "base/file.hpp"
+#include "base/nearest.hpp"
+#include "base/rng.hpp"
+#include "base/seconds.hpp"
+#include "embed/loaded_plan.hpp"
+#include "embed/prepared_run.hpp"
+#include "record/plan_recording.hpp"
+#include "session/toolboxes.hpp"
+#include "sim/standing.hpp"
+#include "sim/world_file.hpp"
+#include "trial/script_counter.hpp"
+
+namespace vagus::trial {
+
+namespace {
+
+// The draw of places is a stream of its own: what else a seed gives does not hang on it.
+constexpr uint64_t kStartsStream = 0x9d2c5680;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+
+Error at_expectation(const TestFile& test, const Expectation& one, const std::string& what) {
+    return {Code::BadInput, at_place(test.path, one.at, text_of(one) + ": " + what)};
+}
+
+// ---- where its robot begins ----
+
+Result<std::string> draw_start(const TestFile& test, uint64_t seed) {
+    const Starts& starts = *test.starts;
+    if (test.world.empty()) {
+        return Error{Code::BadInput, test.path +
+                                         ": \"starts\" puts a robot somewhere in a world; "
+                                         "give the test a \"world\""};
+    }
+    const sim::WorldDefinition world = TRY(sim::read_world(TRY(read_file(test.world)), test.world));
+    const auto found = std::ranges::find(world.robots, starts.robot, &sim::RobotDefinition::name);
+    if (found == world.robots.end()) {
+        std::vector<std::string> names;
+        for (const sim::RobotDefinition& robot : world.robots) names.push_back(robot.name);
+        return Error{
+            Code::NotFound,
+            fmt::format("{}: \"robot\" of \"starts\": {} has no robot \"{}\"; {}", test.path,
+                        test.world, starts.robot, known_instead(starts.robot, names))};
+    }
+    SplitMix64 random(seed ^ kStartsStream);
+    const auto between = [&random](double low, double high) {
+        return low + random.unit() * (high - low);
+    };
+    std::string stands;
+    for (int tried = 0; tried < kStartsTriedMax; ++tried) {
+        sim::RobotDefinition robot = *found;
+        robot.at.x = between(starts.low.x, starts.high.x);
+        robot.at.y = between(starts.low.y, starts.high.y);
+        const double degrees = between(starts.angle_low, starts.angle_high);
+        robot.angle = degrees * kRadiansPerDegree;
+        const auto in = sim::stands_in(robot, world);
+        if (!in) {
+            return fmt::format("{}={},{},{}", robot.name, plan::text_of(robot.at.x),
+                               plan::text_of(robot.at.y), plan::text_of(degrees));
+        }
+        stands = *in;
+    }
+    return Error{Code::Refused,
+                 fmt::format("{}: \"within\" of \"starts\": of {} places drawn there none had room "
+                             "for the robot; the last one stood in {}",
+                             test.path, kStartsTriedMax, stands)};
+}
+
+// ---- one run ----
+
+class Trial {
+public:
+    Trial(const TestFile& test, uint64_t seed, const TrialOptions& options)
+        : test_(test), options_(options) {
+        outcome_.seed = seed;
+        if (!options.record.empty()) files_.emplace();
+    }
+
+    Result<Outcome> run() {
+        TRY(load());
+        TRY(prepare());
+        bind_listeners();
+        TRY(begin_recording());
+        const run::Ended ended = TRY(prepared_->run());
+        outcome_.verdicts = judge_->end(ended);
+        outcome_.end = judge_->now();
+        outcome_.ended = way_of(ended);
+        outcome_.message = ended.message;
+        outcome_.coverage = plans_->coverage();
+        if (scripts_) outcome_.coverage.add(scripts_->coverage());
+        if (recording_) TRY(recording_->end());
+        return std::move(outcome_);
+    }
+
+private:
+    Status load() {
+        TRY(session::add_toolboxes(library_, parts_, test_.toolboxes));
+        plan_ = embed::LoadedPlan::from_file(test_.plan, library_);
+        if (!plan_->ok()) {
+            std::string report = plan_->report();
+            if (report.ends_with('\n')) report.pop_back();
+            return Error{Code::BadInput, report};
+        }
+        for (Expectation& one : test_.expect) {
+            TRY(check_names(one));
+            if (!one.condition) continue;
+            const Status bound =
+                one.condition->bind(plan_->graph().plans.front(), !test_.world.empty());
+            if (!bound.ok()) return at_expectation(test_, one, bound.error().what);
+        }
+        return Status::done();
+    }
+
+    // Of actors and supervisors: what is misspelt would never come.
+    Status check_names(const Expectation& one) {
+        std::vector<std::string> actors, supervisors;
+        for (const plan::GraphPlan& plan : plan_->graph().plans) {
+            for (const plan::GraphActor& actor : plan.actors) actors.push_back(actor.name);
+        }
+        const plan::GraphPlan& outermost = plan_->graph().plans.front();
+        for (const auto& global : outermost.globals) supervisors.push_back(global.name);
+        for (const plan::GraphActor& actor : outermost.actors) {
+            for (const auto& own : actor.supervisors) supervisors.push_back(own.name);
+        }
+        for (const std::string& name : one.order) {
+            const std::string last = name.substr(name.rfind('/') + 1);
+            if (std::ranges::find(actors, last) != actors.end()) continue;
+            return at_expectation(
+                test_, one,
+                fmt::format("the plan has no actor \"{}\"; {}", last, known_instead(last, actors)));
+        }
+        if (one.by.empty() || std::ranges::find(supervisors, one.by) != supervisors.end()) {
+            return Status::done();
+        }
+        return at_expectation(test_, one,
+                              fmt::format("the plan has no supervisor \"{}\"; {}", one.by,
+                                          known_instead(one.by, supervisors)));
+    }
+
+    Status prepare() {
+        words_.world = test_.world;
+        words_.toolboxes = test_.toolboxes;
+        words_.set = test_.set;
+        words_.robot = test_.robot;
+        words_.seed = std::to_string(outcome_.seed);
+        words_.max_time = plan::text_of(test_.max_time);
+        words_.clock = "virtual";
+        if (test_.starts) words_.poses.push_back(TRY(draw_start(test_, outcome_.seed)));
+        outcome_.poses = words_.poses;
+        prepared_ = TRY(embed::PreparedRun::prepare(*plan_, words_, parts_));
+        prepared_->tell([](const std::string&) {});
+        session::PlanWorld* const world = prepared_->world();
+        judge_.emplace(test_, plan_->graph(), world);
+        const Status there = world != nullptr ? judge_->check() : Status::done();
+        if (!there.ok()) return Error{there.error().code, test_.path + ": " + there.error().what};
+        return Status::done();
+    }
+
+    void bind_listeners() {
+        plans_.emplace(plan_->graph());
+        prepared_->listen([this](const plan::TraceEvent& event) {
+            plans_->see(event);
+            judge_->line(event);
+        });
+        session::PlanWorld* const world = prepared_->world();
+        if (world == nullptr) return;
+        world->session().on_instant([this] { judge_->instant(); });
+        if (!options_.scripts) return;
+        scripts_.emplace(world->session());
+        world->session().world().watch(&*scripts_);
+    }
+
+    Status begin_recording() {
+        if (!files_) return Status::done();
+        record::RunFile about;
+        about.verb = "plan run";
+        about.plan = test_.plan;
+        about.world = words_.world;
+        about.toolboxes = words_.toolboxes;
+        about.set = words_.set;
+        about.seed = words_.seed;
+        about.max_time = words_.max_time;
+        about.robot = words_.robot;
+        about.poses = words_.poses;
+        recording_ = TRY(record::PlanRecording::begin(options_.record, about, *files_, *prepared_,
+                                                      record::Pace::Waits));
+        return Status::done();
+    }
+
+    TestFile test_;  // its conditions are bound to this plan
+    TrialOptions options_;
+    Outcome outcome_;
+    std::optional<FilesRead> files_;
+    toolbox::Parts parts_;  // before the library, whose code looks at them
+    run::CodeLibrary library_;
+    std::optional<embed::LoadedPlan> plan_;
+    embed::RunWords words_;
+    std::optional<Judge> judge_;
+    std::optional<PlanCounter> plans_;
+    std::optional<ScriptCounter> scripts_;
+    std::unique_ptr<embed::PreparedRun> prepared_;
+    std::unique_ptr<record::PlanRecording> recording_;
+};
+
+}  // namespace
+
+Result<Outcome> run_trial(const TestFile& test, uint64_t seed, const TrialOptions& options) {
+    return Trial(test, seed, options).run();
+}
+
+// ---- through a pipe ----
+
+namespace {
+
+std::string verdict_json(const Verdict& verdict) {
+    return fmt::format("[{},{},{}]", verdict.as_expected, verdict.at.count(),
+                       json_quote(verdict.what));
+}
+
+std::string list_json(const std::vector<std::string>& items) {
+    std::string text;
+    for (const std::string& item : items) text += (text.empty() ? "" : ",") + item;
+    return "[" + text + "]";
+}
+
+}  // namespace
+
+std::string format_outcome(const Outcome& outcome) {
+    std::vector<std::string> verdicts, poses;
+    for (const Verdict& one : outcome.verdicts) verdicts.push_back(verdict_json(one));
+    for (const std::string& one : outcome.poses) poses.push_back(json_quote(one));
+    return fmt::format(
+        R"({{"seed":{},"verdicts":{},"end":{},"ended":{},"message":{},"poses":{},"coverage":{}}})",
+        outcome.seed, list_json(verdicts), outcome.end.count(), json_quote(outcome.ended),
+        json_quote(outcome.message), list_json(poses), format_coverage(outcome.coverage));
+}
+
+Outcome read_outcome(std::string_view text) {
+    const auto read = read_json(text);
+    const JsonValue& json = std::get<JsonValue>(read);
+    Outcome outcome;
+    outcome.seed = static_cast<uint64_t>(json.find("seed")->integer);
+    for (const JsonValue& one : json.find("verdicts")->items) {
+        outcome.verdicts.push_back({.as_expected = one.items[0].boolean,
+                                    .at = Time(one.items[1].integer),
+                                    .what = one.items[2].text});
+    }
+    outcome.end = Time(json.find("end")->integer);
+    outcome.ended = json.find("ended")->text;
+    outcome.message = json.find("message")->text;
+    for (const JsonValue& one : json.find("poses")->items) outcome.poses.push_back(one.text);
+    outcome.coverage = read_coverage(*json.find("coverage"));
+    return outcome;
+}
+
+}  // namespace vagus::trial

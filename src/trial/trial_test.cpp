@@ -1,0 +1,164 @@
+// Runs of tests: each kind of expectation as expected and not, with values worked out by hand from
+// the plan below. What needs a world is in tests/trials.
+#include "trial/trial.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/test_folder.hpp"
+#include "trial/report.hpp"
+
+namespace vagus::trial {
+namespace {
+
+// a from 0 to 2 s, then b, which its supervisor ends at 3 s; c writes n and ends the plan there.
+constexpr std::string_view kPlan = R"({
+  "format": "vagus-plan/1", "name": "P", "toolboxes": ["core"],
+  "configuration": { "n": { "type": "int", "initial": 1 } },
+  "start": { "actor": "a" },
+  "actors": {
+    "a": { "template": "Wait", "in": { "seconds": 2 }, "states": { "Done": "b" } },
+    "b": { "template": "Wait", "in": { "seconds": 9 }, "states": { "Done": "c" },
+      "supervisors": { "soon": { "template": "Timeout", "in": { "seconds": 1 },
+                                 "events": { "Timeout": "c" } } } },
+    "c": { "template": "Assign", "in": { "value": 7 }, "out": { "result": "n" },
+      "states": { "Done": "@terminate" } } } })";
+
+class Trials : public ::testing::Test {
+protected:
+    Result<Outcome> run(std::string_view expect, std::string_view members = "") {
+        folder_.write("P.plan.json", kPlan);
+        const std::string text = R"({"format":"vagus-test/1","plan":"P.plan.json",)" +
+                                 std::string(members) + R"("expect":[)" + std::string(expect) +
+                                 "]}";
+        const auto test = read_test(text, folder_ / "t.test.json");
+        if (!test.ok()) return test.error();
+        return run_trial(test.value(), 1, {});
+    }
+    // What is wrong with the only expectation; empty: nothing.
+    std::string wrong(std::string_view expect, std::string_view members = "") {
+        const auto outcome = run(expect, members);
+        if (!outcome.ok()) return outcome.error().what;
+        const Verdict& verdict = outcome.value().verdicts.at(0);
+        at_ = verdict.at;
+        return verdict.what;
+    }
+
+    test::Folder folder_;
+    Time at_{};
+};
+
+TEST_F(Trials, OrderIsOfTheStartsOfActors) {
+    EXPECT_EQ(wrong(R"({"order":["a","b","c"]})"), "");
+    EXPECT_EQ(wrong(R"({"order":["a","c"]})"), "");
+    EXPECT_EQ(wrong(R"({"order":["a","c","b"]})"),
+              "the plan came to c at 3 s, and never to b after that");
+    EXPECT_EQ(wrong(R"({"order":["b","a"]})"),
+              "the plan came to b at 2 s, and never to a after that");
+}
+
+TEST_F(Trials, EventuallyHoldsOnceAndInTime) {
+    EXPECT_EQ(wrong(R"({"eventually":"actor == 'b'"})"), "");
+    EXPECT_EQ(wrong(R"({"eventually":"actor == 'b'","within":2})"), "");
+    EXPECT_EQ(wrong(R"({"eventually":"actor == 'b'","within":1.9})"),
+              "it did not come about within 1.9 s; then actor = \"a\"");
+    EXPECT_EQ(wrong(R"({"eventually":"n == 8"})"),
+              "it had not come about when the run ended, at 3 s");
+}
+
+TEST_F(Trials, AlwaysAndNeverAreAskedAfterEachLine) {
+    EXPECT_EQ(wrong(R"({"always":"n < 8"})"), "");
+    EXPECT_EQ(wrong(R"({"always":"n < 7"})"), "n = 7, actor = \"c\"");
+    EXPECT_EQ(at_, std::chrono::seconds(3));
+    EXPECT_EQ(wrong(R"({"never":"event == 'Timeout' and actor == 'a'"})"), "");
+    EXPECT_EQ(wrong(R"({"never":"event == 'Timeout' and actor == 'b'"})"),
+              "event = \"Timeout\", actor = \"b\"");
+    EXPECT_EQ(at_, std::chrono::seconds(3));
+}
+
+TEST_F(Trials, AConditionThatCannotBeAskedFails) {
+    EXPECT_EQ(wrong(R"({"always":"10 / (n - 7) < 100"})").substr(0, 8), "division");
+    EXPECT_EQ(at_, std::chrono::seconds(3));
+}
+
+TEST_F(Trials, EndsTellsHowAndByWhom) {
+    EXPECT_EQ(wrong(R"({"ends":"Ok"})"), "");
+    EXPECT_EQ(wrong(R"({"ends":"Interrupted"})"), "it ended Ok, at 3 s");
+    EXPECT_EQ(wrong(R"({"ends":"MaxTime"})", R"("max_time":2.5,)"), "");
+    EXPECT_EQ(wrong(R"({"ends":"Ok"})", R"("max_time":2.5,)").substr(0, 16), "it ended MaxTime");
+}
+
+TEST_F(Trials, ValuesAreSet) {
+    EXPECT_EQ(wrong(R"({"always":"n == 7"})", R"("set":{"n":7},)"), "");
+    EXPECT_NE(wrong(R"({"always":"n == 7"})", R"("set":{"m":7},)").find("no variable \"m\""),
+              std::string::npos);
+}
+
+TEST_F(Trials, NamesThatCanNeverComeAreRefusedWithTheirPlace) {
+    EXPECT_EQ(wrong(R"({"order":["a","cc"]})"),
+              (folder_ / "t.test.json").string() +
+                  ":1:64: order a, cc: the plan has no actor \"cc\"; did you mean c?");
+    EXPECT_NE(wrong(R"({"ends":"Interrupted","by":"son"})").find("did you mean soon?"),
+              std::string::npos);
+    EXPECT_NE(wrong(R"({"always":"x > 1"})").find("give the test a \"world\""), std::string::npos);
+    EXPECT_NE(
+        wrong(R"({"ends":"Ok"})", R"("starts":{"robot":"r","within":[[0,0],[1,1]],"angle":0},)")
+            .find("give the test a \"world\""),
+        std::string::npos);
+}
+
+TEST_F(Trials, CoverageCountsWhatTheRunWentThrough) {
+    const auto outcome = run(R"({"ends":"Ok"})");
+    ASSERT_TRUE(outcome.ok());
+    const PlanCoverage& plan =
+        outcome.value().coverage.plans.at((folder_ / "P.plan.json").string());
+    using Counts = PlanCoverage::Counts;
+    EXPECT_EQ(plan.actors, (Counts{{"a", 1}, {"b", 1}, {"c", 1}}));
+    EXPECT_EQ(plan.states, (Counts{{"a: Done", 1}, {"b: Done", 0}, {"c: Done", 1}}));
+    EXPECT_EQ(plan.supervisors, (Counts{{"b.soon", 1}}));
+    EXPECT_EQ(plan.events, (Counts{{"b.soon: Timeout", 1}}));
+    EXPECT_EQ(plan.pairs, (Counts{{"a, b", 1}, {"b, c", 1}}));
+}
+
+TEST_F(Trials, AnOutcomeGoesThroughAPipe) {
+    const auto outcome = run(R"({"ends":"Interrupted"},{"ends":"Ok"})");
+    ASSERT_TRUE(outcome.ok());
+    const Outcome again = read_outcome(format_outcome(outcome.value()));
+    EXPECT_EQ(again.verdicts, outcome.value().verdicts);
+    EXPECT_EQ(again.end, std::chrono::seconds(3));
+    EXPECT_EQ(again.ended, "Ok");
+    EXPECT_FALSE(again.as_expected());
+}
+
+TEST_F(Trials, FailuresHaveTheirPlaceAndGoIntoJUnit) {
+    folder_.write("P.plan.json", kPlan);
+    TestResult result;
+    result.test = read_test(R"({"format":"vagus-test/1","plan":"P.plan.json",
+  "expect":[{"never":"n == 7 and actor < 'd'","help":"a & b"}]})",
+                            folder_ / "t.test.json")
+                      .value();
+    result.test.path = "t.test.json";
+    const auto outcome = run_trial(result.test, 4, {});
+    ASSERT_TRUE(outcome.ok()) << outcome.error().what;
+    result.seeds.push_back({.seed = 4, .outcome = outcome.value()});
+    result.seeds.push_back({.seed = 5, .trouble = "its process crashed (Aborted)"});
+    EXPECT_EQ(describe_failure(result.test, result.seeds[0]),
+              "t.test.json:2:13: seed 4, at 3 s: never \"n == 7 and actor < 'd'\": n = 7, actor = "
+              "\"c\" (a & b)");
+    EXPECT_EQ(
+        format_junit({result}),
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
+        "  <testsuite name=\"t.test.json\" tests=\"2\" failures=\"1\" errors=\"1\" "
+        "time=\"0.000\">\n"
+        "    <testcase classname=\"t.test.json\" name=\"seed 4\" time=\"0.000\">\n"
+        "      <failure message=\"t.test.json:2:13: seed 4, at 3 s: never &quot;n == 7 and actor "
+        "&lt; 'd'&quot;: n = 7, actor = &quot;c&quot; (a &amp; b)\">t.test.json:2:13: seed 4, at 3 "
+        "s: never &quot;n == 7 and actor &lt; 'd'&quot;: n = 7, actor = &quot;c&quot; (a &amp; "
+        "b)</failure>\n    </testcase>\n"
+        "    <testcase classname=\"t.test.json\" name=\"seed 5\" time=\"0.000\">\n"
+        "      <error message=\"t.test.json: seed 5: its process crashed (Aborted)\">t.test.json: "
+        "seed 5: its process crashed (Aborted)</error>\n    </testcase>\n"
+        "  </testsuite>\n</testsuites>\n");
+}
+
+}  // namespace
+}  // namespace vagus::trial

@@ -106,7 +106,7 @@ void SimSession::after_bodies(size_t told) {
     for (const hub::SharedId& shared : bus().take_shared_ids()) {
         note(NoteKind::Trouble, sentence(shared));
     }
-    for (const auto& told : told_of_instant_) told();
+    for (const auto& listener : told_of_instant_) listener();
 }
 
 void SimSession::before_hold() {

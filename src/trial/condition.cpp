@@ -94,7 +94,7 @@ private:
         if (!name.variable.ends_with(']') || !element || *element > UINT16_MAX) {
             return Error{Code::BadInput,
                          fmt::format("\"{}\": expected the number of an element in brackets, as "
-                                     "\"touch_sectors[2]\"",
+                                     "\"touch.sectors[2]\"",
                                      name.variable)};
         }
         name.element = static_cast<uint16_t>(*element);

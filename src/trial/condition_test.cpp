@@ -70,10 +70,10 @@ TEST(Condition, CallsThatAreWrittenWrongAreExplained) {
     EXPECT_EQ(error_of("node('drive', 'token'", plan), two);
     EXPECT_EQ(error_of("node('drive', 'token[x]') > 1", plan),
               "\"token[x]\": expected the number of an element in brackets, as "
-              "\"touch_sectors[2]\"");
+              "\"touch.sectors[2]\"");
     EXPECT_EQ(error_of("node('drive', 'token[') > 1", plan),
               "\"token[\": expected the number of an element in brackets, as "
-              "\"touch_sectors[2]\"");
+              "\"touch.sectors[2]\"");
     EXPECT_NE(error_of("contact <", plan), "");
 }
 

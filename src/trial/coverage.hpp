@@ -55,7 +55,7 @@ const std::vector<CoverageKind>& coverage_kinds();
 // Counts what a run's trace tells.
 class PlanCounter {
 public:
-    // The graph is borrowed. `names`: of the plans' files, for coverage().
+    // The graph is borrowed.
     explicit PlanCounter(const plan::Graph& graph);
     void see(const plan::TraceEvent& event);
     Coverage coverage() const;

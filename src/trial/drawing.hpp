@@ -1,7 +1,7 @@
 // A plan as a drawing (SVG), coloured by what a set of runs went through: green with a count what
 // was taken, red and dashed what was not.
 //
-//     write_file("WallFollow.svg", draw_coverage(plan, coverage.plans.at(plan.file)));
+//     TRY(write_file("WallFollow.svg", draw_coverage(plan, coverage.plans.at(plan.file))));
 #pragma once
 
 #include <string>

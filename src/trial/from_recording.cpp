@@ -126,68 +126,79 @@ std::vector<std::string> expectations(const Told& told, bool timed_out) {
     return lines;
 }
 
-}  // namespace
-
-Result<Draft> draft_test(const mcap::Reader& reader) {
-    const Recorded recorded = TRY(read_recorded(reader));
+// The keys of the test, a line each.
+std::vector<std::string> members_of(const Recorded& recorded, const Draft& draft, bool timed_out,
+                                    const std::string& name) {
     const record::RunFile& run = recorded.run;
-    const Told& told = recorded.told;
-    if (run.plan.empty()) {
-        return Error{Code::Refused, reader.name() +
-                                        ": is the recording of a world without a plan; a test is "
-                                        "of a plan: record with `vagus plan run … --record FILE`"};
-    }
-    if (told.ends.empty()) {
-        return Error{Code::Refused, reader.name() +
-                                        ": the plan had not ended when the recording "
-                                        "did; record a run to its end"};
-    }
-    // Interrupted, and neither an event nor a person did it.
-    const bool timed_out = told.ends == "Interrupted" && told.by.empty() && recorded.inputs == 0;
-    Draft draft{.plan = last_part(run.plan), .world = last_part(run.world)};
-    std::vector<std::string> members = {
-        "\"format\": \"vagus-test/1\"",
-        fmt::format("\"help\": {}", json_quote("Made from " + last_part(reader.name()) +
-                                               ": trim it to what matters.")),
-        "\"plan\": " + json_quote(draft.plan)};
+    const std::string help = "Made from " + last_part(name) + ": trim it to what matters.";
+    std::vector<std::string> members = {"\"format\": \"vagus-test/1\"",
+                                        "\"help\": " + json_quote(help),
+                                        "\"plan\": " + json_quote(draft.plan)};
     if (!draft.world.empty()) members.push_back("\"world\": " + json_quote(draft.world));
     if (!run.robot.empty()) members.push_back("\"robot\": " + json_quote(run.robot));
-    std::string toolboxes, set;
+    std::string toolboxes, set, expect;
     for (const std::string& one : run.toolboxes) {
         toolboxes += (toolboxes.empty() ? "" : ", ") + json_quote(last_part(one));
     }
     if (!toolboxes.empty()) members.push_back("\"toolboxes\": [" + toolboxes + "]");
     for (const std::string& one : run.set) set += (set.empty() ? "" : ", ") + set_member(one);
     if (!set.empty()) members.push_back("\"set\": { " + set + " }");
-    const std::string seed = run.seed.empty() ? "1" : run.seed;
-    members.push_back(fmt::format("\"seeds\": [{0}, {0}]", seed));
-    members.push_back("\"max_time\": " + number(timed_out ? told.end : round_up(told.end)));
-    std::string expect;
-    for (const std::string& line : expectations(told, timed_out)) {
+    members.push_back(fmt::format("\"seeds\": [{0}, {0}]", run.seed.empty() ? "1" : run.seed));
+    const double end = recorded.told.end;
+    members.push_back("\"max_time\": " + number(timed_out ? end : round_up(end)));
+    for (const std::string& line : expectations(recorded.told, timed_out)) {
         expect += (expect.empty() ? "\n    " : ",\n    ") + line;
     }
     members.push_back("\"expect\": [" + expect + "\n  ]");
-    draft.text = "{";
-    for (size_t i = 0; i < members.size(); ++i) {
-        draft.text += fmt::format("{}\n  {}", i > 0 ? "," : "", members[i]);
-    }
-    draft.text += "\n}\n";
+    return members;
+}
+
+// What of the run a test does not do again.
+std::vector<std::string> hints_of(const Recorded& recorded) {
+    std::vector<std::string> hints;
     if (recorded.inputs > 0) {
-        draft.hints.push_back(fmt::format(
+        hints.push_back(fmt::format(
             "{} times somebody did something to that run (/vagus/input); a test does not: put what "
             "is to happen into the timeline of the world",
             recorded.inputs));
     }
-    if (run.seed.empty() && !run.world.empty()) {
-        draft.hints.emplace_back(
+    if (recorded.run.seed.empty() && !recorded.run.world.empty()) {
+        hints.emplace_back(
             "the run took the seed of its world; the test begins with 1: change \"seeds\" if that "
             "is another");
     }
-    if (!run.poses.empty()) {
-        draft.hints.emplace_back(
-            "the run began at a place of its own (--pose); the test begins "
-            "where the world says: add \"starts\"");
+    if (!recorded.run.poses.empty()) {
+        hints.emplace_back(
+            "the run began at a place of its own (--pose); the test begins where the world says: "
+            "add \"starts\"");
     }
+    return hints;
+}
+
+}  // namespace
+
+Result<Draft> draft_test(const mcap::Reader& reader) {
+    const Recorded recorded = TRY(read_recorded(reader));
+    const Told& told = recorded.told;
+    if (recorded.run.plan.empty()) {
+        return Error{Code::Refused, reader.name() +
+                                        ": is the recording of a world without a plan; a test is "
+                                        "of a plan: record with `vagus plan run … --record FILE`"};
+    }
+    if (told.ends.empty()) {
+        return Error{Code::Refused, reader.name() +
+                                        ": the plan had not ended when the recording did; record a "
+                                        "run to its end"};
+    }
+    // Interrupted, and neither an event nor a person did it.
+    const bool timed_out = told.ends == "Interrupted" && told.by.empty() && recorded.inputs == 0;
+    Draft draft{.plan = last_part(recorded.run.plan), .world = last_part(recorded.run.world)};
+    draft.text = "{";
+    for (const std::string& member : members_of(recorded, draft, timed_out, reader.name())) {
+        draft.text += (draft.text.size() > 1 ? ",\n  " : "\n  ") + member;
+    }
+    draft.text += "\n}\n";
+    draft.hints = hints_of(recorded);
     return draft;
 }
 

@@ -1,8 +1,8 @@
 // Writes a test from a recording of a plan's run: the order in which actors first came, by when the
 // last of them had, and how it ended, with some room: for a person to trim.
 //
-//     const Draft draft = TRY(draft_test(reader, {}));
-//     write_file("Wall.test.json", draft.text);
+//     const Draft draft = TRY(draft_test(reader));
+//     TRY(write_file("Wall.test.json", draft.text));
 #pragma once
 
 #include <string>

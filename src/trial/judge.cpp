@@ -52,16 +52,17 @@ void Judge::line(const plan::TraceEvent& event) {
     if (over_) return;
     const bool outermost = run::level_of(event) == 0;
     readings_.line(event);
+    // Before its first actor a plan takes the values that it was given.
+    started_ = started_ || std::holds_alternative<plan::ActorStarted>(event.what);
     over_ = outermost && std::holds_alternative<plan::PlanEnded>(event.what);
     if (over_) return;  // its variables are gone with it
-    started_ = true;
     if (const auto* raised = std::get_if<plan::EventRaised>(&event.what)) {
         if (outermost && raised->target == "@terminate") ended_by_ = raised->supervisor;
     }
     if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
         follow_order(event, *started);
     }
-    ask();
+    if (started_) ask();
 }
 
 void Judge::instant() {

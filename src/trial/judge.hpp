@@ -3,7 +3,8 @@
 // line, and each kAskedEvery.
 //
 //     Judge judge(test, graph, world);
-//     judge.line(event); judge.instant(); …
+//     judge.line(event);                             // as it comes
+//     judge.instant();                               // at the end of each instant of the world
 //     for (const Verdict& verdict : judge.end(ended)) show(verdict);
 #pragma once
 

@@ -1,6 +1,6 @@
 // What came of a set of tests, as programs read it: JUnit XML.
 //
-//     write_file("junit.xml", format_junit(suites));
+//     TRY(write_file("junit.xml", format_junit(suites)));
 #pragma once
 
 #include <string>

@@ -2,9 +2,9 @@
 // go.
 //
 //     ScriptCounter scripts(session);
-//     world.watch(&scripts);                          // borrowed, until watch(nullptr)
+//     session.world().watch(&scripts);                // borrowed, until watch(nullptr)
 //     …
-//     all.add(scripts.coverage(name_of));
+//     all.add(scripts.coverage());
 #pragma once
 
 #include <functional>

@@ -175,7 +175,7 @@ private:
         if (list->items.empty()) {
             in.complain(list->at,
                         "\"expect\" of the test is empty: nothing could fail; write what is "
-                        "expected, as { \"ends\": \"Ok\" }");
+                        "expected, as { \"ends\": \"OK\" }");
         }
         if (list->items.size() > kExpectationsMax) {
             in.complain(list->at, fmt::format("\"expect\" of the test has {} entries; write at "
@@ -264,7 +264,7 @@ std::string quoted_names(const std::vector<std::string>& names) {
 }  // namespace
 
 const std::vector<std::string_view>& ways_to_end() {
-    static const std::vector<std::string_view> kWays = {"Ok", "Interrupted", "Error", "MaxTime"};
+    static const std::vector<std::string_view> kWays = {"OK", "Interrupted", "Error", "MaxTime"};
     return kWays;
 }
 

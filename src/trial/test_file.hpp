@@ -52,7 +52,7 @@ struct Expectation {
     std::string by = {};                      // the supervisor that ended it; empty: any
 };
 
-// "Ok", "Interrupted", "Error", and "MaxTime": its time was over.
+// "OK", "Interrupted", "Error", and "MaxTime": its time was over.
 const std::vector<std::string_view>& ways_to_end();
 
 // `always "contact < 2"`: what is expected, for people.

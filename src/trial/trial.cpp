@@ -38,7 +38,8 @@ Result<std::string> draw_start(const TestFile& test, uint64_t seed) {
                                          ": \"starts\" puts a robot somewhere in a world; "
                                          "give the test a \"world\""};
     }
-    const sim::WorldDefinition world = TRY(sim::read_world(TRY(read_file(test.world)), test.world));
+    const std::string text = TRY(read_file(test.world));
+    const sim::WorldDefinition world = TRY(sim::read_world(text, test.world));
     const auto found = std::ranges::find(world.robots, starts.robot, &sim::RobotDefinition::name);
     if (found == world.robots.end()) {
         std::vector<std::string> names;

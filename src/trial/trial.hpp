@@ -1,7 +1,7 @@
 // Runs a test of behaviour with one seed: in virtual time, in this process.
 //
 //     const TestFile test = TRY(read_test(text, path));
-//     const Outcome outcome = TRY(run_trial(test, 7, {}));
+//     const Outcome outcome = TRY(run_trial(test, 7, {}));  // seed 7
 //     if (!outcome.as_expected()) show(outcome);
 #pragma once
 

@@ -1,8 +1,8 @@
 // Runs jobs in processes of their own, some at a time: what crashes or hangs in one is its own
 // trouble, and all processors work.
 //
-//     const auto results = run_jobs(seeds.size(), 2, [&](size_t i) { return text_of(run(i)); },
-//                                   [&](size_t i, JobResult result) { keep(i, result); });
+//     run_jobs(count, 2, [](size_t i) { return run_one(i); },
+//              [](size_t i, JobResult result) { keep(i, result); return true; });
 #pragma once
 
 #include <cstddef>

@@ -83,7 +83,8 @@ Result<std::vector<trial::TestFile>> read_tests(const TestOptions& options) {
     }
     std::vector<trial::TestFile> tests;
     for (const std::string& path : paths) {
-        tests.push_back(TRY(trial::read_test(TRY(read_file(path)), path)));
+        const std::string text = TRY(read_file(path));
+        tests.push_back(TRY(trial::read_test(text, path)));
         if (!options.seeds.empty()) tests.back().seeds = TRY(trial::parse_seeds(options.seeds));
     }
     return tests;

@@ -1,0 +1,199 @@
+"""vagus test: conditions in worlds, seeds, places drawn, and the files that other programs read."""
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import junitparser
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from harness import patiently, run_vagus, vagus
+
+EXAMPLES = pathlib.Path(__file__).resolve().parent.parent.parent / "examples"
+
+# Forward until something ends it: at 20 cm/s Carbot, whose hull begins 0.16 m before its middle, is at the wall after 4 to 5 s.
+PLAN = {
+    "format": "vagus-plan/1", "name": "Ahead", "toolboxes": ["carbot"],
+    "configuration": {"far": {"type": "float", "initial": 1000}, "late": {"type": "float", "initial": 9}},
+    "start": {"actor": "go", "supervisors": {"late": {"template": "Timeout", "in": {"seconds": "late"},
+                                                      "events": {"Timeout": "@terminate"}}}},
+    "actors": {"go": {"template": "Forward", "in": {"distance": "far"}, "states": {"ForwardSuccessful": "rest"}},
+               "rest": {"template": "WaitForever"}},
+}
+WORLD = {
+    "format": "vagus-world/1", "name": "Room", "seed": 1, "size": [3, 2],
+    "robots": [{"name": "carbot", "type": "carbot", "at": [2, 1], "angle": 0,
+                "script": str(EXAMPLES / "carbot/carbot.aesl")}],
+}
+
+
+class Trials(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-trials-")))
+        (self.folder / "Ahead.plan.json").write_text(json.dumps(PLAN))
+        world = dict(WORLD, robots=[dict(WORLD["robots"][0], script="carbot.aesl")])
+        (self.folder / "room.world.json").write_text(json.dumps(world))
+        (self.folder / "carbot.aesl").write_text((EXAMPLES / "carbot/carbot.aesl").read_text())
+
+    def write(self, *expect, name="t", **members):
+        test = {"format": "vagus-test/1", "plan": "Ahead.plan.json", "world": "room.world.json", "max_time": 12,
+                "expect": list(expect), **members}
+        path = self.folder / f"{name}.test.json"
+        path.write_text(json.dumps(test))
+        return path
+
+    def run_test(self, *options, status=0, file=None):
+        return run_vagus("test", file or self.folder / "t.test.json", "--results", self.folder / "results", *options,
+                         status=status)
+
+    def test_signals_of_a_world(self):
+        self.write({"eventually": "x > 2.5 and abs(y - 1) < 0.1 and abs(angle) < 10"}, {"eventually": "contact > 3"},
+                   {"never": "y > 1.5"}, {"always": "bus >= 0 and bus <= 100"}, {"eventually": "bus > 0"},
+                   {"eventually": "node('bumper', 'touch.count') > 0"}, {"always": "node(\"carbot/drive\", '_id[0]') > 0"},
+                   {"ends": "Interrupted", "by": "late"})
+        output = self.run_test()
+        self.assertIn("1 of 1 runs as expected", output)
+
+    def test_a_failure_tells_seed_instant_and_values_and_is_recorded(self):
+        self.write({"always": "contact < 2", "help": "never presses"}, seeds=[3, 4])
+        output = self.run_test(status=1)
+        found = re.search(r"t\.test\.json:1:\d+: seed 3, at (\S+) s: always \"contact < 2\": contact = (\S+), actor = \"go\" "
+                          r"\(never presses\)\n  vagus replay (\S+) --until (\S+)\n", output)
+        self.assertTrue(found, output)
+        self.assertTrue(2 <= float(found[2]) < 2.02, output)  # it is asked each 20 ms
+        self.assertEqual(found[1], found[4])
+        self.assertIn("0 of 2 runs as expected", output)
+        # The recording is that run: it runs again, and there it touches.
+        self.assertIn("no difference", run_vagus("replay", found[3]))
+        self.assertRegex(run_vagus("replay", found[3], "--until", found[4]), rf"at {float(found[1]):.6f} s:\ncarbot is at 2\.[789]")
+
+    def test_robots_begin_where_the_seed_says(self):
+        self.write({"always": "x >= 1.6 and x <= 2.2"}, seeds=[1, 5], max_time=0.1,
+                   starts={"robot": "carbot", "within": [[1.6, 0.6], [2.1, 1.4]], "angle": "any"})
+        self.run_test()
+        self.write({"never": "t >= 0.04"}, seeds=[1, 5], max_time=0.1,
+                   starts={"robot": "carbot", "within": [[1.6, 0.6], [2.1, 1.4]], "angle": "any"})
+        self.run_test(status=1)
+        begins = {run_vagus("replay", self.folder / f"results/t.seed-{seed}.mcap", "--until", 0.02) for seed in range(1, 6)}
+        self.assertEqual(len(begins), 5)
+
+    def test_a_place_without_room_is_refused(self):
+        path = self.write({"ends": "OK"}, starts={"robot": "carbot", "within": [[0, 0], [0.05, 2]], "angle": 0})
+        self.assertIn(f"{path}: \"within\" of \"starts\": of 1000 places drawn there none had room for the robot; the last one "
+                      "stood in the border of the world", self.run_test(status=2))
+        self.write({"ends": "OK"}, starts={"robot": "carbto", "within": [[0, 0], [0.05, 2]], "angle": 0})
+        self.assertIn("has no robot \"carbto\"; did you mean carbot?", self.run_test(status=2))
+
+    def test_words_that_are_not_there_are_refused(self):
+        self.write({"always": "node('drve', 'speed') > 0"})
+        self.assertIn("the robot has no node \"drve\"; did you mean drive?", self.run_test(status=2))
+        self.write({"always": "node('bumper', 'touch.sectors[12]') > 0"})
+        self.assertIn("\"touch.sectors\" has 12 elements, counted from 0", self.run_test(status=2))
+
+    def child_of(self, program):
+        """The process of the only run that goes on."""
+        for _ in patiently():
+            children = pathlib.Path(f"/proc/{program.process.pid}/task/{program.process.pid}/children").read_text().split()
+            if children:
+                return int(children[0])
+        self.fail("no run has begun")
+
+    def test_a_crash_is_of_its_seed_only(self):
+        path = self.write({"ends": "MaxTime"}, seeds=[1, 2], max_time=300, set={"late": 1e5})
+        with vagus("test", path, "-j", 1, "--results", self.folder / "results") as program:
+            os.kill(self.child_of(program), signal.SIGKILL)
+            self.assertEqual(program.wait_end(), 1)
+        output = "\n".join(program.lines)
+        self.assertIn(f"{path}: seed 1: its process crashed (Killed)", output)
+        self.assertIn("1 of 2 runs as expected", output)
+
+    def test_runs_end_with_the_command(self):
+        path = self.write({"ends": "MaxTime"}, max_time=80000, set={"late": 1e6})
+        with vagus("test", path, "-j", 1) as program:
+            child = self.child_of(program)
+            program.process.kill()
+            program.wait_end()
+        for _ in patiently():
+            stat = pathlib.Path(f"/proc/{child}/stat")
+            if not stat.exists() or stat.read_text().rsplit(")", 1)[1].split()[0] == "Z":
+                return
+        self.fail("the run goes on")
+
+    def test_other_programs_read_the_files(self):
+        self.write({"always": "contact < 2"}, seeds=[1, 2])
+        junit, coverage = self.folder / "junit.xml", self.folder / "coverage"
+        self.run_test("--junit", junit, "--coverage", coverage, status=1)
+        suites = junitparser.JUnitXml.fromfile(str(junit))
+        self.assertEqual([(suite.tests, suite.failures, suite.errors) for suite in suites], [(2, 2, 0)])
+        summary = subprocess.run(["lcov", "--summary", coverage / "scripts.info", "--rc", "lcov_branch_coverage=1"],
+                                 capture_output=True, text=True, check=True)
+        self.assertRegex(summary.stdout + summary.stderr, r"lines\.+: \d+\.\d% \((\d+) of (\d+) lines\)")
+        self.assertRegex(summary.stdout + summary.stderr, r"branches\.+: \d+\.\d% \((\d+) of (\d+) branches\)")
+        drawing = xml.etree.ElementTree.parse(coverage / "Ahead.svg").getroot()
+        texts = ["".join(one.itertext()) for one in drawing.iter("{http://www.w3.org/2000/svg}text")]
+        self.assertEqual(texts[texts.index("go") + 1], "2")
+        self.assertEqual(texts[texts.index("rest") + 1], "0")
+        never = (coverage / "coverage.txt").read_text()
+        self.assertIn("  actors       rest\n", never)
+
+    def test_lines_of_scripts_are_counted(self):
+        # The plan sends one speed and stops once: what only a turn reaches is not executed.
+        self.write({"ends": "Interrupted"})
+        self.run_test("--coverage", self.folder / "coverage")
+        counts = {}
+        script = (self.folder / "carbot.aesl").read_text().splitlines()
+        for line in (self.folder / "coverage/scripts.info").read_text().splitlines():
+            if line.startswith("DA:"):
+                number, count = map(int, line[3:].split(","))
+                counts[script[number - 1].strip()] = count
+        self.assertTrue(any(count > 0 for count in counts.values()))
+        self.assertTrue(any(count == 0 for count in counts.values()))
+
+    def test_processors_make_no_difference(self):
+        self.write({"always": "contact < 2"}, seeds=[1, 6])
+        self.assertEqual(self.run_test("-j", 1, status=1), self.run_test("-j", 4, status=1))
+
+    def test_seeds_are_chosen(self):
+        self.write({"ends": "Interrupted"}, seeds=[1, 6])
+        self.assertIn("2 of 2 seeds", self.run_test("--seeds", "8..9"))
+        self.assertIn("1 of 1 seeds", self.run_test("--seeds", "8"))
+        self.assertIn("--seeds 9..8: expected the smaller number first", self.run_test("--seeds", "9..8", status=2))
+
+    def test_folders_are_looked_through(self):
+        self.assertIn("there is no test", self.run_test(file=self.folder, status=2))
+        (self.folder / "deep/.git").mkdir(parents=True)
+        self.write({"ends": "Interrupted"}, name="one")
+        self.write({"ends": "Interrupted"}, name="two")
+        (self.folder / "deep/.git/three.test.json").write_text("{}")
+        output = self.run_test(file=self.folder)
+        self.assertEqual(len(re.findall(r"^ok ", output, re.M)), 2)
+
+    def test_a_test_is_made_of_a_recording(self):
+        with vagus("plan", "run", self.folder / "Ahead.plan.json", "--world", self.folder / "room.world.json", "--clock",
+                   "virtual", "--quiet", "--seed", 5, "--set", "far=900", "--record", self.folder / "run.mcap") as program:
+            self.assertEqual(program.wait_end(), 3)
+        made = self.folder / "Made.test.json"
+        run_vagus("test", "new", self.folder / "run.mcap", made)
+        # 9 s and a quarter of room are 11.25, in tenths 11.3. The first actor comes at 0: a tenth of a second, and its quarter.
+        self.assertEqual(json.loads(made.read_text()), {
+            "format": "vagus-test/1", "help": "Made from run.mcap: trim it to what matters.", "plan": "Ahead.plan.json",
+            "world": "room.world.json", "set": {"far": 900}, "seeds": [5, 5], "max_time": 11.3,
+            "expect": [{"order": ["go"]}, {"within": 0.2, "eventually": "actor == 'go'"},
+                       {"ends": "Interrupted", "by": "late"}]})
+        self.assertIn("1 of 1 runs as expected", self.run_test(file=made))
+        self.assertIn("is there already", run_vagus("test", "new", self.folder / "run.mcap", made, status=2))
+
+    def test_signals_are_listed(self):
+        lines = run_vagus("test", "--signals").splitlines()
+        for name in ("actor", "event", "t", "x", "y", "angle", "contact", "bus"):
+            self.assertTrue(any(line.split()[0] == name for line in lines), name)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

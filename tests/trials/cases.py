@@ -142,6 +142,29 @@ class Trials(unittest.TestCase):
         never = (coverage / "coverage.txt").read_text()
         self.assertIn("  actors       rest\n", never)
 
+    def counts(self, plan, world, name, **values):
+        """Of a sample that ended well, by the texts of its drawing: each name with the count behind it."""
+        path = self.folder / "sample.test.json"
+        path.write_text(json.dumps({"format": "vagus-test/1", "plan": str(EXAMPLES / f"{plan}.plan.json"),
+                                    "world": str(EXAMPLES / f"{world}.world.json"), "set": values, "max_time": 120,
+                                    "expect": [{"ends": "OK"}]}))
+        self.run_test("--coverage", self.folder / "coverage", file=path)
+        drawing = xml.etree.ElementTree.parse(self.folder / f"coverage/{name}.svg").getroot()
+        texts = ["".join(one.itertext()) for one in drawing.iter("{http://www.w3.org/2000/svg}text")]
+        return list(zip(texts[::2], map(int, texts[1::2])))
+
+    def test_coverage_of_two_samples_is_as_counted_by_hand(self):
+        # Four sides, and the loop once more to its end.
+        self.assertEqual(self.counts("patterns/Square", "patterns/thymio", "Square", side=30), [
+            ("nextSide", 5), ("Loop", 4), ("Done", 1), ("driveSide", 4), ("ForwardSuccessful", 4), ("turnLeft", 4),
+            ("TurnSuccessful", 4)])
+        # Two figures, each of two circles.
+        self.assertEqual(self.counts("patterns/FigureOfEight", "patterns/carbot", "FigureOfEight", times=2, radius=30), [
+            ("nextFigure", 3), ("Loop", 2), ("Done", 1), ("circleLeft", 2), ("CurveSuccessful", 2), ("circleRight", 2),
+            ("CurveSuccessful", 2)])
+        table = (self.folder / "coverage/coverage.txt").read_text()
+        self.assertIn("  pairs        3 of 3\n", table)
+
     def test_lines_of_scripts_are_counted(self):
         # The plan sends one speed and stops once: what only a turn reaches is not executed.
         self.write({"ends": "Interrupted"})

@@ -82,7 +82,7 @@ private:
     uint64_t last_;
 };
 
-// What one running of an actor's code can do. Used by that code's thread only.
+// What one running of an actor's code can do. Used by that code only, from where it runs.
 class ActorContext {
 public:
     virtual ~ActorContext() = default;

@@ -76,13 +76,22 @@ struct VirtualTime::Watching {
 };
 
 // The code of the innermost actor: it runs, or has run to its end.
-struct VirtualTime::Code {
+struct VirtualTime::Code final : FiberCode {
+    void run() override {
+        try {
+            actor->run(*context);
+        } catch (const Stop&) {
+        } catch (const std::exception& error) {
+            failed = true;
+            failure = error.what();
+        }
+        ended = true;
+    }
+
     plan::ActivationId activation = 0;
     std::string_view name;
     std::unique_ptr<Actor> actor;
     std::unique_ptr<Context> context;
-    std::unique_ptr<CodeThread> thread;
-    std::exception_ptr thrown;
     std::string failure;  // what it threw, if that was no Stop
     bool failed = false;
     bool ended = false;  // run() has returned or thrown; `wake` is when that counts
@@ -93,7 +102,6 @@ struct VirtualTime::Code {
     std::string event;        // that ends its wait; empty: any
     bool waits_kept = false;  // a kept event ends its wait
     uint32_t heard = 0;       // number of the frame that it heard last
-    Machine* machine = nullptr;
 };
 
 class VirtualTime::Context final : public ActorContext {
@@ -106,7 +114,7 @@ public:
     void linger(Duration time) override {
         code_.wake = after(run_.now_, time);
         code_.event = std::string(kNoEvent);
-        code_.thread->give_back();
+        run_.fiber_->give_back();
     }
 
     void log(std::string text) override {
@@ -134,7 +142,7 @@ protected:
         woken_ = {.stop = false, .event = heard_.take(event)};
         code_.wake = woken_.event ? run_.now_ : after(run_.now_, at_most);
         code_.event = std::string(event);
-        code_.thread->give_back();
+        run_.fiber_->give_back();
         if (woken_.event) code_.heard = woken_.event->frame;
         return std::move(woken_);
     }
@@ -205,12 +213,13 @@ void VirtualTime::step() {
 
 Ended VirtualTime::finish() {
     leave_surroundings();
-    // An actor that overstayed its grace time still holds its thread: it is told until it ends.
+    // An actor that overstayed its grace time is still in the middle of its code: it is told until
+    // that ends.
     while (code_ && !code_->ended) {
-        code_->thread->go_on();
+        fiber_->go_on();
         after_turn();
     }
-    finish_code();
+    code_.reset();
     hand_out_trace();
     return {machine_.result(), machine_.message(), timed_out_};
 }
@@ -274,7 +283,6 @@ void VirtualTime::obey(plan::RankAgain&) {
 }
 
 void VirtualTime::obey(plan::StartCode& command) {
-    finish_code();
     code_ = std::make_unique<Code>();
     Code& code = *code_;
     code.activation = command.activation;
@@ -283,21 +291,11 @@ void VirtualTime::obey(plan::StartCode& command) {
     code.context = std::make_unique<Context>(*this, code, std::move(command.in),
                                              command.actor->of->outputs.size());
     code.grace_ends = Duration{command.actor->of->grace_ms * 1000};
-    const auto body = [&code] {
-        try {
-            code.actor->run(*code.context);
-        } catch (const Stop&) {
-        } catch (const std::exception& error) {
-            code.failed = true;
-            code.failure = error.what();
-        }
-        code.ended = true;
-    };
     if (command.actor->of->kind == plan::Kind::Computation) {
-        body();  // it never waits: no thread of its own
+        code.run();  // it never waits: it needs no stack of its own
     } else {
-        code.thread = threads_.take();
-        code.thread->start(body);
+        if (!fiber_) fiber_ = std::make_unique<Fiber>();
+        fiber_->start(code);
     }
     after_turn();
 }
@@ -310,14 +308,14 @@ void VirtualTime::obey(plan::StopCode& command) {
     code.grace_ends = after(now_, code.grace_ends);
     if (!code.ended) {
         code.context->wake_with({.stop = true, .event = {}});
-        code.thread->go_on();
+        fiber_->go_on();
         after_turn();
     } else {
         code.wake = now_;  // it had ended at this instant, but something else was first
     }
     if (code.ended && code.wake <= now_) {
         machine_.stopped(code.activation, now_);
-        finish_code();
+        code_.reset();
     }
 }
 
@@ -397,7 +395,7 @@ void VirtualTime::check(Watching& watching, const Check& check) {
 void VirtualTime::take_code() {
     Code& code = *code_;
     if (!code.ended && code.wake <= now_) {
-        code.thread->go_on();
+        fiber_->go_on();
         after_turn();
         if (!code.ended) return;
     }
@@ -415,18 +413,12 @@ void VirtualTime::take_code() {
     } else {
         machine_.end(activation, code.context->given(), now_);
     }
-    finish_code();
+    code_.reset();
 }
 
 // The code has had its turn: it waits, or has ended, which counts at this instant.
 void VirtualTime::after_turn() {
     if (code_->ended) code_->wake = now_;
-}
-
-void VirtualTime::finish_code() {
-    if (!code_) return;
-    if (code_->thread) threads_.give(std::move(code_->thread));
-    code_.reset();
 }
 
 // A stop that took time: what was due meanwhile is left out (P18a).

@@ -1,6 +1,6 @@
 // Runs a plan in virtual time: time jumps to the next thing due, code takes no time, and a run is
 // the same to the byte each time (docs/plans.md, P21a and section 6). One thread decides; actors'
-// code runs in turn with it.
+// code runs in turn with it, on a fiber of the same thread (fiber.hpp).
 //
 //     const RunOptions options = {.seed = 1, .on_trace = [](const plan::TraceEvent& event) { … }};
 //     VirtualTime run(graph, library, options);
@@ -23,7 +23,7 @@
 #include "base/rng.hpp"
 #include "plan/machine.hpp"
 #include "run/code.hpp"
-#include "run/code_thread.hpp"
+#include "run/fiber.hpp"
 #include "run/held_events.hpp"
 #include "run/options.hpp"
 
@@ -73,7 +73,6 @@ private:
     void check(Watching& watching, const Check& check);
     void take_code();
     void after_turn();
-    void finish_code();
     void leave_out_missed(int level);
     void emit(const BusEvent& event);
     void deliver(const BusEvent& event);
@@ -115,7 +114,7 @@ private:
     HeldEvents held_;
     uint64_t last_held_ = 0;         // its number
     std::vector<BusEvent> passing_;  // let go, to be heard at the next instant
-    CodeThreads threads_;
+    std::unique_ptr<Fiber> fiber_;  // of the first code that may wait, and all further ones
 };
 
 }  // namespace vagus::run

@@ -47,7 +47,7 @@ class Package(unittest.TestCase):
         self.assertEqual(self.field("Architecture"), run("dpkg", "--print-architecture")[1].strip())
         self.assertRegex(self.field("Maintainer"), r"^[^<]+ <\S+@\S+>$")
         needs = self.field("Depends")
-        for library in ("libc6", "libssl3", "libbox2d", "libfmt", "libpugixml"):
+        for library in ("libc6", "libssl3", "libbox2d", "libboost-context1.81.0", "libfmt", "libpugixml"):
             self.assertIn(library, needs)
         self.assertTrue(self.field("Description").split("\n")[0])
         self.assertGreater(int(self.field("Installed-Size")), 1000)

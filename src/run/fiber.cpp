@@ -131,9 +131,8 @@ Fiber::Fiber() : sides_(std::make_unique<Sides>()) {
         sides.code.leave_for(sides.executor, true);
         return std::move(sides.other);
     };
-    sides_->other =
-        context::fiber(std::allocator_arg, context::preallocated(stack.sp, stack.size, stack),
-                       stacks, take_turns);
+    sides_->other = context::fiber(
+        std::allocator_arg, context::preallocated(stack.sp, stack.size, stack), stacks, take_turns);
 }
 
 Fiber::~Fiber() {

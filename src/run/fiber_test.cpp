@@ -51,8 +51,8 @@ TEST(Fiber, CodeAndExecutorTakeTurns) {
     fiber.go_on();
     lines.push_back("executor 3");
     EXPECT_TRUE(fiber.ended());
-    EXPECT_THAT(lines, ElementsAre("code 1", "executor 1", "code 2", "executor 2", "code 3",
-                                   "executor 3"));
+    EXPECT_THAT(
+        lines, ElementsAre("code 1", "executor 1", "code 2", "executor 2", "code 3", "executor 3"));
 }
 
 TEST(Fiber, OneCodeFollowsTheOtherOnTheSameStack) {

@@ -114,7 +114,7 @@ private:
     HeldEvents held_;
     uint64_t last_held_ = 0;         // its number
     std::vector<BusEvent> passing_;  // let go, to be heard at the next instant
-    std::unique_ptr<Fiber> fiber_;  // of the first code that may wait, and all further ones
+    std::unique_ptr<Fiber> fiber_;   // of the first code that may wait, and all further ones
 };
 
 }  // namespace vagus::run

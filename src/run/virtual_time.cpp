@@ -77,16 +77,7 @@ struct VirtualTime::Watching {
 
 // The code of the innermost actor: it runs, or has run to its end.
 struct VirtualTime::Code final : FiberCode {
-    void run() override {
-        try {
-            actor->run(*context);
-        } catch (const Stop&) {
-        } catch (const std::exception& error) {
-            failed = true;
-            failure = error.what();
-        }
-        ended = true;
-    }
+    void run() override;
 
     plan::ActivationId activation = 0;
     std::string_view name;
@@ -166,6 +157,17 @@ private:
     HeardEvents heard_;  // at this instant, when its wait was over already
     KeptEvents kept_;
 };
+
+void VirtualTime::Code::run() {
+    try {
+        actor->run(*context);
+    } catch (const Stop&) {
+    } catch (const std::exception& error) {
+        failed = true;
+        failure = error.what();
+    }
+    ended = true;
+}
 
 VirtualTime::VirtualTime(const plan::Graph& graph, const CodeLibrary& library,
                          const RunOptions& options)

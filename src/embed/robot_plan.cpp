@@ -13,7 +13,7 @@ RobotPlan::RobotPlan(session::RobotBus& robot)
     if (camera_.exists()) parts_.camera = &camera_;
 }
 
-// A plan that was not run to its end is told to stop: code has threads of its own.
+// A plan that was not run to its end is told to stop: its code is in the middle of something.
 RobotPlan::~RobotPlan() {
     abort();
     const Time latest = begun_ + kPlansEndWithin;

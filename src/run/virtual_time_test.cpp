@@ -167,35 +167,58 @@ TEST_F(VirtualRun, IsTheSameEachTimeAndAnotherWithAnotherSeed) {  // P21a
     EXPECT_NE(draw(2), first);
 }
 
-// One sleeps 25 ms, the other 20 ms and then 20 ms again: the lines of both in the order of time.
-TEST_F(VirtualRun, SeveralOnOneClockAreTakenInTurn) {
-    const auto graph_of = [this](const std::string& name, const std::string& actors) {
-        return test_graph(R"({ "format": "vagus-plan/1", "name": ")" + name +
-                              R"(", "start": { "actor": "a" }, "actors": {)" + actors + "}}",
-                          library_);
-    };
-    const plan::Graph one =
-        graph_of("One", R"("a": { "template": "Sleep25", "states": { "Done": "@terminate" } })");
-    const plan::Graph two =
-        graph_of("Two", R"("a": { "template": "Sleep20", "states": { "Done": "b" } },)" +
-                            std::string(kBehind));
-    std::vector<std::string> lines;
-    options_.on_trace = [&lines](const plan::TraceEvent& event) {
-        lines.push_back(fmt::format("{} {} {}", event.at / 1ms, event.plan, test_line(event)));
-    };
-    VirtualTime first(one, library_, options_), second(two, library_, options_);
-    first.start();
-    second.start();
-    while (!first.over() || !second.over()) {
-        const bool is_first = second.over() || (!first.over() && first.now() <= second.now());
-        (is_first ? first : second).step();
+// Two plans on one clock, "One" and "Two", with their times in milliseconds: "20 Two actor-end a".
+class VirtualRuns : public VirtualRun {
+protected:
+    std::vector<std::string> run_in_turn(const std::string& actors_of_one,
+                                         const std::string& actors_of_two) {
+        const auto graph_of = [this](const std::string& name, const std::string& actors) {
+            return test_graph(R"({ "format": "vagus-plan/1", "name": ")" + name +
+                                  R"(", "start": { "actor": "a" }, "actors": {)" + actors + "}}",
+                              library_);
+        };
+        const plan::Graph one = graph_of("One", actors_of_one);
+        const plan::Graph two = graph_of("Two", actors_of_two);
+        std::vector<std::string> lines;
+        options_.on_trace = [&lines](const plan::TraceEvent& event) {
+            lines.push_back(fmt::format("{} {} {}", event.at / 1ms, event.plan, test_line(event)));
+        };
+        VirtualTime first(one, library_, options_), second(two, library_, options_);
+        first.start();
+        second.start();
+        while (!first.over() || !second.over()) {
+            const bool is_first = second.over() || (!first.over() && first.now() <= second.now());
+            (is_first ? first : second).step();
+        }
+        first.finish();
+        second.finish();
+        return lines;
     }
-    EXPECT_EQ(first.finish().result, plan::PlanResult::Ok);
-    EXPECT_EQ(second.finish().result, plan::PlanResult::Ok);
-    EXPECT_THAT(lines, ElementsAre("0 One plan-start", "0 Two plan-start", "0 One actor-start a",
-                                   "0 Two actor-start a", "20 Two actor-end a",
-                                   "20 Two actor-start b", "25 One actor-end a", "25 One plan-end",
-                                   "40 Two actor-end b", "40 Two plan-end"));
+};
+
+// One sleeps 25 ms, the other 20 ms and then 20 ms again: the lines of both in the order of time.
+TEST_F(VirtualRuns, OnOneClockAreTakenInTurn) {
+    EXPECT_THAT(run_in_turn(R"("a": { "template": "Sleep25", "states": { "Done": "@terminate" } })",
+                            R"("a": { "template": "Sleep20", "states": { "Done": "b" } },)" +
+                                std::string(kBehind)),
+                ElementsAre("0 One plan-start", "0 Two plan-start", "0 One actor-start a",
+                            "0 Two actor-start a", "20 Two actor-end a", "20 Two actor-start b",
+                            "25 One actor-end a", "25 One plan-end", "40 Two actor-end b",
+                            "40 Two plan-end"));
+}
+
+// Both linger for 5 ms in a catch block: the first one leaves it while the other is still there.
+TEST_F(VirtualRuns, PutThingsInOrderSideBySide) {  // P14, P27
+    EXPECT_THAT(
+        run_in_turn(
+            R"("a": { "template": "Lingers", "states": { "Done": "@terminate" }, "supervisors": {
+                 "s": { "template": "At20", "events": { "Seen": "@terminate" } } } })",
+            R"("a": { "template": "Lingers", "states": { "Done": "@terminate" }, "supervisors": {
+                 "s": { "template": "Every7", "events": { "Seen": "@terminate" } } } })"),
+        ElementsAre("0 One plan-start", "0 Two plan-start", "0 One actor-start a",
+                    "0 Two actor-start a", "20 One event s", "21 Two event s",
+                    "25 One interrupted a", "25 One plan-end", "26 Two interrupted a",
+                    "26 Two plan-end"));
 }
 
 }  // namespace

@@ -64,6 +64,7 @@ struct Template {
     int64_t grace_ms = kGraceDefaultMs;    // actors
     BusUse bus = {};
     bool needs_fleet = false;  // it asks the other robots, or their keeper
+    bool only_fails = false;   // its code does nothing but throw: an error is meant (explore.hpp)
     int line = 0;              // in the file of its toolbox; 0: declared in C++
 };
 

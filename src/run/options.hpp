@@ -16,6 +16,7 @@
 
 namespace vagus::run {
 
+class CodeSource;
 class Debugger;
 class Surroundings;
 
@@ -44,6 +45,9 @@ struct RunOptions {
     // In virtual time: what shares the run's clock (surroundings.hpp). Borrowed for the run.
     Surroundings* surroundings = nullptr;
     Debugger* debugger = nullptr;  // borrowed for the run
+    // In virtual time: code in place of that of the toolboxes (code_source.hpp). Borrowed for the
+    // run.
+    CodeSource* code_source = nullptr;
 };
 
 // Throws CodeError with the sentence of may_emit.

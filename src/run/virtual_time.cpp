@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "run/code_source.hpp"
 #include "run/debugger.hpp"
 #include "run/heard_events.hpp"
 #include "run/kept_events.hpp"
@@ -246,9 +247,11 @@ void VirtualTime::obey() {
 }
 
 void VirtualTime::obey(plan::StartWatch& command) {
+    const bool is_there = command.level < machine_.depth();  // its plan may have ended again
+    const CodePlace here{is_there ? machine_.path_at(command.level) : "", now_};
     auto watching = std::make_unique<Watching>(
         Watching{command.watch, command.level, command.global, command.index, command.supervisor,
-                 library_.make_supervisor(*command.supervisor->of),
+                 make_supervisor(options_, library_, *command.supervisor, here),
                  WatchContext(*this, command.supervisor->name), now_, now_});
     const auto place = std::find_if(watching_.begin(), watching_.end(), [&](const auto& other) {
         return watching->rank() < other->rank();
@@ -289,7 +292,8 @@ void VirtualTime::obey(plan::StartCode& command) {
     Code& code = *code_;
     code.activation = command.activation;
     code.name = command.actor->name;
-    code.actor = library_.make_actor(*command.actor->of);
+    code.actor =
+        make_actor(options_, library_, *command.actor, {machine_.path_at(command.level), now_});
     code.context = std::make_unique<Context>(*this, code, std::move(command.in),
                                              command.actor->of->outputs.size());
     code.grace_ends = Duration{command.actor->of->grace_ms * 1000};

@@ -215,7 +215,8 @@ std::vector<Coded> actors() {
         actor<Fail>({.name = "Fail",
                      .help = "Ends the plan with an internal error.",
                      .icon = "M5 5l14 14M19 5L5 19",
-                     .inputs = {{.name = "message", .type = Type::String, .help = "the error"}}}));
+                     .inputs = {{.name = "message", .type = Type::String, .help = "the error"}},
+                     .only_fails = true}));
     list.push_back(actor<Stubborn>(
         {.name = "Stubborn",
          .help = "Waits, and when told to stop goes on for a while: to see how a plan takes that.",

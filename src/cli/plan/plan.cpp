@@ -13,6 +13,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/plan/debug.hpp"
+#include "cli/plan/diff.hpp"
 #include "cli/plan/explore.hpp"
 #include "cli/plan/generate.hpp"
 #include "cli/plan/hot_change.hpp"
@@ -285,6 +286,7 @@ void add_plan(CLI::App& app, int& exit_code) {
     add_run(*plan, exit_code);
     add_debug(*plan, exit_code);
     add_plan_explore(*plan, exit_code);
+    add_plan_diff(*plan, exit_code);
     add_plan_generate(*plan, exit_code);
     add_format(*plan, exit_code);
     add_formulas(*plan);

@@ -23,7 +23,7 @@ public:
 
     Result<Condition> parse() {
         if (text_.size() > kConditionBytesMax) {
-            return Error{Code::Limit, "the condition has " + std::to_string(text_.size()) +
+            return Error{Code::Limit, "the expression has " + std::to_string(text_.size()) +
                                           " characters; at most " +
                                           std::to_string(kConditionBytesMax) + " are allowed"};
         }
@@ -75,7 +75,7 @@ private:
         if (failed()) return -1;
         const std::string found =
             at_ < text_.size() ? "\"" + std::string(text_.substr(at_)) + "\"" : "nothing more";
-        error_ = "condition, column " + std::to_string(at_ + 1) + ": expected " + expected +
+        error_ = "expression, column " + std::to_string(at_ + 1) + ": expected " + expected +
                  ", found " + found;
         return -1;
     }
@@ -261,8 +261,12 @@ constexpr int32_t kShiftMask = 31;  // counts as amd64 takes them (wire spec, 3.
 
 }  // namespace
 
+Result<int16_t> Condition::value(const std::vector<std::vector<int16_t>>& values) const {
+    return value_of(static_cast<int>(terms_.size()) - 1, values);
+}
+
 Result<bool> Condition::evaluate(const std::vector<std::vector<int16_t>>& values) const {
-    return TRY(value_of(static_cast<int>(terms_.size()) - 1, values)) != 0;
+    return TRY(value(values)) != 0;
 }
 
 // The depth is that of the tree: a chain of operators of one level leans to the left, at most
@@ -275,7 +279,7 @@ Result<int16_t> Condition::value_of(int place,
     const int32_t a = TRY(value_of(term.left, values));
     const int32_t b = term.right < 0 ? int32_t{0} : int32_t{TRY(value_of(term.right, values))};
     const bool divides = term.kind == Kind::Divide || term.kind == Kind::Modulo;
-    if (divides && b == 0) return Error{Code::BadInput, "the condition divides by zero"};
+    if (divides && b == 0) return Error{Code::BadInput, "the expression divides by zero"};
     switch (term.kind) {
         case Kind::Number:
         case Kind::Variable:
@@ -335,7 +339,7 @@ Result<int16_t> Condition::element(const Term& term,
     if (index >= 0 && static_cast<size_t>(index) < words.size()) {
         return words[static_cast<size_t>(index)];
     }
-    return Error{Code::BadInput, "the condition reads " + variables_[term.variable].name + "[" +
+    return Error{Code::BadInput, "the expression reads " + variables_[term.variable].name + "[" +
                                      std::to_string(index) + "], which has " +
                                      std::to_string(words.size()) + " words"};
 }

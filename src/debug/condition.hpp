@@ -1,5 +1,5 @@
-// Conditions of breakpoints: expressions in the grammar of AESL over a node's variables and the
-// constants of the project, evaluated on the host when the node stops.
+// Conditions of breakpoints, and what log points show: expressions in the grammar of AESL over a
+// node's variables and the constants of the project, evaluated on the host.
 //
 //     speed > 100 and not (prox.horizontal[2] == 0 or state == WAITING)
 //
@@ -38,6 +38,8 @@ public:
     const std::vector<aesl::VariablePlace>& variables() const { return variables_; }
     // With the values of variables(), in the same order. Fails on a division by zero and an index
     // out of range.
+    Result<int16_t> value(const std::vector<std::vector<int16_t>>& values) const;
+    // Whether that is anything but 0.
     Result<bool> evaluate(const std::vector<std::vector<int16_t>>& values) const;
 
 private:

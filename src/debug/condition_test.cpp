@@ -78,6 +78,15 @@ TEST(Condition, ArithmeticWrapsTo16Bits) {
     EXPECT_TRUE(holds("1 << 32 == 1").value());
 }
 
+TEST(Condition, HasAValueLikeAnyExpression) {
+    const auto value = [](std::string_view text) {
+        return Condition::parse(text, kVariables, {}).value().value({{5}}).value();
+    };
+    EXPECT_EQ(value("n * 3 - 1"), 14);
+    EXPECT_EQ(value("n > 2"), 1);
+    EXPECT_EQ(value("-n"), -5);
+}
+
 TEST(Condition, ReadsEachVariableOnce) {
     const auto condition = Condition::parse("n > 1 and n < 9 or a[n] == a[0]", kVariables, {});
     ASSERT_TRUE(condition.ok());
@@ -89,21 +98,21 @@ TEST(Condition, ReadsEachVariableOnce) {
 TEST(Condition, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(
         error_of("n == "),
-        "condition, column 6: expected a variable, a constant or a number, found nothing more");
+        "expression, column 6: expected a variable, a constant or a number, found nothing more");
     EXPECT_EQ(error_of("n = 5"),
-              "condition, column 3: expected an operator or the end, found \"= 5\"");
+              "expression, column 3: expected an operator or the end, found \"= 5\"");
     EXPECT_EQ(error_of("prox.lefd > 1"),
-              "condition, column 1: expected a variable or constant of the node (did you mean "
+              "expression, column 1: expected a variable or constant of the node (did you mean "
               "prox.left?), found \"prox.lefd > 1\"");
     EXPECT_EQ(
         error_of("a > 1"),
-        "condition, column 3: expected \"[\" and an index, because a has 3 words, found \"> 1\"");
-    EXPECT_EQ(error_of("(n"), "condition, column 3: expected \")\", found nothing more");
+        "expression, column 3: expected \"[\" and an index, because a has 3 words, found \"> 1\"");
+    EXPECT_EQ(error_of("(n"), "expression, column 3: expected \")\", found nothing more");
     EXPECT_EQ(error_of("n > 32768"),
-              "condition, column 5: expected a number of 16 bits, found \"32768\"");
+              "expression, column 5: expected a number of 16 bits, found \"32768\"");
     EXPECT_EQ(
         error_of(""),
-        "condition, column 1: expected a variable, a constant or a number, found nothing more");
+        "expression, column 1: expected a variable, a constant or a number, found nothing more");
 }
 
 TEST(Condition, HasAFormWhateverTheNamesAre) {
@@ -111,17 +120,17 @@ TEST(Condition, HasAFormWhateverTheNamesAre) {
         EXPECT_TRUE(Condition::check_form(text).ok()) << text;
     }
     EXPECT_EQ(Condition::check_form("token >").error().what,
-              "condition, column 8: expected a variable, a constant or a number, found nothing "
+              "expression, column 8: expected a variable, a constant or a number, found nothing "
               "more");
     EXPECT_EQ(Condition::check_form("x[1").error().what,
-              "condition, column 4: expected \"]\", found nothing more");
+              "expression, column 4: expected \"]\", found nothing more");
 }
 
 TEST(Condition, FailsWhereTheNodeWouldFault) {
-    EXPECT_EQ(error_of("1 / (n - 5)"), "the condition divides by zero");
-    EXPECT_EQ(error_of("1 % 0"), "the condition divides by zero");
-    EXPECT_EQ(error_of("a[n]"), "the condition reads a[5], which has 3 words");
-    EXPECT_EQ(error_of("a[-1]"), "the condition reads a[-1], which has 3 words");
+    EXPECT_EQ(error_of("1 / (n - 5)"), "the expression divides by zero");
+    EXPECT_EQ(error_of("1 % 0"), "the expression divides by zero");
+    EXPECT_EQ(error_of("a[n]"), "the expression reads a[5], which has 3 words");
+    EXPECT_EQ(error_of("a[-1]"), "the expression reads a[-1], which has 3 words");
 }
 
 TEST(Condition, HasLimits) {

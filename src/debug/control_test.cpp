@@ -313,7 +313,7 @@ TEST_F(Program, ConditionsAreCheckedWhenTheyAreSetAndFailAloud) {
     bus.state(1, 5, 7);
     bus.node_says("04 00 01 00 05 90 64 00 00 00");
     ASSERT_EQ(bus.told<ConditionFailed>().size(), 1u);
-    EXPECT_EQ(bus.told<ConditionFailed>()[0].why, "the condition divides by zero");
+    EXPECT_EQ(bus.told<ConditionFailed>()[0].why, "the expression divides by zero");
     EXPECT_EQ(bus.network.node(1)->state, ProgramState::Paused);
 }
 

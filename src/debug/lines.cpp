@@ -33,6 +33,15 @@ int next_line_with_code(const aesl::Program& program, int line) {
     return next;
 }
 
+int previous_line_with_code(const aesl::Program& program, int line) {
+    int previous = 0;
+    for (size_t pc = table_size(program); pc < program.lines.size(); pc++) {
+        const int here = program.lines[pc];
+        if (here < line) previous = std::max(previous, here);
+    }
+    return previous;
+}
+
 bool is_event_start(const aesl::Program& program, uint16_t pc) {
     for (size_t word = 2; word < table_size(program); word += 2) {
         if (program.bytecode[word] == pc) return true;

@@ -16,6 +16,9 @@ int pc_of(const aesl::Program& program, int line);
 // The first line with code behind `line`, 0 if there is none: for "the next line with code is …".
 int next_line_with_code(const aesl::Program& program, int line);
 
+// The last line with code before `line`, 0 if there is none.
+int previous_line_with_code(const aesl::Program& program, int line);
+
 // True if an event's code begins at `pc`.
 bool is_event_start(const aesl::Program& program, uint16_t pc);
 

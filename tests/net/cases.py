@@ -146,7 +146,7 @@ class Net(unittest.TestCase):
         self.assertIn("did not reach", self.net("break", "rover", f"{self.project}:{BOOM_LINE}", "--wait", "0.1",
                                                 status=1))
         self.assertIn("FILE:LINE", self.net("break", "rover", "nowhere", status=2))
-        self.assertIn("condition, column 1", self.net("break", "rover", f"{self.project}:{TICKS_LINE}", "if",
+        self.assertIn("expression, column 1", self.net("break", "rover", f"{self.project}:{TICKS_LINE}", "if",
                                                       "tocks > 1", status=1))
 
     def test_log_tells_events_and_faults_with_names_and_lines(self):

@@ -93,7 +93,7 @@ TEST_F(PlacingTest, AConditionThatDoesNotParseIsRefusedWhereItIsTyped) {
     type("var n\nonevent tick\n  n = n +\n");
     const Json again = say("break.set", {{"doc", kDoc}, {"line", 3}, {"condition", "m >"}});
     EXPECT_EQ(again["error"]["code"], "bad_input");
-    EXPECT_THAT(again["error"]["what"].get<std::string>(), HasSubstr("condition, column 4"));
+    EXPECT_THAT(again["error"]["what"].get<std::string>(), HasSubstr("expression, column 4"));
     ask("break.set", {{"doc", kDoc}, {"line", 3}, {"condition", "m > 2"}});
 }
 

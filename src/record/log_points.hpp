@@ -1,0 +1,159 @@
+// Log points: what variables hold each time a line of a script or an element of the plan is
+// reached, told while a run goes on or is run again, without changing it.
+//
+//     LogPoints::Run run{rerun->session(), &rerun->plan()->graph()};
+//     auto points = TRY(LogPoints::set({{"drive:42", "token, patience"}}, run, show));
+//     rerun->listen([&](const plan::TraceEvent& event) { points->see(event); });
+//     TRY(rerun->run(tape));
+//     TRY(points->check());                       // a place that there is not
+//
+// Where: NODE:LINE, a line of the file of its script, reached as by a breakpoint there: before its
+// first instruction; in a world of several robots the node of each, or of one as ROBOT/NODE:LINE.
+// @ACTOR.enter, @ACTOR.leave (ended or interrupted, what was written by that included) and
+// @SUPERVISOR.raise of a plan; @PLAN/ACTOR.enter where several plans have the name. Values are
+// separated by commas: of a node, expressions as in conditions of breakpoints (debug/condition.hpp)
+// and whole arrays; of a plan, formulas.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "aesl/program.hpp"
+#include "base/result.hpp"
+#include "debug/condition.hpp"
+#include "plan/graph.hpp"
+#include "plan/trace.hpp"
+#include "run/expression.hpp"
+#include "run/traced_variables.hpp"
+#include "session/sim_session.hpp"
+#include "sim/witness.hpp"
+
+namespace vagus::record {
+
+constexpr size_t kLogPointsMax = 100;
+constexpr size_t kLogValuesMax = 16;  // of one point
+constexpr size_t kLogListShown = 32;  // words of an array in a line for people
+
+struct LogWish {
+    std::string where;
+    std::string values;
+};
+
+struct LoggedValue {
+    std::string name;  // as it was asked
+    std::string text;  // for people
+    std::string json;  // an Error as {"error":"…"}
+};
+
+struct LogHit {
+    Time at{};
+    std::string where;
+    std::vector<LoggedValue> values;
+};
+
+// "     20.000 s  drive:42  token = 18, patience = 3"
+std::string format_hit(const LogHit& hit);
+// {"t":20.000000,"at":"drive:42","values":{"token":18,"patience":3}}
+std::string format_hit_json(const LogHit& hit);
+
+class LogPoints final : public sim::Witness {
+public:
+    // Of what the points are. Borrowed; nullptr: none.
+    struct Run {
+        session::SimSession* session = nullptr;
+        const plan::Graph* graph = nullptr;
+    };
+    using Told = std::function<void(const LogHit&)>;
+
+    // Watches the world from now on. The Error says what is not there, and what there is: of
+    // elements and, where all scripts have their nodes, of lines and variables; else check() does.
+    static Result<std::unique_ptr<LogPoints>> set(const std::vector<LogWish>& wishes, Run run,
+                                                  Told told);
+    ~LogPoints() override;
+
+    // Of the trace, in its order.
+    void see(const plan::TraceEvent& event);
+    // Nothing is told any more: what follows belongs to the end of the run alone.
+    void close();
+    // Whether all lines and variables of scripts are there, once their nodes have them.
+    Status check() const;
+    // By now check() says all there is to say.
+    bool settled() const;
+    // Where nothing has come so far.
+    std::vector<std::string> not_reached() const;
+
+    // ---- sim::Witness ----
+    void executes(const sim::WitnessedNode& node, uint16_t pc) override;
+
+private:
+    struct OfNode {  // a wish
+        LogWish wish;
+        std::string node;
+        int line = 0;
+        std::vector<std::string> values;
+        uint64_t hits = 0;
+    };
+    struct Shown {  // one value of a point
+        std::string name;
+        std::optional<aesl::VariablePlace> list;  // a whole array
+        std::optional<debug::Condition> expression;
+    };
+    struct Point {
+        size_t wish = 0;  // in of_nodes_
+        uint16_t pc = 0;
+        std::string where;
+        std::vector<Shown> values;
+    };
+    struct Program {  // that runs on a node, with its points
+        const aesl::Program* known = nullptr;
+        std::vector<bool> here;  // by pc: there is one
+        std::vector<Point> points;
+    };
+    enum class When : uint8_t { Enter, Leave, Raise };
+    struct OfElement {
+        LogWish wish;
+        When when = When::Enter;
+        std::string plan;  // its file
+        std::string element;
+        std::vector<std::pair<std::string, run::Expression>> values;
+        uint64_t hits = 0;
+    };
+    struct Waiting {  // for what is written by what was told
+        OfElement* point = nullptr;
+        Time at{};
+        int level = 0;
+    };
+
+    LogPoints(Run run, Told told) : run_(run), told_(std::move(told)) {}
+    Status add(const LogWish& wish);
+    Status add_element(const LogWish& wish);
+    Result<const plan::GraphPlan*> plan_with(const OfElement& point,
+                                             const std::string& of_plan) const;
+    static Result<run::Expression> formula(const LogWish& wish, const std::string& text,
+                                           const plan::GraphPlan& plan);
+    std::string label_of(const session::NodeState& node) const;
+    Result<Point> place(const OfNode& wish, const session::NodeState& node,
+                        const aesl::Program& program) const;
+    Result<Shown> show(const OfNode& wish, const std::string& text,
+                       const aesl::Program& program) const;
+    void learn(Program& program, const sim::WitnessedNode& node, const aesl::Program* now) const;
+    void tell(const Point& point, const sim::WitnessedNode& node);
+    void tell(OfElement& point, Time at, int level);
+    void tell_waiting();
+
+    Run run_;
+    Told told_;
+    bool watching_ = false;
+    std::vector<OfNode> of_nodes_;
+    std::vector<std::unique_ptr<OfElement>> of_elements_;
+    std::unordered_map<uint64_t, Program> programs_;  // by robot and node
+    std::optional<run::TracedVariables> variables_;
+    std::vector<Waiting> waiting_;
+};
+
+}  // namespace vagus::record

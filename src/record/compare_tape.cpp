@@ -2,31 +2,16 @@
 
 #include <algorithm>
 
-#include "base/json.hpp"
-
 namespace vagus::record {
 
 namespace {
 
 std::string text_of(const JsonValue* value) {
-    if (value == nullptr) return "";
-    if (value->kind == JsonKind::String) return json_quote(value->text);
-    if (value->kind == JsonKind::Bool) return value->boolean ? "true" : "false";
-    if (value->kind == JsonKind::Null) return "null";
-    if (value->is_number()) return value->text;
-    std::string text = value->kind == JsonKind::Array ? "[" : "{";
-    for (const JsonValue& item : value->items) {
-        text += (text.size() > 1 ? "," : "") + text_of(&item);
-    }
-    for (const JsonMember& member : value->members) {
-        text +=
-            (text.size() > 1 ? "," : "") + json_quote(member.key) + ":" + text_of(&member.value);
-    }
-    return text + (value->kind == JsonKind::Array ? "]" : "}");
+    return value != nullptr ? json_line(*value) : "";
 }
 
 bool same(const JsonValue& a, const JsonValue& b) {
-    return text_of(&a) == text_of(&b);
+    return json_line(a) == json_line(b);
 }
 
 // The first member that differs, in the order of what was recorded, then those that are new.
@@ -53,6 +38,22 @@ std::optional<Difference> in_object(const JsonValue& then, const JsonValue& now)
 }
 
 }  // namespace
+
+std::string json_line(const JsonValue& value) {
+    if (value.kind == JsonKind::String) return json_quote(value.text);
+    if (value.kind == JsonKind::Bool) return value.boolean ? "true" : "false";
+    if (value.kind == JsonKind::Null) return "null";
+    if (value.is_number()) return value.text;
+    std::string text = value.kind == JsonKind::Array ? "[" : "{";
+    for (const JsonValue& item : value.items) {
+        text += (text.size() > 1 ? "," : "") + json_line(item);
+    }
+    for (const JsonMember& member : value.members) {
+        text +=
+            (text.size() > 1 ? "," : "") + json_quote(member.key) + ":" + json_line(member.value);
+    }
+    return text + (value.kind == JsonKind::Array ? "]" : "}");
+}
 
 Difference first_difference(const std::string& then, const std::string& now) {
     const auto a = read_json(then);

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/json.hpp"
 #include "mcap/reader.hpp"
 #include "record/topics.hpp"
 
@@ -26,6 +27,9 @@ struct Difference {
     std::string then;   // as JSON; empty: there was none
     std::string now;
 };
+
+// A value of JSON on one line, without spaces, as in a recording.
+std::string json_line(const JsonValue& value);
 
 // Where two messages of JSON differ first, and both values there; for bytes, and for what is no
 // JSON, nothing and both whole.

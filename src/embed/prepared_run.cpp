@@ -144,6 +144,7 @@ public:
     run::Ended run_with(run::Clock clock, const std::function<run::Ended(run::Execution&)>& go);
     void abort(const std::string& by);
     void abort_this();
+    void set(int slot, plan::Value value);
     void defer_aborts() { deferred_ = true; }
     std::optional<std::string> take_abort();
     // What ended this run; empty if it ended by itself.
@@ -445,6 +446,11 @@ std::optional<std::string> PreparedRun::Insides::take_abort() {
     return by;
 }
 
+void PreparedRun::Insides::set(int slot, plan::Value value) {
+    const std::lock_guard lock(mutex_);
+    if (execution_ != nullptr) execution_->set(slot, std::move(value));
+}
+
 void PreparedRun::Insides::abort_this() {
     const std::lock_guard lock(mutex_);
     abort_it(kSomebody);
@@ -530,6 +536,10 @@ int PreparedRun::exit_status(const run::Ended& ended) {
 
 void PreparedRun::abort_this() {
     insides_->abort_this();
+}
+
+void PreparedRun::set(int slot, plan::Value value) {
+    insides_->set(slot, std::move(value));
 }
 
 void PreparedRun::defer_aborts() {

@@ -97,6 +97,9 @@ public:
     bool abort_asked() const;
     // Ends this run only; the next one begins as usual.
     void abort_this();
+    // While it runs, on the deciding thread: writes a variable of the outermost plan from outside,
+    // as soon as what is being decided is done (P29).
+    void set(int slot, plan::Value value);
     // Before run(), beside a world: from now on what was asked of abort() and abort_this() is done
     // by take_abort(), on the deciding thread. Gives by whom, if it was asked for since.
     void defer_aborts();

@@ -33,6 +33,12 @@ struct RerunOptions {
     // Files in place of those of the recording, by name in it: their content.
     std::map<std::string, std::string> with = {};
     std::optional<Time> until = {};  // it ends there, as if somebody had ended it
+    // It is as it was up to then, and goes another way from there on: what a person did later is
+    // not done, `set` (NAME=VALUE, of the plan) is, and files of `with` take over there, as they
+    // do in a run while they are saved. They are scripts and the plan. What was done is an input
+    // of the new run, which can be recorded and run again as any.
+    std::optional<Time> from = {};
+    std::vector<std::string> set = {};
 };
 
 // The file of the recording that a path on a command line means: "NAME=PATH", or a PATH whose last
@@ -52,12 +58,12 @@ public:
     };
 
     // Writes its files into a folder of its own and prepares the run. The Error says what is wrong
-    // with the recording, or with a file that was replaced.
+    // with the recording, with a file that was replaced, or what cannot change on the way.
     static Result<std::unique_ptr<Rerun>> open(const mcap::Reader& reader,
                                                const RerunOptions& options);
     virtual ~Rerun() = default;
 
-    // What it says goes to the tape. Once.
+    // What it says goes to the tape. Once. The Error says what could not change on the way.
     virtual Result<Ended> run(Tape& tape) = 0;
     // Before run(): is told of each line of the trace, and of the end of each instant.
     virtual void listen(std::function<void(const plan::TraceEvent&)> listener) = 0;
@@ -88,8 +94,20 @@ protected:
         std::string text;  // the message
         std::optional<sim::Act> act = {};
         std::string by = {};
+        std::string file = {};   // of "load"
+        std::string value = {};  // of "set" NAME=VALUE; of "load" what is in the file now
     };
     static Result<std::vector<Input>> inputs_of(const mcap::Reader& reader);
+    // Those up to `from`, and what is done there.
+    static std::vector<Input> other_inputs(std::vector<Input> recorded,
+                                           const RerunOptions& options);
+    // Whether each of them can be done: before run().
+    Status check_inputs();
+    // Does a "set" or a "load", or asks only whether it can be done.
+    enum class Only : uint8_t { Ask, Do };
+    virtual Status change(const Input& input, Only only);
+    // The input with which such a run ends at `at`.
+    virtual std::string end_of_run(Time at) const = 0;
     // What was done at `at` is done again; true if the run is to end.
     bool after_instant(Time at, Recorder& recorder, session::SimSession& session);
 
@@ -98,6 +116,8 @@ protected:
     std::vector<Input> inputs_;
     size_t next_input_ = 0;
     std::optional<Time> until_;
+    bool another_way_ = false;  // options.from
+    Status changed_ = Status::done();
     std::vector<std::function<void(Time)>> looks_;
     std::function<void(const sim::Act&)> told_of_act_;
     bool stopped_ = false;

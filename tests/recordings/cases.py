@@ -140,6 +140,269 @@ class Recordings(unittest.TestCase):
         self.assertIn("no file of the recording is called so; its files are ", told)
         self.assertIn("follow-wall/hall.world.json", told)
 
+    # ---- log points ----
+
+    def script_line(self, text, file="carbot/carbot.aesl"):
+        """The number of the only line of a script that is this."""
+        lines = [line.strip() for line in (EXAMPLES / file).read_text().splitlines()]
+        self.assertEqual(lines.count(text), 1, text)
+        return lines.index(text) + 1
+
+    def logged(self, *points, options=()):
+        """The hits, in their order; the run is the same as it was."""
+        words = [word for where, values in points for word in ("--log", where, values)]
+        told = self.replays("--json", *words, *options).splitlines()
+        *hits, result = [json.loads(line) for line in told if line.startswith("{")]  # words for people are on stderr
+        self.assertIsNone(result["difference"])
+        self.assertGreater(result["compared"], 0)
+        return hits
+
+    def traced_follow_wall(self, max_time):
+        """Gives what the plan and the bus said meanwhile, as the run itself wrote it."""
+        trace = self.folder / "all.jsonl"
+        self.follow_wall("--trace-all", trace, max_time=max_time)
+        return [json.loads(line) for line in trace.read_text().splitlines()]
+
+    def test_a_line_of_a_script_tells_its_values(self):
+        """What `emit drive.arrived [token]` is reached with is what comes: by another way."""
+        said = self.traced_follow_wall(130)
+        arrived = [(line["t"], line["args"]) for line in said if line.get("name") == "drive.arrived"]
+        self.assertGreater(len(arrived), 3)
+        where = f"drive:{self.script_line('emit drive.arrived [token]')}"
+        hits = self.logged((where, "token, token * 2 + 1, watch.x"))
+        self.assertEqual([hit["at"] for hit in hits], [where] * len(arrived))
+        self.assertEqual([[hit["values"]["token"]] for hit in hits], [args for _, args in arrived])
+        for hit, (t, args) in zip(hits, arrived):
+            # Over the bus it takes a moment.
+            self.assertLess(0, t - hit["t"] + 1e-9)
+            self.assertLess(t - hit["t"], 0.005)
+            self.assertEqual(hit["values"]["token * 2 + 1"], args[0] * 2 + 1)
+            self.assertEqual(len(hit["values"]["watch.x"]), 4)
+        text = self.replays("--log", where, "token")
+        first, token = hits[0]["t"], hits[0]["values"]["token"]
+        self.assertEqual(text.splitlines()[0].split(), [f"{first:.3f}", "s", where, "token", "=", str(token)])
+        self.assertRegex(text, NO_DIFFERENCE)
+
+    def test_a_line_is_reached_before_it_does_anything(self):
+        """Line by line through `sub accept`: the token is the one before, and then the event's."""
+        self.follow_wall(max_time=20)
+        before = f"drive:{self.script_line('token = event.args[0]')}"
+        behind = f"drive:{self.script_line('touch_ended = 0')}"
+        hits = self.logged((before, "token, event.args[0]"), (behind, "token, event.args[0]"))
+        self.assertGreater(len(hits), 3)
+        token = -1
+        for one, two in zip(hits[::2], hits[1::2]):
+            self.assertEqual((one["at"], two["at"]), (before, behind))
+            self.assertEqual(one["t"], two["t"])
+            # In between it can only have been ended.
+            self.assertIn(one["values"]["token"], (token, -1))
+            token = one["values"]["event.args[0]"]
+            self.assertEqual(two["values"], {"token": token, "event.args[0]": token})
+
+    def test_an_element_of_the_plan_tells_its_values(self):
+        said = self.traced_follow_wall(60)
+        wrote = [line["value"] for line in said if line.get("kind") == "write" and line.get("by") == "findWallAngle"]
+        began = [line["t"] for line in said if line.get("kind") == "actor-start" and line["actor"] == "followWall"]
+        raised = [line["t"] for line in said if line.get("kind") == "event" and line.get("supervisor") == "checkLane"]
+        self.assertTrue(wrote and began and raised)
+        hits = self.logged(("@findWallAngle.leave", "wallangle"), ("@followWall.enter", "walldist, if(walldist > 20, 'far', 'near')"),
+                           ("@checkLane.raise", "walldist / 0"))
+        at = lambda where: [hit for hit in hits if hit["at"] == where]
+        self.assertEqual([hit["values"]["wallangle"] for hit in at("@findWallAngle.leave")][:len(wrote)], wrote)
+        self.assertEqual([hit["t"] for hit in at("@followWall.enter")], began)
+        self.assertEqual(at("@followWall.enter")[0]["values"], {"walldist": 30, "if(walldist > 20, 'far', 'near')": "far"})
+        self.assertEqual([hit["t"] for hit in at("@checkLane.raise")], raised)
+        self.assertIn("error", at("@checkLane.raise")[0]["values"]["walldist / 0"])
+
+    def test_a_script_that_is_loaded_while_the_world_runs(self):
+        """Its first line is reached once, before its variables have their values."""
+        run_vagus("sim", EXAMPLES / "thymio/arena.world.json", "--load", EXAMPLES / "thymio/explore.aesl", "--headless",
+                  "--speed", "max", "--duration", 5, "--record", self.file)
+        first = f"thymio-II:{self.script_line('var running = 1', 'thymio/explore.aesl')}"
+        last = f"thymio-II:{self.script_line('timer.period[0] = 3000', 'thymio/explore.aesl')}"
+        hits = self.logged((first, "running, free"), (last, "running, free, timer.period"))
+        self.assertEqual([(hit["at"], hit["values"]) for hit in hits],
+                         [(first, {"running": 0, "free": 15}), (last, {"running": 1, "free": 15, "timer.period": [0, 0]})])
+        self.assertLess(hits[0]["t"], 1)
+        self.assertIn('there is no node "thymio"; did you mean thymio-II?',
+                      self.replays("--log", "thymio:40", "running", status=2))
+
+    def test_log_points_end_where_the_replay_ends(self):
+        self.follow_wall(max_time=40)
+        hits = self.logged((f"drive:{self.script_line('patience -= 1')}", "patience"), ("@searchFirstWall.leave", "walldist"),
+                           options=("--until", 5))
+        self.assertTrue(hits)
+        self.assertEqual({hit["at"][0] for hit in hits}, {"d"})  # its actor runs on: nothing has left
+        self.assertLessEqual(hits[-1]["t"], 5)
+
+    def test_log_points_that_are_not_there(self):
+        self.follow_wall(max_time=2)
+        line = self.script_line("token = event.args[0]")
+        for where, values, sentence in (
+                (f"drive:{line}", "tokn", "did you mean token?"),
+                ("drive:1", "token", "drive has no code at line 1 of carbot.aesl; the nearest with code: "),
+                ("wheels:5", "token", 'there is no node "wheels"; there are: '),
+                ("@followWal.enter", "walldist", "did you mean followWall?"),
+                ("followWall", "walldist", "expected NODE:LINE, as drive:42, or @ACTOR.enter")):
+            with self.subTest(where=where):
+                self.assertIn(sentence, self.replays("--log", where, values, status=2))
+        self.assertIn("@followWall.enter: was not reached", self.replays("--log", "@followWall.enter", "walldist"))
+
+    # ---- another way from an instant on ----
+
+    def goes_another_way(self, *options, at=20):
+        """Gives the lanes of both runs that differ; the new recording is one as any."""
+        other = self.folder / "other.mcap"
+        told = self.replays("--from", at, "--record", other, *options)
+        self.assertRegex(told, rf"{at}\.000000 s again, \d+ messages compared: no difference")
+        self.assertIn("it ends now: ", told)
+        self.assertRegex(run_vagus("replay", other), NO_DIFFERENCE)
+        lanes = json.loads(run_vagus("compare", self.file, other, "--json", status=1))["lanes"]
+        return {lane["lane"]: lane["difference"] for lane in lanes if lane["difference"]}
+
+    def test_a_variable_is_set_at_an_instant_of_the_past(self):
+        """And the planted difference is the first that `compare` tells."""
+        self.follow_wall(max_time=40)
+        found = self.goes_another_way("--set", "walldist=60")
+        self.assertEqual(list(found)[0], "/vagus/input")
+        self.assertEqual(found["/vagus/input"]["a_t"], 20)
+        self.assertEqual(found["/vagus/input"]["b"], {"do": "set", "value": "walldist=60"})
+        self.assertIsNone(found["/vagus/input"]["a"])
+        self.assertIn("/plan/trace", found)
+        self.assertEqual(found["/plan/trace"]["a_t"], 20.001)  # the plan decides at the next instant
+        self.assertEqual({key: found["/plan/trace"]["b"][key] for key in ("kind", "variable", "value")},
+                         {"kind": "write", "variable": "walldist", "value": 60})
+
+    def test_a_script_changes_at_an_instant_of_the_past(self):
+        self.follow_wall(max_time=40)
+        script = self.folder / "carbot.aesl"
+        text = (EXAMPLES / "carbot/carbot.aesl").read_text()
+        self.assertEqual(text.count("const PATIENCE = 15 "), 1)
+        script.write_text(text.replace("const PATIENCE = 15 ", "const PATIENCE = 12 "))
+        found = self.goes_another_way("--with", script)
+        self.assertEqual(list(found)[0], "/vagus/input")
+        self.assertEqual(found["/vagus/input"]["a_t"], 20)
+        # The node is loaded over the bus, and begins as it does.
+        drive = found["/node/drive/variables"]
+        self.assertGreaterEqual(drive["a_t"], 20)
+        self.assertLess(drive["a_t"], 21)
+
+    def test_the_plan_changes_at_an_instant_of_the_past(self):
+        self.follow_wall(max_time=40)
+        plan = self.folder / "WallFollow.plan.json"
+        text = (EXAMPLES / "follow-wall/WallFollow.plan.json").read_text()
+        before = '"in": { "distance": 50, "seconds": 25 }'
+        self.assertIn(before, text)
+        plan.write_text(text.replace(before, '"in": { "distance": 50, "seconds": 26 }'))
+        found = self.goes_another_way("--with", plan)
+        self.assertEqual(list(found)[0], "/vagus/input")
+        self.assertEqual(found["/plan/trace"]["a_t"], 20.001)
+        self.assertEqual(found["/plan/trace"]["b"]["kind"], "change")
+
+    def test_what_a_person_did_later_is_not_done(self):
+        """Ended by a signal then; the way from 1 s on goes as far as it is let go."""
+        with vagus("plan", "run", EXAMPLES / "follow-wall/WallFollow.plan.json", "--world",
+                   EXAMPLES / "follow-wall/hall.world.json", "--headless", "--record", self.file) as program:
+            program.wait_line(r"searchFirstWall")
+            for _ in range(2):
+                size = self.file.stat().st_size
+                while self.file.stat().st_size == size and program.process.poll() is None:
+                    pass
+            program.signal(signal.SIGINT)
+            program.wait_end()
+        found = self.goes_another_way("--until", 30, at=1)
+        self.assertIn("end", found)
+        self.assertGreaterEqual(found["end"]["b"]["t"], 30)
+        self.assertLess(found["end"]["a"]["t"], 30)
+
+    def test_a_world_goes_another_way(self):
+        run_vagus("sim", EXAMPLES / "thymio/arena.world.json", "--load", EXAMPLES / "thymio/explore.aesl", "--headless",
+                  "--speed", "max", "--duration", 10, "--record", self.file)
+        script = self.folder / "explore.aesl"
+        text = (EXAMPLES / "thymio/explore.aesl").read_text()
+        self.assertEqual(text.count("const CRUISE = 300"), 1)
+        script.write_text(text.replace("const CRUISE = 300", "const CRUISE = 100"))
+        other = self.folder / "other.mcap"
+        self.assertRegex(self.replays("--from", 5, "--with", script, "--record", other), r"5\.000000 s again.*no difference")
+        self.assertRegex(run_vagus("replay", other), NO_DIFFERENCE)
+        lanes = json.loads(run_vagus("compare", self.file, other, "--json", status=1))["lanes"]
+        self.assertEqual((lanes[0]["lane"], lanes[0]["difference"]["a_t"]), ("/vagus/input", 5))
+        pose = next(lane for lane in lanes if lane["lane"] == "/world/poses robot/thymio")
+        self.assertGreater(pose["difference"]["a_t"], 5)
+
+    def test_what_cannot_change_on_the_way(self):
+        self.follow_wall(max_time=5)
+        world = self.folder / "hall.world.json"
+        world.write_text((EXAMPLES / "follow-wall/hall.world.json").read_text())
+        script = self.folder / "carbot.aesl"
+        script.write_text((EXAMPLES / "carbot/carbot.aesl").read_text().replace("token = event.args[0]", "tokn = event.args[0]", 1))
+        for words, sentence in (
+                (["--from", 1, "--with", world], "hall.world.json cannot change while the run goes on"),
+                (["--from", 1, "--with", script], "tokn"),
+                (["--from", 1, "--set", "wall=3"], "wall"),
+                (["--from", 9], "run.mcap ends at 5."),
+                (["--set", "walldist=3"], "--set goes with --from"),
+                (["--from", 2, "--until", 1], "--until comes before --from"),
+                (["--until", 1, "--record", self.folder / "x.mcap"], "say from when on it is"),
+                (["--record", self.file], "is the recording that is run again")):
+            with self.subTest(words=words):
+                self.assertIn(sentence, self.replays(*words, status=2))
+        self.assertRegex(self.replays(), NO_DIFFERENCE)
+
+    # ---- side by side ----
+
+    def compares(self, *options, status=1):
+        return json.loads(run_vagus("compare", self.file, self.folder / "other.mcap", "--json", *options, status=status))
+
+    def other_follow_wall(self, world=None, **options):
+        first, self.file = self.file, self.folder / "other.mcap"
+        with vagus("plan", "run", EXAMPLES / "follow-wall/WallFollow.plan.json", "--world",
+                   world or EXAMPLES / "follow-wall/hall.world.json", "--set", "walldist=30", "--clock", "virtual", "--quiet",
+                   "--record", self.file, *[word for name, value in options.items() for word in (f"--{name}", value)]) as program:
+            program.wait_end()
+        self.file = first
+
+    def test_the_same_run_twice_has_no_difference(self):
+        self.follow_wall(max_time=20)
+        self.other_follow_wall(**{"max-time": 20})
+        self.assertRegex(run_vagus("compare", self.file, self.folder / "other.mcap"), r"values compared: no difference$")
+
+    def test_a_world_that_differs_at_an_instant(self):
+        """The plank comes at 81 s instead of at 80 s: before, nothing differs."""
+        self.follow_wall(max_time=85)
+        folder = self.folder / "follow-wall"
+        folder.mkdir()
+        text = (EXAMPLES / "follow-wall/hall.world.json").read_text()
+        self.assertEqual(text.count('"t": 80,'), 1)
+        text = text.replace('"t": 80,', '"t": 81,').replace('"../carbot/carbot.aesl"', json.dumps(str(EXAMPLES / "carbot/carbot.aesl")))
+        (folder / "hall.world.json").write_text(text)
+        self.other_follow_wall(folder / "hall.world.json", **{"max-time": 85})
+        found = self.compares()
+        first = found["lanes"][0]
+        self.assertEqual(first["lane"], "/world/scene")
+        self.assertEqual(first["difference"]["b_t"], first["difference"]["a_t"])
+        # Scenes are looked at with the poses, each 100 ms.
+        self.assertLessEqual(80, first["difference"]["a_t"])
+        self.assertLessEqual(first["difference"]["a_t"], 80.1)
+        self.assertTrue(any(one["what"].startswith("file ") for one in found["started"]))
+
+    def test_aligned_at_an_actor(self):
+        """The second waits longer before it: from there on both do the same."""
+        for seconds, file in ((2, self.file), (3.5, self.folder / "other.mcap")):
+            plan = self.folder / "Wait.plan.json"
+            plan.write_text(json.dumps({
+                "format": "vagus-plan/1", "name": "Wait", "start": {"actor": "first"}, "actors": {
+                    "first": {"template": "Wait", "in": {"seconds": seconds}, "states": {"Done": "second"}},
+                    "second": {"template": "Wait", "in": {"seconds": 1}, "states": {"Done": "@terminate"}}}}))
+            run_vagus("plan", "run", plan, "--clock", "virtual", "--record", file)
+        self.assertEqual(self.compares("--align", "actor", "second", status=0)["aligned"], {"a": 2, "b": 3.5})
+        apart = self.compares()["lanes"][0]
+        self.assertEqual((apart["lane"], apart["difference"]["a_t"]), ("/plan/trace", 0))  # the input of the first
+        told = run_vagus("compare", self.file, self.folder / "other.mcap", "--align", "actor", "third", status=2)
+        self.assertIn('began no actor "third"; ', told)
+        self.assertIn("expected start, actor NAME or event NAME",
+                      run_vagus("compare", self.file, self.file, "--align", "middle", status=2))
+
     # ---- damage ----
 
     def test_a_killed_run_is_read_up_to_its_last_second(self):

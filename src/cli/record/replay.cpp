@@ -2,14 +2,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
 
 #include "base/file.hpp"
+#include "base/json.hpp"
 #include "base/seconds.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "embed/loaded_plan.hpp"
 #include "mcap/writer.hpp"
+#include "record/both_tapes.hpp"
 #include "record/compare_tape.hpp"
+#include "record/file_tape.hpp"
+#include "record/log_points.hpp"
 #include "record/replay.hpp"
 
 namespace vagus::cli {
@@ -21,6 +28,11 @@ struct ReplayOptions {
     std::vector<std::string> with;
     std::optional<double> until;
     std::string repair;
+    std::vector<std::pair<std::string, std::string>> log;
+    bool json = false;
+    std::optional<double> from;
+    std::vector<std::string> set;
+    std::string record;
 };
 
 // ---- repair ----
@@ -52,6 +64,18 @@ int repair(const mcap::Reader& reader, const std::string& to) {
 }
 
 // ---- replay ----
+
+void tell_json(const record::CompareTape& tape, Time end) {
+    std::string difference = "null";
+    if (const auto& found = tape.difference()) {
+        difference =
+            fmt::format(R"({{"t":{},"topic":{},"place":{},"then":{},"now":{}}})",
+                        seconds_text(found->at), json_quote(found->topic), json_quote(found->place),
+                        json_quote(found->then), json_quote(found->now));
+    }
+    print(fmt::format("{{\"t\":{},\"compared\":{},\"difference\":{}}}\n", seconds_text(end),
+                      tape.compared(), difference));
+}
 
 void tell(const record::Difference& found) {
     print(fmt::format("differs at {} s: {}{}\n  then: {}\n  now:  {}\n", seconds_text(found.at),
@@ -108,7 +132,154 @@ Result<record::RerunOptions> rerun_options(const ReplayOptions& options,
         how.with[name] = TRY(read_file(path));
     }
     if (options.until) how.until = from_seconds(*options.until);
+    if (options.from) how.from = from_seconds(*options.from);
+    how.set = options.set;
+    if (!options.set.empty() && !options.from) {
+        return Error{Code::BadInput,
+                     "--set goes with --from, the instant at which it is set, as --from 20 --set "
+                     "walldist=40"};
+    }
+    if (!options.record.empty() && options.until && !options.from) {
+        return Error{Code::BadInput,
+                     "--record with --until: a run that ends earlier is another one; say from "
+                     "when on it is, with --from"};
+    }
+    if (how.from && how.until && *how.until <= *how.from) {
+        return Error{Code::BadInput,
+                     "--until comes before --from; it ends the run that goes another way"};
+    }
     return how;
+}
+
+// A recording of the run as it is now, with its files.
+Result<std::unique_ptr<record::FileTape>> new_recording(const ReplayOptions& options,
+                                                        const mcap::Reader& reader,
+                                                        const record::RerunOptions& how) {
+    if (options.record.empty()) return std::unique_ptr<record::FileTape>();
+    std::error_code error;
+    if (std::filesystem::equivalent(options.record, options.file, error)) {
+        return Error{Code::Refused, "--record " + options.record +
+                                        ": is the recording that is run again; name another file"};
+    }
+    auto tape = TRY(record::FileTape::create(options.record, record::Pace::Waits));
+    for (const mcap::Attachment& one : reader.attachments()) {
+        const auto instead = how.with.find(one.name);
+        const bool as_it_was = how.from || instead == how.with.end();
+        tape->attach(one.name, as_it_was ? one.data : std::string_view(instead->second));
+    }
+    return tape;
+}
+
+// What is put into the run for a person who looks at it; the Error says what is not there.
+Result<std::unique_ptr<record::LogPoints>> log_points(const ReplayOptions& options,
+                                                      record::Rerun& rerun) {
+    std::vector<record::LogWish> wishes;
+    for (const auto& [where, values] : options.log) wishes.push_back({where, values});
+    const record::LogPoints::Run run{rerun.session(),
+                                     rerun.plan() != nullptr ? &rerun.plan()->graph() : nullptr};
+    const auto show = [json = options.json](const record::LogHit& hit) {
+        print((json ? record::format_hit_json(hit) : record::format_hit(hit)) + "\n");
+    };
+    auto points = TRY(record::LogPoints::set(wishes, run, show));
+    rerun.listen([&points = *points](const plan::TraceEvent& event) { points.see(event); });
+    return points;
+}
+
+// What is compared: all that the two runs share.
+struct Compared {
+    std::set<std::string> topics = {};  // none: all
+    Time until = Time::max();
+    bool to_the_first = true;  // a difference ends the run
+};
+
+Compared compared(const record::RerunOptions& how, bool has_plan) {
+    Compared made;
+    if (how.until) made.until = *how.until;
+    if (how.from) {
+        made.until = *how.from - Duration(1);
+    } else if (!how.with.empty()) {
+        // With another file all else differs, too: what the plan did is what parts the two runs.
+        made.to_the_first = false;
+        if (has_plan) made.topics.insert(std::string(record::kTraceTopic));
+    }
+    return made;
+}
+
+// Looks at the run while it goes on. The Error is of a log point whose place there is not.
+class Looker {
+public:
+    Looker(const ReplayOptions& options, record::Rerun& rerun, record::LogPoints& points,
+           std::function<bool()> is_over)
+        : options_(options), rerun_(rerun), points_(points), is_over_(std::move(is_over)) {
+        if (options.until) until_ = from_seconds(*options.until);
+        rerun.each_instant([this](Time at) { look(at); });
+    }
+
+    Status end() {
+        check();
+        for (const std::string& place : points_.not_reached()) {
+            if (there_.ok()) complain("--log " + place + ": was not reached");
+        }
+        return there_;
+    }
+
+private:
+    void look(Time at) {
+        if (!checked_ && points_.settled()) check();
+        if (!there_.ok() || is_over_()) rerun_.stop();
+        if (at < until_ || std::exchange(told_, true)) return;
+        points_.close();
+        if (!options_.json) tell_state(rerun_, at);
+    }
+    void check() {
+        if (!std::exchange(checked_, true)) there_ = points_.check();
+    }
+
+    const ReplayOptions& options_;
+    record::Rerun& rerun_;
+    record::LogPoints& points_;
+    std::function<bool()> is_over_;
+    Time until_ = Time::max();
+    Status there_ = Status::done();
+    bool checked_ = false;
+    bool told_ = false;
+};
+
+int tell_result(const ReplayOptions& options, const mcap::Reader& reader,
+                const record::CompareTape& tape, const record::Rerun::Ended& ended, Time end) {
+    if (options.json) {
+        tell_json(tape, end);
+    } else if (tape.difference()) {
+        tell(*tape.difference());
+    } else {
+        print(fmt::format("{}: {} s again, {} messages compared: no difference\n", options.file,
+                          seconds_text(end), tape.compared()));
+    }
+    const bool parted = options.from || (!options.with.empty() && tape.difference());
+    if (parted && !options.json) tell_ends(reader, ended);
+    return tape.difference() ? kExitFailed : kExitDone;
+}
+
+// Runs it again, and gives the exit code.
+int run_again(const ReplayOptions& options, const mcap::Reader& reader,
+              const record::RerunOptions& how, record::Rerun& rerun, record::LogPoints& points) {
+    const Compared what = compared(how, rerun.plan() != nullptr);
+    record::CompareTape tape(reader, what.topics, what.until);
+    Looker looker(options, rerun, points,
+                  [&] { return what.to_the_first && tape.difference().has_value(); });
+    const auto file = new_recording(options, reader, how);
+    if (!file.ok()) return complain(file.error(), kExitUsage);
+    std::optional<record::BothTapes> both;
+    if (file.value()) both.emplace(tape, *file.value());
+    const auto ended = rerun.run(both ? static_cast<record::Tape&>(*both) : tape);
+    if (!ended.ok()) return complain(ended.error(), options.from ? kExitUsage : kExitFailed);
+    const Status there = looker.end();
+    if (!there.ok()) return complain(there.error(), kExitUsage);
+    tape.end();
+    const Status written = file.value() ? file.value()->end() : Status::done();
+    if (!written.ok()) return complain(written.error());
+    const Time end = how.from ? *how.from : std::min(ended.value().at, what.until);
+    return tell_result(options, reader, tape, ended.value(), end);
 }
 
 int replay(const ReplayOptions& options) {
@@ -119,37 +290,16 @@ int replay(const ReplayOptions& options) {
     if (!options.repair.empty()) return repair(reader.value(), options.repair);
     const auto how = rerun_options(options, reader.value());
     if (!how.ok()) return complain(how.error(), kExitUsage);
-    auto rerun = record::Rerun::open(reader.value(), how.value());
+    const auto rerun = record::Rerun::open(reader.value(), how.value());
     if (!rerun.ok()) return complain(rerun.error(), kExitUsage);
+    const auto points = log_points(options, *rerun.value());
+    if (!points.ok()) return complain(points.error(), kExitUsage);
     if (!reader.value().is_complete()) {
         complain(options.file +
                  ": has no end (the run was killed, or the file is cut off); it is "
                  "compared up to its last whole chunk");
     }
-    // With another file all else differs, too: what the plan did is what parts the two runs.
-    std::set<std::string> only;
-    const bool has_plan = rerun.value()->plan() != nullptr;
-    if (!options.with.empty() && has_plan) only.insert(std::string(record::kTraceTopic));
-    record::CompareTape tape(reader.value(), only, how.value().until.value_or(Time::max()));
-    const bool first_only = options.with.empty();
-    bool told = false;
-    rerun.value()->each_instant([&](Time at) {
-        if (first_only && tape.difference()) rerun.value()->stop();
-        if (!how.value().until || at < *how.value().until || std::exchange(told, true)) return;
-        tell_state(*rerun.value(), at);
-    });
-    const auto ended = rerun.value()->run(tape);
-    if (!ended.ok()) return complain(ended.error());
-    tape.end();
-    if (!tape.difference()) {
-        const Time end = std::min(ended.value().at, how.value().until.value_or(Time::max()));
-        print(fmt::format("{}: {} s again, {} messages compared: no difference\n", options.file,
-                          seconds_text(end), tape.compared()));
-        return kExitDone;
-    }
-    tell(*tape.difference());
-    if (!options.with.empty()) tell_ends(reader.value(), ended.value());
-    return kExitFailed;
+    return run_again(options, reader.value(), how.value(), *rerun.value(), *points.value());
 }
 
 }  // namespace
@@ -166,16 +316,40 @@ void add_replay(CLI::App& app, int& exit_code) {
                      "two runs part; again for more")
         ->type_name("FILE|NAME=FILE")
         ->allow_extra_args(false);
+    verb->add_option("--from", options->from,
+                     "from this instant on the run goes another way: what was done from outside "
+                     "later is not done, --set and --with take effect there")
+        ->type_name("S");
+    verb->add_option("--set", options->set,
+                     "with --from: writes a variable of the plan at that instant; again for more")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    takes_file(*verb->add_option("--record", options->record,
+                                 "records the run as it is now, with its files"),
+               {".mcap"});
+    verb->add_option("--log", options->log,
+                     "prints what these variables hold each time the line of a node's script "
+                     "(drive:42), or the element of the plan (@followWall.enter, "
+                     "@followWall.leave, @wallTouch.raise) is reached; again for more")
+        ->type_name("WHERE VALUES")
+        ->allow_extra_args(false);
+    verb->add_flag("--json", options->json, "log lines and result as lines of JSON on stdout");
     takes_file(*verb->add_option("--repair", options->repair,
                                  "runs nothing: writes what can be read of it as a whole file"),
                {".mcap"});
     verb->footer(
         "A recording has all files of its run in it. It runs again in virtual time, with what was "
-        "done from outside at the same instants.\nExit codes: 0 no difference, 1 a difference, 2 "
-        "not valid.\n\nExample:\n"
+        "done from outside at the same instants.\nValues of --log have commas between them: of a "
+        "node, variables of its script and expressions in AESL, as \"token, watch.left[0]\"; of "
+        "the plan, formulas. A line is reached before its first instruction, as by a breakpoint. "
+        "The run stays as it was, which the comparison proves.\nExit codes: 0 no difference, 1 a "
+        "difference, 2 not valid.\n\nExample:\n"
         "  vagus plan run WallFollow.plan.json --world hall.world.json --record run.mcap\n"
         "  vagus replay run.mcap\n"
-        "  vagus replay run.mcap --with carbot.aesl");
+        "  vagus replay run.mcap --with carbot.aesl\n"
+        "  vagus replay run.mcap --from 20 --set walldist=40 --record other.mcap\n"
+        "  vagus replay run.mcap --log drive:42 \"token, patience\" --log @followWall.enter "
+        "walldist");
     verb->callback([options, &exit_code] { exit_code = replay(*options); });
 }
 

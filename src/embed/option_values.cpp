@@ -1,4 +1,5 @@
-// Values of the options of `plan run`, read from the words on a command line: prepared_run.hpp.
+// Values of the options of `plan run`, read from the words on a command line (prepared_run.hpp),
+// and which of them go together (run_words.hpp).
 #include <fmt/format.h>
 
 #include <array>
@@ -6,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "embed/prepared_run.hpp"
+#include "embed/run_words.hpp"
 #include "plan/value.hpp"
 #include "sim/crew.hpp"
 #include "toolbox/core_values.hpp"
@@ -21,6 +23,51 @@ Error usage(std::string sentence) {
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
 }  // namespace
+
+Status check_words(const RunWords& words) {
+    if (!words.clock.empty() && words.clock != "real" && words.clock != "virtual") {
+        return usage(fmt::format("--clock {}: expected real or virtual", words.clock));
+    }
+    if (!words.bus.empty() && !words.world.empty()) {
+        return usage("--bus and --world: a run has one bus; leave one of them out");
+    }
+    if (!words.bus.empty() && words.clock == "virtual") {
+        return usage(
+            "--bus with --clock virtual: what is on a bus lives in real time; leave "
+            "--clock out, or let a --world take its place");
+    }
+    if (!words.answers.empty() && words.world.empty() && words.clock != "virtual") {
+        return usage(
+            "--answers: code that answers by itself needs no real time, and no bus; write --clock "
+            "virtual, or give it a --world");
+    }
+    if (!words.listen.empty() && words.world.empty()) {
+        return usage("--listen goes with --world: it opens the bus of the world to others");
+    }
+    if (!words.listen.empty() && words.clock == "virtual") {
+        return usage(
+            "--listen with --clock virtual: programs on a bus live in real time; leave one "
+            "of them out");
+    }
+    if (!words.project.empty() && words.bus.empty()) {
+        return usage(
+            "--project goes with --bus; beside a world, names of events are those of the "
+            "scripts that its robots load");
+    }
+    if (!words.robot.empty() && words.world.empty()) {
+        return usage("--robot goes with --world: it names one of its robots");
+    }
+    if (!words.poses.empty() && words.world.empty()) {
+        return usage("--pose goes with --world: it says where one of its robots begins");
+    }
+    if (!words.threads.empty() && words.world.empty()) {
+        return usage("--threads goes with --world: they sense and run scripts for its robots");
+    }
+    if (!words.trace_all.empty() && words.world.empty()) {
+        return usage("--trace-all goes with --world; for the plan alone there is --trace");
+    }
+    return Status::done();
+}
 
 Result<uint64_t> parse_seed(const std::string& text) {
     if (const auto seed = decimal_number(text)) return *seed;

@@ -9,6 +9,7 @@
 #include "base/file.hpp"
 #include "base/line_sink.hpp"
 #include "base/text.hpp"
+#include "embed/answered_plan.hpp"
 #include "embed/bus_check.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/plan_bus.hpp"
@@ -40,54 +41,10 @@ void tell_on_stderr(const std::string& sentence) {
     write_to_stderr(sentence + "\n");
 }
 
-Error usage(std::string sentence) {
-    return {Code::BadInput, std::move(sentence)};
-}
-
-Status check_words(const RunWords& words) {
-    if (!words.clock.empty() && words.clock != "real" && words.clock != "virtual") {
-        return usage(fmt::format("--clock {}: expected real or virtual", words.clock));
-    }
-    if (!words.bus.empty() && !words.world.empty()) {
-        return usage("--bus and --world: a run has one bus; leave one of them out");
-    }
-    if (!words.bus.empty() && words.clock == "virtual") {
-        return usage(
-            "--bus with --clock virtual: what is on a bus lives in real time; leave "
-            "--clock out, or let a --world take its place");
-    }
-    if (!words.listen.empty() && words.world.empty()) {
-        return usage("--listen goes with --world: it opens the bus of the world to others");
-    }
-    if (!words.listen.empty() && words.clock == "virtual") {
-        return usage(
-            "--listen with --clock virtual: programs on a bus live in real time; leave one "
-            "of them out");
-    }
-    if (!words.project.empty() && words.bus.empty()) {
-        return usage(
-            "--project goes with --bus; beside a world, names of events are those of the "
-            "scripts that its robots load");
-    }
-    if (!words.robot.empty() && words.world.empty()) {
-        return usage("--robot goes with --world: it names one of its robots");
-    }
-    if (!words.poses.empty() && words.world.empty()) {
-        return usage("--pose goes with --world: it says where one of its robots begins");
-    }
-    if (!words.threads.empty() && words.world.empty()) {
-        return usage("--threads goes with --world: they sense and run scripts for its robots");
-    }
-    if (!words.trace_all.empty() && words.world.empty()) {
-        return usage("--trace-all goes with --world; for the plan alone there is --trace");
-    }
-    return Status::done();
-}
-
 Result<LoadedPlan> start_of(const LoadedPlan& what, const std::string& actor) {
     Result<LoadedPlan> started = what.starting_at(actor);
     if (started.ok()) return started;
-    return usage(fmt::format("--from {}: {}", actor, started.error().what));
+    return Error{Code::BadInput, fmt::format("--from {}: {}", actor, started.error().what)};
 }
 
 // Time that follows the wall clock from the first call on.
@@ -161,6 +118,7 @@ public:
     const RunWords words;
     toolbox::Parts& parts;
     std::optional<uint64_t> seed;
+    std::unique_ptr<AnsweredPlan> answered;  // nullptr: code works
     run::RunOptions how;
     std::vector<std::function<void(const plan::TraceEvent&)>> listeners;
     run::Firing firing;  // of this run
@@ -204,7 +162,11 @@ Status PreparedRun::Insides::take_options() {
     }
     how.on_trace = [this](const plan::TraceEvent& event) { trace(event); };
     if (!words.world.empty()) TRY(open_world());
-    if (words.world.empty() && words.bus.empty()) TRY(check_alone());
+    if (!words.answers.empty()) {
+        answered = TRY(AnsweredPlan::read(words.answers, what.graph(), words.world.empty()));
+    } else if (words.world.empty() && words.bus.empty()) {
+        TRY(check_alone());
+    }
     if (parts.fleet == nullptr) TRY(toolbox::check_without_fleet(what.graph()));
     // On a bus scripts begin to run: all that may be wrong with the command is found before.
     PlanBusOptions on_bus;
@@ -276,10 +238,10 @@ Result<PlanBusOptions> PreparedRun::Insides::bus_options() {
         options.common = TRY(aesl::parse_project(text, words.project)).common;
         options.project = words.project;
     } else if (session::uses_bus(what.plans(), what.library().templates())) {
-        return usage(
-            "--bus without --project: the plan uses events, and only a project gives them "
-            "their numbers; name the one that the nodes were loaded with, as --project "
-            "arm.aesl");
+        return Error{Code::BadInput,
+                     "--bus without --project: the plan uses events, and only a project gives them "
+                     "their numbers; name the one that the nodes were loaded with, as --project "
+                     "arm.aesl"};
     }
     TRY(check_names(session::BusNames(options.common, options.project), what));
     return options;
@@ -410,7 +372,10 @@ void PreparedRun::Insides::tell_rest(const std::string& sentence,
 // While it runs, abort() reaches it.
 run::Ended PreparedRun::Insides::run_with(run::Clock clock,
                                           const std::function<run::Ended(run::Execution&)>& go) {
-    run::Execution execution(what.graph(), what.library(), how, clock);
+    std::optional<run::AnsweringCode> code;  // of this run
+    if (answered) how.code_source = &code.emplace(answered->answers());
+    const plan::Graph& graph = answered ? answered->graph() : what.graph();
+    run::Execution execution(graph, what.library(), how, clock);
     {
         const std::lock_guard lock(mutex_);
         execution_ = &execution;

@@ -35,6 +35,13 @@ std::vector<RunOption> options_of_the_plan() {
          .value = "SECONDS",
          .help = "seconds after which the run is aborted (with --world: 3600)",
          .one = &RunWords::max_time},
+        {.name = "--answers",
+         .value = "FILE",
+         .help =
+             "a JSON file whose key \"answers\" says how actors end and supervisors raise instead "
+             "of working",
+         .one = &RunWords::answers,
+         .endings = {".json"}},
         {.name = "--trace",
          .value = "FILE",
          .help = "where its trace goes; - is stdout",

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/result.hpp"
+
 namespace vagus::embed {
 
 // As they are on the command line; empty: not given.
@@ -19,7 +21,8 @@ struct RunWords {
     std::string clock = {};  // real or virtual (real)
     std::string seed = {};   // of the plan (1) and of the world (that of its file)
     std::string max_time = {};
-    std::string trace = {};  // a file, or - for stdout
+    std::string answers = {};  // a JSON file: how code answers instead of working
+    std::string trace = {};    // a file, or - for stdout
     std::string world = {};
     std::string robot = {};  // of the world
     std::vector<std::string> poses = {};
@@ -41,6 +44,9 @@ struct RunOption {
 };
 
 const std::vector<RunOption>& run_options();
+
+// The Error names two words that do not go together.
+Status check_words(const RunWords& words);
 
 // A line for each, for the help of a program.
 std::string describe_run_options();

@@ -15,7 +15,9 @@ Result<std::unique_ptr<FileTape>> FileTape::create(const std::string& path, Pace
 Result<std::unique_ptr<FileTape>> start_tape(const std::string& path, RunFile& about,
                                              const FilesRead& files, Pace pace) {
     const PackedFiles packed = pack(files.all());
-    for (std::string* const one : {&about.plan, &about.world}) *one = packed.name_of(*one);
+    for (std::string* const one : {&about.plan, &about.world, &about.answers}) {
+        *one = packed.name_of(*one);
+    }
     for (std::string& one : about.toolboxes) one = packed.name_of(one);
     for (std::string& one : about.loads) one = packed.name_of(one);
     auto tape = TRY(FileTape::create(path, pace));

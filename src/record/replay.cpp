@@ -257,6 +257,7 @@ public:
         words.max_time = about_.max_time;
         words.robot = about_.robot;
         words.poses = about_.poses;
+        if (!about_.answers.empty()) words.answers = folder_.path_of(about_.answers);
         words.clock = "virtual";
         TRY(session::add_toolboxes(library_, parts_, words.toolboxes));
         plan_ = embed::LoadedPlan::from_file(folder_.path_of(about_.plan), library_);

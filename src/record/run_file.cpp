@@ -23,10 +23,10 @@ struct TextKey {
     std::string_view key;
     std::string RunFile::*at;
 };
-constexpr TextKey kTexts[] = {{"kind", &RunFile::kind},         {"verb", &RunFile::verb},
-                              {"plan", &RunFile::plan},         {"world", &RunFile::world},
-                              {"from", &RunFile::from},         {"seed", &RunFile::seed},
-                              {"max_time", &RunFile::max_time}, {"robot", &RunFile::robot}};
+constexpr TextKey kTexts[] = {
+    {"kind", &RunFile::kind},         {"verb", &RunFile::verb},   {"plan", &RunFile::plan},
+    {"world", &RunFile::world},       {"from", &RunFile::from},   {"seed", &RunFile::seed},
+    {"max_time", &RunFile::max_time}, {"robot", &RunFile::robot}, {"answers", &RunFile::answers}};
 struct ListKey {
     std::string_view key;
     std::vector<std::string> RunFile::*at;

@@ -33,6 +33,7 @@ struct RunFile {
     std::string seed = {};
     std::string max_time = {};
     std::string robot = {};
+    std::string answers = {};
     std::vector<std::string> poses = {};
     std::vector<std::string> loads = {};  // --load of sim
 };

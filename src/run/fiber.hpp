@@ -4,11 +4,14 @@
 // microseconds.
 //
 //     class Twice : public FiberCode {
+//     public:
+//         explicit Twice(Fiber& fiber) : fiber_(fiber) {}
 //         void run() override {
 //             first();
 //             fiber_.give_back();          // waits here, in the middle of it
 //             second();
 //         }
+//     private:
 //         Fiber& fiber_;
 //     };
 //     Twice twice(fiber);

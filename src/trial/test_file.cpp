@@ -34,6 +34,7 @@ public:
         test_.max_time = in.number("max_time", {0.001, kMaxTimeMax, kMaxTimeUnlessSaid});
         values(in);
         starts(in);
+        test_.answers = in.find("answers", JsonKind::Object, Need::Optional) != nullptr;
         expectations(in);
         in.finish();
     }

@@ -152,6 +152,7 @@ private:
         words_.seed = std::to_string(outcome_.seed);
         words_.max_time = plan::text_of(test_.max_time);
         words_.clock = "virtual";
+        if (test_.answers) words_.answers = test_.path;
         if (test_.starts) words_.poses.push_back(TRY(draw_start(test_, outcome_.seed)));
         outcome_.poses = words_.poses;
         prepared_ = TRY(embed::PreparedRun::prepare(*plan_, words_, parts_));
@@ -189,6 +190,7 @@ private:
         about.max_time = words_.max_time;
         about.robot = words_.robot;
         about.poses = words_.poses;
+        about.answers = words_.answers;
         recording_ = TRY(record::PlanRecording::begin(options_.record, about, *files_, *prepared_,
                                                       record::Pace::Waits));
         return Status::done();

@@ -120,6 +120,50 @@ TEST_F(Trials, CoverageCountsWhatTheRunWentThrough) {
     EXPECT_EQ(plan.pairs, (Counts{{"a, b", 1}, {"b, c", 1}}));
 }
 
+// ---- answers instead of work ----
+
+// It drives until something is in the way, then turns and drives on.
+constexpr std::string_view kDrives = R"({
+  "format": "vagus-plan/1", "name": "D", "toolboxes": ["carbot"],
+  "start": { "actor": "go" },
+  "actors": {
+    "go": { "template": "Forward", "in": { "distance": 100 },
+      "states": { "ForwardSuccessful": "@terminate" },
+      "supervisors": { "touch": { "template": "CheckTouchSensor",
+                                  "events": { "TouchSensorPressed": "aside" } } } },
+    "aside": { "template": "Turn", "in": { "angle": 90 },
+               "states": { "TurnSuccessful": "go" } } } })";
+
+TEST_F(Trials, CodeAnswersWithoutAWorld) {
+    folder_.write("D.plan.json", kDrives);
+    const auto run = [this](std::string_view answers, std::string_view expect) -> std::string {
+        const auto test =
+            read_test(R"({"format":"vagus-test/1","plan":"D.plan.json","answers":)" +
+                          std::string(answers) + R"(,"expect":[)" + std::string(expect) + "]}",
+                      folder_ / "t.test.json");
+        if (!test.ok()) return test.error().what;
+        const auto outcome = run_trial(test.value(), 1, {});
+        return outcome.ok() ? outcome.value().verdicts.at(0).what : outcome.error().what;
+    };
+    // go for 1.5 s, until the touch; aside for 1 s; go again for 5 s: 7.5 s.
+    constexpr std::string_view kAnswers =
+        R"({"Forward":[{"after":5}],"aside":[{"after":1}],
+            "touch.TouchSensorPressed":[{"at":1.5}]})";
+    EXPECT_EQ(run(kAnswers, R"({"order":["go","aside","go"]})"), "");
+    EXPECT_EQ(run(kAnswers, R"({"never":"t > 7.501"})"), "");
+    EXPECT_EQ(run(kAnswers, R"({"eventually":"t >= 7.5"})"), "");
+    // Nothing is in the way: the supervisor is silent.
+    EXPECT_EQ(run(R"({"Forward":[{"after":5}],"Turn":[{}]})", R"({"order":["go","aside"]})"),
+              "the plan came to go at 0 s, and never to aside after that");
+    EXPECT_EQ(run(R"({"Forward":[{"after":5}]})", R"({"ends":"OK"})"),
+              (folder_ / "t.test.json").string() +
+                  ": the actor \"aside\" of the plan D works over a bus (Turn), and there is none; "
+                  "give it or its template an answer, as \"Turn\": [{ \"state\": "
+                  "\"TurnSuccessful\" }], or the run a world");
+    EXPECT_NE(run(R"({"Forwad":[{"after":5}]})", R"({"ends":"OK"})").find("t.test.json:1:6"),
+              std::string::npos);
+}
+
 TEST_F(Trials, AnOutcomeGoesThroughAPipe) {
     const auto outcome = run(R"({"ends":"Interrupted"},{"ends":"OK"})");
     ASSERT_TRUE(outcome.ok());

@@ -94,6 +94,7 @@ Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRe
     about.max_time = words.max_time;
     about.robot = words.robot;
     about.poses = words.poses;
+    about.answers = words.answers;
     const auto pace = words.clock == "virtual" ? record::Pace::Waits : record::Pace::NeverWaits;
     recording_ = TRY(record::PlanRecording::begin(options.record, about, files, *prepared_, pace));
     record_ = options.record;

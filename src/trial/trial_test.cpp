@@ -160,7 +160,7 @@ TEST_F(Trials, CodeAnswersWithoutAWorld) {
                   ": the actor \"aside\" of the plan D works over a bus (Turn), and there is none; "
                   "give it or its template an answer, as \"Turn\": [{ \"state\": "
                   "\"TurnSuccessful\" }], or the run a world");
-    EXPECT_NE(run(R"({"Forwad":[{"after":5}]})", R"({"ends":"OK"})").find("t.test.json:1:68: "),
+    EXPECT_NE(run(R"({"Forwad":[{"after":5}]})", R"({"ends":"OK"})").find("t.test.json:1:58: "),
               std::string::npos);
 }
 

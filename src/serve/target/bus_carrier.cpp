@@ -53,6 +53,7 @@ void BusCarrier::hear(const net::Event& event) {
     } else if (event.kind == net::EventKind::Closed) {
         connection_ = Connection::Lost;
         heard_before_ += event.stats.frames_received;
+        heard_there_ = 0;
         robot_.reset();
         why_ = event.what;
     } else if (event.kind == net::EventKind::Failed) {
@@ -75,7 +76,9 @@ std::vector<Carried> BusCarrier::take() {
 }
 
 uint64_t BusCarrier::heard() const {
-    return heard_before_ + (robot_ ? hub_.stats(*robot_).frames_received : 0);
+    // A link that broke is gone from the hub before its event is taken from there.
+    if (robot_ && hub_.has(*robot_)) heard_there_ = hub_.stats(*robot_).frames_received;
+    return heard_before_ + heard_there_;
 }
 
 std::vector<LinkView> BusCarrier::links() const {

@@ -49,6 +49,7 @@ private:
     std::string why_;
     std::optional<hub::LinkId> robot_;  // while it is connected
     uint64_t heard_before_ = 0;         // on links that are gone
+    mutable uint64_t heard_there_ = 0;  // on robot_, when it was looked at last
 };
 
 }  // namespace vagus::serve

@@ -437,7 +437,7 @@ class Cli(unittest.TestCase):
     def test_bash_completes_verbs_options_words_and_files(self):
         self.file("other.txt", "")
         self.assertEqual(self.complete("vagus", ""), sorted(VERBS))
-        self.assertEqual(self.complete("vagus", "com"), ["compile"])
+        self.assertEqual(self.complete("vagus", "com"), ["compare", "compile"])
         self.assertEqual(self.complete("vagus", "compile", "--form"), ["--format"])
         self.assertEqual(self.complete("vagus", "compile", "--format", "l"), ["listing"])
         self.assertEqual(self.complete("vagus", "compile", "--format", ""), ["abo", "hex", "json", "listing"])

@@ -26,6 +26,7 @@ struct Link {
     std::string place;  // "carbot/carbot.aesl:42", "WallFollow.plan.json:61"; empty: nowhere
     std::string value;  // of what it wrote or carried; empty: none
     bool root = false;  // nothing in the run comes before it
+    std::string element = {};  // of the plan at that place; empty: none
     friend bool operator==(const Link&, const Link&) = default;
 };
 using Chain = std::vector<Link>;

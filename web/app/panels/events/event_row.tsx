@@ -1,6 +1,10 @@
+import { IconHelpCircle } from '@tabler/icons-react';
 import { memo } from 'react';
 import type { Happening } from '../../../protocol/messages';
 import { shownTime } from '../../../core/numbers';
+import { askWhy } from '../../commands/ask_why';
+import { useStudio } from '../../hooks';
+import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 
 const kinds = text.events.kindWords;
@@ -23,6 +27,24 @@ export const EventRow = memo(function EventRow({ item }: { item: Happening }) {
           <b className="event__kind">{kinds[kind]}</b> {name} {item.text}
         </span>
       )}
+      {kind === 'event' ? <WhyButton name={name} /> : null}
     </div>
   );
 });
+
+function WhyButton({ name }: { name: string }) {
+  const studio = useStudio();
+  return (
+    <button
+      type="button"
+      className="tool tool--later"
+      tabIndex={-1}
+      aria-label={text.why.row(name)}
+      aria-keyshortcuts="W"
+      title={`${text.why.row(name)}  (W)`}
+      onClick={() => void askWhy(studio, 'event', name)}
+    >
+      <IconHelpCircle size={14} stroke={kStroke} aria-hidden />
+    </button>
+  );
+}

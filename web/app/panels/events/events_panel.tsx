@@ -2,6 +2,7 @@ import { useEffect, useMemo, useRef, useState } from 'react';
 import type { Happening } from '../../../protocol/messages';
 import { Filtered, passes } from '../../../core/happenings';
 import { shortCount } from '../../../core/numbers';
+import { askWhy, isWhyKey } from '../../commands/ask_why';
 import { useChanges, useStudio, useTopic, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { VirtualRows } from '../../parts/virtual_rows';
@@ -48,6 +49,9 @@ function EventList() {
           keyOf={(item) => item.number}
           newestFirst
           className="events__list"
+          onRowKey={({ kind, name }, event) => {
+            if (kind === 'event' && isWhyKey(event)) void askWhy(studio, 'event', name);
+          }}
         >
           {(item) => <EventRow item={item} />}
         </VirtualRows>

@@ -1,9 +1,11 @@
 import { Suspense, useEffect, useRef, useState, type ReactNode } from 'react';
 import { late } from '../../parts/late';
 import type { JsonFile } from '../../../core/session/json_file';
+import type { Point } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import { useStudio } from '../../hooks';
 import { usePastTime } from '../../past_hooks';
+import { CommandItem, StudioMenu } from '../../parts/menu';
 import { text } from '../../text';
 import { CameraPicture } from './camera_picture';
 import { deskOf, useModel, type ShownWorld } from './desk';
@@ -35,7 +37,8 @@ export function WorldStage({
   const looksBack = usePastTime() !== null;
   const [failed, setFailed] = useState(false);
   useOnDesk(frame, model, file);
-  useHands(frame, model, eye, options.snap);
+  const [menu, setMenu] = useState<Point | null>(null);
+  useHands(frame, model, eye, options.snap, setMenu);
   const solid = options.solid && canSolid() && !failed;
   const flat = <FlatView model={model} eyeRef={eye} />;
   return (
@@ -66,8 +69,25 @@ export function WorldStage({
         {children}
       </div>
       {live && options.picture && !looksBack ? <CameraPicture model={model} /> : null}
+      {menu ? (
+        <RobotMenu at={menu} onClose={() => (setMenu(null), frame.current?.focus())} />
+      ) : null}
       <Spoken model={model} />
     </div>
+  );
+}
+
+/** What can be done with the robot that is chosen. */
+function RobotMenu({ at, onClose }: { at: Point; onClose: () => void }) {
+  return (
+    <StudioMenu
+      opened
+      onChange={(open) => open || onClose()}
+      button={<span className="world__menuat" style={{ left: at.x, top: at.y }} />}
+    >
+      <CommandItem id="world.why" title={text.why.menu} />
+      <CommandItem id="world.follow" />
+    </StudioMenu>
   );
 }
 

@@ -26,6 +26,7 @@ export function ElementMenu({ at, onClose }: { at: MenuAt; onClose: () => void }
       }}
       button={<span className="pasked" style={{ left: at.x, top: at.y }} />}
     >
+      <CommandItem id="draw.why" title={text.why.menu} />
       <CommandItem id="draw.runFrom" title={text.plan.from.menu} />
       <Menu.Label>{drawWords.debugging}</Menu.Label>
       {debugging.map((id) => (

@@ -63,6 +63,7 @@ void Hub::receive(LinkId from, const wire::Frame& frame) {
 }
 
 void Hub::send_to_others(const Link& from, const wire::Frame& frame) {
+    if (told_) told_(from.id, frame);
     std::array<uint8_t, wire::kFrameMax> bytes;
     const std::span<uint8_t> encoded(bytes.data(), wire::encode(frame, bytes.data()));
     const auto offer = [&](Link* link) {

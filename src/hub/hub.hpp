@@ -18,12 +18,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/result.hpp"
@@ -98,6 +100,11 @@ public:
 
     // Routes a frame that came in on `from`.
     void receive(LinkId from, const wire::Frame& frame);
+    // Is told of each frame that comes in, as it is routed, before it is; and of what remove() says
+    // of nodes that are gone.
+    void on_receive(std::function<void(LinkId from, const wire::Frame&)> told) {
+        told_ = std::move(told);
+    }
 
     // What waits for a link: whole frames for those who live in this process …
     bool take(LinkId link, wire::Frame& frame);
@@ -149,6 +156,7 @@ private:
     std::vector<SharedId> shared_ids_;          // not taken yet
     std::set<std::tuple<uint16_t, LinkId, LinkId>> told_shared_;  // of links that are there
     uint32_t last_number_ = 0;
+    std::function<void(LinkId, const wire::Frame&)> told_;
 };
 
 }  // namespace vagus::hub

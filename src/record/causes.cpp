@@ -28,8 +28,20 @@ std::string describe(const sim::Act& act) {
             return "a person took an object away";
         case sim::Act::Kind::Light:
             return fmt::format("a person switched a light {}", act.on ? "on" : "off");
+        case sim::Act::Kind::Put:
+            return fmt::format("a person put {} there",
+                               act.put.id.empty() ? "an object" : "\"" + act.put.id + "\"");
     }
     return "a person did something";
+}
+
+// The button, or the id of the object that it is done to; a contact with it follows from that.
+std::string with_of(const sim::Act& act, const sim::World& world) {
+    if (act.kind == sim::Act::Kind::Put) return act.put.id;
+    for (const sim::ObjectView& object : world.objects()) {
+        if (act.object.number != 0 && object.id == act.object) return object.definition->id;
+    }
+    return act.button;
 }
 
 // What an entry of the timeline does, and to what.
@@ -87,12 +99,12 @@ Causes::Causes(Rerun& rerun) : rerun_(rerun) {
     session->on_frame(
         [this](const wire::Frame& frame, uint32_t number) { frame_on_bus(frame, number); });
     rerun.each_instant([this](Time at) { look(at); });
-    rerun.before_act([this](const sim::Act& act) {
+    rerun.before_act([this, &world](const sim::Act& act) {
         add({.at = now(),
              .kind = Kind::Person,
              .robot = act.robot.number,
              .what = describe(act),
-             .with = act.button});
+             .with = with_of(act, world)});
     });
     if (rerun.plan_world() == nullptr) return;
     rerun.plan_world()->on_emit([this](Time, const run::BusEvent& event) {

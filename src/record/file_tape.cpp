@@ -13,15 +13,14 @@ Result<std::unique_ptr<FileTape>> FileTape::create(const std::string& path, Pace
 }
 
 Result<std::unique_ptr<FileTape>> start_tape(const std::string& path, RunFile& about,
-                                             const FilesRead& files, Pace pace) {
-    const PackedFiles packed = pack(files.all());
+                                             const PackedFiles& files, Pace pace) {
     for (std::string* const one : {&about.plan, &about.world, &about.answers}) {
-        *one = packed.name_of(*one);
+        *one = files.name_of(*one);
     }
-    for (std::string& one : about.toolboxes) one = packed.name_of(one);
-    for (std::string& one : about.loads) one = packed.name_of(one);
+    for (std::string& one : about.toolboxes) one = files.name_of(one);
+    for (std::string& one : about.loads) one = files.name_of(one);
     auto tape = TRY(FileTape::create(path, pace));
-    for (const auto& [name, content] : packed.files) tape->attach(name, content);
+    for (const auto& [name, content] : files.files) tape->attach(name, content);
     return tape;
 }
 
@@ -85,14 +84,19 @@ void FileTape::work() {
     bool last = false;
     while (!last) {
         std::vector<Message> messages;
+        uint64_t flush = 0;
         {
             std::unique_lock lock(mutex_);
-            more_.wait_for(lock, kFlushEvery,
-                           [this] { return over_ || waiting_bytes_ >= kWakeAt; });
+            more_.wait_for(lock, kFlushEvery, [this] {
+                return over_ || waiting_bytes_ >= kWakeAt || flush_wanted_ != flush_done_;
+            });
             messages = std::exchange(waiting_, {});
             last = over_;
+            flush = flush_wanted_;
         }
         write(messages, last);
+        const std::lock_guard lock(mutex_);
+        flush_done_ = flush;
     }
 }
 
@@ -107,6 +111,7 @@ void FileTape::write(const std::vector<Message>& messages, bool last) {
             bytes += message.bytes;
         }
         written = last ? writer_.end() : writer_.flush();
+        bytes_ = writer_.bytes();
     }
     const std::lock_guard lock(mutex_);
     waiting_bytes_ -= bytes;
@@ -122,6 +127,17 @@ Status FileTape::end() {
     more_.notify_one();
     if (thread_.joinable()) thread_.join();
     return state();
+}
+
+uint64_t FileTape::flush() {
+    const std::lock_guard lock(mutex_);
+    more_.notify_one();
+    return ++flush_wanted_;
+}
+
+bool FileTape::flushed(uint64_t number) const {
+    const std::lock_guard lock(mutex_);
+    return flush_done_ >= number || over_;
 }
 
 Status FileTape::state() const {

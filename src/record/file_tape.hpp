@@ -11,6 +11,7 @@
 // ends, and says so. A run in virtual time waits.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -50,8 +51,12 @@ public:
     void put_later(uint16_t topic, Time at, size_t about_bytes, Word word) override;
     // Waits until all is written. The first thing that went wrong since the beginning.
     Status end();
+    // All that is there now is to be written at once; flushed() tells when it is.
+    uint64_t flush();
+    bool flushed(uint64_t number) const;
     // So far.
     Status state() const;
+    uint64_t bytes() const { return bytes_; }  // in the file
     uint64_t dropped() const;
 
 private:
@@ -67,6 +72,7 @@ private:
     void write(const std::vector<Message>& messages, bool last);
 
     const Pace pace_;
+    std::atomic<uint64_t> bytes_ = 0;
     std::mutex writing_;  // guards the next two
     mcap::Writer writer_;
     std::vector<Topic> topics_;  // by number - 1
@@ -76,6 +82,8 @@ private:
     std::vector<Message> waiting_;
     size_t waiting_bytes_ = 0;  // and those that are being written
     uint64_t dropped_ = 0;
+    uint64_t flush_wanted_ = 0;  // number of the last
+    uint64_t flush_done_ = 0;
     bool over_ = false;
     Status state_ = Status::done();
     std::thread thread_;
@@ -83,6 +91,6 @@ private:
 
 // A tape that begins with the files of the run; the paths in `about` become their names.
 Result<std::unique_ptr<FileTape>> start_tape(const std::string& path, RunFile& about,
-                                             const FilesRead& files, Pace pace);
+                                             const PackedFiles& files, Pace pace);
 
 }  // namespace vagus::record

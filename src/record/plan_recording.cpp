@@ -1,16 +1,8 @@
 #include "record/plan_recording.hpp"
 
-#include <fmt/format.h>
-
-#include "base/json.hpp"
-#include "base/seconds.hpp"
 #include "session/plan_world.hpp"
 
 namespace vagus::record {
-
-std::string abort_input(Time at, const std::string& by) {
-    return fmt::format(R"({{"t":{},"do":"abort","by":{}}})", seconds_text(at), json_quote(by));
-}
 
 void attach(Recorder& recorder, embed::PreparedRun& run) {
     run.listen([&recorder](const plan::TraceEvent& event) { recorder.trace(event); });
@@ -18,16 +10,16 @@ void attach(Recorder& recorder, embed::PreparedRun& run) {
     recorder.follow(run.world()->session());
     // Ended by a person at an instant, so that the same run can be ended there again.
     run.defer_aborts();
-    recorder.after_instant([&recorder, &run](Time at) {
+    recorder.after_instant([&recorder, &run](Time) {
         const std::optional<std::string> by = run.take_abort();
-        if (by) recorder.input(at, abort_input(at, *by));
+        if (by) recorder.input(Aborted{*by});
     });
 }
 
 Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& path, RunFile about,
                                                             const FilesRead& files,
                                                             embed::PreparedRun& run, Pace pace) {
-    auto tape = TRY(start_tape(path, about, files, pace));
+    auto tape = TRY(start_tape(path, about, pack(files.all()), pace));
     // make_unique cannot reach the constructor.
     std::unique_ptr<PlanRecording> made(new PlanRecording(std::move(tape), format_run(about)));
     attach(*made->recorder_, run);

@@ -21,9 +21,6 @@ namespace vagus::record {
 // Connects a recorder with a run that has not begun; what a person does to the run is an input.
 void attach(Recorder& recorder, embed::PreparedRun& run);
 
-// The message of /vagus/input that ends a run.
-std::string abort_input(Time at, const std::string& by);
-
 class PlanRecording {
 public:
     // Paths in `run` are as they were typed. The Error says why there can be no recording. `run`

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 
 #include "base/rng.hpp"
 #include "base/test_folder.hpp"
@@ -12,9 +13,11 @@
 #include "mcap/reader.hpp"
 #include "record/compare_tape.hpp"
 #include "record/file_tape.hpp"
+#include "record/inputs.hpp"
 #include "record/replay.hpp"
 #include "record/run_file.hpp"
 #include "record/sim_recording.hpp"
+#include "record/studio_recording.hpp"
 
 namespace vagus::record {
 namespace {
@@ -64,6 +67,84 @@ TEST(RunFile, ANameThatLeadsOutIsNotWritten) {
         EXPECT_FALSE(folder.value().add(name, "1").ok()) << name;
     }
     EXPECT_TRUE(folder.value().add("a/../b/x", "1").ok());
+}
+
+// ---- inputs ----
+
+// As it is written it is read, and written again as it was.
+void is_read_again(const InputWhat& what, const std::string& expected) {
+    const std::string text = format_input({.at = 1500ms, .turn = 3, .what = what});
+    EXPECT_EQ(text, expected);
+    const Result<Input> read = read_input(text, 1500ms, "a.mcap");
+    ASSERT_TRUE(read.ok()) << read.error().what;
+    EXPECT_EQ(read.value().turn, 3u);
+    EXPECT_EQ(format_input(read.value()), text);
+}
+
+TEST(Inputs, AreReadAsTheyWereWritten) {
+    const std::string begin = R"({"t":1.500000,"turn":3,"do":)";
+    wire::Frame frame{.size = 2, .source = 1, .type = 0xA00A, .payload = {5, 0}};
+    is_read_again(frame, begin + R"("frame","bytes":"020001000aa00500"})");
+    is_read_again(HeldMoment{}, begin + R"("hold"})");
+    is_read_again(Aborted{"a \"page\""}, begin + R"("abort","by":"a \"page\""})");
+    is_read_again(ValueGiven{"n=1"}, begin + R"("set","value":"n=1"})");
+    is_read_again(FileTookOver{"a.aesl", "var x"},
+                  begin + R"("load","file":"a.aesl","value":"var x"})");
+    is_read_again(RecordingEnds{}, begin + R"("end"})");
+    is_read_again(RecordingEnds{"full"}, begin + R"("end","why":"full"})");
+    is_read_again(ScriptLoaded{3, "a.aesl", "var x\n"},
+                  begin + R"("script","node":3,"file":"a.aesl","text":"var x\n"})");
+    is_read_again(PlanFiles{{"p"}, {{"p", "{}"}}},
+                  begin + R"("plan-files","saved":["p"],"texts":{"p":"{}"}})");
+    sim::Act put{.kind = sim::Act::Kind::Put};
+    put.put = {.id = "x", .kind = sim::ObjectKind::Box, .at = {0.1, 2}, .width = 0.5};
+    is_read_again(put, begin + R"("put","id":"x","kind":"box","x":0.10000000000000001,"y":2,)"
+                               R"("angle":0,"width":0.5,"length":0,"radius":0,)"
+                               R"("height":0.10000000000000001,"mass":0,"r":0.90000000000000002,)"
+                               R"("g":0.90000000000000002,"b":0.90000000000000002})");
+}
+
+TEST(Inputs, RequestsToTheDebuggerAreReadAsTheyWereWritten) {
+    const std::string begin = R"({"t":1.500000,"turn":3,"do":)";
+    const auto request = [&](run::Request asked, const std::string& rest) {
+        EXPECT_TRUE(does_something(asked)) << rest;
+        is_read_again(std::move(asked), begin + rest);
+    };
+    // A float that is whole stays one.
+    request(run::SetVariable{1, "n", plan::Value(2.0)},
+            R"("set-variable","level":1,"name":"n","value":2.0})");
+    request(run::SetVariable{0, "n", plan::Value(int64_t{2})},
+            R"("set-variable","level":0,"name":"n","value":2})");
+    request(run::RaiseEvent{"s", "e", {{"o", plan::Value(true)}}},
+            R"("raise","supervisor":"s","event":"e","outputs":{"o":true}})");
+    request(run::AddBreakpoint{{.kind = run::Breakpoint::Kind::Event, .element = "s"}},
+            R"("stop-at","kind":"event","plan":"","element":"s","outcome":"","condition":"",)"
+            R"("stop_at":1,"enabled":true})");
+    request(run::RemoveBreakpoint{4}, R"("stop-no-more","id":4})");
+    request(run::EnableBreakpoint{4, false}, R"("stop-enabled","id":4,"enabled":false})");
+    request(run::Pause{}, R"("pause"})");
+    request(run::Continue{.from_met = false}, R"("continue","from_met":false})");
+    request(run::Step{}, R"("step"})");
+    request(run::Abort{}, R"("end-plan"})");
+    request(run::LetGo{7}, R"("let-go","number":7})");
+    request(run::DropHeld{}, R"("drop-held"})");
+    request(run::StepEvent{}, R"("step-event"})");
+    for (const run::Request& looks :
+         {run::Request(run::ListBreakpoints{}), run::Request(run::AskWhere{}),
+          run::Request(run::Evaluate{}), run::Request(run::ListHeld{})}) {
+        EXPECT_FALSE(does_something(looks));
+    }
+}
+
+TEST(Inputs, WhatIsNoneIsRefused) {
+    for (const char* text :
+         {"", "[]", R"({"do":"frame","bytes":"0200"})", R"({"do":"frame","bytes":"zz"})",
+          R"({"do":"stop-at","kind":"wish"})", R"({"do":"TAP"})"}) {
+        EXPECT_FALSE(read_input(text, 0s, "a.mcap").ok()) << text;
+    }
+    EXPECT_EQ(read_input(R"({"do":"fly"})", 2s, "a.mcap").error().what,
+              "a.mcap: the input at 2.000000 s cannot be done again: expected one that this "
+              "version of Vagus knows, found {\"do\":\"fly\"}");
 }
 
 // ---- differences ----
@@ -138,6 +219,21 @@ TEST(FileTape, OnASlowDiskSamplesAreDroppedAndThenItEnds) {
     disk.let(true);
     EXPECT_FALSE(tape.end().ok());
     EXPECT_TRUE(mcap::Reader::open(disk.bytes, "slow.mcap").ok());
+}
+
+TEST(FileTape, WhatIsThereIsWrittenWhenItIsAskedFor) {
+    SlowDisk disk;
+    FileTape tape([&disk](std::string_view bytes) { return disk.write(bytes); }, Pace::NeverWaits);
+    const uint16_t inputs = tape.declare({.name = "/in"});
+    disk.let(false);
+    tape.put(inputs, 0s, "1");
+    const uint64_t number = tape.flush();
+    disk.wait_until_it_waits();
+    EXPECT_FALSE(tape.flushed(number));
+    disk.let(true);
+    while (!tape.flushed(number)) std::this_thread::yield();
+    EXPECT_GT(tape.bytes(), 0u);
+    EXPECT_TRUE(tape.end().ok());
 }
 
 TEST(FileTape, ARunInVirtualTimeWaitsForTheDisk) {
@@ -278,6 +374,42 @@ TEST(Replay, AnInputThatIsNotKnownIsRefused) {
     const auto rerun = Rerun::open(reader.value(), {});
     ASSERT_FALSE(rerun.ok());
     EXPECT_NE(rerun.error().what.find("cannot be done again"), std::string::npos);
+}
+
+// ---- runs of the studio ----
+
+// A recording that has become too large ends, says so, and can be run again up to there.
+TEST(StudioRecording, OneThatIsTooLargeEndsAndTheRunGoesOn) {
+    test::Folder folder;
+    const std::string file = (folder / "run.mcap").string();
+    const std::string world = test::examples("thymio/arena.world.json");
+    FilesRead files;
+    auto session = session::open_sim(world, {});
+    ASSERT_TRUE(session.ok());
+    (void)session.value().settle();
+    RunFile about;
+    about.world = world;
+    auto recording =
+        StudioRecording::begin(file, about, files.all(), session.value(), nullptr, 20000);
+    ASSERT_TRUE(recording.ok());
+    session.value().world().stops_with_nodes();
+    std::optional<std::string> trouble;
+    while (!trouble && session.value().now() < 600s) {
+        recording.value()->begin_turn();
+        session.value().step(1ms);
+        if (session.value().now() % 1s == 0s) {
+            const uint64_t number = recording.value()->flush();
+            while (!recording.value()->flushed(number)) std::this_thread::yield();
+        }
+        trouble = recording.value()->take_trouble();
+    }
+    ASSERT_TRUE(trouble);
+    EXPECT_NE(trouble->find("the recording of this run ends at "), std::string::npos);
+    EXPECT_NE(trouble->find("more are not kept of one run"), std::string::npos);
+    session.value().step(1s);
+    EXPECT_TRUE(recording.value()->end().ok());
+    const auto found = run_again(read_file(file).value());
+    EXPECT_FALSE(found) << found->topic << " " << found->place << " " << found->now;
 }
 
 }  // namespace

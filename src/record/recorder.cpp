@@ -111,37 +111,7 @@ std::string scene_update(const std::vector<Shape>& shapes, Time at) {
     return text + "]}";
 }
 
-// ---- inputs ----
-
-std::string_view name_of(sim::Act::Kind kind) {
-    switch (kind) {
-        case sim::Act::Kind::Press:
-            return "press";
-        case sim::Act::Kind::Release:
-            return "release";
-        case sim::Act::Kind::Tap:
-            return "tap";
-        case sim::Act::Kind::MoveRobot:
-            return "move-robot";
-        case sim::Act::Kind::Move:
-            return "move";
-        case sim::Act::Kind::Remove:
-            return "remove";
-        case sim::Act::Kind::Light:
-            return "light";
-    }
-    return "";
-}
-
 }  // namespace
-
-std::string input_of(const sim::Act& act, Time at) {
-    // 17 digits bring a double back as it was.
-    return fmt::format(R"({{"t":{},"do":"{}","robot":{},"object":{},"button":{},)"
-                       R"("x":{:.17g},"y":{:.17g},"angle":{:.17g},"on":{}}})",
-                       seconds_text(at), name_of(act.kind), act.robot.number, act.object.number,
-                       json_quote(act.button), act.to.at.x, act.to.at.y, act.to.angle, act.on);
-}
 
 // ---- the recorder ----
 
@@ -158,6 +128,7 @@ Recorder::~Recorder() {
     if (session_ == nullptr) return;
     session_->forget_listeners();
     session_->world().on_act({});
+    session_->bus().on_receive({});
 }
 
 void Recorder::follow(session::SimSession& session) {
@@ -171,7 +142,12 @@ void Recorder::follow(session::SimSession& session) {
     session.world().number_frames();
     session.on_frame([this](const wire::Frame& one, uint32_t number) { frame(one, number); });
     session.on_instant([this] { instant(); });
-    session.world().on_act([this](const sim::Act& act) { input(now(), input_of(act, now())); });
+    session.world().on_act([this](const sim::Act& act) { input(act); });
+    for (const hub::LinkId link : session.bus().links()) {
+        last_inside_ = std::max(last_inside_, link);
+    }
+    session.bus().on_receive(
+        [this](hub::LinkId from, const wire::Frame& one) { from_outside(from, one); });
     scene(now());
     poses(now());
 }
@@ -188,8 +164,26 @@ void Recorder::instant() {
     if (after_instant_) after_instant_(at);
 }
 
-void Recorder::input(Time at, std::string json) {
-    tape_.put(input_, at, std::move(json));
+void Recorder::input(InputWhat what) {
+    if (std::exchange(turn_begins_, false)) ++turn_;
+    const Time at = now();
+    tape_.put(input_, at, format_input({at, turn_, std::move(what)}));
+}
+
+void Recorder::hold() {
+    input(HeldMoment{});
+    session_->world().hold_instant();
+}
+
+void Recorder::script(const ScriptLoaded& script, const std::string& path) {
+    input(script);
+    session_->was_loaded(script.node, path, script.text);
+}
+
+void Recorder::from_outside(hub::LinkId from, const wire::Frame& frame) {
+    if (from <= last_inside_) return;
+    (void)session_->world().frame_numbers()->sent(frame, 0);
+    input(frame);
 }
 
 void Recorder::end(Time at) {

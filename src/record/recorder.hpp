@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "plan/trace.hpp"
+#include "record/inputs.hpp"
 #include "record/topics.hpp"
 #include "session/sim_session.hpp"
 
@@ -30,9 +31,6 @@ constexpr Duration kPictureEvery = std::chrono::seconds(10);  // all variables o
 constexpr Duration kPosesEvery = std::chrono::milliseconds(100);
 constexpr Duration kCheckEvery = std::chrono::seconds(1);
 
-// How an act is written in /vagus/input, and read from there. Empty: it is none.
-std::string input_of(const sim::Act& act, Time at);
-
 class Recorder {
 public:
     // `run` is the message of /vagus/run. The tape is borrowed.
@@ -41,15 +39,25 @@ public:
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    // Borrowed until the recorder goes, or the session before it, which forget() tells.
+    // Borrowed until the recorder goes, or the session before it, which forget() tells. Links that
+    // the bus gets later are outside of the run: what comes from there is an input.
     void follow(session::SimSession& session);
     void forget() { session_ = nullptr; }
     // After what is recorded of each instant: things may be done to the world here.
     void after_instant(std::function<void(Time)> act) { after_instant_ = std::move(act); }
 
     void trace(const plan::TraceEvent& event);
-    // A message of /vagus/input, as JSON.
-    void input(Time at, std::string json);
+
+    // ---- what comes from outside, now; acts and frames are heard here ----
+    void input(InputWhat what);
+    // What comes from here on has another turn, or that one.
+    void begin_turn() { turn_begins_ = true; }
+    void set_turn(uint32_t turn) { turn_ = turn; }
+    // The same, and it is done: a moment in which time is stopped; a program that a host has
+    // loaded, by whose names the variables of its node are told from here on.
+    void hold();
+    void script(const ScriptLoaded& script, const std::string& path);
+
     // The last check.
     void end(Time at);
 
@@ -71,6 +79,7 @@ private:
     };
 
     void instant();
+    void from_outside(hub::LinkId from, const wire::Frame& frame);
     void frame(const wire::Frame& frame, uint32_t number);
     void event(const wire::Frame& frame, uint32_t number, Time at);
     void look_for_nodes();
@@ -96,6 +105,9 @@ private:
     uint16_t events_ = 0;
     uint16_t poses_ = 0;
     uint16_t scene_ = 0;
+    hub::LinkId last_inside_;  // of the links of the bus that are part of the run
+    uint32_t turn_ = 0;
+    bool turn_begins_ = false;
     std::vector<Node> nodes_;
     std::string objects_;     // as the scene told them last
     uint64_t plan_hash_ = 0;  // of all lines of the trace so far

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "base/file.hpp"
-#include "base/json.hpp"
 #include "base/seconds.hpp"
 #include "base/text.hpp"
 #include "embed/loaded_plan.hpp"
@@ -15,7 +13,6 @@
 #include "embed/prepared_run.hpp"
 #include "embed/robots_run.hpp"
 #include "record/plan_recording.hpp"
-#include "record/sim_recording.hpp"
 #include "run/debugger.hpp"
 #include "session/plan_world.hpp"
 #include "session/toolboxes.hpp"
@@ -32,47 +29,6 @@ std::string names_of_files(const mcap::Reader& reader) {
     std::vector<std::string_view> names;
     for (const mcap::Attachment& one : reader.attachments()) names.emplace_back(one.name);
     return list_of(names);
-}
-
-std::optional<sim::Act::Kind> kind_of(std::string_view name) {
-    using Kind = sim::Act::Kind;
-    static const std::map<std::string_view, Kind> kKinds = {
-        {"press", Kind::Press},          {"release", Kind::Release}, {"tap", Kind::Tap},
-        {"move-robot", Kind::MoveRobot}, {"move", Kind::Move},       {"remove", Kind::Remove},
-        {"light", Kind::Light}};
-    const auto found = kKinds.find(name);
-    return found == kKinds.end() ? std::nullopt : std::optional(found->second);
-}
-
-double number_of(const JsonValue& from, std::string_view key) {
-    const JsonValue* const value = from.find(key);
-    return value != nullptr && value->is_number() ? value->number : 0;
-}
-
-std::string string_of(const JsonValue& from, std::string_view key) {
-    const JsonValue* const value = from.find(key);
-    return value != nullptr ? value->text : "";
-}
-
-sim::Act act_of(const JsonValue& from, sim::Act::Kind kind) {
-    sim::Act act;
-    act.kind = kind;
-    act.robot.number = static_cast<uint32_t>(number_of(from, "robot"));
-    act.object.number = static_cast<uint32_t>(number_of(from, "object"));
-    act.button = string_of(from, "button");
-    act.to = {{number_of(from, "x"), number_of(from, "y")}, number_of(from, "angle")};
-    const JsonValue* const on = from.find("on");
-    act.on = on != nullptr && on->boolean;
-    return act;
-}
-
-std::string set_input(Time at, const std::string& text) {
-    return fmt::format(R"({{"t":{},"do":"set","value":{}}})", seconds_text(at), json_quote(text));
-}
-
-std::string load_input(Time at, const std::string& file, const std::string& content) {
-    return fmt::format(R"({{"t":{},"do":"load","file":{},"value":{}}})", seconds_text(at),
-                       json_quote(file), json_quote(content));
 }
 
 // The first one that is not earlier.
@@ -121,54 +77,34 @@ Time end_of(const mcap::Reader& reader) {
 
 // ---- what is done again ----
 
-Result<std::vector<Rerun::Input>> Rerun::inputs_of(const mcap::Reader& reader) {
+Result<std::vector<Input>> Rerun::inputs_of(const mcap::Reader& reader) {
     std::vector<Input> inputs;
     const mcap::Channel* const channel = reader.find(kInputTopic);
     mcap::Cursor cursor(reader);
     while (const auto message = cursor.next()) {
         if (channel == nullptr || message->channel != channel->id) continue;
-        const auto json = read_json(message->data);
-        const auto* const tree = std::get_if<JsonValue>(&json);
-        Input input{.at = time_of(message->log_time), .what = {}, .text = {}};
-        input.text = message->data;
-        if (tree != nullptr) input.what = string_of(*tree, "do");
-        if (const auto kind = kind_of(input.what)) input.act = act_of(*tree, *kind);
-        if (tree != nullptr) input.by = string_of(*tree, "by");
-        if (tree != nullptr) input.file = string_of(*tree, "file");
-        if (tree != nullptr) input.value = string_of(*tree, "value");
-        static const std::set<std::string_view> kOthers = {"abort", "end", "set", "load"};
-        if (!input.act && !kOthers.contains(input.what)) {
-            return Error{Code::BadInput,
-                         fmt::format("{}: the input at {} s cannot be done again: expected one "
-                                     "that this version of Vagus knows, found {}",
-                                     reader.name(), seconds_text(input.at), input.text)};
-        }
-        inputs.push_back(std::move(input));
+        const Time at = time_of(message->log_time);
+        inputs.push_back(TRY(read_input(message->data, at, reader.name())));
     }
     return inputs;
 }
 
-std::vector<Rerun::Input> Rerun::other_inputs(std::vector<Input> recorded,
-                                              const RerunOptions& options) {
+std::vector<Input> Rerun::other_inputs(std::vector<Input> recorded, const RerunOptions& options) {
     const Time from = instant_of(*options.from);
     std::vector<Input> inputs;
     std::vector<Input> ends;
     for (Input& one : recorded) {
-        if (one.what == "end") {
+        if (std::holds_alternative<RecordingEnds>(one.what)) {
             ends.push_back(std::move(one));  // so long the run was to take
         } else if (one.at <= from) {
             inputs.push_back(std::move(one));
         }
     }
     for (const std::string& text : options.set) {
-        inputs.push_back({.at = from, .what = "set", .text = set_input(from, text), .value = text});
+        inputs.push_back({.at = from, .what = ValueGiven{text}});
     }
     for (const auto& [name, content] : options.with) {
-        inputs.push_back({.at = from,
-                          .what = "load",
-                          .text = load_input(from, name, content),
-                          .file = name,
-                          .value = content});
+        inputs.push_back({.at = from, .what = FileTookOver{name, content}});
     }
     for (Input& one : ends) inputs.push_back(std::move(one));
     return inputs;
@@ -176,19 +112,24 @@ std::vector<Rerun::Input> Rerun::other_inputs(std::vector<Input> recorded,
 
 Status Rerun::check_inputs() {
     for (const Input& one : inputs_) {
-        if (one.what == "set" || one.what == "load") TRY(change(one, Only::Ask));
+        if (const auto* const given = std::get_if<ValueGiven>(&one.what)) {
+            TRY(change(*given, Only::Ask));
+        } else if (const auto* const other = std::get_if<FileTookOver>(&one.what)) {
+            TRY(change(*other, Only::Ask));
+        }
     }
     return Status::done();
 }
 
+Status Rerun::change(const ValueGiven& given, Only) {
+    return Error{Code::Refused, fmt::format("--set {}: the run has no plan whose variables could "
+                                            "be set",
+                                            given.text)};
+}
+
 // Of a world: a script that it has loaded.
-Status Rerun::change(const Input& input, Only only) {
-    if (input.what == "set") {
-        return Error{Code::Refused, fmt::format("--set {}: the run has no plan whose variables "
-                                                "could be set",
-                                                input.value)};
-    }
-    const std::string path = path_of(input.file);
+Status Rerun::change(const FileTookOver& other, Only only) {
+    const std::string path = path_of(other.file);
     const std::vector<std::string> scripts =
         session() != nullptr ? session()->script_paths() : std::vector<std::string>();
     if (std::find(scripts.begin(), scripts.end(), path) == scripts.end()) {
@@ -196,10 +137,10 @@ Status Rerun::change(const Input& input, Only only) {
                      fmt::format("{} cannot change while the run goes on: expected a script of "
                                  "its nodes, or a file of its plan; without --from the whole run "
                                  "has the other file",
-                                 input.file)};
+                                 other.file)};
     }
     if (only == Only::Ask) return Status::done();
-    session()->reload(path, input.value);
+    session()->reload(path, other.text);
     std::vector<std::string> lines;
     for (const Diagnostic& one : session()->mistakes()) {
         lines.push_back(report_of(one));
@@ -209,26 +150,91 @@ Status Rerun::change(const Input& input, Only only) {
     return Error{Code::BadInput, joined_lines(lines)};
 }
 
-bool Rerun::after_instant(Time at, Recorder& recorder, session::SimSession& session) {
+Rerun::Then Rerun::after_instant(Time at, Recorder& recorder) {
     for (const auto& look : looks_) look(at);
-    for (; next_input_ < inputs_.size() && inputs_[next_input_].at <= at; ++next_input_) {
-        const Input& input = inputs_[next_input_];
-        if (input.act && told_of_act_) told_of_act_(*input.act);
-        if (input.act) (void)session.world().act(*input.act).ok();  // it worked then
-        if (input.what == "set" || input.what == "load") {
-            recorder.input(at, input.text);
-            if (changed_.ok()) changed_ = change(input, Only::Do);
-        }
-        if (!changed_.ok()) return true;
-        if (input.what != "abort") continue;
-        ended_by_ = input.by;
-        recorder.input(at, input.text);
-        return true;
+    const bool ended_here = is_due() && std::holds_alternative<Aborted>(inputs_[next_input_].what);
+    if (!is_of_studio() || ended_here) {
+        const Then then = do_inputs(recorder, Ends::Take);
+        if (then != Then::GoOn) return then;
     }
-    const bool until = until_ && at >= *until_;
+    // Nobody knows what came behind its last whole chunk.
+    const bool cut = cut_ && !is_of_studio() && at >= end_;
+    const bool until = (until_ && at >= *until_) || cut;
     // An end as any, of a run that can be run again.
-    if (until && another_way_) recorder.input(at, end_of_run(at));
-    return stopped_ || until;
+    if (until && another_way_) recorder.input(end_of_run());
+    return stopped_ || until ? Then::End : Then::GoOn;
+}
+
+bool Rerun::is_due() {
+    return next_input_ < inputs_.size() && inputs_[next_input_].at <= session()->now();
+}
+
+Rerun::Then Rerun::do_inputs(Recorder& recorder, Ends ends) {
+    while (is_due()) {
+        const bool aborts = std::holds_alternative<Aborted>(inputs_[next_input_].what);
+        if (aborts && ends == Ends::Leave) return Then::GoOn;
+        const Then then = do_again(inputs_[next_input_++], recorder);
+        if (then != Then::GoOn) return then;
+    }
+    return Then::GoOn;
+}
+
+Rerun::Then Rerun::do_turn(Recorder& recorder) {
+    const uint32_t turn = inputs_[next_input_].turn;
+    while (is_due() && inputs_[next_input_].turn == turn) {
+        const Then then = do_again(inputs_[next_input_++], recorder);
+        if (then != Then::GoOn) return then;
+    }
+    return Then::GoOn;
+}
+
+bool Rerun::ends_whole() const {
+    if (next_input_ == 0) return false;
+    const auto* const end = std::get_if<RecordingEnds>(&inputs_[next_input_ - 1].what);
+    return end != nullptr && end->why.empty();
+}
+
+template <typename Change>
+Rerun::Then Rerun::go_another_way(const Change& changed, Recorder& recorder) {
+    recorder.input(changed);
+    if (changed_.ok()) changed_ = change(changed, Only::Do);
+    return changed_.ok() ? Then::GoOn : Then::End;
+}
+
+// Acts and frames are recorded where they come in.
+Rerun::Then Rerun::do_again(const Input& input, Recorder& recorder) {
+    recorder.set_turn(input.turn);
+    sim::World& world = session()->world();
+    if (const auto* const act = std::get_if<sim::Act>(&input.what)) {
+        if (told_of_act_) told_of_act_(*act);
+        (void)world.act(*act).ok();  // it worked then
+    } else if (const auto* const frame = std::get_if<wire::Frame>(&input.what)) {
+        if (outside_.number == 0) {
+            const auto link = world.bus().add({.name = "outside"});
+            if (!link.ok()) return Then::GoOn;
+            outside_ = link.value();
+        }
+        world.bus().receive(outside_, *frame);
+    } else if (std::holds_alternative<HeldMoment>(input.what)) {
+        recorder.hold();
+    } else if (const auto* const script = std::get_if<ScriptLoaded>(&input.what)) {
+        recorder.script(*script, path_of(script->file));
+    } else if (const auto* const given = std::get_if<ValueGiven>(&input.what)) {
+        return go_another_way(*given, recorder);
+    } else if (const auto* const other = std::get_if<FileTookOver>(&input.what)) {
+        return go_another_way(*other, recorder);
+    } else {
+        recorder.input(input.what);
+    }
+    if (const auto* const request = std::get_if<run::Request>(&input.what)) ask(*request);
+    if (const auto* const files = std::get_if<PlanFiles>(&input.what)) {
+        for (const auto& [name, text] : files->texts) (void)folder_.add(name, text).ok();
+        take(*files);
+    }
+    if (std::holds_alternative<RecordingEnds>(input.what)) return Then::Recorded;
+    const auto* const aborted = std::get_if<Aborted>(&input.what);
+    if (aborted != nullptr) ended_by_ = aborted->by;
+    return aborted != nullptr ? Then::Aborted : Then::GoOn;
 }
 
 std::string Rerun::name_of(const std::string& path) const {
@@ -238,6 +244,24 @@ std::string Rerun::name_of(const std::string& path) const {
     const std::string name = relative.generic_string();
     return name.empty() || name.starts_with("..") ? path : name;
 }
+
+// Lets through what is said until the recording ends.
+class EndingTape final : public Tape {
+public:
+    explicit EndingTape(Tape& to) : to_(to) {}
+    uint16_t declare(const Topic& topic) override { return to_.declare(topic); }
+    void put(uint16_t topic, Time at, std::string data) override {
+        if (!over_) to_.put(topic, at, std::move(data));
+    }
+    void put_later(uint16_t topic, Time at, size_t about_bytes, Word word) override {
+        if (!over_) to_.put_later(topic, at, about_bytes, std::move(word));
+    }
+    void end() { over_ = true; }
+
+private:
+    Tape& to_;
+    bool over_ = false;
+};
 
 // ---- a plan, alone or beside a world ----
 
@@ -271,22 +295,27 @@ public:
     }
 
     Result<Ended> run(Tape& tape) override {
-        Recorder recorder(tape, format_run(about_));
+        EndingTape ending(tape);
+        Recorder recorder(ending, format_run(about_));
         attach(recorder, *prepared_);
+        recorder_ = &recorder;
+        tape_ = &ending;
         recorder.after_instant([this, &recorder](Time at) {
-            if (over_) return;
             hear_debugger();
-            if (!after_instant(at, recorder, *session())) return;
-            over_ = true;
-            prepared_->abort(ended_by_.empty() ? "the replay" : ended_by_);
-            (void)prepared_->take_abort();
+            if (!over_) obey(after_instant(at, recorder));
         });
         Time last{};
         prepared_->listen([&last](const plan::TraceEvent& event) { last = event.at; });
+        if (is_of_studio() && session() != nullptr) begin_as_in_studio();
         const run::Ended ended = TRY(prepared_->run(debugger_ ? &*debugger_ : nullptr));
         hear_debugger();
         TRY(changed_);
-        if ((!until_ || another_way_) && !stopped_) recorder.end(last);
+        plan_over_ = true;
+        if (is_of_studio() && session() != nullptr) {
+            last = live_on();
+        } else if ((!until_ || another_way_) && !stopped_) {
+            recorder.end(last);
+        }
         return Ended{last, std::string(plan::name_of(ended.result)), ended.message};
     }
 
@@ -300,30 +329,113 @@ public:
     const embed::LoadedPlan* plan() const override { return &*plan_; }
 
 private:
-    std::string end_of_run(Time at) const override { return abort_input(at, "the replay"); }
+    InputWhat end_of_run() const override {
+        if (is_of_studio()) return RecordingEnds{};
+        return Aborted{"the replay"};
+    }
 
-    Status change(const Input& input, Only only) override {
-        if (prepared_->world() == nullptr) {
-            return Error{Code::Refused,
-                         "a plan alone cannot go another way from an instant on; change it for "
-                         "the whole run, without --from"};
+    // Its debugger is there, and what came before the run began is asked before it begins.
+    void begin_as_in_studio() {
+        if (!debugger_) debugger_.emplace(plan_->graph(), run::Debugger::At::Run);
+        debugger_->while_paused([this] { while_paused(); });
+        prepared_->pace([this](Time) { between_instants(); });
+        session()->world().stops_with_nodes();
+        if (is_due() && inputs_[next_input_].turn == 0) obey(do_turn(*recorder_));
+    }
+
+    // The world lives on when its plan is over.
+    Time live_on() {
+        between_instants();
+        while (!over_ && session()->now() < end_) {
+            session()->step(sim::kNodeStep);
+            between_instants();
         }
-        if (input.what == "set") {
-            const auto [slot, value] =
-                TRY(embed::parse_set(plan_->graph().plans.front(), input.value));
-            if (only == Only::Do) prepared_->set(slot, value);
-            return Status::done();
+        return session()->now();
+    }
+
+    void between_instants() {
+        hear_debugger();
+        if (!over_) obey(do_inputs(*recorder_, Ends::Leave));
+        const bool is_cut = cut_ && !is_due() && session()->now() >= end_;
+        if (!over_ && is_cut) obey(Then::End);
+    }
+
+    // What was not done to the paused plan lets it go on.
+    void while_paused() {
+        hear_debugger();
+        if (over_) return post(run::Abort{});
+        if (next_input_ >= inputs_.size()) {
+            tape_->end();
+            over_ = true;
+            return post(run::Abort{});
         }
-        if (!versions_->is_part(path_of(input.file))) return Rerun::change(input, only);
-        embed::PlanVersions::Made made = versions_->with({{path_of(input.file), input.value}});
+        if (!is_due()) return post(run::Continue{});
+        obey(do_turn(*recorder_));
+    }
+
+    void obey(Then then) {
+        if (then == Then::GoOn || (then == Then::Aborted && plan_over_)) return;
+        if (then == Then::Recorded && is_of_studio()) {
+            if (ends_whole()) recorder_->end(session()->now());
+            tape_->end();
+        }
+        // The world of the studio lives on.
+        over_ = then != Then::Aborted || !is_of_studio();
+        prepared_->abort(ended_by_.empty() ? "the replay" : ended_by_);
+        (void)prepared_->take_abort();
+    }
+
+    void post(run::Request request) { (void)debugger_->post(std::move(request)).ok(); }
+
+    void ask(const run::Request& request) override {
+        if (!debugger_) return;
+        run::Request asked = request;
+        if (auto* const stop = std::get_if<run::AddBreakpoint>(&asked)) {
+            std::string& plan = stop->breakpoint.plan;
+            if (!plan.empty()) plan = path_of(plan);
+        }
+        post(std::move(asked));
+    }
+
+    void take(const PlanFiles& files) override {
+        if (!debugger_) return;
+        std::vector<std::string> saved;
+        for (const std::string& name : files.saved) saved.push_back(path_of(name));
+        const embed::PlanVersions::Made made = versions_->read(saved);
+        if (made.plan.ok()) (void)hand_in(made, Must::No).ok();
+    }
+
+    Status check_beside_world() const {
+        if (prepared_->world() != nullptr) return Status::done();
+        return Error{Code::Refused,
+                     "a plan alone cannot go another way from an instant on; change it for "
+                     "the whole run, without --from"};
+    }
+
+    Status change(const ValueGiven& given, Only only) override {
+        TRY(check_beside_world());
+        const auto [slot, value] = TRY(embed::parse_set(plan_->graph().plans.front(), given.text));
+        if (only == Only::Do) prepared_->set(slot, value);
+        return Status::done();
+    }
+
+    Status change(const FileTookOver& other, Only only) override {
+        TRY(check_beside_world());
+        if (!versions_->is_part(path_of(other.file))) return Rerun::change(other, only);
+        const embed::PlanVersions::Made made = versions_->with({{path_of(other.file), other.text}});
         if (!made.plan.ok()) {
             return Error{Code::BadInput, joined_lines(embed::errors_of(made.plan))};
         }
         if (!debugger_) debugger_.emplace(plan_->graph(), run::Debugger::At::Run);
-        if (only == Only::Ask) return Status::done();
+        return only == Only::Ask ? Status::done() : hand_in(made, Must::Yes);
+    }
+
+    // Whether the run fails if the version is refused.
+    enum class Must : uint8_t { No, Yes };
+    Status hand_in(const embed::PlanVersions::Made& made, Must must) {
         versions_->hand_in(made);
-        asked_.push_back(made.plan);
-        (void)TRY(debugger_->post(run::TakeVersion{made.next}));
+        const uint64_t number = TRY(debugger_->post(run::TakeVersion{made.next}));
+        asked_.emplace(number, Asked{made.plan, must});
         return Status::done();
     }
 
@@ -333,27 +445,40 @@ private:
             const std::optional<run::Report> report = debugger_->wait_report(Duration{});
             if (!report) return;
             const auto* const answer = std::get_if<run::Answer>(&*report);
-            if (answer == nullptr) continue;
-            const embed::LoadedPlan asked = asked_.front();
-            asked_.erase(asked_.begin());
-            const std::vector<std::string> reasons =
-                answer->reply.ok() ? std::get<run::Change>(answer->reply.value()).reasons
-                                   : std::vector{answer->reply.error().what};
-            if (reasons.empty()) {
-                versions_->took(asked.graph());
-            } else if (changed_.ok()) {
-                changed_ = Error{Code::Refused, joined_lines(reasons)};
-            }
+            if (answer != nullptr && asked_.contains(answer->request)) hear(*answer);
         }
     }
+
+    void hear(const run::Answer& answer) {
+        const Asked asked = asked_.extract(answer.request).mapped();
+        const std::vector<std::string> reasons =
+            answer.reply.ok() ? std::get<run::Change>(answer.reply.value()).reasons
+                              : std::vector{answer.reply.error().what};
+        if (reasons.empty()) {
+            versions_->took(asked.plan.graph());
+        } else if (asked.must == Must::No) {
+            versions_->refused(asked.plan.graph());
+        } else if (changed_.ok()) {
+            changed_ = Error{Code::Refused, joined_lines(reasons)};
+        }
+    }
+
+    // A version that is not answered yet.
+    struct Asked {
+        embed::LoadedPlan plan;
+        Must must = Must::No;
+    };
 
     toolbox::Parts parts_;  // before the library, whose code looks at them
     run::CodeLibrary library_;
     std::optional<embed::LoadedPlan> plan_;
     std::unique_ptr<embed::PreparedRun> prepared_;
     std::optional<embed::PlanVersions> versions_;
-    std::optional<run::Debugger> debugger_;  // only where versions of the plan take over
-    std::vector<embed::LoadedPlan> asked_;   // not answered yet
+    std::optional<run::Debugger> debugger_;  // where something asks it
+    std::map<uint64_t, Asked> asked_;        // by the debugger's number
+    Recorder* recorder_ = nullptr;           // of this run()
+    EndingTape* tape_ = nullptr;
+    bool plan_over_ = false;
     bool over_ = false;
 };
 
@@ -364,7 +489,14 @@ public:
     WorldRerun(RunFile about, UnpackedFolder folder) : Rerun(std::move(about), std::move(folder)) {}
 
     Status prepare() {
-        embed::RobotsOptions options{.world = folder_.path_of(about_.world)};
+        const std::string world = folder_.path_of(about_.world);
+        if (is_of_studio()) {
+            own_ = std::make_unique<session::SimSession>(TRY(session::open_sim(world, {})));
+            (void)own_->settle();
+            own_->world().stops_with_nodes();
+            return check_inputs();
+        }
+        embed::RobotsOptions options{.world = world};
         if (!about_.seed.empty()) options.sim.world.seed = TRY(embed::parse_seed(about_.seed));
         robots_ = TRY(embed::RobotsRun::open(options));
         for (const std::string& one : about_.loads) {
@@ -378,27 +510,32 @@ public:
     Result<Ended> run(Tape& tape) override {
         Recorder recorder(tape, format_run(about_));
         recorder.follow(*session());
-        bool over = false;
-        recorder.after_instant(
-            [&](Time at) { over = over || after_instant(at, recorder, *session()); });
-        const Time end = inputs_.empty() ? Time{} : inputs_.back().at;
-        while (!over && session()->now() < end) session()->step(sim::kNodeStep);
+        Then then = do_inputs(recorder, Ends::Take);
+        recorder.after_instant([&](Time at) {
+            if (then == Then::GoOn) then = after_instant(at, recorder);
+        });
+        while (then == Then::GoOn && session()->now() < end_) {
+            session()->step(sim::kNodeStep);
+            if (then == Then::GoOn && is_of_studio()) then = do_inputs(recorder, Ends::Take);
+        }
         TRY(changed_);
-        const bool whole = !until_ && !stopped_ && !inputs_.empty();
-        if (whole) recorder.input(inputs_.back().at, inputs_.back().text);
+        const bool whole = then == Then::Recorded && ends_whole();
         if (whole || (another_way_ && !stopped_)) recorder.end(session()->now());
         return Ended{session()->now(), "", ""};
     }
 
     void listen(std::function<void(const plan::TraceEvent&)>) override {}
-    session::SimSession* session() override { return &robots_->buses().common(); }
+    session::SimSession* session() override {
+        return own_ ? own_.get() : &robots_->buses().common();
+    }
     session::PlanWorld* plan_world() override { return nullptr; }
     const embed::LoadedPlan* plan() const override { return nullptr; }
 
 private:
-    std::string end_of_run(Time at) const override { return end_input(at); }
+    InputWhat end_of_run() const override { return RecordingEnds{}; }
 
     std::unique_ptr<embed::RobotsRun> robots_;
+    std::unique_ptr<session::SimSession> own_;
 };
 
 Result<std::unique_ptr<Rerun>> Rerun::open(const mcap::Reader& reader,
@@ -422,14 +559,17 @@ Result<std::unique_ptr<Rerun>> Rerun::open(const mcap::Reader& reader,
                                  reader.name(), seconds_text(end_of(reader)))};
     }
     if (options.from) inputs = other_inputs(std::move(inputs), options);
+    const Time end = end_of(reader);
     const auto finish = [&](auto made) -> Result<std::unique_ptr<Rerun>> {
         made->inputs_ = std::move(inputs);
         made->until_ = options.until;
+        made->end_ = end;
+        made->cut_ = !reader.is_complete() && !options.from;
         made->another_way_ = options.from.has_value();
         TRY(made->prepare());
         return std::unique_ptr<Rerun>(std::move(made));
     };
-    if (run.verb == "sim") {
+    if (run.plan.empty()) {
         return finish(std::make_unique<WorldRerun>(std::move(run), std::move(folder)));
     }
     return finish(std::make_unique<PlanRerun>(std::move(run), std::move(folder)));

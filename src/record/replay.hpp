@@ -6,7 +6,8 @@
 //     const Rerun::Ended ended = TRY(rerun->run(tape));
 //     tape.end();
 //
-// In virtual time, by the same code that ran it: `plan run`, alone or beside a world, and `sim`.
+// In virtual time, by the same code that ran it: `plan run`, alone or beside a world, `sim`, and
+// runs of the studio.
 #pragma once
 
 #include <functional>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "mcap/reader.hpp"
+#include "record/inputs.hpp"
 #include "record/recorder.hpp"
 #include "record/run_file.hpp"
 
@@ -88,40 +90,53 @@ public:
 protected:
     Rerun(RunFile about, UnpackedFolder folder)
         : about_(std::move(about)), folder_(std::move(folder)) {}
-    struct Input {
-        Time at{};
-        std::string what;
-        std::string text;  // the message
-        std::optional<sim::Act> act = {};
-        std::string by = {};
-        std::string file = {};   // of "load"
-        std::string value = {};  // of "set" NAME=VALUE; of "load" what is in the file now
-    };
     static Result<std::vector<Input>> inputs_of(const mcap::Reader& reader);
     // Those up to `from`, and what is done there.
     static std::vector<Input> other_inputs(std::vector<Input> recorded,
                                            const RerunOptions& options);
     // Whether each of them can be done: before run().
     Status check_inputs();
-    // Does a "set" or a "load", or asks only whether it can be done.
+    // Does what went another way, or asks only whether it can be done.
     enum class Only : uint8_t { Ask, Do };
-    virtual Status change(const Input& input, Only only);
-    // The input with which such a run ends at `at`.
-    virtual std::string end_of_run(Time at) const = 0;
-    // What was done at `at` is done again; true if the run is to end.
-    bool after_instant(Time at, Recorder& recorder, session::SimSession& session);
+    virtual Status change(const ValueGiven& given, Only only);
+    virtual Status change(const FileTookOver& other, Only only);
+    // What a debugger of the plan is asked, and a new version of it.
+    virtual void ask(const run::Request&) {}
+    virtual void take(const PlanFiles&) {}
+    // The input with which such a run ends.
+    virtual InputWhat end_of_run() const = 0;
+    // Whether the run goes on, was ended by somebody then, is recorded up to here, or is to end.
+    enum class Then : uint8_t { GoOn, Aborted, Recorded, End };
+    // At the end of an instant. In the studio what comes between two instants is done between them,
+    // else here.
+    Then after_instant(Time at, Recorder& recorder);
+    // All that is due is done again. With Leave it stops where somebody ended the run.
+    enum class Ends : uint8_t { Take, Leave };
+    Then do_inputs(Recorder& recorder, Ends ends);
+    // What came together, as the next.
+    Then do_turn(Recorder& recorder);
+    bool is_due();
+    Then do_again(const Input& input, Recorder& recorder);
+    template <typename Change>
+    Then go_another_way(const Change& changed, Recorder& recorder);
+    // It ended with its run, which the input done last says; then the last check comes after it.
+    bool ends_whole() const;
+    bool is_of_studio() const { return about_.verb == kStudioVerb; }
 
     RunFile about_;
     UnpackedFolder folder_;
     std::vector<Input> inputs_;
     size_t next_input_ = 0;
     std::optional<Time> until_;
+    Time end_{};                // of what was recorded
+    bool cut_ = false;          // it has no end: it is run again as far as it goes
     bool another_way_ = false;  // options.from
     Status changed_ = Status::done();
     std::vector<std::function<void(Time)>> looks_;
     std::function<void(const sim::Act&)> told_of_act_;
     bool stopped_ = false;
     std::string ended_by_;  // who ended it then
+    hub::LinkId outside_;   // from where frames come again; 0: none came yet
 
 private:
     friend class PlanRerun;

@@ -20,10 +20,12 @@
 
 namespace vagus::record {
 
+constexpr std::string_view kStudioVerb = "studio";
+
 // Paths are names of attachments.
 struct RunFile {
     std::string kind = "simulated";         // or "bus"
-    std::string verb = {};                  // "plan run", "sim"
+    std::string verb = {};                  // "plan run", "sim", kStudioVerb
     std::vector<std::string> command = {};  // as it was typed, for people
     std::string plan = {};
     std::string world = {};

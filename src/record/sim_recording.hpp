@@ -17,9 +17,6 @@
 
 namespace vagus::record {
 
-// The message of /vagus/input with which a recording of a world ends.
-std::string end_input(Time at);
-
 class SimRecording {
 public:
     // Paths in `about` are as they were typed. The session is borrowed, until end().

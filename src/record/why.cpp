@@ -31,6 +31,9 @@ constexpr std::string_view kMotors[] = {"motor.left.target", "motor.right.target
                                         "speed.right"};
 constexpr std::string_view kDriving = "drive.";
 
+// Who has written what a person set while the plan ran, or before it began.
+constexpr std::string_view kOutside = "outside";
+
 std::string words_of(const std::vector<int16_t>& words) {
     std::string text;
     for (const int16_t word : words) text += (text.empty() ? "" : " ") + std::to_string(word);
@@ -103,6 +106,15 @@ private:
     void before_started(size_t index, const plan::ActorStarted& started);
     void before_ended(size_t index, const plan::ActorEnded& ended);
 
+    // A link at an element of the plan with that instance path.
+    bool add_element(Time at, std::string what, const std::string& plan, std::string_view name,
+                     std::string value = {}) {
+        return add({.at = at,
+                    .what = std::move(what),
+                    .place = places_.element(plan, name),
+                    .value = std::move(value),
+                    .element = std::string(name)});
+    }
     bool add(Link link) {
         if (chain_.size() >= kLinksMax) return false;
         chain_.push_back(std::move(link));
@@ -173,7 +185,8 @@ void Walk::frame(uint32_t number) {
 
 void Walk::frame_of_plan(const Causes::Frame& frame) {
     if (frame.by.empty()) {
-        add({frame.at, fmt::format("a host sent {}", frame.event), "", words_of(frame.arguments)});
+        const char* const who = rerun_.about().verb == kStudioVerb ? "the studio" : "a host";
+        add({frame.at, fmt::format("{} sent {}", who, frame.event), "", words_of(frame.arguments)});
         return;
     }
     // The element whose code it was: where it began, or what raised it.
@@ -181,16 +194,17 @@ void Walk::frame_of_plan(const Causes::Frame& frame) {
         const auto* const started = what<plan::ActorStarted>(i);
         const bool is_it = started != nullptr && started->actor == frame.by;
         if (!is_it) continue;
-        const bool more =
-            add({frame.at, fmt::format("the actor {} of the plan sent {}", frame.by, frame.event),
-                 places_.element(lines()[i].event.plan, frame.by), words_of(frame.arguments)});
+        const bool more = add_element(
+            frame.at, fmt::format("the actor {} of the plan sent {}", frame.by, frame.event),
+            lines()[i].event.plan, frame.by, words_of(frame.arguments));
         if (!more) return;
         const Causes::Frame* const heard = causes_.frame(frame.cause);
         if (heard != nullptr && heard->at >= lines()[i].event.at) return this->frame(frame.cause);
         return line(i);
     }
-    add({frame.at, fmt::format("the supervisor {} of the plan sent {}", frame.by, frame.event),
-         places_.element("", frame.by), words_of(frame.arguments)});
+    add_element(frame.at,
+                fmt::format("the supervisor {} of the plan sent {}", frame.by, frame.event), "",
+                frame.by, words_of(frame.arguments));
     this->frame(frame.cause);
 }
 
@@ -246,22 +260,20 @@ void Walk::happening(uint32_t number) {
 void Walk::line(size_t index) {
     const plan::TraceEvent& event = lines()[index].event;
     if (const auto* started = what<plan::ActorStarted>(index)) {
-        const std::string place = places_.element(event.plan, started->actor);
-        if (add({event.at, fmt::format("the actor {} began", started->actor), place, ""})) {
+        if (add_element(event.at, fmt::format("the actor {} began", started->actor), event.plan,
+                        started->actor)) {
             before_started(index, *started);
         }
     } else if (const auto* ended = what<plan::ActorEnded>(index)) {
-        const std::string place = places_.element(event.plan, ended->actor);
-        if (add({event.at, fmt::format("the actor {} ended with {}", ended->actor, ended->state),
-                 place, ""})) {
+        if (add_element(event.at,
+                        fmt::format("the actor {} ended with {}", ended->actor, ended->state),
+                        event.plan, ended->actor)) {
             before_ended(index, *ended);
         }
     } else if (const auto* raised = what<plan::EventRaised>(index)) {
-        const std::string place = places_.element(event.plan, raised->supervisor);
-        const bool more =
-            add({event.at,
-                 fmt::format("the supervisor {} raised {}", raised->supervisor, raised->event),
-                 place, ""});
+        const bool more = add_element(
+            event.at, fmt::format("the supervisor {} raised {}", raised->supervisor, raised->event),
+            event.plan, raised->supervisor);
         if (more && event.frame != 0) frame(event.frame);
     } else if (std::holds_alternative<plan::PlanStarted>(event.what)) {
         add({event.at, fmt::format("the plan {} began", event.plan), places_.plan(event.plan), ""});
@@ -322,8 +334,8 @@ Status Walk::actor(const std::string& name) {
             return Status::done();
         }
         if (broken == nullptr || broken->actor != name) continue;
-        add({lines()[i].event.at, fmt::format("the actor {} was interrupted", name),
-             places_.element(lines()[i].event.plan, name), ""});
+        add_element(lines()[i].event.at, fmt::format("the actor {} was interrupted", name),
+                    lines()[i].event.plan, name);
         for (size_t j = i; j-- > 0;) {
             if (what<plan::EventRaised>(j) == nullptr) continue;
             line(j);
@@ -350,8 +362,13 @@ Status Walk::variable(const std::string& name) {
         known.emplace_back(written->variable);
         if (written->variable != name) continue;
         const plan::TraceEvent& event = lines()[i].event;
-        add({event.at, fmt::format("{} wrote the variable {}", written->by, name),
-             places_.element(event.plan, written->by), value_text(written->value)});
+        if (written->by == kOutside) {
+            add({event.at, fmt::format("a person gave the variable {} its value", name), "",
+                 value_text(written->value)});
+            return Status::done();
+        }
+        add_element(event.at, fmt::format("{} wrote the variable {}", written->by, name),
+                    event.plan, written->by, value_text(written->value));
         for (size_t j = i; j-- > 0;) {
             const auto* const ended = what<plan::ActorEnded>(j);
             const auto* const raised = what<plan::EventRaised>(j);
@@ -490,6 +507,8 @@ Result<Question> read_question(const std::vector<std::string>& words) {
 }
 
 Result<Chain> why(const mcap::Reader& reader, const Question& question, std::optional<Time> at) {
+    // Of a run that goes on there is what was written by now.
+    if (!reader.is_complete()) at = std::min(at.value_or(Time::max()), end_of(reader));
     std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, {.until = at}));
     Causes causes(*rerun);
     NullTape tape;
@@ -516,10 +535,10 @@ std::string format_link(const Link& link) {
 std::string format_chain_json(const Chain& chain) {
     std::string text = "[";
     for (const Link& link : chain) {
-        text += fmt::format(R"({}{{"t":{},"what":{},"place":{},"value":{},"root":{}}})",
-                            text.size() > 1 ? ",\n" : "\n", seconds_text(link.at),
-                            json_quote(link.what), json_quote(link.place), json_quote(link.value),
-                            link.root);
+        text += fmt::format(
+            R"({}{{"t":{},"what":{},"place":{},"value":{},"root":{},"element":{}}})",
+            text.size() > 1 ? ",\n" : "\n", seconds_text(link.at), json_quote(link.what),
+            json_quote(link.place), json_quote(link.value), link.root, json_quote(link.element));
     }
     return text + "\n]\n";
 }

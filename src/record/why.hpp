@@ -22,10 +22,11 @@ constexpr size_t kLinksMax = 1000;  // of a chain; what is beyond is said, not s
 
 struct Link {
     Time at{};
-    std::string what;   // a sentence without its full stop
-    std::string place;  // "carbot/carbot.aesl:42", "WallFollow.plan.json:61"; empty: nowhere
-    std::string value;  // of what it wrote or carried; empty: none
-    bool root = false;  // nothing in the run comes before it
+    std::string what;          // a sentence without its full stop
+    std::string place;         // "carbot/carbot.aesl:42", "WallFollow.plan.json:61"; empty: nowhere
+    std::string value;         // of what it wrote or carried; empty: none
+    bool root = false;         // nothing in the run comes before it
+    std::string element = {};  // of the plan at that place; empty: none
     friend bool operator==(const Link&, const Link&) = default;
 };
 using Chain = std::vector<Link>;

@@ -48,7 +48,10 @@ public:
 
     std::optional<Report> wait_report(Duration at_most) {
         std::unique_lock lock(mutex_);
-        reported_.wait_for(lock, at_most, [this] { return !reports_.empty(); });
+        // To wait for no time takes some, and some ask at each instant.
+        if (at_most > Duration::zero()) {
+            reported_.wait_for(lock, at_most, [this] { return !reports_.empty(); });
+        }
         if (reports_.empty()) return std::nullopt;
         Report report = std::move(reports_.front());
         reports_.pop_front();

@@ -191,6 +191,9 @@ public:
     std::optional<std::pair<std::string, int>> place_of(uint16_t node, int line) const;
     // What runs on a node; nullptr without a script.
     const aesl::Program* program(uint16_t node) const;
+    // Another host has loaded that node with the program of this file: names and lines of the node
+    // are those of it from here on. A file that is not for the node changes nothing.
+    void was_loaded(uint16_t node, const std::string& path, std::string_view text);
 
     // ---- looking ----
     const sim::World& world() const { return *world_; }

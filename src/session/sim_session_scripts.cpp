@@ -234,6 +234,27 @@ const SimSession::Compiled& SimSession::compiled(const Node& node) {
     return compiled_.back();
 }
 
+void SimSession::was_loaded(uint16_t id, const std::string& path, std::string_view text) {
+    Node* const node = find(id);
+    const debug::NodeView* const view = network_.node(id);
+    const auto file = read_script_file(text, path);
+    if (node == nullptr || view == nullptr || !view->described || !file.ok()) return;
+    const std::vector<aesl::NodeName> name = {{view->name, id}};
+    const int which = file.value().plain ? 0 : aesl::scripts_for(file.value().project, name)[0];
+    if (which < 0) return;
+    const aesl::Script& script = file.value().project.scripts[static_cast<size_t>(which)];
+    const aesl::CommonDefinitions common =
+        file.value().plain ? with_emitted(names_without(path), script.source, view->target)
+                           : file.value().project.common;
+    aesl::Options how = options_for(common, options_.compile);
+    how.first_line = script.first_line;
+    const aesl::Compilation done = aesl::compile(script.source, view->target, common, how);
+    if (!done.ok() || !network_.adopt(debug::NodeId{id}, done.program).ok()) return;
+    if (node->script) count(node->script->stage)--;
+    count(Stage::Runs)++;
+    node->script = Assignment{path, script, common, Stage::Runs, done.program, {}, {}};
+}
+
 void SimSession::compile(Node& node) {
     Assignment& script = *node.script;
     const Compiled& done = compiled(node);

@@ -141,13 +141,14 @@ struct BusLoad {
 // What is done to a world from outside, as by a hand from above: what World::act() does, and
 // those below that are named as its kinds.
 struct Act {
-    enum class Kind : uint8_t { Press, Release, Tap, MoveRobot, Move, Remove, Light };
+    enum class Kind : uint8_t { Press, Release, Tap, MoveRobot, Move, Remove, Light, Put };
     Kind kind = Kind::Tap;
-    RobotId robot = {};       // Press, Release, Tap, MoveRobot
-    ObjectId object = {};     // Move, Remove, Light
-    std::string button = {};  // Press, Release
-    Pose to = {};             // MoveRobot, Move
-    bool on = false;          // Light
+    RobotId robot = {};         // Press, Release, Tap, MoveRobot
+    ObjectId object = {};       // Move, Remove, Light
+    std::string button = {};    // Press, Release
+    Pose to = {};               // MoveRobot, Move
+    bool on = false;            // Light
+    ObjectDefinition put = {};  // Put
 };
 
 class World {
@@ -246,7 +247,7 @@ public:
     Status release(RobotId robot, std::string_view button);
     // A knock on the body.
     Status tap(RobotId robot);
-    // Any of these, but adding.
+    // Any of these.
     Status act(const Act& act);
     // Is told of each that was done.
     void on_act(std::function<void(const Act&)> told);

@@ -9,7 +9,9 @@ Result<ObjectId> World::add(const ObjectDefinition& object) {
     if (find_robot(object.id)) {
         return Error{Code::Refused, "\"" + object.id + "\" is the name of a robot; choose another"};
     }
-    return insides_->inhabitants->add(object);
+    const ObjectId added = TRY(insides_->inhabitants->add(object));
+    if (insides_->told_of_act) insides_->told_of_act({.kind = Act::Kind::Put, .put = object});
+    return added;
 }
 
 Status World::remove(ObjectId object) {
@@ -105,6 +107,9 @@ Status World::Insides::do_act(const Act& act) {
             return inhabitants->remove(act.object);
         case Act::Kind::Light:
             return inhabitants->switch_light(act.object, act.on);
+        case Act::Kind::Put:
+            TRY(inhabitants->add(act.put));
+            return Status::done();
     }
     return no_robot();
 }

@@ -417,6 +417,25 @@ export interface HistoryNode {
   line?: number;
 }
 
+/** A happening, and after it what it followed from. */
+export interface WhyLink {
+  t: number;
+  /** a sentence without its full stop */
+  what: string;
+  /** what it wrote or carried; empty: nothing */
+  value: string;
+  /** FILE:LINE as the recording names it; empty: nowhere */
+  place: string;
+  /** the document of the project that this is; missing: it has none */
+  doc?: Doc;
+  /** there */
+  line?: number;
+  /** of the plan */
+  element?: string;
+  /** nothing in the run came before it */
+  root: boolean;
+}
+
 /** A line of the console. */
 export interface Line {
   number: number;
@@ -1477,6 +1496,16 @@ export interface Commands {
   'history.save': { in: Record<never, never>; out: {
     path: Path;
   } };
+  /** Why something in a simulated run is as it is: the run is run again from its recording. Of the run that goes or went last, at an instant or, without one, as far as it is recorded. */
+  'why.ask': { in: {
+    about: 'actor' | 'variable' | 'motor' | 'event' | 'end';
+    /** of an actor, a robot, an event; of a variable, or NODE.NAME of a node's */
+    name?: string;
+    t?: number;
+  }; out: {
+    /** the newest first */
+    chain: WhyLink[];
+  } };
   /** Puts a robot or an object somewhere else, as a hand would. */
   'world.move': { in: {
     robot?: string;
@@ -1824,6 +1853,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   HistoryCurve: { node: 'int(0..65534)', address: 'int(0..65535)?', low: 'json?', high: 'json' },
   HistoryWords: { node: 'NodeId', address: 'int(0..65535)', words: '[json; 20000]' },
   HistoryNode: { node: 'NodeId', state: 'line(32)', line: 'int(1..10000000)?' },
+  WhyLink: { t: 'number', what: 'line(1000)', value: 'line(1000)', place: 'line(1200)', doc: 'Doc?', line: 'int(1..10000000)?', element: 'line(256)?', root: 'bool' },
   Line: { number: 'number', t: 'number', kind: 'word(note|warning|error|log)', text: 'text(4000)' },
   Suggestion: { label: 'line(200)', kind: 'word(variable|constant|event|native|sub|keyword|function|actor|supervisor|template|value)', detail: 'line(300)', help: 'text(1000)', insert: 'line(400)' },
   Spot: { doc: 'Doc', at: 'Place', end: 'Place', line_text: 'line(400)' },
@@ -1953,6 +1983,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'history.ways': { may: 'look', kind: 'look', out: { run: 'number', ways: '[json; 1024]' } },
   'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
   'history.save': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
+  'why.ask': { may: 'look', kind: 'look', out: { chain: '[WhyLink; 1001]' } },
   'world.move': { may: 'driver', kind: 'act', out: {} },
   'world.put': { may: 'driver', kind: 'act', out: { number: 'number' } },
   'world.take': { may: 'driver', kind: 'act', out: {} },

@@ -138,11 +138,15 @@ Status SimRun::open_trace() {
 namespace {
 
 // What cannot be run again is not recorded as if it could.
-Status check_recording(const SimRunOptions& options, bool has_projects) {
+Status check_recording(const SimRunOptions& options, bool has_projects, bool has_ports) {
     const auto refuse = [&](const std::string& why) {
         return Error{Code::Refused, "--record " + options.record + ": " + why};
     };
-    if (!options.listen.empty()) return refuse("not together with --listen; leave one of them out");
+    if (has_ports) {
+        return refuse(
+            "robots of this world have ports of their own, and what comes there is not "
+            "recorded; take \"port\" out of the world file, and use --listen");
+    }
     if (options.watch) return refuse("not together with --watch; leave one of them out");
     if (!options.fleet.target.empty()) {
         return refuse("not together with --fleet; leave one of them out");
@@ -162,7 +166,10 @@ Status check_recording(const SimRunOptions& options, bool has_projects) {
 }  // namespace
 
 Status SimRun::begin_recording(const FilesRead& files) {
-    TRY(check_recording(options_, robots_.has_projects()));
+    const auto& robots = session_.world().definition().robots;
+    const bool has_ports = std::any_of(robots.begin(), robots.end(),
+                                       [](const auto& robot) { return robot.port.has_value(); });
+    TRY(check_recording(options_, robots_.has_projects(), has_ports));
     record::RunFile about;
     about.verb = "sim";
     about.world = options_.world;

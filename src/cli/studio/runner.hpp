@@ -1,5 +1,5 @@
-// The verb `run-host`, which --help does not show: a run as a process of its own, started by the
-// studio's server.
+// The verbs `run-host` and `why-host`, which --help does not show: a run, and a question about one,
+// as processes of their own, started by the studio's server.
 #pragma once
 
 namespace CLI {
@@ -9,5 +9,6 @@ class App;
 namespace vagus::cli {
 
 void add_runner(CLI::App& app, int& exit_code);
+void add_why_host(CLI::App& app, int& exit_code);
 
 }  // namespace vagus::cli

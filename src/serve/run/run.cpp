@@ -94,6 +94,7 @@ talk::Open Run::open_order(const RunOrder& order) {
     open.from = order.from;
     open.bus = order.bus;
     open.project = order.project;
+    open.recording = order.recording;
     if (order.keep_poses) open.poses = flows_.poses_now();
     return open;
 }
@@ -218,6 +219,15 @@ void Run::lend_hand(HandOrder order, HandDone done) {
         done(answer.number, answer.why);
     };
     std::visit([&](auto& one) { ask(std::move(one), std::move(answered)); }, order);
+}
+
+void Run::script_loaded(uint16_t node, const std::string& file, const std::string& text) {
+    if (has_world()) tell(talk::ScriptLoaded{node, file, text});
+}
+
+void Run::flush_recording(std::function<void()> done) {
+    if (!has_world()) return done();
+    ask(talk::FlushRecording{}, [done = std::move(done)](const talk::Answer&) { done(); });
 }
 
 // ---- the plan ----

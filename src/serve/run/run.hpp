@@ -40,6 +40,7 @@ struct RunOrder {
     std::vector<talk::BreakpointOrder> breakpoints;  // as PlanBreakpoints::orders()
     std::string robot;
     std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
+    std::string recording;     // file that it is recorded in; empty: none
     bool keep_poses = false;   // robots are at rest where they were before
     bool paused = true;        // at first
 };
@@ -170,6 +171,12 @@ public:
     using Reasons = std::optional<std::vector<std::string>>;
     void check_change(const std::map<std::string, std::string>& texts,
                       std::function<void(const Reasons& reasons)> done);
+
+    // ---- its recording ----
+    // A node was loaded with the script that this file of this computer holds for it.
+    void script_loaded(uint16_t node, const std::string& file, const std::string& text);
+    // `done` is told when all that has been recorded by now is in the file.
+    void flush_recording(std::function<void()> done);
 
     double time() const { return t_; }
     std::optional<double> load() const { return load_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/file.hpp"
+
 namespace vagus::serve {
 
 namespace {
@@ -24,13 +26,21 @@ void PlanChange::take(const talk::ChangePlan& order) {
         if (versions_.is_part(file)) saved.push_back(file);
     }
     if (saved.empty()) return tell_(not_this_plan(order.request));
-    embed::PlanVersions::Made made = versions_.read(saved);
+    embed::PlanVersions::Made made = read(saved);
     if (!made.plan.ok()) return tell_(reasons(order.request, embed::errors_of(made.plan)));
     const plan::NewVersion next = made.next;
     versions_.hand_in(std::move(made));
     ask(order.request, next, false, [this, graph = next.graph.get()](bool taken) {
         if (!taken) versions_.refused(*graph);
     });
+}
+
+embed::PlanVersions::Made PlanChange::read(const std::vector<std::string>& saved) {
+    if (!told_of_read_) return versions_.read(saved);
+    const FilesRead files;
+    embed::PlanVersions::Made made = versions_.read(saved);
+    told_of_read_(saved, files.all());
+    return made;
 }
 
 void PlanChange::check(const talk::CheckPlan& order, Ask how) {

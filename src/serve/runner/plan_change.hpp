@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ public:
     PlanChange(const embed::LoadedPlan& plan, std::string path, PlanTalk& talk, Tell tell)
         : versions_(plan, std::move(path)), talk_(talk), tell_(std::move(tell)) {}
 
+    // Is told of files that were saved, and of all that was read for the version made of them.
+    using Read = std::function<void(const std::vector<std::string>& saved,
+                                    const std::map<std::string, std::string>& read)>;
+    void on_read(Read told) { told_of_read_ = std::move(told); }
+
     // Files have been saved: what is made of them is to take over.
     void take(const talk::ChangePlan& order);
     // Whether it could take over now, if files had these texts. At once: on the thread of the run,
@@ -37,12 +43,14 @@ public:
     const std::vector<plan::Plan>& took(const plan::Graph& graph) { return versions_.took(graph); }
 
 private:
+    embed::PlanVersions::Made read(const std::vector<std::string>& saved);
     void ask(uint64_t request, plan::NewVersion next, bool only_ask,
              std::function<void(bool taken)> then);
 
     embed::PlanVersions versions_;
     PlanTalk& talk_;
     Tell tell_;
+    Read told_of_read_;
 };
 
 }  // namespace vagus::serve

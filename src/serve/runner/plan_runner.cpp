@@ -32,6 +32,8 @@ void PlanRunner::begin(const embed::LoadedPlan& plan, const std::string& path, O
     talk_.emplace(plan.graph());
     change_.emplace(plan, path, *talk_,
                     [this](const talk::Answer& answer) { teller_.tell(answer); });
+    talk_->on_asked(asked_);
+    change_->on_read(changed_);
     stops_.tend(*talk_);
 }
 

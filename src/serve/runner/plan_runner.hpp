@@ -41,6 +41,11 @@ public:
     PlanRunner(Teller& teller, Pacer& pacer, Clocks clocks)
         : teller_(teller), pacer_(pacer), clocks_(std::move(clocks)) {}
 
+    // Before begin(): who is told of what its debugger is asked, and of files that it changes by.
+    using Asked = std::function<void(const run::Request&)>;
+    void on_asked(Asked told) { asked_ = std::move(told); }
+    void on_changed(PlanChange::Read told) { changed_ = std::move(told); }
+
     // ---- its life ----
     void begin(const embed::LoadedPlan& plan, const std::string& path, On on);
     // What runs is the first version.
@@ -98,6 +103,8 @@ private:
     std::optional<PlanChange> change_;
     PlanStops stops_;
     PlanHeld held_;
+    Asked asked_ = [](const run::Request&) {};
+    PlanChange::Read changed_ = [](const auto&, const auto&) {};
     std::vector<uint64_t> broken_at_;  // breakpoints that hold it, by their numbers
     bool haste_ = false;
 

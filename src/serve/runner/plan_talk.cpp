@@ -4,21 +4,28 @@
 
 namespace vagus::serve {
 
+Result<uint64_t> PlanTalk::post(run::Request request) {
+    const run::Request told = request;
+    const auto posted = debugger_.post(std::move(request));
+    if (posted.ok()) told_(told);
+    return posted;
+}
+
 // What a debugger does not take has no effect, and what it refuses was so already.
 void PlanTalk::hold() {
     stepping_ = false;
-    (void)debugger_.post(run::Pause{}).ok();
+    (void)post(run::Pause{}).ok();
 }
 
 void PlanTalk::go_on() {
     if (stepping_) hold();  // a debugger ends a step by a pause only
     paused_ = false;
-    (void)debugger_.post(run::Continue{}).ok();
+    (void)post(run::Continue{}).ok();
 }
 
 void PlanTalk::step() {
     hold();  // a debugger steps from a pause
-    (void)debugger_.post(run::Step{}).ok();
+    (void)post(run::Step{}).ok();
     stepping_ = true;
     paused_ = false;
 }
@@ -40,11 +47,11 @@ void PlanTalk::give_up_step() {
 
 void PlanTalk::abort() {
     paused_ = false;
-    (void)debugger_.post(run::Abort{}).ok();
+    (void)post(run::Abort{}).ok();
 }
 
 void PlanTalk::ask(run::Request request, Answered answered) {
-    const auto posted = debugger_.post(std::move(request));
+    const auto posted = post(std::move(request));
     if (!posted.ok()) return answered(posted.error());
     asked_[posted.value()] = std::move(answered);
 }
@@ -56,7 +63,7 @@ void PlanTalk::ask_held(run::Request request, Answered answered, Then then) {
     if (paused_ || then == Then::Hold) return;
     if (steps) return step();
     // It may have come to a breakpoint meanwhile: then it stays there.
-    (void)debugger_.post(run::Continue{.from_met = false}).ok();
+    (void)post(run::Continue{.from_met = false}).ok();
 }
 
 PlanTalk::Heard PlanTalk::hear() {

@@ -22,6 +22,8 @@ public:
     // The graph is borrowed.
     explicit PlanTalk(const plan::Graph& graph) : debugger_(graph, run::Debugger::At::Run) {}
     run::Debugger& debugger() { return debugger_; }
+    // Is told of each request that the plan will come to.
+    void on_asked(std::function<void(const run::Request&)> told) { told_ = std::move(told); }
 
     void hold();   // also a step
     void go_on();  // also from within a step, and from a breakpoint
@@ -57,7 +59,10 @@ public:
     void forget();
 
 private:
+    Result<uint64_t> post(run::Request request);
+
     run::Debugger debugger_;
+    std::function<void(const run::Request&)> told_ = [](const run::Request&) {};
     bool stepping_ = false;
     bool paused_ = false;
     std::map<uint64_t, Answered> asked_;  // by number at the debugger

@@ -15,6 +15,7 @@
 #include "serve/runner/hand.hpp"
 #include "serve/runner/pacer.hpp"
 #include "serve/runner/plan_runner.hpp"
+#include "serve/runner/run_recording.hpp"
 #include "serve/runner/scene.hpp"
 #include "serve/runner/world_show.hpp"
 #include "session/bus_names.hpp"
@@ -38,7 +39,11 @@ Time wall_now() {
 
 class Runner {
 public:
-    explicit Runner(Pipe pipe) : pipe_(std::move(pipe)) {}
+    explicit Runner(Pipe pipe) : pipe_(std::move(pipe)) {
+        plan_.on_asked([this](const run::Request& request) { recording_.asked(request); });
+        plan_.on_changed(
+            [this](const auto& saved, const auto& read) { recording_.changed(saved, read); });
+    }
 
     RunnerEnd run() {
         while (!quits()) {
@@ -107,6 +112,10 @@ private:
         session_->world().bus().receive(link_, order.frame.frame);
         holds_ = kHoldsAfterFrames;
     }
+    void obey(const talk::ScriptLoaded& order) {
+        recording_.loaded(order.node, order.file, order.text);
+    }
+    void obey(const talk::FlushRecording& order) { recording_.flush(order.request); }
     // A hand from above.
     template <typename Hand>
     void obey(const Hand& order) {
@@ -138,17 +147,21 @@ private:
     void fail(const std::string& why) { teller_.tell(talk::OpenFailed{number_, why}); }
 
     void run_world(const talk::Open& order) {
+        RunRecording::Files read(order);
         auto opened = order.world_text ? session::open_sim_text(order.world, *order.world_text, {})
                                        : session::open_sim(order.world, {});
         if (!opened.ok()) return fail(opened.error().what);
         own_ = std::make_unique<session::SimSession>(std::move(opened.value()));
         (void)own_->settle();
+        recording_.begin(order, read, *own_, nullptr);
         begin_session(*own_, order);
         live();
+        recording_.end();
         own_.reset();
     }
 
     void run_plan(const talk::Open& order) {
+        RunRecording::Files read(order);
         toolbox::Parts parts;
         run::CodeLibrary library;
         const Status added = session::add_toolboxes(library, parts, order.toolboxes);
@@ -161,10 +174,12 @@ private:
         heard_ = session::events_heard(plan.plans(), library.templates());
         plan_.want(order.breakpoints);
         const bool in_world = prepared_->world() != nullptr;
+        if (in_world) recording_.begin(order, read, prepared_->world()->session(), &*prepared_);
         plan_.begin(plan, order.plan, in_world ? PlanRunner::On::World : PlanRunner::On::Bus);
         in_world ? run_in_world(order) : run_on_bus(session::stop_events(library.templates()));
         plan_.forget();
         heard_.clear();
+        recording_.end();
         session_ = nullptr;
         prepared_.reset();
     }
@@ -176,7 +191,7 @@ private:
         words.project = order.project;
         words.robot = order.robot;
         words.from = order.from;
-        words.max_time = "1e13";  // the person at the studio ends it
+        words.max_time = kPlanMaxTime;
         for (const auto& [name, value] : order.set) words.set.push_back(name + "=" + value);
         return words;
     }
@@ -265,6 +280,7 @@ private:
     // In a world the plan has no thread of its own: while it is paused the runner hears and tells
     // from here, and the nodes answer.
     void serve_paused() {
+        recording_.begin_turn();
         hear_plan();
         const Time wall = wall_now();
         if (wall >= next_tell_ || wall >= next_poses_) look_around(wall);
@@ -295,6 +311,7 @@ private:
 
     // Before each millisecond of simulated time: waits until it is due, hears and tells.
     void instant() {
+        recording_.begin_turn();
         show_.tell_frames(*session_, link_);
         show_.record(*session_);
         for (;;) {
@@ -328,13 +345,14 @@ private:
         take_packets();
         if (holds_ <= 0) return;
         --holds_;
-        session_->world().hold_instant();
+        recording_.hold(session_->world());
         show_.tell_frames(*session_, link_);
     }
 
     void look_around(Time wall) {
         take_packets();
         pipe_.flush();
+        recording_.tell();
         show_.tell_records();
         if (wall >= next_poses_) {
             next_poses_ = wall + kPosesEvery;
@@ -367,6 +385,7 @@ private:
 
     Pacer pacer_;
     WorldShow show_{teller_};
+    RunRecording recording_{teller_};
     PlanRunner plan_{teller_, pacer_, {.wall = wall_now, .run = [this] { return run_time(); }}};
     std::unique_ptr<session::SimSession> own_;
     std::unique_ptr<embed::PreparedRun> prepared_;

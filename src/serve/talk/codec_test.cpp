@@ -76,6 +76,8 @@ std::vector<Order> orders() {
         PressButton{11, "alice", "centre", true},
         TapRobot{12, "alice"},
         SendFrame{frame()},
+        ScriptLoaded{3, "/home/me/carbot.aesl", "var x\n"},
+        FlushRecording{13},
     };
 }
 

@@ -63,6 +63,7 @@ struct Open {
     std::string bus = {},
                 project = {};      // the plan on a bus instead of in a world: target and .aesl
     std::vector<Pose> poses = {};  // of robots, in their order; none: where the file says
+    std::string recording = {};    // file that the run is recorded in; empty: none
     static constexpr std::string_view kName = "open";
     static void layout(auto& each, auto& it) {
         each("order", it.order);
@@ -77,6 +78,7 @@ struct Open {
         each("bus", it.bus);
         each("project", it.project);
         each("poses", it.poses);
+        each("recording", it.recording);
     }
     bool operator==(const Open&) const = default;
 };
@@ -348,10 +350,34 @@ struct SendFrame {
     bool operator==(const SendFrame&) const = default;
 };
 
+// ---- the recording ----
+
+// A node was loaded with the script that this file holds for it.
+struct ScriptLoaded {
+    uint16_t node = 0;
+    std::string file = {};  // of this computer
+    std::string text = {};
+    static constexpr std::string_view kName = "script";
+    static void layout(auto& each, auto& it) {
+        each("node", it.node);
+        each("file", it.file);
+        each("text", it.text);
+    }
+    bool operator==(const ScriptLoaded&) const = default;
+};
+
+// Answered when all that has been recorded is in the file.
+struct FlushRecording {
+    uint64_t request = 0;
+    static constexpr std::string_view kName = "recording.flush";
+    static void layout(auto& each, auto& it) { each("request", it.request); }
+    bool operator==(const FlushRecording&) const = default;
+};
+
 // All of them. Which one a packet holds is its place in this list.
-using Order =
-    std::variant<Open, SetPace, LetTimePass, Show, StepPlan, StopPlan, HoldNodes, SetBreakpoints,
-                 SetVariable, RaiseEvent, HandleHeld, ChangePlan, CheckPlan, MoveRobot, MoveObject,
-                 PutObject, TakeObject, SwitchLight, PressButton, TapRobot, SendFrame>;
+using Order = std::variant<Open, SetPace, LetTimePass, Show, StepPlan, StopPlan, HoldNodes,
+                           SetBreakpoints, SetVariable, RaiseEvent, HandleHeld, ChangePlan,
+                           CheckPlan, MoveRobot, MoveObject, PutObject, TakeObject, SwitchLight,
+                           PressButton, TapRobot, SendFrame, ScriptLoaded, FlushRecording>;
 
 }  // namespace vagus::serve::talk

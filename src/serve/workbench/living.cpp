@@ -115,6 +115,7 @@ Status Workbench::open_world(RunOrder order, bool keep_poses) {
     if (text.ok() && order.plan.empty()) order.world_text = text.value();
     loaded_by_world_.clear();
     record_plan(order);
+    record_run(order);
     return run_.open(order, now_);
 }
 

@@ -1,6 +1,8 @@
 // What the history is told, by the run and by the robot, and when it begins again.
 #include "serve/workbench/workbench.hpp"
 
+#include <filesystem>
+
 #include "base/time.hpp"
 
 namespace vagus::serve {
@@ -22,7 +24,11 @@ void Workbench::record_history() {
     // A simulation stamps what it tells; on a bus the time is that of hearing it.
     const auto at = [this](double t) { return bus_ ? history_clock() : t; };
     target_.on_told({
-        .happening = [this, at](const Json& one) { history_.happening(one, at(one["t"])); },
+        .happening =
+            [this, at](const Json& one) {
+                history_.happening(one, at(one["t"]));
+                if (one["kind"] == "loaded") record_script(one["node"], one["name"]);
+            },
         .run = [this] { return history_.run(); },
         .node_state = [this, at](double t, uint16_t node, const std::string& state,
                                  int line) { history_.node_state(at(t), node, state, line); },
@@ -42,6 +48,35 @@ void Workbench::record_plan(const RunOrder& order) {
     History::Beginning beginning{.name = order.plan.empty() ? order.world : order.plan};
     beginning.name = beginning.name.substr(beginning.name.rfind('/') + 1);
     history_.begin(std::move(beginning));
+}
+
+// A run that cannot be recorded goes all the same.
+void Workbench::record_run(RunOrder& order) {
+    auto path = recordings_.next();
+    if (!path.ok()) return say("warning", "this run is not recorded: " + path.error().what);
+    order.recording = std::move(path.value());
+}
+
+// What the nodes were loaded with is among the frames; this is for names and lines.
+void Workbench::record_script(uint16_t node, const std::string& name) {
+    if (bus_ || !project_) return;
+    const ScriptPart* const part = scripts_.for_node(name, node);
+    const auto text = part ? files_.text(part->file) : Error{Code::NotFound, ""};
+    if (text.ok()) run_.script_loaded(node, project_->real(part->file), text.value());
+}
+
+Result<std::string> Workbench::recording_of_run() const {
+    if (bus_) {
+        return Error{Code::Unavailable,
+                     "this is asked of a recording, and the run of a robot on a bus is not "
+                     "recorded; choose Simulator"};
+    }
+    const std::string path = recordings_.of_run(run_.time() > 0);
+    std::error_code failed;
+    if (!path.empty() && std::filesystem::exists(path, failed)) return path;
+    return Error{Code::Unavailable,
+                 "nothing has run yet, so there is nothing to ask about; Run "
+                 "starts it"};
 }
 
 void Workbench::record_bus() {

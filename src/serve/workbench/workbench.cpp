@@ -34,6 +34,10 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
       run_(desk, places.runner ? places.runner : start_runner(places.program)),
       worker_([&links] { links.wake(); }),
       history_(desk, files_, worker_.poster()),
+      whys_(
+          desk, files_, scripts_, places.program,
+          {.file = [this] { return recording_of_run(); },
+           .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); }}),
       sleep_({.slept = places.slept}) {
     files_.on_wake([&links] { links.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
@@ -233,6 +237,7 @@ void Workbench::enter(OpenedProject project) {
     scripts_.prefer(project_->scripts);
     scripts_.reread();
     state_ = Kept((project_->root / ".vagus" / "state.json").string(), &kept_on_disk_);
+    recordings_.enter(project_->root / ".vagus" / "recordings");
     breakpoints_.from_json(state_.get("breakpoints"));
     target_.follow_breakpoints();
     plan_breakpoints_.from_json(state_.get("plan_breakpoints"));
@@ -272,6 +277,7 @@ void Workbench::forget_project() {
     breakpoints_ = {};
     plan_breakpoints_ = {};
     state_ = {};
+    recordings_.enter({});
     project_.reset();
     editing_.set_project({});
     for (const char* topic : {"studio", "state", "start", "breakpoints"}) {
@@ -390,6 +396,7 @@ void Workbench::tick(Time now) {
     add_missing_scripts();
     tick_life();
     worker_.tick();
+    whys_.tick(now);
     editing_.tick(now);
     change_plan();
     look_at_picture();
@@ -413,6 +420,7 @@ Time Workbench::next_tick(Time now) const {
     if (world_edited_ && !is_being_opened()) {
         next = std::min(next, *world_edited_ + kWorldFollowsAfter);
     }
+    next = std::min(next, whys_.next_tick());
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

@@ -37,8 +37,10 @@
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
 #include "serve/workbench/opened.hpp"
+#include "serve/workbench/recordings.hpp"
 #include "serve/workbench/run_ends.hpp"
 #include "serve/workbench/targets.hpp"
+#include "serve/workbench/why_desk.hpp"
 #include "serve/worker.hpp"
 
 namespace vagus::serve {
@@ -178,8 +180,11 @@ private:
     Json handlers_of(const std::vector<std::string>& events);
     void step_into_script(const Call& call);
 
-    // ---- recording.cpp: what the history is told ----
+    // ---- recording.cpp: what the history and the recording are told ----
     void record_history();
+    void record_run(RunOrder& order);
+    void record_script(uint16_t node, const std::string& name);
+    Result<std::string> recording_of_run() const;
     void record_plan(const RunOrder& order);
     void record_bus();
     double history_clock() const;
@@ -263,6 +268,8 @@ private:
     Worker worker_;
     HistoryDesk history_;
     Time history_since_{};  // of a bus
+    Recordings recordings_;
+    WhyDesk whys_;
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};
     Targets targets_;

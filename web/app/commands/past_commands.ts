@@ -3,6 +3,7 @@ import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
 import { revealPanel, toast } from '../../core/window_state';
 import { text } from '../text';
+import { askWhy } from './ask_why';
 import { drives } from './looks';
 
 const titles = text.commands;
@@ -68,6 +69,13 @@ export function pastCommands(studio: Studio): Command[] {
       keys: ['Alt+F10'],
       enabled: known,
       run: stepped(false),
+    },
+    {
+      id: 'past.why',
+      title: titles['past.why'],
+      group,
+      enabled: known,
+      run: () => askWhy(studio, 'end'),
     },
     {
       id: 'trace.save',

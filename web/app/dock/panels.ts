@@ -9,6 +9,7 @@ import {
   IconChartLine,
   IconEye,
   IconFolders,
+  IconHelpCircle,
   IconList,
   IconListSearch,
   IconMap2,
@@ -141,6 +142,14 @@ export const panels: readonly Panel[] = [
     title: text.panels.properties,
     icon: IconBook2,
     view: late(() => import('../panels/properties_panel')),
+  },
+  {
+    id: 'why',
+    like: 'watch',
+    least: 280,
+    title: text.panels.why,
+    icon: IconHelpCircle,
+    view: late(() => import('../panels/why/why_panel')),
   },
   {
     id: 'network',

@@ -3,10 +3,10 @@ import { keepToken } from '../../core/identity';
 import { useStudio } from '../hooks';
 import { Button } from '../parts/button';
 import { OverlayFrame, useCloseOverlay } from '../parts/overlay_frame';
-import { text } from '../text';
+import { newTokenWords } from './new_token_words';
 import '../look/palette.css';
 
-const words = text.newToken;
+const words = newTokenWords;
 
 /** Says what a new token means for others, makes it, and shows the address that has it. */
 export default function NewToken() {

@@ -3,10 +3,10 @@ import { codeSizes, indentSizes, type Settings, type Theme } from '../../core/se
 import { update } from '../../core/window_state';
 import { useDrives, useSettings, useStudio, useTopic } from '../hooks';
 import { KeysList } from '../parts/keys_list';
-import { text } from '../text';
+import { settingsWords } from './settings_words';
 import '../look/lists.css';
 
-const words = text.settings;
+const words = settingsWords;
 
 export default function SettingsPanel() {
   const studio = useStudio();

@@ -5,9 +5,10 @@ import { ActiveActor } from '../views/plan/active_actor';
 import { PlanStory } from '../views/plan/plan_story';
 import { PlanVariables } from '../views/plan/plan_variables';
 import { PlanWatchers } from '../views/plan/plan_watchers';
+import { planWords } from '../views/plan/live_words';
 import '../look/plan.css';
 
-const words = text.plan;
+const words = planWords;
 
 /** What the plan does: its active actor, who watches, its variables, what happened. */
 export default function PhonePlan() {

@@ -7,9 +7,10 @@ import { KeysList } from '../../parts/keys_list';
 import { OverlayFrame, useCloseOverlay } from '../../parts/overlay_frame';
 import { text } from '../../text';
 import { HelpSearch } from './help_search';
+import { helpWords } from './words';
 import '../../look/help.css';
 
-const words = text.help;
+const words = helpWords;
 const tabs = ['help', 'keys'] as const;
 
 /** The language, the robot and the keys, over the window. */

@@ -2,11 +2,11 @@ import { IconSearch } from '@tabler/icons-react';
 import { useEffect, useMemo, useRef, useState } from 'react';
 import { findHelp, type HelpEntry } from '../../../core/help/entries';
 import { kStroke } from '../../parts/icons';
-import { text } from '../../text';
 import { HelpText } from './help_text';
 import { useHelpEntries } from './use_help_entries';
+import { helpWords } from './words';
 
-const words = text.help;
+const words = helpWords;
 
 /** One field for all there is help for; beside the list what is chosen in it. */
 export function HelpSearch({ first, takesFocus }: { first: string; takesFocus: boolean }) {

@@ -1,8 +1,8 @@
 import type { HelpEntry } from '../../../core/help/entries';
 import { piecesOf, type Block } from '../../../core/help/page';
-import { text } from '../../text';
+import { helpWords } from './words';
 
-const words = text.help;
+const words = helpWords;
 
 /** What an entry says: how it is written, what it is, an example. */
 export function HelpText({ entry }: { entry: HelpEntry }) {

@@ -1,7 +1,7 @@
 import type { Node } from '../../../protocol/messages';
-import { text } from '../../text';
+import { heldWords } from './words';
 
-const words = text.held;
+const words = heldWords;
 
 /** Nodes that are paused at a line of their script, and how many events they have dropped there. */
 export function DroppedByNodes({ nodes }: { nodes: readonly Node[] }) {

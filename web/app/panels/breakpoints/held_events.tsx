@@ -1,10 +1,10 @@
 import { useDrives, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
-import { text } from '../../text';
 import { DroppedByNodes } from './dropped_by_nodes';
 import { HeldRow } from './held_row';
+import { heldWords } from './words';
 
-const words = text.held;
+const words = heldWords;
 
 /** Events of the bus that wait while the plan is paused; and what paused nodes have dropped. */
 export function HeldEvents() {

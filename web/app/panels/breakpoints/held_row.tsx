@@ -2,9 +2,9 @@ import type { HeldEvent, Node } from '../../../protocol/messages';
 import { shownTime } from '../../../core/numbers';
 import { useStudio, useTopic, useDrives } from '../../hooks';
 import { Button } from '../../parts/button';
-import { text } from '../../text';
+import { heldWords } from './words';
 
-const words = text.held;
+const words = heldWords;
 
 /** One event that waits: when it came, from whom, and what may be done with it. */
 export function HeldRow({ one, nodes }: { one: HeldEvent; nodes: readonly Node[] }) {

@@ -14,9 +14,9 @@ import { Button } from '../../parts/button';
 import { FilterField } from '../../parts/filter_field';
 import { kStroke } from '../../parts/icons';
 import { StudioMenu } from '../../parts/menu';
-import { text } from '../../text';
+import { eventWords } from './words';
 
-const words = text.events;
+const words = eventWords;
 const icon = { size: 14, stroke: kStroke };
 
 /** What is listed; hold, empty, counts, save. */

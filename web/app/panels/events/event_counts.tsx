@@ -7,8 +7,9 @@ import { useChanges, useStudio } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
+import { eventWords } from './words';
 
-const words = text.events;
+const words = eventWords;
 
 /** How often each event came, and from whom. */
 export function EventCounts() {

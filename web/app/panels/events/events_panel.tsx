@@ -2,6 +2,7 @@ import { useEffect, useMemo, useRef, useState } from 'react';
 import type { Happening } from '../../../protocol/messages';
 import { Filtered, passes } from '../../../core/happenings';
 import { shortCount } from '../../../core/numbers';
+import { askWhy, isWhyKey } from '../../commands/ask_why';
 import { useChanges, useStudio, useTopic, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { VirtualRows } from '../../parts/virtual_rows';
@@ -12,9 +13,10 @@ import { EventBar } from './event_bar';
 import { EventCounts } from './event_counts';
 import { EventRow } from './event_row';
 import { SendForm } from './send_form';
+import { eventWords } from './words';
 import '../../look/robot.css';
 
-const words = text.events;
+const words = eventWords;
 
 /** Each event on the bus and what else happened, the newest first; and a form that sends one. */
 export default function EventsPanel() {
@@ -48,6 +50,9 @@ function EventList() {
           keyOf={(item) => item.number}
           newestFirst
           className="events__list"
+          onRowKey={({ kind, name }, event) => {
+            if (kind === 'event' && isWhyKey(event)) void askWhy(studio, 'event', name);
+          }}
         >
           {(item) => <EventRow item={item} />}
         </VirtualRows>

@@ -3,7 +3,7 @@ import { updateEvents } from '../../../core/window_state';
 import { useStudio, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
-import { text } from '../../text';
+import { eventWords } from './words';
 
 /** At the head of the panel: opens and closes the form that sends an event. */
 export default function EventsTools() {
@@ -18,7 +18,7 @@ export default function EventsTools() {
       icon={<IconSend2 size={14} stroke={kStroke} />}
       onClick={() => updateEvents(store, { send: !open })}
     >
-      {text.events.sendMore}
+      {eventWords.sendMore}
     </Button>
   );
 }

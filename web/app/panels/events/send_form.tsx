@@ -7,8 +7,9 @@ import { useMayAct } from '../../past_hooks';
 import { Quiet } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
+import { eventWords } from './words';
 
-const words = text.events;
+const words = eventWords;
 /** With more arguments they are typed into one field. */
 const kFieldsMax = 6;
 

@@ -1,10 +1,10 @@
 import { shortCount, shownRate } from '../../../core/numbers';
 import { addToPlot } from '../../commands/robot_commands';
 import { useStudio, useWindow } from '../../hooks';
-import { text } from '../../text';
 import { words } from './words';
 import { NetworkPart, type Column } from './network_part';
 import type { NetworkState } from './use_network';
+import { eventWords } from '../events/words';
 
 const { columns } = words;
 const kRowsMax = 200;
@@ -67,7 +67,7 @@ function EventName({ event }: { event: string }) {
     <button
       type="button"
       className="link link--event"
-      title={text.events.plot(event)}
+      title={eventWords.plot(event)}
       onClick={() => addToPlot(studio, [{ is: 'argument', event, index: 0 }])}
     >
       <code>{event}</code>

@@ -1,6 +1,13 @@
-import { IconChartLine, IconEyeMinus, IconEyePlus, IconX } from '@tabler/icons-react';
+import {
+  IconChartLine,
+  IconEyeMinus,
+  IconEyePlus,
+  IconHelpCircle,
+  IconX,
+} from '@tabler/icons-react';
 import { pickKey, pickName, type Pick } from '../../../core/picks';
 import { sourceKey } from '../../../core/plot';
+import { askWhyOf } from '../../commands/ask_why';
 import { plotPick } from '../../commands/robot_commands';
 import { useChanges, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
@@ -33,6 +40,17 @@ export function PickButtons({
   const plotWord = plotted ? words.unplot(pickName(pick)) : words.plot(pickName(pick));
   return (
     <span className="variable__tools">
+      <button
+        type="button"
+        className="tool tool--later"
+        tabIndex={-1}
+        aria-label={text.why.row(pick.name)}
+        aria-keyshortcuts="W"
+        title={`${text.why.row(pick.name)}  (W)`}
+        onClick={() => askWhyOf(studio, pick)}
+      >
+        <IconHelpCircle {...icon} />
+      </button>
       <button
         type="button"
         className={watched && !inWatch ? 'tool is-on' : 'tool tool--later'}

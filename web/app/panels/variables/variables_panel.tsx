@@ -7,7 +7,9 @@ import {
   type VariableRow,
 } from '../../../core/variable_rows';
 import type { NumberForm } from '../../../core/numbers';
-import { useTopic, useWindow } from '../../hooks';
+import type { Studio } from '../../../core/studio';
+import { askWhyOf, isWhyKey } from '../../commands/ask_why';
+import { useStudio, useTopic, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { FilterField } from '../../parts/filter_field';
 import { VirtualRows } from '../../parts/virtual_rows';
@@ -21,6 +23,7 @@ const words = text.variables;
 
 /** The variables of all nodes: searched, unfolded, edited in place. Only what is seen is asked. */
 export default function VariablesPanel() {
+  const studio = useStudio();
   const frame = useRef<HTMLDivElement>(null);
   const shown = useShown(frame);
   const [find, setFind] = useState('');
@@ -53,7 +56,10 @@ export default function VariablesPanel() {
               rows={rows}
               label={text.panels.variables}
               keyOf={(row) => row.key}
-              onRowKey={(row, event) => unfoldKey(row, event, toggle)}
+              onRowKey={(row, event) => {
+                if (isWhyKey(event)) askAbout(studio, row);
+                else unfoldKey(row, event, toggle);
+              }}
             >
               {(row) => <Row row={row} form={form} onToggle={() => toggle(row.key)} />}
             </VirtualRows>
@@ -95,6 +101,11 @@ function useRows(find: string, shown: boolean) {
       return after;
     });
   return { rows, toggle };
+}
+
+function askAbout(studio: Studio, row: VariableRow): void {
+  if (row.is === 'variable' || row.is === 'element')
+    askWhyOf(studio, { node: row.node, name: row.variable.name });
 }
 
 /** Right unfolds, left folds; on what has nothing to unfold they go through its buttons. */

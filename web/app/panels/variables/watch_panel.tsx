@@ -10,6 +10,7 @@ import {
   placeOf,
   type Pick,
 } from '../../../core/picks';
+import { askWhyOf, isWhyKey } from '../../commands/ask_why';
 import { useStudio, useTopic } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { VirtualRows } from '../../parts/virtual_rows';
@@ -80,7 +81,8 @@ function Rows({ rows, form }: { rows: readonly Row[]; form: NumberForm }) {
       onRowKey={(row, event) => {
         if (row.is !== 'pick') return;
         const by = event.altKey ? { ArrowUp: -1, ArrowDown: 1 }[event.key] : undefined;
-        if (event.key === 'Delete') studio.watched.toggle(row.pick);
+        if (isWhyKey(event)) askWhyOf(studio, row.pick);
+        else if (event.key === 'Delete') studio.watched.toggle(row.pick);
         else if (by) studio.watched.set(moved(studio.watched.list, row.pick, by));
         else return;
         event.preventDefault();

@@ -3,10 +3,10 @@ import { aheadText, inputsAhead } from '../../../core/plan/ahead';
 import { shownValue } from '../../../core/plan/live';
 import { valueOf } from '../../../core/plan_view';
 import { useStudio } from '../../hooks';
-import { text } from '../../text';
 import { usePlanDesk } from './plan_desk';
+import { planWords } from './live_words';
 
-const words = text.plan;
+const words = planWords;
 
 /** The actor that works at the moment, since when, and with what. */
 export function ActiveActor(props: {

@@ -6,9 +6,9 @@ import { partOf } from '../../../core/paths';
 import { useDrives, usePart, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
-import { text } from '../../text';
+import { planWords } from './live_words';
 
-const words = text.plan.change;
+const words = planWords.change;
 
 /** What saving would do to the plan that runs, and what the last save has done. */
 export function PlanChange({ doc }: { doc: Doc }) {

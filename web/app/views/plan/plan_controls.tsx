@@ -11,9 +11,9 @@ import { useStudio, useTopic } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
-import { text } from '../../text';
+import { planWords } from './live_words';
 
-const words = text.plan;
+const words = planWords;
 const size = { size: 14, stroke: kStroke };
 
 /** State of the plan, and run, pause, step, stop of it alone. */

@@ -4,14 +4,14 @@ import { shownLevel } from '../../../core/plan_view';
 import { shownName } from '../../../core/paths';
 import { useShownPlan } from '../../past_hooks';
 import { Blank } from '../../parts/blank';
-import { text } from '../../text';
 import { ActiveActor } from './active_actor';
 import { PlanControls } from './plan_controls';
 import { PlanStory } from './plan_story';
 import { PlanVariables } from './plan_variables';
 import { PlanWatchers } from './plan_watchers';
+import { planWords } from './live_words';
 
-const words = text.plan;
+const words = planWords;
 
 /** What a plan does, as a list: where it is, who watches, its variables, what happened. */
 export function PlanLive({ doc }: { doc: Doc }) {

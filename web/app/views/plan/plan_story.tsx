@@ -1,8 +1,8 @@
 import type { Line } from '../../../protocol/messages';
-import { text } from '../../text';
+import { planWords } from './live_words';
 import '../../look/lists.css';
 
-const words = text.plan;
+const words = planWords;
 
 /** What happened, the newest first. */
 export function PlanStory({ story }: { story: readonly Line[] }) {

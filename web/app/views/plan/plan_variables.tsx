@@ -3,9 +3,9 @@ import { typedValue, valueOf } from '../../../core/plan_view';
 import { useStudio } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
 import { useDraft } from '../../parts/use_draft';
-import { text } from '../../text';
+import { planWords } from './live_words';
 
-const words = text.plan;
+const words = planWords;
 
 /** Variables of a running plan, changed in place (P29). */
 export function PlanVariables(props: { level: number; variables: readonly PlanVariable[] }) {

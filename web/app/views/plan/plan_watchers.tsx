@@ -1,9 +1,9 @@
 import { IconEye, IconEyeClosed } from '@tabler/icons-react';
 import type { PlanSupervisor } from '../../../protocol/messages';
 import { kStroke } from '../../parts/icons';
-import { text } from '../../text';
+import { planWords } from './live_words';
 
-const words = text.plan;
+const words = planWords;
 
 /** Supervisors of the plan and of its active actor; an eye tells whether one watches. */
 export function PlanWatchers({ supervisors }: { supervisors: readonly PlanSupervisor[] }) {

@@ -8,8 +8,9 @@ import { Button } from '../../parts/button';
 import { rememberPlan } from '../../commands/looks';
 import { text } from '../../text';
 import { planDeskOf } from './plan_desk';
+import { planWords } from './live_words';
 
-const words = text.plan.from;
+const words = planWords.from;
 
 /** Runs the plan from the actor that is chosen, with values of the variables. */
 export default function RunFrom() {

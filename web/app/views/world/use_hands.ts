@@ -32,14 +32,15 @@ export function useHands(
   model: WorldModel,
   eye: RefObject<Eye | null>,
   snaps: boolean,
+  openMenu: (at: Point) => void,
 ): void {
   const snapping = useRef(snaps);
   useEffect(() => void (snapping.current = snaps), [snaps]);
   useEffect(() => {
     const place = frame.current;
     if (!place) return;
-    return attach(place, model, eye, () => snapping.current);
-  }, [frame, model, eye]);
+    return attach(place, model, eye, () => snapping.current, openMenu);
+  }, [frame, model, eye, openMenu]);
 }
 
 function attach(
@@ -47,6 +48,7 @@ function attach(
   model: WorldModel,
   eye: RefObject<Eye | null>,
   snaps: () => boolean,
+  openMenu: (at: Point) => void,
 ): () => void {
   let grip: Grip | null = null;
   let begin: Point = { x: 0, y: 0 };
@@ -177,7 +179,18 @@ function attach(
     model.hover(null);
     place.dataset['over'] = 'none';
   };
-  const menu = (event: Event) => event.preventDefault();
+  /** Of the robot under the pointer or, by a key, of the chosen one. Beside a robot the picture is moved. */
+  const menu = (event: MouseEvent) => {
+    event.preventDefault();
+    const byPointer = event.button === 2;
+    const hit = byPointer ? eye.current?.meet(pointOf(event)).hit : undefined;
+    const thing = byPointer ? hit?.thing : model.chosen;
+    if (thing?.kind !== 'robot' || model.placing) return;
+    if (grip) up({ type: 'pointercancel' });
+    model.select(thing.key);
+    const { width, height } = place.getBoundingClientRect();
+    openMenu(byPointer ? pointOf(event) : { x: width / 2, y: height / 2 });
+  };
 
   const listen: [string, (event: never) => void, AddEventListenerOptions?][] = [
     // First: what is held is not to move the picture as well.

@@ -15,6 +15,7 @@ import { keepInWorld, redoInRun, undoInRun } from './keep_acts';
 import { optionsOf, toggleOption } from './options';
 import { putDown } from './use_hands';
 import { spokenPlace } from './words';
+import { askWhy } from '../../commands/ask_why';
 import { projectOf } from '../../commands/looks';
 
 const titles = text.commands;
@@ -109,6 +110,9 @@ export function worldCommands(studio: Studio): Command[] {
       ({ model }) => model.follow(model.follows === model.selected ? null : model.selected),
       { may: isRobot },
     ),
+    make('world.why', ['W'], ({ model }) => void askWhy(studio, 'motor', model.chosen?.name), {
+      may: (world) => world.file === null && isRobot(world),
+    }),
     make('world.solid', ['3'], () => toggleOption(studio, 'solid')),
     make('world.rays', ['R'], () => toggleOption(studio, 'rays')),
     make('world.trails', ['T'], () => toggleOption(studio, 'trails')),

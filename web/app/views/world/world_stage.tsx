@@ -1,6 +1,7 @@
 import { Suspense, useEffect, useRef, useState, type ReactNode } from 'react';
 import { late } from '../../parts/late';
 import type { JsonFile } from '../../../core/session/json_file';
+import type { Point } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import { useStudio } from '../../hooks';
 import { usePastTime } from '../../past_hooks';
@@ -16,6 +17,7 @@ import { canSolid } from './webgl';
 import { nameOfThing } from './words';
 
 const SolidView = late(() => import('./solid_view'));
+const RobotMenu = late(() => import('./robot_menu'), 'button');
 
 /** The picture of a world, with what is over it. All that can be done with it has keys, too. */
 export function WorldStage({
@@ -35,7 +37,8 @@ export function WorldStage({
   const looksBack = usePastTime() !== null;
   const [failed, setFailed] = useState(false);
   useOnDesk(frame, model, file);
-  useHands(frame, model, eye, options.snap);
+  const [menu, setMenu] = useState<Point | null>(null);
+  useHands(frame, model, eye, options.snap, setMenu);
   const solid = options.solid && canSolid() && !failed;
   const flat = <FlatView model={model} eyeRef={eye} />;
   return (
@@ -66,6 +69,11 @@ export function WorldStage({
         {children}
       </div>
       {live && options.picture && !looksBack ? <CameraPicture model={model} /> : null}
+      {menu ? (
+        <Suspense>
+          <RobotMenu at={menu} onClose={() => (setMenu(null), frame.current?.focus())} />
+        </Suspense>
+      ) : null}
       <Spoken model={model} />
     </div>
   );

@@ -4,6 +4,7 @@ import { kStart } from '../../../../core/plan/model';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
 import { revealPanel, toast, update } from '../../../../core/window_state';
+import { askWhy } from '../../../commands/ask_why';
 import { text } from '../../../text';
 import { drawWords } from '../words';
 import { withBreaks } from '../break_acts';
@@ -71,6 +72,12 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
   const runFrom = () => update(studio.window, (draft) => void (draft.overlay = 'runFrom'));
   return [
     make('draw.runFrom', ['R'], runFrom, isActor),
+    make(
+      'draw.why',
+      ['W'],
+      ({ board }) => askWhy(studio, 'actor', board.actor(board.selected)?.name),
+      ({ board }) => board.actor(board.selected) !== undefined,
+    ),
     make(
       'draw.open',
       ['O'],

@@ -3,6 +3,7 @@ import { CommandItem, StudioMenu } from '../../../parts/menu';
 import { text } from '../../../text';
 import { drawWords } from '../words';
 import type { MenuAt } from './use_element_menu';
+import { planWords } from '../live_words';
 
 const debugging = ['draw.break', 'draw.breakEdit', 'draw.into', 'draw.script'];
 const editing = [
@@ -26,7 +27,8 @@ export function ElementMenu({ at, onClose }: { at: MenuAt; onClose: () => void }
       }}
       button={<span className="pasked" style={{ left: at.x, top: at.y }} />}
     >
-      <CommandItem id="draw.runFrom" title={text.plan.from.menu} />
+      <CommandItem id="draw.why" title={text.why.menu} />
+      <CommandItem id="draw.runFrom" title={planWords.from.menu} />
       <Menu.Label>{drawWords.debugging}</Menu.Label>
       {debugging.map((id) => (
         <CommandItem key={id} id={id} />

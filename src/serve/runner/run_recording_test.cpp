@@ -1,0 +1,199 @@
+// Runs of the studio are recorded by their process: run again they are the same, and can be asked.
+#include "serve/runner/run_recording.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "base/seconds.hpp"
+#include "base/test_places.hpp"
+#include "mcap/reader.hpp"
+#include "record/compare_tape.hpp"
+#include "record/replay.hpp"
+#include "record/why.hpp"
+#include "serve/runner/test_run_host.hpp"
+#include "wire/messages.hpp"
+
+namespace vagus::serve {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+class RunRecordingTest : public RunnerTest {
+protected:
+    std::string file = (folder / "run.mcap").string();
+
+    talk::Open recorded(const std::string& world_file, const std::string& plan = "") {
+        talk::Open open = order(1, world_file, plan);
+        open.recording = file;
+        return open;
+    }
+    // A request that every node answers.
+    static talk::SendFrame ask_all() {
+        wire::ListNodes list{};
+        list.version = wire::kProtocolVersion;
+        wire::Frame frame{};
+        EXPECT_EQ(wire::encode_message(list, wire::kHostId, frame), wire::Error::None);
+        return {{frame}};
+    }
+    void done(uint64_t request) {
+        const auto answer = wait<talk::Answer>(
+            [request](const talk::Answer& one) { return one.request == request; });
+        EXPECT_EQ(answer.why, "") << "request " << request;
+    }
+    double clock_from(double t) {
+        return wait<talk::Clock>([t](const talk::Clock& clock) { return clock.t > t; }).t;
+    }
+    // Runs it again; gives how many messages were compared.
+    uint64_t same_again() {
+        const std::string bytes = read_file(file).value();
+        const auto reader = mcap::Reader::open(bytes, "run.mcap");
+        if (!reader.ok()) return ADD_FAILURE() << reader.error().what, 0;
+        EXPECT_TRUE(reader.value().is_complete());
+        auto rerun = record::Rerun::open(reader.value(), {});
+        if (!rerun.ok()) return ADD_FAILURE() << rerun.error().what, 0;
+        record::CompareTape tape(reader.value());
+        EXPECT_TRUE(rerun.value()->run(tape).ok());
+        tape.end();
+        if (const auto& found = tape.difference()) {
+            ADD_FAILURE() << seconds_of(found->at) << " s " << found->topic << " " << found->place
+                          << "\n then " << found->then << "\n now  " << found->now;
+        }
+        return tape.compared();
+    }
+    // The first link of an answer.
+    record::Chain why(const std::vector<std::string>& words, std::optional<Time> at) {
+        const std::string bytes = read_file(file).value();
+        const auto reader = mcap::Reader::open(bytes, "run.mcap");
+        if (!reader.ok()) return ADD_FAILURE() << reader.error().what, record::Chain();
+        const auto question = record::read_question(words);
+        const auto chain = record::why(reader.value(), question.value(), at);
+        if (!chain.ok()) return ADD_FAILURE() << chain.error().what, record::Chain();
+        return chain.value();
+    }
+};
+
+// Frames and a hand come while time is stopped, while it passes, and while it is stopped again.
+TEST_F(RunRecordingTest, AWorldWithFramesAndHandsIsTheSameAgain) {
+    say(talk::SetPace{true, 1});
+    say(recorded(test::examples("thymio/arena.world.json")));
+    (void)wait<talk::Opened>();
+    say(ask_all());
+    (void)wait<talk::FrameSeen>();
+    say(talk::PutObject{.request = 1, .kind = talk::ObjectKind::Cylinder, .at = {0.5, 0.5}});
+    done(1);
+    say(talk::SetPace{false, 0});
+    double t = clock_from(2);
+    say(talk::PressButton{2, "thymio", "forward", true});
+    done(2);
+    t = clock_from(t + 1);
+    say(talk::MoveRobot{3, "thymio", {0.6, 0.6}, 1.25});
+    say(ask_all());
+    done(3);
+    t = clock_from(t + 1);
+    say(talk::SetPace{true, 1});
+    say(ask_all());
+    say(talk::TapRobot{4, "thymio"});
+    done(4);
+    say(talk::SetPace{false, 0});
+    (void)clock_from(t + 1);
+    EXPECT_EQ(leave(), 0);
+    EXPECT_GT(same_again(), 200u);
+}
+
+TEST_F(RunRecordingTest, APlanWithABreakpointSettingsAndANewVersionIsTheSameAgain) {
+    const std::string text = read_file(test::examples("follow-wall/WallFollow.plan.json")).value();
+    const std::string plan = write("WallFollow.plan.json", text);
+    talk::Open open = recorded(test::examples("follow-wall/hall.world.json"), plan);
+    open.set["walldist"] = "30";
+    open.breakpoints = {{.number = 7, .plan = plan, .element = "parallelToWall"}};
+    say(talk::SetPace{true, 1});
+    say(open);
+    (void)wait<talk::Opened>();
+    say(ask_all());
+    (void)wait<talk::FrameSeen>();
+    say(talk::SetPace{false, 0});
+    (void)wait<talk::PlanNow>([](const talk::PlanNow& now) { return !now.stands_at.empty(); });
+    // Held in the middle of an instant.
+    say(talk::SetVariable{1, 0, "walldist", plan::Value(int64_t{35})});
+    done(1);
+    say(ask_all());
+    (void)wait<talk::FrameSeen>();
+    say(talk::PutObject{.request = 2, .at = {1.5, 0.3}, .id = "put"});
+    done(2);
+    say(talk::SetBreakpoints{});
+    (void)wait<talk::BreakpointsNow>(
+        [](const talk::BreakpointsNow& now) { return now.list.empty(); });
+    say(talk::SetPace{false, 0});
+    double t = clock_from(20);
+    // While it runs, and a new version.
+    say(talk::SetVariable{3, 0, "walldist", plan::Value(int64_t{25})});
+    done(3);
+    std::string other = text;
+    ASSERT_NE(other.find("\"help\""), std::string::npos);
+    other.replace(other.find("\"help\": \"") + 9, 0, "Another one. ");
+    write("WallFollow.plan.json", other);
+    say(talk::ChangePlan{4, {plan}});
+    done(4);
+    t = clock_from(t + 20);
+    say(talk::StopPlan{});
+    (void)wait<talk::PlanNow>(
+        [](const talk::PlanNow& now) { return now.state == talk::PlanState::Ended; });
+    // The world lives on.
+    say(talk::MoveRobot{5, "carbot", {1, 1}, 0});
+    done(5);
+    (void)clock_from(t + 2);
+    EXPECT_EQ(leave(), 0);
+    EXPECT_GT(same_again(), 5000u);
+    const record::Chain chain = why({"variable", "walldist"}, from_seconds(t));
+    ASSERT_FALSE(chain.empty());
+    EXPECT_EQ(chain.front().what, "a person gave the variable walldist its value");
+    EXPECT_EQ(chain.front().value, "25");
+    EXPECT_THAT(why({"motor", "carbot"}, from_seconds(15)).front().place,
+                HasSubstr("carbot/carbot.aesl:"));
+}
+
+// What can be asked of a run that goes on is what is in the file by then.
+TEST_F(RunRecordingTest, ARunThatGoesOnCanBeAsked) {
+    talk::Open open = recorded(test::examples("follow-wall/hall.world.json"),
+                               test::examples("follow-wall/WallFollow.plan.json"));
+    open.set["walldist"] = "30";
+    say(talk::SetPace{false, 0});
+    say(open);
+    (void)clock_from(15);
+    say(talk::FlushRecording{1});
+    done(1);
+    const record::Chain chain = why({"motor", "carbot"}, 12s);
+    ASSERT_FALSE(chain.empty());
+    EXPECT_LE(chain.front().at, 12s);
+    EXPECT_TRUE(chain.back().root);
+    EXPECT_EQ(leave(), 0);
+    EXPECT_GT(same_again(), 500u);
+}
+
+TEST_F(RunRecordingTest, AWorldInWhichNoTimePassedLeavesNoFile) {
+    say(talk::SetPace{true, 1});
+    say(recorded(world()));
+    (void)wait<talk::Opened>();
+    say(talk::FlushRecording{1});
+    done(1);
+    EXPECT_TRUE(std::filesystem::exists(file));
+    EXPECT_EQ(leave(), 0);
+    EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST_F(RunRecordingTest, ARunThatCannotBeRecordedSaysSoAndGoes) {
+    talk::Open open = recorded(world());
+    open.recording = (folder / "nowhere" / "run.mcap").string();
+    say(talk::SetPace{false, 0});
+    say(open);
+    EXPECT_THAT(wait<talk::Line>().text, HasSubstr("this run is not recorded: "));
+    (void)clock_from(1);
+    say(talk::FlushRecording{1});
+    done(1);
+    EXPECT_EQ(leave(), 0);
+}
+
+}  // namespace
+}  // namespace vagus::serve

@@ -1,0 +1,60 @@
+#include "serve/runner/why_host.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/file.hpp"
+#include "base/seconds.hpp"
+#include "record/why.hpp"
+#include "serve/json.hpp"
+
+namespace vagus::serve {
+
+namespace {
+
+constexpr int kLooksMs = 1000;  // at whether there is something, or the other end is gone
+
+Result<std::string> chain_of(const Json& asked) {
+    const auto question =
+        TRY(record::read_question(asked["question"].get<std::vector<std::string>>()));
+    const std::string path = asked["file"];
+    const MappedFile file = TRY(MappedFile::open(path));
+    const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), path));
+    std::optional<Time> at;
+    if (asked.contains("at")) at = from_seconds(asked["at"]);
+    return record::format_chain_json(TRY(record::why(reader, question, at)));
+}
+
+std::string answer_to(const std::string& text) {
+    const Json asked = Json::parse(text, nullptr, false);
+    const bool good = asked.is_object() && asked.contains("question") && asked.contains("file");
+    if (!good) return "";
+    const auto chain = chain_of(asked);
+    if (chain.ok()) return "{\"chain\":" + chain.value() + "}";
+    return Json{{"error", chain.error().what}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+int run_why(Pipe pipe) {
+    std::string answer;
+    while (answer.empty()) {
+        pipe.wait(kLooksMs);
+        for (const Packet& packet : pipe.receive()) {
+            if (packet.kind == kWhyAsked) answer = answer_to(packet.bytes);
+            if (answer.empty()) return 2;
+        }
+        if (answer.empty() && pipe.closed()) return 2;
+    }
+    pipe.send(kWhyAnswered, answer);
+    while (pipe.has_unsent() && !pipe.closed()) {
+        pipe.wait(kLooksMs);
+        pipe.flush();
+        (void)pipe.receive();  // notices that nobody is there any more
+    }
+    return 0;
+}
+
+}  // namespace vagus::serve

@@ -1,0 +1,43 @@
+// The recordings of the runs of a project, in a folder of its own: run-1.mcap, run-2.mcap … The
+// newest are kept, as many as there is room for.
+//
+//     Recordings recordings;
+//     recordings.enter(root / ".vagus" / "recordings");
+//     const auto path = recordings.next();             // for the run that begins
+//     const std::string last = recordings.of_run(run_.time() > 0);
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "base/result.hpp"
+
+namespace vagus::serve {
+
+constexpr size_t kRecordingsKept = 10;                       // and the one that is being made
+constexpr uint64_t kRecordingsBytesMax = uint64_t{1} << 30;  // of all of them, when a run begins
+
+class Recordings {
+public:
+    // Another project; an empty path: none.
+    void enter(std::filesystem::path folder);
+
+    // The file of a run that begins. Older ones are deleted, but never the one before. The Error
+    // says why there can be none.
+    Result<std::string> next();
+    // The run that is there has no recording.
+    void none();
+    // The one of the run that is there or, as long as no time has passed in it, of the run before.
+    // Empty: there is none.
+    std::string of_run(bool has_begun) const;
+
+private:
+    void make_room() const;
+
+    std::filesystem::path folder_;
+    std::string now_;
+    std::string before_;
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,71 @@
+// Why something in a run is as it is, for pages: the command why.ask. Each question is answered by
+// a process of its own, from the recording of the run.
+//
+//     WhyDesk whys(desk, files, scripts, "/usr/bin/vagus", {.file = …, .flush = …});
+//     whys.tick(now);
+#pragma once
+
+#include <functional>
+#include <list>
+#include <optional>
+#include <string>
+
+#include "base/result.hpp"
+#include "base/time.hpp"
+#include "serve/json.hpp"
+#include "serve/process.hpp"
+#include "serve/project/files.hpp"
+#include "serve/script/scripts.hpp"
+#include "serve/studio/desk.hpp"
+
+namespace vagus::serve {
+
+constexpr size_t kWhysAtOnce = 2;     // processes; further questions are refused
+constexpr Duration kWhyWithin = 60s;  // then a question is not waited for any more
+constexpr Duration kWhyLookEvery = 10ms;
+constexpr size_t kWhyMemoryMax = size_t{2} << 30;
+
+class WhyDesk {
+public:
+    struct Run {
+        // The recording of the run that is shown. The Error says why it has none.
+        std::function<Result<std::string>()> file;
+        // Tells when all that has happened by now is in it.
+        std::function<void(std::function<void()> done)> flush;
+    };
+
+    // Borrowed. Declares its command.
+    WhyDesk(Desk& desk, Files& files, Scripts& scripts, std::string program, Run run);
+
+    void tick(Time now);
+    Time next_tick() const;
+
+private:
+    struct Asked {
+        Call call;
+        Child child;
+        std::optional<Time> until;  // set by the first tick
+    };
+    // A place in the project.
+    struct Spot {
+        std::string doc;
+        int line = 0;
+    };
+
+    void ask(const Call& call);
+    void start(const Call& call, const std::string& file);
+    bool look(Asked& asked, Time now);
+    void answer(const Call& call, const std::string& text);
+    std::optional<Spot> spot_of(const std::string& place);
+    std::string path_of(const std::string& name);
+
+    Files& files_;
+    Scripts& scripts_;
+    const std::string program_;
+    const Run run_;
+    std::list<Asked> asked_;
+    size_t flushing_ = 0;
+    Time now_{};
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,79 @@
+import { useRef, type KeyboardEvent } from 'react';
+import type { WhyLink } from '../../../core/asking';
+import { shownTime } from '../../../core/numbers';
+import type { Studio } from '../../../core/studio';
+import { revealDoc } from '../../../core/window_state';
+import { useStudio } from '../../hooks';
+import { revealElement } from '../../views/plan/reveal_element';
+import { whyWords as words } from './words';
+
+/** What something followed from. Up and down go from link to link. */
+export function Chain({ chain }: { chain: readonly WhyLink[] }) {
+  const studio = useStudio();
+  const list = useRef<HTMLOListElement>(null);
+  const pressed = (event: KeyboardEvent) => {
+    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (by === undefined) return;
+    const rows = [...(list.current?.querySelectorAll('button') ?? [])];
+    const at = rows.findIndex((row) => row === document.activeElement);
+    rows[Math.min(Math.max(at + by, 0), rows.length - 1)]?.focus();
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return (
+    <div className="scroll">
+      <ol className="because__chain" ref={list} aria-label={words.chain} onKeyDown={pressed}>
+        {chain.map((link, index) => (
+          // Nothing else tells two of the same instant apart, and a chain never changes.
+          <li key={index}>
+            <Row link={link} earlier={chain[index + 1]} onOpen={() => open(studio, link)} />
+          </li>
+        ))}
+      </ol>
+    </div>
+  );
+}
+
+function Row(props: { link: WhyLink; earlier: WhyLink | undefined; onOpen(): void }) {
+  const { link, earlier, onOpen } = props;
+  const { t, what, value, place } = link;
+  return (
+    <button
+      type="button"
+      className={link.root ? 'because__link is-root' : 'because__link'}
+      data-inset
+      onClick={onOpen}
+    >
+      <span className="because__dot" aria-hidden />
+      <span className="because__what">
+        {what} <Value value={value} />
+      </span>
+      <time className="num">{shownTime(t)}</time>
+      <span className="because__place ellipsis">
+        {place === '' && link.root ? words.root : place}
+      </span>
+      <span className="because__gap num">{earlier ? gapOf(t - earlier.t) : ''}</span>
+    </button>
+  );
+}
+
+/** Numbers as code; what a local event is about is a sentence. */
+function Value({ value }: { value: string }) {
+  if (value === '') return null;
+  return /^[-"\d]/.test(value) ? <code>{value}</code> : <span className="muted">{value}</span>;
+}
+
+/** Between it and what it followed from. */
+function gapOf(seconds: number): string {
+  const ms = Math.round(seconds * 1000);
+  if (ms === 0) return '';
+  return words.later(ms < 1000 ? `${ms} ms` : `${seconds.toFixed(3)} s`);
+}
+
+/** Its place comes in sight, and everything shows its instant; the keyboard stays in the chain. */
+function open(studio: Studio, { t, doc, line, element }: WhyLink): void {
+  studio.past.look(t);
+  if (doc === undefined) return;
+  if (element !== undefined) revealElement(studio, doc, element, false);
+  else revealDoc(studio.window, doc, line === undefined ? null : { line, column: 1 }, false);
+}

@@ -1,0 +1,61 @@
+// Why something in the run is as it is: what was asked last, and what was answered.
+
+import type { Commands } from '../protocol/messages';
+import { deskFor } from './desk';
+import { Emitter } from './emitter';
+import type { Studio } from './studio';
+import { whyOf } from './why';
+
+export type About = Commands['why.ask']['in']['about'];
+export type WhyLink = Commands['why.ask']['out']['chain'][number];
+
+export interface Question {
+  about: About;
+  /** Of the end: ''. */
+  name: string;
+  /** The instant that is shown; null: now. */
+  t: number | null;
+}
+
+export class Asking {
+  readonly changed = new Emitter<void>();
+  question: Question | null = null;
+  /** What it followed from, the newest first; null until it is answered. */
+  chain: readonly WhyLink[] | null = null;
+  /** Why it is not answered; '': it is, or will be. */
+  trouble = '';
+
+  constructor(
+    private readonly send: (input: Commands['why.ask']['in']) => Promise<{ chain: WhyLink[] }>,
+  ) {}
+
+  get waits(): boolean {
+    return this.question !== null && this.chain === null && this.trouble === '';
+  }
+
+  /** The answer to a question before this one counts no more. */
+  async ask(question: Question): Promise<void> {
+    this.show(question, null, '');
+    const { about, name, t } = question;
+    const input: Commands['why.ask']['in'] = { about };
+    if (name !== '') input.name = name;
+    if (t !== null) input.t = t;
+    try {
+      const { chain } = await this.send(input);
+      if (this.question === question) this.show(question, chain, '');
+    } catch (problem) {
+      if (this.question === question) this.show(question, null, whyOf(problem));
+    }
+  }
+
+  private show(question: Question, chain: readonly WhyLink[] | null, trouble: string): void {
+    this.question = question;
+    this.chain = chain;
+    this.trouble = trouble;
+    this.changed.emit();
+  }
+}
+
+export const askingOf: (studio: Studio) => Asking = deskFor(
+  (studio: Studio) => new Asking((input) => studio.send('why.ask', input)),
+);

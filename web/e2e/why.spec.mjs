@@ -1,0 +1,138 @@
+// Why something in a run is as it is, asked by keys and menus; and the recording that answers.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readdirSync, statSync } from 'node:fs';
+import { join } from 'node:path';
+import { look } from './support/axe.mjs';
+import { vagusProgram } from './support/server.mjs';
+import { reads, seen, test, until } from './support/studio.mjs';
+/** @import { Page, Studio } from './support/studio.mjs' */
+
+const wall = { words: ['--example', 'follow-wall'] };
+
+const links = (/** @type {Page} */ page) =>
+  page.getByRole('list', { name: 'What it followed from, the newest first' }).getByRole('button');
+const bar = (/** @type {Page} */ page) => page.getByRole('region', { name: 'Looking back' });
+const world = (/** @type {Page} */ page) => page.getByRole('application', { name: /^World/ });
+
+/** Runs as fast as it goes, until the plan comes to that actor. */
+async function runTo(/** @type {Studio} */ { page, press, layout }, /** @type {string} */ actor) {
+  await layout('Debug');
+  await page.getByRole('group', { name: new RegExp(`^${actor}, actor`) }).focus();
+  await press('Space', 'F9');
+  await page.getByRole('button', { name: /Speed of the clock/ }).click();
+  await page.getByRole('menuitem', { name: /As fast as/i }).click();
+  await press('F5');
+  await seen(page.getByText(`Paused by the breakpoint ${actor}`));
+}
+
+/** On to the actor that begins next. */
+async function toNext(/** @type {Studio} */ { page, press, type }, /** @type {string} */ actor) {
+  await press('Control+k');
+  await type('plan: on to the next actor');
+  await press('Enter');
+  await reads(page.locator('.pactive'), new RegExp(actor));
+}
+
+/** Its texts, once it is answered. */
+async function answered(/** @type {Page} */ page, /** @type {RegExp} */ question) {
+  await seen(page.getByRole('heading', { name: question }));
+  await seen(links(page));
+  return links(page).allInnerTexts();
+}
+
+/** Runs the largest recording of the project again. */
+function replayed(/** @type {string} */ folder) {
+  const all = readdirSync(folder, { recursive: true, encoding: 'utf8' })
+    .filter((one) => one.endsWith('.mcap'))
+    .map((one) => join(folder, one));
+  const [largest = ''] = all.sort((one, other) => statSync(other).size - statSync(one).size);
+  return execFileSync(vagusProgram, ['replay', largest], { encoding: 'utf8' });
+}
+
+test('the robot bumped: why, back to that instant, and its line', wall, async (studio) => {
+  const { page, press, type, server } = studio;
+  // At 80 s a plank falls before the robot, at 82.5 s it bumps into it and is about to back up.
+  await runTo(studio, 'backupCollision');
+  await toNext(studio, 'findWallAngle');
+  // By keys: the robot in the world.
+  await world(page).focus();
+  await press('Shift+N', 'w');
+  const wheels = await answered(page, /^Why do the wheels of carbot turn as they do\? now/);
+  assert.match(wheels[0] ?? '', /the script of drive called drive\./);
+  // By the menu of the drawing: the actor that backed up. Its chain ends at what fell there.
+  await page.getByRole('group', { name: /^backupCollision, actor/ }).click({ button: 'right' });
+  await page.getByRole('menuitem', { name: 'Why?' }).click();
+  const actor = await answered(page, /^Why is backupCollision active, or why did it end\?/);
+  assert.match(actor[0] ?? '', /the actor backupCollision ended with/);
+  assert.match(actor.at(-2) ?? '', /carbot touched "plank"/);
+  assert.match(actor.at(-1) ?? '', /the timeline of the world put "plank" there[^]*80\.000/);
+  await look(studio, 'why');
+  // By keys to the supervisor that raised it: everything shows that instant.
+  const raised = actor.findIndex((line) => line.includes('wallTouch raised TouchSensorPressed'));
+  await links(page).first().focus();
+  for (let at = 0; at < raised; ++at) await press('ArrowDown');
+  await press('Enter');
+  await reads(bar(page), /Everything shows 82\.4\d\d s/);
+  // The line of the script that told it.
+  const emitted = links(page).filter({ hasText: 'the script of bumper emitted touch.pressed' });
+  await reads(emitted, /carbot\.aesl:\d+/);
+  await emitted.click();
+  const lines = studio.editor('bumper').locator('.cm-line');
+  await until('the line is in sight', async () =>
+    (await lines.allInnerTexts()).some((line) => line.includes('emit touch.pressed')),
+  );
+  // A question while looking back is about then: it was still following the wall.
+  await world(page).focus();
+  await press('w');
+  const then = await answered(
+    page,
+    /^Why do the wheels of carbot turn as they do\? at 82\.4\d\d s/,
+  );
+  assert.match(then.join('\n'), /the actor followWall of the plan sent/);
+  await press('Escape');
+  // A variable, by the key of its row.
+  await page.getByRole('tab', { name: 'Variables' }).click();
+  await page.getByRole('searchbox', { name: 'Find in all nodes' }).fill('token');
+  await page
+    .getByRole('listitem')
+    .filter({ hasText: /^token/ })
+    .focus();
+  await press('w');
+  await answered(page, /^Why has drive\.token its value\?/);
+  // The end.
+  await press('Shift+F5', 'Control+k');
+  await type('why did the run end');
+  await press('Enter');
+  const end = await answered(page, /^Why did the run end\?/);
+  assert.match(end.join('\n'), /somebody ended the run/);
+  assert.match(replayed(server.folder), /no difference/);
+});
+
+test('what is done by hand and changed is the same again', wall, async (studio) => {
+  const { page, press, type, server } = studio;
+  await runTo(studio, 'findWallAngle');
+  // While the plan is held: the robot is moved, and a script gets another number.
+  await world(page).focus();
+  await press('Shift+N', 'Shift+ArrowRight', 'Shift+ArrowUp');
+  const drive = studio.editor('drive');
+  await drive.getByText('const PATIENCE = 15').click();
+  await press('End');
+  await type('0');
+  await press('Control+Alt+u');
+  await reads(page.locator('.events__list'), /loaded drive/);
+  await toNext(studio, 'parallelToWall');
+  await press('Shift+F5', 'Control+k');
+  await type('simulation back to its start');
+  await press('Enter');
+  await until('its recording has its end', () =>
+    Promise.resolve(/^[^\n]*no difference$/m.test(replayed(server.folder))),
+  );
+});
+
+test('what cannot be answered says why', wall, async ({ page, press, layout }) => {
+  await layout('Debug');
+  await page.getByRole('group', { name: /^followWall, actor/ }).focus();
+  await press('Space', 'w');
+  await reads(page.getByRole('alert'), /by then there was no actor "followWall"/);
+});

@@ -36,7 +36,7 @@ MAY_INCLUDE = {
     "session": BELOW_SESSION,
     "record": ["embed", "session", "mcap"] + BELOW_SESSION,
     "trial": ["record", "embed", "session", "mcap"] + BELOW_SESSION,
-    "serve": ["record", "embed", "session", "mcap"] + BELOW_SESSION,
+    "serve": ["trial", "record", "embed", "session", "mcap"] + BELOW_SESSION,
     "cli": ["conformance", "serve", "trial", "record", "embed", "session", "mcap"] + BELOW_SESSION,
 }
 # Inside a module, too, an arrow points down: a file may include what is in its own room or in one before it. Rooms

@@ -19,9 +19,30 @@ namespace {
 
 constexpr size_t kReadBytes = 64u << 10;
 
-// Of the one FilesRead that there may be.
+using Contents = std::map<std::string, std::string>;
+
+// Of the one FilesRead, and the one FilesInstead, that there may be.
 std::mutex kept_mutex;
-std::optional<std::map<std::string, std::string>> kept_files;  // guarded by kept_mutex
+std::optional<Contents> kept_files;     // guarded by kept_mutex
+std::optional<Contents> files_instead;  // the same; by as_one_path()
+
+std::string as_one_path(const std::string& path) {
+    std::error_code failed;
+    const auto whole = std::filesystem::absolute(path, failed);
+    return (failed ? std::filesystem::path(path) : whole).lexically_normal().string();
+}
+
+std::optional<std::string> content_instead(const std::string& path) {
+    const std::lock_guard lock(kept_mutex);
+    if (!files_instead) return std::nullopt;
+    const auto found = files_instead->find(as_one_path(path));
+    return found == files_instead->end() ? std::nullopt : std::optional(found->second);
+}
+
+void note_read(const std::string& path, const std::string& content) {
+    const std::lock_guard lock(kept_mutex);
+    if (kept_files) kept_files->emplace(path, content);
+}
 
 // Owns one open file; closes it at the end of the scope.
 class OpenFile {
@@ -180,12 +201,15 @@ Status write(const std::string& path, std::string_view content, Disk disk) {
 
 Result<std::string> read_file(const std::string& path) {
     if (path == "-") return read_all(OpenFile(STDIN_FILENO), "standard input");
+    if (auto content = content_instead(path)) {
+        note_read(path, *content);
+        return std::move(*content);
+    }
     const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.get() < 0) return failure(path, "read");
     TRY(refuse_pipe(file, path));
     std::string content = TRY(read_all(file, path));
-    const std::lock_guard lock(kept_mutex);
-    if (kept_files) kept_files->emplace(path, content);
+    note_read(path, content);
     return content;
 }
 
@@ -203,6 +227,22 @@ FilesRead::~FilesRead() {
 std::map<std::string, std::string> FilesRead::all() const {
     const std::lock_guard lock(kept_mutex);
     return *kept_files;
+}
+
+FilesInstead::FilesInstead() {
+    const std::lock_guard lock(kept_mutex);
+    assert(!files_instead);
+    files_instead.emplace();
+}
+
+FilesInstead::~FilesInstead() {
+    const std::lock_guard lock(kept_mutex);
+    files_instead.reset();
+}
+
+void FilesInstead::put(const std::string& path, std::string content) {
+    const std::lock_guard lock(kept_mutex);
+    files_instead->insert_or_assign(as_one_path(path), std::move(content));
 }
 
 // ---- files of any size ----

@@ -62,6 +62,20 @@ public:
     std::map<std::string, std::string> all() const;
 };
 
+// What read_file() gives in place of what is on the disk, by path, however that is spelled: for a
+// run that reads its files as they were once. One at a time; from any thread.
+//
+//     FilesInstead then;
+//     then.put("/home/ann/hall/drive.aesl", text);
+class FilesInstead {
+public:
+    FilesInstead();
+    ~FilesInstead();
+    FilesInstead(const FilesInstead&) = delete;
+    FilesInstead& operator=(const FilesInstead&) = delete;
+    void put(const std::string& path, std::string content);
+};
+
 // Writes beside the file and renames over it, so that a crash leaves the old file or the new one,
 // never half of it.
 // What is no file (/dev/stdout, a pipe) is written to as it is.

@@ -58,6 +58,22 @@ TEST_F(FileTest, WhatIsReadIsKept) {
     EXPECT_EQ(files.all(), (std::map<std::string, std::string>{{path("x"), "1"}}));
 }
 
+TEST_F(FileTest, FilesInsteadAreReadAsTheyWere) {
+    ASSERT_TRUE(write_file(path("x"), "now").ok());
+    {
+        FilesInstead then;
+        then.put(path("x"), "then");
+        then.put(path("gone"), "was there");
+        const FilesRead files;
+        EXPECT_EQ(read_file(path("a/../x")).value(), "then");
+        EXPECT_EQ(read_file(path("gone")).value(), "was there");
+        EXPECT_EQ(files.all().at(path("gone")), "was there");
+        EXPECT_FALSE(read_file(path("y")).ok());
+    }
+    EXPECT_EQ(read_file(path("x")).value(), "now");
+    EXPECT_FALSE(read_file(path("gone")).ok());
+}
+
 TEST_F(FileTest, APipeThatIsNamedIsRefusedWithoutWaiting) {
     ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
     const Result<std::string> read = read_file(path("pipe"));

@@ -12,6 +12,7 @@
 #include "embed/plan_versions.hpp"
 #include "embed/prepared_run.hpp"
 #include "embed/robots_run.hpp"
+#include "record/past_run.hpp"
 #include "record/plan_recording.hpp"
 #include "run/debugger.hpp"
 #include "session/plan_world.hpp"
@@ -36,17 +37,6 @@ Time instant_of(Time at) {
     return (at + sim::kNodeStep - Duration(1)) / sim::kNodeStep * sim::kNodeStep;
 }
 
-Result<RunFile> run_file_of(const mcap::Reader& reader) {
-    const mcap::Channel* const channel = reader.find(kRunTopic);
-    mcap::Cursor cursor(reader);
-    while (const auto message = cursor.next()) {
-        if (channel != nullptr && message->channel == channel->id) {
-            return read_run(message->data, reader.name());
-        }
-    }
-    return read_run("", reader.name());
-}
-
 }  // namespace
 
 Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reader,
@@ -68,26 +58,7 @@ Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reade
                     found.empty() ? "is called so" : "are called so", names_of_files(reader))};
 }
 
-Time end_of(const mcap::Reader& reader) {
-    Time end{};
-    mcap::Cursor cursor(reader);
-    while (const auto message = cursor.next()) end = std::max(end, time_of(message->log_time));
-    return end;
-}
-
 // ---- what is done again ----
-
-Result<std::vector<Input>> Rerun::inputs_of(const mcap::Reader& reader) {
-    std::vector<Input> inputs;
-    const mcap::Channel* const channel = reader.find(kInputTopic);
-    mcap::Cursor cursor(reader);
-    while (const auto message = cursor.next()) {
-        if (channel == nullptr || message->channel != channel->id) continue;
-        const Time at = time_of(message->log_time);
-        inputs.push_back(TRY(read_input(message->data, at, reader.name())));
-    }
-    return inputs;
-}
 
 std::vector<Input> Rerun::other_inputs(std::vector<Input> recorded, const RerunOptions& options) {
     const Time from = instant_of(*options.from);
@@ -540,7 +511,7 @@ private:
 
 Result<std::unique_ptr<Rerun>> Rerun::open(const mcap::Reader& reader,
                                            const RerunOptions& options) {
-    RunFile run = TRY(run_file_of(reader));
+    RunFile run = TRY(run_of(reader));
     if (run.kind != "simulated") {
         return Error{Code::Refused, reader.name() +
                                         ": is a recording of a real bus, whose robot "

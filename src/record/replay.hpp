@@ -48,9 +48,6 @@ struct RerunOptions {
 Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reader,
                                                        const std::string& typed);
 
-// When the last thing of it was recorded.
-Time end_of(const mcap::Reader& reader);
-
 class Rerun {
 public:
     struct Ended {
@@ -90,7 +87,6 @@ public:
 protected:
     Rerun(RunFile about, UnpackedFolder folder)
         : about_(std::move(about)), folder_(std::move(folder)) {}
-    static Result<std::vector<Input>> inputs_of(const mcap::Reader& reader);
     // Those up to `from`, and what is done there.
     static std::vector<Input> other_inputs(std::vector<Input> recorded,
                                            const RerunOptions& options);

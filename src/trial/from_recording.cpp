@@ -20,6 +20,13 @@ std::string last_part(const std::string& path) {
     return std::filesystem::path(path).filename().string();
 }
 
+// A file of the recording as a test beside its plan names it.
+std::string beside(const std::string& plan, const std::string& name) {
+    if (name.empty()) return "";
+    const std::filesystem::path folder = std::filesystem::path(plan).parent_path();
+    return std::filesystem::path(name).lexically_relative(folder.empty() ? "." : folder).string();
+}
+
 std::string text_at(const JsonValue& json, std::string_view key) {
     const JsonValue* const value = json.find(key);
     return value == nullptr ? "" : value->text;
@@ -56,8 +63,17 @@ struct Told {
 struct Recorded {
     record::RunFile run;
     Told told;
+    std::string seed;  // of the run, or of its world
     size_t inputs = 0;
 };
+
+std::string seed_of(const mcap::Reader& reader, const record::RunFile& run) {
+    const mcap::Attachment* const world = reader.attachment(run.world);
+    if (!run.seed.empty() || world == nullptr) return run.seed;
+    const auto json = read_json(world->data);
+    const auto* const tree = std::get_if<JsonValue>(&json);
+    return tree == nullptr ? "" : text_at(*tree, "seed");
+}
 
 Result<Recorded> read_recorded(const mcap::Reader& reader) {
     Recorded recorded;
@@ -78,6 +94,7 @@ Result<Recorded> read_recorded(const mcap::Reader& reader) {
         if (const auto* tree = std::get_if<JsonValue>(&json)) recorded.told.line(*tree);
     }
     recorded.run = TRY(record::read_run(run, reader.name()));
+    recorded.seed = seed_of(reader, recorded.run);
     return recorded;
 }
 
@@ -138,12 +155,13 @@ std::vector<std::string> members_of(const Recorded& recorded, const Draft& draft
     if (!run.robot.empty()) members.push_back("\"robot\": " + json_quote(run.robot));
     std::string toolboxes, set, expect;
     for (const std::string& one : run.toolboxes) {
-        toolboxes += (toolboxes.empty() ? "" : ", ") + json_quote(last_part(one));
+        toolboxes += (toolboxes.empty() ? "" : ", ") + json_quote(beside(run.plan, one));
     }
     if (!toolboxes.empty()) members.push_back("\"toolboxes\": [" + toolboxes + "]");
     for (const std::string& one : run.set) set += (set.empty() ? "" : ", ") + set_member(one);
     if (!set.empty()) members.push_back("\"set\": { " + set + " }");
-    members.push_back(fmt::format("\"seeds\": [{0}, {0}]", run.seed.empty() ? "1" : run.seed));
+    members.push_back(
+        fmt::format("\"seeds\": [{0}, {0}]", recorded.seed.empty() ? "1" : recorded.seed));
     const double end = recorded.told.end;
     members.push_back("\"max_time\": " + number(timed_out ? end : round_up(end)));
     for (const std::string& line : expectations(recorded.told, timed_out)) {
@@ -161,11 +179,6 @@ std::vector<std::string> hints_of(const Recorded& recorded) {
             "{} times somebody did something to that run (/vagus/input); a test does not: put what "
             "is to happen into the timeline of the world",
             recorded.inputs));
-    }
-    if (recorded.run.seed.empty() && !recorded.run.world.empty()) {
-        hints.emplace_back(
-            "the run took the seed of its world; the test begins with 1: change \"seeds\" if that "
-            "is another");
     }
     if (!recorded.run.poses.empty()) {
         hints.emplace_back(
@@ -185,14 +198,15 @@ Result<Draft> draft_test(const mcap::Reader& reader) {
                                         ": is the recording of a world without a plan; a test is "
                                         "of a plan: record with `vagus plan run … --record FILE`"};
     }
-    if (told.ends.empty()) {
+    // It goes on, or its time or a person ended it: a test of what was until then.
+    const bool timed_out = told.ends.empty() || (told.ends == "Interrupted" && told.by.empty());
+    if (told.came.empty()) {
         return Error{Code::Refused, reader.name() +
-                                        ": the plan had not ended when the recording did; record a "
-                                        "run to its end"};
+                                        ": no actor of the plan had begun when the recording "
+                                        "ended; let it run for longer"};
     }
-    // Interrupted, and neither an event nor a person did it.
-    const bool timed_out = told.ends == "Interrupted" && told.by.empty() && recorded.inputs == 0;
-    Draft draft{.plan = last_part(recorded.run.plan), .world = last_part(recorded.run.world)};
+    Draft draft{.plan = last_part(recorded.run.plan),
+                .world = beside(recorded.run.plan, recorded.run.world)};
     draft.text = "{";
     for (const std::string& member : members_of(recorded, draft, timed_out, reader.name())) {
         draft.text += (draft.text.size() > 1 ? ",\n  " : "\n  ") + member;

@@ -21,8 +21,8 @@ struct Draft {
     std::vector<std::string> hints = {};  // what a test cannot do again
 };
 
-// Files of the run are named by the last part of their paths: the test is to lie beside them. The
-// Error says why there can be no test of it.
+// The test is to lie beside its plan. A run that had not ended, or that a person ended, is one
+// whose time was over then. The Error says why there can be no test of it.
 Result<Draft> draft_test(const mcap::Reader& reader);
 
 }  // namespace vagus::trial

@@ -1343,6 +1343,12 @@ export interface Commands {
   'run.step': { in: {
     ms?: number;
   }; out: Record<never, never> };
+  /** The simulation as it was at an instant of the run that goes or went last: its beginning is run again from its recording, then files that have changed since take over, and it runs on. */
+  'run.continue': { in: {
+    t: number;
+    /** it stays there */
+    paused?: boolean;
+  }; out: Record<never, never> };
   /** The simulation as at its start, time 0. */
   'run.reset': { in: Record<never, never>; out: Record<never, never> };
   /** Ends a runner that hangs. */
@@ -1494,6 +1500,10 @@ export interface Commands {
   } };
   /** Keeps the trace of the run as a file of the project. */
   'history.save': { in: Record<never, never>; out: {
+    path: Path;
+  } };
+  /** Writes a test of the simulated run that goes or went last, beside its plan: the order of its actors, by when the last of them had come, and how it ended. */
+  'test.keep': { in: Record<never, never>; out: {
     path: Path;
   } };
   /** Why something in a simulated run is as it is: the run is run again from its recording. Of the run that goes or went last, at an instant or, without one, as far as it is recorded. */
@@ -1961,6 +1971,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'run.start': { may: 'driver', kind: 'act', out: {} },
   'run.pause': { may: 'driver', kind: 'stop', out: {} },
   'run.step': { may: 'driver', kind: 'act', out: {} },
+  'run.continue': { may: 'driver', kind: 'act', out: {} },
   'run.reset': { may: 'driver', kind: 'act', out: {} },
   'run.end': { may: 'driver', kind: 'stop', out: {} },
   'clock.speed': { may: 'driver', kind: 'edit', out: {} },
@@ -1983,6 +1994,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'history.ways': { may: 'look', kind: 'look', out: { run: 'number', ways: '[json; 1024]' } },
   'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
   'history.save': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
+  'test.keep': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
   'why.ask': { may: 'look', kind: 'look', out: { chain: '[WhyLink; 1001]' } },
   'world.move': { may: 'driver', kind: 'act', out: {} },
   'world.put': { may: 'driver', kind: 'act', out: { number: 'number' } },

@@ -44,6 +44,17 @@ void EventPast::add(PastEvent event) {
     }
 }
 
+void EventPast::cut(double t) {
+    while (!events_.empty() && events_.back().t >= t) {
+        bytes_ -= events_.back().bytes();
+        events_.pop_back();
+    }
+    for (auto& [node, states] : states_) {
+        while (!states.empty() && states.back().t >= t) states.pop_back();
+    }
+    to_ = std::min(to_, t);
+}
+
 Json EventPast::until(double t, size_t most) const {
     const auto end =
         std::upper_bound(events_.begin(), events_.end(), t,

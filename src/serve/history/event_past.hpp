@@ -33,6 +33,8 @@ class EventPast {
 public:
     // In the order of time; one that goes back is taken for the newest instant.
     void add(PastEvent event);
+    // As if nothing had been told from that instant on.
+    void cut(double t);
     // The last ones until then: Happening of the protocol.
     nlohmann::json until(double t, size_t most) const;
     // One lane for each source of events: HistoryLane. What has no room is counted.

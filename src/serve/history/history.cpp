@@ -47,6 +47,14 @@ void History::end() {
     passed_ = 0;
 }
 
+void History::continue_from(double t, uint64_t run) {
+    run_ = run;
+    if (plan_) plan_->cut(t);
+    tape_.cut(t);
+    events_.cut(t);
+    passed_ = t;
+}
+
 bool History::record(std::string_view bytes) {
     return tape_.record(bytes);
 }

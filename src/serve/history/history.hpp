@@ -43,6 +43,8 @@ public:
     // Forgets everything before.
     void begin(Beginning beginning);
     void end();
+    // Another run, which has all of this one before an instant, and goes on with that one.
+    void continue_from(double t, uint64_t run);
 
     // ---- what is told ----
     bool record(std::string_view bytes);

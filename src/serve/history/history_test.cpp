@@ -375,6 +375,65 @@ TEST(History, ALineThatIsNoneIsRefused) {
     EXPECT_EQ(history.at({.t = 1})["plan"]["state"], "running");
 }
 
+// Whatever a history is told in a run: a step each second, words and places, events, node states.
+void tell_walk(History& history, double from, double until) {
+    const auto is_in = [&](double t) { return t >= from && t < until; };
+    for (int i = 0; i < 60; ++i) {
+        const double t = i;
+        const auto word = static_cast<int16_t>(i);
+        if (!is_in(t)) continue;
+        const std::string event =
+            i % 2 == 0 ? R"("actor-start","actor":"go","in":{},"activation":)" + std::to_string(i)
+                       : R"("actor-end","actor":"go","state":"Done","activation":)" +
+                             std::to_string(i - 1);
+        EXPECT_TRUE(history.trace("{\"t\":" + std::to_string(i) + R"(,"plan":"Walk","kind":)" +
+                                  event + "}"));
+        EXPECT_TRUE(history.record(one(t, 1, 7, word)));
+        EXPECT_TRUE(history.record(stand(t, 0, 0.1F * static_cast<float>(i), 0)));
+        history.happen({.t = t, .kind = "event", .node = 1, .source = "drive", .name = "beat"});
+        history.node_state(t, 1, i % 3 == 0 ? "running" : "paused", i);
+    }
+}
+
+TEST(History, ARunThatContinuesHasThePastOfTheOneBefore) {
+    const History::Window window{.from = 0, .to = 60, .width = 600, .words = {{1, 7}}};
+    for (const double cut : {0.0, 0.5, 1.0, 9.999, 10.0, 31.0, 59.5}) {
+        SCOPED_TRACE(cut);
+        History straight, other;
+        for (History* one : {&straight, &other}) one->begin({.run = 2, .plans = walk()});
+        tell_walk(straight, 0, cut);
+        tell_walk(other, 0, 60);
+        other.continue_from(cut, 2);
+        straight.passed(cut);
+        for (int rest = 0; rest < 2; ++rest) {
+            EXPECT_EQ(other.lanes(window), straight.lanes(window));
+            EXPECT_EQ(other.ways(0, 60), straight.ways(0, 60));
+            EXPECT_EQ(other.trace_text(), straight.trace_text());
+            EXPECT_EQ(other.to(), straight.to());
+            for (const double t : {0.0, 0.7, 9.0, 10.0, 30.5, 60.0}) {
+                const History::Instant instant{.t = t, .ranges = {{1, 7, 1}}, .events = 100};
+                EXPECT_EQ(other.at(instant), straight.at(instant)) << "at " << t;
+            }
+            for (History* one : {&straight, &other}) tell_walk(*one, cut, 60);
+        }
+    }
+}
+
+TEST(History, ARunThatContinuesHasTheVersionOfThatTime) {
+    History history;
+    history.begin({.run = 1, .plans = walk()});
+    ASSERT_TRUE(history.trace(trace()[2]));
+    PlanPast::Plans second = walk();
+    second.front().name = "Second";
+    history.trace(trace()[3]);
+    history.plan(2, second);
+    history.continue_from(0.5, 2);
+    EXPECT_EQ(history.plan_name(), "Walk");
+    history.plan(2, second);
+    EXPECT_EQ(history.plan_name(), "Second");
+    EXPECT_EQ(history.run(), 2u);
+}
+
 TEST(PlanPast, ALongTraceKeepsItsLimitAndItsSense) {
     PlanPast past(
         walk(), [](const std::string& file) { return file; }, 1e9);

@@ -110,6 +110,15 @@ void Lane::mark(Mark mark) {
     if (marks.size() > kLaneItemsKept) marks.pop_front();
 }
 
+void Lane::cut(double t) {
+    while (!bars.empty() && bars.back().from >= t) bars.pop_back();
+    if (!bars.empty() && bars.back().to >= t) {
+        bars.back().to = std::numeric_limits<double>::infinity();
+        bars.back().end.clear();
+    }
+    while (!marks.empty() && marks.back().t >= t) marks.pop_back();
+}
+
 Json Lane::shown(const LaneWindow& window) const {
     return lane_json(*this, bars_in(bars, window), marks_in(marks, window));
 }

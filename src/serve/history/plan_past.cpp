@@ -26,12 +26,7 @@ bool PlanPast::add(const std::string& text) {
         now_->see(*event);
         see(*event, t);
     }
-    Block& block = blocks_.back();
-    block.lines.push_back(text);
-    block.bytes += text.size();
-    block.to = to_ = t;
-    bytes_ += text.size();
-    ++lines_;
+    keep(text, t);
     bound();
     return true;
 }
@@ -47,7 +42,54 @@ bool PlanPast::change(uint64_t version, Plans plans) {
 }
 
 void PlanPast::begin_block(double t) {
-    blocks_.push_back({*now_, t, t});
+    blocks_.push_back({*now_, plans_, version_, t, t});
+}
+
+void PlanPast::cut(double t) {
+    if (t > to_ || blocks_.empty()) return;
+    const auto drop = [this](const Block& block) {
+        bytes_ -= block.bytes;
+        lines_ -= block.lines.size();
+    };
+    while (blocks_.size() > 1 && blocks_.back().from >= t) {
+        drop(blocks_.back());
+        blocks_.pop_back();
+    }
+    Block last = std::move(blocks_.back());
+    drop(last);
+    blocks_.pop_back();
+    plans_ = last.plans;
+    version_ = last.version;
+    now_ = last.before;
+    for (std::deque<Lane>* lanes : {&actors_, &supervisors_}) {
+        for (Lane& one : *lanes) one.cut(t);
+        std::erase_if(*lanes,
+                      [](const Lane& one) { return one.bars.empty() && one.marks.empty(); });
+    }
+    while (!steps_.empty() && steps_.back() >= t) steps_.pop_back();
+    to_ = std::min(last.from, t);
+    begin_block(to_);
+    for (const std::string& text : last.lines) again(text, t);
+    if (lines_ > 0) return;
+    blocks_.clear();
+    now_.reset();
+}
+
+// A line whose lanes are there.
+void PlanPast::again(const std::string& text, double until) {
+    const auto read = TraceLine::read(text);
+    if (!read.ok() || read.value().t() >= until) return;
+    if (const auto event = read.value().event()) now_->see(*event);
+    keep(text, std::max(to_, read.value().t()));
+}
+
+void PlanPast::keep(const std::string& text, double t) {
+    Block& block = blocks_.back();
+    block.lines.push_back(text);
+    block.bytes += text.size();
+    block.to = to_ = t;
+    bytes_ += text.size();
+    ++lines_;
 }
 
 void PlanPast::bound() {

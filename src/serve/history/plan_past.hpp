@@ -42,6 +42,8 @@ public:
     // From the last line on this version of the plan runs (P31), counted from 1; what was before
     // keeps its own. False: it is none that follows, and nothing changes.
     bool change(uint64_t version, Plans plans);
+    // As if nothing had been told from that instant on.
+    void cut(double t);
     bool empty() const { return blocks_.empty(); }
     std::string name() const { return plans_->front().name; }
     double from() const { return blocks_.empty() ? 0 : blocks_.front().from; }
@@ -65,11 +67,15 @@ public:
 private:
     struct Block {
         PlanFollower before;
+        PlanFollower::Plans plans;  // that it was told with, and their number
+        uint64_t version = 1;
         double from = 0, to = 0;
         std::vector<std::string> lines = {};
         size_t bytes = 0;
     };
     void begin_block(double t);
+    void again(const std::string& text, double until);
+    void keep(const std::string& text, double t);
     void bound();
     void see(const plan::TraceEvent& event, double t);
     void step_at(double t);

@@ -103,6 +103,32 @@ void Tape::begin_block(double t) {
     blocks_.push_back(std::move(block));
 }
 
+void Tape::cut(double t) {
+    if (t > to_) return;
+    to_ = 0;
+    while (!blocks_.empty() && blocks_.back().from >= t) {
+        now_ = blocks_.back().begins;
+        bytes_ -= blocks_.back().size();
+        blocks_.pop_back();
+    }
+    if (blocks_.empty()) return;
+    Block& block = blocks_.back();
+    bytes_ -= block.size();
+    now_ = block.begins;
+    std::string kept;
+    each_record(block.bytes, {[&](double at, std::string_view one) {
+                                  if (at >= t) return;
+                                  kept += one;
+                                  to_ = at;
+                              },
+                              [&](const RecordItem& item) {
+                                  if (item.t < t) now_.apply(item);
+                              }});
+    block.bytes = std::move(kept);
+    block.to = to_;
+    bytes_ += block.size();
+}
+
 // ---- bounds ----
 
 void Tape::bound() {

@@ -104,8 +104,10 @@ void Life::begin(What what, Phase phase, bool go, CallNumber call) {
 
 void Life::open_runner(OpenRunner::What what) {
     runner_opens_ = what;
-    open_until_ = now_ + kOpenWithin;
-    word_until_ = target_ == Target::Bus ? now_ + kOpenSilentMax : open_until_;
+    const bool relives = starting_ && starting_->relives;
+    open_until_ = now_ + (relives ? kReliveWithin : kOpenWithin);
+    const Duration silent_max = target_ == Target::Bus ? kOpenSilentMax : kOpenWithin;
+    word_until_ = now_ + silent_max;
     plan_ = Plan::None;  // what ran there is replaced
     world_open_ = false;
     const bool waited_for = starting_ && !starting_->calls.empty();
@@ -125,7 +127,7 @@ void Life::on(const Open& open) {
     if (stopping_) finish_stop_unseen();
     if (next_) refuse(std::exchange(next_, std::nullopt)->call, "failed", kReplaced);
     tell_replaced(open.by);
-    open_world(open.call, open.go);
+    open_world(open);
 }
 
 // One that is frozen would begin whenever it is let go on.
@@ -138,10 +140,11 @@ void Life::watch_opening(bool silent) {
     on(Failed{"the run " + why + "; its process was ended. Run it again"});
 }
 
-void Life::open_world(CallNumber call, bool go) {
+void Life::open_world(const Open& open) {
     tell_end();
     target_ = Target::World;
-    begin(What::World, Phase::Opening, go, call);
+    begin(What::World, Phase::Opening, open.go, open.call);
+    starting_->relives = open.past;
     open_runner(OpenRunner::What::World);
 }
 
@@ -210,9 +213,10 @@ void Life::start_now(const Start& start) {
         tell_end();
         target_ = Target::World;
         begin(What::Plan, Phase::Opening, start.go, start.call);
+        starting_->relives = start.past;
         return open_runner(OpenRunner::What::Plan);
     }
-    if (target_ != Target::Bus && start.world_again) return open_world(start.call, true);
+    if (target_ != Target::Bus && start.world_again) return open_world({start.call, true});
     begin(What::Scripts, Phase::Loading, true, start.call);
     act(LoadNodes{starts_, false});
 }

@@ -33,6 +33,8 @@ constexpr Duration kRunWaitsMax = 3s;        // Run waits no longer behind a sto
 // last word: a robot must not begin to drive long after Run.
 constexpr Duration kOpenWithin = 30s;
 constexpr Duration kOpenSilentMax = 3s;
+// The past of a run is lived again first, while its process says that it is there.
+constexpr Duration kReliveWithin = 10min;
 
 class Life {
 public:
@@ -77,6 +79,7 @@ private:
         What what = What::World;
         Phase phase = Phase::Opening;
         bool go = false;
+        bool relives = false;
         std::vector<life::CallNumber> calls = {};
         Time until{};  // of Describing
     };
@@ -121,7 +124,7 @@ private:
 
     void begin(What what, Phase phase, bool go, life::CallNumber call);
     void open_runner(life::OpenRunner::What what);
-    void open_world(life::CallNumber call, bool go);
+    void open_world(const life::Open& open);
     void reopen_world();
     void start_now(const life::Start& start);
     bool waits_its_turn(const life::Start& start);

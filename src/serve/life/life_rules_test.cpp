@@ -37,7 +37,7 @@ const std::vector<Make>& inputs() {
         [](Bench& b) {
             return Start{b.call(), true, false, false, true};
         },
-        [](Bench& b) { return Start{b.call(), true, false, true, false, "Ann", false}; },
+        [](Bench& b) { return Start{b.call(), true, false, true, false, false, "Ann", false}; },
         [](Bench&) { return Opened{}; },
         [](Bench&) { return Failed{"it cannot"}; },
         [](Bench&) { return Described{}; },

@@ -275,7 +275,8 @@ TEST(Life, APlanThatIsStartedOverOneThatRunsOnABusEndsThatAsStopDoes) {
     Bench bench;
     bench.run_bus_plan();
     const CallNumber call = bench.call();
-    EXPECT_EQ(bench.take(Start{call, true, false, true, true, "Ann"}), "end-plan stop-nodes ");
+    EXPECT_EQ(bench.take(Start{call, true, false, true, true, false, "Ann"}),
+              "end-plan stop-nodes ");
     EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "");
     EXPECT_EQ(bench.take(PlanEnded{"Interrupted"}), "tell load ");
     ASSERT_EQ(bench.ends.size(), 1U);
@@ -306,7 +307,7 @@ TEST(Life, APlanInAWorldThatIsReplacedIsToldFirst) {
         Bench bench;
         bench.run_world(true);
         const std::string did =
-            plan ? bench.take(Start{bench.call(), true, false, true, true, "Ann"})
+            plan ? bench.take(Start{bench.call(), true, false, true, true, false, "Ann"})
                  : bench.take(Open{bench.call(), false, "Ann"});
         EXPECT_EQ(did, "tell open-runner ");
         ASSERT_EQ(bench.ends.size(), 1U);
@@ -381,6 +382,36 @@ TEST(Life, AWorldHasLongerToOpenButNotForEver) {
     EXPECT_EQ(bench.pass(1ms, true), "end-runner answer ");
     EXPECT_EQ(bench.said[call].code, "failed");
     EXPECT_EQ(bench.life.state(), State::None);
+}
+
+TEST(Life, ARunWithAPastHasAsLongAsItsProcessSaysThatItIsThere) {
+    Bench bench;
+    for (const bool plan : {false, true}) {
+        const CallNumber call = bench.call();
+        if (plan) {
+            bench.take(Start{.call = call, .plan = true, .again = true, .past = true});
+        } else {
+            bench.take(Open{.call = call, .go = true, .past = true});
+        }
+        for (Duration passed{}; passed + 1s < kReliveWithin; passed += 1s) {
+            ASSERT_EQ(bench.pass(1s, false), "");
+        }
+        EXPECT_EQ(bench.pass(1s - 1ms, false), "");
+        EXPECT_NE(bench.pass(1ms, false).find("end-runner answer "), std::string::npos);
+        EXPECT_EQ(bench.said[call].code, "failed");
+        // Its world is opened again, without what failed.
+        bench.take(Failed{"no"});
+    }
+}
+
+TEST(Life, APastWhoseProcessIsSilentIsNotWaitedFor) {
+    Bench bench;
+    const CallNumber call = bench.call();
+    bench.take(Open{.call = call, .go = true, .past = true});
+    EXPECT_EQ(bench.pass(kOpenWithin + 1s, false), "");
+    EXPECT_EQ(bench.pass(kOpenSilentMax - 1ms, true), "");
+    EXPECT_EQ(bench.pass(1ms, true), "end-runner answer ");
+    EXPECT_EQ(bench.answers[call], 1);
 }
 
 TEST(Life, WhatComesLateForAStartThatIsVoidSaysNothing) {

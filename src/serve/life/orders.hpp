@@ -46,6 +46,7 @@ struct Open {
     CallNumber call = 0;
     bool go = false;
     std::string by = {};
+    bool past = false;  // it continues from an instant of a run before
 };
 // Run: what is paused continues, or everything begins.
 struct Start {
@@ -54,6 +55,7 @@ struct Start {
     bool world_again = false;  // the world does not stand there, or is another by now
     bool go = true;            // otherwise the plan is paused before its first actor
     bool again = false;        // also if it runs
+    bool past = false;         // it continues from an instant of a run before
     std::string by = {};
     // Nothing has happened since the last Stop that can move a node of a bus.
     bool quiet = true;

@@ -53,7 +53,7 @@ Status Run::open(const RunOrder& order, Time now) {
     }
     forget_run();
     opening_ = true;
-    rests_ = order.paused;
+    rests_ = order.paused && !order.past;
     state_ = order.paused ? State::Paused : State::Running;
     heard_ = now_ = now;
     pace(order.paused, speed_);
@@ -95,6 +95,7 @@ talk::Open Run::open_order(const RunOrder& order) {
     open.bus = order.bus;
     open.project = order.project;
     open.recording = order.recording;
+    open.past = order.past;
     if (order.keep_poses) open.poses = flows_.poses_now();
     return open;
 }

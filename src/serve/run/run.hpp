@@ -39,10 +39,11 @@ struct RunOrder {
     std::string from;  // the actor that the plan begins with; empty: its start
     std::vector<talk::BreakpointOrder> breakpoints;  // as PlanBreakpoints::orders()
     std::string robot;
-    std::string bus, project;  // the plan on a bus instead of in a world: target and .aesl
-    std::string recording;     // file that it is recorded in; empty: none
-    bool keep_poses = false;   // robots are at rest where they were before
-    bool paused = true;        // at first
+    std::string bus, project;          // the plan on a bus instead of in a world: target and .aesl
+    std::string recording;             // file that it is recorded in; empty: none
+    std::optional<talk::PastOf> past;  // it continues from there
+    bool keep_poses = false;           // robots are at rest where they were before
+    bool paused = true;                // at first
 };
 
 // The process of a run, as it is held: a child, or what a test makes of it.
@@ -186,6 +187,8 @@ public:
     uint64_t late_checks() const { return late_checks_; }
     std::string robot_of(uint16_t node) const;
     size_t node_count() const;
+    // Files that are others now than in the past of this run.
+    const std::vector<std::string>& changed_since() const { return changed_since_; }
     // Sources that the world has loaded into nodes.
     const std::map<uint16_t, std::string>& programs() const { return programs_; }
 
@@ -261,6 +264,7 @@ private:
     uint64_t asked_ = 0;
     std::map<uint64_t, Answered> answers_;  // of the runner, by number of what was asked
     std::map<uint16_t, std::string> programs_;
+    std::vector<std::string> changed_since_;
     std::set<std::string> hears_;  // events, by the plan
     std::set<std::string> stops_work_;
     std::vector<uint16_t> held_nodes_;  // as it was told

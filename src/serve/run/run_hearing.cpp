@@ -58,6 +58,7 @@ void Run::hear(talk::Opened& opened) {
     for (talk::Program& one : opened.programs) {
         programs_.emplace(one.node, std::move(one.source));
     }
+    changed_since_ = std::move(opened.others);
     hears_ = std::move(opened.hears);
     stops_work_ = std::move(opened.stops);
     desk_.topics().touch("scene");

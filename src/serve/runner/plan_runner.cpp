@@ -145,6 +145,11 @@ void PlanRunner::go_on() {
     talk_->go_on();
 }
 
+void PlanRunner::ask_again(const run::Request& request) {
+    broken_at_.clear();
+    if (talk_) talk_->ask_again(request);
+}
+
 void PlanRunner::step() {
     if (talk_) talk_->step();
     let_time_pass();

@@ -77,6 +77,8 @@ public:
     // The pacer was set to another pace.
     void pace();
     void go_on();
+    // What its debugger was asked in a run before this one, which is lived again.
+    void ask_again(const run::Request& request);
     void step();
     void obey(const talk::SetVariable& order);
     void obey(const talk::RaiseEvent& order);

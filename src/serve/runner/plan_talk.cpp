@@ -56,6 +56,14 @@ void PlanTalk::ask(run::Request request, Answered answered) {
     asked_[posted.value()] = std::move(answered);
 }
 
+void PlanTalk::ask_again(const run::Request& request) {
+    const bool steps = std::holds_alternative<run::Step>(request) ||
+                       std::holds_alternative<run::StepEvent>(request);
+    if (steps || std::holds_alternative<run::Continue>(request)) paused_ = false;
+    if (steps || std::holds_alternative<run::Pause>(request)) stepping_ = steps;
+    (void)post(request).ok();
+}
+
 void PlanTalk::ask_held(run::Request request, Answered answered, Then then) {
     const bool steps = stepping_;
     if (!paused_) hold();

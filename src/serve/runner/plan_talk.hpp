@@ -40,6 +40,8 @@ public:
 
     // At once, also while it runs.
     void ask(run::Request request, Answered answered);
+    // What it was asked in a run before this one, which is lived again.
+    void ask_again(const run::Request& request);
     // What a debugger does for a plan that is held only. A plan that paused by itself stays so.
     enum class Then { Hold, GoOn };
     void ask_held(run::Request request, Answered answered, Then then);

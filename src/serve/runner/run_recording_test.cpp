@@ -8,6 +8,7 @@
 #include "base/seconds.hpp"
 #include "base/test_places.hpp"
 #include "mcap/reader.hpp"
+#include "record/compare_runs.hpp"
 #include "record/compare_tape.hpp"
 #include "record/replay.hpp"
 #include "record/why.hpp"
@@ -46,8 +47,9 @@ protected:
         return wait<talk::Clock>([t](const talk::Clock& clock) { return clock.t > t; }).t;
     }
     // Runs it again; gives how many messages were compared.
-    uint64_t same_again() {
-        const std::string bytes = read_file(file).value();
+    uint64_t same_again() { return same_again(file); }
+    static uint64_t same_again(const std::string& recording) {
+        const std::string bytes = read_file(recording).value();
         const auto reader = mcap::Reader::open(bytes, "run.mcap");
         if (!reader.ok()) return ADD_FAILURE() << reader.error().what, 0;
         EXPECT_TRUE(reader.value().is_complete());
@@ -61,6 +63,29 @@ protected:
                           << "\n then " << found->then << "\n now  " << found->now;
         }
         return tape.compared();
+    }
+    // A run that continues from an instant of the recorded one, so long; its recording.
+    std::string continued(uint64_t number, talk::Open open, double t, double until) {
+        open.order = number;
+        open.past = talk::PastOf{file, t};
+        open.recording = (folder / ("run-" + std::to_string(number) + ".mcap")).string();
+        say(talk::SetPace{true, 1});
+        say(open);
+        (void)wait<talk::Opened>([number](const talk::Opened& one) { return one.order == number; });
+        EXPECT_NEAR(wait<talk::Clock>().t, t, 0.0011);
+        say(talk::SetPace{false, 0});
+        (void)clock_from(until);
+        return open.recording;
+    }
+    // Where it differs first from the recorded run.
+    static std::optional<Time> parts_at(const std::string& one, const std::string& other) {
+        const std::string a = read_file(one).value();
+        const std::string b = read_file(other).value();
+        const auto found = record::compare_runs(mcap::Reader::open(a, "a").value(),
+                                                mcap::Reader::open(b, "b").value(), {});
+        if (!found.ok()) return ADD_FAILURE() << found.error().what, std::nullopt;
+        if (!found.value().differs()) return std::nullopt;
+        return found.value().lanes.front().difference->at;
     }
     // The first link of an answer.
     record::Chain why(const std::vector<std::string>& words, std::optional<Time> at) {
@@ -152,6 +177,97 @@ TEST_F(RunRecordingTest, APlanWithABreakpointSettingsAndANewVersionIsTheSameAgai
     EXPECT_EQ(chain.front().value, "25");
     EXPECT_THAT(why({"motor", "carbot"}, from_seconds(15)).front().place,
                 HasSubstr("carbot/carbot.aesl:"));
+}
+
+// From before the run, in the middle of a step of the plan, behind settings, a new version and a
+// hand, and behind the end of the plan: up to there it is the same run.
+TEST_F(RunRecordingTest, ARunContinuesFromAnyInstantOfTheOneBefore) {
+    const std::string text = read_file(test::examples("follow-wall/WallFollow.plan.json")).value();
+    const std::string plan = write("WallFollow.plan.json", text);
+    talk::Open open = recorded(test::examples("follow-wall/hall.world.json"), plan);
+    open.set["walldist"] = "30";
+    open.breakpoints = {{.number = 7, .plan = plan, .element = "parallelToWall"}};
+    say(talk::SetPace{false, 0});
+    say(open);
+    (void)wait<talk::PlanNow>([](const talk::PlanNow& now) { return !now.stands_at.empty(); });
+    say(talk::SetVariable{1, 0, "walldist", plan::Value(int64_t{35})});
+    done(1);
+    say(talk::SetBreakpoints{});
+    say(talk::SetPace{false, 0});
+    (void)clock_from(20);
+    std::string other = text;
+    other.replace(other.find("\"help\": \"") + 9, 0, "Another one. ");
+    write("WallFollow.plan.json", other);
+    say(talk::ChangePlan{2, {plan}});
+    done(2);
+    (void)clock_from(30);
+    say(talk::StopPlan{});
+    (void)wait<talk::PlanNow>(
+        [](const talk::PlanNow& now) { return now.state == talk::PlanState::Ended; });
+    say(talk::MoveRobot{3, "carbot", {1, 1}, 0});
+    done(3);
+    const double end = clock_from(32);
+    open.breakpoints.clear();
+    uint64_t number = 1;
+    for (const double t : {0.0, 3.25, 15.0, 25.003, end}) {
+        SCOPED_TRACE(t);
+        const std::string recording = continued(++number, open, t, t + 3);
+        if (number == 2) {  // the first has its end by now
+            EXPECT_GT(same_again(), 3000u);
+        }
+        say(order(++number, world()));
+        (void)wait<talk::Opened>([&](const talk::Opened& one) { return one.order == number; });
+        EXPECT_GT(same_again(recording), 100u);
+        const auto apart = parts_at(file, recording);
+        EXPECT_GE(seconds_of(apart.value_or(from_seconds(t))), t);
+    }
+    EXPECT_EQ(leave(), 0);
+}
+
+TEST_F(RunRecordingTest, AnotherWayFromAnInstantIsThatOfItsFiles) {
+    const std::string text = read_file(test::examples("follow-wall/WallFollow.plan.json")).value();
+    const std::string plan = write("WallFollow.plan.json", text);
+    talk::Open open = recorded(test::examples("follow-wall/hall.world.json"), plan);
+    say(talk::SetPace{false, 0});
+    say(open);
+    (void)clock_from(12);
+    // While it is lived again the file is what it was; then it is said that it is another.
+    write("WallFollow.plan.json", "not a plan");
+    open.order = 2;
+    open.past = talk::PastOf{file, 9};
+    open.recording.clear();
+    say(talk::SetPace{true, 1});
+    say(talk::FlushRecording{1});
+    done(1);
+    say(open);
+    const auto opened = wait<talk::Opened>([](const talk::Opened& one) { return one.order == 2; });
+    EXPECT_EQ(opened.others, std::vector{plan});
+    say(talk::ChangePlan{3, opened.others});
+    const auto answer =
+        wait<talk::Answer>([](const talk::Answer& one) { return one.request == 3; });
+    ASSERT_TRUE(answer.reasons);
+    EXPECT_FALSE(answer.reasons->empty());
+    EXPECT_EQ(leave(), 0);
+}
+
+TEST_F(RunRecordingTest, WhatCannotBeLivedAgainSaysWhy) {
+    talk::Open open = order(1, world());
+    open.past = talk::PastOf{(folder / "none.mcap").string(), 1};
+    say(open);
+    EXPECT_THAT(wait<talk::OpenFailed>().why, HasSubstr("none.mcap: cannot be read"));
+    talk::Open first = recorded(world());
+    first.order = 2;
+    say(talk::SetPace{false, 0});
+    say(first);
+    (void)clock_from(1);
+    say(talk::FlushRecording{1});
+    done(1);
+    open.order = 3;
+    open.past = talk::PastOf{file, 1e6};
+    say(open);
+    EXPECT_THAT(wait<talk::OpenFailed>().why,
+                HasSubstr("1000000.000000 s: the recording of this run ends at"));
+    EXPECT_EQ(leave(), 0);
 }
 
 // What can be asked of a run that goes on is what is in the file by then.

@@ -15,6 +15,7 @@
 #include "serve/runner/hand.hpp"
 #include "serve/runner/pacer.hpp"
 #include "serve/runner/plan_runner.hpp"
+#include "serve/runner/reliving.hpp"
 #include "serve/runner/run_recording.hpp"
 #include "serve/runner/scene.hpp"
 #include "serve/runner/world_show.hpp"
@@ -62,11 +63,25 @@ private:
     bool has_to_end() const { return order_ || quits(); }
 
     void take_packets() {
-        for (const Packet& packet : pipe_.receive()) {
-            if (!quit_) take(packet);  // behind what is no order nothing is one
+        for (Packet& packet : pipe_.receive()) {
+            if (quit_) break;  // behind what is no order nothing is one
+            past_.is_on() ? keep(std::move(packet)) : take(packet);
         }
         if (pipe_.closed()) quit_ = true;
         if (quit_) stop_plan();
+    }
+
+    // What is for the run waits until its past is over, but for another one in its place.
+    void keep(Packet packet) {
+        const auto order = talk::decode_order(packet);
+        const bool waits = order.ok() && !std::holds_alternative<talk::Open>(order.value());
+        waiting_.push_back(std::move(packet));
+        if (!waits) take_waiting();
+    }
+    void take_waiting() {
+        for (const Packet& packet : std::exchange(waiting_, {})) {
+            if (!quit_) take(packet);
+        }
     }
 
     void take(const Packet& packet) {
@@ -136,12 +151,18 @@ private:
     // ---- opening ----
     // Serves one order to its end: a plan in its world, then the world alone.
     void serve() {
-        const talk::Open order = std::move(*order_);
+        talk::Open order = std::move(*order_);
         order_.reset();
         number_ = order.order;
+        breakpoints_ = order.breakpoints;
         teller_.tell(talk::Opening{number_});
+        const Status begun = past_.begin(order);
+        if (!begun.ok()) return fail(begun.error().what);
+        teller_.be_mute(past_.is_on());
         order.plan.empty() ? run_world(order) : run_plan(order);
         session_ = nullptr;
+        if (past_.is_on()) (void)past_.end();
+        teller_.be_mute(false);
     }
 
     void fail(const std::string& why) { teller_.tell(talk::OpenFailed{number_, why}); }
@@ -201,7 +222,7 @@ private:
         prepared_->pace([this](Time) { instant(); });
         plan_.debugger().while_paused([this] { serve_paused(); });
         begin_session(prepared_->world()->session(), order);
-        plan_.tell_version();
+        if (!past_.is_on()) plan_.tell_version();
         const auto ended = prepared_->run(&plan_.debugger());
         if (!ended.ok()) teller_.line(talk::LineKind::Error, ended.error().what);
         tell_plan();
@@ -254,16 +275,64 @@ private:
         if (!link.ok()) return fail(link.error().what);
         link_ = link.value();
         put_robots(session.world(), order.poses);
-        for (const Diagnostic& mistake : session.mistakes()) {
+        if (past_.is_on()) return past_.enter(session.world(), link_);
+        tell_opened({});
+    }
+
+    void tell_opened(std::vector<std::string> others) {
+        for (const Diagnostic& mistake : session_->mistakes()) {
             teller_.line(talk::LineKind::Error, text_of(mistake));
         }
-        talk::Opened opened{.order = number_, .hears = heard_};
-        opened.scene = scene_of(session.world());
-        for (const auto& [node, source] : session.running_scripts()) {
+        talk::Opened opened{.order = number_, .hears = heard_, .others = std::move(others)};
+        opened.scene = scene_of(session_->world());
+        for (const auto& [node, source] : session_->running_scripts()) {
             opened.programs.push_back({node, source});
         }
         teller_.tell(std::move(opened));
         tell_clock();
+    }
+
+    // ---- the past of a run that goes on from there ----
+    // Between two instants. False: there is none, or not any more.
+    bool relive() {
+        if (!past_.is_on()) return false;
+        show_.tell_frames(*session_, link_);  // nobody wants them
+        hear_plan();
+        if (!past_.between_instants(session_->now())) return be_here(), false;
+        if (++instants_ % 64 == 0) look_up();
+        if (has_to_end() && prepared_) prepared_->abort();
+        return true;
+    }
+
+    bool relive_held() {
+        if (!past_.is_on()) return false;
+        if (past_.while_held(session_->now())) return true;
+        return be_here(), false;
+    }
+
+    // It says now and then how far it is.
+    void look_up() {
+        take_packets();
+        const Time wall = wall_now();
+        if (wall < next_tell_) return;
+        next_tell_ = wall + kTellEvery;
+        pipe_.flush();
+        recording_.tell();
+        tell_clock();
+    }
+
+    // Nobody has heard of it yet, and it does not go on by itself.
+    void be_here() {
+        std::vector<std::string> others = past_.end();
+        teller_.be_mute(false);
+        pacer_.set(true, pacer_.speed(), wall_now());
+        show_.begin();
+        tell_opened(std::move(others));
+        if (prepared_) plan_.tell_version();
+        plan_.want(breakpoints_);
+        plan_.tend_stops();
+        next_tell_ = next_poses_ = Time{};
+        take_waiting();
     }
 
     // ---- the plan ----
@@ -282,6 +351,7 @@ private:
     void serve_paused() {
         recording_.begin_turn();
         hear_plan();
+        if (relive_held()) return;
         const Time wall = wall_now();
         if (wall >= next_tell_ || wall >= next_poses_) look_around(wall);
         if (has_to_end()) return plan_.abort();
@@ -312,6 +382,7 @@ private:
     // Before each millisecond of simulated time: waits until it is due, hears and tells.
     void instant() {
         recording_.begin_turn();
+        if (relive()) return;
         show_.tell_frames(*session_, link_);
         show_.record(*session_);
         for (;;) {
@@ -387,6 +458,9 @@ private:
     WorldShow show_{teller_};
     RunRecording recording_{teller_};
     PlanRunner plan_{teller_, pacer_, {.wall = wall_now, .run = [this] { return run_time(); }}};
+    Reliving past_{{.plan = plan_, .recording = recording_, .abort = [this] { stop_plan(); }}};
+    std::vector<Packet> waiting_;                          // until it is over
+    std::vector<talk::BreakpointOrder> breakpoints_ = {};  // of the order
     std::unique_ptr<session::SimSession> own_;
     std::unique_ptr<embed::PreparedRun> prepared_;
     session::SimSession* session_ = nullptr;  // of one of the two

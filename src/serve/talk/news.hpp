@@ -71,8 +71,9 @@ struct Opened {
     uint64_t order = 0;
     std::optional<Scene> scene = {};  // none: the plan is on a bus
     std::vector<Program> programs = {};
-    std::set<std::string> hears = {};  // events for which the plan listens
-    std::set<std::string> stops = {};  // events by which its templates end work on nodes
+    std::set<std::string> hears = {};      // events for which the plan listens
+    std::set<std::string> stops = {};      // events by which its templates end work on nodes
+    std::vector<std::string> others = {};  // of a run with a past: files that are others now
     static constexpr std::string_view kName = "opened";
     static void layout(auto& each, auto& it) {
         each("order", it.order);
@@ -80,6 +81,7 @@ struct Opened {
         each("programs", it.programs);
         each("hears", it.hears);
         each("stops", it.stops);
+        each("others", it.others);
     }
     bool operator==(const Opened&) const = default;
 };

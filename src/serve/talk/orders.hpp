@@ -50,6 +50,17 @@ struct BreakpointOrder {
     bool operator==(const BreakpointOrder&) const = default;
 };
 
+// A run that was recorded, up to an instant.
+struct PastOf {
+    std::string recording = {};  // its file
+    double t = 0;                // seconds
+    static void layout(auto& each, auto& it) {
+        each("recording", it.recording);
+        each("t", it.t);
+    }
+    bool operator==(const PastOf&) const = default;
+};
+
 struct Open {
     uint64_t order = 0;                          // counts up; what is told of it names it
     std::string world = {};                      // files of this computer
@@ -61,9 +72,10 @@ struct Open {
     std::string robot = {};  // that the plan drives; empty: the only one
     std::string from = {};   // the actor that it begins with; empty: its start
     std::string bus = {},
-                project = {};      // the plan on a bus instead of in a world: target and .aesl
-    std::vector<Pose> poses = {};  // of robots, in their order; none: where the file says
-    std::string recording = {};    // file that the run is recorded in; empty: none
+                project = {};         // the plan on a bus instead of in a world: target and .aesl
+    std::vector<Pose> poses = {};     // of robots, in their order; none: where the file says
+    std::string recording = {};       // file that the run is recorded in; empty: none
+    std::optional<PastOf> past = {};  // it goes on from there: the rest is as it was then
     static constexpr std::string_view kName = "open";
     static void layout(auto& each, auto& it) {
         each("order", it.order);
@@ -79,6 +91,7 @@ struct Open {
         each("project", it.project);
         each("poses", it.poses);
         each("recording", it.recording);
+        each("past", it.past);
     }
     bool operator==(const Open&) const = default;
 };

@@ -146,6 +146,12 @@ void HistoryDesk::begin(History::Beginning beginning) {
     desk_.topics().touch("history");
 }
 
+void HistoryDesk::continue_from(double t) {
+    next_.reset();
+    now_->continue_from(t, ++run_);
+    desk_.topics().touch("history");
+}
+
 void HistoryDesk::forget() {
     next_.reset();
     now_ = std::make_unique<History>();

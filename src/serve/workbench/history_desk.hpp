@@ -61,6 +61,8 @@ public:
 
     // Something else may run from now on. What was kept of the run before stays until it does.
     void begin(History::Beginning beginning);
+    // What runs from now on has the past of the run before, up to an instant.
+    void continue_from(double t);
     // Another project or target: nothing is kept.
     void forget();
 

@@ -90,17 +90,18 @@ void Workbench::perform(const life::Action& action) {
 
 void Workbench::perform(const life::OpenRunner& open) {
     const auto order = orders_.find(open.call);
-    const bool plan = open.what == life::OpenRunner::What::Plan && order != orders_.end();
-    const Status opened = plan ? open_plan(order->second)
-                               : open_world(order_of("", Json::object()),
-                                            open.what == life::OpenRunner::What::WorldAgain);
+    const Status opened = order != orders_.end()
+                              ? open_plan(order->second)
+                              : open_world(order_of("", Json::object()),
+                                           open.what == life::OpenRunner::What::WorldAgain);
     if (opened.ok()) return;
     say("error", opened.error().what);
     tell_life(life::Failed{opened.error().what});
 }
 
 Status Workbench::open_plan(RunOrder order) {
-    if (!bus_) return open_world(order, run_.time() > 0 && !world_has_changed());
+    const bool stays = !order.plan.empty() && run_.time() > 0 && !world_has_changed();
+    if (!bus_) return open_world(order, stays && !order.past);
     order.world.clear();
     order.bus = TRY(bus_->open_door());
     order.project = project_->scripts.empty() ? "" : project_->real(project_->scripts.front());
@@ -110,17 +111,26 @@ Status Workbench::open_plan(RunOrder order) {
 
 Status Workbench::open_world(RunOrder order, bool keep_poses) {
     order.keep_poses = keep_poses;
-    const auto text = files_.text(project_->world);
-    note_opened_world(text.ok() ? text.value() : "");
-    if (text.ok() && order.plan.empty()) order.world_text = text.value();
     loaded_by_world_.clear();
-    record_plan(order);
+    continues_at_.reset();
+    if (order.past) {
+        continues_at_ = order.past->t;
+    } else {
+        const auto text = files_.text(project_->world);
+        note_opened_world(text.ok() ? text.value() : "");
+        if (text.ok() && order.plan.empty()) order.world_text = text.value();
+        record_plan(order);
+    }
     record_run(order);
     return run_.open(order, now_);
 }
 
 void Workbench::perform(const life::ConnectWorld&) {
     loaded_by_world_ = run_.programs();
+    if (const auto t = std::exchange(continues_at_, std::nullopt)) {
+        history_.continue_from(*t);
+        run_.change_plan(run_.changed_since());
+    }
     target_.connect(run_, "sim", "Simulator", "simulator", now_);
     desk_.topics().touch("robot");
 }

@@ -1,9 +1,17 @@
 // What the history is told, by the run and by the robot, and when it begins again.
 #include "serve/workbench/workbench.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
+#include "base/file.hpp"
+#include "base/seconds.hpp"
 #include "base/time.hpp"
+#include "mcap/reader.hpp"
+#include "record/past_run.hpp"
+#include "trial/from_recording.hpp"
+#include "trial/test_file.hpp"
 
 namespace vagus::serve {
 
@@ -52,9 +60,56 @@ void Workbench::record_plan(const RunOrder& order) {
 
 // A run that cannot be recorded goes all the same.
 void Workbench::record_run(RunOrder& order) {
-    auto path = recordings_.next();
+    auto path = recordings_.next(run_.time() > 0);
     if (!path.ok()) return say("warning", "this run is not recorded: " + path.error().what);
     order.recording = std::move(path.value());
+    std::erase_if(recorded_,
+                  [this](const auto& one) { return one.first != recordings_.of_run(false); });
+    recorded_[order.recording] = order;
+}
+
+// ---- a run that continues from an instant of the one that is shown ----
+
+void Workbench::continue_from(const Call& call) {
+    if (!project_) return call.fail("unavailable", "no project is open; open one first");
+    const auto recording = recording_of_run();
+    if (!recording.ok()) return call.fail(recording.error());
+    if (!save_all(call)) return;
+    run_.flush_recording([this, call, file = recording.value()] {
+        // The run that is there ends only for one that can be lived again.
+        worked<Status>(
+            worker_.poster(),
+            [file, t = from_seconds(call.in["t"])]() -> Status {
+                (void)TRY(record::read_past(file, t));
+                return Status::done();
+            },
+            [this, call, file](const Status& can) {
+                can.ok() ? continue_run(call, file) : call.fail(can.error());
+            });
+    });
+}
+
+void Workbench::continue_run(const Call& call, const std::string& recording) {
+    const auto then = recorded_.find(recording);
+    if (then == recorded_.end() || !project_ || bus_) {
+        return call.fail("unavailable", "another run has begun meanwhile; look back into that one");
+    }
+    RunOrder order = then->second;
+    order.past = talk::PastOf{recording, call.in["t"]};
+    order.breakpoints = plan_breakpoint_orders();
+    const life::CallNumber number = keep(call);
+    const bool go = !call.in.value("paused", false);
+    saved_plans_.clear();  // what has changed since then is told when it is there
+    const bool plan = !order.plan.empty();
+    orders_.emplace(number, std::move(order));
+    if (plan) {
+        life::Start start{.call = number, .plan = true, .go = go, .again = true, .past = true};
+        start.by = who_asks(call);
+        tell_life(start);
+    } else {
+        tell_life(life::Open{number, go, who_asks(call), true});
+    }
+    live();
 }
 
 // What the nodes were loaded with is among the frames; this is for names and lines.
@@ -77,6 +132,54 @@ Result<std::string> Workbench::recording_of_run() const {
     return Error{Code::Unavailable,
                  "nothing has run yet, so there is nothing to ask about; Run "
                  "starts it"};
+}
+
+// ---- a run that becomes a test ----
+
+namespace {
+
+constexpr size_t kTestNamesMax = 1000;  // NAME.test.json, NAME-2.test.json, …
+
+Result<std::string> draft_of(const std::string& recording) {
+    const MappedFile file = TRY(MappedFile::open(recording));
+    const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), recording));
+    return TRY(trial::draft_test(reader)).text;
+}
+
+}  // namespace
+
+void Workbench::keep_test(const Call& call) {
+    const auto recording = recording_of_run();
+    if (!recording.ok()) return call.fail(recording.error());
+    const auto order = recorded_.find(recording.value());
+    const std::string plan = order == recorded_.end() ? "" : order->second.plan;
+    run_.flush_recording([this, call, file = recording.value(), plan] {
+        worked<Result<std::string>>(
+            worker_.poster(), [file] { return draft_of(file); },
+            [this, call, plan](const Result<std::string>& text) {
+                const auto path = text.ok() && project_
+                                      ? new_test(project_->doc_of(plan), text.value())
+                                      : Result<std::string>(text.error());
+                if (!path.ok()) return call.fail(path.error());
+                call.done({{"path", path.value()}});
+            });
+    });
+}
+
+// Beside its plan.
+Result<std::string> Workbench::new_test(const std::string& plan, const std::string& text) {
+    constexpr std::string_view kPlanEnding = ".plan.json";
+    const std::string stem =
+        plan.ends_with(kPlanEnding) ? plan.substr(0, plan.size() - kPlanEnding.size()) : plan;
+    for (size_t i = 1; i <= kTestNamesMax; ++i) {
+        const std::string number = i == 1 ? "" : fmt::format("-{}", i);
+        const std::string path = stem + number + std::string(trial::kTestEnding);
+        if (files_.exists(path)) continue;
+        TRY(files_.make(path, text));
+        return path;
+    }
+    return Error{Code::Refused,
+                 fmt::format("there are {} tests of {} already; delete some", kTestNamesMax, plan)};
 }
 
 void Workbench::record_bus() {

@@ -41,9 +41,8 @@ void Recordings::enter(fs::path folder) {
     before_.clear();
 }
 
-// One in which no time has passed is gone by itself.
-Result<std::string> Recordings::next() {
-    none();
+Result<std::string> Recordings::next(bool had_begun) {
+    none(had_begun);
     if (folder_.empty()) return Error{Code::Unavailable, "no project is open"};
     std::error_code failed;
     fs::create_directories(folder_, failed);
@@ -59,9 +58,10 @@ Result<std::string> Recordings::next() {
     return now_;
 }
 
-void Recordings::none() {
+// One in which no time has passed deletes its file when it ends.
+void Recordings::none(bool had_begun) {
     std::error_code failed;
-    if (!now_.empty() && fs::exists(now_, failed)) before_ = now_;
+    if (had_begun && !now_.empty() && fs::exists(now_, failed)) before_ = now_;
     now_.clear();
 }
 

@@ -3,7 +3,7 @@
 //
 //     Recordings recordings;
 //     recordings.enter(root / ".vagus" / "recordings");
-//     const auto path = recordings.next();             // for the run that begins
+//     const auto path = recordings.next(run_.time() > 0);   // for the run that begins
 //     const std::string last = recordings.of_run(run_.time() > 0);
 #pragma once
 
@@ -23,16 +23,15 @@ public:
     // Another project; an empty path: none.
     void enter(std::filesystem::path folder);
 
-    // The file of a run that begins. Older ones are deleted, but never the one before. The Error
-    // says why there can be none.
-    Result<std::string> next();
-    // The run that is there has no recording.
-    void none();
+    // The file of a run that begins; `had_begun`: time has passed in the one that it replaces.
+    // Older ones are deleted, but never the one before. The Error says why there can be none.
+    Result<std::string> next(bool had_begun);
     // The one of the run that is there or, as long as no time has passed in it, of the run before.
     // Empty: there is none.
     std::string of_run(bool has_begun) const;
 
 private:
+    void none(bool had_begun);
     void make_room() const;
 
     std::filesystem::path folder_;

@@ -26,7 +26,7 @@ TEST(Recordings, TheNewestAreKept) {
     Recordings recordings;
     recordings.enter(folder / "made");
     for (size_t i = 1; i <= kRecordingsKept + 3; ++i) {
-        const auto path = recordings.next();
+        const auto path = recordings.next(true);
         ASSERT_TRUE(path.ok());
         EXPECT_EQ(fs::path(path.value()).filename(), "run-" + std::to_string(i) + ".mcap");
         make(path.value());
@@ -43,10 +43,10 @@ TEST(Recordings, TheyHaveRoomTogetherButTheRunBeforeStays) {
     make(folder / "run-5.mcap", kRecordingsBytesMax / 2);
     Recordings recordings;
     recordings.enter(folder / ".");
-    ASSERT_TRUE(recordings.next().ok());
+    ASSERT_TRUE(recordings.next(true).ok());
     EXPECT_TRUE(fs::exists(folder / "run-4.mcap"));  // just as much as there may be
     make(folder / "run-6.mcap", kRecordingsBytesMax + 1);
-    ASSERT_TRUE(recordings.next().ok());
+    ASSERT_TRUE(recordings.next(true).ok());
     EXPECT_FALSE(fs::exists(folder / "run-4.mcap"));
     EXPECT_FALSE(fs::exists(folder / "run-5.mcap"));
     EXPECT_TRUE(fs::exists(folder / "run-6.mcap"));
@@ -56,16 +56,17 @@ TEST(Recordings, UntilTimePassesTheRunBeforeIsTheOneThatIsAsked) {
     const test::Folder folder;
     Recordings recordings;
     EXPECT_EQ(recordings.of_run(true), "");
-    EXPECT_FALSE(recordings.next().ok());
+    EXPECT_FALSE(recordings.next(true).ok());
     recordings.enter(folder / ".");
-    const std::string first = recordings.next().value();
+    const std::string first = recordings.next(true).value();
     make(first);
     EXPECT_EQ(recordings.of_run(true), first);
-    const std::string second = recordings.next().value();
+    const std::string second = recordings.next(true).value();
     EXPECT_EQ(recordings.of_run(false), first);
     EXPECT_EQ(recordings.of_run(true), second);
-    // The second was a world in which no time passed: it has left no file.
-    const std::string third = recordings.next().value();
+    // The second was a world in which no time passed: its file is about to go.
+    make(second);
+    const std::string third = recordings.next(false).value();
     EXPECT_EQ(recordings.of_run(false), first);
     EXPECT_EQ(recordings.of_run(true), third);
 }
@@ -77,7 +78,7 @@ TEST(Recordings, FilesOfOthersStay) {
     }
     Recordings recordings;
     recordings.enter(folder / ".");
-    EXPECT_EQ(fs::path(recordings.next().value()).filename(), "run-1.mcap");
+    EXPECT_EQ(fs::path(recordings.next(true).value()).filename(), "run-1.mcap");
     EXPECT_EQ(count(folder / "."), 4u);
 }
 

@@ -271,6 +271,8 @@ void Workbench::declare_run_commands() {
         tell_life(life::Pause{keep(call)});
         live();
     });
+    desk_.command("run.continue", [this](const Call& call) { continue_from(call); });
+    desk_.command("test.keep", [this](const Call& call) { keep_test(call); });
     desk_.command("run.reset", [this](const Call& call) { reset(call); });
     desk_.command("run.end", [this](const Call& call) {
         run_.kill();

@@ -183,8 +183,12 @@ private:
     // ---- recording.cpp: what the history and the recording are told ----
     void record_history();
     void record_run(RunOrder& order);
+    void continue_from(const Call& call);
+    void continue_run(const Call& call, const std::string& recording);
     void record_script(uint16_t node, const std::string& name);
     Result<std::string> recording_of_run() const;
+    void keep_test(const Call& call);
+    Result<std::string> new_test(const std::string& plan, const std::string& text);
     void record_plan(const RunOrder& order);
     void record_bus();
     double history_clock() const;
@@ -269,6 +273,8 @@ private:
     HistoryDesk history_;
     Time history_since_{};  // of a bus
     Recordings recordings_;
+    std::map<std::string, RunOrder> recorded_;  // of the last two runs, by recording
+    std::optional<double> continues_at_;        // the run that is being opened
     WhyDesk whys_;
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};

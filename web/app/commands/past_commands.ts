@@ -1,7 +1,7 @@
 import { kPastStep } from '../../core/past';
 import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
-import { revealPanel, toast } from '../../core/window_state';
+import { revealDoc, revealPanel, toast } from '../../core/window_state';
 import { text } from '../text';
 import { askWhy } from './ask_why';
 import { drives } from './looks';
@@ -14,6 +14,9 @@ export function pastCommands(studio: Studio): Command[] {
   const { past } = studio;
   const looksBack = () => past.at !== null;
   const known = () => past.end > past.start;
+  const simulated = () => studio.topics.get('history', {})?.kind === 'simulated';
+  const leadsOn = () => drives(studio) && looksBack() && past.trace === null && simulated();
+  const hasPlan = () => studio.topics.get('plan', {})?.state !== 'none';
   const within = 'past';
   const stepped = (forward: boolean) => () => past.stepOfPlan(forward);
   return [
@@ -71,6 +74,22 @@ export function pastCommands(studio: Studio): Command[] {
       run: stepped(false),
     },
     {
+      id: 'past.continue',
+      title: titles['past.continue'],
+      group,
+      // What Run is now, while nobody looks back.
+      keys: ['F5'],
+      enabled: leadsOn,
+      run: () => continueFrom(studio, false),
+    },
+    {
+      id: 'past.stay',
+      title: titles['past.stay'],
+      group,
+      enabled: leadsOn,
+      run: () => continueFrom(studio, true),
+    },
+    {
       id: 'past.why',
       title: titles['past.why'],
       group,
@@ -78,16 +97,33 @@ export function pastCommands(studio: Studio): Command[] {
       run: () => askWhy(studio, 'end'),
     },
     {
+      id: 'test.keep',
+      title: titles['test.keep'],
+      group,
+      enabled: () => drives(studio) && simulated() && hasPlan(),
+      async run() {
+        const { path } = await studio.send('test.keep', {});
+        revealDoc(studio.window, path, null);
+        toast(studio.window, 'ok', text.past.tested(path));
+      },
+    },
+    {
       id: 'trace.save',
       title: titles['trace.save'],
       group,
-      enabled: () => drives(studio) && studio.topics.get('plan', {})?.state !== 'none',
+      enabled: () => drives(studio) && hasPlan(),
       async run() {
         const { path } = await studio.send('history.save', {});
         toast(studio.window, 'ok', text.past.saved(path));
       },
     },
   ];
+}
+
+/** The run begins again, comes to that instant, and goes another way from there. */
+async function continueFrom(studio: Studio, paused: boolean): Promise<void> {
+  const t = studio.past.at;
+  if (t !== null) await studio.send('run.continue', { t, paused });
 }
 
 /** Shows a trace that is kept as a file: its plan at each instant, without a run. */

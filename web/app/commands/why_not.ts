@@ -10,7 +10,7 @@ const words = text.whyNot;
 
 /** Commands for those who only look, too: what they lack is never control. */
 const kLooks =
-  /^(past|timeline|plots|watch|view|listing|problem\.(next|previous)|plan\.show|driver)/;
+  /^(past(?!\.(continue|stay)$)|timeline|plots|watch|view|listing|problem\.(next|previous)|plan\.show|driver)/;
 /** These are the studio's alone; Ctrl and a letter does what the browser does with it. */
 const kOwnKeys = /(^|\+)F\d+$|^(Ctrl\+)?Alt\+/;
 

@@ -1,5 +1,10 @@
-import { IconArrowBarToRight, IconPlayerTrackNext, IconPlayerTrackPrev } from '@tabler/icons-react';
-import { useStudio } from '../hooks';
+import {
+  IconArrowBarToRight,
+  IconPlayerPlay,
+  IconPlayerTrackNext,
+  IconPlayerTrackPrev,
+} from '@tabler/icons-react';
+import { useDrives, usePart, useStudio } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { useTraceName } from '../past_hooks';
@@ -12,6 +17,8 @@ const words = text.past;
 export function PastControls() {
   const { registry } = useStudio();
   const trace = useTraceName();
+  const drives = useDrives();
+  const simulated = usePart('history', {}, (is) => is?.kind === 'simulated');
   const run = (id: string) => () => void registry.run(id);
   return (
     <>
@@ -22,6 +29,18 @@ export function PastControls() {
       >
         {trace === null ? words.back : words.close}
       </Button>
+      {trace === null && simulated ? (
+        <Button
+          kind="primary"
+          tip={words.continueTip}
+          keys="F5"
+          disabled={!drives}
+          icon={<IconPlayerPlay {...size} />}
+          onClick={run('past.continue')}
+        >
+          {words.continue}
+        </Button>
+      ) : null}
       <Button
         tip={words.stepBefore}
         keys="Shift+ArrowLeft"

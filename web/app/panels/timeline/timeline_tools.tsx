@@ -2,6 +2,7 @@ import {
   IconArrowBarToRight,
   IconArrowsMaximize,
   IconDeviceFloppy,
+  IconTestPipe,
   IconZoomIn,
   IconZoomOut,
 } from '@tabler/icons-react';
@@ -48,6 +49,14 @@ export default function TimelineTools() {
         disabled={!registry.isEnabled('trace.save')}
         icon={<IconDeviceFloppy {...icon} />}
         onClick={() => void registry.run('trace.save')}
+      />
+      <Button
+        kind="plain"
+        small
+        tip={words.test}
+        disabled={!registry.isEnabled('test.keep')}
+        icon={<IconTestPipe {...icon} />}
+        onClick={() => void registry.run('test.keep')}
       />
     </div>
   );

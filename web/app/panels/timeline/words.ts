@@ -25,4 +25,5 @@ export const words = {
   larger: 'Zoom in',
   smaller: 'Zoom out',
   save: 'Save the trace as a file of the project',
+  test: 'Keep the run as a test',
 };

@@ -1,0 +1,150 @@
+// From an instant of the past the run goes on differently: what was before stays, what is changed
+// counts from there, and both runs can be run again.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { look } from './support/axe.mjs';
+import { vagusProgram } from './support/server.mjs';
+import { boxOf, gone, reads, seen, test, until } from './support/studio.mjs';
+/** @import { Page, Studio } from './support/studio.mjs' */
+
+const wall = { words: ['--example', 'follow-wall'] };
+const bar = (/** @type {Page} */ page) => page.getByRole('region', { name: 'Looking back' });
+const slider = (/** @type {Page} */ page) =>
+  page.getByRole('slider', { name: 'Instant that is shown' });
+const clock = async (/** @type {Page} */ page) =>
+  parseFloat(await page.locator('.clock__time').innerText());
+
+/** Runs as fast as it goes, until the plan comes to that actor. */
+async function runTo(/** @type {Studio} */ { page, press, layout }, /** @type {string} */ actor) {
+  await layout('Debug');
+  await page.getByRole('tab', { name: 'Timeline' }).click();
+  await page.getByRole('group', { name: new RegExp(`^${actor}, actor`) }).focus();
+  await press('Space', 'F9');
+  await page.getByRole('button', { name: /Speed of the clock/ }).click();
+  await page.getByRole('menuitem', { name: /As fast as/i }).click();
+  await press('F5');
+  await seen(page.getByText(`Paused by the breakpoint ${actor}`));
+}
+
+/** Recordings of the project, in the order of their numbers. */
+function recordings(/** @type {string} */ folder) {
+  const number = (/** @type {string} */ one) => Number(/run-(\d+)\.mcap$/.exec(one)?.[1]);
+  return readdirSync(folder, { recursive: true, encoding: 'utf8' })
+    .filter((one) => one.endsWith('.mcap'))
+    .sort((one, other) => number(one) - number(other))
+    .map((one) => join(folder, one));
+}
+
+/** Back to the step of the plan before, some times. */
+async function back(/** @type {Studio} */ { page, press }, /** @type {number} */ steps) {
+  await press('Alt+F10');
+  await seen(bar(page));
+  await slider(page).focus();
+  const shown = async () => Number(await slider(page).getAttribute('aria-valuenow'));
+  let at = await shown();
+  for (let step = 1; step < steps; ++step) {
+    await press('Shift+ArrowLeft');
+    await until('an earlier instant is shown', async () => (await shown()) < at);
+    at = await shown();
+  }
+  return at;
+}
+
+test('the robot bumped: back, another threshold, and on from there', wall, async (studio) => {
+  const { page, press, type, server } = studio;
+  await runTo(studio, 'backupCollision');
+  const bumped = await clock(page);
+  assert.ok(bumped > 82 && bumped < 84);
+  const at = await back(studio, 2);
+  assert.ok(at < bumped, `${at} s`);
+  await look(studio, 'continue');
+  // Another number in the script of the node that drives.
+  const drive = studio.editor('drive');
+  await drive.getByText('PATIENCE').first().click();
+  await press('Home');
+  for (let at = 0; at < 'const PATIENCE = 15'.length; ++at) await press('ArrowRight');
+  await type('0');
+  await page.getByRole('button', { name: 'Run from here' }).click();
+  await gone(bar(page));
+  await until('it runs on from there', async () => (await clock(page)) > at);
+  // Its past is that of the run before: an actor of the first seconds is on the timeline.
+  await press('F8');
+  await slider(page).focus();
+  await press('Home');
+  const box = await boxOf(slider(page));
+  await page.mouse.click(box.x + 10, box.y + 8);
+  await seen(bar(page));
+  await reads(page.locator('.pactive'), /searchFirstWall/);
+  await press('Escape');
+  await gone(bar(page));
+  // A question is about this run now, and about the one that is shown.
+  await press('Shift+F5', 'Control+k');
+  await type('simulation back to its start');
+  await press('Enter');
+  await until('both can be run again', () =>
+    Promise.resolve(
+      recordings(server.folder).filter((one) =>
+        /no difference$/m.test(execFileSync(vagusProgram, ['replay', one], { encoding: 'utf8' })),
+      ).length >= 2,
+    ),
+  );
+  const [before = '', after = ''] = recordings(server.folder);
+  const { stdout } = spawnSync(vagusProgram, ['compare', before, after, '--json'], {
+    encoding: 'utf8',
+  });
+  const first = Math.min(
+    ...JSON.parse(stdout).lanes.flatMap((/** @type {any} */ lane) =>
+      lane.difference ? [lane.difference.a_t] : [],
+    ),
+  );
+  assert.ok(Number.isFinite(first), 'the script of drive was loaded again');
+  assert.ok(first >= at, `the runs part at ${first} s, not before ${at} s`);
+});
+
+test('a run becomes a test, which passes', wall, async (studio) => {
+  const { page, press, server } = studio;
+  await runTo(studio, 'parallelToWall');
+  await press('Shift+F5');
+  await page.getByRole('button', { name: 'Keep the run as a test' }).click();
+  await reads(page.locator('.dock__doc, .cm-content').last(), /vagus-test\/1/);
+  const path = readdirSync(server.folder, { recursive: true, encoding: 'utf8' }).find((one) =>
+    one.endsWith('WallFollow.test.json'),
+  );
+  assert.ok(path !== undefined);
+  const said = execFileSync(vagusProgram, ['test', join(server.folder, path)], {
+    encoding: 'utf8',
+    cwd: server.folder,
+  });
+  assert.match(said, /1 of 1 runs as expected/);
+});
+
+test('back to an instant, and it stays there', wall, async (studio) => {
+  const { page, press, type } = studio;
+  await runTo(studio, 'parallelToWall');
+  const at = await back(studio, 1);
+  await press('Control+k');
+  await type('go back to this instant');
+  await press('Enter');
+  await gone(bar(page));
+  await until('it is paused there', async () => Math.abs((await clock(page)) - at) < 0.06);
+  await seen(page.getByRole('button', { name: 'Continue' }));
+});
+
+test(
+  'F5 while looking back runs from there; nothing to go back to says why',
+  wall,
+  async (studio) => {
+    const { page, press, type } = studio;
+    await press('Control+k');
+    await type('run from here');
+    await reads(page.getByRole('dialog'), /Look back into a run of the simulator first/);
+    await press('Escape', 'Escape');
+    await runTo(studio, 'findWallAngle');
+    const at = await back(studio, 1);
+    await press('F5');
+    await gone(bar(page));
+    await until('it has gone on', async () => (await clock(page)) > at);
+  },
+);

@@ -40,32 +40,73 @@ Time end_of(const mcap::Reader& reader) {
     return end;
 }
 
-Result<std::string> PastRun::folder(const std::string& path) const {
-    const std::string& name = about.plan.empty() ? about.world : about.plan;
-    if (path.ends_with("/" + name)) return path.substr(0, path.size() - name.size());
-    return Error{Code::Refused, fmt::format("{}: the recorded run was of {}", path, name)};
+std::string PastPaths::of(const std::string& name) const {
+    const std::filesystem::path from = name_.empty() ? "." : name_;
+    return (folder_ / std::filesystem::path(name).lexically_relative(from))
+        .lexically_normal()
+        .string();
 }
 
-Result<PastRun> read_past(const std::string& path, Time until) {
+Result<PastPaths> PastRun::paths(const std::string& path) const {
+    const std::filesystem::path here(path), then(main());
+    if (here.filename() == then.filename()) {
+        return PastPaths(here.parent_path(), then.parent_path());
+    }
+    return Error{Code::Refused, fmt::format("{}: the recorded run was of {}", path, main())};
+}
+
+namespace {
+
+bool ends_it(const Input& input) {
+    return std::holds_alternative<RecordingEnds>(input.what);
+}
+
+// Inputs of other verbs than the studio's have no turns.
+Status check_lived(const PastRun& past, const std::string& path) {
+    if (past.about.kind != "simulated") {
+        return Error{Code::Refused, path +
+                                        ": is a recording of a real bus, whose robot cannot be "
+                                        "run again"};
+    }
+    if (!past.about.answers.empty()) {
+        return Error{Code::Refused, path +
+                                        ": is of a run with answers instead of a robot; "
+                                        "`vagus replay` runs it again"};
+    }
+    if (past.about.verb != kStudioVerb && past.about.plan.empty()) {
+        return Error{Code::Refused, path +
+                                        ": is of a world without a plan, recorded by `vagus "
+                                        "sim`; `vagus replay` runs it again"};
+    }
+    if (past.about.verb == kStudioVerb || std::ranges::all_of(past.inputs, ends_it)) {
+        return Status::done();
+    }
+    return Error{Code::Refused, fmt::format("{}: somebody did something to this run of `vagus {}`; "
+                                            "`vagus replay` runs it again",
+                                            path, past.about.verb)};
+}
+
+}  // namespace
+
+Result<PastRun> read_past(const std::string& path, std::optional<Time> until) {
     const MappedFile file = TRY(MappedFile::open(path));
     const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), path));
-    PastRun past{.about = TRY(run_of(reader)), .files = {}, .inputs = {}, .until = until};
-    if (past.about.verb != kStudioVerb) {
-        return Error{Code::Refused, fmt::format("{}: is no recording of a run of the studio; "
-                                                "`vagus replay --from` continues it",
-                                                path)};
-    }
     const Time end = end_of(reader);
-    if (until > end) {
+    if (until.value_or(end) > end) {
         return Error{Code::BadInput, fmt::format("{} s: the recording of this run ends at {} s",
-                                                 seconds_text(until), seconds_text(end))};
+                                                 seconds_text(*until), seconds_text(end))};
     }
+    PastRun past{.about = TRY(run_of(reader)),
+                 .files = {},
+                 .inputs = TRY(inputs_of(reader)),
+                 .until = until.value_or(end)};
+    TRY(check_lived(past, path));
     for (const mcap::Attachment& one : reader.attachments()) {
         past.files.emplace(one.name, one.data);
     }
-    past.inputs = TRY(inputs_of(reader));
-    std::erase_if(past.inputs,
-                  [until](const Input& one) { return one.turn != 0 && one.at >= until; });
+    std::erase_if(past.inputs, [&past](const Input& one) {
+        return ends_it(one) || (one.turn != 0 && one.at >= past.until);
+    });
     return past;
 }
 

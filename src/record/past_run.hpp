@@ -2,11 +2,13 @@
 // up to an instant from which a run of the studio goes on in its own way.
 //
 //     const PastRun past = TRY(read_past("run-3.mcap", until));
-//     const std::string folder = TRY(past.folder(world));      // of the files, on this computer
-//     for (const auto& [name, content] : past.files) then.put(folder + name, content);
+//     const auto paths = TRY(past.paths("/home/ann/hall/hall.world.json"));
+//     for (const auto& [name, content] : past.files) then.put(paths.of(name), content);
 #pragma once
 
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,18 +26,31 @@ Result<std::vector<Input>> inputs_of(const mcap::Reader& reader);
 // When the last thing of it was recorded.
 Time end_of(const mcap::Reader& reader);
 
+// Where files of a recording lie on this computer.
+class PastPaths {
+public:
+    PastPaths(std::filesystem::path folder, std::filesystem::path name)
+        : folder_(std::move(folder)), name_(std::move(name)) {}
+    std::string of(const std::string& name) const;
+
+private:
+    std::filesystem::path folder_, name_;  // the same one, here and in the recording
+};
+
 struct PastRun {
     RunFile about;
     std::map<std::string, std::string> files;  // as they were when the run began, by name
     std::vector<Input> inputs;                 // what came before the run and before `until`
     Time until{};
 
-    // The folder that names of files count from, with its slash, if this path of the plan or the
-    // world is that of the recorded run.
-    Result<std::string> folder(const std::string& path) const;
+    // If this is the path of its plan or, without one, of its world.
+    Result<PastPaths> paths(const std::string& main) const;
+    // Its plan or, without one, its world, by name.
+    const std::string& main() const { return about.plan.empty() ? about.world : about.plan; }
 };
 
-// Of a run of the studio. The Error says why it cannot be lived up to then.
-Result<PastRun> read_past(const std::string& path, Time until);
+// Up to an instant or, without one, to its end. The Error says why it cannot be lived up to then:
+// to a run of another verb than kStudioVerb nothing may have come from outside.
+Result<PastRun> read_past(const std::string& path, std::optional<Time> until);
 
 }  // namespace vagus::record

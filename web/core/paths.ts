@@ -35,6 +35,11 @@ export function badName(name: string): string {
   return '';
 }
 
+/** A recorded run. */
+export function isRecording(path: Path): boolean {
+  return path.endsWith('.mcap');
+}
+
 /** The trace of a plan's run, kept as a file. */
 export function isTrace(path: Path): boolean {
   return path.endsWith('.trace.jsonl');

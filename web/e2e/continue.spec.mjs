@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { readdirSync } from 'node:fs';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { vagusProgram } from './support/server.mjs';
 import { boxOf, gone, reads, seen, test, until } from './support/studio.mjs';
@@ -118,6 +118,41 @@ test('a run becomes a test, which passes', wall, async (studio) => {
     cwd: server.folder,
   });
   assert.match(said, /1 of 1 runs as expected/);
+});
+
+test('a recording is opened, looked back into, asked, and continued', wall, async (studio) => {
+  const { page, press, server, layout } = studio;
+  await layout('Script');
+  const project = await until('the project is a folder', () => {
+    const all = readdirSync(server.folder, { recursive: true, encoding: 'utf8' });
+    const plan = all.find((one) => one.endsWith('WallFollow.plan.json'));
+    return plan === undefined ? undefined : dirname(join(server.folder, plan));
+  });
+  const recording = join(project, 'seen.mcap');
+  const words = ['plan', 'run', 'WallFollow.plan.json', '--world', 'hall.world.json'];
+  spawnSync(vagusProgram, [...words, '--max-time', '60', '--quiet', '--record', recording], {
+    cwd: project,
+  });
+  await page.getByRole('treeitem', { name: /^seen\.mcap/ }).dblclick();
+  await layout('Debug');
+  // The plan had 60 s, and somewhat more to end its work; now it has as long as it takes.
+  await until('it is at its end', async () => (await clock(page)) >= 60);
+  assert.ok((await clock(page)) < 61);
+  await seen(page.getByRole('button', { name: 'Continue' }));
+  await seen(slider(page));
+  await slider(page).focus();
+  await press('Home');
+  const box = await boxOf(slider(page));
+  await page.mouse.click(box.x + 10, box.y + 8);
+  await seen(bar(page));
+  await reads(page.locator('.pactive'), /searchFirstWall/);
+  await page.getByRole('group', { name: /^searchFirstWall, actor/ }).click({ button: 'right' });
+  await page.getByRole('menuitem', { name: 'Why?' }).click();
+  await seen(page.getByRole('heading', { name: /^Why is searchFirstWall active/ }));
+  await seen(page.getByRole('list', { name: 'What it followed from, the newest first' }));
+  await page.getByRole('button', { name: 'Run from here' }).click();
+  await gone(bar(page));
+  await until('it runs', async () => (await clock(page)) > 2);
 });
 
 test('back to an instant, and it stays there', wall, async (studio) => {

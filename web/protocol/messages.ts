@@ -1502,6 +1502,10 @@ export interface Commands {
   'history.save': { in: Record<never, never>; out: {
     path: Path;
   } };
+  /** Runs a recorded run of this project's plan or world again, to its end, with the files of then: it can be looked back into, asked, and continued. */
+  'recording.open': { in: {
+    path: Path;
+  }; out: Record<never, never> };
   /** Writes a test of the simulated run that goes or went last, beside its plan: the order of its actors, by when the last of them had come, and how it ended. */
   'test.keep': { in: Record<never, never>; out: {
     path: Path;
@@ -1994,6 +1998,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'history.ways': { may: 'look', kind: 'look', out: { run: 'number', ways: '[json; 1024]' } },
   'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
   'history.save': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
+  'recording.open': { may: 'driver', kind: 'act', out: {} },
   'test.keep': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
   'why.ask': { may: 'look', kind: 'look', out: { chain: '[WhyLink; 1001]' } },
   'world.move': { may: 'driver', kind: 'act', out: {} },

@@ -26,9 +26,10 @@ Status Reliving::begin(talk::Open& order) {
     past_.reset();
     instead_.reset();
     if (!order.past) return Status::done();
-    record::PastRun past =
-        TRY(record::read_past(order.past->recording, from_seconds(order.past->t)));
-    folder_ = TRY(past.folder(order.plan.empty() ? order.world : order.plan));
+    std::optional<Time> until;
+    if (order.past->t) until = from_seconds(*order.past->t);
+    record::PastRun past = TRY(record::read_past(order.past->recording, until));
+    paths_ = TRY(past.paths(order.plan.empty() ? order.world : order.plan));
     instead_.emplace();
     for (const auto& [name, content] : past.files) instead_->put(path_of(name), content);
     order.world_text.reset();
@@ -37,6 +38,8 @@ Status Reliving::begin(talk::Open& order) {
     order.set = values_of(past.about.set);
     order.from = past.about.from;
     order.robot = past.about.robot;
+    order.seed = past.about.seed;
+    order.starts = past.about.poses;
     next_ = 0;
     breakpoints_ = 0;
     past_ = std::move(past);

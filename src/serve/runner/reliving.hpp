@@ -50,13 +50,13 @@ private:
     void do_again(const record::Input& input);
     void ask(const run::Request& request);
     void take(const record::PlanFiles& files);
-    std::string path_of(const std::string& name) const { return folder_ + name; }
+    std::string path_of(const std::string& name) const { return paths_->of(name); }
 
     Run run_;
     std::optional<record::PastRun> past_;
     std::optional<FilesInstead> instead_;
-    std::string folder_;  // that names count from
-    size_t next_ = 0;     // of the inputs
+    std::optional<record::PastPaths> paths_;
+    size_t next_ = 0;  // of the inputs
     int breakpoints_ = 0;
     sim::World* world_ = nullptr;
     hub::LinkId link_;

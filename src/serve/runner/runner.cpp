@@ -158,7 +158,8 @@ private:
         teller_.tell(talk::Opening{number_});
         const Status begun = past_.begin(order);
         if (!begun.ok()) return fail(begun.error().what);
-        teller_.be_mute(past_.is_on());
+        tells_past_ = order.past && !order.past->t;
+        teller_.be_mute(past_.is_on(), tells_past_);
         order.plan.empty() ? run_world(order) : run_plan(order);
         session_ = nullptr;
         if (past_.is_on()) (void)past_.end();
@@ -213,6 +214,8 @@ private:
         words.robot = order.robot;
         words.from = order.from;
         words.max_time = kPlanMaxTime;
+        words.seed = order.seed;
+        words.poses = order.starts;
         for (const auto& [name, value] : order.set) words.set.push_back(name + "=" + value);
         return words;
     }
@@ -222,7 +225,7 @@ private:
         prepared_->pace([this](Time) { instant(); });
         plan_.debugger().while_paused([this] { serve_paused(); });
         begin_session(prepared_->world()->session(), order);
-        if (!past_.is_on()) plan_.tell_version();
+        if (!past_.is_on() || tells_past_) plan_.tell_version();
         const auto ended = prepared_->run(&plan_.debugger());
         if (!ended.ok()) teller_.line(talk::LineKind::Error, ended.error().what);
         tell_plan();
@@ -297,6 +300,7 @@ private:
     bool relive() {
         if (!past_.is_on()) return false;
         show_.tell_frames(*session_, link_);  // nobody wants them
+        if (tells_past_) show_.record(*session_);
         hear_plan();
         if (!past_.between_instants(session_->now())) return be_here(), false;
         if (++instants_ % 64 == 0) look_up();
@@ -314,11 +318,18 @@ private:
     void look_up() {
         take_packets();
         const Time wall = wall_now();
-        if (wall < next_tell_) return;
-        next_tell_ = wall + kTellEvery;
+        if (wall >= next_tell_) {
+            next_tell_ = wall + kTellEvery;
+            recording_.tell();
+            tell_clock();
+        }
         pipe_.flush();
-        recording_.tell();
-        tell_clock();
+        // The history is to have all of it.
+        while (tells_past_ && teller_.is_behind() && !has_to_end()) {
+            pipe_.wait(kPausedWaitMs);
+            take_packets();
+            pipe_.flush();
+        }
     }
 
     // Nobody has heard of it yet, and it does not go on by itself.
@@ -328,7 +339,7 @@ private:
         pacer_.set(true, pacer_.speed(), wall_now());
         show_.begin();
         tell_opened(std::move(others));
-        if (prepared_) plan_.tell_version();
+        if (prepared_ && !tells_past_) plan_.tell_version();
         plan_.want(breakpoints_);
         plan_.tend_stops();
         next_tell_ = next_poses_ = Time{};
@@ -459,6 +470,7 @@ private:
     RunRecording recording_{teller_};
     PlanRunner plan_{teller_, pacer_, {.wall = wall_now, .run = [this] { return run_time(); }}};
     Reliving past_{{.plan = plan_, .recording = recording_, .abort = [this] { stop_plan(); }}};
+    bool tells_past_ = false;
     std::vector<Packet> waiting_;                          // until it is over
     std::vector<talk::BreakpointOrder> breakpoints_ = {};  // of the order
     std::unique_ptr<session::SimSession> own_;

@@ -13,10 +13,14 @@ public:
     // Borrowed.
     explicit Teller(Pipe& pipe) : pipe_(pipe) {}
 
-    // While mute it says that it is there, how far it is, and what is wrong.
-    void be_mute(bool mute) { mute_ = mute; }
+    // While mute it says that it is there, how far it is, and what is wrong; with `past` also what
+    // a history keeps.
+    void be_mute(bool mute, bool past = false) {
+        mute_ = mute;
+        past_ = past;
+    }
     void tell(const talk::News& news) {
-        if (mute_ && !is_told_anyway(news)) return;
+        if (mute_ && !is_told_anyway(news) && !(past_ && is_history(news))) return;
         if (!pipe_.send(talk::encode(news))) lost_ = true;
     }
     void answer(uint64_t request, const Status& done) {
@@ -42,8 +46,15 @@ private:
                std::holds_alternative<talk::Line>(news);
     }
 
+    static bool is_history(const talk::News& news) {
+        return std::holds_alternative<talk::PlanVersion>(news) ||
+               std::holds_alternative<talk::Traced>(news) ||
+               std::holds_alternative<talk::Records>(news);
+    }
+
     Pipe& pipe_;
     bool mute_ = false;
+    bool past_ = false;
     bool lost_ = false;
 };
 

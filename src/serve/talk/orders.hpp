@@ -50,10 +50,10 @@ struct BreakpointOrder {
     bool operator==(const BreakpointOrder&) const = default;
 };
 
-// A run that was recorded, up to an instant.
+// A run that was recorded, up to an instant: what it was is known, unless the history lacks it.
 struct PastOf {
-    std::string recording = {};  // its file
-    double t = 0;                // seconds
+    std::string recording = {};    // its file
+    std::optional<double> t = {};  // seconds; none: to its end, and all of it is told
     static void layout(auto& each, auto& it) {
         each("recording", it.recording);
         each("t", it.t);
@@ -72,10 +72,13 @@ struct Open {
     std::string robot = {};  // that the plan drives; empty: the only one
     std::string from = {};   // the actor that it begins with; empty: its start
     std::string bus = {},
-                project = {};         // the plan on a bus instead of in a world: target and .aesl
-    std::vector<Pose> poses = {};     // of robots, in their order; none: where the file says
-    std::string recording = {};       // file that the run is recorded in; empty: none
-    std::optional<PastOf> past = {};  // it goes on from there: the rest is as it was then
+                project = {};      // the plan on a bus instead of in a world: target and .aesl
+    std::vector<Pose> poses = {};  // of robots, in their order; none: where the file says
+    std::string recording = {};    // file that the run is recorded in; empty: none
+    // Of a run with a past, as `plan run` has them.
+    std::string seed = {};
+    std::vector<std::string> starts = {};  // "ROBOT=X,Y,DEGREES"
+    std::optional<PastOf> past = {};       // it goes on from there: the rest is as it was then
     static constexpr std::string_view kName = "open";
     static void layout(auto& each, auto& it) {
         each("order", it.order);
@@ -91,6 +94,8 @@ struct Open {
         each("project", it.project);
         each("poses", it.poses);
         each("recording", it.recording);
+        each("seed", it.seed);
+        each("starts", it.starts);
         each("past", it.past);
     }
     bool operator==(const Open&) const = default;

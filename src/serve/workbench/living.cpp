@@ -113,13 +113,12 @@ Status Workbench::open_world(RunOrder order, bool keep_poses) {
     order.keep_poses = keep_poses;
     loaded_by_world_.clear();
     continues_at_.reset();
-    if (order.past) {
-        continues_at_ = order.past->t;
-    } else {
+    if (order.past) continues_at_ = order.past->t;
+    if (!continues_at_) record_plan(order);
+    if (!order.past) {
         const auto text = files_.text(project_->world);
         note_opened_world(text.ok() ? text.value() : "");
         if (text.ok() && order.plan.empty()) order.world_text = text.value();
-        record_plan(order);
     }
     record_run(order);
     return run_.open(order, now_);

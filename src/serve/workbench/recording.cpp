@@ -96,9 +96,12 @@ void Workbench::continue_run(const Call& call, const std::string& recording) {
     }
     RunOrder order = then->second;
     order.past = talk::PastOf{recording, call.in["t"]};
+    begin_past(call, std::move(order), !call.in.value("paused", false));
+}
+
+void Workbench::begin_past(const Call& call, RunOrder order, bool go) {
     order.breakpoints = plan_breakpoint_orders();
     const life::CallNumber number = keep(call);
-    const bool go = !call.in.value("paused", false);
     saved_plans_.clear();  // what has changed since then is told when it is there
     const bool plan = !order.plan.empty();
     orders_.emplace(number, std::move(order));
@@ -132,6 +135,53 @@ Result<std::string> Workbench::recording_of_run() const {
     return Error{Code::Unavailable,
                  "nothing has run yet, so there is nothing to ask about; Run "
                  "starts it"};
+}
+
+// ---- a recording that is opened: its run is run again, all of it ----
+
+void Workbench::open_recording(const Call& call) {
+    if (!project_) return call.fail("unavailable", "no project is open; open one first");
+    if (bus_) {
+        return call.fail("unavailable", "a recorded run is run again by the simulator; choose it");
+    }
+    const std::string path = call.in["path"];
+    if (!files_.exists(path)) return call.fail("not_found", path + ": there is no such file");
+    if (!save_all(call)) return;
+    using Read = Result<record::PastRun>;
+    worked<Read>(
+        worker_.poster(),
+        [file = project_->real(path)] { return record::read_past(file, std::nullopt); },
+        [this, call, path](const Read& past) {
+            if (!project_ || bus_) return call.fail("unavailable", "the project was closed");
+            past.ok() ? relive(call, project_->real(path), past.value())
+                      : call.fail("bad_input", with_short_paths(past.error().what));
+        });
+}
+
+// Its files are those of the project, as they were then.
+void Workbench::relive(const Call& call, const std::string& recording,
+                       const record::PastRun& past) {
+    const std::string main = whys_.path_of(past.main());
+    if (main.empty()) {
+        return call.fail("not_found", fmt::format("the recorded run was of {}, which this project "
+                                                  "does not have",
+                                                  past.main()));
+    }
+    const auto paths = past.paths(project_->real(main));
+    if (!paths.ok()) return call.fail(paths.error());
+    RunOrder order;
+    order.world = paths.value().of(past.about.world);
+    if (!past.about.plan.empty()) order.plan = project_->real(main);
+    for (const std::string& one : past.about.toolboxes) {
+        order.toolboxes.push_back(paths.value().of(one));
+    }
+    if (past.about.world.empty()) {
+        return call.fail("unavailable",
+                         "the recorded run was of a plan without a world; "
+                         "`vagus replay` runs it again");
+    }
+    order.past = talk::PastOf{.recording = recording};
+    begin_past(call, std::move(order), false);
 }
 
 // ---- a run that becomes a test ----

@@ -39,6 +39,8 @@ public:
 
     void tick(Time now);
     Time next_tick() const;
+    // The file of the project that a name in a recording means; empty: none.
+    std::string path_of(const std::string& name);
 
 private:
     struct Asked {
@@ -57,7 +59,6 @@ private:
     bool look(Asked& asked, Time now);
     void answer(const Call& call, const std::string& text);
     std::optional<Spot> spot_of(const std::string& place);
-    std::string path_of(const std::string& name);
 
     Files& files_;
     Scripts& scripts_;

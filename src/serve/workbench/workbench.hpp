@@ -21,6 +21,7 @@
 
 #include "fleet/member.hpp"
 #include "net/links.hpp"
+#include "record/past_run.hpp"
 #include "run/real_time_parts.hpp"
 #include "serve/edit/editing.hpp"
 #include "serve/json.hpp"
@@ -187,6 +188,9 @@ private:
     void continue_run(const Call& call, const std::string& recording);
     void record_script(uint16_t node, const std::string& name);
     Result<std::string> recording_of_run() const;
+    void begin_past(const Call& call, RunOrder order, bool go);
+    void open_recording(const Call& call);
+    void relive(const Call& call, const std::string& recording, const record::PastRun& past);
     void keep_test(const Call& call);
     Result<std::string> new_test(const std::string& plan, const std::string& text);
     void record_plan(const RunOrder& order);

@@ -126,6 +126,16 @@ async function continueFrom(studio: Studio, paused: boolean): Promise<void> {
   if (t !== null) await studio.send('run.continue', { t, paused });
 }
 
+/** Runs a recorded run again: its timeline is that of the run. */
+export async function openRecording(studio: Studio, path: string): Promise<void> {
+  try {
+    await studio.send('recording.open', { path });
+    revealPanel(studio.window, 'timeline');
+  } catch (problem) {
+    studio.tell(problem);
+  }
+}
+
 /** Shows a trace that is kept as a file: its plan at each instant, without a run. */
 export async function openTrace(studio: Studio, path: string): Promise<void> {
   try {

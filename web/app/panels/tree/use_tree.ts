@@ -2,9 +2,9 @@
 
 import { useCallback, useMemo, useState } from 'react';
 import type { Path } from '../../../protocol/messages';
-import { openTrace } from '../../commands/past_commands';
+import { openRecording, openTrace } from '../../commands/past_commands';
 import { documentsIn } from '../../documents';
-import { folderOf, isTrace } from '../../../core/paths';
+import { folderOf, isRecording, isTrace } from '../../../core/paths';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc, toast, update } from '../../../core/window_state';
 import { useStudio } from '../../hooks';
@@ -59,6 +59,7 @@ export function useTree(): TreeState {
       },
       open: (row) => {
         if (row.kind === 'folder') return toggle(row.path, !row.open);
+        if (isRecording(row.path)) return void openRecording(studio, row.path);
         if (isTrace(row.path)) return void openTrace(studio, row.path);
         for (const doc of documentsIn(studio, row.path).reverse())
           revealDoc(studio.window, doc, null);

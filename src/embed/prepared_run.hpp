@@ -127,6 +127,9 @@ Result<sim::RobotStart> parse_pose(const std::string& text);
 // The number of `--threads`.
 Result<unsigned> parse_threads(const std::string& text);
 
+// The faults of `--chaos`: a JSON file, the JSON itself, or random:N[:SEED], which the world draws.
+Result<sim::Chaos> read_chaos_words(const std::string& text);
+
 // The seconds of `--max-time`; empty: it never comes.
 Result<std::optional<Duration>> parse_max_time(const std::string& text);
 

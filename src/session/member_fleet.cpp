@@ -42,9 +42,9 @@ void MemberFleet::tick(Time now) {
     client_.tick(now);
     for (keeper::Over& over : client_.leases().take_over()) {
         news_ = true;
-        const auto* const value =
-            over.reply && over.reply->record ? std::get_if<keeper::Shared>(&*over.reply->record)
-                                             : nullptr;
+        const auto* const value = over.reply && over.reply->record
+                                      ? std::get_if<keeper::Shared>(&*over.reply->record)
+                                      : nullptr;
         if (value != nullptr && shared_[value->key].version < value->version) {
             shared_[value->key] = *value;
         }

@@ -69,7 +69,7 @@ struct TestFile {
     double max_time = kMaxTimeUnlessSaid;  // s
     std::vector<std::string> set = {};     // NAME=VALUE
     std::optional<Starts> starts = {};
-    bool answers = false;                  // it has the key "answers" (run/answers.hpp)
+    bool answers = false;  // it has the key "answers" (run/answers.hpp)
     std::vector<Expectation> expect = {};
 };
 

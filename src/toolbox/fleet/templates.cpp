@@ -60,7 +60,6 @@ double number_in(const std::string& data) {
     return number.ok() ? number.value() : 0;
 }
 
-
 // ---- tasks ----
 
 class GiveTask final : public run::Actor {
@@ -72,8 +71,8 @@ public:
         // The same activation gives the same task, however often it is asked.
         if (id.empty()) id = fmt::format("{}-{}", talk.fleet().me(), context.number());
         context.out(0, text(id));
-        const auto reply = talk.ask(
-            keeper::Give{name_of(context.in(0), "queue"), id, data_of(context.in(2))});
+        const auto reply =
+            talk.ask(keeper::Give{name_of(context.in(0), "queue"), id, data_of(context.in(2))});
         context.end(!reply ? 2 : reply->outcome == keeper::Outcome::Done ? 0 : 1);
     }
 
@@ -109,8 +108,7 @@ public:
     explicit FinishTask(const Parts& parts) : parts_(parts) {}
     void run(ActorContext& context) override {
         Talk talk(context, parts_);
-        const auto reply =
-            talk.ask(keeper::Finish{term_of(context.in(0)), data_of(context.in(1))});
+        const auto reply = talk.ask(keeper::Finish{term_of(context.in(0)), data_of(context.in(1))});
         context.end(!reply ? 2 : reply->outcome == keeper::Outcome::Done ? 0 : 1);
     }
 
@@ -125,8 +123,7 @@ public:
     explicit Claim(const Parts& parts) : parts_(parts) {}
     void run(ActorContext& context) override {
         Talk talk(context, parts_);
-        const keeper::ClaimName claim{name_of(context.in(0), "name"),
-                                      lease_length(context.in(1))};
+        const keeper::ClaimName claim{name_of(context.in(0), "name"), lease_length(context.in(1))};
         const auto reply = talk.ask_until(claim, duration_of(context.in(2).number()));
         if (!reply) return context.end(2);
         const auto* const claimed =
@@ -312,8 +309,8 @@ private:
 
 // ---- declarations ----
 
-plan::Input input(std::string name, Type type, std::string help,
-                  std::optional<Value> fallback = {}, std::string unit = "") {
+plan::Input input(std::string name, Type type, std::string help, std::optional<Value> fallback = {},
+                  std::string unit = "") {
     return {.name = std::move(name),
             .type = type,
             .fallback = std::move(fallback),
@@ -362,8 +359,7 @@ void add_tasks(std::vector<run::Coded>& all, const Parts& parts) {
          .icon = "M4 6h10v12H4zM14 12h7M18 9l3 3l-3 3",
          .inputs = {input("queue", Type::String, "where robots look for it"),
                     input("task", Type::String,
-                          "its name: given twice it is there once; empty: one is made",
-                          text("")),
+                          "its name: given twice it is there once; empty: one is made", text("")),
                     input("data", Type::String, "what the robot needs to know", text(""))},
          .outputs = {output("task", Type::String, "its name")},
          .outcomes = {{"Given", "the keeper keeps it"},
@@ -389,8 +385,7 @@ void add_tasks(std::vector<run::Coded>& all, const Parts& parts) {
         {.name = "FinishTask",
          .help = "Says that a task is done.",
          .icon = "M4 6h10v12H4zM13 12l4 4l5-8",
-         .inputs = {lease_input(),
-                    input("result", Type::String, "for whoever gave it", text(""))},
+         .inputs = {lease_input(), input("result", Type::String, "for whoever gave it", text(""))},
          .outcomes = {{"Finished", "it is done"},
                       {"Lost", "the lease was over: another robot may have the task"},
                       {"NoKeeper", std::string(kNoKeeper)}}},
@@ -410,14 +405,14 @@ void add_names(std::vector<run::Coded>& all, const Parts& parts) {
                       {"NotFree", "another robot had it all the time"},
                       {"NoKeeper", std::string(kNoKeeper)}}},
         parts));
-    all.push_back(actor<Release>({.name = "Release",
-                                  .help = "Gives back what was claimed, or a task undone.",
-                                  .icon = "M6 21V4h11l-3 4l3 4H6M3 3l18 18",
-                                  .inputs = {lease_input()},
-                                  .outcomes = {{"Released", "others can have it"},
-                                               {"NoKeeper", std::string(kNoKeeper) +
-                                                                "; the lease ends by itself"}}},
-                                 parts));
+    all.push_back(actor<Release>(
+        {.name = "Release",
+         .help = "Gives back what was claimed, or a task undone.",
+         .icon = "M6 21V4h11l-3 4l3 4H6M3 3l18 18",
+         .inputs = {lease_input()},
+         .outcomes = {{"Released", "others can have it"},
+                      {"NoKeeper", std::string(kNoKeeper) + "; the lease ends by itself"}}},
+        parts));
     all.push_back(supervisor<LeaseLost>(
         {.name = "LeaseLost",
          .help = "Raises its event when a lease has ended without this robot's doing: it drops the "

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/file.hpp"
+#include "base/seconds.hpp"
 #include "base/text.hpp"
 #include "embed/prepared_run.hpp"
 #include "embed/run_words.hpp"
@@ -115,21 +116,35 @@ namespace {
 
 constexpr std::string_view kRandom = "random:";
 
-// N[:SEED]
+// N[:SEED[:SECONDS[:KIND,KIND]]]
 Result<sim::Chaos> parse_drawn(const std::string& text) {
     const auto parts = split(std::string_view(text).substr(kRandom.size()), ':');
-    const auto count = decimal_number(std::string(parts.front()));
-    const auto seed = parts.size() == 2 ? decimal_number(std::string(parts[1])) : std::nullopt;
-    const bool good =
-        count && *count >= 1 && *count <= sim::kChaosDrawnMax && (parts.size() == 1 || seed);
+    const auto count = decimal_number(std::string(parts[0]));
+    sim::ChaosDraw draw;
+    bool good = count && *count >= 1 && *count <= sim::kChaosDrawnMax && parts.size() <= 4;
+    if (good) draw.count = static_cast<size_t>(*count);
+    if (good && parts.size() > 1) {
+        draw.seed = decimal_number(std::string(parts[1]));
+        good = draw.seed.has_value();
+    }
+    if (good && parts.size() > 2) {
+        const Result<double> seconds = plan::float_from_text(std::string(parts[2]));
+        good = seconds.ok() && seconds.value() > 0 && seconds.value() <= sim::kChaosTimeMax;
+        if (good) draw.within = from_seconds(seconds.value());
+    }
     if (!good) {
         return usage(fmt::format(
-            "--chaos {}: expected how many faults, 1 to {}, and perhaps a seed, as random:3 or "
-            "random:3:7",
+            "--chaos {}: expected how many faults, 1 to {}, perhaps a seed, perhaps the seconds "
+            "within which they begin, as random:3, random:3:7 or random:3:7:60",
             text, sim::kChaosDrawnMax));
     }
+    if (parts.size() > 3) {
+        auto kinds = sim::parse_chaos_kinds(parts[3]);
+        if (!kinds.ok()) return usage(fmt::format("--chaos {}: {}", text, kinds.error().what));
+        draw.kinds = std::move(kinds.value());
+    }
     sim::Chaos chaos{.file = "--chaos " + text};
-    chaos.draw = sim::ChaosDraw{.count = static_cast<size_t>(*count), .seed = seed};
+    chaos.draw = draw;
     return chaos;
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/nearest.hpp"
 #include "base/rng.hpp"
+#include "base/text.hpp"
 
 namespace vagus::sim {
 
@@ -17,13 +19,17 @@ struct Word {
 };
 
 // The one list of kinds, as they are drawn.
-constexpr Word kWords[] = {
-    {ChaosKind::Lost, "lost"},           {ChaosKind::Doubled, "doubled"},
-    {ChaosKind::Delayed, "delayed"},     {ChaosKind::Reordered, "reordered"},
-    {ChaosKind::Reset, "reset"},         {ChaosKind::Hung, "hung"},
-    {ChaosKind::Unplugged, "unplugged"}, {ChaosKind::Stuck, "stuck"},
-    {ChaosKind::Noisy, "noisy"},         {ChaosKind::Dead, "dead"},
-    {ChaosKind::Slow, "slow"}};
+constexpr Word kWords[] = {{ChaosKind::Lost, "lost"},
+                           {ChaosKind::Doubled, "doubled"},
+                           {ChaosKind::Delayed, "delayed"},
+                           {ChaosKind::Reordered, "reordered"},
+                           {ChaosKind::Reset, "reset"},
+                           {ChaosKind::Hung, "hung"},
+                           {ChaosKind::Unplugged, "unplugged"},
+                           {ChaosKind::Stuck, "stuck"},
+                           {ChaosKind::Noisy, "noisy"},
+                           {ChaosKind::Dead, "dead"},
+                           {ChaosKind::Slow, "slow"}};
 
 bool is_main(std::string_view where) {
     return where.empty() || where == kMainComputer || where.ends_with("/main");
@@ -60,6 +66,21 @@ const std::vector<ChaosKind>& chaos_kinds() {
         return kinds;
     }();
     return kKinds;
+}
+
+Result<std::vector<ChaosKind>> parse_chaos_kinds(std::string_view text) {
+    std::vector<std::string> known;
+    for (const ChaosKind kind : chaos_kinds()) known.emplace_back(name_of(kind));
+    std::vector<ChaosKind> kinds;
+    for (const std::string_view word : split(text, ',')) {
+        const auto found = std::ranges::find(known, word);
+        if (found == known.end()) {
+            return Error{Code::BadInput, fmt::format("there is no kind of fault \"{}\"; {}", word,
+                                                     known_instead(word, known))};
+        }
+        kinds.push_back(chaos_kinds()[static_cast<size_t>(found - known.begin())]);
+    }
+    return kinds;
 }
 
 bool is_of_link(ChaosKind kind) {
@@ -126,10 +147,11 @@ std::string ended_sentence(const ChaosFault& fault) {
 
 bool is_sensor(std::string_view variable) {
     constexpr std::string_view kNone[] = {"id", "source", "args", "energy"};
-    constexpr std::string_view kSetByOthers[] = {"_",       "event.", "motion.", "odometry.",
-                                                 "timer.",  "button.", "speed.",  "sd.",
-                                                 "prox.comm.", "mic.threshold"};
-    return !variable.ends_with(".target") && std::ranges::find(kNone, variable) == std::end(kNone) &&
+    constexpr std::string_view kSetByOthers[] = {
+        "_",       "event.", "motion.", "odometry.",  "timer.",
+        "button.", "speed.", "sd.",     "prox.comm.", "mic.threshold"};
+    return !variable.ends_with(".target") &&
+           std::ranges::find(kNone, variable) == std::end(kNone) &&
            std::ranges::none_of(kSetByOthers, [variable](std::string_view beginning) {
                return variable.starts_with(beginning);
            });
@@ -137,26 +159,32 @@ bool is_sensor(std::string_view variable) {
 
 namespace {
 
-// Draws one set. Times are whole hundredths, so that people can read them.
+// Draws one set. Times are whole hundredths of a second, so that people can read them.
 class Draw {
 public:
-    Draw(const std::vector<ChaosTarget>& targets, uint64_t seed, Duration within)
-        : targets_(targets), random_(seed), within_(within) {}
+    Draw(const std::vector<ChaosTarget>& targets, const ChaosDraw& how, uint64_t seed)
+        : targets_(targets), random_(seed), within_(how.within) {
+        for (const ChaosTarget& target : targets_) {
+            for (const std::string& sensor : target.sensors) {
+                sensors_.emplace_back(target.node, sensor);
+            }
+        }
+        for (const ChaosKind kind : how.kinds.empty() ? chaos_kinds() : how.kinds) {
+            if (!is_of_sensor(kind) || !sensors_.empty()) kinds_.push_back(kind);
+        }
+    }
+
+    bool has_kinds() const { return !kinds_.empty(); }
 
     ChaosFault next() {
         ChaosFault fault;
-        fault.kind = chaos_kinds()[random_.below(chaos_kinds().size())];
-        if (fault.kind == ChaosKind::Slow) {
-            fault.where = "";
-        } else if (is_of_sensor(fault.kind)) {
-            choose_sensor(fault);
-        } else {
-            choose_node(fault);
-        }
+        fault.kind = kinds_[random_.below(kinds_.size())];
+        place(fault);
         fault.from = hundredths({}, within_);
         if (!is_instant(fault.kind)) {
-            fault.until = fault.from + hundredths(std::chrono::milliseconds(50),
-                                                  std::chrono::seconds(5));
+            constexpr Duration kShortest = std::chrono::milliseconds(50);
+            constexpr Duration kLongest = std::chrono::seconds(5);
+            fault.until = fault.from + hundredths(kShortest, kLongest);
         }
         strength(fault);
         fault.seed = random_.below(1'000'000);
@@ -170,22 +198,15 @@ private:
         return least + kHundredth * static_cast<int64_t>(random_.below(span));
     }
 
-    void choose_node(ChaosFault& fault) {
+    void place(ChaosFault& fault) {
+        if (fault.kind == ChaosKind::Slow) return;
+        if (is_of_sensor(fault.kind)) {
+            std::tie(fault.where, fault.sensor) = sensors_[random_.below(sensors_.size())];
+            return;
+        }
         const size_t places = targets_.size() + (is_of_link(fault.kind) ? 1 : 0);
         const size_t chosen = random_.below(places);
         fault.where = chosen < targets_.size() ? targets_[chosen].node : kMainComputer;
-    }
-
-    void choose_sensor(ChaosFault& fault) {
-        std::vector<std::pair<std::string, std::string>> all;
-        for (const ChaosTarget& target : targets_) {
-            for (const std::string& sensor : target.sensors) all.emplace_back(target.node, sensor);
-        }
-        if (all.empty()) {
-            fault.kind = ChaosKind::Slow;
-            return;
-        }
-        std::tie(fault.where, fault.sensor) = all[random_.below(all.size())];
     }
 
     void strength(ChaosFault& fault) {
@@ -207,6 +228,8 @@ private:
     const std::vector<ChaosTarget>& targets_;
     SplitMix64 random_;
     Duration within_;
+    std::vector<std::pair<std::string, std::string>> sensors_;  // node and variable
+    std::vector<ChaosKind> kinds_;
 };
 
 }  // namespace
@@ -214,8 +237,8 @@ private:
 std::vector<ChaosFault> draw_chaos(const std::vector<ChaosTarget>& targets, const ChaosDraw& draw,
                                    uint64_t seed) {
     std::vector<ChaosFault> faults;
-    if (targets.empty()) return faults;
-    Draw drawing(targets, draw.seed.value_or(seed), draw.within);
+    Draw drawing(targets, draw, draw.seed.value_or(seed));
+    if (targets.empty() || !drawing.has_kinds()) return faults;
     for (size_t i = 0; i < draw.count; ++i) faults.push_back(drawing.next());
     std::ranges::stable_sort(faults, {}, &ChaosFault::from);
     return faults;

@@ -16,16 +16,17 @@
 #include <vector>
 
 #include "base/json.hpp"
+#include "base/result.hpp"
 #include "base/time.hpp"
 
 namespace vagus::sim {
 
-constexpr size_t kChaosFaultsMax = 1000;      // of one run
-constexpr double kChaosTimeMax = 1e6;         // s: when a fault begins or ends
-constexpr double kChaosDelayMax = 60;         // s: how late a link is
-constexpr double kChaosNoiseMax = 32767;      // in units of the sensor
-constexpr double kChaosMixUnlessSaid = 0.05;  // s: how long a frame is held back
-constexpr size_t kChaosDrawnMax = 100;        // faults of one random set
+constexpr size_t kChaosFaultsMax = 1000;                     // of one run
+constexpr double kChaosTimeMax = 1e6;                        // s: when a fault begins or ends
+constexpr double kChaosDelayMax = 60;                        // s: how late a link is
+constexpr double kChaosNoiseMax = 32767;                     // in units of the sensor
+constexpr double kChaosMixUnlessSaid = 0.05;                 // s: how long a frame is held back
+constexpr size_t kChaosDrawnMax = 100;                       // faults of one random set
 constexpr Duration kChaosWithin = std::chrono::seconds(20);  // a random set begins, unless told
 
 // How long a node that hangs is left alone by its watchdog (insight, section 6).
@@ -57,7 +58,7 @@ struct ChaosFault {
     Time from{};
     std::optional<Time> until = {};  // empty: to the end of the run. Not of Reset and Hung
     double chance = 1;               // of each frame: Lost, Doubled, Reordered
-    double by = 0;     // s: Delayed, Reordered (at most), Slow; Noisy: the standard deviation
+    double by = 0;      // s: Delayed, Reordered (at most), Slow; Noisy: the standard deviation
     uint64_t seed = 1;  // of what is random in it, together with the seed of the world
     Place place = {};   // in its file
 };
@@ -67,6 +68,7 @@ struct ChaosDraw {
     size_t count = 1;
     std::optional<uint64_t> seed = {};  // empty: that of the world
     Duration within = kChaosWithin;     // they begin by then
+    std::vector<ChaosKind> kinds = {};  // of these only; empty: of all
 };
 
 struct Chaos {
@@ -86,6 +88,8 @@ struct ChaosTarget {
 // "lost": as in a file.
 std::string_view name_of(ChaosKind kind);
 const std::vector<ChaosKind>& chaos_kinds();
+// Names with commas between them: "lost,hung". The Error lists those that there are.
+Result<std::vector<ChaosKind>> parse_chaos_kinds(std::string_view text);
 bool is_of_link(ChaosKind kind);
 bool is_of_sensor(ChaosKind kind);
 // It happens at one instant, and ends by itself.
@@ -100,7 +104,8 @@ std::string ended_sentence(const ChaosFault& fault);
 // Of the variables of a node those that tell what it senses: not what a script or a person sets.
 bool is_sensor(std::string_view variable);
 
-// The same set for the same targets and seed, by the time of their beginnings.
+// The same set for the same targets and seed, by the time of their beginnings. Without a place for
+// any of the kinds there are none.
 std::vector<ChaosFault> draw_chaos(const std::vector<ChaosTarget>& targets, const ChaosDraw& draw,
                                    uint64_t seed);
 

@@ -24,8 +24,8 @@ public:
         for (const ChaosKind kind : chaos_kinds()) words.push_back(name_of(kind));
         const std::string word = in_.word("kind", words, Need::Required);
         if (word.empty()) return fault_;  // what else it should have, nobody knows
-        fault_.kind = chaos_kinds()[static_cast<size_t>(std::ranges::find(words, word) -
-                                                        words.begin())];
+        fault_.kind =
+            chaos_kinds()[static_cast<size_t>(std::ranges::find(words, word) - words.begin())];
         place();
         times();
         strength();
@@ -119,8 +119,8 @@ std::string time_json(Time at) {
 
 std::string fault_json(const ChaosFault& fault) {
     std::string text = fmt::format("{{ \"kind\": \"{}\"{}", name_of(fault.kind), place_json(fault));
-    text += fmt::format(", \"{}\": {}", is_instant(fault.kind) ? "at" : "from",
-                        time_json(fault.from));
+    text +=
+        fmt::format(", \"{}\": {}", is_instant(fault.kind) ? "at" : "from", time_json(fault.from));
     if (fault.until) text += fmt::format(", \"until\": {}", time_json(*fault.until));
     if (fault.chance < 1) text += fmt::format(", \"chance\": {:.15g}", fault.chance);
     if (fault.by > 0) text += fmt::format(", \"by\": {:.15g}", fault.by);

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "base/rng.hpp"
 #include "base/seconds.hpp"
 
 namespace vagus::sim {
 
 void ChaosLine::begin(const ChaosFault& fault, uint64_t seed) {
-    acting_.push_back({&fault, SplitMix64(seed)});
+    acting_.push_back({&fault, seed});
     if (fault.kind == ChaosKind::Unplugged || fault.kind == ChaosKind::Hung) waiting_.clear();
 }
 
@@ -18,14 +19,22 @@ void ChaosLine::end(const ChaosFault& fault) {
 void ChaosLine::reset() {
     acting_.clear();
     waiting_.clear();
-    latest_ = {};
+    latest_ = put_at_ = {};
+    of_instant_ = 0;
 }
 
-ChaosLine::Fate ChaosLine::decide() {
+// Chance hangs on the instant and the frame's place in it, not on what came before: a fault that
+// begins later does the same to the frames that are left to it.
+ChaosLine::Fate ChaosLine::decide(Time now) {
+    of_instant_ = now == put_at_ ? of_instant_ + 1 : 0;
+    put_at_ = now;
+    SplitMix64 place(static_cast<uint64_t>(now.count()) << 16 | (of_instant_ & 0xffff));
+    const uint64_t drawn = place.next();
     Fate fate;
-    for (Acting& one : acting_) {
+    for (const Acting& one : acting_) {
         const ChaosFault& fault = *one.fault;
-        const bool hit = one.random.unit() < fault.chance;
+        SplitMix64 random(one.seed ^ drawn);
+        const bool hit = random.unit() < fault.chance;
         switch (fault.kind) {
             case ChaosKind::Lost:
                 if (hit) fate.copies = 0;
@@ -43,7 +52,7 @@ ChaosLine::Fate ChaosLine::decide() {
                 break;
             case ChaosKind::Reordered:
                 if (!hit) break;
-                fate.late += from_seconds(fault.by * one.random.unit());
+                fate.late += from_seconds(fault.by * random.unit());
                 fate.held_back = true;
                 break;
             case ChaosKind::Reset:
@@ -57,7 +66,7 @@ ChaosLine::Fate ChaosLine::decide() {
 }
 
 void ChaosLine::put(const wire::Frame& frame, Time now) {
-    const Fate fate = decide();
+    const Fate fate = decide(now);
     Time due = now + fate.late;
     // What is only late keeps its place, also behind one that was later when a delay ended.
     if (!fate.held_back) due = latest_ = std::max(due, latest_);

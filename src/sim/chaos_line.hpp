@@ -12,7 +12,6 @@
 #include <deque>
 #include <vector>
 
-#include "base/rng.hpp"
 #include "sim/chaos.hpp"
 #include "wire/frame.hpp"
 
@@ -38,7 +37,7 @@ public:
 private:
     struct Acting {
         const ChaosFault* fault;
-        SplitMix64 random;
+        uint64_t seed = 0;
     };
     struct Waiting {
         Time due{};
@@ -50,11 +49,13 @@ private:
         Duration late{};
         bool held_back = false;
     };
-    Fate decide();
+    Fate decide(Time now);
 
     std::vector<Acting> acting_;
     std::deque<Waiting> waiting_;  // by due, then in the order in which they came
     Time latest_{};                // due of those that keep their order
+    Time put_at_{};                // the last put()
+    uint64_t of_instant_ = 0;      // how many there were at that instant before it
 };
 
 }  // namespace vagus::sim

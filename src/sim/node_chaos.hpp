@@ -1,6 +1,6 @@
 // What faults do to the nodes of a world and to their links; the world tells it the time.
 //
-//     auto made = NodeChaos::make(chaos, seed, berths);         // places with their names
+//     auto made = NodeChaos::make(of, seed, nodes, {});     // the nodes with their names
 //     NodeChaos& chaos = made.value();
 //     while (const auto edge = chaos.next(now)) turns.take_edge(*edge, now);
 //     if (chaos.suffers(berth)) chaos.to(berth).put(frame, now);

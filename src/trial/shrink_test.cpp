@@ -1,5 +1,5 @@
-// Shrinking against functions of which it is known what they fail by; numbers of runs are worked out
-// by hand.
+// Shrinking against functions of which it is known what they fail by. Numbers of runs are worked
+// out by hand.
 #include "trial/shrink.hpp"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,9 @@
 #include <algorithm>
 
 #include "base/rng.hpp"
+#include "base/test_folder.hpp"
+#include "trial/test_file.hpp"
+#include "trial/with_chaos.hpp"
 
 namespace vagus::trial {
 namespace {
@@ -127,6 +130,45 @@ TEST(Shrinking, GivesASetWithoutAFaultTooMany) {
         const Shrunk least = shrink(faults, 9s, failing_by(needed));
         EXPECT_EQ(nodes_of(least.faults), needed) << "seed " << seed;
     }
+}
+
+// ---- the test that is written ----
+
+TEST(TestsWithChaos, ReadTheFaultsOfTheirFile) {
+    const auto error_of = [](std::string_view members) {
+        const auto read = read_test(R"({"format":"vagus-test/1","plan":"a.plan.json",)" +
+                                        std::string(members) + R"("expect":[{"ends":"OK"}]})",
+                                    "t");
+        return read.ok() ? "" : read.error().what;
+    };
+    EXPECT_EQ(error_of(R"("world":"w","chaos":[{"kind":"reset","node":"a","at":1}],)"), "");
+    EXPECT_EQ(error_of(R"("chaos":[{"kind":"reset","node":"a","at":1}],)"),
+              "t:1:55: \"chaos\" of the test breaks what a world simulates; give the test a "
+              "\"world\"");
+    EXPECT_TRUE(error_of(R"("world":"w","chaos":[{"kind":"rest","node":"a","at":1}],)")
+                    .starts_with("t:1:75: \"kind\" of fault 1"));
+}
+
+TEST(TestsWithChaos, AreWrittenWithPathsFromTheirFolder) {
+    const test::Folder folder;
+    const std::string text =
+        R"({"format":"vagus-test/1","plan":"P.plan.json","world":"../w.world.json","seeds":[1,9],)"
+        R"("expect":[{"ends":"OK"}]})";
+    const std::string path = folder.write("tests/t.test.json", text);
+    const auto test = read_test(text, path);
+    ASSERT_TRUE(test.ok()) << test.error().what;
+    const auto written = with_chaos(test.value(), text, {7, {reset_of("a", 1500ms)}},
+                                    (folder / "found/t.chaos-1.test.json").string());
+    ASSERT_TRUE(written.ok()) << written.error().what;
+    EXPECT_EQ(written.value(), R"({
+  "format": "vagus-test/1",
+  "plan": "../tests/P.plan.json",
+  "world": "../w.world.json",
+  "seeds": [7, 7],
+  "chaos": [{ "kind": "reset", "node": "a", "at": 1.5 }],
+  "expect": [{ "ends": "OK" }]
+}
+)");
 }
 
 }  // namespace

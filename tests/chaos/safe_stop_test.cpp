@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "base/file.hpp"
+#include "base/test_folder.hpp"
 #include "base/test_places.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/prepared_run.hpp"
@@ -29,14 +31,15 @@ constexpr Time kFaultBegins = 5s;                          // it drives then
 constexpr Time kFaultEnds = 8s;
 
 struct Sample {
-    const char* plan;
-    const char* world;
+    std::string plan;
+    std::string world;
     uint16_t node;  // that drives
-    std::vector<std::string> set = {};
 };
 
-const Sample kCarbot = {"follow-wall/WallFollow.plan.json", "follow-wall/hall.world.json", 1};
-const Sample kThymio = {"patterns/Square.plan.json", "patterns/thymio.world.json", 1};
+const Sample kCarbot = {test::examples("follow-wall/WallFollow.plan.json"),
+                        test::examples("follow-wall/hall.world.json"), 1};
+const Sample kThymio = {test::examples("patterns/Square.plan.json"),
+                        test::examples("patterns/thymio.world.json"), 1};
 
 // Looks at the robot each millisecond.
 class Watch {
@@ -115,13 +118,12 @@ Came run(const Sample& sample, const std::vector<sim::ChaosFault>& faults) {
     toolbox::Parts parts;
     run::CodeLibrary library;
     EXPECT_TRUE(session::add_toolboxes(library, parts, {}).ok());
-    const auto plan = embed::LoadedPlan::from_file(test::examples(sample.plan), library);
+    const auto plan = embed::LoadedPlan::from_file(sample.plan, library);
     EXPECT_TRUE(plan.ok()) << plan.report();
     embed::RunWords words;
-    words.world = test::examples(sample.world);
+    words.world = sample.world;
     words.clock = "virtual";
     words.max_time = "15";
-    words.set = sample.set;
     if (!faults.empty()) words.chaos = sim::format_chaos(faults);
     auto prepared = embed::PreparedRun::prepare(plan, words, parts);
     if (!prepared.ok()) return {.wrong = prepared.error().what};
@@ -148,7 +150,7 @@ Came run(const Sample& sample, const std::vector<sim::ChaosFault>& faults) {
 }
 
 std::vector<sim::ChaosTarget> targets_of(const Sample& sample) {
-    auto session = session::open_sim(test::examples(sample.world), {});
+    auto session = session::open_sim(sample.world, {});
     EXPECT_TRUE(session.ok());
     return session.value().world().chaos_targets();
 }
@@ -211,7 +213,25 @@ void expect_safe_stops(const Sample& sample, size_t kinds) {
     EXPECT_EQ(tried.size(), kinds);
 }
 
-// The test could fail: the robots drive by signs of life.
+// The test can fail: a Carbot that waits for a second does not brake in time.
+TEST(SafeStop, AScriptWithMorePatienceIsFound) {
+    const test::Folder folder;
+    std::string script = read_file(test::examples("carbot/carbot.aesl")).value();
+    const std::string patience = "const PATIENCE = 15 ";
+    script.replace(script.find(patience), patience.size(), "const PATIENCE = 50 ");
+    std::string world = read_file(kCarbot.world).value();
+    const std::string path = "../carbot/carbot.aesl";
+    world.replace(world.find(path), path.size(), "carbot.aesl");
+    folder.write("carbot.aesl", script);
+    folder.write("hall.world.json", world);
+    const Sample slow = {kCarbot.plan, folder / "hall.world.json", 1};
+    const sim::ChaosFault lost{
+        .kind = sim::ChaosKind::Lost, .where = "main", .from = kFaultBegins, .until = kFaultEnds};
+    EXPECT_EQ(run(slow, {}).wrong, "");
+    EXPECT_TRUE(run(slow, {lost}).wrong.starts_with("does not brake"));
+}
+
+// The robots drive by signs of life.
 TEST(SafeStop, TheSamplesDriveBySignsOfLife) {
     for (const Sample& sample : {kCarbot, kThymio}) {
         SCOPED_TRACE(sample.plan);

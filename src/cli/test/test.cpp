@@ -355,10 +355,10 @@ void add_test(CLI::App& app, int& exit_code) {
                      "where recordings of runs go that failed (test-results)")
         ->type_name("FOLDER");
     verb->add_option("--chaos", options->chaos,
-                     "then breaks things: this many random sets of faults for each test that has "
-                     "a world; the first that a test does not survive is shrunk to the smallest, "
-                     "and written as a test")
-        ->type_name("N[:KIND,KIND]");
+                     "then breaks things: so many random sets of faults (20, or 20:lost,hung of "
+                     "these kinds) for each test that has a world; the first that it does not "
+                     "survive is shrunk to the smallest, and written as a test")
+        ->type_name("SETS");
     verb->add_flag("--signals", options->signals, "lists what conditions can name, and ends");
     verb->footer(
         "Runs each test with each of its seeds, in virtual time, and tells what was not as "

@@ -146,7 +146,7 @@ TEST(TestsWithChaos, ReadTheFaultsOfTheirFile) {
               "t:1:55: \"chaos\" of the test breaks what a world simulates; give the test a "
               "\"world\"");
     EXPECT_TRUE(error_of(R"("world":"w","chaos":[{"kind":"rest","node":"a","at":1}],)")
-                    .starts_with("t:1:75: \"kind\" of fault 1"));
+                    .starts_with("t:1:76: \"kind\" of fault 1"));
 }
 
 TEST(TestsWithChaos, AreWrittenWithPathsFromTheirFolder) {

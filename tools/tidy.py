@@ -64,10 +64,10 @@ ROOMS = {
     "sim": [
         ("values", "definitions schedule crew drawing noise cell_grid texture png ground witness frame_numbers"),
         ("bodies", "moving_grid sight spacing arena fan wheels camera"),
-        ("devices", "node_variables machine robot sd_card can_bus"),
+        ("devices", "node_variables machine robot sd_card can_bus chaos chaos_clock chaos_file chaos_line sensor_chaos node_chaos"),
         ("robots", "thymio2/ epuck/ carbot/"),
         ("files", "standing world_check robot_grid world_file"),
-        ("world", "frame_notes frames_for_others node_bus inhabitants node_turns world_insides world world_acts thread_choice world_threads"),
+        ("world", "frame_notes frames_for_others node_bus inhabitants node_turns node_turns_chaos host_chaos world_insides world world_acts thread_choice world_threads"),
     ],
     "serve": [
         ("ground", "process access base64 bytes json plan_value thrown worker"),

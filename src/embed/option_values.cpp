@@ -5,10 +5,13 @@
 #include <array>
 #include <numbers>
 
+#include "base/file.hpp"
+#include "base/seconds.hpp"
 #include "base/text.hpp"
 #include "embed/prepared_run.hpp"
 #include "embed/run_words.hpp"
 #include "plan/value.hpp"
+#include "sim/chaos_file.hpp"
 #include "sim/crew.hpp"
 #include "toolbox/core_values.hpp"
 
@@ -63,6 +66,11 @@ Status check_words(const RunWords& words) {
     if (!words.threads.empty() && words.world.empty()) {
         return usage("--threads goes with --world: they sense and run scripts for its robots");
     }
+    if (!words.chaos.empty() && words.world.empty()) {
+        return usage(
+            "--chaos goes with --world: it breaks what the world simulates; a real robot is not "
+            "broken on purpose");
+    }
     if (!words.trace_all.empty() && words.world.empty()) {
         return usage("--trace-all goes with --world; for the plan alone there is --trace");
     }
@@ -102,6 +110,50 @@ Result<unsigned> parse_threads(const std::string& text) {
         return static_cast<unsigned>(*threads);
     return usage(
         fmt::format("--threads {}: expected a whole number from 1 to {}", text, sim::kThreadsMax));
+}
+
+namespace {
+
+constexpr std::string_view kRandom = "random:";
+
+// N[:SEED[:SECONDS[:KIND,KIND]]]
+Result<sim::Chaos> parse_drawn(const std::string& text) {
+    const auto parts = split(std::string_view(text).substr(kRandom.size()), ':');
+    const auto count = decimal_number(std::string(parts[0]));
+    sim::ChaosDraw draw;
+    bool good = count && *count >= 1 && *count <= sim::kChaosDrawnMax && parts.size() <= 4;
+    if (good) draw.count = static_cast<size_t>(*count);
+    if (good && parts.size() > 1) {
+        draw.seed = decimal_number(std::string(parts[1]));
+        good = draw.seed.has_value();
+    }
+    if (good && parts.size() > 2) {
+        const Result<double> seconds = plan::float_from_text(std::string(parts[2]));
+        good = seconds.ok() && seconds.value() > 0 && seconds.value() <= sim::kChaosTimeMax;
+        if (good) draw.within = from_seconds(seconds.value());
+    }
+    if (!good) {
+        return usage(fmt::format(
+            "--chaos {}: expected how many faults, 1 to {}, perhaps a seed, perhaps the seconds "
+            "within which they begin, as random:3, random:3:7 or random:3:7:60",
+            text, sim::kChaosDrawnMax));
+    }
+    if (parts.size() > 3) {
+        auto kinds = sim::parse_chaos_kinds(parts[3]);
+        if (!kinds.ok()) return usage(fmt::format("--chaos {}: {}", text, kinds.error().what));
+        draw.kinds = std::move(kinds.value());
+    }
+    sim::Chaos chaos{.file = "--chaos " + text};
+    chaos.draw = draw;
+    return chaos;
+}
+
+}  // namespace
+
+Result<sim::Chaos> read_chaos_words(const std::string& text) {
+    if (text.starts_with(kRandom)) return parse_drawn(text);
+    if (text.starts_with('[') || text.starts_with('{')) return sim::read_chaos(text, "--chaos");
+    return sim::read_chaos(TRY(read_file(text)), text);
 }
 
 Result<std::pair<int, plan::Value>> parse_set(const plan::GraphPlan& plan,

@@ -195,9 +195,11 @@ Status PreparedRun::Insides::open_world() {
                                       .seed = seed,
                                       .starts = starts,
                                       .threads = threads,
+                                      .chaos = {},
                                       .traced = !words.trace_all.empty(),
                                       .robot = words.robot,
                                       .needs = toolbox::nodes_needed(what.graph())};
+    if (!words.chaos.empty()) options.chaos = TRY(read_chaos_words(words.chaos));
     if (!words.listen.empty()) {
         options.guests = TRY(session::safe_stop_around(words.world, words.toolboxes));
     }

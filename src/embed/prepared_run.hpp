@@ -127,6 +127,10 @@ Result<sim::RobotStart> parse_pose(const std::string& text);
 // The number of `--threads`.
 Result<unsigned> parse_threads(const std::string& text);
 
+// The faults of `--chaos`: a JSON file, the JSON itself, or such as the world draws,
+// random:N[:SEED[:SECONDS[:KIND,KIND]]].
+Result<sim::Chaos> read_chaos_words(const std::string& text);
+
 // The seconds of `--max-time`; empty: it never comes.
 Result<std::optional<Duration>> parse_max_time(const std::string& text);
 

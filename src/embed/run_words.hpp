@@ -26,6 +26,7 @@ struct RunWords {
     std::string world = {};
     std::string robot = {};  // of the world
     std::vector<std::string> poses = {};
+    std::string chaos = {};      // what breaks in the world: read_chaos_words()
     std::string threads = {};    // that sense and run the scripts of the world
     std::string trace_all = {};  // the trace with what happens in the world
     std::string listen = {};     // where the bus of the world is open for others

@@ -234,6 +234,15 @@ uint32_t Causes::last_happening(uint32_t robot, Happening::Kind kind, std::strin
 void Causes::look(Time at) {
     const sim::World& world = rerun_.session()->world();
     for (const sim::Happening& one : world.happenings()) {
+        const auto* const broke = std::get_if<sim::ChaosNote>(&one.what);
+        if (broke != nullptr && broke->begins) {
+            add({.at = at,
+                 .kind = Kind::Chaos,
+                 .robot = one.robot.number,
+                 .what = "a fault of --chaos: " + broke->what,
+                 .with = {},
+                 .entry = broke->fault});
+        }
         const auto* const contact = std::get_if<sim::Contact>(&one.what);
         if (contact == nullptr) continue;
         const std::string& robot = world.definition().robots[one.robot.number - 1].name;

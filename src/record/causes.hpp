@@ -68,13 +68,13 @@ public:
     };
     // Something in the world that no script did.
     struct Happening {
-        enum class Kind : uint8_t { Contact, Timeline, Person };
+        enum class Kind : uint8_t { Contact, Timeline, Person, Chaos };
         Time at{};
         Kind kind = Kind::Contact;
         uint32_t robot = 0;   // concerned; 0: none
         std::string what;     // the sentence
         std::string with;     // id of the object, or the button
-        size_t entry = 0;     // of the timeline
+        size_t entry = 0;     // of the timeline; of the faults of the world
         uint32_t before = 0;  // the happening that it followed from
     };
     struct Line {

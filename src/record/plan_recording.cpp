@@ -1,6 +1,7 @@
 #include "record/plan_recording.hpp"
 
 #include "session/plan_world.hpp"
+#include "sim/chaos_file.hpp"
 
 namespace vagus::record {
 
@@ -19,6 +20,10 @@ void attach(Recorder& recorder, embed::PreparedRun& run) {
 Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& path, RunFile about,
                                                             const FilesRead& files,
                                                             embed::PreparedRun& run, Pace pace) {
+    if (run.world() != nullptr) {
+        const auto& faults = run.world()->session().world().chaos();
+        if (!faults.empty()) about.chaos = sim::format_chaos(faults);
+    }
     auto tape = TRY(start_tape(path, about, pack(files.all()), pace));
     // make_unique cannot reach the constructor.
     std::unique_ptr<PlanRecording> made(new PlanRecording(std::move(tape), format_run(about)));

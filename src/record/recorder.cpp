@@ -139,6 +139,9 @@ void Recorder::follow(session::SimSession& session) {
                             .schema = "foxglove.SceneUpdate",
                             .may_be_dropped = true});
     scene_ = tape_.declare({.name = std::string(kSceneTopic), .schema = "foxglove.SceneUpdate"});
+    if (!session.world().chaos().empty()) {
+        chaos_ = tape_.declare({.name = std::string(kChaosTopic)});
+    }
     session.world().number_frames();
     session.on_frame([this](const wire::Frame& one, uint32_t number) { frame(one, number); });
     session.on_instant([this] { instant(); });
@@ -154,6 +157,7 @@ void Recorder::follow(session::SimSession& session) {
 
 void Recorder::instant() {
     const Time at = now();
+    if (chaos_ != 0) chaos();
     if (at % kVariablesEvery == Duration::zero()) {
         look_for_nodes();
         const bool all = at % kPictureEvery == Duration::zero();
@@ -355,6 +359,18 @@ void Recorder::scene(Time at) {
     update.replace(update.find(R"("deletions":[])"), std::string_view(R"("deletions":[])").size(),
                    all);
     tape_.put(scene_, at, std::move(update));
+}
+
+// Faults as they begin and end.
+void Recorder::chaos() {
+    for (const sim::Happening& one : session_->world().happenings()) {
+        const auto* const told = std::get_if<sim::ChaosNote>(&one.what);
+        if (told == nullptr) continue;
+        tape_.put(
+            chaos_, one.at,
+            fmt::format(R"({{"t":{},"fault":{},"what":{},"state":"{}"}})", seconds_text(one.at),
+                        told->fault + 1, json_quote(told->what), told->begins ? "begins" : "ends"));
+    }
 }
 
 // ---- checks ----

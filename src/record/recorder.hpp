@@ -91,6 +91,7 @@ private:
     void scene(Time at);
     void poses(Time at);
     void check(Time at);
+    void chaos();
     std::string label_of(sim::RobotId robot, const std::string& name) const;
     Time now() const { return session_->now(); }
 
@@ -105,6 +106,7 @@ private:
     uint16_t events_ = 0;
     uint16_t poses_ = 0;
     uint16_t scene_ = 0;
+    uint16_t chaos_ = 0;       // 0: nothing breaks in this run
     hub::LinkId last_inside_;  // of the links of the bus that are part of the run
     uint32_t turn_ = 0;
     bool turn_begins_ = false;

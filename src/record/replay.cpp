@@ -252,6 +252,7 @@ public:
         words.max_time = about_.max_time;
         words.robot = about_.robot;
         words.poses = about_.poses;
+        words.chaos = about_.chaos;
         if (!about_.answers.empty()) words.answers = folder_.path_of(about_.answers);
         words.clock = "virtual";
         TRY(session::add_toolboxes(library_, parts_, words.toolboxes));
@@ -469,6 +470,9 @@ public:
         }
         embed::RobotsOptions options{.world = world};
         if (!about_.seed.empty()) options.sim.world.seed = TRY(embed::parse_seed(about_.seed));
+        if (!about_.chaos.empty()) {
+            options.sim.world.chaos = TRY(embed::read_chaos_words(about_.chaos));
+        }
         robots_ = TRY(embed::RobotsRun::open(options));
         for (const std::string& one : about_.loads) {
             const std::string path = folder_.path_of(one);

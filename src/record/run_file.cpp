@@ -60,6 +60,7 @@ Error not_a_run(const std::string& name, const std::string& why) {
 
 std::string format_run(const RunFile& run) {
     std::string text = fmt::format(R"({{"format":"{}","vagus":"{}")", kFormat, toolbox::kVersion);
+    if (!run.chaos.empty()) text += ",\"chaos\":" + json_quote(run.chaos);
     for (const TextKey& one : kTexts) {
         text += fmt::format(",\"{}\":{}", one.key, json_quote(run.*one.at));
     }
@@ -85,6 +86,8 @@ Result<RunFile> read_run(std::string_view text, const std::string& name) {
                                            format != nullptr ? format->text : "nothing"));
     }
     RunFile run;
+    const JsonValue* const chaos = tree->find("chaos");
+    if (chaos != nullptr) run.chaos = chaos->text;
     for (const TextKey& one : kTexts) {
         const JsonValue* const value = tree->find(one.key);
         if (value != nullptr && value->kind == JsonKind::String) run.*one.at = value->text;

@@ -36,6 +36,7 @@ struct RunFile {
     std::string max_time = {};
     std::string robot = {};
     std::string answers = {};
+    std::string chaos = {};  // the list of faults as JSON, with those that were drawn; empty: none
     std::vector<std::string> poses = {};
     std::vector<std::string> loads = {};  // --load of sim
 };

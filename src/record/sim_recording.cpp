@@ -1,10 +1,14 @@
 #include "record/sim_recording.hpp"
 
+#include "sim/chaos_file.hpp"
+
 namespace vagus::record {
 
 Result<std::unique_ptr<SimRecording>> SimRecording::begin(const std::string& path, RunFile about,
                                                           const FilesRead& files,
                                                           session::SimSession& session, Pace pace) {
+    const auto& faults = session.world().chaos();
+    if (!faults.empty()) about.chaos = sim::format_chaos(faults);
     auto tape = TRY(start_tape(path, about, pack(files.all()), pace));
     // make_unique cannot reach the constructor.
     std::unique_ptr<SimRecording> made(

@@ -21,6 +21,7 @@ constexpr std::string_view kFramesTopic = "/bus/frames";
 constexpr std::string_view kEventsTopic = "/bus/events";
 constexpr std::string_view kPosesTopic = "/world/poses";
 constexpr std::string_view kSceneTopic = "/world/scene";
+constexpr std::string_view kChaosTopic = "/world/chaos";
 
 // How a channel is declared.
 struct Topic {

@@ -82,6 +82,7 @@ public:
                 break;
         }
         TRY(asked);
+        chaos();
         if (!chain_.empty()) chain_.back().root = true;
         return chain_;
     }
@@ -102,6 +103,7 @@ private:
     void local_event(const Causes::HandlerRun& run);
     void call(uint32_t number);
     void happening(uint32_t number);
+    void chaos();
     void line(size_t index);
     void before_started(size_t index, const plan::ActorStarted& started);
     void before_ended(size_t index, const plan::ActorEnded& ended);
@@ -253,6 +255,21 @@ void Walk::happening(uint32_t number) {
     std::string place;
     if (one.kind == Causes::Happening::Kind::Timeline) place = places_.timeline(one.entry);
     if (add({one.at, one.what, place, ""})) happening(one.before);
+}
+
+// What was broken when it happened, or shortly before. Nothing tells that it follows from that.
+void Walk::chaos() {
+    constexpr Duration kFeltFor = std::chrono::seconds(4);  // a node is missed after three
+    const auto& happenings = causes_.happenings();
+    for (size_t i = happenings.size(); i-- > 0 && !chain_.empty();) {
+        const Causes::Happening& one = happenings[i];
+        const Time at = chain_.front().at;
+        if (one.kind != Causes::Happening::Kind::Chaos || one.at > at) continue;
+        const auto end = sim::end_of(rerun_.session()->world().chaos()[one.entry]);
+        if (end && *end + kFeltFor < at) continue;
+        add({one.at, "perhaps " + one.what, "", ""});
+        return;
+    }
 }
 
 // ---- the plan ----

@@ -111,6 +111,7 @@ Result<std::unique_ptr<PlanWorld>> PlanWorld::open(const PlanWorldOptions& optio
     how.world.seed = options.seed;
     how.world.starts = options.starts;
     how.world.threads = options.threads;
+    how.world.chaos = options.chaos;
     how.traced = options.traced;
     how.heard = true;
     how.guests = options.guests;

@@ -36,6 +36,7 @@ struct PlanWorldOptions {
     std::optional<uint64_t> seed = {};         // instead of that of the file
     std::vector<sim::RobotStart> starts = {};  // as sim::WorldOptions
     std::optional<unsigned> threads = {};      // likewise
+    sim::Chaos chaos = {};                     // likewise
     bool traced = false;                       // keep lines for session().take_trace()
     std::string robot = {};  // of several that the plan could drive; empty: the only one
     std::vector<toolbox::NodeNames> needs = {};  // nodes that the plan works on, one of each list

@@ -34,6 +34,7 @@ SimSession::SimSession(sim::World world, SimOptions options)
     for (const sim::RobotView& robot : world_->robots()) {
         if (!robot.own_bus) add_nodes_of(robot);
     }
+    open_chaos();
 }
 
 SimSession::SimSession(sim::World& world, sim::RobotId robot, SimOptions options)
@@ -44,6 +45,7 @@ SimSession::SimSession(sim::World& world, sim::RobotId robot, SimOptions options
       link_(bus().add({.name = "session"}).value()),
       over_can_(world.bus_load(robot).has_value()) {
     add_nodes_of(world.robots()[robot.number - 1]);
+    open_chaos();
 }
 
 void SimSession::add_nodes_of(const sim::RobotView& robot) {
@@ -84,6 +86,7 @@ void SimSession::begin_instant() {
 }
 
 void SimSession::before_nodes() {
+    if (chaos_) chaos_->advance(now() + kExchangeEvery);
     send_frames();  // what was emitted since the last
     // On an ideal bus nodes put into our queue at this instant what arrives at the next one.
     if (!over_can_) delivered_ = take_frames();
@@ -91,6 +94,7 @@ void SimSession::before_nodes() {
 
 void SimSession::after_nodes() {
     if (over_can_) delivered_ = take_frames();
+    if (!world_->chaos().empty()) tell_chaos();
     listen(delivered_);
 }
 
@@ -137,7 +141,14 @@ Duration SimSession::settles_within() const {
 std::vector<wire::Frame> SimSession::take_frames() {
     std::vector<wire::Frame> frames = std::exchange(put_off_, {});
     wire::Frame frame;
-    while (bus().take(link_, frame)) frames.push_back(frame);
+    while (bus().take(link_, frame)) {
+        if (chaos_) {
+            chaos_->from_bus().put(frame, now());
+        } else {
+            frames.push_back(frame);
+        }
+    }
+    while (chaos_ && chaos_->from_bus().take(frame, now())) frames.push_back(frame);
     return frames;
 }
 
@@ -162,11 +173,21 @@ void SimSession::speak() {
 void SimSession::send_frames() {
     for (const wire::Frame& out : network_.take_frames()) {
         number_own(out);
-        if (emits_to_ && wire::is_user_event(out.type)) {
-            world_->send_to(*emits_to_, link_, out);
+        if (chaos_) {
+            chaos_->to_bus().put(out, now());
         } else {
-            bus().receive(link_, out);
+            send_on(out);
         }
+    }
+    wire::Frame late;
+    while (chaos_ && chaos_->to_bus().take(late, now())) send_on(late);
+}
+
+void SimSession::send_on(const wire::Frame& frame) {
+    if (emits_to_ && wire::is_user_event(frame.type)) {
+        world_->send_to(*emits_to_, link_, frame);
+    } else {
+        bus().receive(link_, frame);
     }
 }
 
@@ -232,6 +253,7 @@ void SimSession::reset() {
 
 void SimSession::begin_again() {
     rest_ = {};
+    if (chaos_) chaos_->restart();
     events_.clear();
     for (Node& node : nodes_) {
         node.fault.clear();
@@ -344,56 +366,6 @@ void SimSession::hear_done(Node& node, const debug::RequestDone& done) {
     node.fault.clear();
     note(NoteKind::Loaded, script.path + " runs on " + label(node) + ", " +
                                std::to_string(script.program->bytecode.size()) + " words");
-}
-
-void SimSession::trace_happenings(size_t first) {
-    for (const sim::Happening& happening : world_->happenings().subspan(first)) {
-        const bool on_bus = std::holds_alternative<sim::Emitted>(happening.what) ||
-                            std::holds_alternative<sim::Fault>(happening.what);
-        if (!on_bus) {
-            trace_of_body(happening);
-        } else if (is_of_its_bus(happening.robot)) {
-            trace_on_bus(happening);
-        }
-    }
-}
-
-void SimSession::trace_on_bus(const sim::Happening& happening) {
-    if (const auto* sent = std::get_if<sim::Emitted>(&happening.what)) {
-        const auto& events = network_.common().events;
-        const std::string event =
-            sent->event < events.size() ? events[sent->event].name : std::to_string(sent->event);
-        trace_ += trace_line(happening.at, "event")
-                      .number("node", happening.node)
-                      .text("name", event)
-                      .words("args", sent->arguments)
-                      .done();
-    } else if (const auto* fault = std::get_if<sim::Fault>(&happening.what)) {
-        trace_ += trace_line(happening.at, "fault")
-                      .number("node", happening.node)
-                      .text("what", fault->what)
-                      .number("pc", fault->pc)
-                      .done();
-    }
-}
-
-// The session of the common bus tells it of all robots.
-void SimSession::trace_of_body(const sim::Happening& happening) {
-    if (robot_) return;
-    const std::string& name = world_->definition().robots[happening.robot.number - 1].name;
-    if (const auto* pose = std::get_if<sim::PoseNote>(&happening.what)) {
-        trace_ += TraceLine(happening.at, "pose")
-                      .text("robot", name)
-                      .real("x", pose->pose.at.x)
-                      .real("y", pose->pose.at.y)
-                      .real("angle", pose->pose.angle)
-                      .done();
-    } else if (const auto* contact = std::get_if<sim::Contact>(&happening.what)) {
-        trace_ += TraceLine(happening.at, "contact")
-                      .text("robot", name)
-                      .text("with", contact->with)
-                      .done();
-    }
 }
 
 void SimSession::note(NoteKind kind, std::string text) {

@@ -38,6 +38,7 @@
 #include "session/script_file.hpp"
 #include "session/stopping.hpp"
 #include "session/trace.hpp"
+#include "sim/host_chaos.hpp"
 #include "sim/world.hpp"
 
 namespace vagus::session {
@@ -72,6 +73,7 @@ enum class NoteKind {
     Trouble,   // a script could not be sent
     Plan,      // the plan of a robot with a project has ended
     Fleet,     // what such a robot says of its fleet
+    Chaos,     // a fault of the run has begun, or is over
 };
 
 struct Note {
@@ -271,6 +273,9 @@ private:
     void listen(const std::vector<wire::Frame>& delivered);
     void speak();
     void send_frames();
+    void send_on(const wire::Frame& frame);
+    void open_chaos();
+    void tell_chaos();
     void number_own(const wire::Frame& frame);
     void number_heard(const wire::Frame& frame);
     void note(NoteKind kind, std::string text);
@@ -338,6 +343,7 @@ private:
     std::deque<uint32_t> emit_causes_;   // of user events that have not left yet
     std::deque<uint32_t> event_frames_;  // of user events that were received, not yet heard
     std::optional<Stopping> guests_;
+    std::unique_ptr<sim::HostChaos> chaos_;  // nullptr: its link to the bus has no faults
     std::string trace_;
 };
 

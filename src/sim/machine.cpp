@@ -61,6 +61,22 @@ void Machine::restart() {
     heard_is_old_ = true;
 }
 
+void Machine::switch_on_again(const std::vector<int16_t>& variables) {
+    const std::vector<uint16_t> program(bytecode_.words().begin(), bytecode_.words().end());
+    Witness* const witness = std::exchange(witness_, nullptr);
+    restart();
+    bytecode_.load(program);
+    variables_ = variables;
+    // As a host would let it begin, which hears nothing of it.
+    for (const wire::MessageType message : {wire::MessageType::Reset, wire::MessageType::Run}) {
+        vm::receive(node_.vm, static_cast<uint16_t>(message), &node_.vm.id, 1);
+    }
+    forget_sent();
+    watch(witness, witnessed_);
+    if (witness_ == nullptr || !vm::is_active(node_.vm)) return;
+    witness_->began_by_frame(witnessed_, node_.vm.pc, 0);
+}
+
 void Machine::notify(node::Node& node, vm::Notice notice) {
     of(node).bytecode_.notice(notice);
     if (notice == vm::Notice::Reset) of(node).break_off();

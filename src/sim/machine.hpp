@@ -48,6 +48,9 @@ public:
 
     // As switched on: no program, all variables 0, nothing waiting.
     void restart();
+    // Off and on again: the program was saved and begins with its init event, the variables are
+    // `variables`, as many as there are.
+    void switch_on_again(const std::vector<int16_t>& variables);
 
     // A new millisecond: the script may go on.
     void begin_millisecond() {
@@ -77,6 +80,7 @@ public:
 
     uint16_t id() const { return config_.id; }
     const char* name() const { return definition_.description->name; }
+    const node::Description& description() const { return *definition_.description; }
     int16_t& variable(uint16_t address) { return variables_[address]; }
     int16_t variable(uint16_t address) const { return variables_[address]; }
     const std::vector<int16_t>& variables() const { return variables_; }

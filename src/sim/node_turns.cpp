@@ -153,6 +153,7 @@ void NodeTurns::run(const Surroundings& around, Crew& crew) {
         if (bus.node_bus) bus.node_bus->advance(around.now);
     }
     call_receivers();
+    if (chaos_ != nullptr) call_suffering();
     const std::vector<uint32_t>& due = schedule_.due(around.now);
     crew.each(due.size(), [&](size_t i) { take_turn(units_[due[i]], around); });
     for (const uint32_t each : due) {
@@ -167,6 +168,7 @@ void NodeTurns::run(const Surroundings& around, Crew& crew) {
 
 // Touches nothing but the robot, its berths and its own queues.
 void NodeTurns::take_turn(Unit& unit, const Surroundings& around) {
+    if (chaos_ != nullptr && suffers(unit)) return suffer_turn(unit, around);
     Robot& its = robot(unit.robot);
     its.catch_up(around.now - kNodeStep);
     bool more = false;
@@ -246,7 +248,6 @@ void NodeTurns::watch(Witness* witness) {
 
 void NodeTurns::collect(size_t index, Time now, Crossing crossing) {
     const Berth& berth = berths_[index];
-    Bus& bus = buses_[berth.bus];
     Machine& node = machine(berth);
     hub::Hub* const own_bus = private_buses_[berth.robot].get();
     for (size_t i = 0; i < node.sent().size(); ++i) {
@@ -257,16 +258,28 @@ void NodeTurns::collect(size_t index, Time now, Crossing crossing) {
                 witness_->sent({static_cast<uint32_t>(berth.robot + 1), node.id()}, number);
             }
         }
-        if (!bus.node_bus)
-            bus.hub->receive(berth.link, frame);
-        else if (crossing == Crossing::Timed)
-            bus.node_bus->send(index - bus.first, frame, now);
-        else
-            bus.node_bus->send_at_once(index - bus.first, frame);
+        if (chaos_ != nullptr && crossing == Crossing::Timed && chaos_->suffers(index)) {
+            chaos_->from(index).put(frame, now);
+        } else {
+            send_on(index, frame, now, crossing);
+        }
         if (own_bus != nullptr) own_bus->receive(berth.private_link, frame);
         heard_(berth.robot, frame);
     }
     node.forget_sent();
+    if (chaos_ == nullptr || crossing != Crossing::Timed) return;
+    wire::Frame late;
+    while (chaos_->from(index).take(late, now)) send_on(index, late, now, crossing);
+}
+
+void NodeTurns::send_on(size_t index, const wire::Frame& frame, Time now, Crossing crossing) {
+    Bus& bus = buses_[berths_[index].bus];
+    if (!bus.node_bus)
+        bus.hub->receive(berths_[index].link, frame);
+    else if (crossing == Crossing::Timed)
+        bus.node_bus->send(index - bus.first, frame, now);
+    else
+        bus.node_bus->send_at_once(index - bus.first, frame);
 }
 
 void NodeTurns::send_to(size_t robot, hub::LinkId host, const wire::Frame& frame) {

@@ -26,6 +26,7 @@
 #include "sim/frames_for_others.hpp"
 #include "sim/inhabitants.hpp"
 #include "sim/node_bus.hpp"
+#include "sim/node_chaos.hpp"
 #include "sim/robot.hpp"
 #include "sim/schedule.hpp"
 
@@ -78,6 +79,17 @@ public:
     void watch(Witness* witness);
     // As variables_of(); nullptr if there is no such node.
     const Machine* machine_of(size_t robot, uint16_t node, Time now);
+    // ---- faults (docs/testing.md, "Chaos") ----
+    // The nodes with their names, by their places; the robots with a bus of their own.
+    std::vector<ChaosNode> chaos_nodes();
+    std::vector<std::string> own_bus_robots() const;
+    // Borrowed from now on; its places are those of chaos_nodes().
+    void suffer(NodeChaos* chaos) { chaos_ = chaos; }
+    // A fault of a node begins or ends.
+    void take_edge(const ChaosEdge& edge, Time now);
+    // That the fault is done to; nobody: a main computer.
+    RobotId robot_of(const ChaosFault& fault) const;
+
     // How often a robot had its turn since the first one moved in.
     uint64_t turns_taken() const { return turns_taken_; }
 
@@ -123,6 +135,11 @@ private:
     void call_reached(const Bus& bus);
     void take_turn(Unit& unit, const Surroundings& around);
     void deliver(size_t index);
+    void call_suffering();
+    bool suffers(const Unit& unit) const;
+    void suffer_turn(Unit& unit, const Surroundings& around);
+    void deliver_in_chaos(size_t index, Time now);
+    void send_on(size_t index, const wire::Frame& frame, Time now, Crossing crossing);
     void collect(size_t index, Time now, Crossing crossing);
     void drain(const Berth& berth);
     void receive(Berth& berth, const wire::Frame& frame);
@@ -145,6 +162,7 @@ private:
     uint64_t turns_taken_ = 0;
     std::unique_ptr<FrameNumbers> numbers_;  // nullptr: frames have none
     Witness* witness_ = nullptr;
+    NodeChaos* chaos_ = nullptr;  // nullptr: nothing breaks
 };
 
 }  // namespace vagus::sim

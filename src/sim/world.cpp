@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <thread>
+#include <utility>
 
 #include "base/file.hpp"
 #include "base/nearest.hpp"
@@ -45,9 +46,11 @@ World::Insides::Insides(WorldDefinition its_definition, Picture its_picture,
             [this](size_t index, const wire::Frame& frame) { note_frame(index, frame); }) {}
 
 Result<World> World::load(std::string_view text, std::string_view file, WorldOptions options) {
+    Chaos chaos = std::exchange(options.chaos, {});  // its errors are in another file
     Result<World> world = create(TRY(read_world(text, file)), std::move(options));
-    if (world.ok()) return world;
-    return error_in_world(world.error(), text, file);
+    if (!world.ok()) return error_in_world(world.error(), text, file);
+    TRY(world.value().insides_->open_chaos(std::move(chaos)));
+    return world;
 }
 
 namespace {
@@ -122,7 +125,16 @@ Result<World> World::create(WorldDefinition definition, WorldOptions options) {
     const Status joined = insides->turns.join(insides->options.bus);
     if (!joined.ok()) return joined.error();
     insides->populate();
+    TRY(insides->open_chaos(std::exchange(insides->options.chaos, {})));
     return World(std::move(insides));
+}
+
+Status World::Insides::open_chaos(Chaos of) {
+    if (of.empty()) return Status::done();
+    chaos.emplace(
+        TRY(NodeChaos::make(std::move(of), seed(), turns.chaos_nodes(), turns.own_bus_robots())));
+    turns.suffer(&*chaos);
+    return Status::done();
 }
 
 World::World(std::unique_ptr<Insides> insides) : insides_(std::move(insides)) {}
@@ -136,6 +148,7 @@ void World::Insides::populate() {
     now = Time{};
     rest = Duration{};
     timeline_next = 0;
+    if (chaos) chaos->restart();
     turns.move_in(*inhabitants);
     run_timeline();
 }
@@ -176,6 +189,7 @@ void World::Insides::begin_instant() {
     turns.accept(now);
     now += kNodeStep;
     run_timeline();
+    if (chaos) pass_chaos();
     inhabitants->arena().prepare_looks();
     const std::span<const Colour> colours =
         somebody_sees_colours ? inhabitants->colours() : std::span<const Colour>();
@@ -198,6 +212,18 @@ void World::Insides::run_timeline() {
            definition.timeline[timeline_next].at <= now) {
         if (told_of_timeline) told_of_timeline(timeline_next);
         act(definition.timeline[timeline_next++].action);
+    }
+}
+
+// Faults from time 0 on begin with the first instant.
+void World::Insides::pass_chaos() {
+    while (const auto edge = chaos->next(now)) {
+        turns.take_edge(*edge, now);
+        const ChaosFault& fault = *edge->fault;
+        const auto robot = turns.robot_of(fault);
+        std::string what = edge->begins ? began_sentence(fault) : ended_sentence(fault);
+        const auto index = static_cast<size_t>(&fault - chaos->faults().data());
+        note(robot, ChaosNote{std::move(what), index, edge->begins});
     }
 }
 
@@ -250,9 +276,12 @@ void World::Insides::note_frame(size_t index, const wire::Frame& frame) {
 }
 
 void World::Insides::note(size_t index, decltype(Happening::what) what, uint16_t node) {
+    note(RobotId{static_cast<uint32_t>(index) + 1}, std::move(what), node);
+}
+
+void World::Insides::note(RobotId robot, decltype(Happening::what) what, uint16_t node) {
     if (happenings.size() < kHappeningsMax) {
-        happenings.push_back(
-            {now, RobotId{static_cast<uint32_t>(index) + 1}, node, std::move(what)});
+        happenings.push_back({now, robot, node, std::move(what)});
     } else {
         ++happenings_lost;
     }
@@ -334,6 +363,19 @@ hub::Hub* World::private_bus(RobotId robot) {
 void World::host_left(RobotId robot) {
     const auto index = index_of(insides_->definition, robot);
     if (index) insides_->turns.host_left(*index);
+}
+
+const std::vector<ChaosFault>& World::chaos() const {
+    static const std::vector<ChaosFault> kNone;
+    return insides_->chaos ? insides_->chaos->faults() : kNone;
+}
+
+uint64_t World::chaos_seed() const {
+    return insides_->seed();
+}
+
+std::vector<ChaosTarget> World::chaos_targets() {
+    return targets_of(insides_->turns.chaos_nodes());
 }
 
 uint64_t World::turns_taken() const {

@@ -31,6 +31,7 @@
 #include "base/time.hpp"
 #include "hub/hub.hpp"
 #include "sim/can_bus.hpp"
+#include "sim/chaos.hpp"
 #include "sim/definitions.hpp"
 #include "sim/drawing.hpp"
 #include "sim/frame_numbers.hpp"
@@ -76,6 +77,7 @@ struct WorldOptions {
     // The bytes are the same. Robots that share something, a folder of cards or the energy of
     // e-pucks, always have one.
     std::optional<unsigned> threads = {};
+    Chaos chaos = {};  // what breaks; empty: nothing
 };
 
 // ---- What there is to draw. Everything in metres and radians. ----
@@ -120,11 +122,17 @@ struct PoseNote {
 struct Contact {
     std::string with;  // name of a robot, id of an object, or "border"; "" for an object without id
 };
+// A fault of WorldOptions::chaos has begun, or is over.
+struct ChaosNote {
+    std::string what;  // "drive is unplugged"
+    size_t fault = 0;  // of World::chaos()
+    bool begins = true;
+};
 struct Happening {
     Time at{};
-    RobotId robot;
+    RobotId robot;      // ChaosNote of a main computer: nobody
     uint16_t node = 0;  // Emitted and Fault: the node concerned
-    std::variant<Emitted, Fault, PoseNote, Contact> what;
+    std::variant<Emitted, Fault, PoseNote, Contact, ChaosNote> what;
 };
 
 // What the nodes put on a bus of model Can. The first of `nodes` is the one place on it that all
@@ -251,6 +259,14 @@ public:
     Status act(const Act& act);
     // Is told of each that was done.
     void on_act(std::function<void(const Act&)> told);
+
+    // ---- What breaks ----
+    // The faults of the options, with those that were drawn. Those of main computers are for the
+    // world's opener to carry out (host_chaos.hpp): here they are only told.
+    const std::vector<ChaosFault>& chaos() const;
+    uint64_t chaos_seed() const;
+    // What could break.
+    std::vector<ChaosTarget> chaos_targets();
 
     // ---- Recording ----
     // Registers, stack and variables of a node as bytes: equal states give equal bytes. Empty if

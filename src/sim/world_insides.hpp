@@ -24,10 +24,14 @@ struct World::Insides {
     void hold_instant();
     void run_timeline();
     void act(const Action& action);
+    Status open_chaos(Chaos of);
+    void pass_chaos();
+    uint64_t seed() const { return options.seed.value_or(definition.seed); }
     void note_frame(size_t robot, const wire::Frame& frame);
     void move_bodies();
     void note_touches();
     void note(size_t robot, decltype(Happening::what) what, uint16_t node = 0);
+    void note(RobotId robot, decltype(Happening::what) what, uint16_t node = 0);
     void knock(size_t index);
     void push_button(size_t index, std::string_view button, bool pressed);
     Status set_button(RobotId id, std::string_view button, bool pressed);
@@ -45,6 +49,7 @@ struct World::Insides {
     bool clock_stops_with_nodes = false;
     Crew crew;
     NodeTurns turns;
+    std::optional<NodeChaos> chaos;  // nothing: nothing breaks
     size_t timeline_next = 0;
     Time now{};
     Duration rest{};  // asked for, but less than a step

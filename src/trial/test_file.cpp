@@ -10,6 +10,7 @@
 #include "base/project_border.hpp"
 #include "base/text.hpp"
 #include "plan/value.hpp"
+#include "sim/chaos_file.hpp"
 #include "sim/world_file.hpp"
 
 namespace vagus::trial {
@@ -35,6 +36,7 @@ public:
         values(in);
         starts(in);
         test_.answers = in.find("answers", JsonKind::Object, Need::Optional) != nullptr;
+        chaos(in);
         expectations(in);
         in.finish();
     }
@@ -166,6 +168,17 @@ private:
         starts.angle_low = value.items[0].number;
         starts.angle_high = value.items[1].number;
         return starts.angle_low <= starts.angle_high;
+    }
+
+    void chaos(JsonObject& in) {
+        const JsonValue* const list = in.find("chaos", JsonKind::Array, Need::Optional);
+        if (list == nullptr) return;
+        test_.chaos.file = test_.path;
+        sim::read_chaos(*list, test_.chaos, complaints_);
+        if (!test_.world.empty()) return;
+        in.complain(list->at,
+                    "\"chaos\" of the test breaks what a world simulates; give the test a "
+                    "\"world\"");
     }
 
     // ---- what is expected ----

@@ -15,6 +15,7 @@
 #include "base/json.hpp"
 #include "base/result.hpp"
 #include "base/time.hpp"
+#include "sim/chaos.hpp"
 #include "sim/definitions.hpp"
 #include "trial/condition.hpp"
 
@@ -69,7 +70,8 @@ struct TestFile {
     double max_time = kMaxTimeUnlessSaid;  // s
     std::vector<std::string> set = {};     // NAME=VALUE
     std::optional<Starts> starts = {};
-    bool answers = false;  // it has the key "answers" (run/answers.hpp)
+    bool answers = false;   // it has the key "answers" (run/answers.hpp)
+    sim::Chaos chaos = {};  // what breaks in each of its runs
     std::vector<Expectation> expect = {};
 };
 

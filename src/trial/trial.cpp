@@ -12,7 +12,9 @@
 #include "embed/loaded_plan.hpp"
 #include "embed/prepared_run.hpp"
 #include "record/plan_recording.hpp"
+#include "session/plan_world.hpp"
 #include "session/toolboxes.hpp"
+#include "sim/chaos_file.hpp"
 #include "sim/standing.hpp"
 #include "sim/world_file.hpp"
 #include "trial/script_counter.hpp"
@@ -153,11 +155,14 @@ private:
         words_.max_time = plan::text_of(test_.max_time);
         words_.clock = "virtual";
         if (test_.answers) words_.answers = test_.path;
+        words_.chaos = options_.chaos;
+        if (words_.chaos.empty() && !test_.chaos.faults.empty()) words_.chaos = test_.path;
         if (test_.starts) words_.poses.push_back(TRY(draw_start(test_, outcome_.seed)));
         outcome_.poses = words_.poses;
         prepared_ = TRY(embed::PreparedRun::prepare(*plan_, words_, parts_));
         prepared_->tell([](const std::string&) {});
         session::PlanWorld* const world = prepared_->world();
+        if (world != nullptr) outcome_.faults = world->session().world().chaos();
         judge_.emplace(test_, plan_->graph(), world);
         const Status there = world != nullptr ? judge_->check() : Status::done();
         if (!there.ok()) return Error{there.error().code, test_.path + ": " + there.error().what};
@@ -213,6 +218,14 @@ private:
 
 }  // namespace
 
+Time Outcome::failed_at() const {
+    Time first = Time::max();
+    for (const Verdict& one : verdicts) {
+        if (!one.as_expected) first = std::min(first, one.at);
+    }
+    return first;
+}
+
 Result<Outcome> run_trial(const TestFile& test, uint64_t seed, const TrialOptions& options) {
     return Trial(test, seed, options).run();
 }
@@ -239,9 +252,11 @@ std::string format_outcome(const Outcome& outcome) {
     for (const Verdict& one : outcome.verdicts) verdicts.push_back(verdict_json(one));
     for (const std::string& one : outcome.poses) poses.push_back(json_quote(one));
     return fmt::format(
-        R"({{"seed":{},"verdicts":{},"end":{},"ended":{},"message":{},"poses":{},"coverage":{}}})",
+        R"({{"seed":{},"verdicts":{},"end":{},"ended":{},"message":{},"poses":{},"chaos":{},)"
+        R"("coverage":{}}})",
         outcome.seed, list_json(verdicts), outcome.end.count(), json_quote(outcome.ended),
-        json_quote(outcome.message), list_json(poses), format_coverage(outcome.coverage));
+        json_quote(outcome.message), list_json(poses), sim::format_chaos(outcome.faults),
+        format_coverage(outcome.coverage));
 }
 
 Outcome read_outcome(std::string_view text) {
@@ -258,6 +273,10 @@ Outcome read_outcome(std::string_view text) {
     outcome.ended = json.find("ended")->text;
     outcome.message = json.find("message")->text;
     for (const JsonValue& one : json.find("poses")->items) outcome.poses.push_back(one.text);
+    sim::Chaos chaos;
+    Complaints none;
+    sim::read_chaos(*json.find("chaos"), chaos, none);
+    outcome.faults = std::move(chaos.faults);
     outcome.coverage = read_coverage(*json.find("coverage"));
     return outcome;
 }

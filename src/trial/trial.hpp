@@ -21,20 +21,24 @@ constexpr int kStartsTriedMax = 1000;  // places for a robot that are drawn at m
 struct TrialOptions {
     bool scripts = false;  // count lines and branches of scripts, which takes several times as long
     std::string record = {};  // a file for the recording; empty: none
+    std::string chaos = {};   // of RunWords, instead of what the test says; empty: as it says
 };
 
 struct Outcome {
     uint64_t seed = 0;
     std::vector<Verdict> verdicts = {};  // of the expectations, in their order
     Time end{};
-    std::string ended = {};               // one of ways_to_end()
-    std::string message = {};             // of an error
-    std::vector<std::string> poses = {};  // where robots began, if that was drawn: of --pose
+    std::string ended = {};                    // one of ways_to_end()
+    std::string message = {};                  // of an error
+    std::vector<std::string> poses = {};       // where robots began, if that was drawn: of --pose
+    std::vector<sim::ChaosFault> faults = {};  // of the run
     Coverage coverage = {};
 
     bool as_expected() const {
         return std::ranges::all_of(verdicts, [](const Verdict& one) { return one.as_expected; });
     }
+    // When it was first known that it is not.
+    Time failed_at() const;
 };
 
 // The Error says why there can be no such run: it begins with the place in the test where that is

@@ -78,6 +78,9 @@ bool SimLines::tell(const std::vector<session::Note>& notes) {
             case session::NoteKind::Fleet:
                 open = tell_one(fleet_, note) && open;
                 break;
+            case session::NoteKind::Chaos:
+                open = tell_one(chaos_, note) && open;
+                break;
             case session::NoteKind::Mistakes:
             case session::NoteKind::Warnings:
                 say(note.text);
@@ -94,7 +97,7 @@ bool SimLines::tell_state() {
     if (buses_.now() < next_) return true;
     next_ = buses_.now() - buses_.now() % kStateEvery + kStateEvery;
     bool open = true;
-    for (Tally* const tally : {&loads_, &events_, &faults_, &plans_, &fleet_})
+    for (Tally* const tally : {&loads_, &events_, &faults_, &plans_, &fleet_, &chaos_})
         open = tell_more(*tally) && open;
     if (has_many_robots()) return print(summary()) && open;
     for (const sim::RobotView& robot : buses_.world().robots()) {

@@ -48,6 +48,7 @@ private:
     Tally faults_{"fault"};
     Tally plans_{"plan"};
     Tally fleet_{"fleet"};
+    Tally chaos_{"chaos"};
     std::vector<sim::Pose> poses_;  // at the last summary, by robot
 };
 

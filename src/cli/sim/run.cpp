@@ -17,6 +17,7 @@
 #include "cli/sim/hands.hpp"
 #include "cli/sim/lines.hpp"
 #include "cli/sim/view.hpp"
+#include "embed/prepared_run.hpp"
 #include "embed/robots_run.hpp"
 #include "net/end_signal.hpp"
 #include "net/links.hpp"
@@ -442,6 +443,7 @@ Result<std::unique_ptr<embed::RobotsRun>> open_robots(const SimRunOptions& optio
     made.world.seed = options.seed;
     made.world.threads = options.threads;
     made.world.sd_folder = options.sd_folder;
+    if (!options.chaos.empty()) made.world.chaos = TRY(embed::read_chaos_words(options.chaos));
     if (!options.listen.empty()) made.guests = TRY(session::safe_stop_around(options.world, {}));
     TRY(check_fleet(options));
     auto door = TRY(door_to_fleet(options));

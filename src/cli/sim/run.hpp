@@ -28,6 +28,7 @@ struct SimRunOptions {
     std::optional<unsigned> threads;  // empty: by the number of robots
     std::string listen;
     std::string trace;
+    std::string chaos;   // what breaks, as of `plan run`; empty: nothing
     std::string record;  // a file for the recording; empty: none
     std::string sd_folder;
     serve::FleetOptions fleet = {};  // robots with projects are members there

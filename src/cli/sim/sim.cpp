@@ -87,6 +87,9 @@ void add_sim(CLI::App& app, int& exit_code) {
     takes_file(
         *verb->add_option("--trace", options->trace, "writes what happens, one JSON object a line"),
         {});
+    verb->add_option("--chaos", options->chaos,
+                     "what breaks in the world: a JSON file, the JSON itself, or random:N[:SEED]")
+        ->type_name("FAULTS");
     takes_file(*verb->add_option("--record", options->record,
                                  "records the run, to be run again by `vagus replay`"),
                {".mcap"});

@@ -9,6 +9,7 @@
 #include "base/file.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
+#include "cli/test/chaos.hpp"
 #include "cli/test/pool.hpp"
 #include "cli/verbs.hpp"
 #include "embed/loaded_plan.hpp"
@@ -34,6 +35,8 @@ struct TestOptions {
     std::string junit;
     std::string coverage;
     std::string results = "test-results";
+    std::string chaos;  // as typed; empty: nothing breaks but what tests say
+    ChaosTries tries = {};
     bool signals = false;
 };
 
@@ -90,13 +93,6 @@ Result<std::vector<trial::TestFile>> read_tests(const TestOptions& options) {
     return tests;
 }
 
-std::string name_of(const trial::TestFile& test) {
-    const std::string file = fs::path(test.path).filename().string();
-    return file.ends_with(trial::kTestEnding)
-               ? file.substr(0, file.size() - trial::kTestEnding.size())
-               : file;
-}
-
 // ---- running ----
 
 class Session {
@@ -113,12 +109,9 @@ public:
     }
 
     int run() {
-        const size_t processors = std::max(1u, std::thread::hardware_concurrency());
-        const int at_once = static_cast<int>(
-            options_.at_once > 0 ? static_cast<size_t>(options_.at_once) : processors);
         outcomes_.resize(jobs_.size());
         run_jobs(
-            jobs_.size(), at_once, [this](size_t i) { return work(jobs_[i]); },
+            jobs_.size(), at_once(), [this](size_t i) { return work(jobs_[i]); },
             [this](size_t i, JobResult result) { return take(i, std::move(result)); });
         if (!invalid_.empty()) return complain(invalid_, kExitUsage);
         for (size_t i = 0; i < jobs_.size(); ++i) {
@@ -128,6 +121,12 @@ public:
     }
 
 private:
+    int at_once() const {
+        const size_t processors = std::max(1u, std::thread::hardware_concurrency());
+        return static_cast<int>(options_.at_once > 0 ? static_cast<size_t>(options_.at_once)
+                                                     : processors);
+    }
+
     struct Job {
         size_t test = 0;
         uint64_t seed = 0;
@@ -135,15 +134,9 @@ private:
 
     // Two tests of one name have the folder in the names of their recordings.
     std::string recording_of(const Job& job) const {
-        const trial::TestFile& test = results_[job.test].test;
-        const std::string name = name_of(test);
-        const auto same = std::ranges::count_if(
-            results_, [&](const auto& one) { return name_of(one.test) == name; });
-        const std::string folder =
-            same > 1 ? fs::absolute(test.path).parent_path().filename().string() + "-" : "";
-        return (fs::path(options_.results) /
-                fmt::format("{}{}.seed-{}.mcap", folder, name, job.seed))
-            .string();
+        return fmt::format("{}.seed-{}.mcap",
+                           result_stem(results_, results_[job.test].test, options_.results),
+                           job.seed);
     }
 
     // In a process of its own. A run that failed is run again, to be recorded.
@@ -201,7 +194,17 @@ private:
         print(fmt::format("\n{} of {} runs as expected\n", runs - failed, runs));
         const Status written = write_files(coverage);
         if (!written.ok()) return complain(written.error());
+        if (options_.tries.sets > 0) failed += break_things();
         return failed == 0 ? kExitDone : kExitFailed;
+    }
+
+    // How many tests did not survive it.
+    size_t break_things() const {
+        ChaosTries tries = options_.tries;
+        tries.at_once = at_once();
+        tries.results = options_.results;
+        print("\n");
+        return try_chaos(results_, tries);
     }
 
     // How many seeds of it failed.
@@ -224,10 +227,7 @@ private:
     }
 
     static std::string commands_for(const trial::SeedResult& seed) {
-        Time first = Time::max();
-        for (const trial::Verdict& one : seed.outcome.verdicts) {
-            if (!one.as_expected) first = std::min(first, one.at);
-        }
+        const Time first = seed.outcome.failed_at();
         return fmt::format("  vagus replay {} --until {}\n", seed.recording,
                            plan::text_of(seconds_of(first)));
     }
@@ -274,10 +274,15 @@ private:
     std::string invalid_;
 };
 
-int test(const TestOptions& options) {
+int test(TestOptions options) {
     if (options.signals) {
         print(trial::describe_signals());
         return kExitDone;
+    }
+    if (!options.chaos.empty()) {
+        auto tries = parse_chaos_tries(options.chaos);
+        if (!tries.ok()) return complain(tries.error(), kExitUsage);
+        options.tries = std::move(tries.value());
     }
     auto tests = read_tests(options);
     if (!tests.ok()) return complain(tests.error(), kExitUsage);
@@ -349,6 +354,11 @@ void add_test(CLI::App& app, int& exit_code) {
     verb->add_option("--results", options->results,
                      "where recordings of runs go that failed (test-results)")
         ->type_name("FOLDER");
+    verb->add_option("--chaos", options->chaos,
+                     "then breaks things: so many random sets of faults (20, or 20:lost,hung of "
+                     "these kinds) for each test that has a world; the first that it does not "
+                     "survive is shrunk to the smallest, and written as a test")
+        ->type_name("SETS");
     verb->add_flag("--signals", options->signals, "lists what conditions can name, and ends");
     verb->footer(
         "Runs each test with each of its seeds, in virtual time, and tells what was not as "
@@ -357,6 +367,7 @@ void add_test(CLI::App& app, int& exit_code) {
         "Exit codes: 0 all as expected, 1 something was not, 2 not valid.\n\nExample:\n"
         "  vagus test examples/follow-wall --junit junit.xml --coverage coverage\n"
         "  vagus test Wall.test.json --seeds 7\n"
+        "  vagus test Wall.test.json --chaos 20:lost,delayed,slow\n"
         "  vagus test --signals");
     add_new(*verb, exit_code);
     verb->callback([verb, options, &exit_code] {

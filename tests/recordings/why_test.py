@@ -1,6 +1,7 @@
 """Asks the questions of why_questions.py of runs of the samples: each chain, link by link, with the lines that it names."""
 import json
 import pathlib
+import re
 import signal
 import sys
 import tempfile
@@ -22,6 +23,19 @@ ROOTS = {
     "timeline": r"^the timeline of the world ",
     "timer": r"^a timer of | raised Timeout",
 }
+# What the line of a link holds, by its sentence.
+LINES = [
+    (r"the script of \S+ called (\S+)$", "call {}("),
+    (r"the script of \S+ emitted (\S+)$", "emit {}"),
+    (r"the script of \S+ wrote (\S+)$", "{}"),
+    (r"\S+ (?:heard|felt) (\S+)$", "onevent"),
+    (r"a timer of \S+ ran out: (\S+)$", "onevent"),
+    (r"the (?:plan|actor \S+) gave the variable (\S+) ", '"{}": {{'),
+    (r"the (?:actor|supervisor) (\S+) ", '"{}": {{'),
+    (r"(\S+) wrote the variable ", '"{}": {{'),
+    (r"the plan (\S+) (?:began|ended)", '"start": {{'),
+    (r"the timeline of the world (put|pressed)", "{{"),
+]
 
 
 def placed(word):
@@ -60,13 +74,17 @@ class WhyQuestions(unittest.TestCase):
     def chain(self, question, at):
         return json.loads(run_vagus("why", self.file, *question, "--json", "--all", *(["--at", at] if at is not None else [])))
 
+    def file_of(self, name):
+        found = [one for folder in (EXAMPLES, HERE / "plans") for one in folder.rglob(pathlib.Path(name).name)
+                 if str(one).endswith(name)]
+        self.assertEqual(len(found), 1, name)
+        return found[0]
+
     def line_at(self, place):
         """(name of the file, its line) at "follow-wall/WallFollow.plan.json:61"."""
         path, line = place.rsplit(":", 1)
-        found = [one for folder in (EXAMPLES, HERE / "plans") for one in folder.rglob(pathlib.Path(path).name)
-                 if str(one).endswith(path)]
-        self.assertEqual(len(found), 1, place)
-        return found[0].name, found[0].read_text().splitlines()[int(line) - 1].strip()
+        file = self.file_of(path)
+        return file.name, file.read_text().splitlines()[int(line) - 1].strip()
 
     def check_link(self, link, expected):
         sentence, value, file, there = expected
@@ -78,10 +96,31 @@ class WhyQuestions(unittest.TestCase):
         else:
             self.assertEqual(link["place"], "")
 
+    def check_line(self, link):
+        """Whatever the chain: the line that a link names holds what the link says."""
+        if not link["place"]:
+            self.assertNotRegex(link["what"], r"emitted|called|heard| felt |^the actor |^the supervisor |^the plan |^the timeline ")
+            return
+        path, line = link["place"].rsplit(":", 1)
+        lines, at = self.file_of(path).read_text().splitlines(), int(line) - 1
+        for pattern, text in LINES:
+            found = re.match(pattern, link["what"])
+            if not found:
+                continue
+            if text == "onevent":  # the handler around it
+                at = max(i for i in range(at + 1) if lines[i].strip().startswith("onevent"))
+                self.assertEqual(lines[at].split("#")[0].split()[-1], found[1], link)
+            else:
+                self.assertIn(text.format(found[1].split("[")[0]), lines[at], link)
+            return
+        self.fail(f"a sentence that is not in LINES: {link}")
+
     def check_chain(self, chain, root, links):
         self.assertEqual([link["root"] for link in chain], [False] * (len(chain) - 1) + [True])
         self.assertEqual(sorted((link["t"] for link in chain), reverse=True), [link["t"] for link in chain])
         self.assertRegex(chain[-1]["what"], ROOTS[root])
+        for link in chain:
+            self.check_line(link)
         cut = next((i for i, link in enumerate(links) if link[0] == "..."), None)
         first, last = (links, []) if cut is None else (links[:cut], links[cut + 1:])
         if cut is None:

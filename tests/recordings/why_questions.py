@@ -20,6 +20,7 @@ RUNS = {
     "explore": "sim thymio/arena.world.json --load thymio/explore.aesl --duration 20",
     "colours": "sim epuck/colours.world.json --load epuck/seek.aesl --duration 20",
     "ties": "plan run plans/Ties.plan.json",
+    "inner": "plan run plans/Outer.plan.json",
     "touches": "plan run plans/TwoTouches.plan.json --world follow-wall/hall.world.json",
 }
 
@@ -470,6 +471,62 @@ variable n @ 4.5 -> beginning
 end -> timer
     the plan Ties ended: Interrupted @ Ties.plan.json | "start": {
     the supervisor hour raised Timeout and won against one, which raised Timeout, and two, which raised Timeout, all at the same instant @ Ties.plan.json | "hour": { "template": "Timeout", "in": { "seconds": 9 }, "events": { "Timeout": "@terminate" } }
+"""
+
+# Outer.plan.json: one lasts from 0 to 4 s (1 s, then k = 3 s), two is interrupted at 5 s, as its second is due, three ends by
+# its own five at 10 s.
+QUESTIONS["inner"] = """
+actor wait @ 0.5 -> beginning
+    the actor wait began @ Inner.plan.json | "wait": {
+    the plan Outer/one began @ Inner.plan.json | "start": {
+    the actor one began @ Outer.plan.json | "one": {
+    the plan Outer began @ Outer.plan.json | "start": {
+
+variable k @ 4.5 -> timer
+    the actor two gave the variable k its value = 9 @ Inner.plan.json | "k": { "type": "int", "access": "in" },
+    the actor two began @ Outer.plan.json | "two": {
+    the actor one ended with OK @ Outer.plan.json | "one": {
+    the plan Outer/one ended: OK @ Inner.plan.json | "start": {
+    the actor last ended with Done @ Inner.plan.json | "last": { "template": "Wait", "in": { "seconds": "k" }, "states": { "Done": "@terminate" } }
+    the actor last began @ Inner.plan.json | "last": { "template": "Wait", "in": { "seconds": "k" }, "states": { "Done": "@terminate" } }
+    the actor add ended with Done @ Inner.plan.json | "add": {
+    the actor add began @ Inner.plan.json | "add": {
+    the supervisor second raised Timeout @ Inner.plan.json | "second": { "template": "Timeout", "in": { "seconds": 1 }, "events": { "Timeout": "add" } }
+
+variable r @ 2 -> timer
+    add wrote the variable r = 4 @ Inner.plan.json | "add": {
+    the actor add ended with Done @ Inner.plan.json | "add": {
+    the actor add began @ Inner.plan.json | "add": {
+    the supervisor second raised Timeout @ Inner.plan.json | "second": { "template": "Timeout", "in": { "seconds": 1 }, "events": { "Timeout": "add" } }
+
+variable n @ 4.5 -> timer
+    one wrote the variable n = 4 @ Outer.plan.json | "one": {
+    the actor one ended with OK @ Outer.plan.json | "one": {
+    the plan Outer/one ended: OK @ Inner.plan.json | "start": {
+    ...
+    the supervisor second raised Timeout @ Inner.plan.json | "second": { "template": "Timeout", "in": { "seconds": 1 }, "events": { "Timeout": "add" } }
+
+actor two -> timer
+    the actor two was interrupted @ Outer.plan.json | "two": {
+    the supervisor outside raised Timeout and won against second, which raised Timeout at the same instant @ Outer.plan.json | "outside": { "template": "Timeout", "in": { "seconds": 1 }, "events": { "Timeout": "three" } }
+
+actor wait @ 5.5 -> timer
+    the actor wait began @ Inner.plan.json | "wait": {
+    the plan Outer/three began @ Inner.plan.json | "start": {
+    the actor three began @ Outer.plan.json | "three": {
+    the supervisor outside raised Timeout and won against second, which raised Timeout at the same instant @ Outer.plan.json | "outside": { "template": "Timeout", "in": { "seconds": 1 }, "events": { "Timeout": "three" } }
+
+actor last -> timer
+    the actor last was interrupted @ Inner.plan.json | "last": { "template": "Wait", "in": { "seconds": "k" }, "states": { "Done": "@terminate" } }
+    the supervisor five raised Timeout @ Inner.plan.json | "five": { "template": "Timeout", "in": { "seconds": 5 }, "events": { "Timeout": "@terminate" } }
+
+end -> timer
+    the plan Outer ended: Error = Outer: fails: no more @ Outer.plan.json | "start": {
+    fails failed = Outer: fails: no more @ Outer.plan.json | "fails": { "template": "Fail", "in": { "message": "'no more'" } }
+    the actor fails began @ Outer.plan.json | "fails": { "template": "Fail", "in": { "message": "'no more'" } }
+    the actor three ended with Interrupted @ Outer.plan.json | "three": {
+    the plan Outer/three ended: Interrupted @ Inner.plan.json | "start": {
+    the supervisor five raised Timeout @ Inner.plan.json | "five": { "template": "Timeout", "in": { "seconds": 5 }, "events": { "Timeout": "@terminate" } }
 """
 
 # TwoTouches.plan.json drives straight on until it touches the wall of the hall; both supervisors hear of it in one handler.

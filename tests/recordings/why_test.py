@@ -33,6 +33,7 @@ LINES = [
     (r"the (?:plan|actor \S+) gave the variable (\S+) ", '"{}": {{'),
     (r"the (?:actor|supervisor) (\S+) ", '"{}": {{'),
     (r"(\S+) wrote the variable ", '"{}": {{'),
+    (r"(\S+) failed$", '"{}": {{'),
     (r"the plan (\S+) (?:began|ended)", '"start": {{'),
     (r"the timeline of the world (put|pressed)", "{{"),
 ]
@@ -69,7 +70,7 @@ class WhyQuestions(unittest.TestCase):
         words = [placed(word) for word in RUNS[name].split()]
         words += ["--clock", "virtual", "--quiet"] if words[0] == "plan" else ["--headless", "--speed", "max"]
         with vagus(*words, "--record", self.file) as program:
-            self.assertIn(program.wait_end(), (0, 3, 5), program.lines)
+            self.assertIn(program.wait_end(), (0, 3, 4, 5), program.lines)
 
     def chain(self, question, at):
         return json.loads(run_vagus("why", self.file, *question, "--json", "--all", *(["--at", at] if at is not None else [])))
@@ -170,6 +171,9 @@ class WhyQuestions(unittest.TestCase):
 
     def test_ties(self):
         self.asks("ties")
+
+    def test_inner(self):
+        self.asks("inner")
 
     def test_touches(self):
         self.asks("touches")

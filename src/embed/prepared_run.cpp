@@ -457,6 +457,10 @@ void PreparedRun::listen(std::function<void(const plan::TraceEvent&)> listener) 
     insides_->listeners.push_back(std::move(listener));
 }
 
+void PreparedRun::pass_over(std::function<bool(const run::Raising&)> passes) {
+    insides_->how.passes_over = std::move(passes);
+}
+
 void PreparedRun::pace(std::function<void(Time)> wait) {
     insides_->wait = std::move(wait);
 }

@@ -62,6 +62,9 @@ public:
 
     // Before run(). Also hears the trace, on the deciding thread.
     void listen(std::function<void(const plan::TraceEvent&)> listener);
+    // Before run(), in virtual time: whether an event of a supervisor is passed over, as if its
+    // check had found nothing.
+    void pass_over(std::function<bool(const run::Raising&)> passes);
     // Before run(), beside a world: called at each of its instants, on the deciding thread, instead
     // of waiting for the wall clock.
     void pace(std::function<void(Time)> wait);

@@ -81,6 +81,10 @@ Done describe(const sim::Action& action) {
 
 Causes::Causes(Rerun& rerun) : rerun_(rerun) {
     rerun.listen([this](const plan::TraceEvent& event) { see(event); });
+    rerun.pass_over([this](const run::Raising& raising) {
+        raised_[lines_.size()] = raising.tied;  // its line is the next
+        return false;
+    });
     session::SimSession* const session = rerun.session();
     if (session == nullptr) return;
     sim::World& world = session->world();
@@ -108,7 +112,7 @@ Causes::Causes(Rerun& rerun) : rerun_(rerun) {
     });
     if (rerun.plan_world() == nullptr) return;
     rerun.plan_world()->on_emit([this](Time, const run::BusEvent& event) {
-        emitted_.push_back({event.name, std::string(event.by), event.cause});
+        emitted_.push_back({event.name, std::string(event.by), event.cause, lines_.size()});
     });
 }
 
@@ -163,12 +167,12 @@ void Causes::began_by_itself(const sim::WitnessedNode& node, uint16_t pc, uint8_
 void Causes::wrote(const sim::WitnessedNode& node, uint16_t pc, uint16_t address, int16_t value) {
     OfNode& of = nodes_[key_of(node)];
     if (of.writes.size() <= address) of.writes.resize(size_t{address} + 1);
-    of.writes[address] = {now(), of.run, pc, value};
+    of.writes[address] = {now(), of.run, pc, value, false};
 }
 
 void Causes::called(const sim::WitnessedNode& node, uint16_t pc, uint16_t native) {
     OfNode& of = nodes_[key_of(node)];
-    calls_.push_back({{now(), of.run, pc, 0}, node, native});
+    calls_.push_back({{now(), of.run, pc, 0, false}, node, native});
     const aesl::Target* const target = rerun_.session()->target(node.id);
     if (target == nullptr || native >= target->natives.size()) return;
     // Arithmetic ends nothing later.
@@ -179,7 +183,7 @@ void Causes::called(const sim::WitnessedNode& node, uint16_t pc, uint16_t native
 
 void Causes::sends(const sim::WitnessedNode& node, uint16_t pc) {
     OfNode& of = nodes_[key_of(node)];
-    of.sending.push_back({now(), of.run, pc, 0});
+    of.sending.push_back({now(), of.run, pc, 0, false});
 }
 
 void Causes::sent(const sim::WitnessedNode& node, uint32_t frame) {
@@ -196,6 +200,7 @@ void Causes::sent(const sim::WitnessedNode& node, uint32_t frame) {
 // ---- the bus ----
 
 void Causes::frame_on_bus(const wire::Frame& frame, uint32_t number) {
+    host_sets(frame);
     if (number == 0 || !wire::is_user_event(frame.type)) return;
     Frame& of = frames_[number];
     const auto& events = rerun_.session()->common().events;
@@ -211,8 +216,24 @@ void Causes::frame_on_bus(const wire::Frame& frame, uint32_t number) {
         if (emission.event != of.event) continue;  // one that was refused
         of.by = emission.by;
         of.cause = emission.cause;
-        of.line = lines_.size();
+        of.line = emission.line;
         return;
+    }
+}
+
+// A node's words, set by a host.
+void Causes::host_sets(const wire::Frame& frame) {
+    if (frame.type != static_cast<uint16_t>(wire::MessageType::SetVariables)) return;
+    wire::Reader reader(frame.payload, frame.size);
+    const uint16_t id = reader.u16();
+    size_t address = reader.u16();
+    for (const session::NodeState& node : rerun_.session()->nodes()) {
+        if (node.id != id) continue;
+        std::vector<Deed>& writes = nodes_[key_of({node.robot.number, id})].writes;
+        while (reader.left() >= 2) {
+            if (writes.size() <= address) writes.resize(address + 1);
+            writes[address++] = {now(), 0, 0, reader.i16(), true};
+        }
     }
 }
 
@@ -295,7 +316,7 @@ std::optional<Causes::Deed> Causes::last_write(const sim::WitnessedNode& node, u
     std::optional<Deed> last;
     for (size_t i = address; i < size_t{address} + count && i < found->second.writes.size(); ++i) {
         const Deed& deed = found->second.writes[i];
-        if (deed.run != 0 && (!last || deed.at >= last->at)) last = deed;
+        if (deed.at != kNotYet && (!last || deed.at >= last->at)) last = deed;
     }
     return last;
 }

@@ -32,6 +32,7 @@ public:
 
 class Causes final : public sim::Witness {
 public:
+    static constexpr Time kNotYet = Time::min();
     // Numbers count from 1; 0 is none.
     struct HandlerRun {
         Time at{};
@@ -45,10 +46,11 @@ public:
     };
     // What a node wrote, called or sent: in which run, at which instruction.
     struct Deed {
-        Time at{};
-        uint32_t run = 0;
+        Time at = kNotYet;
+        uint32_t run = 0;  // 0: the script began, and no event had come yet
         uint16_t pc = 0;
         int16_t value = 0;  // of a write
+        bool host = false;  // a host set it
     };
     struct Call {
         Deed deed;
@@ -63,7 +65,7 @@ public:
         sim::WitnessedNode node;  // robot 0: a host
         Deed deed;                // of a node
         std::string by;           // of the plan: the element whose code emitted it …
-        size_t line = 0;          // … how many lines the trace had by then …
+        size_t line = 0;          // … how many lines the trace had then …
         uint32_t cause = 0;       // … and the frame that this code had heard last
     };
     // Something in the world that no script did.
@@ -87,6 +89,10 @@ public:
     ~Causes() override;
 
     const std::vector<Line>& lines() const { return lines_; }
+    // Whether more was due as that line's event was raised, that it has ended (ties.hpp).
+    bool tied(size_t line) const { return raised_.contains(line) && raised_.at(line); }
+    // Whether no check has raised that line's event: somebody did, in the debugger.
+    bool by_hand(size_t line) const { return !raised_.contains(line); }
     const std::vector<Happening>& happenings() const { return happenings_; }
     const Frame* frame(uint32_t number) const;
     const HandlerRun* run(uint32_t number) const;
@@ -124,11 +130,13 @@ private:
         std::string event;
         std::string by;
         uint32_t cause = 0;
+        size_t line = 0;
     };
 
     Time now() const;
     void begin_run(HandlerRun run);
     void frame_on_bus(const wire::Frame& frame, uint32_t number);
+    void host_sets(const wire::Frame& frame);
     void look(Time at);
     void see(const plan::TraceEvent& event);
     void add(Happening happening);
@@ -141,7 +149,8 @@ private:
     std::map<NodeKey, OfNode> nodes_;
     std::vector<Happening> happenings_;
     std::vector<Line> lines_;
-    std::deque<Emission> emitted_;  // by the plan, not yet on the bus
+    std::map<size_t, bool> raised_;  // by checks: the line of the event, whether it was tied
+    std::deque<Emission> emitted_;   // by the plan, not yet on the bus
 };
 
 }  // namespace vagus::record

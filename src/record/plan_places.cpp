@@ -66,7 +66,15 @@ std::string PlanPlaces::element(const std::string& path, std::string_view name) 
 
 std::string PlanPlaces::plan(const std::string& path) const {
     const plan::Plan* const plan = find(path);
-    return plan == nullptr ? "" : place(*plan, {});
+    return plan == nullptr ? "" : place(*plan, plan->start_line);
+}
+
+std::string PlanPlaces::variable(const std::string& path, std::string_view name) const {
+    const plan::Plan* const plan = find(path);
+    if (plan == nullptr) return "";
+    const auto found = std::find_if(plan->configuration.begin(), plan->configuration.end(),
+                                    [name](const auto& one) { return one.name == name; });
+    return place(*plan, found == plan->configuration.end() ? Place{} : found->line);
 }
 
 std::string PlanPlaces::timeline(size_t entry) const {

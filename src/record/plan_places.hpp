@@ -17,7 +17,10 @@ public:
     // An actor or a supervisor of the plan with that instance path ("Rooms/enter"; empty: the
     // outermost). Empty if there is none.
     std::string element(const std::string& path, std::string_view name) const;
+    // Its key `start`.
     std::string plan(const std::string& path) const;
+    // A variable of its configuration.
+    std::string variable(const std::string& path, std::string_view name) const;
     // An entry of the timeline of the world, by its index in the order of time.
     std::string timeline(size_t entry) const;
 

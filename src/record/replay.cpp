@@ -250,6 +250,13 @@ public:
         words.from = about_.from;
         words.seed = about_.seed;
         words.max_time = about_.max_time;
+        // Alone it has no instants at whose end it could be ended.
+        const bool is_later =
+            words.max_time.empty() ||
+            TRY(embed::parse_max_time(words.max_time)).value_or(Time::max()) > until_;
+        if (about_.world.empty() && until_ && is_later) {
+            words.max_time = seconds_text(*until_ + Duration(1));
+        }
         words.robot = about_.robot;
         words.poses = about_.poses;
         words.chaos = about_.chaos;
@@ -293,6 +300,9 @@ public:
 
     void listen(std::function<void(const plan::TraceEvent&)> listener) override {
         prepared_->listen(std::move(listener));
+    }
+    void pass_over(std::function<bool(const run::Raising&)> passes) override {
+        prepared_->pass_over(std::move(passes));
     }
     session::SimSession* session() override {
         return prepared_->world() != nullptr ? &prepared_->world()->session() : nullptr;
@@ -353,7 +363,7 @@ private:
         }
         // The world of the studio lives on.
         over_ = then != Then::Aborted || !is_of_studio();
-        prepared_->abort(ended_by_.empty() ? "the replay" : ended_by_);
+        prepared_->abort(ended_by_.value_or("the replay"));
         (void)prepared_->take_abort();
     }
 

@@ -21,6 +21,7 @@
 #include "record/inputs.hpp"
 #include "record/recorder.hpp"
 #include "record/run_file.hpp"
+#include "run/options.hpp"
 
 namespace vagus::embed {
 class LoadedPlan;
@@ -66,6 +67,9 @@ public:
     virtual Result<Ended> run(Tape& tape) = 0;
     // Before run(): is told of each line of the trace, and of the end of each instant.
     virtual void listen(std::function<void(const plan::TraceEvent&)> listener) = 0;
+    // Before run(): is told of what each supervisor raises, before it is taken. True: it is passed
+    // over, and from then on the run is another one.
+    virtual void pass_over(std::function<bool(const run::Raising&)>) {}
     void each_instant(std::function<void(Time)> look) { looks_.push_back(std::move(look)); }
     // Before run(): is told of each act of a person, before it is done again.
     void before_act(std::function<void(const sim::Act&)> told) { told_of_act_ = std::move(told); }
@@ -79,6 +83,8 @@ public:
     // nullptr without one.
     virtual const embed::LoadedPlan* plan() const = 0;
     const RunFile& about() const { return about_; }
+    // Who has ended it, as far as it has come.
+    const std::optional<std::string>& ended_by() const { return ended_by_; }
     // A path of the folder as its name in the recording.
     std::string name_of(const std::string& path) const;
     // Where a file of the recording lies while it is run again.
@@ -131,8 +137,8 @@ protected:
     std::vector<std::function<void(Time)>> looks_;
     std::function<void(const sim::Act&)> told_of_act_;
     bool stopped_ = false;
-    std::string ended_by_;  // who ended it then
-    hub::LinkId outside_;   // from where frames come again; 0: none came yet
+    std::optional<std::string> ended_by_;  // who ended it then
+    hub::LinkId outside_;                  // from where frames come again; 0: none came yet
 
 private:
     friend class PlanRerun;

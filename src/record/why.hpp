@@ -15,10 +15,13 @@
 
 #include "mcap/reader.hpp"
 #include "record/causes.hpp"
+#include "record/ties.hpp"
 
 namespace vagus::record {
 
 constexpr size_t kLinksMax = 1000;  // of a chain; what is beyond is said, not shown
+
+constexpr size_t kTiesWithin = 50;  // newest links: there it is told who lost (ties.hpp)
 
 struct Link {
     Time at{};
@@ -27,6 +30,7 @@ struct Link {
     std::string value;         // of what it wrote or carried; empty: none
     bool root = false;         // nothing in the run comes before it
     std::string element = {};  // of the plan at that place; empty: none
+    std::vector<Loser> lost = {};  // to the event of that element, at the same instant
     friend bool operator==(const Link&, const Link&) = default;
 };
 using Chain = std::vector<Link>;

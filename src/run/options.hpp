@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,8 @@ class Surroundings;
 
 // So long at most a supervisor's running check is waited for in real time (P18b).
 constexpr Duration kCheckEndsWithin = std::chrono::milliseconds(100);
+
+struct Raising;
 
 struct RunOptions {
     uint64_t seed = 1;
@@ -48,6 +51,19 @@ struct RunOptions {
     // In virtual time: code in place of that of the toolboxes (code_source.hpp). Borrowed for the
     // run.
     CodeSource* code_source = nullptr;
+    // In virtual time: whether an event is passed over, as if the check had found nothing. That is
+    // how those are found that would have raised at the same instant.
+    std::function<bool(const Raising&)> passes_over = {};
+};
+
+// What the check of a supervisor has found, before it is taken.
+struct Raising {
+    Time at{};
+    const std::string& plan;  // instance path
+    std::string_view supervisor;
+    std::string_view event;
+    bool ignored = false;  // by its target
+    bool tied = false;     // more that it would end is due at this instant
 };
 
 // Throws CodeError with the sentence of may_emit.

@@ -394,7 +394,23 @@ void VirtualTime::check(Watching& watching, const Check& check) {
         watching.in = check.in;
         return;
     }
-    if (const auto given = watching.code->check(check)) machine_.raise(watching.id, *given, now_);
+    const auto given = watching.code->check(check);
+    if (given && !passes_over(watching, *given)) machine_.raise(watching.id, *given, now_);
+}
+
+bool VirtualTime::passes_over(const Watching& by, const plan::Given& given) const {
+    if (!options_.passes_over) return false;
+    const auto loses = [&](const auto& other) {
+        const bool is_ended = std::pair(other->level, !other->global) > std::pair(by.level, false);
+        return other->id != by.id && is_ended && other->due(now_);
+    };
+    const bool tied = (code_ && !code_->told && code_->wake <= now_) ||
+                      std::any_of(watching_.begin(), watching_.end(), loses);
+    const plan::GraphSupervisor& of = *by.of;
+    const auto outcome = static_cast<size_t>(given.outcome);
+    return options_.passes_over({now_, machine_.path_at(by.level), of.name,
+                                 of.of->outcomes[outcome].name,
+                                 of.targets[outcome] == plan::kTargetIgnore, tied});
 }
 
 // The innermost code's wait is over, it has ended, it has stopped, or its grace time is over.

@@ -71,6 +71,7 @@ private:
     bool may_check(const Watching& watching) const;
     void take_check(Watching& watching);
     void check(Watching& watching, const Check& check);
+    bool passes_over(const Watching& by, const plan::Given& given) const;
     void take_code();
     void after_turn();
     void leave_out_missed(int level);

@@ -138,6 +138,29 @@ TEST_F(VirtualRun, GlobalSupervisorsComeBeforeTheActorsOwn) {  // P21
     EXPECT_EQ(ended_.result, plan::PlanResult::Interrupted);
 }
 
+// Whoever asks hears each event before it is taken, and whether it has rivals; without the first
+// the second one wins, and without both the actor ends.
+TEST_F(VirtualRun, AnEventThatIsPassedOverHasNotHappened) {  // P21
+    const std::string plan =
+        R"("a": { "template": "Sleep20", "states": { "Done": "@terminate" }, "supervisors": {
+             "first": { "template": "At20", "events": { "Seen": "b" } },
+             "second": { "template": "At20", "events": { "Seen": "b" } } } },)" +
+        std::string(kBehind);
+    std::vector<std::string> asked;
+    const auto without = [&](std::vector<std::string_view> passed) {
+        options_.passes_over = [&asked, passed](const Raising& raising) {
+            asked.push_back(fmt::format("{} {}{}", raising.plan, raising.supervisor,
+                                        raising.tied ? ", tied" : ""));
+            return std::find(passed.begin(), passed.end(), raising.supervisor) != passed.end();
+        };
+        return run(R"("actor": "a")", plan);
+    };
+    EXPECT_THAT(without({}), testing::Contains("20 event first"));
+    EXPECT_THAT(asked, ElementsAre("Test first, tied"));
+    EXPECT_THAT(without({"first"}), testing::Contains("20 event second"));
+    EXPECT_THAT(without({"first", "second"}), testing::Contains("20 actor-end a"));
+}
+
 TEST_F(VirtualRun, TheNextActorWaitsUntilTheCodeHasStopped) {  // P14, P22: 21 is the third check
     EXPECT_THAT(
         run(R"("actor": "a")",

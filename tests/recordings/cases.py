@@ -534,7 +534,7 @@ class Recordings(unittest.TestCase):
         run_vagus("sim", EXAMPLES / "thymio/arena.world.json", "--load", EXAMPLES / "thymio/explore.aesl", "--headless",
                   "--speed", "max", "--duration", 20, "--record", self.file)
         chain = self.why("motor", "thymio", at=10)
-        self.assertRegex(chain[0]["what"], r"^the script of thymio wrote motor\.(left|right)\.target$")
+        self.assertRegex(chain[0]["what"], r"^the script of thymio-II wrote motor\.(left|right)\.target$")
         self.assertRegex(self.line_at(chain[0]), r"^motor\.(left|right)\.target = ")
         self.assertEqual(chain[-1]["what"], "thymio-II felt prox")
 

@@ -40,6 +40,7 @@ Status Reliving::begin(talk::Open& order) {
     order.robot = past.about.robot;
     order.seed = past.about.seed;
     order.starts = past.about.poses;
+    order.chaos = past.about.chaos;
     next_ = 0;
     breakpoints_ = 0;
     past_ = std::move(past);

@@ -22,6 +22,7 @@ void RunRecording::begin(const talk::Open& order, Files& read, session::SimSessi
     about.from = order.from;
     about.seed = order.seed;
     about.poses = order.starts;
+    about.chaos = order.chaos;
     if (run != nullptr) about.max_time = kPlanMaxTime;
     for (const auto& [name, value] : order.set) about.set.push_back(name + "=" + value);
     std::map<std::string, std::string> files = read.take();

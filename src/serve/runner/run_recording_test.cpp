@@ -270,6 +270,25 @@ TEST_F(RunRecordingTest, WhatCannotBeLivedAgainSaysWhy) {
     EXPECT_EQ(leave(), 0);
 }
 
+// An event that somebody raises by hand is told as what it is.
+TEST_F(RunRecordingTest, AnEventThatAPersonRaisedIsTheRoot) {
+    talk::Open open = recorded(test::examples("follow-wall/hall.world.json"),
+                               test::examples("follow-wall/WallFollow.plan.json"));
+    say(talk::SetPace{false, 0});
+    say(open);
+    double t = clock_from(2);
+    say(talk::RaiseEvent{1, "touch", "TouchSensorPressed", {}});
+    done(1);
+    t = clock_from(t + 1);
+    EXPECT_EQ(leave(), 0);
+    EXPECT_GT(same_again(), 500u);
+    const record::Chain chain = why({"actor", "backupCollision"}, from_seconds(t));
+    ASSERT_EQ(chain.size(), 3u);
+    EXPECT_EQ(chain[0].what, "the actor backupCollision began");
+    EXPECT_EQ(chain[1].what, "the supervisor touch raised TouchSensorPressed");
+    EXPECT_EQ(chain[2].what, "a person raised it in the debugger of the plan");
+}
+
 // What can be asked of a run that goes on is what is in the file by then.
 TEST_F(RunRecordingTest, ARunThatGoesOnCanBeAsked) {
     talk::Open open = recorded(test::examples("follow-wall/hall.world.json"),

@@ -216,6 +216,7 @@ private:
         words.max_time = kPlanMaxTime;
         words.seed = order.seed;
         words.poses = order.starts;
+        words.chaos = order.chaos;
         for (const auto& [name, value] : order.set) words.set.push_back(name + "=" + value);
         return words;
     }

@@ -78,6 +78,7 @@ struct Open {
     // Of a run with a past, as `plan run` has them.
     std::string seed = {};
     std::vector<std::string> starts = {};  // "ROBOT=X,Y,DEGREES"
+    std::string chaos = {};                // faults, as JSON
     std::optional<PastOf> past = {};       // it goes on from there: the rest is as it was then
     static constexpr std::string_view kName = "open";
     static void layout(auto& each, auto& it) {
@@ -96,6 +97,7 @@ struct Open {
         each("recording", it.recording);
         each("seed", it.seed);
         each("starts", it.starts);
+        each("chaos", it.chaos);
         each("past", it.past);
     }
     bool operator==(const Open&) const = default;

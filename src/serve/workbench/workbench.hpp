@@ -33,6 +33,7 @@
 #include "serve/target/breakpoints.hpp"
 #include "serve/target/bus_carrier.hpp"
 #include "serve/target/target.hpp"
+#include "serve/workbench/compare_desk.hpp"
 #include "serve/workbench/history_desk.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
@@ -270,6 +271,7 @@ private:
     Time history_since_{};  // of a bus
     Recordings recordings_;
     WhyDesk whys_;
+    CompareDesk compares_;
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};
     Targets targets_;

@@ -204,7 +204,7 @@ test('a file that changed on disk is compared by keys, and left', project, async
   await notice.getByRole('button', { name: 'Show differences' }).focus();
   await press('Enter');
   await seen(strip(page));
-  await reads(strip(page), /Compared with the file on disk[^]*1 changed[^]*2 removed/);
+  await reads(strip(page), /Compared with the file on disk[^]*≠\s*1\s*changed[^]*−\s*2\s*removed/);
   await seen(page.getByRole('img', { name: 'hold: removed' }));
   await look(studio, 'compare');
   // One after the other, each with what was and what is; the Properties panel shows the same one.
@@ -224,7 +224,7 @@ test('a file that changed on disk is compared by keys, and left', project, async
   // What is taken back is no difference any more.
   await page.getByRole('group', { name: /^say, actor/ }).focus();
   await press('Control+z');
-  await reads(strip(page), /2 changed/);
+  await reads(strip(page), /≠\s*2\s*changed/);
   await press('Escape');
   await gone(strip(page));
   assert.deepEqual(await marked(page), []);
@@ -270,7 +270,7 @@ test('a commit, and the version that runs, are compared', project, async (studio
   const before = page.getByRole('status').filter({ hasText: 'Saving changes the running plan' });
   await before.getByRole('button', { name: 'Show differences' }).focus();
   await press('Enter');
-  await reads(strip(page), /Compared with the version that runs[^]*1 added/);
+  await reads(strip(page), /Compared with the version that runs[^]*\+\s*1\s*added/);
   await seen(page.getByRole('img', { name: 'hold2: added' }));
   await page.getByRole('group', { name: /^say, actor/ }).focus();
   // Taken over, nothing differs.

@@ -3,7 +3,8 @@ import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { comparingOf, type Compared, type Comparing } from '../../../../core/plan/comparing';
 import { ghostsOf, type Ghosts } from '../../../../core/plan/ghosts';
-import { planModel } from '../../../../core/plan/model';
+import { planModel, type PlanModel } from '../../../../core/plan/model';
+import type { Toolboxes } from '../../../../core/plan/templates';
 import { useChanges, usePart, useStudio, useTopic } from '../../../hooks';
 
 /** The comparison of the window, if it is about this document. */
@@ -24,14 +25,23 @@ export function useCompared(comparing: Comparing, doc: Doc): void {
 const kWaysMs = 100; // for the ways of arrows as they were
 
 /** What is no more, placed in the drawing. */
-export function useGhosts(board: PlanBoard, { before, differences }: Compared): Ghosts {
+export function useGhosts(board: PlanBoard, compared: Compared): Ghosts {
   const toolboxes = useTopic('templates', {})?.toolboxes;
   const { model } = board;
   // Not while something is dragged: where elements are, in the file, is in the model.
-  return useMemo(() => {
-    const end = performance.now() + kWaysMs;
-    const was = planModel(before, toolboxes ?? []);
-    const now = { model, scene: board.scene };
-    return ghostsOf(differences, was, now, () => performance.now() > end);
-  }, [before, differences, toolboxes, model, board]);
+  return useMemo(
+    () => placed(board, model, compared, toolboxes ?? []),
+    [board, model, compared, toolboxes],
+  );
+}
+
+function placed(
+  { scene }: PlanBoard,
+  model: PlanModel,
+  { before, differences }: Compared,
+  toolboxes: Toolboxes,
+): Ghosts {
+  const end = performance.now() + kWaysMs;
+  const isTime = () => performance.now() > end;
+  return ghostsOf(differences, planModel(before, toolboxes), { model, scene }, isTime);
 }

@@ -603,6 +603,33 @@ export interface PlanLevel {
   taken?: PlanTaken;
 }
 
+/** What differs between two versions of a plan, as vagus plan diff --json says it. */
+export interface PlanDifference {
+  kind: 'added' | 'removed' | 'changed' | 'reordered';
+  /** actor drive, supervisor touch of drive, plan */
+  element: string;
+  /** in.speed; empty: the element itself */
+  part: string;
+  /** keys of the plan file that lead to it; of what is reordered, to the list */
+  path: string[];
+  /** not if added; of what is reordered, the names in their order */
+  before?: Json;
+  /** not if removed */
+  after?: Json;
+  /** if added: the key in front of it; empty: it is the first */
+  behind?: string;
+}
+
+/** A commit that changed a file. */
+export interface GitVersion {
+  revision: string;
+  /** of the commit */
+  when_wall: number;
+  /** its author */
+  by: string;
+  subject: string;
+}
+
 /** A new version of the plan that runs (P31). */
 export interface PlanChange {
   /** counts up */
@@ -1373,6 +1400,27 @@ export interface Commands {
     /** why the plan that runs could not change so; none: it would take over at once */
     reasons: string[];
   } };
+  /** What differs between another version of a plan and its document as it is now, places included: the one on disk, the one that runs, that of a git revision, or another plan file. */
+  'plan.differences': { in: {
+    doc: Doc;
+    against: 'disk' | 'running' | 'revision' | 'file';
+    /** for revision */
+    revision?: string;
+    /** for file */
+    file?: Path;
+  }; out: {
+    /** of the document */
+    version: number;
+    /** the other version in its saved form */
+    before: string;
+    differences: PlanDifference[];
+  } };
+  /** The last commits that changed the file of a plan, the newest first; none if its folder is in no git repository. */
+  'plan.versions': { in: {
+    doc: Doc;
+  }; out: {
+    versions: GitVersion[];
+  } };
   /** Pauses the plan. */
   'plan.pause': { in: Record<never, never>; out: Record<never, never> };
   /** Continues the plan. */
@@ -1885,6 +1933,8 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanCount: { is: 'word(actor|supervisor)', name: 'Name', times: 'number', seconds: 'number', last: 'number' },
   PlanTaken: { number: 'number', is: 'word(start|state|event)', element: 'line(128)', outcome: 'line(128)', target: 'line(128)' },
   PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]', counts: '[PlanCount; 2000]', taken: 'PlanTaken?' },
+  PlanDifference: { kind: 'word(added|removed|changed|reordered)', element: 'text(100000)', part: 'text(100000)', path: '[text(100000); 16]', before: 'json?', after: 'json?', behind: 'text(100000)?' },
+  GitVersion: { revision: 'line(64)', when_wall: 'number', by: 'line(100)', subject: 'line(200)' },
   PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
   CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
   FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
@@ -1981,6 +2031,8 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'clock.speed': { may: 'driver', kind: 'edit', out: {} },
   'plan.start': { may: 'driver', kind: 'act', out: {} },
   'plan.check_change': { may: 'look', kind: 'look', out: { runs: 'bool', reasons: '[text(2000); 1000]' } },
+  'plan.differences': { may: 'look', kind: 'look', out: { version: 'int(0..4294967295)', before: 'text(4194304)', differences: '[PlanDifference; 20000]' } },
+  'plan.versions': { may: 'look', kind: 'look', out: { versions: '[GitVersion; 30]' } },
   'plan.pause': { may: 'driver', kind: 'stop', out: {} },
   'plan.continue': { may: 'driver', kind: 'act', out: {} },
   'plan.step': { may: 'driver', kind: 'act', out: {} },

@@ -38,6 +38,7 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
           desk, files_, scripts_, places.program,
           {.file = [this] { return recording_of_run(); },
            .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); }}),
+      compares_(desk, files_, [this](const std::string& doc) { return run_.plan_text(doc); }),
       sleep_({.slept = places.slept}) {
     files_.on_wake([&links] { links.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
@@ -397,6 +398,7 @@ void Workbench::tick(Time now) {
     tick_life();
     worker_.tick();
     whys_.tick(now);
+    compares_.tick(now);
     editing_.tick(now);
     change_plan();
     look_at_picture();
@@ -420,7 +422,7 @@ Time Workbench::next_tick(Time now) const {
     if (world_edited_ && !is_being_opened()) {
         next = std::min(next, *world_edited_ + kWorldFollowsAfter);
     }
-    next = std::min(next, whys_.next_tick());
+    next = std::min({next, whys_.next_tick(), compares_.next_tick()});
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

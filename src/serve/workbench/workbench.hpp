@@ -34,6 +34,7 @@
 #include "serve/target/breakpoints.hpp"
 #include "serve/target/bus_carrier.hpp"
 #include "serve/target/target.hpp"
+#include "serve/workbench/compare_desk.hpp"
 #include "serve/workbench/history_desk.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
@@ -280,6 +281,7 @@ private:
     std::map<std::string, RunOrder> recorded_;  // of the last two runs, by recording
     std::optional<double> continues_at_;        // the run that is being opened
     WhyDesk whys_;
+    CompareDesk compares_;
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};
     Targets targets_;

@@ -12,6 +12,7 @@ import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 import { drawWords as words } from './words';
+import { CompareMenu } from './compare/compare_menu';
 import { ExportMenu } from './export_menu';
 import { usePlanDesk } from './plan_desk';
 import { togglePlanOption, usePlanOptions, type PlanOptions } from './plan_options';
@@ -46,6 +47,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
         onClick={() => void studio.registry.run('draw.redo')}
       />
       <ExportMenu />
+      <CompareMenu doc={doc} />
       <Button
         kind="plain"
         small

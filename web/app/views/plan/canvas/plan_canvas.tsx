@@ -7,6 +7,7 @@ import { kSnap } from '../../../../core/plan/place';
 import { useMayEdit, useStudio } from '../../../hooks';
 import { Blank } from '../../../parts/blank';
 import { drawWords as words } from '../words';
+import { Differences } from '../compare/differences';
 import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
 import { ActiveLine } from './active_line';
@@ -117,6 +118,7 @@ function Canvas({ board }: { board: PlanBoard }) {
             <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
           )}
           <ArrowsLayer board={board} allData={options.data} />
+          <Differences board={board} />
           <Presented board={board} />
           {options.map && map ? <SmallMap board={board} /> : null}
         </ReactFlow>

@@ -301,27 +301,8 @@ export const text = {
     row: (name: string) => `Why ${name}?`,
   },
   past: {
-    label: 'Looking back',
-    ago: (seconds: string) => `${seconds} s ago.`,
-    agoShort: (seconds: string) => `${seconds} s ago`,
-    everything: (at: string) => `Everything shows ${at} s.`,
-    meanwhile: {
-      runs: 'The run continues; nothing here changes it.',
-      paused: 'The run is paused; nothing here changes it.',
-      over: 'Nothing runs now.',
-    },
-    trace: (name: string) => `Trace ${name}.`,
-    nothingRuns: 'Nothing runs.',
-    thinned: 'Older than ten minutes: kept five times a second.',
-    said: 'Looking back. Arrow keys go through time, Escape leads back to now.',
-    back: 'Back to now',
-    close: 'Close the trace',
     escape: 'back to now',
-    continue: 'Run from here',
-    continueTip:
-      'From this instant, with files as they are now. The run until now stays as a recording',
-    stepBefore: 'To the step of the plan before',
-    stepAfter: 'To the next step of the plan',
+    agoShort: (seconds: string) => `${seconds} s ago`,
     notRecorded: 'not recorded',
     dashed: 'Dashed: where it is now',
     tested: (path: string) =>

@@ -8,13 +8,12 @@ import { useDrives, usePart, useStudio } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { useTraceName } from '../past_hooks';
-import { text } from '../text';
+import { pastWords as words } from './past_words';
 
 const size = { size: 16, stroke: kStroke };
-const words = text.past;
 
 /** While a person looks back, run and pause give way to steps in time. */
-export function PastControls() {
+export default function PastControls() {
   const { registry } = useStudio();
   const trace = useTraceName();
   const drives = useDrives();

@@ -1,55 +1,14 @@
-import { IconHistory } from '@tabler/icons-react';
 import { useEffect } from 'react';
-import type { Topics } from '../../protocol/messages';
-import { shownTime } from '../../core/numbers';
-import { shownName } from '../../core/paths';
-import { usePart } from '../hooks';
-import { kStroke } from '../parts/icons';
-import { Kbd } from '../parts/kbd';
-import { useEnd, usePastTime, useTraceName } from '../past_hooks';
-import { text } from '../text';
-import '../look/timeline.css';
+import { late } from '../parts/late';
+import { usePastTime } from '../past_hooks';
 
-const words = text.past;
-const size = { size: 14, stroke: kStroke };
+const PastBar = late(() => import('./past_bar'), 'button');
 
-/** Past is never mistaken for now: what everything shows, and the way out. */
+/** Past is never mistaken for now. */
 export function PastNotice() {
   const at = usePastTime();
   useEffect(() => {
     document.documentElement.toggleAttribute('data-past', at !== null);
   }, [at]);
-  return at === null ? null : <Bar at={at} />;
-}
-
-function Bar({ at }: { at: number }) {
-  const trace = useTraceName();
-  const end = useEnd();
-  const thinned = usePart('history', {}, (is) => is?.fine_from ?? 0) > at && trace === null;
-  const runs = usePart('clock', {}, (is) => stateOf(is?.state));
-  const ago = (end - at).toFixed(1);
-  return (
-    <div className="pastbar" role="region" aria-label={words.label} data-place="past">
-      <IconHistory className="icon" {...size} aria-hidden />
-      <b>{trace === null ? words.ago(ago) : words.trace(shownName(trace))}</b>
-      <span className="ellipsis">
-        {words.everything(shownTime(at))}{' '}
-        {trace === null ? words.meanwhile[runs] : words.nothingRuns}
-        {thinned ? ` ${words.thinned}` : ''}
-      </span>
-      <span className="grow" />
-      {/* Said once when it begins, not at each step. */}
-      <span className="hidden-text" role="status">
-        {words.said}
-      </span>
-      <span>
-        <Kbd keys="Esc" /> {trace === null ? words.escape : words.close}
-      </span>
-    </div>
-  );
-}
-
-function stateOf(state: Topics['clock']['is']['state'] | undefined): 'runs' | 'paused' | 'over' {
-  if (state === 'running') return 'runs';
-  return state === 'paused' ? 'paused' : 'over';
+  return at === null ? null : <PastBar at={at} />;
 }

@@ -8,11 +8,12 @@ import { runStateOf } from '../../core/run_state';
 import { useDrives, usePart, useStudio, useTopic } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
+import { late } from '../parts/late';
 import { usePastTime } from '../past_hooks';
 import { text } from '../text';
-import { PastControls } from './past_controls';
 
 const size = { size: 16, stroke: kStroke };
+const PastControls = late(() => import('./past_controls'), 'button');
 
 /** Stop is first, always there, and always works. */
 export function RunControls() {

@@ -439,6 +439,7 @@ const JsonMember* find_member(const JsonValue& json, std::string_view key) {
 PlanFile parse_plan(std::string_view text, std::string_view path) {
     PlanFile file;
     file.plan.file = std::string(path);
+    file.plan.text = std::string(text);
     Reader reader(file);
     const std::variant<JsonValue, JsonError> parsed = read_json(text);
     if (const JsonError* error = std::get_if<JsonError>(&parsed)) {

@@ -108,6 +108,7 @@ struct Spot {  // where the editor draws an element
 
 struct Plan {
     std::string file;  // path as it was opened
+    std::string text;  // that it was read from; empty: it was written in C++
     std::string name;
     std::string help;
     std::vector<ToolboxName> toolboxes;

@@ -243,7 +243,7 @@ void Child::kill() {
 
 // ---- Printing ----
 
-Result<Printing> Printing::start(const std::vector<std::string>& words) {
+Result<Printing> Printing::start(const std::vector<std::string>& words, size_t most) {
     int pipe[2];
     if (pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0) return system_error("cannot make a pipe");
     std::vector<std::string> copy = words;
@@ -258,7 +258,7 @@ Result<Printing> Printing::start(const std::vector<std::string>& words) {
         ::close(pipe[0]);
         return system_error("cannot start " + words[0]);
     }
-    return Printing(process, pipe[0]);
+    return Printing(process, pipe[0], most);
 }
 
 Printing::~Printing() {
@@ -271,11 +271,15 @@ Printing::~Printing() {
 Printing::Printing(Printing&& other) noexcept
     : process_(std::exchange(other.process_, -1)),
       output_(std::exchange(other.output_, -1)),
+      most_(other.most_),
+      good_(other.good_),
       text_(std::move(other.text_)) {}
 
 Printing& Printing::operator=(Printing&& other) noexcept {
     std::swap(process_, other.process_);
     std::swap(output_, other.output_);
+    std::swap(most_, other.most_);
+    std::swap(good_, other.good_);
     std::swap(text_, other.text_);
     return *this;
 }
@@ -283,10 +287,13 @@ Printing& Printing::operator=(Printing&& other) noexcept {
 // Asks for the end first: what it prints until then is there to be read.
 bool Printing::read() {
     if (process_ < 0) return true;
-    const bool ended = waitpid(process_, nullptr, WNOHANG) == process_;
+    int status = 0;
+    const bool ended = waitpid(process_, &status, WNOHANG) == process_;
+    if (ended) good_ = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     char buffer[4096];
-    while (text_.size() < kPrintedBytesMax) {
-        const ssize_t got = ::read(output_, buffer, sizeof buffer);
+    while (!is_full()) {
+        const size_t room = std::min(sizeof buffer, most_ - text_.size());
+        const ssize_t got = ::read(output_, buffer, room);
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) break;
         text_.append(buffer, static_cast<size_t>(got));

@@ -104,7 +104,9 @@ constexpr size_t kPrintedBytesMax = 1u << 20;
 // goes nowhere.
 class Printing {
 public:
-    static Result<Printing> start(const std::vector<std::string>& words);
+    // It waits, and does not end, once it has printed `most` bytes.
+    static Result<Printing> start(const std::vector<std::string>& words,
+                                  size_t most = kPrintedBytesMax);
     ~Printing();  // ends it
     Printing(Printing&& other) noexcept;
     Printing& operator=(Printing&& other) noexcept;
@@ -112,11 +114,17 @@ public:
     // Reads what is there; true once it has ended.
     bool read();
     const std::string& text() const { return text_; }
+    // It has ended with exit status 0.
+    bool good() const { return good_; }
+    bool is_full() const { return text_.size() >= most_; }
 
 private:
-    Printing(int process, int output) : process_(process), output_(output) {}
+    Printing(int process, int output, size_t most)
+        : process_(process), output_(output), most_(most) {}
     int process_ = -1;
     int output_ = -1;
+    size_t most_ = 0;
+    bool good_ = false;
     std::string text_;
 };
 

@@ -183,6 +183,7 @@ protected:
 
     test::Folder root;
     Time now = std::chrono::seconds(10);
+    uint64_t id = 0;    // of the last command
     size_t unread = 0;  // bytes that the page has not taken
     std::vector<Json> got;
     std::vector<std::string> changed, saved, renamed, said;
@@ -201,7 +202,6 @@ private:
 
     std::map<std::string, aesl::Target> targets;
     std::vector<DocFinding> last_findings;
-    uint64_t id = 0;
     uint32_t watch = 0;
 };
 

@@ -71,6 +71,7 @@ void Run::forget_run() {
     why_.clear();
     t_ = 0;
     plan_.reset();
+    plan_texts_.clear();
     change_ = nullptr;
     last_actor_.clear();
     late_checks_ = 0;
@@ -312,6 +313,12 @@ void Run::check_change(const std::map<std::string, std::string>& texts,
                        std::function<void(const Reasons& reasons)> done) {
     ask(talk::CheckPlan{0, texts},
         [this, done = std::move(done)](const talk::Answer& answer) { done(reasons_in(answer)); });
+}
+
+std::optional<std::string> Run::plan_text(const std::string& doc) const {
+    const auto found = plan_texts_.find(doc);
+    if (!plan_runs() || found == plan_texts_.end()) return std::nullopt;
+    return found->second;
 }
 
 // ---- Carrier ----

@@ -134,6 +134,8 @@ public:
     // the instant 0, while its nodes were made ready.
     void begin();
     bool plan_runs() const;
+    // What a file of the plan that runs says, by its document; nothing: it is not made of it.
+    std::optional<std::string> plan_text(const std::string& doc) const;
     // What the plan that runs does now: its innermost actor; empty without one.
     std::string actor() const;
     // The plan that runs waits for an event of that name.
@@ -223,7 +225,7 @@ private:
     void hear(const talk::Opening&) { opening_ = false; }
     void hear(talk::Opened& opened);
     void hear(const talk::OpenFailed& failure);
-    void hear(const talk::PlanVersion& version) { told_.plan(version); }
+    void hear(const talk::PlanVersion& version);
     void hear(const talk::Traced& traced);
     void hear(talk::PlanNow& plan);
     void hear(talk::HeldNow& held);
@@ -277,9 +279,10 @@ private:
     std::vector<Carried> frames_;
     uint64_t frames_in_ = 0, frames_out_ = 0;
     bool has_world_ = false;
-    std::optional<talk::Scene> scene_;   // as it was told last
-    std::optional<talk::PlanNow> plan_;  // the same; none: no plan has run in this run
-    Json held_;                          // events that wait while the plan is paused
+    std::optional<talk::Scene> scene_;               // as it was told last
+    std::optional<talk::PlanNow> plan_;              // the same; none: no plan has run in this run
+    Json held_;                                      // events that wait while the plan is paused
+    std::map<std::string, std::string> plan_texts_;  // of the version that runs, by document
     Json change_;  // what came of the last save while the plan ran; null: none
     uint64_t changes_ = 0;
     std::string last_actor_;  // that began

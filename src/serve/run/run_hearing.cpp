@@ -97,6 +97,12 @@ void Run::hear(talk::HeldNow& held) {
 
 // ---- answers and sentences ----
 
+void Run::hear(const talk::PlanVersion& version) {
+    plan_texts_.clear();
+    for (const auto& [file, text] : version.texts) plan_texts_[doc_of_(file)] = text;
+    told_.plan(version);
+}
+
 void Run::hear(const talk::Answer& answer) {
     const auto found = answers_.find(answer.request);
     if (found == answers_.end()) return;

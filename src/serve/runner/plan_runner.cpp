@@ -19,6 +19,17 @@ talk::PlanState state_of(const Json& document) {
     return document["state"] == "paused" ? talk::PlanState::Paused : talk::PlanState::Running;
 }
 
+std::map<std::string, std::string> texts_of(const std::vector<plan::Plan>& plans) {
+    std::map<std::string, std::string> texts;
+    size_t bytes = 0;
+    for (const plan::Plan& one : plans) {
+        if (one.text.empty() || !texts.emplace(one.file, one.text).second) continue;
+        bytes += one.text.size();
+        if (bytes > kRunningTextsMax) return {};
+    }
+    return texts;
+}
+
 }  // namespace
 
 // ---- its life ----
@@ -26,6 +37,7 @@ talk::PlanState state_of(const Json& document) {
 void PlanRunner::begin(const embed::LoadedPlan& plan, const std::string& path, On on) {
     on_ = on;
     plans_ = std::make_shared<const PlanOutlines>(outlines_of(plan.plans()));
+    texts_ = texts_of(plan.plans());
     version_ = nullptr;
     number_ = 1;
     follower_.emplace(plans_, [](const std::string& file) { return file; });
@@ -38,7 +50,7 @@ void PlanRunner::begin(const embed::LoadedPlan& plan, const std::string& path, O
 }
 
 void PlanRunner::tell_version() {
-    teller_.tell(talk::PlanVersion{number_, *plans_});
+    teller_.tell(talk::PlanVersion{number_, *plans_, texts_});
 }
 
 void PlanRunner::end_talk() {
@@ -75,7 +87,9 @@ void PlanRunner::see(const plan::TraceEvent& event) {
 void PlanRunner::take_version(const plan::Graph& graph) {
     version_ = &graph;
     ++number_;
-    plans_ = std::make_shared<const PlanOutlines>(outlines_of(change_->took(graph)));
+    const std::vector<plan::Plan>& taken = change_->took(graph);
+    plans_ = std::make_shared<const PlanOutlines>(outlines_of(taken));
+    texts_ = texts_of(taken);
     follower_->change(plans_);
 }
 

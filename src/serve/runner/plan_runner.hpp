@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@
 #include "serve/runner/teller.hpp"
 
 namespace vagus::serve {
+
+constexpr size_t kRunningTextsMax = 8u << 20;  // bytes of the files of a plan that are told
 
 class PlanRunner {
 public:
@@ -108,9 +111,10 @@ private:
     std::vector<uint64_t> broken_at_;  // breakpoints that hold it, by their numbers
     bool haste_ = false;
 
-    PlanFollower::Plans plans_;             // of the version that runs; owners: this and followers
-    const plan::Graph* version_ = nullptr;  // tells versions apart; null: the first
-    uint64_t number_ = 0;                   // of the version
+    PlanFollower::Plans plans_;  // of the version that runs; owners: this and followers
+    std::map<std::string, std::string> texts_;  // of its files
+    const plan::Graph* version_ = nullptr;      // tells versions apart; null: the first
+    uint64_t number_ = 0;                       // of the version
 };
 
 }  // namespace vagus::serve

@@ -201,6 +201,7 @@ TEST_F(RunnerTest, AVersionThatTakesOverIsToldOnceAfterItsLineWithItsNumber) {
     ASSERT_EQ(first.plans.size(), 1u);
     EXPECT_EQ(first.plans[0].file, plan);
     EXPECT_EQ(first.plans[0].actors.at(0).template_name, "WaitForever");
+    EXPECT_EQ(first.texts.at(plan), read_file(plan).value());
     (void)wait<talk::Traced>([](const talk::Traced& one) { return one.actor.has_value(); });
     write("wait.plan.json", R"({"format": "vagus-plan/1", "name": "P", "start": {"actor": "a"},
         "actors": {"a": {"template": "WaitForever", "states": {}},
@@ -213,6 +214,7 @@ TEST_F(RunnerTest, AVersionThatTakesOverIsToldOnceAfterItsLineWithItsNumber) {
     const auto second = wait<talk::PlanVersion>();
     EXPECT_EQ(second.number, 2u);
     EXPECT_EQ(second.plans.at(0).actors.size(), 2u);
+    EXPECT_EQ(second.texts.at(plan), read_file(plan).value());
 }
 
 // Two plans of the run change at one instant: two lines, one version.

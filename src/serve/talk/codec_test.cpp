@@ -104,7 +104,7 @@ std::vector<News> news() {
         Opening{3},
         Opened{4, scene(), {{3, "var n"}}, {"told"}, {"stop"}},
         OpenFailed{5, "no"},
-        PlanVersion{2, {plan}},
+        PlanVersion{2, {plan}, {{"W.plan.json", "{}"}}},
         Traced{"{}", "go", true},
         PlanNow{PlanState::Ended,
                 2.5,

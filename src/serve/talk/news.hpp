@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -102,10 +103,13 @@ struct OpenFailed {
 struct PlanVersion {
     uint64_t number = 0;      // 1: the first; counts up by one
     PlanOutlines plans = {};  // what it is made of, the outermost first
+    // Of its files; none if they are too large.
+    std::map<std::string, std::string> texts = {};
     static constexpr std::string_view kName = "plan.version";
     static void layout(auto& each, auto& it) {
         each("number", it.number);
         each("plans", it.plans);
+        each("texts", it.texts);
     }
     bool operator==(const PlanVersion&) const = default;
 };

@@ -33,6 +33,7 @@
 #include "serve/target/breakpoints.hpp"
 #include "serve/target/bus_carrier.hpp"
 #include "serve/target/target.hpp"
+#include "serve/workbench/compare_desk.hpp"
 #include "serve/workbench/history_desk.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
@@ -40,6 +41,7 @@
 #include "serve/workbench/recordings.hpp"
 #include "serve/workbench/run_ends.hpp"
 #include "serve/workbench/targets.hpp"
+#include "serve/workbench/try_desk.hpp"
 #include "serve/workbench/why_desk.hpp"
 #include "serve/worker.hpp"
 
@@ -159,6 +161,7 @@ private:
     void forget_project();
     void project_file_changed();
     void take_safe_stop();
+    std::vector<std::string> toolboxes_on_disk() const;
     EditedProject edited_project() const;
     void watch_run();
     void keep_breakpoints();
@@ -270,6 +273,8 @@ private:
     Time history_since_{};  // of a bus
     Recordings recordings_;
     WhyDesk whys_;
+    CompareDesk compares_;
+    TryDesk tries_;
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};
     Targets targets_;

@@ -3,6 +3,7 @@ import { Quiet } from '../parts/blank';
 import { text } from '../text';
 import { Spots } from './spots';
 import '../look/lists.css';
+import { searchWords } from './search_words';
 
 /** Where a name is used, as it was last asked. */
 export default function ReferencesPanel() {
@@ -13,7 +14,7 @@ export default function ReferencesPanel() {
     <div className="finder">
       <p className="finder__note">
         {text.editor.references(references.name)} ·{' '}
-        {text.search.found(
+        {searchWords.found(
           references.spots.length,
           new Set(references.spots.map((spot) => spot.doc)).size,
         )}

@@ -9,8 +9,9 @@ import { kStroke } from '../parts/icons';
 import { text } from '../text';
 import { Spots } from './spots';
 import '../look/lists.css';
+import { searchWords } from './search_words';
 
-const words = text.search;
+const words = searchWords;
 type Query = Commands['text.search']['in'];
 type Found = Commands['text.search']['out'] & { asked: Query };
 

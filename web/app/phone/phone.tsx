@@ -8,6 +8,7 @@ import { Notices } from '../topbar/notices';
 import { PhoneRun } from './phone_run';
 import { PhoneTabs, type PhoneTab } from './phone_tabs';
 import '../look/phone.css';
+import { phoneWords } from './words';
 
 const views = {
   plan: late(() => import('./phone_plan')),
@@ -33,7 +34,7 @@ export function Phone() {
       {project ? (
         <PhoneMain key={project.folder} hasPlan={project.plan !== undefined} />
       ) : (
-        <p className="placeholder">{text.phone.noProject}</p>
+        <p className="placeholder">{phoneWords.noProject}</p>
       )}
     </div>
   );
@@ -69,7 +70,7 @@ function PhoneMain({ hasPlan }: { hasPlan: boolean }) {
           className="phone__view"
           role="tabpanel"
           id="phone-view"
-          aria-label={text.phone.tabs[tab]}
+          aria-label={phoneWords.tabs[tab]}
         >
           <Suspense fallback={null}>
             <View />

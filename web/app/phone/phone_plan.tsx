@@ -1,12 +1,12 @@
 import { useTopic } from '../hooks';
 import { Blank } from '../parts/blank';
-import { text } from '../text';
 import { ActiveActor } from '../views/plan/active_actor';
 import { PlanStory } from '../views/plan/plan_story';
 import { PlanVariables } from '../views/plan/plan_variables';
 import { PlanWatchers } from '../views/plan/plan_watchers';
 import { planWords } from '../views/plan/live_words';
 import '../look/plan.css';
+import { phoneWords } from './words';
 
 const words = planWords;
 
@@ -16,7 +16,7 @@ export default function PhonePlan() {
   const levels = plan?.levels ?? [];
   const last = levels.length - 1;
   const level = levels[last];
-  if (!plan || plan.state === 'none') return <Blank title={words.none}>{text.phone.noPlan}</Blank>;
+  if (!plan || plan.state === 'none') return <Blank title={words.none}>{phoneWords.noPlan}</Blank>;
   return (
     <div
       className="scroll phone__plan"

@@ -1,5 +1,5 @@
 import type { KeyboardEvent } from 'react';
-import { text } from '../text';
+import { phoneWords } from './words';
 
 export const phoneTabs = ['plan', 'world', 'variables', 'console'] as const;
 export type PhoneTab = (typeof phoneTabs)[number];
@@ -17,7 +17,7 @@ export function PhoneTabs(props: { chosen: PhoneTab; onChoose: (tab: PhoneTab) =
     event.preventDefault();
   };
   return (
-    <div className="phone__tabs" role="tablist" aria-label={text.phone.views} onKeyDown={onKeyDown}>
+    <div className="phone__tabs" role="tablist" aria-label={phoneWords.views} onKeyDown={onKeyDown}>
       {phoneTabs.map((tab) => (
         <button
           key={tab}
@@ -31,7 +31,7 @@ export function PhoneTabs(props: { chosen: PhoneTab; onChoose: (tab: PhoneTab) =
           tabIndex={tab === chosen ? 0 : -1}
           onClick={() => onChoose(tab)}
         >
-          {text.phone.tabs[tab]}
+          {phoneWords.tabs[tab]}
         </button>
       ))}
     </div>

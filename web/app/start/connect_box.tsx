@@ -4,11 +4,11 @@ import { useDrives, useStudio, useTopic } from '../hooks';
 import { Blank } from '../parts/blank';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
-import { text } from '../text';
 import { AddressForm } from '../topbar/address_form';
 import { TargetIcon } from '../topbar/target_menu';
+import { startWords } from './words';
 
-const words = text.start;
+const words = startWords;
 
 /** Targets that were found, an address, the simulator. */
 export function ConnectBox() {

@@ -4,8 +4,8 @@ import type { Example } from '../../protocol/messages';
 import { useDrives, useStudio, useTopic } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
-import { text } from '../text';
 import { WorldPicture } from './world_picture';
+import { startWords } from './words';
 
 const kShown = 6;
 
@@ -14,15 +14,15 @@ export function Examples() {
   const [all, setAll] = useState(false);
   const shown = all ? examples : examples.slice(0, kShown);
   return (
-    <section aria-label={text.start.examples}>
+    <section aria-label={startWords.examples}>
       <div className="first__title">
         <IconMapCog className="icon" size={16} stroke={kStroke} aria-hidden />
-        <h2>{text.start.examples}</h2>
-        <span className="muted">{text.start.examplesHelp}</span>
+        <h2>{startWords.examples}</h2>
+        <span className="muted">{startWords.examplesHelp}</span>
         <span className="grow" />
         {examples.length > kShown ? (
           <Button kind="plain" small aria-expanded={all} onClick={() => setAll(!all)}>
-            {all ? text.start.fewer : text.start.all}
+            {all ? startWords.fewer : startWords.all}
           </Button>
         ) : null}
       </div>

@@ -6,7 +6,7 @@ import { OverlayFrame, useCloseOverlay } from '../parts/overlay_frame';
 import { Quiet } from '../parts/blank';
 import { Button } from '../parts/button';
 import { FileIcon, kStroke } from '../parts/icons';
-import { text } from '../text';
+import { folderWords } from './words';
 
 type Folder = Commands['folder.list']['out'];
 
@@ -34,7 +34,7 @@ export default function FolderChooser() {
     else open(inner);
   };
   return (
-    <OverlayFrame label={text.folder.title}>
+    <OverlayFrame label={folderWords.title}>
       <div className="palette">
         <form
           className="palette__search"
@@ -45,30 +45,30 @@ export default function FolderChooser() {
         >
           <Button
             kind="plain"
-            tip={text.folder.up}
+            tip={folderWords.up}
             disabled={!folder || folder.parent === folder.path}
             icon={<IconArrowUp size={16} stroke={kStroke} />}
             onClick={() => folder && setPath(folder.parent)}
           />
           <input
             name="path"
-            aria-label={text.folder.path}
+            aria-label={folderWords.path}
             key={folder?.path}
             defaultValue={folder?.path}
             spellCheck={false}
             className="mono"
           />
           <Button kind="primary" disabled={!folder} onClick={() => folder && open(folder.path)}>
-            {text.folder.here}
+            {folderWords.here}
           </Button>
           <Button
             kind="plain"
-            tip={text.folder.close}
+            tip={folderWords.close}
             icon={<IconX size={16} stroke={kStroke} />}
             onClick={close}
           />
         </form>
-        <ul className="palette__list" aria-label={text.folder.path}>
+        <ul className="palette__list" aria-label={folderWords.path}>
           {folder?.entries.map((entry, index) => (
             <li key={entry.name}>
               <button
@@ -83,7 +83,7 @@ export default function FolderChooser() {
             </li>
           ))}
         </ul>
-        {folder?.entries.length === 0 ? <Quiet>{text.folder.empty}</Quiet> : null}
+        {folder?.entries.length === 0 ? <Quiet>{folderWords.empty}</Quiet> : null}
       </div>
     </OverlayFrame>
   );

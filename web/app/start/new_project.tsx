@@ -3,9 +3,9 @@ import { badName } from '../../core/paths';
 import { useStudio } from '../hooks';
 import { OverlayFrame, useCloseOverlay } from '../parts/overlay_frame';
 import { Button } from '../parts/button';
-import { text } from '../text';
+import { folderWords, newProjectWords } from './words';
 
-const words = text.newProject;
+const words = newProjectWords;
 type Robot = keyof typeof words.robots;
 
 export default function NewProject() {
@@ -64,7 +64,7 @@ export default function NewProject() {
           {words.plan}
         </label>
         <div className="form__end">
-          <Button onClick={close}>{text.folder.close}</Button>
+          <Button onClick={close}>{folderWords.close}</Button>
           <Button kind="primary" type="submit" disabled={why !== ''}>
             {words.make}
           </Button>

@@ -4,22 +4,22 @@ import { useDrives, useStudio, useTopic } from '../hooks';
 import { Blank } from '../parts/blank';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
-import { text } from '../text';
+import { startWords } from './words';
 
 export function RecentBox() {
   const recent = useTopic('start', {})?.recent ?? [];
   return (
-    <section className="box" aria-label={text.start.recent}>
+    <section className="box" aria-label={startWords.recent}>
       <div className="first__title">
         <IconHistory className="icon" size={16} stroke={kStroke} aria-hidden />
-        <h2>{text.start.recent}</h2>
+        <h2>{startWords.recent}</h2>
       </div>
       {recent.length === 0 ? (
         <Blank
           icon={<IconClock className="icon" size={20} stroke={kStroke} aria-hidden />}
-          title={text.start.noRecent}
+          title={startWords.noRecent}
         >
-          {text.start.noRecentHelp}
+          {startWords.noRecentHelp}
         </Blank>
       ) : (
         <ul className="recent">
@@ -47,14 +47,14 @@ function RecentRow({ recent }: { recent: Recent }) {
         <IconFolder className="icon" size={16} stroke={kStroke} aria-hidden />
         <span>
           <b>{name}</b>
-          <span className="box__help ellipsis">{there ? path : text.start.gone}</span>
+          <span className="box__help ellipsis">{there ? path : startWords.gone}</span>
         </span>
       </button>
       <Button
         kind="plain"
         small
         disabled={!drives}
-        tip={text.start.forget(name)}
+        tip={startWords.forget(name)}
         icon={<IconX size={14} stroke={kStroke} />}
         onClick={() => studio.order('project.forget', { path })}
       />

@@ -4,6 +4,7 @@ import { Examples } from './examples';
 import { FolderBox } from './folder_box';
 import { RecentBox } from './recent_box';
 import '../look/start.css';
+import { startWords } from './words';
 
 /** The first screen: an example, a robot, a folder. */
 export default function StartScreen() {
@@ -12,7 +13,7 @@ export default function StartScreen() {
       <div className="first__in">
         <div className="first__head">
           <h1>{text.start.title}</h1>
-          <p>{text.start.help}</p>
+          <p>{startWords.help}</p>
         </div>
         <Examples />
         <aside>

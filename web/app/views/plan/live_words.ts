@@ -53,5 +53,6 @@ export const planWords = {
       string: 'a text',
     },
     run: 'Run',
+    cancel: 'Cancel',
   },
 };

@@ -6,6 +6,7 @@ import { partOf } from '../../../core/paths';
 import { useDrives, usePart, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
+import { ShowDifferences } from './compare/show_differences';
 import { planWords } from './live_words';
 
 const words = planWords.change;
@@ -28,9 +29,12 @@ export function PlanChange({ doc }: { doc: Doc }) {
         what={can ? words.takes : words.cannot}
         reasons={answer.reasons}
         end={
-          <Button small disabled={!drives} onClick={() => studio.registry.run('file.save')}>
-            {words.save}
-          </Button>
+          <>
+            <ShowDifferences doc={doc} from="running" />
+            <Button small disabled={!drives} onClick={() => studio.registry.run('file.save')}>
+              {words.save}
+            </Button>
+          </>
         }
       />
     );
@@ -43,15 +47,18 @@ export function PlanChange({ doc }: { doc: Doc }) {
       what={words.refused}
       reasons={last.reasons}
       end={
-        <Button
-          small
-          disabled={!drives}
-          onClick={() =>
-            studio.order('plan.start', plan.doc === undefined ? {} : { doc: plan.doc })
-          }
-        >
-          {words.again}
-        </Button>
+        <>
+          <ShowDifferences doc={doc} from="running" />
+          <Button
+            small
+            disabled={!drives}
+            onClick={() =>
+              studio.order('plan.start', plan.doc === undefined ? {} : { doc: plan.doc })
+            }
+          >
+            {words.again}
+          </Button>
+        </>
       }
     />
   );

@@ -19,6 +19,8 @@ export interface ShownPlan {
   zoomTo(zoom: number): void;
   /** Brings an element in sight. */
   show(key: string): void;
+  /** The same of a part of the canvas. */
+  showBox(box: Box): void;
   /** Brings the keyboard to an element; stays: nothing moves as long as some of it is seen. */
   focus(key: string, how?: { stays?: boolean }): void;
 }

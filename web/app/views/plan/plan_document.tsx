@@ -4,11 +4,16 @@ import type { Doc, Place } from '../../../protocol/messages';
 import { useStudio, useTopic, useWindow } from '../../hooks';
 import { FindingNotice } from '../finding_notice';
 import { DiskNotice } from '../script/script_notices';
+import { DifferencesStrip } from './compare/late_parts';
+import { ShowDifferences } from './compare/show_differences';
+import { useComparing } from './compare/use_comparing';
 import { PlanChange } from './plan_change';
 import { planDeskOf } from './plan_desk';
 import { PlanLive } from './plan_live';
 import { togglePlanOption, usePlanOptions } from './plan_options';
 import { PlanTools } from './plan_tools';
+import { TryBar } from './try/late_bar';
+import { useTrying } from './try/use_trying';
 import '../../look/plan.css';
 
 const ScriptView = late(() => import('../script/script_view'));
@@ -23,8 +28,10 @@ export default function PlanDocument({ doc }: { doc: Doc }) {
     <div className="plan">
       <div className="plan__main">
         <PlanTools doc={doc} />
-        <DiskNotice doc={doc} />
+        <DiskNotice doc={doc} more={<ShowDifferences doc={doc} from="disk" />} />
         <PlanChange doc={doc} />
+        <Differences doc={doc} />
+        <Tried doc={doc} />
         {options.text ? null : <Found doc={doc} />}
         <Suspense fallback={null}>
           <PlanCanvas doc={doc} />
@@ -46,6 +53,26 @@ export default function PlanDocument({ doc }: { doc: Doc }) {
       ) : null}
       {options.live ? <PlanLive doc={doc} /> : null}
     </div>
+  );
+}
+
+/** Nothing is loaded for it until plans are compared. */
+function Differences({ doc }: { doc: Doc }) {
+  if (!useComparing(doc)) return null;
+  return (
+    <Suspense fallback={null}>
+      <DifferencesStrip doc={doc} />
+    </Suspense>
+  );
+}
+
+/** Nor for a try. */
+function Tried({ doc }: { doc: Doc }) {
+  if (!useTrying(doc)) return null;
+  return (
+    <Suspense fallback={null}>
+      <TryBar doc={doc} />
+    </Suspense>
   );
 }
 

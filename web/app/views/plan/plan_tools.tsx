@@ -12,8 +12,10 @@ import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 import { drawWords as words } from './words';
+import { CompareMenu } from './compare/compare_menu';
 import { ExportMenu } from './export_menu';
 import { usePlanDesk } from './plan_desk';
+import { TryButton } from './try/try_button';
 import { togglePlanOption, usePlanOptions, type PlanOptions } from './plan_options';
 
 const size = { size: 14, stroke: kStroke };
@@ -46,6 +48,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
         onClick={() => void studio.registry.run('draw.redo')}
       />
       <ExportMenu />
+      <CompareMenu doc={doc} />
       <Button
         kind="plain"
         small
@@ -56,6 +59,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
       >
         {words.tidy}
       </Button>
+      <TryButton doc={doc} />
       <Zoom doc={doc} />
       <span className="grow" />
       <Switch name="data" />

@@ -6,7 +6,6 @@ import { useStudio } from '../../hooks';
 import { OverlayFrame, useCloseOverlay } from '../../parts/overlay_frame';
 import { Button } from '../../parts/button';
 import { rememberPlan } from '../../commands/looks';
-import { text } from '../../text';
 import { planDeskOf } from './plan_desk';
 import { planWords } from './live_words';
 
@@ -55,7 +54,7 @@ export default function RunFrom() {
           </label>
         ))}
         <div className="form__end">
-          <Button onClick={close}>{text.folder.close}</Button>
+          <Button onClick={close}>{words.cancel}</Button>
           <Button kind="primary" type="submit" disabled={wrong} autoFocus={fields.length === 0}>
             {words.run}
           </Button>

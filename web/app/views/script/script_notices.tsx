@@ -47,7 +47,8 @@ function LoadedNotice({ doc }: { doc: Doc }) {
   );
 }
 
-export function DiskNotice({ doc }: { doc: Doc }) {
+/** more: what else can be done about a file that changed on disk. */
+export function DiskNotice({ doc, more }: { doc: Doc; more?: ReactNode }) {
   const studio = useStudio();
   const drives = useDrives();
   const [compare, setCompare] = useState<boolean | null>(null);
@@ -67,6 +68,7 @@ export function DiskNotice({ doc }: { doc: Doc }) {
       .catch((problem: unknown) => studio.tell(problem));
   const end = (
     <>
+      {more}
       <Button small kind="plain" aria-expanded={compares} onClick={() => setCompare(!compares)}>
         {compares ? words.hide : words.compare}
       </Button>

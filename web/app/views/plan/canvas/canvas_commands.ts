@@ -1,5 +1,6 @@
 // What can be done on the canvas that is looked at. Keys count while the focus is in it.
 
+import { comparingOf } from '../../../../core/plan/comparing';
 import { kStart } from '../../../../core/plan/model';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
@@ -68,6 +69,8 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     ...make(id, [key], run, (plan) => hasClipboard() && may(plan)),
     keysAreEvents: true,
   });
+  const comparing = comparingOf(studio);
+  const isCompared = ({ doc }: ShownPlan['board']) => comparing.doc === doc;
   const isActor = ({ board }: ShownPlan) => edits() && board.actor(board.selected) !== undefined;
   const runFrom = () => update(studio.window, (draft) => void (draft.overlay = 'runFrom'));
   return [
@@ -169,8 +172,12 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
     make(
       'draw.none',
       ['Escape'],
-      ({ board }) => board.select(null),
-      ({ board }) => board.selected !== null,
+      // A comparison is left first, with what is chosen in it.
+      ({ board }) => {
+        if (isCompared(board)) comparing.leave();
+        board.select(null);
+      },
+      ({ board }) => board.selected !== null || isCompared(board),
     ),
   ];
 }

@@ -8,7 +8,9 @@ import { overlaps, type Box, type Point } from '../../../../core/plan/shape';
 import { revealPanel, update } from '../../../../core/window_state';
 import { useStudio, useTopic, useWindow } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
+import { compareCommands } from '../compare/compare_commands';
 import { drawnHelp } from '../finding_acts';
+import { tryCommands } from '../try/try_commands';
 import { drawnHelpOf } from '../../../commands/problem_commands';
 import { canvasCommands } from './canvas_commands';
 import { kLegible } from './distance';
@@ -140,6 +142,10 @@ export function useOnDesk(
         worksOn();
         reveal(flow, board.boxOf(key), frame.current);
       },
+      showBox(box) {
+        worksOn();
+        reveal(flow, box, frame.current);
+      },
       focus(key, { stays = false } = {}) {
         worksOn();
         const box = board.boxOf(key);
@@ -161,6 +167,8 @@ export function useOnDesk(
     const properties = () => revealPanel(studio.window, 'properties');
     return studio.registry.add([
       ...debugCommands(studio, properties),
+      ...compareCommands(studio),
+      ...tryCommands(studio),
       ...canvasCommands(studio, {
         fit: () => void flow.fitView(kFit),
         zoom(by) {

@@ -129,7 +129,15 @@ test('a recording is opened, looked back into, asked, and continued', wall, asyn
     return plan === undefined ? undefined : dirname(join(server.folder, plan));
   });
   const recording = join(project, 'seen.mcap');
-  const words = ['plan', 'run', 'WallFollow.plan.json', '--world', 'hall.world.json'];
+  const words = [
+    'plan',
+    'run',
+    'WallFollow.plan.json',
+    '--world',
+    'hall.world.json',
+    '--clock',
+    'virtual',
+  ];
   spawnSync(vagusProgram, [...words, '--max-time', '60', '--quiet', '--record', recording], {
     cwd: project,
   });
@@ -139,6 +147,7 @@ test('a recording is opened, looked back into, asked, and continued', wall, asyn
   await until('it is at its end', async () => (await clock(page)) >= 60);
   assert.ok((await clock(page)) < 61);
   await seen(page.getByRole('button', { name: 'Continue' }));
+  await page.getByRole('tab', { name: 'Timeline' }).click();
   await seen(slider(page));
   await slider(page).focus();
   await press('Home');

@@ -30,6 +30,8 @@ const ends = [
   'Disconnect',
   'Open a folder…',
   'New project…',
+  // It opens what it has written: what others do to a script is not seen behind that.
+  'Keep the run as a test',
 ];
 /** Nothing is seen of these as long as nothing changed. */
 const quiet = [

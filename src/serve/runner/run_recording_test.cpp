@@ -274,15 +274,18 @@ TEST_F(RunRecordingTest, WhatCannotBeLivedAgainSaysWhy) {
 TEST_F(RunRecordingTest, AnEventThatAPersonRaisedIsTheRoot) {
     talk::Open open = recorded(test::examples("follow-wall/hall.world.json"),
                                test::examples("follow-wall/WallFollow.plan.json"));
-    say(talk::SetPace{false, 0});
+    say(talk::SetPace{true, 1});
     say(open);
-    double t = clock_from(2);
+    (void)wait<talk::Opened>();
+    say(talk::LetTimePass{2000});
+    (void)clock_from(1.99);
     say(talk::RaiseEvent{1, "touch", "TouchSensorPressed", {}});
     done(1);
-    t = clock_from(t + 1);
+    say(talk::SetPace{false, 0});
+    (void)clock_from(3);
     EXPECT_EQ(leave(), 0);
     EXPECT_GT(same_again(), 500u);
-    const record::Chain chain = why({"actor", "backupCollision"}, from_seconds(t));
+    const record::Chain chain = why({"actor", "backupCollision"}, 2500ms);
     ASSERT_EQ(chain.size(), 3u);
     EXPECT_EQ(chain[0].what, "the actor backupCollision began");
     EXPECT_EQ(chain[1].what, "the supervisor touch raised TouchSensorPressed");

@@ -8,6 +8,7 @@
 
 #include "base/json.hpp"
 #include "base/seconds.hpp"
+#include "base/text.hpp"
 
 namespace vagus::record {
 
@@ -115,9 +116,7 @@ std::string list_json(const std::vector<std::string>& texts) {
 std::string hex_of(const wire::Frame& frame) {
     std::array<uint8_t, wire::kFrameMax> bytes;
     const uint16_t size = wire::encode(frame, bytes.data());
-    std::string hex;
-    for (uint16_t i = 0; i < size; ++i) hex += fmt::format("{:02x}", bytes[i]);
-    return hex;
+    return vagus::hex_of({reinterpret_cast<const char*>(bytes.data()), size});
 }
 
 // Each alternative of Input::what as its message.

@@ -10,34 +10,28 @@
 
 namespace vagus::record {
 
-Result<RunFile> run_of(const mcap::Reader& reader) {
-    const mcap::Channel* const channel = reader.find(kRunTopic);
-    mcap::Cursor cursor(reader);
-    while (const auto message = cursor.next()) {
-        if (channel != nullptr && message->channel == channel->id) {
-            return read_run(message->data, reader.name());
-        }
-    }
-    return read_run("", reader.name());
-}
-
-Result<std::vector<Input>> inputs_of(const mcap::Reader& reader) {
-    std::vector<Input> inputs;
-    const mcap::Channel* const channel = reader.find(kInputTopic);
-    mcap::Cursor cursor(reader);
-    while (const auto message = cursor.next()) {
-        if (channel == nullptr || message->channel != channel->id) continue;
-        const Time at = time_of(message->log_time);
-        inputs.push_back(TRY(read_input(message->data, at, reader.name())));
-    }
-    return inputs;
-}
-
 Time end_of(const mcap::Reader& reader) {
     Time end{};
     mcap::Cursor cursor(reader);
     while (const auto message = cursor.next()) end = std::max(end, time_of(message->log_time));
     return end;
+}
+
+Result<RecordedRun> read_recorded(const mcap::Reader& reader) {
+    const mcap::Channel* const run = reader.find(kRunTopic);
+    const mcap::Channel* const input = reader.find(kInputTopic);
+    std::string about;
+    RecordedRun recorded;
+    mcap::Cursor cursor(reader);
+    while (const auto message = cursor.next()) {
+        const Time at = time_of(message->log_time);
+        recorded.end = std::max(recorded.end, at);
+        if (run != nullptr && message->channel == run->id && about.empty()) about = message->data;
+        if (input == nullptr || message->channel != input->id) continue;
+        recorded.inputs.push_back(TRY(read_input(message->data, at, reader.name())));
+    }
+    recorded.about = TRY(read_run(about, reader.name()));
+    return recorded;
 }
 
 std::string PastPaths::of(const std::string& name) const {
@@ -91,14 +85,15 @@ Status check_lived(const PastRun& past, const std::string& path) {
 Result<PastRun> read_past(const std::string& path, std::optional<Time> until) {
     const MappedFile file = TRY(MappedFile::open(path));
     const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), path));
-    const Time end = end_of(reader);
+    RecordedRun recorded = TRY(read_recorded(reader));
+    const Time end = recorded.end;
     if (until.value_or(end) > end) {
         return Error{Code::BadInput, fmt::format("{} s: the recording of this run ends at {} s",
                                                  seconds_text(*until), seconds_text(end))};
     }
-    PastRun past{.about = TRY(run_of(reader)),
+    PastRun past{.about = std::move(recorded.about),
                  .files = {},
-                 .inputs = TRY(inputs_of(reader)),
+                 .inputs = std::move(recorded.inputs),
                  .until = until.value_or(end)};
     TRY(check_lived(past, path));
     for (const mcap::Attachment& one : reader.attachments()) {

@@ -20,11 +20,17 @@
 
 namespace vagus::record {
 
-// The Error names the recording, and what in it cannot be read.
-Result<RunFile> run_of(const mcap::Reader& reader);
-Result<std::vector<Input>> inputs_of(const mcap::Reader& reader);
 // When the last thing of it was recorded.
 Time end_of(const mcap::Reader& reader);
+
+// All that is needed to run it again but its files, found in one pass.
+struct RecordedRun {
+    RunFile about;
+    std::vector<Input> inputs;
+    Time end{};  // as end_of()
+};
+// The Error names the recording, and what in it cannot be read.
+Result<RecordedRun> read_recorded(const mcap::Reader& reader);
 
 // Where files of a recording lie on this computer.
 class PastPaths {

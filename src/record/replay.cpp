@@ -525,7 +525,8 @@ private:
 
 Result<std::unique_ptr<Rerun>> Rerun::open(const mcap::Reader& reader,
                                            const RerunOptions& options) {
-    RunFile run = TRY(run_of(reader));
+    RecordedRun recorded = TRY(read_recorded(reader));
+    RunFile run = std::move(recorded.about);
     if (run.kind != "simulated") {
         return Error{Code::Refused, reader.name() +
                                         ": is a recording of a real bus, whose robot "
@@ -537,14 +538,14 @@ Result<std::unique_ptr<Rerun>> Rerun::open(const mcap::Reader& reader,
         const bool as_it_was = instead == options.with.end() || options.from;
         TRY(folder.add(one.name, as_it_was ? one.data : std::string_view(instead->second)));
     }
-    std::vector<Input> inputs = TRY(inputs_of(reader));
-    if (options.from && *options.from > end_of(reader)) {
+    std::vector<Input> inputs = std::move(recorded.inputs);
+    const Time end = recorded.end;
+    if (options.from && *options.from > end) {
         return Error{Code::BadInput,
                      fmt::format("--from {}: {} ends at {} s", seconds_text(*options.from),
-                                 reader.name(), seconds_text(end_of(reader)))};
+                                 reader.name(), seconds_text(end))};
     }
     if (options.from) inputs = other_inputs(std::move(inputs), options);
-    const Time end = end_of(reader);
     const auto finish = [&](auto made) -> Result<std::unique_ptr<Rerun>> {
         made->inputs_ = std::move(inputs);
         made->until_ = options.until;

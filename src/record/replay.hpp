@@ -83,7 +83,7 @@ public:
     // nullptr without one.
     virtual const embed::LoadedPlan* plan() const = 0;
     const RunFile& about() const { return about_; }
-    // Who has ended it, as far as it has come.
+    // Who ended the run; empty: nobody so far.
     const std::optional<std::string>& ended_by() const { return ended_by_; }
     // A path of the folder as its name in the recording.
     std::string name_of(const std::string& path) const;

@@ -31,7 +31,7 @@ public:
     // Nothing acts on it, and nothing waits in it.
     bool is_plain() const { return acting_.empty() && waiting_.empty(); }
     void put(const wire::Frame& frame, Time now);
-    // The next frame that has come through by `now`.
+    // The next frame that is due by `now`.
     bool take(wire::Frame& frame, Time now);
 
 private:

@@ -49,7 +49,7 @@ std::string words_of(const Try& one, const ChaosTries& tries) {
         kinds += (kinds.empty() ? ":" : ",") + std::string(sim::name_of(kind));
     }
     const uint64_t faults = (one.set - 1) % kChaosInSet + 1;
-    const double seconds = static_cast<double>(std::max(one.end, sim::kPoseEvery).count()) / 1e6;
+    const double seconds = seconds_of(std::max(one.end, sim::kPoseEvery));
     return fmt::format("random:{}:{}:{}{}", faults, one.set, plan::text_of(seconds), kinds);
 }
 
@@ -106,9 +106,7 @@ private:
         return faults.size() == 1 ? "1 fault" : fmt::format("{} faults", faults.size());
     }
 
-    static std::string seconds(Time at) {
-        return plan::text_of(static_cast<double>(at.count()) / 1e6) + " s";
-    }
+    static std::string seconds(Time at) { return plan::text_of(seconds_of(at)) + " s"; }
 
     static std::string line_of(const sim::ChaosFault& fault) {
         const std::string until = fault.until ? " to " + seconds(*fault.until) : "";
@@ -125,7 +123,7 @@ private:
         const trial::SeedResult seed{.seed = try_.seed, .outcome = again};
         text += trial::describe_failure(try_.result->test, seed) + "\n";
         text += fmt::format("  vagus replay {} --until {}\n", recording,
-                            plan::text_of(static_cast<double>(again.failed_at().count()) / 1e6));
+                            plan::text_of(seconds_of(again.failed_at())));
         const std::string test = TRY(read_file(try_.result->test.path));
         const std::string made =
             TRY(trial::with_chaos(try_.result->test, test, {try_.seed, least.faults}, file));

@@ -309,7 +309,8 @@ int draft(const std::string& recording, const std::string& to) {
     for (const std::string& name : {made.value().plan, made.value().world}) {
         const fs::path path = fs::path(to).parent_path() / name;
         if (name.empty() || fs::exists(path)) continue;
-        say(fmt::format("{}: {} is not there from here; write where it is\n", to, name));
+        say(fmt::format("{}: {} is not found from there; correct its path in the test\n", to,
+                        name));
     }
     print(to + "\n");
     return kExitDone;

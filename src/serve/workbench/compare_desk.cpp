@@ -134,11 +134,7 @@ void CompareDesk::ask_git(const Call& call, Result<Printing> git,
 
 void CompareDesk::tick(Time now) {
     now_ = now;
-    for (auto one = asked_.begin(); one != asked_.end();) {
-        const auto next = std::next(one);
-        if (look(*one, now)) asked_.erase(one);
-        one = next;
-    }
+    std::erase_if(asked_, [&](Asked& one) { return look(one, now); });
 }
 
 Time CompareDesk::next_tick() const {

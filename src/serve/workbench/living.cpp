@@ -128,7 +128,9 @@ void Workbench::perform(const life::ConnectWorld&) {
     loaded_by_world_ = run_.programs();
     if (const auto t = std::exchange(continues_at_, std::nullopt)) {
         history_.continue_from(*t);
-        run_.change_plan(run_.changed_since());
+        std::vector<std::string> plans = run_.changed_since();
+        std::erase_if(plans, [](const std::string& file) { return kind_of_file(file) != "plan"; });
+        if (!plans.empty()) run_.change_plan(plans);
     }
     target_.connect(run_, "sim", "Simulator", "simulator", now_);
     desk_.topics().touch("robot");

@@ -68,11 +68,7 @@ void WhyDesk::start(const Call& call, const std::string& file) {
 
 void WhyDesk::tick(Time now) {
     now_ = now;
-    for (auto one = asked_.begin(); one != asked_.end();) {
-        const auto next = std::next(one);
-        if (look(*one, now)) asked_.erase(one);
-        one = next;
-    }
+    std::erase_if(asked_, [&](Asked& one) { return look(one, now); });
 }
 
 Time WhyDesk::next_tick() const {

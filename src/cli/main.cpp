@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
     vagus::cli::add_page(app, exit_code);
     vagus::cli::add_runner(app, exit_code);
     vagus::cli::add_why_host(app, exit_code);
+    vagus::cli::add_try_host(app, exit_code);
     vagus::cli::shape_help(app);
     vagus::cli::refuse_options_as_values(app);
     return vagus::cli::end_output(parse_and_run(app, argc, argv, exit_code));

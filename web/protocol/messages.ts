@@ -603,6 +603,72 @@ export interface PlanLevel {
   taken?: PlanTaken;
 }
 
+/** What somebody who tries a plan has chosen. */
+export interface TryChoice {
+  /** of the plan: WallFollow/calibrate */
+  path: string;
+  /** the actor that ends, or the supervisor that raises */
+  element: string;
+  /** its state, or its event */
+  outcome: string;
+  /** of an actor; those that are missing write nothing */
+  out?: TryValue[];
+}
+
+/** An output of an actor in a plan that is tried. */
+export interface TryValue {
+  name: string;
+  /** a number, true, false or a text */
+  value: Json;
+}
+
+/** An output that can be chosen. */
+export interface TryOutput {
+  name: string;
+  /** missing: any */
+  type?: 'bool' | 'int' | 'float' | 'string' | 'object';
+}
+
+/** The active actor of a plan that is tried. */
+export interface TryWait {
+  path: string;
+  actor: string;
+  /** in which it can end */
+  states: string[];
+  outputs: TryOutput[];
+}
+
+/** A supervisor that watches in a plan that is tried. */
+export interface TryRaise {
+  path: string;
+  supervisor: string;
+  events: string[];
+}
+
+/** What an actor did in a plan that is tried; computations are left out. */
+export interface TryTurn {
+  path: string;
+  actor: string;
+  from: number;
+  /** missing: it is active */
+  to?: number;
+  /** the state in which it ended, or SUPERVISOR.EVENT */
+  end?: string;
+  /** by an event */
+  interrupted?: boolean;
+}
+
+/** A plan that is tried, as the topic plan shows one that runs. */
+export interface TriedPlan {
+  state: 'none' | 'running' | 'paused' | 'ended';
+  doc?: Doc;
+  t: number;
+  result?: 'OK' | 'Interrupted' | 'Error';
+  message?: string;
+  levels: PlanLevel[];
+  story: Line[];
+}
+
 /** What differs between two versions of a plan, as vagus plan diff --json says it. */
 export interface PlanDifference {
   kind: 'added' | 'removed' | 'changed' | 'reordered';
@@ -1421,6 +1487,28 @@ export interface Commands {
   }; out: {
     versions: GitVersion[];
   } };
+  /** Tries a plan without a robot: from its beginning each actor ends, and each supervisor raises, as was chosen, a second after what came before; computations compute as ever. Documents count as they are edited. */
+  'plan.try': { in: {
+    doc: Doc;
+    way: TryChoice[];
+  }; out: {
+    plan: TriedPlan;
+    /** missing: the plan has ended */
+    waits?: TryWait;
+    raises: TryRaise[];
+    turns: TryTurn[];
+    /** when each choice was taken */
+    taken: number[];
+    /** choices at the end of the way that could not be taken */
+    left: number;
+  } };
+  /** Writes a test beside the plan that takes the same way (vagus test), with answers in place of work. */
+  'plan.try.keep': { in: {
+    doc: Doc;
+    way: TryChoice[];
+  }; out: {
+    path: Path;
+  } };
   /** Pauses the plan. */
   'plan.pause': { in: Record<never, never>; out: Record<never, never> };
   /** Continues the plan. */
@@ -1933,6 +2021,13 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanCount: { is: 'word(actor|supervisor)', name: 'Name', times: 'number', seconds: 'number', last: 'number' },
   PlanTaken: { number: 'number', is: 'word(start|state|event)', element: 'line(128)', outcome: 'line(128)', target: 'line(128)' },
   PlanLevel: { path: 'line(4096)', doc: 'Doc', actor: 'line(128)', template: 'line(128)', activation: 'number', since: 'number', inputs: 'json', variables: '[PlanVariable; 1000]', supervisors: '[PlanSupervisor; 1000]', counts: '[PlanCount; 2000]', taken: 'PlanTaken?' },
+  TryChoice: { path: 'line(4096)', element: 'line(128)', outcome: 'line(128)', out: '[TryValue; 1000]?' },
+  TryValue: { name: 'line(128)', value: 'json' },
+  TryOutput: { name: 'line(128)', type: 'word(bool|int|float|string|object)?' },
+  TryWait: { path: 'line(4096)', actor: 'line(128)', states: '[line(128); 1000]', outputs: '[TryOutput; 1000]' },
+  TryRaise: { path: 'line(4096)', supervisor: 'line(128)', events: '[line(128); 1000]' },
+  TryTurn: { path: 'line(4096)', actor: 'line(128)', from: 'number', to: 'number?', end: 'line(260)?', interrupted: 'bool?' },
+  TriedPlan: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]' },
   PlanDifference: { kind: 'word(added|removed|changed|reordered)', element: 'text(100000)', part: 'text(100000)', path: '[text(100000); 16]', before: 'json?', after: 'json?', behind: 'text(100000)?' },
   GitVersion: { revision: 'line(64)', when_wall: 'number', by: 'line(100)', subject: 'line(200)' },
   PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
@@ -2033,6 +2128,8 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'plan.check_change': { may: 'look', kind: 'look', out: { runs: 'bool', reasons: '[text(2000); 1000]' } },
   'plan.differences': { may: 'look', kind: 'look', out: { version: 'int(0..4294967295)', before: 'text(4194304)', differences: '[PlanDifference; 20000]' } },
   'plan.versions': { may: 'look', kind: 'look', out: { versions: '[GitVersion; 30]' } },
+  'plan.try': { may: 'look', kind: 'look', out: { plan: 'TriedPlan', waits: 'TryWait?', raises: '[TryRaise; 1000]', turns: '[TryTurn; 20000]', taken: '[number; 1000]', left: 'int(0..1000)' } },
+  'plan.try.keep': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
   'plan.pause': { may: 'driver', kind: 'stop', out: {} },
   'plan.continue': { may: 'driver', kind: 'act', out: {} },
   'plan.step': { may: 'driver', kind: 'act', out: {} },

@@ -1,5 +1,5 @@
-// The verbs `run-host` and `why-host`, which --help does not show: a run, and a question about one,
-// as processes of their own, started by the studio's server.
+// The verbs `run-host`, `why-host` and `try-host`, which --help does not show: a run, a question
+// about one, and a plan that is tried, as processes of their own, started by the studio's server.
 #pragma once
 
 namespace CLI {
@@ -10,5 +10,6 @@ namespace vagus::cli {
 
 void add_runner(CLI::App& app, int& exit_code);
 void add_why_host(CLI::App& app, int& exit_code);
+void add_try_host(CLI::App& app, int& exit_code);
 
 }  // namespace vagus::cli

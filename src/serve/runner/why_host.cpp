@@ -3,18 +3,18 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/file.hpp"
 #include "base/seconds.hpp"
 #include "record/why.hpp"
 #include "serve/json.hpp"
+#include "serve/runner/one_answer.hpp"
 
 namespace vagus::serve {
 
 namespace {
-
-constexpr int kLooksMs = 1000;  // at whether there is something, or the other end is gone
 
 Result<std::string> chain_of(const Json& asked) {
     const auto question =
@@ -39,22 +39,7 @@ std::string answer_to(const std::string& text) {
 }  // namespace
 
 int run_why(Pipe pipe) {
-    std::string answer;
-    while (answer.empty()) {
-        pipe.wait(kLooksMs);
-        for (const Packet& packet : pipe.receive()) {
-            if (packet.kind == kWhyAsked) answer = answer_to(packet.bytes);
-            if (answer.empty()) return 2;
-        }
-        if (answer.empty() && pipe.closed()) return 2;
-    }
-    pipe.send(kWhyAnswered, answer);
-    while (pipe.has_unsent() && !pipe.closed()) {
-        pipe.wait(kLooksMs);
-        pipe.flush();
-        (void)pipe.receive();  // notices that nobody is there any more
-    }
-    return 0;
+    return answer_one(std::move(pipe), {kWhyAsked, kWhyAnswered}, answer_to);
 }
 
 }  // namespace vagus::serve

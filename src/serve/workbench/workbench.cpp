@@ -39,6 +39,14 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
           {.file = [this] { return recording_of_run(); },
            .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); }}),
       compares_(desk, files_, [this](const std::string& doc) { return run_.plan_text(doc); }),
+      tries_(
+          desk, files_, places.program,
+          {.toolboxes = [this] { return toolboxes_on_disk(); },
+           .real = [this](const std::string& doc) { return project_ ? project_->real(doc) : doc; },
+           .doc_of =
+               [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; },
+           .new_test = [this](const std::string& plan,
+                              const std::string& text) { return new_test(plan, text); }}),
       sleep_({.slept = places.slept}) {
     files_.on_wake([&links] { links.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
@@ -286,10 +294,16 @@ void Workbench::forget_project() {
     }
 }
 
+std::vector<std::string> Workbench::toolboxes_on_disk() const {
+    std::vector<std::string> files;
+    if (!project_) return files;
+    for (const std::string& one : project_->toolboxes) files.push_back(project_->real(one));
+    return files;
+}
+
 // What makes its nodes safe. A toolbox file that cannot be read is told where it is used.
 void Workbench::take_safe_stop() {
-    std::vector<std::string> toolboxes;
-    for (const std::string& one : project_->toolboxes) toolboxes.push_back(project_->real(one));
+    const std::vector<std::string> toolboxes = toolboxes_on_disk();
     auto safe = session::safe_stop_of(toolboxes, project_->safe_stop);
     if (!safe.ok()) safe = session::safe_stop_of({}, project_->safe_stop);
     if (safe.ok()) target_.set_safe_stop(std::move(safe.value()));
@@ -399,6 +413,7 @@ void Workbench::tick(Time now) {
     worker_.tick();
     whys_.tick(now);
     compares_.tick(now);
+    tries_.tick(now);
     editing_.tick(now);
     change_plan();
     look_at_picture();
@@ -422,7 +437,7 @@ Time Workbench::next_tick(Time now) const {
     if (world_edited_ && !is_being_opened()) {
         next = std::min(next, *world_edited_ + kWorldFollowsAfter);
     }
-    next = std::min({next, whys_.next_tick(), compares_.next_tick()});
+    next = std::min({next, whys_.next_tick(), compares_.next_tick(), tries_.next_tick()});
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

@@ -42,6 +42,7 @@
 #include "serve/workbench/recordings.hpp"
 #include "serve/workbench/run_ends.hpp"
 #include "serve/workbench/targets.hpp"
+#include "serve/workbench/try_desk.hpp"
 #include "serve/workbench/why_desk.hpp"
 #include "serve/worker.hpp"
 
@@ -161,6 +162,7 @@ private:
     void forget_project();
     void project_file_changed();
     void take_safe_stop();
+    std::vector<std::string> toolboxes_on_disk() const;
     EditedProject edited_project() const;
     void watch_run();
     void keep_breakpoints();
@@ -282,6 +284,7 @@ private:
     std::optional<double> continues_at_;        // the run that is being opened
     WhyDesk whys_;
     CompareDesk compares_;
+    TryDesk tries_;
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};
     Targets targets_;

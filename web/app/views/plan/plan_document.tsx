@@ -12,6 +12,8 @@ import { planDeskOf } from './plan_desk';
 import { PlanLive } from './plan_live';
 import { togglePlanOption, usePlanOptions } from './plan_options';
 import { PlanTools } from './plan_tools';
+import { TryBar } from './try/late_bar';
+import { useTrying } from './try/use_trying';
 import '../../look/plan.css';
 
 const ScriptView = late(() => import('../script/script_view'));
@@ -29,6 +31,7 @@ export default function PlanDocument({ doc }: { doc: Doc }) {
         <DiskNotice doc={doc} more={<ShowDifferences doc={doc} from="disk" />} />
         <PlanChange doc={doc} />
         <Differences doc={doc} />
+        <Tried doc={doc} />
         {options.text ? null : <Found doc={doc} />}
         <Suspense fallback={null}>
           <PlanCanvas doc={doc} />
@@ -59,6 +62,16 @@ function Differences({ doc }: { doc: Doc }) {
   return (
     <Suspense fallback={null}>
       <DifferencesStrip doc={doc} />
+    </Suspense>
+  );
+}
+
+/** Nor for a try. */
+function Tried({ doc }: { doc: Doc }) {
+  if (!useTrying(doc)) return null;
+  return (
+    <Suspense fallback={null}>
+      <TryBar doc={doc} />
     </Suspense>
   );
 }

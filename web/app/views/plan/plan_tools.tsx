@@ -15,6 +15,7 @@ import { drawWords as words } from './words';
 import { CompareMenu } from './compare/compare_menu';
 import { ExportMenu } from './export_menu';
 import { usePlanDesk } from './plan_desk';
+import { TryButton } from './try/try_button';
 import { togglePlanOption, usePlanOptions, type PlanOptions } from './plan_options';
 
 const size = { size: 14, stroke: kStroke };
@@ -58,6 +59,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
       >
         {words.tidy}
       </Button>
+      <TryButton doc={doc} />
       <Zoom doc={doc} />
       <span className="grow" />
       <Switch name="data" />

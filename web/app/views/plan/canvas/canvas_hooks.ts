@@ -10,6 +10,7 @@ import { useStudio, useTopic, useWindow } from '../../../hooks';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
 import { compareCommands } from '../compare/compare_commands';
 import { drawnHelp } from '../finding_acts';
+import { tryCommands } from '../try/try_commands';
 import { drawnHelpOf } from '../../../commands/problem_commands';
 import { canvasCommands } from './canvas_commands';
 import { kLegible } from './distance';
@@ -167,6 +168,7 @@ export function useOnDesk(
     return studio.registry.add([
       ...debugCommands(studio, properties),
       ...compareCommands(studio),
+      ...tryCommands(studio),
       ...canvasCommands(studio, {
         fit: () => void flow.fitView(kFit),
         zoom(by) {

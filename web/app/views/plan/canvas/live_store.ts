@@ -8,6 +8,7 @@ import type { PlanBoard } from '../../../../core/plan/board';
 import { livePlan, noPlan, type LivePlan } from '../../../../core/plan/live';
 import { shownLevel } from '../../../../core/plan_view';
 import { useShownPlan } from '../../../past_hooks';
+import { useTriedPlan } from '../try/use_trying';
 
 export type LiveStore = StoreApi<LivePlan>;
 export const LiveContext = createContext<LiveStore>(createStore<LivePlan>()(() => noPlan));
@@ -19,7 +20,9 @@ export function useLive<T>(select: (live: LivePlan) => T): T {
 /** Follows the running plan, if it is the one on the board. */
 export function useLiveStore(board: PlanBoard): LiveStore {
   const [store] = useState(() => createStore<LivePlan>()(() => noPlan));
-  const plan = useShownPlan();
+  const tried = useTriedPlan();
+  const shown = useShownPlan();
+  const plan = tried ?? shown;
   useEffect(() => {
     const level = plan?.levels[shownLevel(plan.levels, board.doc, null)];
     const isOurs = plan !== undefined && plan.state !== 'none' && level?.doc === board.doc;

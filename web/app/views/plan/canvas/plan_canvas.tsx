@@ -7,6 +7,7 @@ import { kSnap } from '../../../../core/plan/place';
 import { useMayEdit, useStudio } from '../../../hooks';
 import { Blank } from '../../../parts/blank';
 import { drawWords as words } from '../words';
+import { useTriedClick } from '../try/try_commands';
 import { Differences } from '../compare/differences';
 import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
@@ -62,6 +63,7 @@ function Canvas({ board }: { board: PlanBoard }) {
   const dropping = useDropping(board, drives);
   const { menu, closeMenu, onNodeContextMenu } = useElementMenu(board);
   const options = usePlanOptions();
+  const tries = useTriedClick(board);
   const onNodesChange = useNodeChanges(board);
   if (!isKnown) return <Blank title={words.broken}>{broken}</Blank>;
   return (
@@ -72,6 +74,7 @@ function Canvas({ board }: { board: PlanBoard }) {
         data-place="plan plan-parts"
         data-autofocus
         data-distance={distance}
+        data-tries={tries !== null || undefined}
         tabIndex={-1}
         role="region"
         aria-label={words.canvas(board.model.name)}
@@ -89,7 +92,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           nodeTypes={nodeTypes}
           onNodesChange={onNodesChange}
           onMoveStart={(event) => event && worksOn()}
-          onNodeClick={(event, { id }) => chooseOnly(board, id, event)}
+          onNodeClick={(event, { id }) => tries?.(event, id) || chooseOnly(board, id, event)}
           onNodeContextMenu={onNodeContextMenu}
           onPaneClick={() => {
             board.select(null);

@@ -1,0 +1,69 @@
+// Plans tried by hand, for pages: the commands plan.try and plan.try.keep. Nothing of a try is kept
+// here: a page asks with all that was chosen so far, and each question is answered by a process of
+// its own.
+//
+//     TryDesk tries(desk, files, "/usr/bin/vagus", project);
+//     tries.tick(now);
+#pragma once
+
+#include <functional>
+#include <list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "base/time.hpp"
+#include "serve/json.hpp"
+#include "serve/process.hpp"
+#include "serve/project/files.hpp"
+#include "serve/studio/desk.hpp"
+
+namespace vagus::serve {
+
+constexpr size_t kTriesAtOnce = 4;    // processes; further questions are refused
+constexpr Duration kTryWithin = 10s;  // then a question is not waited for any more
+constexpr Duration kTryLookEvery = 5ms;
+constexpr size_t kTryMemoryMax = size_t{1} << 30;
+
+class TryDesk {
+public:
+    // Where files of the project are on this computer.
+    struct Project {
+        std::function<std::vector<std::string>()> toolboxes;  // their files
+        std::function<std::string(const std::string& doc)> real;
+        std::function<std::string(const std::string& file)> doc_of;
+        // Writes a test beside a plan, and tells its path.
+        std::function<Result<std::string>(const std::string& doc, const std::string& text)>
+            new_test;
+    };
+
+    // Borrowed. Declares its commands.
+    TryDesk(Desk& desk, Files& files, std::string program, Project project);
+
+    void tick(Time now);
+    Time next_tick() const;
+
+private:
+    using Then = std::function<void(Json answer)>;
+    struct Asked {
+        Call call;
+        Child child;
+        Then then;
+        std::optional<Time> until;  // set by the first tick
+    };
+
+    void ask(const Call& call, bool keep, Then then);
+    Json texts_of(const std::string& doc);
+    void keep(const Call& call, const std::string& test);
+    Json shown(Json answer) const;
+    bool look(Asked& asked, Time now);
+
+    Files& files_;
+    const std::string program_;
+    const Project project_;
+    std::list<Asked> asked_;
+    Time now_{};
+};
+
+}  // namespace vagus::serve

@@ -1,0 +1,26 @@
+import { IconHandClick } from '@tabler/icons-react';
+import type { Doc } from '../../../../protocol/messages';
+import { tryingOf } from '../../../../core/plan/trying';
+import { useChanges, useStudio } from '../../../hooks';
+import { Button } from '../../../parts/button';
+import { kStroke } from '../../../parts/icons';
+import { tryWords as words } from './words';
+
+export function TryButton({ doc }: { doc: Doc }) {
+  const trying = tryingOf(useStudio());
+  useChanges(trying.changed);
+  const isOn = trying.doc === doc;
+  return (
+    <Button
+      kind="plain"
+      small
+      aria-pressed={isOn}
+      aria-label={words.button}
+      tip={words.tip}
+      icon={<IconHandClick size={14} stroke={kStroke} />}
+      onClick={() => (isOn ? trying.leave() : trying.start(doc))}
+    >
+      <span className="plan__word">{words.button}</span>
+    </Button>
+  );
+}

@@ -45,7 +45,8 @@ protected:
     std::string refused() {
         const Json* answer = nullptr;
         while (!(answer = answered())) tries->tick(now);
-        return answer->contains("error") ? (*answer)["error"]["what"] : answer->dump();
+        return answer->contains("error") ? answer->at("error").at("what").get<std::string>()
+                                         : answer->dump();
     }
 
     std::optional<TryDesk> tries;

@@ -5,6 +5,7 @@ import { execFileSync, spawnSync } from 'node:child_process';
 import { readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { look } from './support/axe.mjs';
+import { runTo } from './support/runs.mjs';
 import { vagusProgram } from './support/server.mjs';
 import { boxOf, gone, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, Studio } from './support/studio.mjs' */
@@ -15,18 +16,6 @@ const slider = (/** @type {Page} */ page) =>
   page.getByRole('slider', { name: 'Instant that is shown' });
 const clock = async (/** @type {Page} */ page) =>
   parseFloat(await page.locator('.clock__time').innerText());
-
-/** Runs as fast as it goes, until the plan comes to that actor. */
-async function runTo(/** @type {Studio} */ { page, press, layout }, /** @type {string} */ actor) {
-  await layout('Debug');
-  await page.getByRole('tab', { name: 'Timeline' }).click();
-  await page.getByRole('group', { name: new RegExp(`^${actor}, actor`) }).focus();
-  await press('Space', 'F9');
-  await page.getByRole('button', { name: /Speed of the clock/ }).click();
-  await page.getByRole('menuitem', { name: /As fast as/i }).click();
-  await press('F5');
-  await seen(page.getByText(`Paused by the breakpoint ${actor}`));
-}
 
 /** Recordings of the project, in the order of their numbers. */
 function recordings(/** @type {string} */ folder) {
@@ -39,6 +28,7 @@ function recordings(/** @type {string} */ folder) {
 
 /** Back to the step of the plan before, some times. */
 async function back(/** @type {Studio} */ { page, press }, /** @type {number} */ steps) {
+  await page.getByRole('tab', { name: 'Timeline' }).click();
   await press('Alt+F10');
   await seen(bar(page));
   await slider(page).focus();
@@ -107,6 +97,7 @@ test('a run becomes a test, which passes', wall, async (studio) => {
   const { page, press, server } = studio;
   await runTo(studio, 'parallelToWall');
   await press('Shift+F5');
+  await page.getByRole('tab', { name: 'Timeline' }).click();
   await page.getByRole('button', { name: 'Keep the run as a test' }).click();
   await reads(page.locator('.dock__doc, .cm-content').last(), /vagus-test\/1/);
   const path = readdirSync(server.folder, { recursive: true, encoding: 'utf8' }).find((one) =>

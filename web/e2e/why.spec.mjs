@@ -4,6 +4,7 @@ import { execFileSync } from 'node:child_process';
 import { readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { look } from './support/axe.mjs';
+import { runTo } from './support/runs.mjs';
 import { vagusProgram } from './support/server.mjs';
 import { reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, Studio } from './support/studio.mjs' */
@@ -14,17 +15,6 @@ const links = (/** @type {Page} */ page) =>
   page.getByRole('list', { name: 'What it followed from, the newest first' }).getByRole('button');
 const bar = (/** @type {Page} */ page) => page.getByRole('region', { name: 'Looking back' });
 const world = (/** @type {Page} */ page) => page.getByRole('application', { name: /^World/ });
-
-/** Runs as fast as it goes, until the plan comes to that actor. */
-async function runTo(/** @type {Studio} */ { page, press, layout }, /** @type {string} */ actor) {
-  await layout('Debug');
-  await page.getByRole('group', { name: new RegExp(`^${actor}, actor`) }).focus();
-  await press('Space', 'F9');
-  await page.getByRole('button', { name: /Speed of the clock/ }).click();
-  await page.getByRole('menuitem', { name: /As fast as/i }).click();
-  await press('F5');
-  await seen(page.getByText(`Paused by the breakpoint ${actor}`));
-}
 
 /** On to the actor that begins next. */
 async function toNext(/** @type {Studio} */ { page, press, type }, /** @type {string} */ actor) {

@@ -8,6 +8,7 @@ import { useDrives, usePart, useStudio } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { useTraceName } from '../past_hooks';
+import { text } from '../text';
 import { pastWords as words } from './past_words';
 
 const size = { size: 16, stroke: kStroke };
@@ -37,7 +38,7 @@ export default function PastControls() {
           icon={<IconPlayerPlay {...size} />}
           onClick={run('past.continue')}
         >
-          {words.continue}
+          {text.commands['past.continue']}
         </Button>
       ) : null}
       <Button

@@ -14,7 +14,6 @@ export const pastWords = {
   said: 'Looking back. Arrow keys go through time, Escape leads back to now.',
   back: 'Back to now',
   close: 'Close the trace',
-  continue: 'Run from here',
   continueTip:
     'From this instant, with files as they are now. The run until now stays as a recording',
   stepBefore: 'To the step of the plan before',

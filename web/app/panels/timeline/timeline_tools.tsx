@@ -9,6 +9,7 @@ import {
 import { useCommands, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
+import { text } from '../../text';
 import { words } from './words';
 import { followNewest, showAll, useTimelineView, zoomBy } from './view_store';
 
@@ -53,7 +54,7 @@ export default function TimelineTools() {
       <Button
         kind="plain"
         small
-        tip={words.test}
+        tip={text.commands['test.keep']}
         disabled={!registry.isEnabled('test.keep')}
         icon={<IconTestPipe {...icon} />}
         onClick={() => void registry.run('test.keep')}

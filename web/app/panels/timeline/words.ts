@@ -25,5 +25,4 @@ export const words = {
   larger: 'Zoom in',
   smaller: 'Zoom out',
   save: 'Save the trace as a file of the project',
-  test: 'Keep the run as a test',
 };

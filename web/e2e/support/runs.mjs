@@ -1,0 +1,17 @@
+// Runs of the simulator in the studio.
+import { seen } from './studio.mjs';
+/** @import { Studio } from './studio.mjs' */
+
+/** Runs as fast as it goes, until the plan comes to that actor. */
+export async function runTo(
+  /** @type {Studio} */ { page, press, layout },
+  /** @type {string} */ actor,
+) {
+  await layout('Debug');
+  await page.getByRole('group', { name: new RegExp(`^${actor}, actor`) }).focus();
+  await press('Space', 'F9');
+  await page.getByRole('button', { name: /Speed of the clock/ }).click();
+  await page.getByRole('menuitem', { name: /As fast as/i }).click();
+  await press('F5');
+  await seen(page.getByText(`Paused by the breakpoint ${actor}`));
+}

@@ -102,6 +102,7 @@ public:
     void abort(const std::string& by);
     void abort_this();
     void set(int slot, plan::Value value);
+    void reseed(uint64_t with);
     void defer_aborts() { deferred_ = true; }
     std::optional<std::string> take_abort();
     // What ended this run; empty if it ended by itself.
@@ -418,6 +419,11 @@ void PreparedRun::Insides::set(int slot, plan::Value value) {
     if (execution_ != nullptr) execution_->set(slot, std::move(value));
 }
 
+void PreparedRun::Insides::reseed(uint64_t with) {
+    const std::lock_guard lock(mutex_);
+    if (execution_ != nullptr) execution_->reseed(with);
+}
+
 void PreparedRun::Insides::abort_this() {
     const std::lock_guard lock(mutex_);
     abort_it(kSomebody);
@@ -511,6 +517,10 @@ void PreparedRun::abort_this() {
 
 void PreparedRun::set(int slot, plan::Value value) {
     insides_->set(slot, std::move(value));
+}
+
+void PreparedRun::reseed(uint64_t seed) {
+    insides_->reseed(seed);
 }
 
 void PreparedRun::defer_aborts() {

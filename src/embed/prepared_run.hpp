@@ -103,6 +103,9 @@ public:
     // While it runs, on the deciding thread: writes a variable of the outermost plan from outside,
     // as soon as what is being decided is done (P29).
     void set(int slot, plan::Value value);
+    // While it runs in virtual time, on the deciding thread: from now on what is random in the code
+    // of actors is drawn from that seed. The world has a reseed() of its own.
+    void reseed(uint64_t seed);
     // Before run(), beside a world: from now on what was asked of abort() and abort_this() is done
     // by take_abort(), on the deciding thread. Gives by whom, if it was asked for since.
     void defer_aborts();

@@ -177,6 +177,9 @@ struct Format {
     std::string operator()(const FileTookOver& other) const {
         return Message(input, "load").text("file", other.file).text("value", other.text).done();
     }
+    std::string operator()(const Reseeded& drawn) const {
+        return Message(input, "reseed").whole("seed", drawn.seed).done();
+    }
     std::string operator()(const Aborted& aborted) const {
         return Message(input, "abort").text("by", aborted.by).done();
     }
@@ -418,6 +421,8 @@ bool read_what(const std::string& what, const Members& from, Input& input) {
         input.what = ValueGiven{from.text("value")};
     } else if (what == "load") {
         input.what = FileTookOver{from.text("file"), from.text("value")};
+    } else if (what == "reseed") {
+        input.what = Reseeded{from.whole<uint64_t>("seed")};
     } else if (what == "abort") {
         input.what = Aborted{from.text("by")};
     } else if (what == "end") {

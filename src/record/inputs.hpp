@@ -25,6 +25,8 @@
 
 namespace vagus::record {
 
+constexpr uint64_t kReseedMax = INT64_MAX;  // as numbers of JSON are read
+
 // A moment in which time is stopped and the nodes answer (sim::World::hold_instant()).
 struct HeldMoment {};
 // Plan files that were saved while the plan ran; `texts` are all that the version is made of.
@@ -47,6 +49,10 @@ struct FileTookOver {
     std::string file = {};
     std::string text = {};
 };
+// Of such a run, too: all that is random in it is drawn from another seed from here on.
+struct Reseeded {
+    uint64_t seed = 0;  // at most kReseedMax
+};
 // Somebody ended the run.
 struct Aborted {
     std::string by = {};
@@ -57,8 +63,9 @@ struct RecordingEnds {
 };
 
 // Of requests to the debugger: those of does_something().
-using InputWhat = std::variant<sim::Act, wire::Frame, HeldMoment, run::Request, PlanFiles,
-                               ScriptLoaded, ValueGiven, FileTookOver, Aborted, RecordingEnds>;
+using InputWhat =
+    std::variant<sim::Act, wire::Frame, HeldMoment, run::Request, PlanFiles, ScriptLoaded,
+                 ValueGiven, FileTookOver, Reseeded, Aborted, RecordingEnds>;
 
 struct Input {
     Time at{};

@@ -51,6 +51,10 @@ Result<PastPaths> PastRun::paths(const std::string& path) const {
 
 namespace {
 
+bool is_reseeded(const Input& input) {
+    return std::holds_alternative<Reseeded>(input.what);
+}
+
 bool ends_it(const Input& input) {
     return std::holds_alternative<RecordingEnds>(input.what);
 }
@@ -71,6 +75,11 @@ Status check_lived(const PastRun& past, const std::string& path) {
         return Error{Code::Refused, path +
                                         ": is of a world without a plan, recorded by `vagus "
                                         "sim`; `vagus replay` runs it again"};
+    }
+    if (std::ranges::any_of(past.inputs, is_reseeded)) {
+        return Error{Code::Refused, path +
+                                        ": chance was drawn again in this run, by `vagus replay "
+                                        "--reseed`; `vagus replay` runs it again"};
     }
     if (past.about.verb == kStudioVerb || std::ranges::all_of(past.inputs, ends_it)) {
         return Status::done();

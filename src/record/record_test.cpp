@@ -90,6 +90,7 @@ TEST(Inputs, AreReadAsTheyWereWritten) {
     is_read_again(ValueGiven{"n=1"}, begin + R"("set","value":"n=1"})");
     is_read_again(FileTookOver{"a.aesl", "var x"},
                   begin + R"("load","file":"a.aesl","value":"var x"})");
+    is_read_again(Reseeded{kReseedMax}, begin + R"("reseed","seed":9223372036854775807})");
     is_read_again(RecordingEnds{}, begin + R"("end"})");
     is_read_again(RecordingEnds{"full"}, begin + R"("end","why":"full"})");
     is_read_again(ScriptLoaded{3, "a.aesl", "var x\n"},

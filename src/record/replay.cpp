@@ -63,21 +63,23 @@ Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reade
 std::vector<Input> Rerun::other_inputs(std::vector<Input> recorded, const RerunOptions& options) {
     const Time from = instant_of(*options.from);
     std::vector<Input> inputs;
-    std::vector<Input> ends;
+    std::vector<Input> later;
     for (Input& one : recorded) {
-        if (std::holds_alternative<RecordingEnds>(one.what)) {
-            ends.push_back(std::move(one));  // so long the run was to take
-        } else if (one.at <= from) {
+        const bool ends = std::holds_alternative<RecordingEnds>(one.what);
+        if (!ends && one.at <= from) {
             inputs.push_back(std::move(one));
+        } else if (ends || (options.reseed && !std::holds_alternative<Reseeded>(one.what))) {
+            later.push_back(std::move(one));  // an end: so long the run was to take
         }
     }
+    if (options.reseed) inputs.push_back({.at = from, .what = Reseeded{*options.reseed}});
     for (const std::string& text : options.set) {
         inputs.push_back({.at = from, .what = ValueGiven{text}});
     }
     for (const auto& [name, content] : options.with) {
         inputs.push_back({.at = from, .what = FileTookOver{name, content}});
     }
-    for (Input& one : ends) inputs.push_back(std::move(one));
+    for (Input& one : later) inputs.push_back(std::move(one));
     return inputs;
 }
 
@@ -87,6 +89,8 @@ Status Rerun::check_inputs() {
             TRY(change(*given, Only::Ask));
         } else if (const auto* const other = std::get_if<FileTookOver>(&one.what)) {
             TRY(change(*other, Only::Ask));
+        } else if (const auto* const drawn = std::get_if<Reseeded>(&one.what)) {
+            TRY(change(*drawn, Only::Ask));
         }
     }
     return Status::done();
@@ -96,6 +100,11 @@ Status Rerun::change(const ValueGiven& given, Only) {
     return Error{Code::Refused, fmt::format("--set {}: the run has no plan whose variables could "
                                             "be set",
                                             given.text)};
+}
+
+Status Rerun::change(const Reseeded& drawn, Only only) {
+    if (only == Only::Do) session()->world().reseed(drawn.seed);
+    return Status::done();
 }
 
 // Of a world: a script that it has loaded.
@@ -119,6 +128,23 @@ Status Rerun::change(const FileTookOver& other, Only only) {
     }
     if (lines.empty()) return Status::done();
     return Error{Code::BadInput, joined_lines(lines)};
+}
+
+Status Rerun::continue_from(Time from, uint64_t seed, Time until) {
+    RerunOptions options;
+    options.from = from;
+    options.reseed = seed;
+    inputs_ = other_inputs(std::move(inputs_), options);
+    until_ = until;
+    another_way_ = true;
+    cut_ = false;
+    return check_inputs();
+}
+
+void Rerun::draw_from(uint64_t seed) {
+    for (size_t i = next_input_; i < inputs_.size(); ++i) {
+        if (auto* const drawn = std::get_if<Reseeded>(&inputs_[i].what)) drawn->seed = seed;
+    }
 }
 
 Rerun::Then Rerun::after_instant(Time at, Recorder& recorder) {
@@ -194,6 +220,8 @@ Rerun::Then Rerun::do_again(const Input& input, Recorder& recorder) {
         return go_another_way(*given, recorder);
     } else if (const auto* const other = std::get_if<FileTookOver>(&input.what)) {
         return go_another_way(*other, recorder);
+    } else if (const auto* const drawn = std::get_if<Reseeded>(&input.what)) {
+        return go_another_way(*drawn, recorder);
     } else {
         recorder.input(input.what);
     }
@@ -410,6 +438,12 @@ private:
         }
         if (!debugger_) debugger_.emplace(plan_->graph(), run::Debugger::At::Run);
         return only == Only::Ask ? Status::done() : hand_in(made, Must::Yes);
+    }
+
+    Status change(const Reseeded& drawn, Only only) override {
+        TRY(check_beside_world());
+        if (only == Only::Do) prepared_->reseed(drawn.seed);
+        return Rerun::change(drawn, only);
     }
 
     // Whether the run fails if the version is refused.

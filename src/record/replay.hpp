@@ -42,6 +42,9 @@ struct RerunOptions {
     // of the new run, which can be recorded and run again as any.
     std::optional<Time> from = {};
     std::vector<std::string> set = {};
+    // All that is random is drawn from this seed from there on (sim::World::reseed()), and what a
+    // person did later is done all the same. At most kReseedMax.
+    std::optional<uint64_t> reseed = {};
 };
 
 // The file of the recording that a path on a command line means: "NAME=PATH", or a PATH whose last
@@ -63,6 +66,11 @@ public:
                                                const RerunOptions& options);
     virtual ~Rerun() = default;
 
+    // Before run(), of one that was opened without options: their `from`, `reseed` and `until`. So
+    // it can be opened once, and continued in many processes that each begin with a copy of it.
+    Status continue_from(Time from, uint64_t seed, Time until);
+    // Then, before that instant or while it is looked at (each_instant()): with that seed instead.
+    void draw_from(uint64_t seed);
     // What it says goes to the tape. Once. The Error says what could not change on the way.
     virtual Result<Ended> run(Tape& tape) = 0;
     // Before run(): is told of each line of the trace, and of the end of each instant.
@@ -82,6 +90,8 @@ public:
     virtual session::PlanWorld* plan_world() = 0;
     // nullptr without one.
     virtual const embed::LoadedPlan* plan() const = 0;
+    // When the last thing of it was recorded.
+    Time recorded_until() const { return end_; }
     const RunFile& about() const { return about_; }
     // Who ended the run; empty: nobody so far.
     const std::optional<std::string>& ended_by() const { return ended_by_; }
@@ -93,7 +103,7 @@ public:
 protected:
     Rerun(RunFile about, UnpackedFolder folder)
         : about_(std::move(about)), folder_(std::move(folder)) {}
-    // Those up to `from`, and what is done there.
+    // Those up to `from`, what is done there, and those that are done all the same.
     static std::vector<Input> other_inputs(std::vector<Input> recorded,
                                            const RerunOptions& options);
     // Whether each of them can be done: before run().
@@ -102,6 +112,7 @@ protected:
     enum class Only : uint8_t { Ask, Do };
     virtual Status change(const ValueGiven& given, Only only);
     virtual Status change(const FileTookOver& other, Only only);
+    virtual Status change(const Reseeded& drawn, Only only);
     // What a debugger of the plan is asked, and a new version of it.
     virtual void ask(const run::Request&) {}
     virtual void take(const PlanFiles&) {}

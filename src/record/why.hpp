@@ -23,6 +23,8 @@ constexpr size_t kLinksMax = 1000;  // of a chain; what is beyond is said, not s
 
 constexpr size_t kTiesWithin = 50;  // newest links: there it is told who lost (ties.hpp)
 
+constexpr size_t kMomentMax = 12;  // links of a moment
+
 struct Link {
     Time at{};
     std::string what;          // a sentence without its full stop
@@ -47,6 +49,11 @@ Result<Question> read_question(const std::vector<std::string>& words);
 // At the end of the recording, unless `at` says when. The Error says what is not there, and what
 // there is.
 Result<Chain> why(const mcap::Reader& reader, const Question& question, std::optional<Time> at);
+
+// What there was at a moment, after one instant and by another one: the actors that were active,
+// and then what happened: what scripts drew with math.rand, decisions of the plan, happenings in
+// the world, handlers that ran. The first kMomentMax of these.
+Result<Chain> moment(const mcap::Reader& reader, Time after, Time by);
 
 // One line, and a JSON array.
 std::string format_link(const Link& link);

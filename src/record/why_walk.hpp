@@ -48,6 +48,7 @@ public:
         if (!chain_.empty()) chain_.back().root = true;
         return chain_;
     }
+    Chain moment(Time after, Time by);  // of why.hpp
     // Of links that others may have lost against: the index in the chain, the line of the trace.
     const std::vector<std::pair<size_t, size_t>>& ties() const { return ties_; }
 
@@ -61,6 +62,15 @@ private:
     Status motor(const std::string& robot);
     Status event(const std::string& name);
     Status end();
+
+    // ---- what happened at a moment ----
+    void active_actors(Time after);
+    void draws(Time after, Time by);
+    void decisions(Time after, Time by);
+    void happened(Time after, Time by);
+    void handlers(Time after, Time by);
+    template <typename Tell>
+    void tell_alone(const Tell& tell);
 
     // ---- links, each followed by what it came from ----
     void frame(uint32_t number);

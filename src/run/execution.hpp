@@ -38,6 +38,11 @@ public:
     void set(int slot, plan::Value value) {
         virtual_ ? virtual_->set(slot, std::move(value)) : real_->set(slot, std::move(value));
     }
+    // From now on what is random in the code of actors is drawn from that seed: in virtual time,
+    // for on_trace and actors' code. In real time it stays as it is.
+    void reseed(uint64_t seed) {
+        if (virtual_) virtual_->reseed(seed);
+    }
     // That in real time; nullptr in virtual time, where nothing comes from outside.
     RealTime* real_time() { return real_.get(); }
 

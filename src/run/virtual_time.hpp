@@ -51,6 +51,9 @@ public:
     // that does not fit its type is dropped. For on_trace and for actors' code.
     void set(int slot, plan::Value value) { sets_asked_.emplace_back(slot, std::move(value)); }
 
+    // From now on what is random in the code of actors is drawn from that seed. As set().
+    void reseed(uint64_t seed) { random_ = SplitMix64(seed); }
+
 private:
     class Context;
     class WatchContext;

@@ -86,7 +86,10 @@ void SimSession::begin_instant() {
 }
 
 void SimSession::before_nodes() {
-    if (chaos_) chaos_->advance(now() + kExchangeEvery);
+    if (chaos_) {
+        chaos_->reseed(world_->chaos_seed());
+        chaos_->advance(now() + kExchangeEvery);
+    }
     send_frames();  // what was emitted since the last
     // On an ideal bus nodes put into our queue at this instant what arrives at the next one.
     if (!over_can_) delivered_ = take_frames();

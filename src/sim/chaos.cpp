@@ -234,6 +234,11 @@ private:
 
 }  // namespace
 
+uint64_t chaos_seed(const ChaosFault& fault, uint64_t seed, uint64_t stream) {
+    SplitMix64 mixed(seed);
+    return SplitMix64(mixed.next() ^ SplitMix64(fault.seed * 4 + stream).next()).next();
+}
+
 std::vector<ChaosFault> draw_chaos(const std::vector<ChaosTarget>& targets, const ChaosDraw& draw,
                                    uint64_t seed) {
     std::vector<ChaosFault> faults;

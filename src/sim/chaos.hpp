@@ -104,6 +104,9 @@ std::string ended_sentence(const ChaosFault& fault);
 // Of the variables of a node those that tell what it senses: not what a script or a person sets.
 bool is_sensor(std::string_view variable);
 
+// What is random in a fault, in one of its streams, in a world of that seed.
+uint64_t chaos_seed(const ChaosFault& fault, uint64_t seed, uint64_t stream);
+
 // The same set for the same targets and seed, by the time of their beginnings. Without a place for
 // any of the kinds there are none.
 std::vector<ChaosFault> draw_chaos(const std::vector<ChaosTarget>& targets, const ChaosDraw& draw,

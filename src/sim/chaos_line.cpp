@@ -16,6 +16,10 @@ void ChaosLine::end(const ChaosFault& fault) {
     std::erase_if(acting_, [&fault](const Acting& one) { return one.fault == &fault; });
 }
 
+void ChaosLine::reseed(uint64_t seed, uint64_t stream) {
+    for (Acting& one : acting_) one.seed = chaos_seed(*one.fault, seed, stream);
+}
+
 void ChaosLine::reset() {
     acting_.clear();
     waiting_.clear();

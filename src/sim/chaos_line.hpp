@@ -25,6 +25,8 @@ public:
     // that is unplugged or hangs loses also what is on its way.
     void begin(const ChaosFault& fault, uint64_t seed);
     void end(const ChaosFault& fault);
+    // What acts on it is drawn from another seed from now on, in that stream (chaos_seed()).
+    void reseed(uint64_t seed, uint64_t stream);
     // As without faults.
     void reset();
 

@@ -1,11 +1,9 @@
 #include "sim/host_chaos.hpp"
 
-#include "sim/node_chaos.hpp"
-
 namespace vagus::sim {
 
 HostChaos::HostChaos(const std::vector<ChaosFault>& faults, std::string_view name, uint64_t seed)
-    : faults_(of(faults, name)), seed_(seed), clock_(faults_) {}
+    : faults_(of(faults, name)), seed_(seed), first_seed_(seed), clock_(faults_) {}
 
 std::vector<ChaosFault> HostChaos::of(const std::vector<ChaosFault>& faults,
                                       std::string_view name) {
@@ -15,6 +13,13 @@ std::vector<ChaosFault> HostChaos::of(const std::vector<ChaosFault>& faults,
         if (where == name) its.push_back(fault);
     }
     return its;
+}
+
+void HostChaos::reseed(uint64_t seed) {
+    if (seed == seed_) return;
+    seed_ = seed;
+    to_bus_.reseed(seed, 1);
+    from_bus_.reseed(seed, 2);
 }
 
 void HostChaos::advance(Time now) {
@@ -30,6 +35,7 @@ void HostChaos::advance(Time now) {
 }
 
 void HostChaos::restart() {
+    seed_ = first_seed_;
     clock_.restart();
     to_bus_.reset();
     from_bus_.reset();

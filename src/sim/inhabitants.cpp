@@ -67,6 +67,16 @@ void Inhabitants::add_robot(const RobotDefinition& robot, const WorldOptions& op
     robot_of_body_[body.index] = robots_.size() - 1;
 }
 
+void Inhabitants::reseed(uint64_t seed) {
+    for (size_t i = 0; i < robots_.size(); ++i) {
+        const uint64_t its = noise_seed(seed, definition_.robots[i].node);
+        robots_[i]->reseed(its);
+        for (Machine* const machine : robots_[i]->machines()) {
+            machine->reseed(static_cast<uint16_t>(noise_seed(its, machine->id())));
+        }
+    }
+}
+
 void Inhabitants::note_body(BodyId body, const Colour& colour) {
     if (body.index >= colours_.size()) colours_.resize(body.index + 1);
     colours_[body.index] = colour;

@@ -36,6 +36,8 @@ public:
     Status move(ObjectId id, const Pose& to);
     Status switch_light(ObjectId id, bool on);
     void move_robot(size_t robot, const Pose& to);
+    // As World::reseed(): noise and slip of robots, math.rand of their nodes.
+    void reseed(uint64_t seed);
 
     std::span<const Object> objects() const { return objects_; }
     Pose pose_of(const Object& object) const;

@@ -52,6 +52,10 @@ public:
     // `variables`, as many as there are.
     void switch_on_again(const std::vector<int16_t>& variables);
 
+    // From now on math.rand gives what follows from that number, until the next restart(): a node
+    // that is switched on begins at 0, as the real one does.
+    void reseed(uint16_t seed) { node_.random_state = seed; }
+
     // A new millisecond: the script may go on.
     void begin_millisecond() {
         budget_ = kInstructionsPerMillisecond;

@@ -4,7 +4,6 @@
 #include <map>
 
 #include "base/nearest.hpp"
-#include "base/rng.hpp"
 #include "base/text.hpp"
 #include "node/description.hpp"
 
@@ -55,11 +54,6 @@ std::vector<ChaosTarget> targets_of(const std::vector<ChaosNode>& nodes) {
         targets.push_back({names[i], sensors_of(*nodes[i].machine)});
     }
     return targets;
-}
-
-uint64_t chaos_seed(const ChaosFault& fault, uint64_t seed, uint64_t stream) {
-    SplitMix64 mixed(seed);
-    return SplitMix64(mixed.next() ^ SplitMix64(fault.seed * 4 + stream).next()).next();
 }
 
 Result<NodeChaos> NodeChaos::make(Chaos chaos, uint64_t seed, const std::vector<ChaosNode>& nodes,
@@ -114,12 +108,24 @@ Status NodeChaos::bind(const Chaos& chaos, const std::vector<ChaosNode>& nodes,
 }
 
 void NodeChaos::restart() {
+    seed_ = first_seed_;
     clock_.restart();
     for (State& state : states_) {
         state.to.reset();
         state.from.reset();
         state.sensors.clear();
         state.hangs = state.acting = 0;
+    }
+}
+
+void NodeChaos::reseed(uint64_t seed) {
+    seed_ = seed;
+    for (State& state : states_) {
+        state.to.reseed(seed, 1);
+        state.from.reseed(seed, 2);
+        for (SensorChaos& sensor : state.sensors) {
+            sensor.reseed(chaos_seed(sensor.fault(), seed, 0));
+        }
     }
 }
 

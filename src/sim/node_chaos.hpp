@@ -40,6 +40,8 @@ public:
 
     // As at the time 0 of a run.
     void restart();
+    // As World::reseed(), of what is random in faults; which faults there are stays.
+    void reseed(uint64_t seed);
     const std::vector<ChaosFault>& faults() const { return faults_; }
     std::optional<ChaosEdge> next(Time now) { return clock_.next(now); }
     // The node that the fault is done to; nothing: the main computer.
@@ -72,7 +74,7 @@ private:
     };
 
     NodeChaos(std::vector<ChaosFault> faults, uint64_t seed)
-        : faults_(std::move(faults)), seed_(seed), clock_(faults_) {}
+        : faults_(std::move(faults)), seed_(seed), first_seed_(seed), clock_(faults_) {}
     Status bind(const Chaos& chaos, const std::vector<ChaosNode>& nodes,
                 const std::vector<std::string>& buses);
     size_t index_of(const ChaosFault& fault) const {
@@ -81,14 +83,12 @@ private:
 
     std::vector<ChaosFault> faults_;  // stay where they are
     uint64_t seed_;
+    uint64_t first_seed_;  // before any reseed()
     ChaosClock clock_;
     std::vector<std::optional<size_t>> nodes_;  // of each fault
     std::vector<Variable> variables_;           // of each fault of a sensor
     std::vector<State> states_;                 // of each node
     std::vector<std::vector<int16_t>> switched_on_;
 };
-
-// What is random in a fault, in one of its streams.
-uint64_t chaos_seed(const ChaosFault& fault, uint64_t seed, uint64_t stream);
 
 }  // namespace vagus::sim

@@ -8,6 +8,7 @@ namespace vagus::sim {
 class Noise {
 public:
     explicit Noise(uint64_t seed) : random_(seed) {}
+    void reseed(uint64_t seed) { random_ = SplitMix64(seed); }
 
     // About normal, mean 0, standard deviation 1, never beyond 3.5: the sum of four numbers of 16
     // bits, moved and scaled (Irwin and Hall; the variance of one is 65536^2 / 12).

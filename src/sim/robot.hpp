@@ -61,6 +61,8 @@ public:
     virtual std::vector<Lamp> lamps() const = 0;
     // Its distance sensors as they are.
     virtual std::vector<Beam> beams(const Arena& arena) const = 0;
+    // From now on its noise and its slip are drawn from that seed; how its wheels are made stays.
+    virtual void reseed(uint64_t seed) = 0;
     // The colour that cameras see.
     virtual Colour colour() const = 0;
     // Where its camera is, in its frame; it looks ahead. Nothing: it has none.

@@ -26,6 +26,7 @@ public:
         : fault_(&fault), address_(address), sensed_(words), shown_(words), random_(seed) {}
 
     const ChaosFault& fault() const { return *fault_; }
+    void reseed(uint64_t seed) { random_ = SplitMix64(seed); }
     // Words that somebody has written since stay.
     void give_back(Machine& machine) const;
     void spoil(Machine& machine, Time now);

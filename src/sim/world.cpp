@@ -148,6 +148,7 @@ void World::Insides::populate() {
     now = Time{};
     rest = Duration{};
     timeline_next = 0;
+    reseeded.reset();
     if (chaos) chaos->restart();
     turns.move_in(*inhabitants);
     run_timeline();

@@ -260,11 +260,19 @@ public:
     // Is told of each that was done.
     void on_act(std::function<void(const Act&)> told);
 
+    // ---- Chance ----
+    // From now on all that is random here is drawn from another seed, and nothing else changes:
+    // noise of sensors, slip of wheels, math.rand of each node, what is random in faults. Each
+    // stream is drawn again from the seed and its own place (its robot, node, fault), so the same
+    // seed at the same instant gives the same bytes. What was drawn before stays: how a wheel is
+    // made, which faults there are. reset() undoes it.
+    void reseed(uint64_t seed);
+
     // ---- What breaks ----
     // The faults of the options, with those that were drawn. Those of main computers are for the
     // world's opener to carry out (host_chaos.hpp): here they are only told.
     const std::vector<ChaosFault>& chaos() const;
-    uint64_t chaos_seed() const;
+    uint64_t chaos_seed() const;  // of the last reseed()
     // What could break.
     std::vector<ChaosTarget> chaos_targets();
 

@@ -124,6 +124,12 @@ void World::on_act(std::function<void(const Act&)> told) {
     insides_->told_of_act = std::move(told);
 }
 
+void World::reseed(uint64_t seed) {
+    insides_->reseeded = seed;
+    insides_->inhabitants->reseed(seed);
+    if (insides_->chaos) insides_->chaos->reseed(seed);
+}
+
 std::string World::state_of(RobotId robot, uint16_t node) const {
     const auto index = index_of(insides_->definition, robot);
     if (!index) return "";

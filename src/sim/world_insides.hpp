@@ -26,7 +26,7 @@ struct World::Insides {
     void act(const Action& action);
     Status open_chaos(Chaos of);
     void pass_chaos();
-    uint64_t seed() const { return options.seed.value_or(definition.seed); }
+    uint64_t seed() const { return reseeded.value_or(options.seed.value_or(definition.seed)); }
     void note_frame(size_t robot, const wire::Frame& frame);
     void move_bodies();
     void note_touches();
@@ -49,7 +49,8 @@ struct World::Insides {
     bool clock_stops_with_nodes = false;
     Crew crew;
     NodeTurns turns;
-    std::optional<NodeChaos> chaos;  // nothing: nothing breaks
+    std::optional<NodeChaos> chaos;    // nothing: nothing breaks
+    std::optional<uint64_t> reseeded;  // since time 0
     size_t timeline_next = 0;
     Time now{};
     Duration rest{};  // asked for, but less than a step

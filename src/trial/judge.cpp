@@ -32,7 +32,7 @@ std::string_view way_of(const run::Ended& ended) {
 }
 
 Judge::Judge(const TestFile& test, const plan::Graph& graph, session::PlanWorld* world)
-    : readings_(graph, world) {
+    : readings_(graph, read_world_of(world)) {
     for (const Expectation& one : test.expect) cases_.push_back({.expectation = &one});
 }
 

@@ -21,6 +21,11 @@ double degrees_of(double radians) {
 
 }  // namespace
 
+ReadWorld read_world_of(session::PlanWorld* world) {
+    if (world == nullptr) return {};
+    return {&world->session(), world->robot()};
+}
+
 void Readings::line(const plan::TraceEvent& event) {
     now_ = event.at;
     variables_.see(event);
@@ -40,14 +45,14 @@ void Readings::line(const plan::TraceEvent& event) {
 void Readings::instant() {
     now_ = session().now();
     event_.clear();
-    const bool touched = session().world().touches(world_->robot());
+    const bool touched = session().world().touches(world_.robot);
     contact_ = touched ? contact_ + sim::kNodeStep : Duration{};
 }
 
 plan::Value Readings::of_robot(SignalId id) const {
     const auto robots = session().world().robots();
     for (const sim::RobotView& robot : robots) {
-        if (robot.id != world_->robot()) continue;
+        if (robot.id != world_.robot) continue;
         if (id == SignalId::X) return plan::Value(robot.pose.at.x);
         if (id == SignalId::Y) return plan::Value(robot.pose.at.y);
         return plan::Value(degrees_of(robot.pose.angle));
@@ -56,7 +61,7 @@ plan::Value Readings::of_robot(SignalId id) const {
 }
 
 double Readings::bus_percent() const {
-    const auto load = session().world().bus_load(world_->robot());
+    const auto load = session().world().bus_load(world_.robot);
     return load ? load->all.share_of_last_second * kPercent : 0;
 }
 
@@ -85,7 +90,7 @@ plan::Value Readings::signal(SignalId id) const {
 // Of the plan's robot; for a robot's name before it, "thymio/thymio-II", of that one.
 const session::NodeState* Readings::find_node(std::string_view name,
                                               const std::vector<session::NodeState>& nodes) const {
-    sim::RobotId robot = world_->robot();
+    sim::RobotId robot = world_.robot;
     const size_t slash = name.find('/');
     if (slash != std::string_view::npos) {
         const auto found = session().world().find_robot(name.substr(0, slash));
@@ -105,7 +110,7 @@ Result<int16_t> Readings::word(const Condition::Name& name) const {
     if (node == nullptr) {
         std::vector<std::string> names;
         for (const session::NodeState& one : nodes) {
-            if (one.robot == world_->robot()) names.push_back(one.name);
+            if (one.robot == world_.robot) names.push_back(one.name);
         }
         return Error{Code::NotFound, fmt::format("{}: the robot has no node \"{}\"; {}", name.shown,
                                                  name.node, known_instead(name.node, names))};

@@ -1,6 +1,6 @@
 // What the conditions of a test read, as it is now in a run.
 //
-//     Readings readings(graph, world);               // world: nullptr without one
+//     Readings readings(graph, read_world_of(world));    // world: nullptr without one
 //     readings.line(event);                          // each line of the trace
 //     readings.instant();                            // at the end of each instant of the world
 //     const Result<plan::Value> now = readings.value(name);
@@ -18,11 +18,17 @@
 
 namespace vagus::trial {
 
+// The world of a run, and the robot in it that signals are about. Borrowed; nullptr: there is none.
+struct ReadWorld {
+    session::SimSession* session = nullptr;
+    sim::RobotId robot = {};
+};
+ReadWorld read_world_of(session::PlanWorld* world);
+
 class Readings {
 public:
     // Both are borrowed.
-    Readings(const plan::Graph& graph, session::PlanWorld* world)
-        : variables_(graph), world_(world) {}
+    Readings(const plan::Graph& graph, const ReadWorld& world) : variables_(graph), world_(world) {}
 
     void line(const plan::TraceEvent& event);
     // The line of an event is over; bodies have moved.
@@ -41,10 +47,10 @@ private:
     const session::NodeState* find_node(std::string_view name,
                                         const std::vector<session::NodeState>& nodes) const;
     Result<int16_t> word(const Condition::Name& name) const;
-    session::SimSession& session() const { return world_->session(); }
+    session::SimSession& session() const { return *world_.session; }
 
     run::TracedVariables variables_;
-    session::PlanWorld* world_;
+    ReadWorld world_;
     Time now_{};
     std::vector<std::string> actors_;  // that run, the outermost first; empty text: between two
     std::string event_;

@@ -32,6 +32,7 @@ struct ReplayOptions {
     bool json = false;
     std::optional<double> from;
     std::vector<std::string> set;
+    std::optional<uint64_t> reseed;
     std::string record;
 };
 
@@ -134,6 +135,13 @@ Result<record::RerunOptions> rerun_options(const ReplayOptions& options,
     if (options.until) how.until = from_seconds(*options.until);
     if (options.from) how.from = from_seconds(*options.from);
     how.set = options.set;
+    how.reseed = options.reseed;
+    if (options.reseed && !options.from) {
+        return Error{
+            Code::BadInput,
+            "--reseed goes with --from, the instant from which on chance is drawn again, as "
+            "--from 20 --reseed 7"};
+    }
     if (!options.set.empty() && !options.from) {
         return Error{Code::BadInput,
                      "--set goes with --from, the instant at which it is set, as --from 20 --set "
@@ -324,6 +332,11 @@ void add_replay(CLI::App& app, int& exit_code) {
                      "with --from: writes a variable of the plan at that instant; again for more")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
+    takes_whole_number(
+        *verb->add_option("--reseed", options->reseed,
+                          "with --from: from that instant on noise, slip and math.rand are drawn "
+                          "from this seed; what was done from outside is done all the same"),
+        0, record::kReseedMax);
     takes_file(*verb->add_option("--record", options->record,
                                  "records the run as it is now, with its files"),
                {".mcap"});

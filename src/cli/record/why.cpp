@@ -9,6 +9,7 @@
 #include "base/seconds.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
+#include "cli/record/turning.hpp"
 #include "cli/verbs.hpp"
 
 namespace vagus::cli {
@@ -18,6 +19,7 @@ namespace {
 constexpr size_t kShown = 20;  // links, before the last
 
 struct WhyOptions {
+    TurningOptions turning;  // if its condition is given
     std::string file;
     std::vector<std::string> question;
     std::optional<double> at;
@@ -26,6 +28,12 @@ struct WhyOptions {
 };
 
 int tell_why(const WhyOptions& options) {
+    if (!options.turning.condition.empty()) {
+        TurningOptions turning = options.turning;
+        turning.file = options.file;
+        turning.json = options.json;
+        return tell_turning(turning);
+    }
     const auto question = record::read_question(options.question);
     if (!question.ok()) return complain(question.error(), kExitUsage);
     const auto file = MappedFile::open(options.file);
@@ -59,22 +67,31 @@ void add_why(CLI::App& app, int& exit_code) {
     CLI::App* verb = app.add_subcommand("why", "tells from a recording why something happened");
     auto options = std::make_shared<WhyOptions>();  // owners: CLI11's options and the callback
     takes_file(*verb->add_option("FILE", options->file, "the recording")->required(), {".mcap"});
-    verb->add_option("QUESTION", options->question,
-                     "actor NAME, variable NODE.NAME, variable NAME, motor ROBOT, event NAME, end")
-        ->required()
-        ->expected(1, 2);
-    verb->add_option("--at", options->at, "the instant that the question is about (the end)")
-        ->type_name("S");
-    verb->add_flag("--all", options->all, "all of a long chain");
-    verb->add_flag("--json", options->json, "the chain as a JSON array on stdout");
+    CLI::Option* const question = verb->add_option(
+        "QUESTION", options->question,
+        "actor NAME, variable NODE.NAME, variable NAME, motor ROBOT, event NAME, end");
+    question->expected(1, 2);
+    CLI::Option* const at =
+        verb->add_option("--at", options->at, "the instant that the question is about (the end)");
+    at->type_name("S");
+    CLI::Option* const all = verb->add_flag("--all", options->all, "all of a long chain");
+    verb->add_flag("--json", options->json, "the answer as JSON on stdout");
+    CLI::Option* const turning = add_turning_options(*verb, options->turning);
+    for (CLI::Option* const one : {question, at, all}) turning->excludes(one);
     verb->footer(
         "Prints what happened before it, the newest first, one line each: when, what, its value, "
         "and where it is written. The last line is where it began: something in the world, a "
         "person, a timer, the beginning. Plans, scripts and worlds are those in the recording.\n"
+        "--turning-point asks when a condition of a test (vagus test --signals) was decided: from "
+        "instants over the run it is continued again and again with other seeds, and counted "
+        "in how many continuations the condition comes about. Told are that curve, the instant at "
+        "which it turned, what there was, and one continuation with it and one without it, which "
+        "are kept as recordings.\n"
         "Exit codes: 0 answered, 1 there is no such thing by then, 2 not valid.\n\nExample:\n"
         "  vagus why run.mcap motor carbot --at 83\n"
         "  vagus why run.mcap actor backupCollision\n"
-        "  vagus why run.mcap variable drive.token --at 20");
+        "  vagus why run.mcap variable drive.token --at 20\n"
+        "  vagus why run.mcap --turning-point \"contact >= 2\" --tries 40");
     verb->callback([options, &exit_code] { exit_code = tell_why(*options); });
 }
 

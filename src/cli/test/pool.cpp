@@ -49,6 +49,14 @@ std::string trouble_of(int status) {
     return fmt::format("its process ended with exit status {}", WEXITSTATUS(status));
 }
 
+// Waits for it.
+int end_of(pid_t process) {
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
 class Pool {
 public:
     explicit Pool(const std::function<std::string(size_t)>& job) : job_(job) {}
@@ -108,9 +116,7 @@ private:
 
     static JobResult end(Running& one) {
         (void)close(one.pipe);
-        int status = 0;
-        while (waitpid(one.process, &status, 0) < 0 && errno == EINTR) {
-        }
+        const int status = end_of(one.process);
         const std::chrono::duration<double> took = Clock::now() - one.begun;
         return {std::move(one.text), trouble_of(status), took.count()};
     }
@@ -120,6 +126,22 @@ private:
 };
 
 }  // namespace
+
+bool continue_in_copy(std::string& trouble) {
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    if (child == 0) {
+        (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (getppid() != parent) _exit(1);  // it died in between
+        return true;
+    }
+    if (child < 0) {
+        trouble = fmt::format("no process for it: {}", strerror(errno));
+        return false;
+    }
+    trouble = trouble_of(end_of(child));
+    return false;
+}
 
 void run_jobs(size_t count, int at_once, const std::function<std::string(size_t)>& job,
               const std::function<bool(size_t, JobResult)>& done) {

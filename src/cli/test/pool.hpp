@@ -25,4 +25,9 @@ constexpr int kJobsAtOnceMax = 256;
 void run_jobs(size_t count, int at_once, const std::function<std::string(size_t)>& job,
               const std::function<bool(size_t, JobResult)>& done);
 
+// Within a job: goes on in a copy of its process. True in the copy, whose text is added to that of
+// the job; false in the job itself, when the copy has ended. `trouble` is how it ended instead;
+// empty: it gave its text.
+bool continue_in_copy(std::string& trouble);
+
 }  // namespace vagus::cli

@@ -69,6 +69,12 @@ void Carbot::set_button(std::string_view button, bool pressed) {
     if (button == "escape") bumper_.set_escape(pressed);
 }
 
+void Carbot::reseed(uint64_t seed) {
+    drive_.reseed(seed_of(seed, kDrive));
+    range_.reseed(seed_of(seed, kRange));
+    head_.reseed(seed_of(seed, kHead));
+}
+
 std::vector<Lamp> Carbot::lamps() const {
     return {head_.lamp()};
 }

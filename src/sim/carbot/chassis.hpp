@@ -15,6 +15,8 @@ class Chassis {
 public:
     // `seed` decides how this one slips.
     explicit Chassis(uint64_t seed);
+    // From now on it slips otherwise; the flaws of its wheels stay as they were made.
+    void reseed(uint64_t seed) { noise_.reseed(seed); }
 
     // One step of kArenaStep toward the targets. Gives the motion on the ground.
     Twist step(const WheelPair& targets);

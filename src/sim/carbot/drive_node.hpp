@@ -29,6 +29,7 @@ class DriveNode {
 public:
     // `seed` is that of the slip of its wheels.
     DriveNode(uint16_t id, uint64_t seed);
+    void reseed(uint64_t seed) { chassis_.reseed(seed); }
 
     Machine& machine() { return machine_; }
     // Each millisecond: variables, local events.

@@ -12,6 +12,7 @@ class HeadNode {
 public:
     // `seed` is that of the noise of its sensors.
     HeadNode(uint16_t id, uint64_t seed);
+    void reseed(uint64_t seed) { noise_.reseed(seed); }
 
     Machine& machine() { return machine_; }
     // Each millisecond.

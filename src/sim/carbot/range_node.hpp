@@ -13,6 +13,7 @@ class RangeNode {
 public:
     // `seed` is that of the sensor's noise.
     RangeNode(uint16_t id, uint64_t seed);
+    void reseed(uint64_t seed) { sonar_.reseed(seed); }
 
     Machine& machine() { return machine_; }
     // Each millisecond.

@@ -33,6 +33,7 @@ class Sonar {
 public:
     // `seed` is that of its noise: 1 % of the distance.
     explicit Sonar(uint64_t seed) : noise_(seed) {}
+    void reseed(uint64_t seed) { noise_.reseed(seed); }
 
     // As the natives of the node ask: done in the next step().
     void turn(int16_t angle);

@@ -33,6 +33,7 @@ public:
     bool drive(Arena& arena, Time now) override;
     std::vector<Lamp> lamps() const override;
     std::vector<Beam> beams(const Arena& arena) const override;
+    void reseed(uint64_t seed) override { noise_.reseed(seed); }
     Colour colour() const override;
 
 private:

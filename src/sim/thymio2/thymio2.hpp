@@ -64,6 +64,7 @@ public:
     void set_button(std::string_view button, bool pressed) override;
     std::vector<Lamp> lamps() const override;
     std::vector<Beam> beams(const Arena& arena) const override;
+    void reseed(uint64_t seed) override { noise_.reseed(seed); }
     Colour colour() const override { return paint_; }
 
 private:

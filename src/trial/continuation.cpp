@@ -1,0 +1,132 @@
+#include "trial/continuation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/json.hpp"
+#include "embed/loaded_plan.hpp"
+#include "record/causes.hpp"
+#include "record/file_tape.hpp"
+#include "session/plan_world.hpp"
+
+namespace vagus::trial {
+
+namespace {
+
+Error cannot(const mcap::Reader& reader, const std::string& why) {
+    return {Code::Refused, reader.name() + ": " + why};
+}
+
+Error at_condition(std::string_view condition, const Error& error) {
+    return {error.code, fmt::format("the condition {}: {}", json_quote(condition), error.what)};
+}
+
+Status check_can_continue(const mcap::Reader& reader, record::Rerun& rerun) {
+    if (rerun.session() == nullptr) {
+        return cannot(reader,
+                      "is of a plan without a world, which cannot be continued from an instant; "
+                      "record one that runs beside a world, with `vagus plan run --world`");
+    }
+    if (rerun.about().verb == record::kStudioVerb) {
+        return cannot(reader,
+                      "is of a run in the studio, where a person may have paused it; record the "
+                      "same with `vagus plan run --record` or `vagus sim --record`");
+    }
+    return Status::done();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Continued>> Continued::open(const mcap::Reader& reader,
+                                                   std::string_view condition,
+                                                   std::optional<Time> until) {
+    Result<Condition> parsed = Condition::parse(condition);
+    if (!parsed.ok()) return at_condition(condition, parsed.error());
+    auto rerun = TRY(record::Rerun::open(reader, {}));
+    TRY(check_can_continue(reader, *rerun));
+    // make_unique cannot reach the constructor.
+    std::unique_ptr<Continued> made(
+        new Continued(reader, std::move(parsed.value()), std::move(rerun)));
+    made->until_ = until.value_or(made->rerun_->recorded_until());
+    const Status bound = made->bind();
+    if (!bound.ok()) return at_condition(condition, bound.error());
+    return made;
+}
+
+Status Continued::bind() {
+    if (rerun_->plan() != nullptr) {
+        return condition_.bind(rerun_->plan()->graph().plans.front(), true);
+    }
+    no_plan_.plans.emplace_back();
+    return condition_.bind(no_plan_.plans.front(), true);
+}
+
+Result<RunEnd> Continued::as_it_was() {
+    record::NullTape tape;
+    return run(tape, Ends::WhenItCame);
+}
+
+Result<std::optional<RunEnd>> Continued::from_each(Time at, std::span<const uint64_t> seeds,
+                                                   const std::function<bool()>& split) {
+    TRY(rerun_->continue_from(at, seeds.front(), until_));
+    bool divided = false, is_copy = false;
+    const auto divide = [&] {
+        divided = true;
+        for (const uint64_t seed : seeds) {
+            if (!split()) continue;
+            is_copy = true;
+            return rerun_->draw_from(seed);
+        }
+        rerun_->stop();
+    };
+    // Before the first instant nobody looks.
+    if (at == Time{}) divide();
+    if (divided && !is_copy) return std::optional<RunEnd>();
+    rerun_->each_instant([&](Time now) {
+        if (now >= at && !divided) divide();
+    });
+    record::NullTape tape;
+    const RunEnd end = TRY(run(tape, Ends::WhenItCame));
+    return is_copy ? std::optional(end) : std::nullopt;
+}
+
+Status Continued::record(const Continuation& start, const std::string& file) {
+    TRY(rerun_->continue_from(start.at, start.seed, until_));
+    const auto tape = TRY(record::FileTape::create(file, record::Pace::Waits));
+    for (const mcap::Attachment& one : reader_.attachments()) tape->attach(one.name, one.data);
+    (void)TRY(run(*tape, Ends::AtItsEnd));
+    return tape->end();
+}
+
+Result<RunEnd> Continued::run(record::Tape& tape, Ends ends) {
+    const bool has_plan = rerun_->plan() != nullptr;
+    const ReadWorld world = rerun_->plan_world() != nullptr
+                                ? read_world_of(rerun_->plan_world())
+                                : ReadWorld{rerun_->session(), sim::RobotId{1}};
+    Awaited awaited(condition_, has_plan ? rerun_->plan()->graph() : no_plan_, world);
+    rerun_->listen([&awaited](const plan::TraceEvent& event) { awaited.line(event); });
+    rerun_->each_instant([&](Time at) {
+        awaited.instant();
+        const bool enough = at >= until_ || awaited.is_over();
+        if (enough && ends == Ends::WhenItCame) rerun_->stop();
+    });
+    const record::Rerun::Ended ended = TRY(rerun_->run(tape));
+    TRY(awaited.trouble());
+    return RunEnd{.came = awaited.came(), .end = std::min(ended.at, until_)};
+}
+
+std::string format_run_end(const RunEnd& end) {
+    return fmt::format("{} {}", end.came ? end.came->count() : -1, end.end.count());
+}
+
+RunEnd read_run_end(std::string_view text) {
+    int64_t came = -1, end = 0;
+    const char* const last = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), last, came);
+    if (read.ptr != last) std::from_chars(read.ptr + 1, last, end);
+    return {.came = came < 0 ? std::nullopt : std::optional(Time(came)), .end = Time(end)};
+}
+
+}  // namespace vagus::trial

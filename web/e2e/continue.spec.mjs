@@ -183,3 +183,32 @@ test(
     await until('it has gone on', async () => (await clock(page)) > at);
   },
 );
+
+test('a run before this one is opened from the timeline, by keys', wall, async (studio) => {
+  const { page, press, type } = studio;
+  await runTo(studio, 'findWallAngle');
+  const first = await clock(page);
+  await press('Control+k');
+  await type('simulation back to its start');
+  await press('Enter');
+  await until('it is at its start', async () => (await clock(page)) === 0);
+  // A longer one.
+  await page.getByRole('group', { name: /^findWallAngle, actor/ }).focus();
+  await press('F9');
+  await page.getByRole('group', { name: /^parallelToWall, actor/ }).focus();
+  await press('Space', 'F9', 'F5');
+  await seen(page.getByText('Paused by the breakpoint parallelToWall'));
+  const second = await clock(page);
+  assert.ok(second > first);
+  await page.getByRole('tab', { name: 'Timeline' }).click();
+  await page.getByRole('button', { name: 'Open a run before this one' }).focus();
+  await press('Enter');
+  const runs = page.getByRole('menuitem', { name: /^Run \d+, until/ });
+  await seen(runs.first());
+  assert.equal(await runs.count(), 1, 'not the one that is there');
+  await press('ArrowDown', 'Enter');
+  await until('the first run is there, at its end', async () => (await clock(page)) === first);
+  await press('Alt+F10');
+  await seen(bar(page));
+  await reads(page.locator('.pactive'), /searchFirstWall/);
+});

@@ -696,6 +696,16 @@ export interface GitVersion {
   subject: string;
 }
 
+/** The recording of a run before. */
+export interface KeptRecording {
+  path: Path;
+  /** of the run */
+  number: number;
+  bytes: number;
+  /** when the last of it was written */
+  when_wall: number;
+}
+
 /** A new version of the plan that runs (P31). */
 export interface PlanChange {
   /** counts up */
@@ -1638,6 +1648,10 @@ export interface Commands {
   'history.save': { in: Record<never, never>; out: {
     path: Path;
   } };
+  /** The recordings of runs that this project keeps, the newest first, without that of the run that is there. */
+  'recording.list': { in: Record<never, never>; out: {
+    recordings: KeptRecording[];
+  } };
   /** Runs a recorded run of this project's plan or world again, to its end, with the files of then: it can be looked back into, asked, and continued. */
   'recording.open': { in: {
     path: Path;
@@ -2030,6 +2044,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   TriedPlan: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', levels: '[PlanLevel; 64]', story: '[Line; 200]' },
   PlanDifference: { kind: 'word(added|removed|changed|reordered)', element: 'text(100000)', part: 'text(100000)', path: '[text(100000); 16]', before: 'json?', after: 'json?', behind: 'text(100000)?' },
   GitVersion: { revision: 'line(64)', when_wall: 'number', by: 'line(100)', subject: 'line(200)' },
+  KeptRecording: { path: 'Path', number: 'number', bytes: 'number', when_wall: 'number' },
   PlanChange: { number: 'number', t: 'number', state: 'word(taken|refused)', docs: '[Doc; 100]', reasons: '[text(2000); 1000]' },
   CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
   FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
@@ -2147,6 +2162,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'history.ways': { may: 'look', kind: 'look', out: { run: 'number', ways: '[json; 1024]' } },
   'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
   'history.save': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
+  'recording.list': { may: 'look', kind: 'look', out: { recordings: '[KeptRecording; 100]' } },
   'recording.open': { may: 'driver', kind: 'act', out: {} },
   'test.keep': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
   'why.ask': { may: 'look', kind: 'look', out: { chain: '[WhyLink; 1001]' } },

@@ -60,7 +60,7 @@ void Workbench::record_plan(const RunOrder& order) {
 
 // A run that cannot be recorded goes all the same.
 void Workbench::record_run(RunOrder& order) {
-    auto path = recordings_.next(run_.time() > 0);
+    auto path = recordings_.next(run_.time() > 0, order.past ? order.past->recording : "");
     if (!path.ok()) return say("warning", "this run is not recorded: " + path.error().what);
     order.recording = std::move(path.value());
     std::erase_if(recorded_,
@@ -145,7 +145,10 @@ void Workbench::open_recording(const Call& call) {
         return call.fail("unavailable", "a recorded run is run again by the simulator; choose it");
     }
     const std::string path = call.in["path"];
-    if (!files_.exists(path)) return call.fail("not_found", path + ": there is no such file");
+    // Folders whose names begin with a dot are not among the files of a project.
+    if (!files_.exists(path) && !recordings_.keeps(project_->real(path))) {
+        return call.fail("not_found", path + ": there is no such file");
+    }
     if (!save_all(call)) return;
     using Read = Result<record::PastRun>;
     worked<Read>(
@@ -156,6 +159,18 @@ void Workbench::open_recording(const Call& call) {
             past.ok() ? relive(call, project_->real(path), past.value())
                       : call.fail("bad_input", with_short_paths(past.error().what));
         });
+}
+
+void Workbench::list_recordings(const Call& call) {
+    if (!project_) return call.fail("unavailable", "no project is open; open one first");
+    Json recordings = Json::array();
+    for (const Recordings::Kept& one : recordings_.kept()) {
+        recordings.push_back({{"path", project_->doc_of(one.path)},
+                              {"number", one.number},
+                              {"bytes", one.bytes},
+                              {"when_wall", one.when_wall}});
+    }
+    call.done({{"recordings", std::move(recordings)}});
 }
 
 // Its files are those of the project, as they were then.

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <map>
 #include <utility>
 
@@ -41,7 +43,7 @@ void Recordings::enter(fs::path folder) {
     before_.clear();
 }
 
-Result<std::string> Recordings::next(bool had_begun) {
+Result<std::string> Recordings::next(bool had_begun, const std::string& needed) {
     none(had_begun);
     if (folder_.empty()) return Error{Code::Unavailable, "no project is open"};
     std::error_code failed;
@@ -51,7 +53,7 @@ Result<std::string> Recordings::next(bool had_begun) {
                                                     "made: {}",
                                                     folder_.string(), failed.message())};
     }
-    make_room();
+    make_room(needed);
     const auto all = recordings_in(folder_);
     const uint64_t number = all.empty() ? 1 : all.rbegin()->first + 1;
     now_ = (folder_ / fmt::format("{}{}{}", kBegins, number, kEnds)).string();
@@ -65,18 +67,41 @@ void Recordings::none(bool had_begun) {
     now_.clear();
 }
 
-void Recordings::make_room() const {
-    auto all = recordings_in(folder_);
+void Recordings::make_room(const std::string& needed) const {
+    const auto all = recordings_in(folder_);
+    size_t count = all.size();
     uint64_t bytes = 0;
     for (const auto& [number, one] : all) bytes += one.second;
-    for (auto oldest = all.begin(); oldest != all.end(); oldest = all.erase(oldest)) {
-        const auto& [path, size] = oldest->second;
-        const bool fits = all.size() <= kRecordingsKept && bytes <= kRecordingsBytesMax;
+    for (const auto& [number, one] : all) {
+        const auto& [path, size] = one;
+        const bool fits = count <= kRecordingsKept && bytes <= kRecordingsBytesMax;
         if (fits || path.string() == before_) return;
+        if (path.string() == needed) continue;
         std::error_code ignored;
         fs::remove(path, ignored);
         bytes -= size;
+        --count;
     }
+}
+
+std::vector<Recordings::Kept> Recordings::kept() const {
+    using std::chrono::duration_cast, std::chrono::file_clock, std::chrono::milliseconds;
+    std::vector<Kept> kept;
+    for (const auto& [number, one] : recordings_in(folder_)) {
+        const auto& [path, bytes] = one;
+        if (path.string() == now_) continue;
+        std::error_code unknown;
+        const auto written = file_clock::to_sys(fs::last_write_time(path, unknown));
+        if (unknown) continue;  // it has just gone
+        const auto since = duration_cast<milliseconds>(written.time_since_epoch());
+        kept.push_back({path.string(), number, bytes, static_cast<double>(since.count())});
+    }
+    std::ranges::reverse(kept);
+    return kept;
+}
+
+bool Recordings::keeps(const std::string& path) const {
+    return std::ranges::any_of(kept(), [&path](const Kept& one) { return one.path == path; });
 }
 
 std::string Recordings::of_run(bool has_begun) const {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/result.hpp"
 
@@ -24,15 +25,26 @@ public:
     void enter(std::filesystem::path folder);
 
     // The file of a run that begins; `had_begun`: time has passed in the one that it replaces.
-    // Older ones are deleted, but never the one before. The Error says why there can be none.
-    Result<std::string> next(bool had_begun);
+    // Older ones are deleted, but never the one before, nor `needed`. The Error says why there can
+    // be none.
+    Result<std::string> next(bool had_begun, const std::string& needed = "");
     // The one of the run that is there or, as long as no time has passed in it, of the run before.
     // Empty: there is none.
     std::string of_run(bool has_begun) const;
 
+    struct Kept {
+        std::string path;
+        uint64_t number = 0;
+        uint64_t bytes = 0;
+        double when_wall = 0;  // ms since 1970: of the last that was written
+    };
+    // The newest first. Not the one that is being made.
+    std::vector<Kept> kept() const;
+    bool keeps(const std::string& path) const;
+
 private:
     void none(bool had_begun);
-    void make_room() const;
+    void make_room(const std::string& needed) const;
 
     std::filesystem::path folder_;
     std::string now_;

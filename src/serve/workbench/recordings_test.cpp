@@ -82,5 +82,37 @@ TEST(Recordings, FilesOfOthersStay) {
     EXPECT_EQ(count(folder / "."), 4u);
 }
 
+TEST(Recordings, AnOldOneThatIsRunAgainStaysAndOthersGo) {
+    const test::Folder folder;
+    for (size_t i = 1; i <= kRecordingsKept + 1; ++i) {
+        make(folder / ("run-" + std::to_string(i) + ".mcap"));
+    }
+    Recordings recordings;
+    recordings.enter(folder / ".");
+    ASSERT_TRUE(recordings.next(false, (folder / "." / "run-1.mcap").string()).ok());
+    EXPECT_TRUE(fs::exists(folder / "run-1.mcap"));
+    EXPECT_FALSE(fs::exists(folder / "run-2.mcap"));
+    EXPECT_TRUE(fs::exists(folder / "run-3.mcap"));
+}
+
+TEST(Recordings, ThoseOfRunsBeforeAreListedTheNewestFirst) {
+    const test::Folder folder;
+    make(folder / "run-2.mcap", 20);
+    make(folder / "run-10.mcap", 100);
+    make(folder / "run-x.mcap");
+    Recordings recordings;
+    EXPECT_TRUE(recordings.kept().empty());
+    recordings.enter(folder / ".");
+    make(recordings.next(false).value());
+    const auto kept = recordings.kept();
+    ASSERT_EQ(kept.size(), 2u);
+    EXPECT_EQ(kept[0].number, 10u);
+    EXPECT_EQ(kept[0].bytes, 100u);
+    EXPECT_GT(kept[0].when_wall, 1.5e12);  // after 2017
+    EXPECT_EQ(kept[1].number, 2u);
+    recordings.enter(folder / "gone");
+    EXPECT_TRUE(recordings.kept().empty());
+}
+
 }  // namespace
 }  // namespace vagus::serve

@@ -272,6 +272,7 @@ void Workbench::declare_run_commands() {
         live();
     });
     desk_.command("run.continue", [this](const Call& call) { continue_from(call); });
+    desk_.command("recording.list", [this](const Call& call) { list_recordings(call); });
     desk_.command("recording.open", [this](const Call& call) { open_recording(call); });
     desk_.command("test.keep", [this](const Call& call) { keep_test(call); });
     desk_.command("run.reset", [this](const Call& call) { reset(call); });

@@ -192,6 +192,7 @@ private:
     void record_script(uint16_t node, const std::string& name);
     Result<std::string> recording_of_run() const;
     void begin_past(const Call& call, RunOrder order, bool go);
+    void list_recordings(const Call& call);
     void open_recording(const Call& call);
     void relive(const Call& call, const std::string& recording, const record::PastRun& past);
     void keep_test(const Call& call);

@@ -10,6 +10,7 @@ import { useCommands, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
+import { EarlierRuns } from './earlier_runs';
 import { words } from './words';
 import { followNewest, showAll, useTimelineView, zoomBy } from './view_store';
 
@@ -59,6 +60,7 @@ export default function TimelineTools() {
         icon={<IconTestPipe {...icon} />}
         onClick={() => void registry.run('test.keep')}
       />
+      <EarlierRuns />
     </div>
   );
 }

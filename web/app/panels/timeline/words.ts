@@ -24,5 +24,10 @@ export const words = {
   follow: 'Follow the newest',
   larger: 'Zoom in',
   smaller: 'Zoom out',
+  earlier: 'Open a run before this one',
+  asks: 'Looking for recordings…',
+  noEarlier: 'No run before this one is recorded.',
+  run: (number: number, when: string) => `Run ${number}, until ${when}`,
+  size: (bytes: number) => `${(bytes / 1e6).toFixed(1)} MB`,
   save: 'Save the trace as a file of the project',
 };

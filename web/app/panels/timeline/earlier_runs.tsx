@@ -1,0 +1,74 @@
+import { Menu } from '@mantine/core';
+import { IconHistory } from '@tabler/icons-react';
+import { useEffect, useState } from 'react';
+import type { KeptRecording } from '../../../protocol/messages';
+import { openRecording } from '../../commands/past_commands';
+import { useDrives, useStudio } from '../../hooks';
+import { kStroke } from '../../parts/icons';
+import { StudioMenu } from '../../parts/menu';
+import { words } from './words';
+
+/** Runs of this project that were recorded: one that is chosen is run again, and can be looked back into. */
+export function EarlierRuns() {
+  const [opened, setOpened] = useState(false);
+  const drives = useDrives();
+  return (
+    <StudioMenu
+      opened={opened}
+      onChange={setOpened}
+      button={
+        <button
+          type="button"
+          className="btn btn--plain btn--small btn--icon"
+          aria-label={words.earlier}
+          data-tip={words.earlier}
+          disabled={!drives}
+        >
+          <IconHistory size={14} stroke={kStroke} aria-hidden />
+        </button>
+      }
+    >
+      {opened ? <Recordings /> : null}
+    </StudioMenu>
+  );
+}
+
+function Recordings() {
+  const studio = useStudio();
+  const recordings = useRecordings();
+  return (
+    <>
+      <Menu.Label>{words.earlier}</Menu.Label>
+      {recordings !== null && recordings.length > 0 ? null : (
+        <Menu.Item disabled>{recordings === null ? words.asks : words.noEarlier}</Menu.Item>
+      )}
+      {recordings?.map(({ path, number, when_wall, bytes }) => (
+        <Menu.Item
+          key={path}
+          rightSection={<span className="muted num">{words.size(bytes)}</span>}
+          onClick={() => void openRecording(studio, path)}
+        >
+          {words.run(number, timeOf(when_wall))}
+        </Menu.Item>
+      ))}
+    </>
+  );
+}
+
+const timeOf = (wall: number): string =>
+  new Date(wall).toLocaleString('en-GB', { dateStyle: 'medium', timeStyle: 'short' });
+
+/** null: not known yet. */
+function useRecordings(): readonly KeptRecording[] | null {
+  const studio = useStudio();
+  const [recordings, setRecordings] = useState<readonly KeptRecording[] | null>(null);
+  useEffect(() => {
+    let gone = false;
+    studio.send('recording.list', {}).then(
+      (answer) => gone || setRecordings(answer.recordings),
+      (problem: unknown) => gone || (setRecordings([]), studio.tell(problem)),
+    );
+    return () => void (gone = true);
+  }, [studio]);
+  return recordings;
+}

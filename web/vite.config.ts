@@ -26,6 +26,7 @@ export default defineConfig({
       output: {
         codeSplitting: {
           groups: [
+            { name: 'codemirror', test: /@codemirror\/(?!lang|legacy|merge)/ },
             { name: 'icons', test: /tabler/ },
             { name: 'parts', test: /app\/parts\// },
           ],

@@ -7,6 +7,7 @@
 #include "cli/output.hpp"
 #include "cli/page.hpp"
 #include "cli/studio/runner.hpp"
+#include "cli/test/test_host.hpp"
 #include "cli/usage.hpp"
 #include "cli/verbs.hpp"
 
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
     vagus::cli::add_runner(app, exit_code);
     vagus::cli::add_why_host(app, exit_code);
     vagus::cli::add_try_host(app, exit_code);
+    vagus::cli::add_test_host(app, exit_code);
     vagus::cli::shape_help(app);
     vagus::cli::refuse_options_as_values(app);
     return vagus::cli::end_output(parse_and_run(app, argc, argv, exit_code));

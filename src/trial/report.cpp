@@ -51,20 +51,27 @@ bool as_expected(const SeedResult& result) {
     return result.trouble.empty() && result.outcome.as_expected();
 }
 
+std::vector<Failure> failures_of(const TestFile& test, const Outcome& outcome) {
+    std::vector<Failure> failures;
+    for (size_t i = 0; i < test.expect.size(); ++i) {
+        const Verdict& verdict = outcome.verdicts[i];
+        if (verdict.as_expected) continue;
+        const Expectation& one = test.expect[i];
+        failures.push_back({one.at, seconds_of(verdict.at), text_of(one), verdict.what, one.help});
+    }
+    return failures;
+}
+
 std::string describe_failure(const TestFile& test, const SeedResult& result) {
     if (!result.trouble.empty()) {
         return fmt::format("{}: seed {}: {}", test.path, result.seed, result.trouble);
     }
     std::vector<std::string> lines;
-    for (size_t i = 0; i < test.expect.size(); ++i) {
-        const Verdict& verdict = result.outcome.verdicts[i];
-        if (verdict.as_expected) continue;
-        const Expectation& one = test.expect[i];
-        lines.push_back(
-            at_place(test.path, one.at,
-                     fmt::format("seed {}, at {} s: {}: {}{}", result.seed,
-                                 plan::text_of(seconds_of(verdict.at)), text_of(one), verdict.what,
-                                 one.help.empty() ? "" : " (" + one.help + ")")));
+    for (const Failure& one : failures_of(test, result.outcome)) {
+        lines.push_back(at_place(
+            test.path, one.at,
+            fmt::format("seed {}, at {} s: {}: {}{}", result.seed, plan::text_of(one.t),
+                        one.expected, one.what, one.help.empty() ? "" : " (" + one.help + ")")));
     }
     return joined_lines(lines);
 }

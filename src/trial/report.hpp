@@ -26,6 +26,17 @@ struct TestResult {
 
 bool as_expected(const SeedResult& result);
 
+// One expectation that did not hold in one run.
+struct Failure {
+    Place at = {};  // of it in the test
+    double t = 0;   // s: when that was known
+    std::string expected = {};
+    std::string what = {};  // the values then
+    std::string help = {};  // of the test
+    friend bool operator==(const Failure&, const Failure&) = default;
+};
+std::vector<Failure> failures_of(const TestFile& test, const Outcome& outcome);
+
 // What is wrong with one seed: a line for each expectation that failed, without a newline at the
 // end, each beginning with its place.
 std::string describe_failure(const TestFile& test, const SeedResult& result);

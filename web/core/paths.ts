@@ -44,3 +44,8 @@ export function isRecording(path: Path): boolean {
 export function isTrace(path: Path): boolean {
   return path.endsWith('.trace.jsonl');
 }
+
+/** A test of behaviour. */
+export function isTest(path: Path): boolean {
+  return path.endsWith('.test.json');
+}

@@ -436,6 +436,76 @@ export interface WhyLink {
   root: boolean;
 }
 
+/** A test of behaviour, as it is run. */
+export interface TestRun {
+  path: Path;
+  /** one for each seed */
+  runs: number;
+  done: number;
+  /** of those that are done */
+  failed: number;
+  /** why it cannot be run */
+  why?: string;
+  /** of that in it */
+  at?: Place;
+  failures: TestFailure[];
+}
+
+/** What was not as expected in one run of a test. */
+export interface TestFailure {
+  seed: number;
+  /** when it was known; missing: the run crashed */
+  t?: number;
+  /** of the expectation in the test */
+  at?: Place;
+  expected?: string;
+  /** the values then, or how it crashed */
+  what: string;
+  /** of the test */
+  help?: string;
+  /** recording.open takes it, until tests are run again */
+  recording?: Path;
+}
+
+/** How much of a file was taken. */
+export interface CoverageRow {
+  /** a plan or a file of scripts */
+  path: Path;
+  kinds: CoverageShare[];
+}
+
+/** How many of a kind were ever taken. */
+export interface CoverageShare {
+  name: 'actors' | 'states' | 'supervisors' | 'events' | 'pairs' | 'lines' | 'branches';
+  taken: number;
+  of: number;
+}
+
+/** How often each was taken; what never was is there with 0. */
+export interface PlanCoverage {
+  /** by name */
+  actors: Record<string, number>;
+  /** "followWall: WallLost" */
+  states: Record<string, number>;
+  /** "touch"; of an actor: "followWall.wallTouch" */
+  supervisors: Record<string, number>;
+  /** "touch: TouchSensorPressed" */
+  events: Record<string, number>;
+  /** "searchFirstWall, findWallAngle" */
+  pairs: Record<string, number>;
+}
+
+/** A line of a script that is code. */
+export interface LineCoverage {
+  line: number;
+  /** how often its busiest instruction was executed */
+  count: number;
+  /** of its branches */
+  ways?: number;
+  /** of these ways */
+  taken?: number;
+}
+
 /** A line of the console. */
 export interface Line {
   number: number;
@@ -1655,11 +1725,22 @@ export interface Commands {
   /** Runs a recorded run of this project's plan or world again, to its end, with the files of then: it can be looked back into, asked, and continued. */
   'recording.open': { in: {
     path: Path;
+    /** it is run from its beginning as the clock goes, to be watched and changed, instead */
+    live?: boolean;
   }; out: Record<never, never> };
   /** Writes a test of the simulated run that goes or went last, beside its plan: the order of its actors, by when the last of them had come, and how it ended. */
   'test.keep': { in: Record<never, never>; out: {
     path: Path;
   } };
+  /** Saves all, then runs tests of behaviour with each of their seeds, in processes of their own, beside whatever runs. One set of tests at a time. */
+  'tests.run': { in: {
+    /** missing: all of the project */
+    tests?: Path[];
+    /** lines of scripts are counted, too, which takes several times as long */
+    scripts?: boolean;
+  }; out: Record<never, never> };
+  /** Ends the run of tests; what came of seeds until then stays. */
+  'tests.stop': { in: Record<never, never>; out: Record<never, never> };
   /** Why something in a simulated run is as it is: the run is run again from its recording. Of the run that goes or went last, at an instant or, without one, as far as it is recorded. */
   'why.ask': { in: {
     about: 'actor' | 'variable' | 'motor' | 'event' | 'end';
@@ -1912,6 +1993,32 @@ export interface Topics {
     /** older events are not kept */
     events_from?: number;
   } };
+  /** Tests of behaviour that are run, or were run last. */
+  'tests': { kind: 'document'; of: Record<never, never>; is: {
+    state: 'none' | 'running' | 'done' | 'stopped' | 'failed';
+    /** why it failed */
+    why?: string;
+    /** of all tests together */
+    runs: number;
+    done: number;
+    failed: number;
+    /** lines of scripts are counted */
+    scripts: boolean;
+    tests: TestRun[];
+    coverage: CoverageRow[];
+    /** files whose text is another one than it was when they were run */
+    changed: Path[];
+  } };
+  /** What the last run of tests took of a plan or a script. */
+  'coverage': { kind: 'document'; of: {
+    doc: Doc;
+  }; is: {
+    /** the text is another one by now */
+    changed: boolean;
+    plan?: PlanCoverage;
+    /** of a script */
+    lines?: LineCoverage[];
+  } };
   /** What state.put kept. */
   'state': { kind: 'document'; of: Record<never, never>; is: {
     values: Json;
@@ -2018,6 +2125,12 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   HistoryWords: { node: 'NodeId', address: 'int(0..65535)', words: '[json; 20000]' },
   HistoryNode: { node: 'NodeId', state: 'line(32)', line: 'int(1..10000000)?' },
   WhyLink: { t: 'number', what: 'line(1000)', value: 'line(1000)', place: 'line(1200)', doc: 'Doc?', line: 'int(1..10000000)?', element: 'line(256)?', root: 'bool' },
+  TestRun: { path: 'Path', runs: 'number', done: 'number', failed: 'number', why: 'line(2000)?', at: 'Place?', failures: '[TestFailure; 100]' },
+  TestFailure: { seed: 'number', t: 'number?', at: 'Place?', expected: 'line(1000)?', what: 'line(2000)', help: 'line(500)?', recording: 'Path?' },
+  CoverageRow: { path: 'Path', kinds: '[CoverageShare; 8]' },
+  CoverageShare: { name: 'word(actors|states|supervisors|events|pairs|lines|branches)', taken: 'number', of: 'number' },
+  PlanCoverage: { actors: '{number; 100000}', states: '{number; 100000}', supervisors: '{number; 100000}', events: '{number; 100000}', pairs: '{number; 100000}' },
+  LineCoverage: { line: 'int(1..10000000)', count: 'number', ways: 'number?', taken: 'number?' },
   Line: { number: 'number', t: 'number', kind: 'word(note|warning|error|log)', text: 'text(4000)' },
   Suggestion: { label: 'line(200)', kind: 'word(variable|constant|event|native|sub|keyword|function|actor|supervisor|template|value)', detail: 'line(300)', help: 'text(1000)', insert: 'line(400)' },
   Spot: { doc: 'Doc', at: 'Place', end: 'Place', line_text: 'line(400)' },
@@ -2165,6 +2278,8 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'recording.list': { may: 'look', kind: 'look', out: { recordings: '[KeptRecording; 100]' } },
   'recording.open': { may: 'driver', kind: 'act', out: {} },
   'test.keep': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
+  'tests.run': { may: 'driver', kind: 'act', out: {} },
+  'tests.stop': { may: 'driver', kind: 'edit', out: {} },
   'why.ask': { may: 'look', kind: 'look', out: { chain: '[WhyLink; 1001]' } },
   'world.move': { may: 'driver', kind: 'act', out: {} },
   'world.put': { may: 'driver', kind: 'act', out: { number: 'number' } },
@@ -2195,6 +2310,8 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'end': { kind: 'document', is: { end: 'RunEnd?', open: 'bool' } },
   'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', stands_at: '[number; 1000]?', levels: '[PlanLevel; 64]', story: '[Line; 200]', change: 'PlanChange?' } },
   'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
+  'tests': { kind: 'document', is: { state: 'word(none|running|done|stopped|failed)', why: 'line(2000)?', runs: 'number', done: 'number', failed: 'number', scripts: 'bool', tests: '[TestRun; 1000]', coverage: '[CoverageRow; 2000]', changed: '[Path; 2000]' } },
+  'coverage': { kind: 'document', is: { changed: 'bool', plan: 'PlanCoverage?', lines: '[LineCoverage; 65536]?' } },
   'state': { kind: 'document', is: { values: 'json' } },
   'scene': { kind: 'document', is: { opening: 'number?', name: 'line(200)', size: '[number; 2]', open: 'bool', ground: 'Colour', image: 'Path?', robots: '[Robot; 1024]', objects: '[SceneObject; 4096]' } },
   'held': { kind: 'document', is: { stands: 'bool', events: '[HeldEvent; 200]', more: 'number', dropped: 'number' } },

@@ -11,6 +11,7 @@
 #include "cli/output.hpp"
 #include "cli/test/chaos.hpp"
 #include "cli/test/pool.hpp"
+#include "cli/test/seed_job.hpp"
 #include "cli/verbs.hpp"
 #include "embed/loaded_plan.hpp"
 #include "session/toolboxes.hpp"
@@ -24,9 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kTestsMax = 10'000;         // files of one command
-constexpr size_t kFailuresShown = 10;        // of one test; all are in the JUnit file
-constexpr char kDone = '=', kInvalid = '!';  // what a process begins its text with
+constexpr size_t kTestsMax = 10'000;   // files of one command
+constexpr size_t kFailuresShown = 10;  // of one test; all are in the JUnit file
 
 struct TestOptions {
     std::vector<std::string> files = {"."};
@@ -139,45 +139,16 @@ private:
                            job.seed);
     }
 
-    // In a process of its own. A run that failed is run again, to be recorded.
     std::string work(const Job& job) const {
-        const trial::TestFile& test = results_[job.test].test;
-        const auto outcome =
-            trial::run_trial(test, job.seed, {.scripts = !options_.coverage.empty()});
-        if (!outcome.ok()) return kInvalid + outcome.error().what;
-        std::string recording;
-        if (!outcome.value().as_expected()) {
-            std::error_code error;
-            fs::create_directories(options_.results, error);
-            recording = recording_of(job);
-            const auto again = trial::run_trial(test, job.seed, {.record = recording});
-            if (!again.ok()) {
-                complain(again.error());
-                recording.clear();
-            }
-        }
-        return kDone + recording + "\n" + trial::format_outcome(outcome.value());
+        return work_seed(results_[job.test].test, job.seed,
+                         {.scripts = !options_.coverage.empty(), .recording = recording_of(job)});
     }
 
-    bool take(size_t index, JobResult result) {
-        trial::SeedResult& seed = outcomes_[index];
-        seed.seed = jobs_[index].seed;
-        seed.seconds = result.seconds;
-        seed.trouble = std::move(result.trouble);
-        const std::string& text = result.text;
-        if (!seed.trouble.empty()) return true;
-        if (text.starts_with(kInvalid)) {
-            invalid_ = text.substr(1);
-            return false;
-        }
-        const size_t line = text.find('\n');
-        if (!text.starts_with(kDone) || line == std::string::npos) {
-            seed.trouble = "its process said nothing";
-            return true;
-        }
-        seed.recording = text.substr(1, line - 1);
-        seed.outcome = trial::read_outcome(std::string_view(text).substr(line + 1));
-        return true;
+    bool take(size_t index, JobResult job) {
+        SeedDone done = read_seed_work(jobs_[index].seed, std::move(job));
+        outcomes_[index] = std::move(done.result);
+        invalid_ = std::move(done.refused);
+        return invalid_.empty();
     }
 
     // ---- telling ----

@@ -74,7 +74,8 @@ protected:
     Json say(const std::string& command, const Json& in) {
         now += std::chrono::milliseconds(10);
         got.clear();
-        const Json message = {{"id", ++id}, {"do", command}, {"in", in}};
+        const double until = static_cast<double>(now.count()) / 1000 + 3000;
+        const Json message = {{"id", ++id}, {"do", command}, {"in", in}, {"until", until}};
         desk.hear(ClientText{{1}, message.dump()}, now);
         desk.hear(ClientTook{{1}, std::exchange(unread, 0)}, now);
         for (const Json* answer = answered(); true; answer = answered()) {

@@ -30,10 +30,13 @@ private:
 
 }  // namespace
 
-StartRunProcess start_runner(std::string program) {
-    return [program = std::move(program)]() -> Result<std::unique_ptr<RunProcess>> {
-        return std::unique_ptr<RunProcess>(
-            std::make_unique<RunChild>(TRY(Child::start({program, {"run-host"}, "vagus"}))));
+StartRunProcess start_runner(std::string program, std::string verb, size_t memory_max) {
+    const ChildOptions options{.program = std::move(program),
+                               .arguments = {std::move(verb)},
+                               .name = "vagus",
+                               .memory_max = memory_max};
+    return [options]() -> Result<std::unique_ptr<RunProcess>> {
+        return std::unique_ptr<RunProcess>(std::make_unique<RunChild>(TRY(Child::start(options))));
     };
 }
 

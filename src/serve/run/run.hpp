@@ -55,8 +55,9 @@ public:
     virtual void kill() = 0;
 };
 using StartRunProcess = std::function<Result<std::unique_ptr<RunProcess>>()>;
-// A child that runs `program`.
-StartRunProcess start_runner(std::string program);
+// A child that runs a verb of `program`.
+StartRunProcess start_runner(std::string program, std::string verb = "run-host",
+                             size_t memory_max = kRunMemoryMax);
 
 class Run final : public Carrier {
 public:

@@ -163,6 +163,21 @@ const ScriptPart* Scripts::for_node(const std::string& name, uint16_t id) const 
     return found;
 }
 
+std::vector<Scripts::LinesOf> Scripts::lines_in(const std::string& file) const {
+    const auto text = files_.text(file);
+    if (!text.ok()) return {};
+    const auto project = aesl::parse_project(text.value(), file);
+    if (!project.ok()) return {};
+    std::vector<LinesOf> all;
+    for (const ScriptPart& part : parts_) {
+        if (part.file != file || all.size() >= project.value().scripts.size()) continue;
+        const aesl::Script& script = project.value().scripts[all.size()];
+        const auto more = std::count(script.source.begin(), script.source.end(), '\n');
+        all.push_back({part.doc, script.first_line, script.first_line + static_cast<int>(more)});
+    }
+    return all;
+}
+
 // ---- across scripts ----
 
 std::optional<Scripts::Found> Scripts::references(const std::string& doc, aesl::Position at) {

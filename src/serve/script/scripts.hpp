@@ -83,6 +83,13 @@ public:
     // its number.
     const ScriptPart* for_node(const std::string& name, uint16_t id) const;
 
+    // The lines of a file that are those of each of its scripts, in their order.
+    struct LinesOf {
+        std::string doc;
+        int first = 1, last = 1;  // of the file
+    };
+    std::vector<LinesOf> lines_in(const std::string& file) const;
+
     // ---- across scripts ----
     // The name at a place, and every place where the same thing is meant: in this script, or for
     // what the project owns in all scripts of its file.

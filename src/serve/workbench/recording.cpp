@@ -146,7 +146,8 @@ void Workbench::open_recording(const Call& call) {
     }
     const std::string path = call.in["path"];
     // Folders whose names begin with a dot are not among the files of a project.
-    if (!files_.exists(path) && !recordings_.keeps(project_->real(path))) {
+    if (!files_.exists(path) && !recordings_.keeps(project_->real(path)) &&
+        !tests_.has_recording(path)) {
         return call.fail("not_found", path + ": there is no such file");
     }
     if (!save_all(call)) return;
@@ -196,7 +197,9 @@ void Workbench::relive(const Call& call, const std::string& recording,
                          "`vagus replay` runs it again");
     }
     order.past = talk::PastOf{.recording = recording};
-    begin_past(call, std::move(order), false);
+    const bool live = call.in.value("live", false);
+    if (live) order.past->t = 0;
+    begin_past(call, std::move(order), live);
 }
 
 // ---- a run that becomes a test ----

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <utility>
 
-#include "aesl/project.hpp"
 #include "serve/edit/text_places.hpp"
 #include "serve/runner/why_host.hpp"
 
@@ -146,20 +145,10 @@ std::optional<WhyDesk::Spot> WhyDesk::spot_of(const std::string& place) {
     if (has_line) {
         (void)std::from_chars(place.data() + colon + 1, place.data() + place.size(), spot.line);
     }
-    const auto text = files_.text(path);
-    if (!path.ends_with(".aesl") || !text.ok()) return spot;
-    const auto project = aesl::parse_project(text.value(), path);
-    if (!project.ok()) return spot;
-    std::vector<std::string> docs;
-    for (const ScriptPart& part : scripts_.parts()) {
-        if (part.file == path) docs.push_back(part.doc);
-    }
-    const auto& scripts = project.value().scripts;
-    for (size_t i = 0; i < std::min(scripts.size(), docs.size()); ++i) {
-        const aesl::Script& script = scripts[i];
-        const auto lines = std::count(script.source.begin(), script.source.end(), '\n');
-        if (spot.line < script.first_line || spot.line > script.first_line + lines) continue;
-        return Spot{docs[i], spot.line - script.first_line + 1};
+    if (!path.ends_with(".aesl")) return spot;
+    for (const Scripts::LinesOf& lines : scripts_.lines_in(path)) {
+        if (spot.line < lines.first || spot.line > lines.last) continue;
+        return Spot{lines.doc, spot.line - lines.first + 1};
     }
     return spot;
 }

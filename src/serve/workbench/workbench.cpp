@@ -47,6 +47,12 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
                [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; },
            .new_test = [this](const std::string& plan,
                               const std::string& text) { return new_test(plan, text); }}),
+      tests_(
+          desk, files_, scripts_, start_runner(places.program, "test-host", kTestMemoryMax),
+          {.doc_of =
+               [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; },
+           .shorten = [this](const std::string& text) { return with_short_paths(text); },
+           .save_all = [this](const Call& call) { return save_all(call); }}),
       sleep_({.slept = places.slept}) {
     files_.on_wake([&links] { links.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
@@ -57,6 +63,7 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
     run_.on_say(tell);
     editing_.on_text_changed([this](const std::string& path) {
         target_.script_changed(path);
+        tests_.text_changed(path);
         world_edited(path);
         if (project_ && path == project_->project_file) project_file_changed();
     });
@@ -280,6 +287,7 @@ void Workbench::close() {
 
 void Workbench::forget_project() {
     history_.forget();
+    tests_.forget();
     desk_.topics().forget("happenings");
     files_.leave();
     scripts_.reread();
@@ -414,6 +422,7 @@ void Workbench::tick(Time now) {
     whys_.tick(now);
     compares_.tick(now);
     tries_.tick(now);
+    tests_.tick(now);
     editing_.tick(now);
     change_plan();
     look_at_picture();
@@ -437,7 +446,8 @@ Time Workbench::next_tick(Time now) const {
     if (world_edited_ && !is_being_opened()) {
         next = std::min(next, *world_edited_ + kWorldFollowsAfter);
     }
-    next = std::min({next, whys_.next_tick(), compares_.next_tick(), tries_.next_tick()});
+    next = std::min({next, whys_.next_tick(), compares_.next_tick(), tries_.next_tick(),
+                     tests_.next_tick()});
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

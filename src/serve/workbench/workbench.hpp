@@ -42,6 +42,7 @@
 #include "serve/workbench/recordings.hpp"
 #include "serve/workbench/run_ends.hpp"
 #include "serve/workbench/targets.hpp"
+#include "serve/workbench/test_desk.hpp"
 #include "serve/workbench/try_desk.hpp"
 #include "serve/workbench/why_desk.hpp"
 #include "serve/worker.hpp"
@@ -286,6 +287,7 @@ private:
     WhyDesk whys_;
     CompareDesk compares_;
     TryDesk tries_;
+    TestDesk tests_;
     std::unique_ptr<BusCarrier> bus_;
     Time bus_since_{};
     Targets targets_;

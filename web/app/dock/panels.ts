@@ -17,6 +17,7 @@ import {
   IconPuzzle,
   IconSettings,
   IconTerminal2,
+  IconTestPipe,
   IconTimeline,
   IconVariable,
   type TablerIcon,
@@ -150,6 +151,13 @@ export const panels: readonly Panel[] = [
     title: text.panels.why,
     icon: IconHelpCircle,
     view: late(() => import('../panels/why/why_panel')),
+  },
+  {
+    id: 'tests',
+    least: 240,
+    title: text.panels.tests,
+    icon: IconTestPipe,
+    view: late(() => import('../panels/tests/tests_panel')),
   },
   {
     id: 'network',

@@ -163,7 +163,7 @@ export function isEvent(source: string): boolean {
   return source.includes('/');
 }
 
-export function supervisorKey(supervisor: Supervisor): string {
+export function supervisorKey(supervisor: Pick<Supervisor, 'owner' | 'name'>): string {
   return `${supervisor.owner}/${supervisor.name}`;
 }
 

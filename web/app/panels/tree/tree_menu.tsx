@@ -1,5 +1,6 @@
 import { Menu } from '@mantine/core';
 import { IconDots } from '@tabler/icons-react';
+import { isTest } from '../../../core/paths';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc } from '../../../core/window_state';
 import { copyText } from '../../commands/clipboard';
@@ -38,6 +39,11 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
     documentsIn(studio, row.path)
       .slice(0, 1)
       .forEach((doc) => revealDoc(studio.window, doc, null, true, true));
+  const test = isTest(row.path) ? studio.registry.find('tests.run') : undefined;
+  const runTest = () => {
+    revealDoc(studio.window, row.path, null);
+    studio.registry.run('tests.run');
+  };
   const copy = () =>
     void copyText(studio, row.path, text.tree.copied(row.path)).catch((problem: unknown) =>
       studio.tell(problem),
@@ -45,6 +51,11 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
   return (
     <span onClick={(event) => event.stopPropagation()} className="tree__end">
       <StudioMenu button={button} position="bottom-end" opened={open} onChange={onChange}>
+        {test ? (
+          <WhyItem why={why} onClick={runTest}>
+            {test.title}
+          </WhyItem>
+        ) : null}
         {isFile ? <Menu.Item onClick={beside}>{text.commands['view.side']}</Menu.Item> : null}
         {row.kind === 'script' ? (
           <Menu.Item onClick={() => tree.openText(row)}>{text.tree.openText}</Menu.Item>

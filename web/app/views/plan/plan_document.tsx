@@ -7,6 +7,7 @@ import { DiskNotice } from '../script/script_notices';
 import { DifferencesStrip } from './compare/late_parts';
 import { ShowDifferences } from './compare/show_differences';
 import { useComparing } from './compare/use_comparing';
+import { CoverageSummary } from './coverage/coverage';
 import { PlanChange } from './plan_change';
 import { planDeskOf } from './plan_desk';
 import { PlanLive } from './plan_live';
@@ -32,6 +33,7 @@ export default function PlanDocument({ doc }: { doc: Doc }) {
         <PlanChange doc={doc} />
         <Differences doc={doc} />
         <Tried doc={doc} />
+        <CoverageSummary doc={doc} />
         {options.text ? null : <Found doc={doc} />}
         <Suspense fallback={null}>
           <PlanCanvas doc={doc} />

@@ -13,6 +13,7 @@ import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 import { drawWords as words } from './words';
 import { CompareMenu } from './compare/compare_menu';
+import { CoverageOfTests } from './coverage/coverage';
 import { ExportMenu } from './export_menu';
 import { usePlanDesk } from './plan_desk';
 import { TryButton } from './try/try_button';
@@ -62,6 +63,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
       <TryButton doc={doc} />
       <Zoom doc={doc} />
       <span className="grow" />
+      <CoverageOfTests doc={doc} />
       <Switch name="data" />
       <Switch name="map" />
       <Switch name="text" />

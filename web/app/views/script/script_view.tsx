@@ -1,5 +1,6 @@
 import type { Doc } from '../../../protocol/messages';
-import { useWindow } from '../../hooks';
+import { textPartOf } from '../../follow_tests';
+import { useChanges, useStudio, useWindow } from '../../hooks';
 import { Blank } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
@@ -16,6 +17,8 @@ export default function ScriptView({ doc, isScript }: { doc: Doc; isScript: bool
   const { host, view, failed, retry } = useEditor(doc);
   const listing = useWindow((state) => state.listing[doc] ?? false);
   useScriptData(doc, isScript, view);
+  const more = textPartOf(useStudio());
+  useChanges(more.changed);
   if (failed)
     return (
       <Blank title={text.editor.failed}>
@@ -26,6 +29,7 @@ export default function ScriptView({ doc, isScript }: { doc: Doc; isScript: bool
   return (
     <div className="script">
       <ScriptNotices doc={doc} isScript={isScript} />
+      {more.part ? <more.part doc={doc} view={view} /> : null}
       <div className="script__main">
         <div className="script__editor" ref={host} />
         {isScript && listing ? <Listing doc={doc} /> : null}

@@ -11,6 +11,7 @@ import { kStroke } from '../../parts/icons';
 import { CommandItem, StudioMenu } from '../../parts/menu';
 import { text } from '../../text';
 import { toggleOption, useWorldOptions } from './options';
+import { formWords } from './form_words';
 
 const words = text.world;
 const size = { size: 14, stroke: kStroke };
@@ -25,13 +26,13 @@ export function AddMenu({ edits }: { edits: boolean }) {
           small
           disabled={!drives}
           icon={<IconPlus {...size} />}
-          tip={edits ? words.addHelp : words.obstacle}
+          tip={edits ? formWords.addHelp : formWords.obstacle}
         >
-          <span className="doctools__word">{words.add}</span>
+          <span className="doctools__word">{formWords.add}</span>
         </Button>
       }
     >
-      <Menu.Label>{edits ? words.objects : words.obstacle}</Menu.Label>
+      <Menu.Label>{edits ? formWords.objects : formWords.obstacle}</Menu.Label>
       {objectKinds
         .filter((kind) => edits || isObstacle(kind))
         .map((kind) => (
@@ -40,7 +41,7 @@ export function AddMenu({ edits }: { edits: boolean }) {
       {edits ? (
         <>
           <Menu.Divider />
-          <Menu.Label>{words.robots}</Menu.Label>
+          <Menu.Label>{formWords.robots}</Menu.Label>
           {robotTypes.map((type) => (
             <CommandItem key={type} id={`world.add.${type}`} title={words.types[type]} />
           ))}
@@ -71,10 +72,10 @@ export function EditTools({ file }: { file: JsonFile }) {
         role="switch"
         className="switch world__snap"
         aria-checked={snap}
-        title={words.snapHelp}
+        title={formWords.snapHelp}
         onClick={() => toggleOption(studio, 'snap')}
       >
-        {words.snap}
+        {formWords.snap}
       </button>
     </>
   );
@@ -110,7 +111,7 @@ function UndoButtons(props: {
         kind="plain"
         small
         disabled={!props.canUndo}
-        tip={`${words.undo}  (Ctrl+Z)`}
+        tip={`${formWords.undo}  (Ctrl+Z)`}
         icon={<IconArrowBackUp {...size} />}
         onClick={props.undo}
       />
@@ -118,7 +119,7 @@ function UndoButtons(props: {
         kind="plain"
         small
         disabled={!props.canRedo}
-        tip={`${words.redo}  (Ctrl+Y)`}
+        tip={`${formWords.redo}  (Ctrl+Y)`}
         icon={<IconArrowForwardUp {...size} />}
         onClick={props.redo}
       />

@@ -14,13 +14,11 @@ import {
 } from '../../../core/world/file';
 import type { WorldModel } from '../../../core/world/model';
 import { useDrives } from '../../hooks';
-import { text } from '../../text';
 import { ChoiceField, SwitchField } from './fields';
 import { FileForm } from './file_form';
 import { EntryTarget, type EditedEntry } from './entry_target';
 import { NumberField } from './number_field';
-
-const words = text.world;
+import { formWords } from './form_words';
 
 /** An entry of the timeline: when, what, with whom. */
 export function EntryForm(props: { file: JsonFile; id: string; model: WorldModel }) {
@@ -37,7 +35,7 @@ export function EntryForm(props: { file: JsonFile; id: string; model: WorldModel
   return (
     <>
       <NumberField
-        label={words.at}
+        label={formWords.at}
         unit="s"
         low={0}
         high={1e6}
@@ -47,9 +45,9 @@ export function EntryForm(props: { file: JsonFile; id: string; model: WorldModel
         onSet={retime}
       />
       <ChoiceField<Verb>
-        label={words.does}
+        label={formWords.does}
         value={verb}
-        choices={verbs.map((one) => ({ value: one, label: words.verbs[one] }))}
+        choices={verbs.map((one) => ({ value: one, label: formWords.verbs[one] }))}
         disabled={off}
         onSet={(to) => file.commit(verbSteps(file.value, id, to))}
       />
@@ -91,7 +89,7 @@ function Members({ verb, ...edited }: EditedEntry & { verb: Verb }) {
         <>
           <Name {...edited} member="id" names={lights} />
           <SwitchField
-            label={words.on}
+            label={formWords.on}
             on={entryOf(file.value, id)['on'] === true}
             disabled={edited.off}
             onSet={(on) => file.commit(setSteps(file.value, id, 'on', on))}
@@ -107,7 +105,7 @@ function Name(
   const { file, id, off, member, names } = props;
   return (
     <ChoiceField<string>
-      label={member === 'button' ? words.button : words.who}
+      label={member === 'button' ? formWords.button : formWords.who}
       value={textOf(entryOf(file.value, id)[member])}
       choices={names.map((name) => ({ value: name, label: name }))}
       disabled={off}

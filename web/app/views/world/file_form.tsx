@@ -18,6 +18,7 @@ import { ChoiceField, TextField } from './fields';
 import { NumberField } from './number_field';
 import { PoseFields, SizeFields, type EditedThing } from './pose_fields';
 import { RobotFields } from './robot_fields';
+import { formWords } from './form_words';
 
 const words = text.world;
 const grey: Colour = [0.9, 0.9, 0.9];
@@ -45,13 +46,13 @@ function ObjectFields(edited: EditedThing) {
   return (
     <>
       <TextField
-        label={words.id}
+        label={formWords.id}
         value={textOf(table['id'])}
         disabled={off}
         onSet={(value) => set('id', value === '' ? undefined : value)}
       />
       <ChoiceField<ObjectKind>
-        label={words.kind}
+        label={formWords.kind}
         value={kind}
         choices={objectKinds.map((one) => ({ value: one, label: words.kinds[one] }))}
         disabled={off}
@@ -60,7 +61,7 @@ function ObjectFields(edited: EditedThing) {
       <PoseFields {...edited} />
       <SizeFields {...edited} />
       <NumberField
-        label={words.height}
+        label={formWords.height}
         unit="m"
         low={0.001}
         high={100}
@@ -71,7 +72,7 @@ function ObjectFields(edited: EditedThing) {
       />
       {kind === 'box' || kind === 'cylinder' ? (
         <NumberField
-          label={words.mass}
+          label={formWords.mass}
           unit="kg"
           low={0}
           high={1000}
@@ -83,7 +84,7 @@ function ObjectFields(edited: EditedThing) {
         />
       ) : null}
       <ColourField
-        label={words.colour}
+        label={formWords.colour}
         value={colourOf(table['colour']) ?? grey}
         disabled={off}
         onSet={setColour}

@@ -12,6 +12,7 @@ import { Field, SwitchField } from './fields';
 import { targetOf } from './live_acts';
 import { NumberField } from './number_field';
 import { PressButtons } from './press_buttons';
+import { formWords } from './form_words';
 
 const words = text.world;
 /** Numbers follow a thing that moves so often, in ms. */
@@ -50,7 +51,7 @@ export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) 
       />
       {isLamp(thing.kind) ? (
         <SwitchField
-          label={words.on}
+          label={formWords.on}
           on={thing.on}
           disabled={!drives}
           onSet={(on) => model.acts?.light?.(thing, on)}
@@ -59,7 +60,7 @@ export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) 
       {thing.kind === 'robot' ? (
         <>
           <SwitchField
-            label={words.follow}
+            label={formWords.follow}
             on={follows === thing.key}
             onSet={(on) => model.follow(on ? thing.key : null)}
           />
@@ -70,7 +71,7 @@ export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) 
           <ObjectFacts thing={thing} />
           <div className="prop__end">
             <Button small disabled={!drives} keys="Delete" onClick={() => model.acts?.take(thing)}>
-              {words.take}
+              {formWords.take}
             </Button>
           </div>
         </>
@@ -87,12 +88,14 @@ function ObjectFacts({ thing }: { thing: Thing }) {
   return (
     <>
       <Fact
-        label={words.size}
+        label={formWords.size}
         value={object.radius ? `r ${object.radius}` : `${width ?? 0} × ${length ?? 0}`}
         unit="m"
       />
-      <Fact label={words.height} value={String(object.height)} unit="m" />
-      {object.mass > 0 ? <Fact label={words.mass} value={String(object.mass)} unit="kg" /> : null}
+      <Fact label={formWords.height} value={String(object.height)} unit="m" />
+      {object.mass > 0 ? (
+        <Fact label={formWords.mass} value={String(object.mass)} unit="kg" />
+      ) : null}
     </>
   );
 }

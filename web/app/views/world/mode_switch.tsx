@@ -1,13 +1,13 @@
 import { Segments } from '../../parts/segments';
-import { text } from '../../text';
+import { formWords } from './form_words';
 
 const worldModes = ['live', 'edit', 'text'] as const;
 export type WorldMode = (typeof worldModes)[number];
 
 const segments = worldModes.map((value) => ({
   value,
-  words: text.world.modes[value],
-  tip: text.world.modeTips[value],
+  words: formWords.modes[value],
+  tip: formWords.modeTips[value],
 }));
 
 /** The same world three times: as it runs, its file drawn, its file as text. */
@@ -15,7 +15,7 @@ export function ModeSwitch(props: { mode: WorldMode; onChange: (mode: WorldMode)
   return (
     <Segments
       small
-      label={text.world.mode}
+      label={formWords.mode}
       segments={segments}
       chosen={props.mode}
       onChoose={props.onChange}

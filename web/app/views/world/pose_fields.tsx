@@ -2,12 +2,10 @@ import type { Json } from '../../../protocol/messages';
 import type { JsonFile } from '../../../core/session/json_file';
 import { moveSteps, numberOf, pairOf, shapeSteps, type Table } from '../../../core/world/file';
 import type { Pose } from '../../../core/world/geometry';
-import { text } from '../../text';
 import { SwitchField } from './fields';
 import { NumberField } from './number_field';
 import { PlaceFields } from './place_fields';
-
-const words = text.world;
+import { formWords } from './form_words';
 
 export interface EditedThing {
   file: JsonFile;
@@ -57,7 +55,7 @@ export function SizeFields({ file, id, table, off, set }: EditedThing) {
     <>
       {kind === 'patch' ? (
         <SwitchField
-          label={words.round}
+          label={formWords.round}
           on={round}
           disabled={off}
           onSet={(to) => file.commit(shapeSteps(file.value, id, to))}
@@ -65,7 +63,7 @@ export function SizeFields({ file, id, table, off, set }: EditedThing) {
       ) : null}
       {round || (lamp && !size) ? (
         <NumberField
-          label={words.radius}
+          label={formWords.radius}
           unit="m"
           low={0.001}
           high={100}
@@ -76,8 +74,8 @@ export function SizeFields({ file, id, table, off, set }: EditedThing) {
         />
       ) : (
         <>
-          {side(words.width, 0)}
-          {side(words.length, 1)}
+          {side(formWords.width, 0)}
+          {side(formWords.length, 1)}
         </>
       )}
     </>

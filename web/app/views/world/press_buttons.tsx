@@ -2,9 +2,7 @@ import { useEffect, useRef } from 'react';
 import { useStudio, useTopic } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
-import { text } from '../../text';
-
-const words = text.world;
+import { formWords } from './form_words';
 
 /** Buttons and touch sensors of a robot: down as long as they are held, by mouse or by key. */
 export function PressButtons({ robot }: { robot: string }) {
@@ -14,7 +12,7 @@ export function PressButtons({ robot }: { robot: string }) {
   if (!known) return null;
   return (
     <div className="prop__group">
-      <h3 className="prop__title">{words.buttons}</h3>
+      <h3 className="prop__title">{formWords.buttons}</h3>
       <div className="prop__buttons">
         {known.buttons.map((button) => (
           <HeldButton key={button} robot={robot} button={button} />
@@ -23,10 +21,10 @@ export function PressButtons({ robot }: { robot: string }) {
           <Button
             small
             disabled={!drives}
-            tip={words.tapHelp}
+            tip={formWords.tapHelp}
             onClick={() => studio.order('world.tap', { robot })}
           >
-            {words.tap}
+            {formWords.tap}
           </Button>
         ) : null}
       </div>
@@ -54,7 +52,7 @@ function HeldButton({ robot, button }: { robot: string; button: string }) {
     <Button
       small
       disabled={!drives}
-      aria-label={words.press(button)}
+      aria-label={formWords.press(button)}
       onPointerDown={() => press(true)}
       onPointerUp={() => press(false)}
       onPointerLeave={() => press(false)}

@@ -7,6 +7,7 @@ import { ColourField } from './colour_field';
 import { ChoiceField, TextField } from './fields';
 import { NumberField } from './number_field';
 import { PoseFields, type EditedThing } from './pose_fields';
+import { formWords } from './form_words';
 
 const words = text.world;
 const white: Colour = [0.95, 0.95, 0.95];
@@ -24,7 +25,7 @@ export function RobotFields(edited: EditedThing) {
         onSet={(value) => set('name', value)}
       />
       <ChoiceField
-        label={words.type}
+        label={formWords.type}
         value={textOf(table['type'])}
         choices={robotTypes.map((type) => ({
           value: type,
@@ -35,15 +36,15 @@ export function RobotFields(edited: EditedThing) {
       />
       <PoseFields {...edited} />
       <TextField
-        label={words.script}
+        label={formWords.script}
         value={textOf(table['script'])}
         disabled={off}
         onSet={(value) => set('script', value === '' ? undefined : value)}
       />
-      <Whole edited={edited} name="node" label={words.node} low={1} high={65534} />
-      <Whole edited={edited} name="port" label={words.port} low={0} high={65535} />
+      <Whole edited={edited} name="node" label={formWords.node} low={1} high={65534} />
+      <Whole edited={edited} name="port" label={formWords.port} low={0} high={65535} />
       <ColourField
-        label={words.paint}
+        label={formWords.paint}
         value={colourOf(table['paint']) ?? white}
         disabled={off}
         onSet={setPaint}

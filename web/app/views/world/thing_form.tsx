@@ -13,6 +13,7 @@ import { LiveForm } from './live_form';
 import { Swatch } from './thing_list';
 import { WorldForm } from './world_form';
 import { entryText, nameOfThing } from './words';
+import { formWords } from './form_words';
 
 const words = text.world;
 
@@ -59,14 +60,14 @@ function Head({ world, entry }: { world: ShownWorld; entry: string | null }) {
       ? entryText(file.value, entry).what
       : thing
         ? nameOfThing(thing)
-        : model.stage.name || words.theWorld;
+        : model.stage.name || formWords.theWorld;
   const kind = thing
     ? thing.type
       ? words.types[thing.type]
       : words.kinds[thing.kind]
     : entry !== null
-      ? words.timeline
-      : words.theWorld;
+      ? formWords.timeline
+      : formWords.theWorld;
   const edits = file !== null && (thing !== undefined || entry !== null);
   return (
     <header className="props__head">
@@ -74,7 +75,7 @@ function Head({ world, entry }: { world: ShownWorld; entry: string | null }) {
       <div className="grow">
         <h2 className="props__name ellipsis">{title}</h2>
         <p className="props__kind ellipsis">
-          {kind} <span className="muted">· {file ? words.inFile : words.inRun}</span>
+          {kind} <span className="muted">· {file ? formWords.inFile : formWords.inRun}</span>
         </p>
       </div>
       {edits && thing ? (
@@ -82,7 +83,7 @@ function Head({ world, entry }: { world: ShownWorld; entry: string | null }) {
           kind="plain"
           small
           disabled={!drives}
-          tip={`${words.copy}  (Ctrl+D)`}
+          tip={`${formWords.copy}  (Ctrl+D)`}
           icon={<IconCopy size={14} stroke={kStroke} />}
           onClick={run('world.copy')}
         />
@@ -92,7 +93,7 @@ function Head({ world, entry }: { world: ShownWorld; entry: string | null }) {
           kind="plain"
           small
           disabled={!drives}
-          tip={`${words.remove}  (Delete)`}
+          tip={`${formWords.remove}  (Delete)`}
           icon={<IconTrash size={14} stroke={kStroke} />}
           onClick={() => {
             const key = entry ?? thing?.key;

@@ -6,11 +6,9 @@ import type { WorldModel } from '../../../core/world/model';
 import { useDrives } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
-import { text } from '../../text';
 import { useModel } from './desk';
 import { entryText } from './words';
-
-const words = text.world;
+import { formWords } from './form_words';
 
 /** What happens by itself in a world, in the order of time. */
 export function TimelineList({ file, model }: { file: JsonFile; model: WorldModel }) {
@@ -29,14 +27,14 @@ export function TimelineList({ file, model }: { file: JsonFile; model: WorldMode
     model.selectEntry(added.key);
   };
   return (
-    <section className="things" aria-label={words.timeline}>
+    <section className="things" aria-label={formWords.timeline}>
       <header className="things__head">
-        <h2>{words.timeline}</h2>
+        <h2>{formWords.timeline}</h2>
         <Button
           kind="plain"
           small
           disabled={!drives}
-          tip={words.entry}
+          tip={formWords.entry}
           icon={<IconPlus size={14} stroke={kStroke} />}
           onClick={add}
         />
@@ -62,7 +60,7 @@ export function TimelineList({ file, model }: { file: JsonFile; model: WorldMode
           );
         })}
       </ul>
-      {entries.length === 0 ? <p className="quiet">{words.noEntries}</p> : null}
+      {entries.length === 0 ? <p className="quiet">{formWords.noEntries}</p> : null}
     </section>
   );
 }

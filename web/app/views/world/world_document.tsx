@@ -28,6 +28,7 @@ import { WorldSide } from './world_side';
 import { WorldStage } from './world_stage';
 import { WorldTools } from './world_tools';
 import '../../look/world.css';
+import { formWords } from './form_words';
 
 const ScriptView = late(() => import('../script/script_view'));
 
@@ -90,9 +91,9 @@ function LiveWorld(props: { modes: React.ReactNode; runs: boolean; onEdit: () =>
           {list ? <WorldSide world={world} /> : null}
         </div>
       ) : (
-        <Blank title={text.world.notRunning}>
-          <p>{text.world.notRunningHelp}</p>
-          <Button onClick={onEdit}>{text.world.editIt}</Button>
+        <Blank title={formWords.notRunning}>
+          <p>{formWords.notRunningHelp}</p>
+          <Button onClick={onEdit}>{formWords.editIt}</Button>
         </Blank>
       )}
     </div>
@@ -117,10 +118,10 @@ function EditedWorld(props: { doc: Doc; modes: React.ReactNode; onText: () => vo
       </div>
       <ModeNote mode="edit" />
       <DiskNotice doc={doc} />
-      {broken === null ? null : <p className="notice">{text.world.locked}</p>}
+      {broken === null ? null : <p className="notice">{formWords.locked}</p>}
       <FindingNotice doc={doc} onShow={(finding) => showFound(model, finding)} />
       {failed || (file && !file.isKnown) ? (
-        <Blank title={failed ? text.world.failed : text.world.broken}>
+        <Blank title={failed ? formWords.failed : formWords.broken}>
           <p>{failed ?? broken}</p>
           <Button onClick={onText}>{text.world.showText}</Button>
         </Blank>

@@ -3,12 +3,11 @@ import type { Colour, Json } from '../../../protocol/messages';
 import type { JsonFile } from '../../../core/session/json_file';
 import { colourOf, numberOf, pairOf, setSteps, tableOf, textOf } from '../../../core/world/file';
 import { useDrives } from '../../hooks';
-import { text } from '../../text';
 import { ColourField } from './colour_field';
 import { SwitchField, TextField } from './fields';
 import { NumberField } from './number_field';
+import { formWords } from './form_words';
 
-const words = text.world;
 const white: Colour = [1, 1, 1];
 
 /** The world itself: nothing is chosen. */
@@ -37,42 +36,42 @@ export function WorldForm({ file }: { file: JsonFile }) {
   return (
     <>
       <TextField
-        label={words.title}
+        label={formWords.title}
         value={textOf(world['name'])}
         disabled={off}
         onSet={(value) => set('name', value === '' ? undefined : value)}
       />
       <TextField
-        label={words.help}
+        label={formWords.help}
         value={textOf(world['help'])}
         disabled={off}
         onSet={(value) => set('help', value === '' ? undefined : value)}
       />
-      {side(words.width, width, (to) => [to, height])}
-      {side(words.length, height, (to) => [width, to])}
+      {side(formWords.width, width, (to) => [to, height])}
+      {side(formWords.length, height, (to) => [width, to])}
       <SwitchField
-        label={words.border}
+        label={formWords.border}
         on={world['open'] !== true}
         disabled={off}
         onSet={(on) => set('open', on ? undefined : true)}
       />
       {ground['image'] === undefined ? (
         <ColourField
-          label={words.ground}
+          label={formWords.ground}
           value={colourOf(ground['colour']) ?? white}
           disabled={off}
           onSet={setGround}
         />
       ) : null}
       <TextField
-        label={words.image}
+        label={formWords.image}
         value={textOf(ground['image'])}
         otherwise="floor.png"
         disabled={off}
         onSet={(image) => set('ground', image === '' ? undefined : { image })}
       />
       <NumberField
-        label={words.seed}
+        label={formWords.seed}
         low={0}
         high={Number.MAX_SAFE_INTEGER}
         step={1}

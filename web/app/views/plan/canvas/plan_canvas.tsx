@@ -9,6 +9,7 @@ import { Blank } from '../../../parts/blank';
 import { drawWords as words } from '../words';
 import { useTriedClick } from '../try/try_commands';
 import { Differences } from '../compare/differences';
+import { Coverage } from '../coverage/coverage';
 import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
 import { ActiveLine } from './active_line';
@@ -122,6 +123,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           )}
           <ArrowsLayer board={board} allData={options.data} />
           <Differences board={board} />
+          <Coverage board={board} />
           <Presented board={board} />
           {options.map && map ? <SmallMap board={board} /> : null}
         </ReactFlow>

@@ -1,0 +1,36 @@
+import type { Command } from '../../core/registry';
+import type { Studio } from '../../core/studio';
+import { text } from '../text';
+import { drives } from './looks';
+import { runTests, stopTests, testMeant } from './test_acts';
+
+const group = text.groups.run;
+
+/** In a test F5 runs it; in all else it runs the robot. */
+export function testCommands(studio: Studio): Command[] {
+  const may = () => drives(studio) && studio.past.at === null;
+  return [
+    {
+      id: 'tests.run',
+      title: 'Run this test',
+      group,
+      keys: ['F5'],
+      enabled: () => may() && testMeant(studio) !== null,
+      run: () => runTests(studio, [testMeant(studio) ?? '']),
+    },
+    {
+      id: 'tests.runAll',
+      title: 'Run all tests of the project',
+      group,
+      enabled: may,
+      run: () => runTests(studio, null),
+    },
+    {
+      id: 'tests.stop',
+      title: 'Stop running tests',
+      group,
+      enabled: () => drives(studio),
+      run: () => stopTests(studio),
+    },
+  ];
+}

@@ -3,7 +3,6 @@ import '@xyflow/react/dist/base.css';
 import { useCallback, useRef, useState } from 'react';
 import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
-import { kSnap } from '../../../../core/plan/place';
 import { useMayEdit, useStudio } from '../../../hooks';
 import { Blank } from '../../../parts/blank';
 import { drawWords as words } from '../words';
@@ -23,6 +22,7 @@ import { EmptyPlan } from './empty_plan';
 import { FindBar } from './find_bar';
 import { kFit, useFirstView, useFitted } from './fitted';
 import type { PlanNode } from './flow_nodes';
+import { kFlowProps } from './flow_props';
 import { nodeTypes } from './nodes';
 import { Presented } from './presented';
 import { SmallMap } from './small_map';
@@ -88,6 +88,7 @@ function Canvas({ board }: { board: PlanBoard }) {
         {...clipboard}
       >
         <ReactFlow<PlanNode>
+          {...kFlowProps}
           nodes={nodes}
           edges={kNoEdges}
           nodeTypes={nodeTypes}
@@ -100,23 +101,11 @@ function Canvas({ board }: { board: PlanBoard }) {
             // Keys are for the plan that was clicked.
             frame.current?.focus({ preventScroll: true });
           }}
-          nodesConnectable={false}
-          snapToGrid
-          snapGrid={kGrid}
-          minZoom={0.1}
-          maxZoom={2}
           fitView={!view}
           fitViewOptions={kFit}
           {...(view ? { defaultViewport: view } : {})}
-          deleteKeyCode={null}
-          selectionKeyCode="Shift"
-          multiSelectionKeyCode={kAlso}
-          zoomActivationKeyCode={null}
-          panActivationKeyCode={null}
-          zoomOnDoubleClick={false}
           onlyRenderVisibleElements={nodes.length > kManyNodes}
           ariaLabelConfig={words.aria}
-          proOptions={kNoName}
         >
           {distance === 'far' ? null : (
             <Background variant={BackgroundVariant.Dots} gap={24} size={1.5} />
@@ -146,7 +135,3 @@ function Canvas({ board }: { board: PlanBoard }) {
 }
 
 const kNoEdges: never[] = [];
-const kGrid: [number, number] = [kSnap, kSnap];
-const kAlso = ['Control', 'Meta', 'Shift'];
-/** The name of the library is in the licences. */
-const kNoName = { hideAttribution: true };

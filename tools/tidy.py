@@ -254,7 +254,7 @@ class Checker:
         for number, line in enumerate(self.lines, 1):
             if start is None and re.match(r"^( {0,4})\S.*\)\s*(const|noexcept|override|final|\s)*\{$", line):
                 indent = len(line) - len(line.lstrip())
-                if not re.match(r"\s*(if|for|while|switch|namespace|class|struct|enum|union)\b", line):
+                if not re.match(r"\s*(//|(if|for|while|switch|namespace|class|struct|enum|union)\b)", line):
                     start = (number, indent)
             elif start is not None and line.startswith(" " * start[1] + "}"):
                 length = number - start[0] + 1

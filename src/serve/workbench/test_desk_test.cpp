@@ -157,7 +157,7 @@ TEST_F(TestDeskTest, FailuresAreToldToTheirLimit) {
 TEST_F(TestDeskTest, CoverageIsSummedByDocumentUntilItsTextChanges) {
     begin({{"tests", {"A.test.json"}}});
     plan({{.seeds = {1, 2}}});
-    for (const uint64_t seed : {1, 2}) {
+    for (const uint64_t seed : {uint64_t{1}, uint64_t{2}}) {
         trial::SeedTold told{.seed = seed};
         trial::PlanCoverage& plan = told.coverage.plans[real("sub/../P.plan.json")];
         plan.actors = {{"go", seed}, {"stay", 0}};

@@ -327,7 +327,7 @@ for (const { name, layout, open } of menus)
             await press('Enter');
           }
           await gone(menu);
-          const did = await until(title, async () => (await seenNow(page)) !== before, 1500).catch(
+          const did = await until(title, async () => (await seenNow(page)) !== before, 5000).catch(
             () => false,
           );
           if (!did) idle.push(title);
@@ -395,7 +395,7 @@ for (const layout of ['Draw', 'Script'])
         const did = await until(
           title,
           async () => (await seenNow(page)) !== before || downloads !== saved,
-          1500,
+          5000,
         ).catch(() => false);
         if (!did && !quiet.includes(title)) idle.push(title);
         await press('Escape', 'Escape');

@@ -375,6 +375,10 @@ for (const layout of ['Draw', 'Script'])
       page.on('download', () => downloads++);
       for (const { title, off } of all) {
         if (off || ends.includes(title) || title.startsWith('Layout ')) continue;
+        // At most four messages show: errors of the command before would keep a new one away.
+        await page.locator('.toast button').evaluateAll((all) => {
+          for (const one of all) if (one instanceof HTMLElement) one.click();
+        });
         const before = await seenNow(page);
         const saved = downloads;
         await open(title);

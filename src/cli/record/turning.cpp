@@ -109,13 +109,14 @@ private:
             state = take(result, ends[i]);
             return state.ok();
         };
-        run_jobs(count, static_cast<int>(at_once_), work, done);
+        if (!run_jobs(count, static_cast<int>(at_once_), work, done)) {
+            return Error{Code::Refused, "ended by " + net::end_asked_by()};
+        }
         TRY(state);
         return ends;
     }
 
     static Status take(const JobResult& result, Ends& ends) {
-        if (net::end_asked()) return Error{Code::Refused, "ended by " + net::end_asked_by()};
         const std::string what = "a continuation of the run: ";
         if (!result.trouble.empty()) return Error{Code::Unavailable, what + result.trouble};
         for (std::string_view rest = result.text; !rest.empty();) {

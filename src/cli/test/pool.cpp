@@ -10,7 +10,10 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <optional>
 #include <vector>
+
+#include "net/end_signal.hpp"
 
 namespace vagus::cli {
 
@@ -91,13 +94,15 @@ public:
         return {};
     }
 
-    // Waits for something to read; gives those that are over.
-    std::vector<std::pair<size_t, JobResult>> wait() {
+    // Waits for something to read; gives those that are over. Nothing: this process is to end.
+    std::optional<std::vector<std::pair<size_t, JobResult>>> wait() {
         std::vector<pollfd> polls;
         for (const Running& one : running_) polls.push_back({one.pipe, POLLIN, 0});
+        polls.push_back({net::end_descriptor(), POLLIN, 0});
         (void)poll(polls.data(), polls.size(), -1);
+        if (polls.back().revents != 0) return std::nullopt;
         std::vector<std::pair<size_t, JobResult>> over;
-        for (size_t i = polls.size(); i-- > 0;) {
+        for (size_t i = running_.size(); i-- > 0;) {
             if (polls[i].revents == 0 || !read_some(running_[i])) continue;
             over.emplace_back(running_[i].job, end(running_[i]));
             running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -143,20 +148,23 @@ bool continue_in_copy(std::string& trouble) {
     return false;
 }
 
-void run_jobs(size_t count, int at_once, const std::function<std::string(size_t)>& job,
+bool run_jobs(size_t count, int at_once, const std::function<std::string(size_t)>& job,
               const std::function<bool(size_t, JobResult)>& done) {
     Pool pool(job);
     for (size_t next = 0; next < count || pool.size() > 0;) {
         while (next < count && pool.size() < static_cast<size_t>(at_once)) {
             const std::string refused = pool.start(next);
-            if (!refused.empty() && !done(next, {.trouble = refused})) return;
+            if (!refused.empty() && !done(next, {.trouble = refused})) return true;
             ++next;
         }
         if (pool.size() == 0) continue;
-        for (auto& [index, result] : pool.wait()) {
-            if (!done(index, std::move(result))) return;
+        auto over = pool.wait();
+        if (!over) return false;
+        for (auto& [index, result] : *over) {
+            if (!done(index, std::move(result))) return true;
         }
     }
+    return true;
 }
 
 }  // namespace vagus::cli

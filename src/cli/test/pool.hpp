@@ -21,8 +21,9 @@ constexpr int kJobsAtOnceMax = 256;
 
 // `job` runs in a child, and its text is handed over; `done` is called here, in the order in which
 // they end. False from `done`: no more of them are begun, and those that run are ended. Children
-// end with this process.
-void run_jobs(size_t count, int at_once, const std::function<std::string(size_t)>& job,
+// end with this process. Gives false if they were ended because this process is to end
+// (net/end_signal.hpp).
+bool run_jobs(size_t count, int at_once, const std::function<std::string(size_t)>& job,
               const std::function<bool(size_t, JobResult)>& done);
 
 // Within a job: goes on in a copy of its process. True in the copy, whose text is added to that of

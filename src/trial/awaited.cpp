@@ -1,21 +1,17 @@
 #include "trial/awaited.hpp"
 
-#include "trial/judge.hpp"
-
 namespace vagus::trial {
 
 void Awaited::line(const plan::TraceEvent& event) {
-    if (over_) return;
+    if (readings_.over()) return;
     readings_.line(event);
-    started_ = started_ || std::holds_alternative<plan::ActorStarted>(event.what);
-    over_ = run::level_of(event) == 0 && std::holds_alternative<plan::PlanEnded>(event.what);
-    if (!over_ && started_) ask();  // its variables are gone with it
+    if (readings_.are_asked()) ask();
 }
 
 void Awaited::instant() {
-    if (over_) return;
+    if (readings_.over()) return;
     readings_.instant();
-    if (started_ && readings_.now() % kAskedEvery == Duration::zero()) ask();
+    if (readings_.are_asked_now()) ask();
 }
 
 void Awaited::ask() {
@@ -29,10 +25,7 @@ void Awaited::ask() {
 }
 
 Result<bool> Awaited::holds() const {
-    std::vector<plan::Value> values;
-    for (const Condition::Name& name : condition_.names()) {
-        values.push_back(TRY(readings_.value(name)));
-    }
+    const std::vector<plan::Value> values = TRY(readings_.values(condition_));
     return condition_.holds(values);
 }
 

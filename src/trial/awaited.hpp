@@ -1,5 +1,5 @@
-// Waits in a run for a condition to come about, asked as those of tests are: after each line of the
-// trace, and each kAskedEvery; with a plan from when its first actor starts to its end.
+// Waits in a run for a condition to become true. It is asked when those of tests are
+// (readings.hpp).
 //
 //     Awaited awaited(condition, graph, read_world_of(world));
 //     awaited.line(event);                           // as it comes
@@ -17,12 +17,9 @@ namespace vagus::trial {
 
 class Awaited {
 public:
-    // All are borrowed; the condition is bound (Condition::bind). A graph whose plan has no actors
-    // is that of a world without a plan.
+    // All are borrowed; the condition is bound (Condition::bind).
     Awaited(const Condition& condition, const plan::Graph& graph, const ReadWorld& world)
-        : condition_(condition),
-          readings_(graph, world),
-          started_(graph.plans.front().actors.empty()) {}
+        : condition_(condition), readings_(graph, world) {}
 
     void line(const plan::TraceEvent& event);
     void instant();
@@ -42,8 +39,6 @@ private:
     Readings readings_;
     std::optional<Time> came_;
     Status trouble_ = Status::done();
-    bool started_;
-    bool over_ = false;  // its plan is
 };
 
 }  // namespace vagus::trial

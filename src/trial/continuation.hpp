@@ -1,5 +1,5 @@
-// A recorded run that is continued: from an instant on with another seed, until something comes
-// about (turning.hpp). It is opened once; each run of it is for a process of its own, that
+// A recorded run that is continued: from an instant on with another seed, until a condition
+// becomes true (turning.hpp). It is opened once; each run of it is for a process of its own, that
 // begins as a copy of this one and ends with the run.
 //
 //     const auto continued = TRY(Continued::open(reader, "contact >= 2", until));
@@ -22,7 +22,7 @@
 
 namespace vagus::trial {
 
-// Whether it came about, and until when the run was looked at.
+// Whether it became true, and until when the run was looked at.
 struct RunEnd {
     std::optional<Time> came = {};
     Time end{};

@@ -18,14 +18,13 @@ std::string seconds(Time at) {
     return plan::text_of(seconds_of(at));
 }
 
-// Its name, or that with the actors of the plans around it: "calibrate/turn".
-bool is_called(const std::string& name, const std::string& plan, std::string_view actor) {
-    if (name == actor) return true;
-    const size_t slash = plan.find('/');
-    return slash != std::string::npos && name == plan.substr(slash + 1) + "/" + std::string(actor);
-}
-
 }  // namespace
+
+std::string name_in_order(std::string_view plan, std::string_view actor) {
+    const size_t slash = plan.find('/');
+    if (slash == std::string_view::npos) return std::string(actor);
+    return fmt::format("{}/{}", plan.substr(slash + 1), actor);
+}
 
 std::string_view way_of(const run::Ended& ended) {
     return ended.timed_out ? "MaxTime" : plan::name_of(ended.result);
@@ -49,33 +48,31 @@ Status Judge::check() const {
 // ---- as the run goes on ----
 
 void Judge::line(const plan::TraceEvent& event) {
-    if (over_) return;
-    const bool outermost = run::level_of(event) == 0;
+    if (readings_.over()) return;
     readings_.line(event);
-    // Before its first actor a plan takes the values that it was given.
-    started_ = started_ || std::holds_alternative<plan::ActorStarted>(event.what);
-    over_ = outermost && std::holds_alternative<plan::PlanEnded>(event.what);
-    if (over_) return;  // its variables are gone with it
+    if (readings_.over()) return;
     if (const auto* raised = std::get_if<plan::EventRaised>(&event.what)) {
+        const bool outermost = run::level_of(event) == 0;
         if (outermost && raised->target == "@terminate") ended_by_ = raised->supervisor;
     }
     if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
         follow_order(event, *started);
     }
-    if (started_) ask();
+    if (readings_.are_asked()) ask();
 }
 
 void Judge::instant() {
-    if (!started_ || over_) return;
+    if (!readings_.are_asked()) return;
     readings_.instant();
-    if (readings_.now() % kAskedEvery == Duration::zero()) ask();
+    if (readings_.are_asked_now()) ask();
 }
 
 void Judge::follow_order(const plan::TraceEvent& event, const plan::ActorStarted& started) {
     for (Case& one : cases_) {
         const std::vector<std::string>& order = one.expectation->order;
         if (one.came_to >= order.size()) continue;
-        if (!is_called(order[one.came_to], event.plan, started.actor)) continue;
+        const std::string& name = order[one.came_to];
+        if (name != started.actor && name != name_in_order(event.plan, started.actor)) continue;
         ++one.came_to;
         one.came_at = event.at;
     }
@@ -97,13 +94,9 @@ void Judge::ask(Case& one) {
                          plan::text_of(*one.expectation->within), values_of(condition)));
         return;
     }
-    std::vector<plan::Value> values;
-    for (const Condition::Name& name : condition.names()) {
-        Result<plan::Value> value = readings_.value(name);
-        if (!value.ok()) return fail(one, now, value.error().what);
-        values.push_back(std::move(value.value()));
-    }
-    const Result<bool> holds = condition.holds(values);
+    const auto values = readings_.values(condition);
+    if (!values.ok()) return fail(one, now, values.error().what);
+    const Result<bool> holds = condition.holds(values.value());
     if (!holds.ok()) return fail(one, now, holds.error().what + "; " + values_of(condition));
     if (eventually) {
         one.decided = holds.value();

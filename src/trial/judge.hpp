@@ -1,6 +1,5 @@
 // Holds a run against what its test expects. At one instant first the lines of the trace are taken,
-// in their order, then the world as it is when bodies have moved: conditions are asked after each
-// line, and each kAskedEvery.
+// in their order, then the world as it is when bodies have moved.
 //
 //     Judge judge(test, graph, world);
 //     judge.line(event);                             // as it comes
@@ -17,8 +16,6 @@
 #include "trial/test_file.hpp"
 
 namespace vagus::trial {
-
-constexpr Duration kAskedEvery = std::chrono::milliseconds(20);
 
 // Of one expectation.
 struct Verdict {
@@ -63,10 +60,11 @@ private:
     Readings readings_;
     std::vector<Case> cases_;
     std::string ended_by_;
-    bool started_ = false;
-    bool over_ = false;
 };
 
+// An actor as `order` names it: with the actors of the plans around it, "calibrate/turn". `plan` is
+// the path of its own, "Hall/calibrate".
+std::string name_in_order(std::string_view plan, std::string_view actor);
 // "MaxTime", or the name of the result.
 std::string_view way_of(const run::Ended& ended);
 

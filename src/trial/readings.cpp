@@ -29,6 +29,8 @@ ReadWorld read_world_of(session::PlanWorld* world) {
 void Readings::line(const plan::TraceEvent& event) {
     now_ = event.at;
     variables_.see(event);
+    started_ = started_ || std::holds_alternative<plan::ActorStarted>(event.what);
+    over_ = run::level_of(event) == 0 && std::holds_alternative<plan::PlanEnded>(event.what);
     const auto level = static_cast<size_t>(run::level_of(event));
     const auto* const raised = std::get_if<plan::EventRaised>(&event.what);
     event_ = raised != nullptr ? std::string(raised->event) : "";
@@ -47,6 +49,12 @@ void Readings::instant() {
     event_.clear();
     const bool touched = session().world().touches(world_.robot);
     contact_ = touched ? contact_ + sim::kNodeStep : Duration{};
+}
+
+Result<std::vector<plan::Value>> Readings::values(const Condition& condition) const {
+    std::vector<plan::Value> values;
+    for (const Condition::Name& name : condition.names()) values.push_back(TRY(value(name)));
+    return values;
 }
 
 plan::Value Readings::of_robot(SignalId id) const {

@@ -1,9 +1,11 @@
-// What the conditions of a test read, as it is now in a run.
+// What conditions read, as it is now in a run, and when they are asked: after each line of the
+// trace, and each kAskedEvery; from when the first actor of the plan starts to the plan's end.
 //
 //     Readings readings(graph, read_world_of(world));    // world: nullptr without one
 //     readings.line(event);                          // each line of the trace
+//     if (readings.are_asked()) ask(readings.values(condition));
 //     readings.instant();                            // at the end of each instant of the world
-//     const Result<plan::Value> now = readings.value(name);
+//     if (readings.are_asked_now()) ask(readings.values(condition));
 #pragma once
 
 #include <string>
@@ -18,6 +20,8 @@
 
 namespace vagus::trial {
 
+constexpr Duration kAskedEvery = std::chrono::milliseconds(20);
+
 // The world of a run, and the robot in it that signals are about. Borrowed; nullptr: there is none.
 struct ReadWorld {
     session::SimSession* session = nullptr;
@@ -27,14 +31,22 @@ ReadWorld read_world_of(session::PlanWorld* world);
 
 class Readings {
 public:
-    // Both are borrowed.
-    Readings(const plan::Graph& graph, const ReadWorld& world) : variables_(graph), world_(world) {}
+    // Both are borrowed. A graph whose plan has no actors is that of a world without a plan.
+    Readings(const plan::Graph& graph, const ReadWorld& world)
+        : variables_(graph), world_(world), started_(graph.plans.front().actors.empty()) {}
 
     void line(const plan::TraceEvent& event);
     // The line of an event is over; bodies have moved.
     void instant();
 
     Time now() const { return now_; }
+    // Before its first actor a plan takes the values that it was given.
+    bool are_asked() const { return started_ && !over_; }
+    bool are_asked_now() const { return are_asked() && now_ % kAskedEvery == Duration::zero(); }
+    // The plan is, and its variables are gone with it.
+    bool over() const { return over_; }
+    // Of all names of a condition, in their order.
+    Result<std::vector<plan::Value>> values(const Condition& condition) const;
     // Only once the plan has started. The Error says why there is none.
     Result<plan::Value> value(const Condition::Name& name) const;
     // Whether the node and its word are there. The Error names what is not, and what is.
@@ -55,6 +67,8 @@ private:
     std::vector<std::string> actors_;  // that run, the outermost first; empty text: between two
     std::string event_;
     Duration contact_{};
+    bool started_;
+    bool over_ = false;
 };
 
 }  // namespace vagus::trial

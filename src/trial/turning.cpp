@@ -49,8 +49,8 @@ public:
     }
 
 private:
-    // The curve over the grid. At the end itself all is known: it has come about, or cannot any
-    // more.
+    // The curve over the grid. At the end itself everything is known: the condition has been met,
+    // or no longer can be.
     Status look() {
         const auto steps = static_cast<size_t>(question_.end / question_.step);
         const size_t intervals = std::min(kInstantsMax - 1, steps);

@@ -1,22 +1,23 @@
-// When was it decided? Finds the instant of a run at which the chance that something comes about
+// When was it decided? Finds the instant of a run at which the chance that a condition becomes true
 // turned: from instants over the run it is continued again and again with other seeds, and counted
-// in how many continuations it came about.
+// in how many continuations it became true.
 //
 //     const TurningQuestion question{.end = came, .came = true, .tries = 20};
 //     const Turning turning = TRY(find_turning(question, ask));   // ask: runs continuations
 //     if (turning.turn) show(turning.turn->before, turning.turn->after);
 //
 // It knows no runs and no processes: `ask` is handed instants and seeds, and says in which of these
-// continuations it came about. The same answers give the same turning.
+// continuations it became true. The same answers give the same turning.
 //
-// First a grid of at most kInstantsMax instants. Before a decision the share that comes about is
-// one, after it another: the grid is cut into steps of equal chance where the two sides of a cut
-// differ significantly (Fisher's exact test, corrected by Bonferroni for the number of places to
-// cut: kSignificance). The largest change between two steps is the turn. It is narrowed by halving:
-// at the instant in the middle continuations are added until it is kOdds times as likely that they
-// belong to one side than to the other (A. Wald, "Sequential tests of statistical hypotheses",
-// Annals of Mathematical Statistics 16 (1945), pages 117 to 186), down to TurningQuestion::step. A
-// chance that changes little by little is told by the interval within which that cannot be said.
+// First a grid of at most kInstantsMax instants. Before a decision the share in which it becomes
+// true is one, after it another: the grid is cut into steps of equal chance where the two sides of
+// a cut differ significantly (Fisher's exact test, corrected by Bonferroni for the number of places
+// to cut: kSignificance). The largest change between two steps is the turn. It is narrowed by
+// halving: at the instant in the middle continuations are added until it is kOdds times as likely
+// that they belong to one side than to the other (A. Wald, "Sequential tests of statistical
+// hypotheses", Annals of Mathematical Statistics 16 (1945), pages 117 to 186), down to
+// TurningQuestion::step. A chance that changes little by little is told by the interval within
+// which that cannot be said.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +40,7 @@ constexpr int kRoundsMax = 10;      // of `tries` continuations at one instant w
 constexpr int kNarrowingsMax = 40;  // an hour has 22 of them down to a millisecond
 
 struct TurningQuestion {
-    Time end{};         // when it came about, or the end of the run
+    Time end{};         // when it became true, or the end of the run
     bool came = false;  // in the run itself
     int tries = kTriesUsual;
     Duration step = std::chrono::milliseconds(1);  // instants are multiples of it
@@ -51,7 +52,7 @@ struct Continuation {
     uint64_t seed = 0;
     friend bool operator==(const Continuation&, const Continuation&) = default;
 };
-// In which of them it came about, in their order. The Error ends the search.
+// In which of them it became true, in their order. The Error ends the search.
 using Ask = std::function<Result<std::vector<bool>>(const std::vector<Continuation>&)>;
 
 // One instant of the curve.
@@ -59,7 +60,7 @@ struct Point {
     Time at{};
     Share share = {};
     bool is_end = false;                   // nothing was continued there: all is known
-    std::optional<uint64_t> with = {};     // the first seed with which it came about …
+    std::optional<uint64_t> with = {};     // the first seed with which it became true …
     std::optional<uint64_t> without = {};  // … and with which it did not
 };
 
@@ -68,7 +69,7 @@ struct Turn {
                                     // it was not
     Share early = {}, late = {};    // of the steps of the grid on its two sides
     bool narrowed = true;           // down to one step; else it changed little by little in between
-    // The last continuations from before the turn with which it came about, and did not.
+    // The last continuations from before the turn with which it became true, and did not.
     std::optional<Continuation> with = {}, without = {};
 };
 

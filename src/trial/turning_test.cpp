@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// The chance at each instant that it comes about later.
+// The chance at each instant that it becomes true later.
 struct Planted {
     std::function<double(Time)> chance;
     int asked = 0;
@@ -57,7 +57,7 @@ TEST(Turning, ADecisionIsFoundToTheMillisecond) {
     }
 }
 
-// It did not come about: 0 afterwards, and 0 at the end.
+// It did not become true: 0 afterwards, and 0 at the end.
 TEST(Turning, WhatWasAvoidedIsFoundLikewise) {
     for (const double early : {0.25, 0.5, 0.9}) {
         SCOPED_TRACE(early);

@@ -24,7 +24,7 @@ std::string count(const Share& share) {
 std::string point_line(const Point& point) {
     if (point.is_end) {
         return fmt::format("{:>11} s  {}\n", short_seconds(point.at),
-                           point.share.came > 0 ? "it came about" : "the end: it never did");
+                           point.share.came > 0 ? "it became true" : "the end: it never did");
     }
     const Interval likely = wilson(point.share);
     const auto full = static_cast<size_t>(std::lround(point.share.value() * kBar));
@@ -36,10 +36,10 @@ std::string point_line(const Point& point) {
 
 std::string describe_run(const TurningTold& told) {
     const std::string came =
-        told.run.came ? fmt::format("came about at {} s", short_seconds(*told.run.came))
-                      : fmt::format("did not come about by {} s", short_seconds(told.run.end));
+        told.run.came ? fmt::format("became true at {} s", short_seconds(*told.run.came))
+                      : fmt::format("did not become true by {} s", short_seconds(told.run.end));
     return fmt::format(
-        "{}: {} {}\nof {} continuations from an instant, it came about after it in "
+        "{}: {} {}\nof {} continuations from an instant, it became true after it in "
         "(95 % interval):\n",
         told.file, told.condition, came, told.question.tries);
 }
@@ -47,15 +47,15 @@ std::string describe_run(const TurningTold& told) {
 std::string describe_flat(const Turning& turning) {
     const Share all = turning.all();
     if (all.came == all.of && all.of > 0) {
-        return fmt::format("not decided by chance: it came about in all {} continuations\n",
+        return fmt::format("not decided by chance: it became true in all {} continuations\n",
                            all.of);
     }
     if (all.came == 0) {
-        return fmt::format("not decided by chance: it came about in none of {} continuations\n",
+        return fmt::format("not decided by chance: it became true in none of {} continuations\n",
                            all.of);
     }
     return fmt::format(
-        "not decided by chance: it came about in {} continuations, and no change "
+        "not decided by chance: it became true in {} continuations, and no change "
         "over time is significant\n",
         count(all));
 }

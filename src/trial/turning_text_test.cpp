@@ -34,11 +34,11 @@ TEST(TurningText, TellsTheCurveTheTurnAndTheRecordings) {
     told.with = "turning-point/run.with.mcap";
     told.without = "turning-point/run.without.mcap";
     EXPECT_EQ(format_turning(told),
-              R"(run.mcap: contact >= 2 came about at 4.000 s
-of 20 continuations from an instant, it came about after it in (95 % interval):
+              R"(run.mcap: contact >= 2 became true at 4.000 s
+of 20 continuations from an instant, it became true after it in (95 % interval):
       0.000 s  ##########..........    10 of 20    30 % to  70 %
       2.000 s  ####################    20 of 20    84 % to 100 %
-      4.000 s  it came about
+      4.000 s  it became true
 it turned between 0.999 s and 1.000 s: before in 10 of 20, from then on in 20 of 20
       1.000 s  the script of thymio-II called math.rand  go.aesl:7
 with     turning-point/run.with.mcap  (--from 0.999 --reseed 5)
@@ -70,15 +70,15 @@ TEST(TurningText, TellsThatChanceDidNotDecide) {
     const Point all{.at = 0s, .share = {20, 20}};
     const Point end{.at = 4s, .share = {20, 20}, .is_end = true};
     const std::string always = format_turning(told_of({.curve = {all, end}}));
-    EXPECT_NE(always.find("not decided by chance: it came about in all 20 continuations\n"),
+    EXPECT_NE(always.find("not decided by chance: it became true in all 20 continuations\n"),
               std::string::npos)
         << always;
     TurningTold never = told_of({.curve = {{.at = 0s, .share = {0, 20}}, end}});
     never.run = {.came = {}, .end = 4s};
-    EXPECT_NE(format_turning(never).find("it came about in none of 20 continuations\n"),
+    EXPECT_NE(format_turning(never).find("it became true in none of 20 continuations\n"),
               std::string::npos);
     EXPECT_TRUE(format_turning(never).starts_with(
-        "run.mcap: contact >= 2 did not come about by 4.000 s\n"));
+        "run.mcap: contact >= 2 did not become true by 4.000 s\n"));
 }
 
 TEST(TurningText, TheEndOfARunGoesThroughAPipe) {

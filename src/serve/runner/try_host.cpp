@@ -20,6 +20,7 @@
 #include "serve/plan_value.hpp"
 #include "serve/runner/one_answer.hpp"
 #include "session/toolboxes.hpp"
+#include "trial/judge.hpp"
 
 namespace vagus::serve {
 
@@ -56,12 +57,6 @@ plan::Graph all_checked_in_time(const plan::Graph& graph) {
     return run::with_checks_in_time(graph, [](const plan::GraphSupervisor&) { return true; });
 }
 
-// The actors of a run that wait, in their order: "forward", "call/turn" inside a sub-plan.
-std::string name_in_order(const std::string& path, const std::string& actor) {
-    const size_t slash = path.find('/');
-    return slash == std::string::npos ? actor : path.substr(slash + 1) + "/" + actor;
-}
-
 // One plan, tried along one way.
 class TriedPlan {
 public:
@@ -93,7 +88,8 @@ public:
         const double end = seconds_of(end_);
         std::string order;
         for (const run::TriedWay::Turn& turn : way_.turns()) {
-            order += (order.empty() ? "" : ", ") + json_quote(name_in_order(turn.path, turn.actor));
+            order += (order.empty() ? "" : ", ") +
+                     json_quote(trial::name_in_order(turn.path, turn.actor));
         }
         const std::string path = asked["plan"];
         std::string toolboxes;

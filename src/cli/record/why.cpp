@@ -84,7 +84,7 @@ void add_why(CLI::App& app, int& exit_code) {
         "person, a timer, the beginning. Plans, scripts and worlds are those in the recording.\n"
         "--turning-point asks when a condition of a test (vagus test --signals) was decided: from "
         "instants over the run it is continued again and again with other seeds, and counted "
-        "in how many continuations the condition comes about. Told are that curve, the instant at "
+        "in how many continuations the condition becomes true. Told are that curve, the instant at "
         "which it turned, what there was, and one continuation with it and one without it, which "
         "are kept as recordings.\n"
         "Exit codes: 0 answered, 1 there is no such thing by then, 2 not valid.\n\nExample:\n"

@@ -1,7 +1,6 @@
 #include "cli/studio/runner.hpp"
 
-#include <CLI/CLI.hpp>
-
+#include "cli/host_verb.hpp"
 #include "cli/output.hpp"
 #include "serve/runner/runner.hpp"
 #include "serve/runner/try_host.hpp"
@@ -10,29 +9,21 @@
 namespace vagus::cli {
 
 void add_runner(CLI::App& app, int& exit_code) {
-    CLI::App* verb = app.add_subcommand("run-host", "a run of the studio");
-    verb->group("");
-    verb->footer("Example:\n  vagus run-host 3<>socket");
-    verb->callback([&exit_code] {
-        const serve::RunnerEnd end = serve::run_runner(serve::Pipe(serve::kTalkDescriptor));
-        exit_code = end.why.empty() ? end.status : complain(end.why, end.status);
-    });
+    const auto run = [](serve::Pipe pipe) {
+        const serve::RunnerEnd end = serve::run_runner(std::move(pipe));
+        return end.why.empty() ? end.status : complain(end.why, end.status);
+    };
+    add_host_verb(app, {"run-host", "a run of the studio"}, run, exit_code);
 }
 
 void add_why_host(CLI::App& app, int& exit_code) {
-    CLI::App* verb = app.add_subcommand("why-host", "a question about a run of the studio");
-    verb->group("");
-    verb->footer("Example:\n  vagus why-host 3<>socket");
-    verb->callback(
-        [&exit_code] { exit_code = serve::run_why(serve::Pipe(serve::kTalkDescriptor)); });
+    add_host_verb(app, {"why-host", "a question about a run of the studio"}, serve::run_why,
+                  exit_code);
 }
 
 void add_try_host(CLI::App& app, int& exit_code) {
-    CLI::App* verb = app.add_subcommand("try-host", "a plan that is tried in the studio");
-    verb->group("");
-    verb->footer("Example:\n  vagus try-host 3<>socket");
-    verb->callback(
-        [&exit_code] { exit_code = serve::run_try(serve::Pipe(serve::kTalkDescriptor)); });
+    add_host_verb(app, {"try-host", "a plan that is tried in the studio"}, serve::run_try,
+                  exit_code);
 }
 
 }  // namespace vagus::cli

@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "base/file.hpp"
+#include "cli/host_verb.hpp"
 #include "cli/output.hpp"
 #include "cli/test/seed_job.hpp"
-#include "serve/process.hpp"
+#include "serve/runner/one_answer.hpp"
 #include "serve/workbench/test_talk.hpp"
 #include "trial/told.hpp"
 
@@ -21,8 +22,6 @@ namespace vagus::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kLooksMs = 1000;  // at whether there is something, or the other end is gone
 
 Result<trial::TestFile> test_of(const std::string& path) {
     const std::string text = TRY(read_file(path));
@@ -95,16 +94,7 @@ private:
         return send(serve::kSeedTold, trial::format_seed(told));
     }
 
-    // False: nobody hears it any more.
-    bool send(char kind, const std::string& text) {
-        pipe_.send(kind, text);
-        while (pipe_.has_unsent() && !pipe_.closed()) {
-            pipe_.wait(kLooksMs);
-            pipe_.flush();
-            (void)pipe_.receive();  // notices that nobody is there any more
-        }
-        return !pipe_.closed();
-    }
+    bool send(char kind, const std::string& text) { return serve::send_whole(pipe_, kind, text); }
 
     serve::Pipe& pipe_;
     const trial::TestOrder order_;
@@ -115,23 +105,15 @@ private:
 
 int run_tests(serve::Pipe pipe) {
     (void)!nice(kTestNice);
-    while (!pipe.closed()) {
-        pipe.wait(kLooksMs);
-        for (const serve::Packet& packet : pipe.receive()) {
-            if (packet.kind != serve::kTestsOrdered) return kExitUsage;
-            return TestHost(pipe, trial::read_order(packet.bytes)).run();
-        }
-    }
-    return kExitUsage;
+    const auto ordered = serve::wait_for_packet(pipe);
+    if (!ordered || ordered->kind != serve::kTestsOrdered) return kExitUsage;
+    return TestHost(pipe, trial::read_order(ordered->bytes)).run();
 }
 
 }  // namespace
 
 void add_test_host(CLI::App& app, int& exit_code) {
-    CLI::App* verb = app.add_subcommand("test-host", "tests of behaviour for the studio");
-    verb->group("");
-    verb->footer("Example:\n  vagus test-host 3<>socket");
-    verb->callback([&exit_code] { exit_code = run_tests(serve::Pipe(serve::kTalkDescriptor)); });
+    add_host_verb(app, {"test-host", "tests of behaviour for the studio"}, run_tests, exit_code);
 }
 
 }  // namespace vagus::cli

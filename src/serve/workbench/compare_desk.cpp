@@ -155,8 +155,8 @@ bool CompareDesk::look(Asked& asked, Time now) {
         return true;
     }
     if (now < *asked.until) return false;
-    constexpr auto kSeconds = std::chrono::duration_cast<std::chrono::seconds>(kGitWithin).count();
-    asked.call.fail("timeout", fmt::format("git has not answered for {} s", kSeconds));
+    asked.call.fail("timeout",
+                    fmt::format("git has not answered for {} s", seconds_of(kGitWithin)));
     return true;
 }
 

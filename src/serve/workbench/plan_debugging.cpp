@@ -43,8 +43,7 @@ Json place(const aesl::Position& at) {
 
 // Before a run and during it the host has the same list.
 std::vector<talk::BreakpointOrder> Workbench::plan_breakpoint_orders() const {
-    return plan_breakpoints_.orders(
-        [this](const std::string& doc) { return project_ ? project_->real(doc) : doc; });
+    return plan_breakpoints_.orders([this](const std::string& doc) { return real(doc); });
 }
 
 void Workbench::plan_breakpoints_changed() {

@@ -22,8 +22,7 @@ double Workbench::history_clock() const {
 }
 
 void Workbench::record_history() {
-    history_.set_doc_of(
-        [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
+    history_.set_doc_of([this](const std::string& file) { return doc_of(file); });
     run_.on_told({
         .plan = [this](const talk::PlanVersion& one) { history_.plan(one.number, one.plans); },
         .trace = [this](const std::string& line) { history_.trace(line); },

@@ -197,13 +197,11 @@ Time TestDesk::next_tick() const {
 }
 
 std::string TestDesk::why_silent() const {
-    constexpr auto kSeconds =
-        std::chrono::duration_cast<std::chrono::seconds>(kTestsSilentMax).count();
     const auto waits = std::ranges::find_if_not(tests_, &Test::is_over);
     return fmt::format(
         "no run of {} has ended for {} s: it hangs, or takes longer; `vagus test` "
         "in a terminal waits for it",
-        waits == tests_.end() ? "a test" : waits->path, kSeconds);
+        waits == tests_.end() ? "a test" : waits->path, seconds_of(kTestsSilentMax));
 }
 
 void TestDesk::hear(const Packet& packet) {

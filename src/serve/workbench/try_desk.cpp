@@ -8,14 +8,21 @@
 
 namespace vagus::serve {
 
-namespace {
-
-constexpr std::string_view kPlanEnding = ".plan.json";
-
-}  // namespace
-
 TryDesk::TryDesk(Desk& desk, Files& files, std::string program, Project project)
-    : files_(files), program_(std::move(program)), project_(std::move(project)) {
+    : files_(files),
+      project_(std::move(project)),
+      questions_({.program = std::move(program),
+                  .verb = "try-host",
+                  .kind = kTryAsked,
+                  .memory_max = kTryMemoryMax,
+                  .within = kTryWithin,
+                  .look_every = kTryLookEvery,
+                  .refused = "bad_input",
+                  .died = "the plan cannot be tried",
+                  .late = fmt::format("the plan computes for more than {} s and does not come to "
+                                      "an actor that waits; look for a loop that takes no time "
+                                      "(`vagus plan explore`)",
+                                      seconds_of(kTryWithin))}) {
     desk.command("plan.try", [this](const Call& call) {
         ask(call, false, [this, call](Json answer) { call.done(shown(std::move(answer))); });
     });
@@ -24,28 +31,22 @@ TryDesk::TryDesk(Desk& desk, Files& files, std::string program, Project project)
     });
 }
 
-void TryDesk::ask(const Call& call, bool keep, Then then) {
+void TryDesk::ask(const Call& call, bool keep, Questions::Then then) {
     const std::string doc = call.in["doc"];
-    if (!doc.ends_with(kPlanEnding)) {
+    if (kind_of_file(doc) != "plan") {
         return call.fail("bad_input", doc + " is no plan; name a file that ends with .plan.json");
     }
     if (const auto there = files_.open(doc); !there.ok()) return call.fail(there.error());
-    if (asked_.size() >= kTriesAtOnce) {
+    if (questions_.count() >= kTriesAtOnce) {
         return call.fail("limit",
                          fmt::format("{} plans are being tried; wait for them", kTriesAtOnce));
     }
-    auto child = Child::start({.program = program_,
-                               .arguments = {"try-host"},
-                               .name = "vagus",
-                               .memory_max = kTryMemoryMax});
-    if (!child.ok()) return call.fail(child.error());
     const Json question = {{"plan", project_.real(doc)},
                            {"texts", texts_of(doc)},
                            {"toolboxes", project_.toolboxes()},
                            {"way", call.in["way"]},
                            {"keep", keep}};
-    child.value().pipe().send(kTryAsked, question.dump());
-    asked_.push_back({call, std::move(child.value()), std::move(then), std::nullopt});
+    questions_.ask(call, question, std::move(then));
 }
 
 // Plans as they are edited; what is saved the process reads itself.
@@ -74,45 +75,6 @@ Json TryDesk::shown(Json answer) const {
     if (plan.contains("doc")) plan["doc"] = project_.doc_of(plan["doc"]);
     for (Json& level : plan["levels"]) level["doc"] = project_.doc_of(level["doc"]);
     return answer;
-}
-
-void TryDesk::tick(Time now) {
-    now_ = now;
-    std::erase_if(asked_, [&](Asked& one) { return look(one, now); });
-}
-
-Time TryDesk::next_tick() const {
-    return asked_.empty() ? Time::max() : now_ + kTryLookEvery;
-}
-
-// True: it is answered, or waited for no longer.
-bool TryDesk::look(Asked& asked, Time now) {
-    if (!asked.until) asked.until = now + kTryWithin;
-    Pipe& pipe = asked.child.pipe();
-    pipe.flush();
-    for (const Packet& packet : pipe.receive()) {
-        Json answer = Json::parse(packet.bytes, nullptr, false);
-        if (!answer.is_object()) {
-            asked.call.fail("failed", "the answer cannot be read");
-        } else if (answer.contains("error")) {
-            asked.call.fail("bad_input", answer["error"].get<std::string>());
-        } else {
-            asked.then(std::move(answer));
-        }
-        return true;
-    }
-    if (const auto ended = asked.child.ended(); ended || pipe.closed()) {
-        asked.call.fail("failed", "the plan cannot be tried: its process " +
-                                      (ended ? ended->what : std::string("has gone")));
-        return true;
-    }
-    if (now < *asked.until) return false;
-    constexpr auto kSeconds = std::chrono::duration_cast<std::chrono::seconds>(kTryWithin).count();
-    asked.call.fail("timeout", fmt::format("the plan computes for more than {} s and does not come "
-                                           "to an actor that waits; look for a loop that takes no "
-                                           "time (`vagus plan explore`)",
-                                           kSeconds));
-    return true;
 }
 
 }  // namespace vagus::serve

@@ -7,17 +7,15 @@
 #pragma once
 
 #include <functional>
-#include <list>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.hpp"
 #include "base/time.hpp"
 #include "serve/json.hpp"
-#include "serve/process.hpp"
 #include "serve/project/files.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/workbench/questions.hpp"
 
 namespace vagus::serve {
 
@@ -41,29 +39,18 @@ public:
     // Borrowed. Declares its commands.
     TryDesk(Desk& desk, Files& files, std::string program, Project project);
 
-    void tick(Time now);
-    Time next_tick() const;
+    void tick(Time now) { questions_.tick(now); }
+    Time next_tick() const { return questions_.next_tick(); }
 
 private:
-    using Then = std::function<void(Json answer)>;
-    struct Asked {
-        Call call;
-        Child child;
-        Then then;
-        std::optional<Time> until;  // set by the first tick
-    };
-
-    void ask(const Call& call, bool keep, Then then);
+    void ask(const Call& call, bool keep, Questions::Then then);
     Json texts_of(const std::string& doc);
     void keep(const Call& call, const std::string& test);
     Json shown(Json answer) const;
-    bool look(Asked& asked, Time now);
 
     Files& files_;
-    const std::string program_;
     const Project project_;
-    std::list<Asked> asked_;
-    Time now_{};
+    Questions questions_;
 };
 
 }  // namespace vagus::serve

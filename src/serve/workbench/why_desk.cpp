@@ -27,7 +27,20 @@ bool is_end_of(const std::string& end, const std::string& path) {
 }  // namespace
 
 WhyDesk::WhyDesk(Desk& desk, Files& files, Scripts& scripts, std::string program, Run run)
-    : files_(files), scripts_(scripts), program_(std::move(program)), run_(std::move(run)) {
+    : files_(files),
+      scripts_(scripts),
+      run_(std::move(run)),
+      questions_({.program = std::move(program),
+                  .verb = "why-host",
+                  .kind = kWhyAsked,
+                  .memory_max = kWhyMemoryMax,
+                  .within = kWhyWithin,
+                  .look_every = kWhyLookEvery,
+                  .refused = "not_found",
+                  .died = "the run could not be run again",
+                  .late = fmt::format("to run this run again takes longer than {} s; ask "
+                                      "`vagus why` in a terminal",
+                                      seconds_of(kWhyWithin))}) {
     desk.command("why.ask", [this](const Call& call) { ask(call); });
 }
 
@@ -38,7 +51,7 @@ void WhyDesk::ask(const Call& call) {
                          "in.name: expected the name of what is asked about, found "
                          "none");
     }
-    if (asked_.size() + flushing_ >= kWhysAtOnce) {
+    if (questions_.count() + flushing_ >= kWhysAtOnce) {
         return call.fail(
             "limit", fmt::format("{} questions are being answered; wait for them", kWhysAtOnce));
     }
@@ -52,56 +65,14 @@ void WhyDesk::ask(const Call& call) {
 }
 
 void WhyDesk::start(const Call& call, const std::string& file) {
-    auto child = Child::start({.program = program_,
-                               .arguments = {"why-host"},
-                               .name = "vagus",
-                               .memory_max = kWhyMemoryMax});
-    if (!child.ok()) return call.fail(child.error());
     Json question = Json::array({call.in["about"]});
     if (call.in["about"] != "end") question.push_back(call.in["name"]);
     Json asked = {{"file", file}, {"question", std::move(question)}};
     if (call.in.contains("t")) asked["at"] = call.in["t"];
-    child.value().pipe().send(kWhyAsked, asked.dump());
-    asked_.push_back({call, std::move(child.value()), std::nullopt});
+    questions_.ask(call, asked, [this, call](const Json& answer) { tell(call, answer); });
 }
 
-void WhyDesk::tick(Time now) {
-    now_ = now;
-    std::erase_if(asked_, [&](Asked& one) { return look(one, now); });
-}
-
-Time WhyDesk::next_tick() const {
-    return asked_.empty() ? Time::max() : now_ + kWhyLookEvery;
-}
-
-// True: it is answered, or waited for no longer.
-bool WhyDesk::look(Asked& asked, Time now) {
-    if (!asked.until) asked.until = now + kWhyWithin;
-    Pipe& pipe = asked.child.pipe();
-    pipe.flush();
-    for (const Packet& packet : pipe.receive()) {
-        answer(asked.call, packet.bytes);
-        return true;
-    }
-    if (const auto ended = asked.child.ended(); ended || pipe.closed()) {
-        const std::string what = ended ? ended->what : "has gone";
-        asked.call.fail("failed", "the run could not be run again: its process " + what);
-        return true;
-    }
-    if (now < *asked.until) return false;
-    constexpr auto kSeconds = std::chrono::duration_cast<std::chrono::seconds>(kWhyWithin).count();
-    asked.call.fail("timeout", fmt::format("to run this run again takes longer than {} s; ask "
-                                           "`vagus why` in a terminal",
-                                           kSeconds));
-    return true;
-}
-
-void WhyDesk::answer(const Call& call, const std::string& text) {
-    const Json answered = Json::parse(text, nullptr, false);
-    if (!answered.is_object()) return call.fail("failed", "the answer cannot be read");
-    if (answered.contains("error")) {
-        return call.fail("not_found", answered["error"].get<std::string>());
-    }
+void WhyDesk::tell(const Call& call, const Json& answered) {
     Json chain = Json::array();
     for (const Json& link : answered.value("chain", Json::array())) {
         const std::string place = text_in(link, "place", kPlaceMax);

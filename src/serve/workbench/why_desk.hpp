@@ -6,17 +6,16 @@
 #pragma once
 
 #include <functional>
-#include <list>
 #include <optional>
 #include <string>
 
 #include "base/result.hpp"
 #include "base/time.hpp"
 #include "serve/json.hpp"
-#include "serve/process.hpp"
 #include "serve/project/files.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/workbench/questions.hpp"
 
 namespace vagus::serve {
 
@@ -37,17 +36,12 @@ public:
     // Borrowed. Declares its command.
     WhyDesk(Desk& desk, Files& files, Scripts& scripts, std::string program, Run run);
 
-    void tick(Time now);
-    Time next_tick() const;
+    void tick(Time now) { questions_.tick(now); }
+    Time next_tick() const { return questions_.next_tick(); }
     // The file of the project that a name in a recording means; empty: none.
     std::string path_of(const std::string& name);
 
 private:
-    struct Asked {
-        Call call;
-        Child child;
-        std::optional<Time> until;  // set by the first tick
-    };
     // A place in the project.
     struct Spot {
         std::string doc;
@@ -56,17 +50,14 @@ private:
 
     void ask(const Call& call);
     void start(const Call& call, const std::string& file);
-    bool look(Asked& asked, Time now);
-    void answer(const Call& call, const std::string& text);
+    void tell(const Call& call, const Json& answered);
     std::optional<Spot> spot_of(const std::string& place);
 
     Files& files_;
     Scripts& scripts_;
-    const std::string program_;
     const Run run_;
-    std::list<Asked> asked_;
+    Questions questions_;
     size_t flushing_ = 0;
-    Time now_{};
 };
 
 }  // namespace vagus::serve

@@ -39,20 +39,16 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
           {.file = [this] { return recording_of_run(); },
            .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); }}),
       compares_(desk, files_, [this](const std::string& doc) { return run_.plan_text(doc); }),
-      tries_(
-          desk, files_, places.program,
-          {.toolboxes = [this] { return toolboxes_on_disk(); },
-           .real = [this](const std::string& doc) { return project_ ? project_->real(doc) : doc; },
-           .doc_of =
-               [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; },
-           .new_test = [this](const std::string& plan,
-                              const std::string& text) { return new_test(plan, text); }}),
-      tests_(
-          desk, files_, scripts_, start_runner(places.program, "test-host", kTestMemoryMax),
-          {.doc_of =
-               [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; },
-           .shorten = [this](const std::string& text) { return with_short_paths(text); },
-           .save_all = [this](const Call& call) { return save_all(call); }}),
+      tries_(desk, files_, places.program,
+             {.toolboxes = [this] { return toolboxes_on_disk(); },
+              .real = [this](const std::string& doc) { return real(doc); },
+              .doc_of = [this](const std::string& file) { return doc_of(file); },
+              .new_test = [this](const std::string& plan,
+                                 const std::string& text) { return new_test(plan, text); }}),
+      tests_(desk, files_, scripts_, start_runner(places.program, "test-host", kTestMemoryMax),
+             {.doc_of = [this](const std::string& file) { return doc_of(file); },
+              .shorten = [this](const std::string& text) { return with_short_paths(text); },
+              .save_all = [this](const Call& call) { return save_all(call); }}),
       sleep_({.slept = places.slept}) {
     files_.on_wake([&links] { links.wake(); });
     const auto tell = [this](const std::string& kind, const std::string& text) {
@@ -87,8 +83,7 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
                                                        : std::optional(found->second);
             },
     });
-    run_.set_doc_of(
-        [this](const std::string& file) { return project_ ? project_->doc_of(file) : file; });
+    run_.set_doc_of([this](const std::string& file) { return doc_of(file); });
     run_.set_short([this](const std::string& text) { return with_short_paths(text); });
     hear_run();
     run_.on_breakpoints([this](const Run::BreakpointsNow& list) {
@@ -302,6 +297,14 @@ void Workbench::forget_project() {
     }
 }
 
+std::string Workbench::doc_of(const std::string& file) const {
+    return project_ ? project_->doc_of(file) : file;
+}
+
+std::string Workbench::real(const std::string& doc) const {
+    return project_ ? project_->real(doc) : doc;
+}
+
 std::vector<std::string> Workbench::toolboxes_on_disk() const {
     std::vector<std::string> files;
     if (!project_) return files;
@@ -446,8 +449,8 @@ Time Workbench::next_tick(Time now) const {
     if (world_edited_ && !is_being_opened()) {
         next = std::min(next, *world_edited_ + kWorldFollowsAfter);
     }
-    next = std::min({next, whys_.next_tick(), compares_.next_tick(), tries_.next_tick(),
-                     tests_.next_tick()});
+    next = std::min(
+        {next, whys_.next_tick(), compares_.next_tick(), tries_.next_tick(), tests_.next_tick()});
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

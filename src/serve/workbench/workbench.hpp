@@ -164,6 +164,9 @@ private:
     void project_file_changed();
     void take_safe_stop();
     std::vector<std::string> toolboxes_on_disk() const;
+    // A file of this computer as the project calls it, and back; as it is without a project.
+    std::string doc_of(const std::string& file) const;
+    std::string real(const std::string& doc) const;
     EditedProject edited_project() const;
     void watch_run();
     void keep_breakpoints();

@@ -15,17 +15,12 @@ using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class NeverSees final : public Supervisor {
-    std::optional<plan::Given> check(const Check&) override { return std::nullopt; }
-};
-
 void add_test_code(CodeLibrary& library) {
     std::vector<Coded> all;
-    all.push_back(test_actor("Go", [](ActorContext&) { throw CodeError("the toolbox's own"); }));
+    all.push_back(unused_actor("Go"));
     all.back().declared.outcomes = {{.name = "Done"}, {.name = "Blocked"}};
     all.back().declared.outputs = {{.name = "way", .type = plan::Type::Int}};
-    all.push_back(test_supervisor("See", 10, [] { return std::make_unique<NeverSees>(); }));
-    all.push_back(test_supervisor("Hear", 0, [] { return std::make_unique<NeverSees>(); }));
+    add_blind_supervisors(all);
     library.add("core", "", std::move(all));
 }
 

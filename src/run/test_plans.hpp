@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,22 @@ inline Coded test_supervisor(std::string name, int64_t period_ms, MakeSupervisor
                              .period_ms = period_ms}};
     coded.supervisor = std::move(make);
     return coded;
+}
+
+class NeverSees final : public Supervisor {
+    std::optional<plan::Given> check(const Check&) override { return std::nullopt; }
+};
+
+// "See", checked each 10 ms, and "Hear", at events: neither ever raises by itself.
+inline void add_blind_supervisors(std::vector<Coded>& list) {
+    const auto make = [] { return std::make_unique<NeverSees>(); };
+    list.push_back(test_supervisor("See", 10, make));
+    list.push_back(test_supervisor("Hear", 0, make));
+}
+
+// An actor whose own code fails: something else is to answer for it.
+inline Coded unused_actor(std::string name) {
+    return test_actor(std::move(name), [](ActorContext&) { throw CodeError("the toolbox's own"); });
 }
 
 // The graph of a plan that is right; a wrong one ends the test with the findings.

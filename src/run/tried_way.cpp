@@ -74,7 +74,7 @@ public:
 private:
     void wait_for_turn(ActorContext& context) {
         while (!is_turn(context.now())) {
-            // All that follows at the instant of its start has come by then.
+            // By then, everything else that happens at the instant of its start has happened.
             context.sleep(kTriedLookEvery);
             const bool is_stuck = context.now() >= way_.due_ + kTakenWithin;
             if (!way_.over() && !is_stuck) continue;

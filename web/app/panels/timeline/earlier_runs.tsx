@@ -1,11 +1,11 @@
 import { Menu } from '@mantine/core';
 import { IconHistory } from '@tabler/icons-react';
-import { useEffect, useState } from 'react';
-import type { KeptRecording } from '../../../protocol/messages';
+import { useState } from 'react';
 import { openRecording } from '../../commands/past_commands';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
 import { StudioMenu } from '../../parts/menu';
+import { useAsked } from '../../use_asked';
 import { words } from './words';
 
 /** Runs of this project that were recorded: one that is chosen is run again, and can be looked back into. */
@@ -35,12 +35,13 @@ export function EarlierRuns() {
 
 function Recordings() {
   const studio = useStudio();
-  const recordings = useRecordings();
+  const answer = useAsked('recording.list', {});
+  const recordings = answer === 'refused' ? [] : answer?.recordings;
   return (
     <>
       <Menu.Label>{words.earlier}</Menu.Label>
-      {recordings !== null && recordings.length > 0 ? null : (
-        <Menu.Item disabled>{recordings === null ? words.asks : words.noEarlier}</Menu.Item>
+      {recordings && recordings.length > 0 ? null : (
+        <Menu.Item disabled>{recordings ? words.noEarlier : words.asks}</Menu.Item>
       )}
       {recordings?.map(({ path, number, when_wall, bytes }) => (
         <Menu.Item
@@ -57,18 +58,3 @@ function Recordings() {
 
 const timeOf = (wall: number): string =>
   new Date(wall).toLocaleString('en-GB', { dateStyle: 'medium', timeStyle: 'short' });
-
-/** null: not known yet. */
-function useRecordings(): readonly KeptRecording[] | null {
-  const studio = useStudio();
-  const [recordings, setRecordings] = useState<readonly KeptRecording[] | null>(null);
-  useEffect(() => {
-    let gone = false;
-    studio.send('recording.list', {}).then(
-      (answer) => gone || setRecordings(answer.recordings),
-      (problem: unknown) => gone || (setRecordings([]), studio.tell(problem)),
-    );
-    return () => void (gone = true);
-  }, [studio]);
-  return recordings;
-}

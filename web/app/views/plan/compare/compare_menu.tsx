@@ -1,11 +1,11 @@
 import { Menu } from '@mantine/core';
 import { IconFileDiff } from '@tabler/icons-react';
-import { useEffect, useState } from 'react';
-import type { Doc, GitVersion } from '../../../../protocol/messages';
+import type { Doc } from '../../../../protocol/messages';
 import { comparingOf, type Other } from '../../../../core/plan/comparing';
 import { useChanges, usePart, useStudio, useTopic } from '../../../hooks';
 import { kStroke } from '../../../parts/icons';
 import { StudioMenu, WhyItem } from '../../../parts/menu';
+import { useAsked } from '../../../use_asked';
 import { compareWords as words } from './words';
 import '../../../look/compare.css';
 
@@ -63,15 +63,15 @@ function Versions({ doc, onChoose }: { doc: Doc; onChoose(other: Other): void })
 }
 
 function Commits({ doc, onChoose }: { doc: Doc; onChoose(other: Other): void }) {
-  const versions = useVersions(doc);
+  const saved = usePart('doc', { doc }, (is) => is?.unsaved);
+  const answer = useAsked('plan.versions', { doc }, saved);
+  const versions = answer === 'refused' ? [] : answer?.versions;
   return (
     <>
       <Menu.Label>{words.git}</Menu.Label>
-      {versions === null || versions.length === 0 ? (
-        <p className="menu__help pversions__none">
-          {versions === null ? words.asksGit : words.noGit}
-        </p>
-      ) : null}
+      {versions && versions.length > 0 ? null : (
+        <p className="menu__help pversions__none">{versions ? words.noGit : words.asksGit}</p>
+      )}
       {versions?.map(({ revision, subject, by, when_wall }) => (
         <Menu.Item
           key={revision}
@@ -90,19 +90,3 @@ function Commits({ doc, onChoose }: { doc: Doc; onChoose(other: Other): void }) 
 
 const dateOf = (wall: number): string =>
   new Date(wall).toLocaleDateString('en-GB', { day: 'numeric', month: 'short', year: 'numeric' });
-
-/** null: not known yet. */
-function useVersions(doc: Doc): readonly GitVersion[] | null {
-  const studio = useStudio();
-  const saved = usePart('doc', { doc }, (is) => is?.unsaved);
-  const [versions, setVersions] = useState<readonly GitVersion[] | null>(null);
-  useEffect(() => {
-    let gone = false;
-    studio.send('plan.versions', { doc }).then(
-      (answer) => gone || setVersions(answer.versions),
-      (problem: unknown) => gone || (setVersions([]), studio.tell(problem)),
-    );
-    return () => void (gone = true);
-  }, [studio, doc, saved]);
-  return versions;
-}

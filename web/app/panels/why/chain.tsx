@@ -1,28 +1,18 @@
-import { useRef, type KeyboardEvent } from 'react';
 import type { WhyLink } from '../../../core/asking';
 import { shownTime } from '../../../core/numbers';
 import type { Studio } from '../../../core/studio';
 import { revealDoc } from '../../../core/window_state';
 import { useStudio } from '../../hooks';
+import { stepThroughRows } from '../../parts/list_keys';
 import { revealElement } from '../../views/plan/reveal_element';
 import { whyWords as words } from './words';
 
 /** What something followed from. Up and down go from link to link. */
 export function Chain({ chain }: { chain: readonly WhyLink[] }) {
   const studio = useStudio();
-  const list = useRef<HTMLOListElement>(null);
-  const pressed = (event: KeyboardEvent) => {
-    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (by === undefined) return;
-    const rows = [...(list.current?.querySelectorAll('button') ?? [])];
-    const at = rows.findIndex((row) => row === document.activeElement);
-    rows[Math.min(Math.max(at + by, 0), rows.length - 1)]?.focus();
-    event.preventDefault();
-    event.stopPropagation();
-  };
   return (
     <div className="scroll">
-      <ol className="because__chain" ref={list} aria-label={words.chain} onKeyDown={pressed}>
+      <ol className="because__chain" aria-label={words.chain} onKeyDown={stepThroughRows}>
         {chain.map((link, index) => (
           // Nothing else tells two of the same instant apart, and a chain never changes.
           <li key={index}>

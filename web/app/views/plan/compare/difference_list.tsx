@@ -1,6 +1,6 @@
-import { useRef, type KeyboardEvent } from 'react';
 import type { Json, PlanDifference } from '../../../../protocol/messages';
 import { marksOf } from '../../../../core/plan/differences';
+import { stepThroughRows } from '../../../parts/list_keys';
 import { compareWords as words } from './words';
 
 /** All that differs, each a click from its place in the drawing; up and down go from one to the next. */
@@ -10,18 +10,8 @@ export function DifferenceList(props: {
   onShow(index: number): void;
 }) {
   const { differences, at, onShow } = props;
-  const list = useRef<HTMLUListElement>(null);
-  const pressed = (event: KeyboardEvent) => {
-    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (by === undefined) return;
-    const rows = [...(list.current?.querySelectorAll('button') ?? [])];
-    const now = rows.findIndex((row) => row === document.activeElement);
-    rows[Math.min(Math.max(now + by, 0), rows.length - 1)]?.focus();
-    event.preventDefault();
-    event.stopPropagation();
-  };
   return (
-    <ul className="pcompare__list" ref={list} aria-label={words.list} onKeyDown={pressed}>
+    <ul className="pcompare__list" aria-label={words.list} onKeyDown={stepThroughRows}>
       {differences.map((one, index) => (
         <li key={`${one.kind} ${one.path.join('/')}`}>
           <button

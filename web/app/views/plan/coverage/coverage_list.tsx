@@ -1,7 +1,8 @@
-import { useRef, useState, type KeyboardEvent } from 'react';
+import { useState } from 'react';
 import { countedIn, type Counted } from '../../../../core/plan/coverage';
 import type { Doc, PlanCoverage } from '../../../../protocol/messages';
 import { useStudio } from '../../../hooks';
+import { stepThroughRows } from '../../../parts/list_keys';
 import { coverageWords as words } from '../../tests/words';
 import { planDeskOf } from '../plan_desk';
 
@@ -9,17 +10,7 @@ import { planDeskOf } from '../plan_desk';
 export function CoverageList({ doc, counts }: { doc: Doc; counts: PlanCoverage }) {
   const studio = useStudio();
   const [only, setOnly] = useState(true);
-  const list = useRef<HTMLUListElement>(null);
   const shown = countedIn(counts).filter(({ count }) => !only || count === 0);
-  const pressed = (event: KeyboardEvent) => {
-    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (by === undefined) return;
-    const rows = [...(list.current?.querySelectorAll('button') ?? [])];
-    const at = rows.findIndex((row) => row === document.activeElement);
-    rows[Math.min(Math.max(at + by, 0), rows.length - 1)]?.focus();
-    event.preventDefault();
-    event.stopPropagation();
-  };
   const show = ({ keys }: Counted) => {
     const view = planDeskOf(studio).find(({ board }) => board.doc === doc);
     view?.board.selectAll(keys);
@@ -38,7 +29,7 @@ export function CoverageList({ doc, counts }: { doc: Doc; counts: PlanCoverage }
         {words.only}
       </button>
       {shown.length === 0 ? <p>{words.nothing}</p> : null}
-      <ul className="pcoverage__list" ref={list} aria-label={words.list} onKeyDown={pressed}>
+      <ul className="pcoverage__list" aria-label={words.list} onKeyDown={stepThroughRows}>
         {shown.map((one) => (
           <li key={`${one.kind} ${one.name}`}>
             <button type="button" className="pcoverage__one" data-inset onClick={() => show(one)}>

@@ -29,6 +29,8 @@ constexpr uint64_t kReseedMax = INT64_MAX;  // as numbers of JSON are read
 
 // A moment in which time is stopped and the nodes answer (sim::World::hold_instant()).
 struct HeldMoment {};
+// Then the debugger of the plan looked for what had arrived (SimSession::hear_ahead()).
+struct HeardAhead {};
 // Plan files that were saved while the plan ran; `texts` are all that the version is made of.
 struct PlanFiles {
     std::vector<std::string> saved = {};  // names of files of the recording
@@ -64,8 +66,8 @@ struct RecordingEnds {
 
 // Of requests to the debugger: those of does_something().
 using InputWhat =
-    std::variant<sim::Act, wire::Frame, HeldMoment, run::Request, PlanFiles, ScriptLoaded,
-                 ValueGiven, FileTookOver, Reseeded, Aborted, RecordingEnds>;
+    std::variant<sim::Act, wire::Frame, HeldMoment, HeardAhead, run::Request, PlanFiles,
+                 ScriptLoaded, ValueGiven, FileTookOver, Reseeded, Aborted, RecordingEnds>;
 
 struct Input {
     Time at{};

@@ -145,6 +145,7 @@ void Recorder::follow(session::SimSession& session) {
     session.world().number_frames();
     session.on_frame([this](const wire::Frame& one, uint32_t number) { frame(one, number); });
     session.on_instant([this] { instant(); });
+    session.on_ahead([this] { input(HeardAhead{}); });
     session.world().on_act([this](const sim::Act& act) { input(act); });
     for (const hub::LinkId link : session.bus().links()) {
         last_inside_ = std::max(last_inside_, link);

@@ -198,7 +198,7 @@ Rerun::Then Rerun::go_another_way(const Change& changed, Recorder& recorder) {
     return changed_.ok() ? Then::GoOn : Then::End;
 }
 
-// Acts and frames are recorded where they come in.
+// Acts, frames and looks ahead are recorded where they come in.
 Rerun::Then Rerun::do_again(const Input& input, Recorder& recorder) {
     recorder.set_turn(input.turn);
     sim::World& world = session()->world();
@@ -214,6 +214,8 @@ Rerun::Then Rerun::do_again(const Input& input, Recorder& recorder) {
         world.bus().receive(outside_, *frame);
     } else if (std::holds_alternative<HeldMoment>(input.what)) {
         recorder.hold();
+    } else if (std::holds_alternative<HeardAhead>(input.what)) {
+        session()->hear_ahead();
     } else if (const auto* const script = std::get_if<ScriptLoaded>(&input.what)) {
         recorder.script(*script, path_of(script->file));
     } else if (const auto* const given = std::get_if<ValueGiven>(&input.what)) {

@@ -179,8 +179,8 @@ public:
     }
     Result<Reply> answer(StepEvent& asked) {
         if (!paused_) return kNotPaused;
+        const HeldNow now = gate_->held();
         if (!asked.number) {
-            const HeldNow now = gate_->held();
             if (now.events.empty()) return kNothingHeld;
             asked.number = now.events.front().number;
         }
@@ -232,12 +232,14 @@ public:
         return paused_ ? std::optional(wait()) : mailbox_.take();
     }
 
-    // Done for that one, or for all that wait.
+    // Done for that one, or for all that wait: what has arrived and was not listed yet is among
+    // them.
     template <typename Act>
     Result<Reply> for_held(std::optional<uint64_t> number, const Act& act) {
         if (!paused_) return kNotPaused;
+        const HeldNow now = gate_->held();
         if (number) return act(*number) ? Result<Reply>(Done{}) : kNotHeld;
-        for (const HeldEvent& one : gate_->held().events) (void)act(one.number);
+        for (const HeldEvent& one : now.events) (void)act(one.number);
         return Reply(Done{});
     }
 

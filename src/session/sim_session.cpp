@@ -237,6 +237,8 @@ std::vector<debug::Event> SimSession::take_heard() {
 }
 
 void SimSession::hear_ahead() {
+    if (bus().waiting(link_) == 0) return;
+    if (told_of_ahead_) told_of_ahead_();
     for (const wire::Frame& frame : take_frames()) {
         if (wire::is_user_event(frame.type)) {
             number_heard(frame);

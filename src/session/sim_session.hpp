@@ -161,7 +161,9 @@ public:
     // What the bus told since, user events and all else, in its order; with SimOptions::heard.
     std::vector<debug::Event> take_heard();
     // Between begin_instant() and end_instant(), for a plan that a debugger holds there: user
-    // events that have arrived since are heard now, all else at the next instant.
+    // events that have arrived since are heard now, all else at the next instant. Stop passes only
+    // what has not been taken from the bus, so a run that is to be the same again does it at the
+    // same place: on_ahead().
     void hear_ahead();
     // Names of events and constants, by the projects that the robots load.
     const aesl::CommonDefinitions& common() const { return network_.common(); }
@@ -184,8 +186,11 @@ public:
     void on_frame(FrameListener told) { told_of_frame_.push_back(std::move(told)); }
     // Is told at the end of each instant, when the bodies have moved.
     void on_instant(std::function<void()> told) { told_of_instant_.push_back(std::move(told)); }
+    // Is told before hear_ahead() takes what waits.
+    void on_ahead(std::function<void()> told) { told_of_ahead_ = std::move(told); }
     // Nobody is told any more.
     void forget_listeners() {
+        told_of_ahead_ = {};
         told_of_frame_.clear();
         told_of_instant_.clear();
     }
@@ -339,6 +344,7 @@ private:
     std::vector<debug::Event> heard_;
     std::vector<FrameListener> told_of_frame_;
     std::vector<std::function<void()>> told_of_instant_;
+    std::function<void()> told_of_ahead_;
     uint32_t last_frame_ = 0;            // that it took, by its number
     std::deque<uint32_t> emit_causes_;   // of user events that have not left yet
     std::deque<uint32_t> event_frames_;  // of user events that were received, not yet heard

@@ -129,7 +129,7 @@ talk::PlanNow PlanRunner::plan_now() const {
 void PlanRunner::tend_stops() {
     if (!talk_) return;
     stops_.tend(*talk_);
-    held_.tend(*talk_);
+    if (!relives_) held_.tend(*talk_);
     tell_stops();
 }
 

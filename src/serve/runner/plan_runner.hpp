@@ -82,6 +82,9 @@ public:
     void go_on();
     // What its debugger was asked in a run before this one, which is lived again.
     void ask_again(const run::Request& request);
+    // While it is lived again nobody asks which events are held: asking takes them from the bus,
+    // and that was recorded where it was done then.
+    void relive(bool on) { relives_ = on; }
     void step();
     void obey(const talk::SetVariable& order);
     void obey(const talk::RaiseEvent& order);
@@ -112,6 +115,7 @@ private:
     PlanChange::Read changed_ = [](const auto&, const auto&) {};
     std::vector<uint64_t> broken_at_;  // breakpoints that hold it, by their numbers
     bool haste_ = false;
+    bool relives_ = false;
 
     PlanFollower::Plans plans_;  // of the version that runs; owners: this and followers
     std::map<std::string, std::string> texts_;  // of its files

@@ -47,8 +47,8 @@ Status Reliving::begin(talk::Open& order) {
     return Status::done();
 }
 
-void Reliving::enter(sim::World& world, hub::LinkId link) {
-    world_ = &world;
+void Reliving::enter(session::SimSession& session, hub::LinkId link) {
+    session_ = &session;
     link_ = link;
     while (past_ && next_ < past_->inputs.size() && past_->inputs[next_].turn == 0) {
         do_again(past_->inputs[next_++]);
@@ -75,14 +75,16 @@ bool Reliving::while_held(Time now) {
     return true;
 }
 
-// Acts and frames are recorded where they come in.
+// Acts, frames and looks ahead are recorded where they come in.
 void Reliving::do_again(const record::Input& input) {
     if (const auto* const act = std::get_if<sim::Act>(&input.what)) {
-        (void)world_->act(*act).ok();  // it worked then
+        (void)session_->world().act(*act).ok();  // it worked then
     } else if (const auto* const frame = std::get_if<wire::Frame>(&input.what)) {
-        world_->bus().receive(link_, *frame);
+        session_->world().bus().receive(link_, *frame);
     } else if (std::holds_alternative<record::HeldMoment>(input.what)) {
-        run_.recording.hold(*world_);
+        run_.recording.hold(session_->world());
+    } else if (std::holds_alternative<record::HeardAhead>(input.what)) {
+        session_->hear_ahead();
     } else if (const auto* const script = std::get_if<record::ScriptLoaded>(&input.what)) {
         run_.recording.loaded(script->node, path_of(script->file), script->text);
     } else if (const auto* const request = std::get_if<run::Request>(&input.what)) {

@@ -3,7 +3,7 @@
 //
 //     Reliving past({.plan = plan, .recording = recording, .abort = abort});
 //     TRY(past.begin(order));                         // before the run reads its files
-//     past.enter(world, link);                        // before its first instant
+//     past.enter(session, link);                      // before its first instant
 //     if (past.is_on() && !past.between_instants(now)) go_on(past.end());
 #pragma once
 
@@ -17,6 +17,7 @@
 #include "serve/runner/plan_runner.hpp"
 #include "serve/runner/run_recording.hpp"
 #include "serve/talk/orders.hpp"
+#include "session/sim_session.hpp"
 
 namespace vagus::serve {
 
@@ -34,7 +35,7 @@ public:
     // that one did. The Error says why it cannot be lived again.
     Status begin(talk::Open& order);
     // The run is open, and is to have what came before its first instant.
-    void enter(sim::World& world, hub::LinkId link);
+    void enter(session::SimSession& session, hub::LinkId link);
     bool is_on() const { return past_.has_value(); }
 
     // Does what came then. False: nothing more comes, and the run is where it was to be.
@@ -58,7 +59,7 @@ private:
     std::optional<record::PastPaths> paths_;
     size_t next_ = 0;  // of the inputs
     int breakpoints_ = 0;
-    sim::World* world_ = nullptr;
+    session::SimSession* session_ = nullptr;
     hub::LinkId link_;
 };
 

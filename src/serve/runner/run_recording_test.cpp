@@ -38,6 +38,13 @@ protected:
         EXPECT_EQ(wire::encode_message(list, wire::kHostId, frame), wire::Error::None);
         return {{frame}};
     }
+    static talk::SendFrame stop(uint16_t node) {
+        wire::Stop stop{};
+        stop.dest = node;
+        wire::Frame frame{};
+        EXPECT_EQ(wire::encode_message(stop, wire::kHostId, frame), wire::Error::None);
+        return {{frame}};
+    }
     void done(uint64_t request) {
         const auto answer = wait<talk::Answer>(
             [request](const talk::Answer& one) { return one.request == request; });
@@ -177,6 +184,39 @@ TEST_F(RunRecordingTest, APlanWithABreakpointSettingsAndANewVersionIsTheSameAgai
     EXPECT_EQ(chain.front().value, "25");
     EXPECT_THAT(why({"motor", "carbot"}, from_seconds(15)).front().place,
                 HasSubstr("carbot/carbot.aesl:"));
+}
+
+// Whoever looks at the events that a paused plan holds takes what waits from the bus, and Stop does
+// not pass that any more: the same again, also of a run that continues behind it.
+TEST_F(RunRecordingTest, APausedPlanThatIsLookedAtAndStoppedIsTheSameAgain) {
+    const std::string plan = test::examples("follow-wall/WallFollow.plan.json");
+    talk::Open open = recorded(test::examples("follow-wall/hall.world.json"), plan);
+    open.breakpoints = {{.number = 7, .plan = plan, .element = "parallelToWall"}};
+    say(talk::SetPace{false, 0});
+    say(open);
+    const auto paused =
+        wait<talk::PlanNow>([](const talk::PlanNow& now) { return !now.stands_at.empty(); });
+    for (uint64_t request = 1; request <= 5; ++request) {
+        say(ask_all());
+        (void)wait<talk::FrameSeen>();
+        say(talk::SetVariable{request, 0, "walldist", plan::Value(int64_t{35})});
+        done(request);
+    }
+    say(talk::StopPlan{});
+    for (uint16_t node = 1; node <= 4; ++node) say(stop(node));
+    (void)clock_from(paused.t + 2);
+    open.order = 2;
+    open.past = talk::PastOf{file, paused.t + 1};
+    open.recording = (folder / "run-2.mcap").string();
+    open.breakpoints.clear();
+    say(open);
+    (void)wait<talk::Opened>([](const talk::Opened& one) { return one.order == 2; });
+    EXPECT_GT(same_again(), 1000u);
+    say(talk::SetPace{false, 0});
+    (void)clock_from(paused.t + 2);
+    EXPECT_EQ(leave(), 0);
+    EXPECT_GT(same_again(open.recording), 1000u);
+    EXPECT_GE(seconds_of(parts_at(file, open.recording).value_or(Time::max())), paused.t + 1);
 }
 
 // From before the run, in the middle of a step of the plan, behind settings, a new version and a

@@ -145,6 +145,9 @@ private:
     void stop_plan() {
         // A plan that is held hears nothing but its debugger.
         if (plan_.is_on_bus() || plan_.is_paused()) plan_.abort();
+        abort_prepared();
+    }
+    void abort_prepared() {
         if (prepared_ && !plan_.is_on_bus()) prepared_->abort();
     }
 
@@ -160,10 +163,12 @@ private:
         if (!begun.ok()) return fail(begun.error().what);
         tells_past_ = order.past && !order.past->t;
         teller_.be_mute(past_.is_on(), tells_past_);
+        plan_.relive(past_.is_on());
         order.plan.empty() ? run_world(order) : run_plan(order);
         session_ = nullptr;
         if (past_.is_on()) (void)past_.end();
         teller_.be_mute(false);
+        plan_.relive(false);
     }
 
     void fail(const std::string& why) { teller_.tell(talk::OpenFailed{number_, why}); }
@@ -279,7 +284,7 @@ private:
         if (!link.ok()) return fail(link.error().what);
         link_ = link.value();
         put_robots(session.world(), order.poses);
-        if (past_.is_on()) return past_.enter(session.world(), link_);
+        if (past_.is_on()) return past_.enter(session, link_);
         tell_opened({});
     }
 
@@ -337,6 +342,7 @@ private:
     void be_here() {
         std::vector<std::string> others = past_.end();
         teller_.be_mute(false);
+        plan_.relive(false);
         pacer_.set(true, pacer_.speed(), wall_now());
         show_.begin();
         tell_opened(std::move(others));
@@ -470,7 +476,8 @@ private:
     WorldShow show_{teller_};
     RunRecording recording_{teller_};
     PlanRunner plan_{teller_, pacer_, {.wall = wall_now, .run = [this] { return run_time(); }}};
-    Reliving past_{{.plan = plan_, .recording = recording_, .abort = [this] { stop_plan(); }}};
+    // What the debugger was told then it is told again by itself.
+    Reliving past_{{.plan = plan_, .recording = recording_, .abort = [this] { abort_prepared(); }}};
     bool tells_past_ = false;
     std::vector<Packet> waiting_;                          // until it is over
     std::vector<talk::BreakpointOrder> breakpoints_ = {};  // of the order

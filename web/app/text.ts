@@ -605,6 +605,7 @@ export const text = {
     pausedLineOf: (line: number) => `paused at line ${line}`,
     loaded: (name: string) => `${name} is on the robot.`,
     kept: 'The node keeps its program for its next start.',
+    moreFailed: (nodes: number) => `${s(nodes, 'more node', 'more nodes')} did not do it.`,
     keptAll: (nodes: number) =>
       nodes === 1
         ? 'The node keeps its program for its next start.'

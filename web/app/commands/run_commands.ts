@@ -210,9 +210,14 @@ async function keep(studio: Studio): Promise<void> {
   if (failed.length === 0) toast(studio.window, 'ok', text.editor.kept);
 }
 
+/** So many reasons in full: a robot of a hundred nodes must not fill the window with them. */
+const kReasonsShown = 3;
+
 function reportFailed(studio: Studio, failed: readonly Failed[]): void {
-  for (const { node, why } of failed) {
+  for (const { node, why } of failed.slice(0, kReasonsShown)) {
     const name = robotOf(studio)?.nodes.find((one) => one.id === node)?.name ?? String(node);
     toast(studio.window, 'error', `${name}: ${why}`);
   }
+  const more = failed.length - kReasonsShown;
+  if (more > 0) toast(studio.window, 'error', text.editor.moreFailed(more));
 }

@@ -52,7 +52,10 @@ std::vector<int16_t> values_of(const RobotBus& robot, const fleet::Tells& variab
 
 RobotsRun::RobotsRun(std::unique_ptr<session::WorldBuses> buses) : buses_(std::move(buses)) {}
 
-RobotsRun::~RobotsRun() = default;
+// Plans that still run ask the fleet a last time as their code is ended.
+RobotsRun::~RobotsRun() {
+    plans_.clear();
+}
 
 Result<std::unique_ptr<RobotsRun>> RobotsRun::open(const RobotsOptions& options) {
     auto buses = TRY(session::WorldBuses::open(options.world, options.sim));
@@ -99,7 +102,7 @@ Status RobotsRun::begin(size_t index) {
     const std::vector<debug::Event> before = robot.session->take_heard();
     if (plan != nullptr) {
         TRY(plan->begin(seed_ + robot.id.number, before,
-                        [this, &robot](const plan::TraceEvent& event) { see(robot, event); }));
+                        [this, index](const plan::TraceEvent& event) { see(index, event); }));
     }
     const bool asks = plan != nullptr && plan->needs_fleet();
     TRY(fleet_->join(robot, ears_of(robot, plan), asks));
@@ -153,7 +156,9 @@ void RobotsRun::add_ears_of_broker(session::WorldFleet::Ears& ears, RobotBus& ro
     };
 }
 
-void RobotsRun::see(RobotBus& robot, const plan::TraceEvent& event) {
+void RobotsRun::see(size_t index, const plan::TraceEvent& event) {
+    RobotBus& robot = buses_->robots()[index];
+    if (told_) told_(index, event);
     if (traced_) buses_->trace(plan::format_trace(event, robot.name) + "\n");
     const auto* ended = std::get_if<plan::PlanEnded>(&event.what);
     if (ended == nullptr || run::level_of(event) > 0) return;

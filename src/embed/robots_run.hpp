@@ -14,9 +14,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.hpp"
@@ -47,6 +49,11 @@ public:
     // Whether there are robots with projects.
     bool has_projects() const { return !buses_->robots().empty(); }
 
+    // Is told of each line of the trace of each plan, with the place of its robot in
+    // buses().robots().
+    using Listener = std::function<void(size_t robot, const plan::TraceEvent&)>;
+    void listen(Listener told) { told_ = std::move(told); }
+
     // At time 0, once all scripts are there (WorldBuses::settle(), which this calls): plans begin,
     // robots join their fleets. The Error names a robot whose plan or name does not fit.
     Status start();
@@ -71,13 +78,14 @@ private:
     void tell_fleet(const session::RobotBus& robot, const debug::Event& event, Time at);
     session::WorldFleet::Ears ears_of(session::RobotBus& robot, RobotPlan* plan);
     void add_ears_of_broker(session::WorldFleet::Ears& ears, session::RobotBus& robot);
-    void see(session::RobotBus& robot, const plan::TraceEvent& event);
+    void see(size_t index, const plan::TraceEvent& event);
     void say(session::RobotBus& robot, const std::string& text);
 
     std::unique_ptr<session::WorldBuses> buses_;
     std::vector<std::unique_ptr<RobotPlan>> plans_;  // by place in buses().robots(); may be nullptr
     std::unique_ptr<session::WorldFleet> fleet_;     // nullptr until start()
     std::optional<session::WorldFleet::Door> door_;
+    Listener told_;
     bool traced_ = false;
     uint64_t seed_ = 1;
     Duration rest_{};

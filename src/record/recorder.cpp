@@ -117,24 +117,31 @@ std::string scene_update(const std::vector<Shape>& shapes, Time at) {
 
 Recorder::Recorder(Tape& tape, std::string_view run) : tape_(tape) {
     const uint16_t about = tape_.declare({.name = std::string(kRunTopic)});
+    declare();
+    tape_.put(about, Time{}, std::string(run));
+}
+
+Recorder::Recorder(Tape& tape, session::SimSession& robot) : tape_(tape), of_robot_(true) {
+    declare();
+    follow_bus(robot);
+}
+
+void Recorder::declare() {
     input_ = tape_.declare({.name = std::string(kInputTopic)});
     check_ = tape_.declare({.name = std::string(kCheckTopic)});
     trace_ = tape_.declare({.name = std::string(kTraceTopic)});
     states_ = tape_.declare({.name = std::string(kStatesTopic)});
-    tape_.put(about, Time{}, std::string(run));
 }
 
 Recorder::~Recorder() {
     if (session_ == nullptr) return;
     session_->forget_listeners();
-    session_->world().on_act({});
+    if (!of_robot_) session_->world().on_act({});
     session_->bus().on_receive({});
 }
 
 void Recorder::follow(session::SimSession& session) {
-    session_ = &session;
-    frames_ = tape_.declare({.name = std::string(kFramesTopic), .json = false});
-    events_ = tape_.declare({.name = std::string(kEventsTopic)});
+    follow_bus(session);
     poses_ = tape_.declare({.name = std::string(kPosesTopic),
                             .schema = "foxglove.SceneUpdate",
                             .may_be_dropped = true});
@@ -142,18 +149,24 @@ void Recorder::follow(session::SimSession& session) {
     if (!session.world().chaos().empty()) {
         chaos_ = tape_.declare({.name = std::string(kChaosTopic)});
     }
+    session.world().on_act([this](const sim::Act& act) { input(act); });
+    scene(now());
+    poses(now());
+}
+
+void Recorder::follow_bus(session::SimSession& session) {
+    session_ = &session;
+    frames_ = tape_.declare({.name = std::string(kFramesTopic), .json = false});
+    events_ = tape_.declare({.name = std::string(kEventsTopic)});
     session.world().number_frames();
     session.on_frame([this](const wire::Frame& one, uint32_t number) { frame(one, number); });
     session.on_instant([this] { instant(); });
     session.on_ahead([this] { input(HeardAhead{}); });
-    session.world().on_act([this](const sim::Act& act) { input(act); });
     for (const hub::LinkId link : session.bus().links()) {
         last_inside_ = std::max(last_inside_, link);
     }
     session.bus().on_receive(
         [this](hub::LinkId from, const wire::Frame& one) { from_outside(from, one); });
-    scene(now());
-    poses(now());
 }
 
 void Recorder::instant() {
@@ -164,7 +177,7 @@ void Recorder::instant() {
         const bool all = at % kPictureEvery == Duration::zero();
         for (Node& node : nodes_) variables(node, at, all);
     }
-    if (at % kPosesEvery == Duration::zero()) poses(at);
+    if (!of_robot_ && at % kPosesEvery == Duration::zero()) poses(at);
     if (at % kCheckEvery == Duration::zero()) check(at);
     if (after_instant_) after_instant_(at);
 }
@@ -271,7 +284,7 @@ std::string Recorder::variables_json(const std::vector<Variable>& variables,
 
 std::string Recorder::label_of(sim::RobotId robot, const std::string& name) const {
     const auto& robots = session_->world().definition().robots;
-    return robots.size() == 1 ? name : robots[robot.number - 1].name + "/" + name;
+    return of_robot_ || robots.size() == 1 ? name : robots[robot.number - 1].name + "/" + name;
 }
 
 void Recorder::look_for_nodes() {
@@ -378,27 +391,32 @@ void Recorder::chaos() {
 
 void Recorder::check(Time at) {
     std::string text = fmt::format(R"({{"t":{},"plan":"{}")", seconds_text(at), hex(plan_hash_));
-    if (session_ != nullptr) {
-        sim::World& world = session_->world();
-        std::string nodes;
-        for (const session::NodeState& node : session_->nodes()) {
-            const std::string name = node.name.empty() ? std::to_string(node.id) : node.name;
-            nodes += fmt::format("{}{}:\"{}\"", nodes.empty() ? "" : ",",
-                                 json_quote(label_of(node.robot, name)),
-                                 hex(hash_of(world.state_of(node.robot, node.id))));
-        }
-        std::string bodies;
-        const auto add = [&bodies](const std::string& name, const sim::Pose& pose) {
-            bodies += fmt::format("{}{}:\"{}\"", bodies.empty() ? "" : ",", json_quote(name),
-                                  hex(hash_of(bytes_of(pose))));
-        };
-        for (const sim::RobotView& robot : world.robots()) {
-            add(std::string(robot.name), robot.pose);
-        }
-        for (const sim::ObjectView& object : world.objects()) add(key_of(object), object.pose);
-        text += fmt::format(R"(,"nodes":{{{}}},"bodies":{{{}}})", nodes, bodies);
-    }
+    if (session_ != nullptr) text += ",\"nodes\":" + nodes_check();
+    if (session_ != nullptr && !of_robot_) text += ",\"bodies\":" + bodies_check();
     tape_.put(check_, at, text + "}");
+}
+
+std::string Recorder::nodes_check() const {
+    std::string nodes;
+    for (const session::NodeState& node : session_->nodes()) {
+        const std::string name = node.name.empty() ? std::to_string(node.id) : node.name;
+        nodes += fmt::format("{}{}:\"{}\"", nodes.empty() ? "" : ",",
+                             json_quote(label_of(node.robot, name)),
+                             hex(hash_of(session_->world().state_of(node.robot, node.id))));
+    }
+    return "{" + nodes + "}";
+}
+
+std::string Recorder::bodies_check() const {
+    std::string bodies;
+    const auto add = [&bodies](const std::string& name, const sim::Pose& pose) {
+        bodies += fmt::format("{}{}:\"{}\"", bodies.empty() ? "" : ",", json_quote(name),
+                              hex(hash_of(bytes_of(pose))));
+    };
+    const sim::World& world = session_->world();
+    for (const sim::RobotView& robot : world.robots()) add(std::string(robot.name), robot.pose);
+    for (const sim::ObjectView& object : world.objects()) add(key_of(object), object.pose);
+    return "{" + bodies + "}";
 }
 
 }  // namespace vagus::record

@@ -35,6 +35,9 @@ class Recorder {
 public:
     // `run` is the message of /vagus/run. The tape is borrowed.
     Recorder(Tape& tape, std::string_view run);
+    // Of a robot with a project of its own: what is on its bus, and nothing of the world around
+    // it. As follow().
+    Recorder(Tape& tape, session::SimSession& robot);
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
@@ -78,6 +81,8 @@ private:
         bool pictured = false;
     };
 
+    void declare();
+    void follow_bus(session::SimSession& session);
     void instant();
     void from_outside(hub::LinkId from, const wire::Frame& frame);
     void frame(const wire::Frame& frame, uint32_t number);
@@ -91,12 +96,15 @@ private:
     void scene(Time at);
     void poses(Time at);
     void check(Time at);
+    std::string nodes_check() const;
+    std::string bodies_check() const;
     void chaos();
     std::string label_of(sim::RobotId robot, const std::string& name) const;
     Time now() const { return session_->now(); }
 
     Tape& tape_;
     session::SimSession* session_ = nullptr;
+    const bool of_robot_ = false;  // with a project of its own
     std::function<void(Time)> after_instant_;
     uint16_t input_ = 0;
     uint16_t check_ = 0;

@@ -14,6 +14,7 @@
 #include "embed/robots_run.hpp"
 #include "record/past_run.hpp"
 #include "record/plan_recording.hpp"
+#include "record/robot_recorders.hpp"
 #include "run/debugger.hpp"
 #include "session/plan_world.hpp"
 #include "session/toolboxes.hpp"
@@ -150,7 +151,7 @@ void Rerun::draw_from(uint64_t seed) {
 Rerun::Then Rerun::after_instant(Time at, Recorder& recorder) {
     for (const auto& look : looks_) look(at);
     const bool ended_here = is_due() && std::holds_alternative<Aborted>(inputs_[next_input_].what);
-    if (!is_of_studio() || ended_here) {
+    if (!comes_between_instants() || ended_here) {
         const Then then = do_inputs(recorder, Ends::Take);
         if (then != Then::GoOn) return then;
     }
@@ -531,17 +532,26 @@ public:
     Result<Ended> run(Tape& tape) override {
         Recorder recorder(tape, format_run(about_));
         recorder.follow(*session());
+        std::optional<RobotRecorders> robots;
+        if (robots_) {
+            robots.emplace(tape, *robots_);
+            TRY(robots_->start());
+        }
         Then then = do_inputs(recorder, Ends::Take);
         recorder.after_instant([&](Time at) {
             if (then == Then::GoOn) then = after_instant(at, recorder);
         });
         while (then == Then::GoOn && session()->now() < end_) {
-            session()->step(sim::kNodeStep);
-            if (then == Then::GoOn && is_of_studio()) then = do_inputs(recorder, Ends::Take);
+            robots_ ? robots_->step(sim::kNodeStep) : own_->step(sim::kNodeStep);
+            const bool next = then == Then::GoOn && comes_between_instants();
+            if (next) then = do_inputs(recorder, Ends::Take);
         }
         TRY(changed_);
         const bool whole = then == Then::Recorded && ends_whole();
-        if (whole || (another_way_ && !stopped_)) recorder.end(session()->now());
+        if (whole || (another_way_ && !stopped_)) {
+            recorder.end(session()->now());
+            if (robots) robots->end(session()->now());
+        }
         return Ended{session()->now(), "", ""};
     }
 
@@ -554,6 +564,10 @@ public:
 
 private:
     InputWhat end_of_run() const override { return RecordingEnds{}; }
+    // Where robots have projects an instant is over when all their buses have had it.
+    bool comes_between_instants() const override {
+        return is_of_studio() || !about_.robots.empty();
+    }
 
     std::unique_ptr<embed::RobotsRun> robots_;
     std::unique_ptr<session::SimSession> own_;

@@ -120,8 +120,7 @@ protected:
     virtual InputWhat end_of_run() const = 0;
     // Whether the run goes on, was ended by somebody then, is recorded up to here, or is to end.
     enum class Then : uint8_t { GoOn, Aborted, Recorded, End };
-    // At the end of an instant. In the studio what comes between two instants is done between them,
-    // else here.
+    // At the end of an instant.
     Then after_instant(Time at, Recorder& recorder);
     // All that is due is done again. With Leave it stops where somebody ended the run.
     enum class Ends : uint8_t { Take, Leave };
@@ -135,6 +134,8 @@ protected:
     // It ended with its run, which the input done last says; then the last check comes after it.
     bool ends_whole() const;
     bool is_of_studio() const { return about_.verb == kStudioVerb; }
+    // What came from outside came between two instants, and is done there; else at the end of one.
+    virtual bool comes_between_instants() const { return is_of_studio(); }
 
     RunFile about_;
     UnpackedFolder folder_;

@@ -31,11 +31,9 @@ struct ListKey {
     std::string_view key;
     std::vector<std::string> RunFile::*at;
 };
-constexpr ListKey kLists[] = {{"command", &RunFile::command},
-                              {"toolboxes", &RunFile::toolboxes},
-                              {"set", &RunFile::set},
-                              {"poses", &RunFile::poses},
-                              {"loads", &RunFile::loads}};
+constexpr ListKey kLists[] = {{"command", &RunFile::command}, {"toolboxes", &RunFile::toolboxes},
+                              {"set", &RunFile::set},         {"poses", &RunFile::poses},
+                              {"loads", &RunFile::loads},     {"robots", &RunFile::robots}};
 
 fs::path absolute(const std::string& path) {
     std::error_code error;
@@ -98,6 +96,16 @@ Result<RunFile> read_run(std::string_view text, const std::string& name) {
         for (const JsonValue& item : value->items) (run.*one.at).push_back(item.text);
     }
     return run;
+}
+
+Status check_one_bus(const RunFile& run, const std::string& name, std::string_view what) {
+    if (run.robots.empty()) return Status::done();
+    return Error{Code::Refused,
+                 fmt::format("{}: {} needs a run of one bus and one plan, and {} robots of this "
+                             "one have projects of their own; `vagus replay` runs it again, "
+                             "`vagus compare` compares it, and the project of one of them can be "
+                             "run and recorded alone",
+                             name, what, run.robots.size())};
 }
 
 std::string PackedFiles::name_of(const std::string& path) const {

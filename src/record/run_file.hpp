@@ -39,12 +39,18 @@ struct RunFile {
     std::string chaos = {};  // the list of faults as JSON, with those that were drawn; empty: none
     std::vector<std::string> poses = {};
     std::vector<std::string> loads = {};  // --load of sim
+    // Of a world whose robots have projects of their own: their names, in the order of the file.
+    std::vector<std::string> robots = {};
 };
 
 // One line of JSON.
 std::string format_run(const RunFile& run);
 // The Error names what is wrong; `name` is the recording, for its sentence.
 Result<RunFile> read_run(std::string_view text, const std::string& name);
+
+// What is asked of one bus and one plan cannot be asked of a world whose robots have projects of
+// their own. The Error says so of `what`, for instance "why".
+Status check_one_bus(const RunFile& run, const std::string& name, std::string_view what);
 
 struct PackedFiles {
     std::string root;                          // the folder below which all of them are

@@ -2,7 +2,8 @@
 //
 //     FilesRead files;                                   // before anything is read
 //     …                                                  // the world is opened
-//     auto recording = TRY(SimRecording::begin("run.mcap", about, files, buses.common(), pace));
+//     auto recording = TRY(SimRecording::begin("run.mcap", about, files, run, pace));
+//     TRY(run.start());
 //     …                                                  // time passes
 //     const Status written = recording->end();
 #pragma once
@@ -13,29 +14,29 @@
 #include "base/file.hpp"
 #include "record/file_tape.hpp"
 #include "record/recorder.hpp"
+#include "record/robot_recorders.hpp"
 #include "record/run_file.hpp"
 
 namespace vagus::record {
 
 class SimRecording {
 public:
-    // Paths in `about` are as they were typed. The session is borrowed, until end().
+    // Paths in `about` are as they were typed. The run is borrowed, until end(). The Error says why
+    // it is not recorded.
     static Result<std::unique_ptr<SimRecording>> begin(const std::string& path, RunFile about,
                                                        const FilesRead& files,
-                                                       session::SimSession& session, Pace pace);
+                                                       embed::RobotsRun& run, Pace pace);
     // The first thing that went wrong.
     Status end();
     uint64_t dropped() const { return tape_->dropped(); }
 
 private:
-    SimRecording(std::unique_ptr<FileTape> tape, std::string_view run, session::SimSession& session)
-        : tape_(std::move(tape)),
-          recorder_(std::make_unique<Recorder>(*tape_, run)),
-          session_(session) {}
+    SimRecording(std::unique_ptr<FileTape> tape, std::string_view about, embed::RobotsRun& run);
 
     std::unique_ptr<FileTape> tape_;
     std::unique_ptr<Recorder> recorder_;
-    session::SimSession& session_;
+    std::unique_ptr<RobotRecorders> robots_;
+    session::SimSession& session_;  // of the common bus
 };
 
 }  // namespace vagus::record

@@ -52,6 +52,7 @@ Result<Chain> why(const mcap::Reader& reader, const Question& question, std::opt
     // Of a run that goes on there is what was written by now.
     if (!reader.is_complete()) at = std::min(at.value_or(Time::max()), end_of(reader));
     std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, {.until = at}));
+    TRY(check_one_bus(rerun->about(), reader.name(), "why"));
     std::optional<Result<Chain>> answer;
     std::vector<std::pair<size_t, size_t>> ties;
     Causes* seen = nullptr;

@@ -24,6 +24,7 @@ Error at_condition(std::string_view condition, const Error& error) {
 }
 
 Status check_can_continue(const mcap::Reader& reader, record::Rerun& rerun) {
+    TRY(record::check_one_bus(rerun.about(), reader.name(), "--turning-point"));
     if (rerun.session() == nullptr) {
         return cannot(reader,
                       "is of a plan without a world, which cannot be continued from an instant; "

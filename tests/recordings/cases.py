@@ -35,6 +35,8 @@ WORLDS = [
     ("carbot/arena", "carbot/carbot.aesl"), ("epuck/colours", "epuck/seek.aesl"), ("thymio/arena", "thymio/explore.aesl"),
     ("thymio/line", "thymio/line.aesl"), ("patterns/thymio", "thymio/drive.aesl"),
 ]
+# Robots with projects of their own.
+FLEETS = ["alarm/class", "warehouse/hall"]
 
 
 class Recordings(unittest.TestCase):
@@ -83,6 +85,81 @@ class Recordings(unittest.TestCase):
                     run_vagus("sim", EXAMPLES / f"{world}.world.json", "--load", EXAMPLES / script, "--headless", "--speed",
                               "max", "--duration", 30, "--seed", seed, "--record", self.file)
                     self.assertRegex(self.replays(), NO_DIFFERENCE)
+
+    # ---- worlds whose robots have projects ----
+
+    def run_fleet(self, world, *options, duration=20, status=0):
+        return run_vagus("sim", EXAMPLES / f"{world}.world.json", "--headless", "--speed", "max", "--duration", duration,
+                         "--record", self.file, *options, status=status)
+
+    def test_fleets_run_again_without_a_difference(self):
+        for world in FLEETS:
+            for seed in range(1, SEEDS + 1):
+                with self.subTest(world=world, seed=seed):
+                    self.run_fleet(world, "--seed", seed, "--threads", 1 + seed % 2)
+                    self.assertRegex(self.replays(), NO_DIFFERENCE)
+
+    def test_an_older_processor_gives_a_fleet_the_same_bits(self):
+        self.run_fleet("warehouse/hall")
+        with Program(VAGUS, "replay", self.file, env={"GLIBC_TUNABLES": NO_FMA}) as program:
+            self.assertEqual(program.wait_end(), 0, program.lines)
+
+    def test_recording_a_fleet_changes_nothing(self):
+        traces = []
+        for record in ([], ["--record", self.file]):
+            trace = self.folder / f"{len(record)}.jsonl"
+            run_vagus("sim", EXAMPLES / "warehouse/hall.world.json", "--headless", "--speed", "max", "--duration", 20,
+                      "--trace", trace, *record)
+            traces.append(trace.read_bytes())
+        self.assertEqual(*traces)
+
+    def test_a_fleet_under_faults_runs_again(self):
+        faults = json.dumps([{"do": "lose", "robot": "r1", "node": "drive", "from": 1, "until": 5, "share": 0.5},
+                             {"do": "reset", "robot": "r2", "node": "bumper", "at": 3}])
+        self.run_fleet("warehouse/hall", "--chaos", faults)
+        self.assertRegex(self.replays(), NO_DIFFERENCE)
+
+    def test_another_script_of_a_fleet_parts_the_runs_at_its_robots(self):
+        """They are loaded with another program at time 0."""
+        self.run_fleet("alarm/class", duration=5)
+        other = self.folder / "alarm.aesl"
+        text = (EXAMPLES / "alarm/alarm.aesl").read_text()
+        self.assertIn("var ", text)
+        other.write_text(text.replace("var ", "var planted = 7\nvar ", 1))
+        self.assertIn("differs at 0.000000 s: /robot/t1/bus/frames", self.replays("--with", other, status=1))
+
+    def test_another_seed_of_a_fleet_is_another_run_from_its_first_draw_on(self):
+        self.run_fleet("warehouse/hall")
+        first, other = self.file, self.folder / "other.mcap"
+        self.file = other
+        self.run_fleet("warehouse/hall", "--seed", 5)
+        told = run_vagus("compare", first, other, status=1)
+        self.assertRegex(told, r"differs at [\d.]+ s: /robot/r\d+/node/drive/variables")
+
+    def test_questions_of_one_bus_are_not_for_a_fleet(self):
+        self.run_fleet("warehouse/hall", duration=2)
+        for words, status in ((["why", self.file, "end"], 1), (["why", self.file, "--turning-point", "contact > 1"], 2),
+                              (["replay", self.file, "--log", "drive:1", "token"], 2)):
+            told = run_vagus(*words, status=status)
+            self.assertIn("needs a run of one bus and one plan, and 10 robots of this one have projects of their own", told)
+
+    def test_more_robots_than_a_file_has_channels_for_are_not_recorded(self):
+        """A thousand are; one more is not."""
+        project = self.folder / "p"
+        project.mkdir()
+        (project / "vagus.json").write_text(json.dumps({"format": "vagus-project/1", "name": "P", "scripts": ["s.aesl"]}))
+        (project / "s.aesl").write_text("var x = 1\n")
+        for robots, status in ((1000, 0), (1001, 2)):
+            world = self.folder / "many.world.json"
+            rows = [{"name": "t", "type": "thymio2", "at": [0.4, 0.4], "grid": [50, 20], "spacing": 0.4, "project": "p"}]
+            if robots > 1000:
+                rows.append({"name": "one", "type": "thymio2", "at": [20.8, 0.4], "project": "p"})
+            world.write_text(json.dumps({"format": "vagus-world/1", "size": [22, 9], "robots": rows}))
+            told = run_vagus("sim", world, "--headless", "--speed", "max", "--duration", 0.1, "--record", self.file,
+                             status=status)
+        self.assertIn("expected at most 1000 robots with a project, found 1001", told)
+
+    # ---- again ----
 
     def test_an_older_processor_gives_the_same_bits(self):
         self.follow_wall(max_time=30)

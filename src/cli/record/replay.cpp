@@ -181,6 +181,9 @@ Result<std::unique_ptr<record::FileTape>> new_recording(const ReplayOptions& opt
 // What is put into the run for a person who looks at it; the Error says what is not there.
 Result<std::unique_ptr<record::LogPoints>> log_points(const ReplayOptions& options,
                                                       record::Rerun& rerun) {
+    if (!options.log.empty()) {
+        TRY(record::check_one_bus(rerun.about(), options.file, "--log"));
+    }
     std::vector<record::LogWish> wishes;
     for (const auto& [where, values] : options.log) wishes.push_back({where, values});
     const record::LogPoints::Run run{rerun.session(),

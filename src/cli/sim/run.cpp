@@ -139,7 +139,7 @@ Status SimRun::open_trace() {
 namespace {
 
 // What cannot be run again is not recorded as if it could.
-Status check_recording(const SimRunOptions& options, bool has_projects, bool has_ports) {
+Status check_recording(const SimRunOptions& options, bool has_ports) {
     const auto refuse = [&](const std::string& why) {
         return Error{Code::Refused, "--record " + options.record + ": " + why};
     };
@@ -151,11 +151,6 @@ Status check_recording(const SimRunOptions& options, bool has_projects, bool has
     if (options.watch) return refuse("not together with --watch; leave one of them out");
     if (!options.fleet.target.empty()) {
         return refuse("not together with --fleet; leave one of them out");
-    }
-    if (has_projects) {
-        return refuse(
-            "a world whose robots have projects is not recorded yet; --trace writes "
-            "what happens there");
     }
     const aesl::Options usual;
     if (options.compile.dialect != usual.dialect || !options.compile.ontimer.empty()) {
@@ -170,14 +165,14 @@ Status SimRun::begin_recording(const FilesRead& files) {
     const auto& robots = session_.world().definition().robots;
     const bool has_ports = std::any_of(robots.begin(), robots.end(),
                                        [](const auto& robot) { return robot.port.has_value(); });
-    TRY(check_recording(options_, robots_.has_projects(), has_ports));
+    TRY(check_recording(options_, has_ports));
     record::RunFile about;
     about.verb = "sim";
     about.world = options_.world;
     about.loads = options_.loads;
     if (options_.seed) about.seed = std::to_string(*options_.seed);
     const auto pace = pace_.hurries() ? record::Pace::Waits : record::Pace::NeverWaits;
-    recording_ = TRY(record::SimRecording::begin(options_.record, about, files, session_, pace));
+    recording_ = TRY(record::SimRecording::begin(options_.record, about, files, robots_, pace));
     return Status::done();
 }
 

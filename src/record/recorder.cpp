@@ -113,6 +113,10 @@ std::string scene_update(const std::vector<Shape>& shapes, Time at) {
 
 }  // namespace
 
+std::string state_hash(std::string_view check) {
+    return hex(hash_of(check));
+}
+
 // ---- the recorder ----
 
 Recorder::Recorder(Tape& tape, std::string_view run) : tape_(tape) {
@@ -376,9 +380,13 @@ void Recorder::chaos() {
 // ---- checks ----
 
 void Recorder::check(Time at) {
+    tape_.put(check_, at, check_text(at));
+}
+
+std::string Recorder::check_text(Time at) const {
     std::string text = fmt::format(R"({{"t":{},"plan":"{}")", seconds_text(at), hex(plan_hash_));
     if (session_ != nullptr) {
-        sim::World& world = session_->world();
+        const sim::World& world = session_->world();
         std::string nodes;
         for (const session::NodeState& node : session_->nodes()) {
             const std::string name = node.name.empty() ? std::to_string(node.id) : node.name;
@@ -397,7 +405,7 @@ void Recorder::check(Time at) {
         for (const sim::ObjectView& object : world.objects()) add(key_of(object), object.pose);
         text += fmt::format(R"(,"nodes":{{{}}},"bodies":{{{}}})", nodes, bodies);
     }
-    tape_.put(check_, at, text + "}");
+    return text + "}";
 }
 
 }  // namespace vagus::record

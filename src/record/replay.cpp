@@ -32,12 +32,11 @@ std::string names_of_files(const mcap::Reader& reader) {
     return list_of(names);
 }
 
-// The first one that is not earlier.
+}  // namespace
+
 Time instant_of(Time at) {
     return (at + sim::kNodeStep - Duration(1)) / sim::kNodeStep * sim::kNodeStep;
 }
-
-}  // namespace
 
 Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reader,
                                                        const std::string& typed) {
@@ -323,6 +322,7 @@ public:
         } else if ((!until_ || another_way_) && !stopped_) {
             recorder.end(last);
         }
+        leave(recorder, last);
         return Ended{last, std::string(plan::name_of(ended.result)), ended.message};
     }
 
@@ -492,7 +492,6 @@ private:
     std::optional<embed::PlanVersions> versions_;
     std::optional<run::Debugger> debugger_;  // where something asks it
     std::map<uint64_t, Asked> asked_;        // by the debugger's number
-    Recorder* recorder_ = nullptr;           // of this run()
     EndingTape* tape_ = nullptr;
     bool plan_over_ = false;
     bool over_ = false;
@@ -528,6 +527,7 @@ public:
 
     Result<Ended> run(Tape& tape) override {
         Recorder recorder(tape, format_run(about_));
+        recorder_ = &recorder;
         recorder.follow(*session());
         Then then = do_inputs(recorder, Ends::Take);
         recorder.after_instant([&](Time at) {
@@ -540,6 +540,7 @@ public:
         TRY(changed_);
         const bool whole = then == Then::Recorded && ends_whole();
         if (whole || (another_way_ && !stopped_)) recorder.end(session()->now());
+        leave(recorder, session()->now());
         return Ended{session()->now(), "", ""};
     }
 

@@ -52,6 +52,9 @@ struct RerunOptions {
 Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reader,
                                                        const std::string& typed);
 
+// The end of an instant: the first that is not earlier.
+Time instant_of(Time at);
+
 class Rerun {
 public:
     struct Ended {
@@ -83,6 +86,11 @@ public:
     void before_act(std::function<void(const sim::Act&)> told) { told_of_act_ = std::move(told); }
     // From a listener: no more of it is wanted.
     void stop() { stopped_ = true; }
+    // What a check says that is made now (Recorder::check_text()): in each_instant(), or after a
+    // run() that was no Error.
+    std::string check_at(Time at) const {
+        return recorder_ != nullptr ? recorder_->check_text(at) : last_check_;
+    }
 
     // nullptr for a plan alone. Valid while this is.
     virtual session::SimSession* session() = 0;
@@ -134,6 +142,11 @@ protected:
     Then go_another_way(const Change& changed, Recorder& recorder);
     // It ended with its run, which the input done last says; then the last check comes after it.
     bool ends_whole() const;
+    // The run is over, and the recorder goes.
+    void leave(const Recorder& recorder, Time at) {
+        last_check_ = recorder.check_text(at);
+        recorder_ = nullptr;
+    }
     bool is_of_studio() const { return about_.verb == kStudioVerb; }
 
     RunFile about_;
@@ -149,6 +162,8 @@ protected:
     std::function<void(const sim::Act&)> told_of_act_;
     bool stopped_ = false;
     std::optional<std::string> ended_by_;  // who ended it then
+    Recorder* recorder_ = nullptr;         // of this run(), while it goes on
+    std::string last_check_;               // when it was over
     hub::LinkId outside_;                  // from where frames come again; 0: none came yet
 
 private:

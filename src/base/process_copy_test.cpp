@@ -13,9 +13,16 @@ namespace {
 
 // ---- what copies do in these tests ----
 
-enum Word : uint32_t { kBegan = 1, kCopy, kAnswer };
+enum Word : uint32_t { kBegan = 1, kCopy, kAnswer, kWork };
 
-// Tells who it is; each kCopy makes another one, whatever else comes is answered by what is open.
+// Hears nothing.
+[[noreturn]] void work_for_ever() {
+    while (own_number() > 0) {
+    }
+    end_copy();
+}
+
+// Tells who it is; each kCopy makes another one, kAnswer is answered by what is open.
 [[noreturn]] void serve(CopyLink link) {
     (void)link.send({.word = kBegan, .number = own_number(), .handed = own_handle()});
     while (auto asked = link.receive()) {
@@ -24,6 +31,7 @@ enum Word : uint32_t { kBegan = 1, kCopy, kAnswer };
             serve(CopyLink(std::move(asked->handed)));
         }
         if (asked->word == kCopy) continue;
+        if (asked->word == kWork) work_for_ever();
         int open_ones = 0;
         for (int one = STDERR_FILENO + 1; one < 256; ++one) {
             if (fcntl(one, F_GETFD) >= 0) ++open_ones;
@@ -68,7 +76,7 @@ bool has_ended(const Descriptor& process) {
     pollfd ends{process.number(), POLLIN, 0};
     while (poll(&ends, 1, -1) < 0) {
     }
-    return ends.revents == POLLIN;
+    return (ends.revents & POLLIN) != 0;
 }
 
 // ---- the promises ----
@@ -115,6 +123,7 @@ TEST(ProcessCopy, NoneIsLeftWhenTheFirstProcessIsKilled) {
         for (const Held* one : {&first, &second, &third}) {
             (void)its.send({.word = kBegan, .number = one->process.number()});
         }
+        (void)second.link.send({.word = kWork});  // one of them does not look at its link
         (void)its.receive();  // until it is killed
         end_copy();
     }

@@ -1,0 +1,186 @@
+// Jumps in a recorded run: with keyframes, and by running again from the beginning.
+//
+//     build/release/bin/bench_keyframes      exit code 1: a figure missed its goal
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/file.hpp"
+#include "base/rng.hpp"
+#include "base/test_folder.hpp"
+#include "base/test_places.hpp"
+#include "embed/robots_run.hpp"
+#include "record/causes.hpp"
+#include "record/keyframes.hpp"
+#include "record/sim_recording.hpp"
+
+namespace {
+
+using namespace vagus;
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+using record::Keyframes;
+
+constexpr uint64_t kSeed = 1;
+constexpr int kJumps = 1000;
+constexpr int kJumpsOfAnHour = 100;
+constexpr double kFirstWayMax = 1.25;  // of a straight run
+constexpr double kJumpMaxMs = 300;
+constexpr double kMemoryMaxMb = 500;
+
+[[noreturn]] void die(const std::string& why) {
+    fmt::print(stderr, "{}\n", why);
+    std::exit(1);
+}
+
+template <typename T>
+T got(Result<T> result) {
+    if (!result.ok()) die(result.error().what);
+    return std::move(result.value());
+}
+
+// A Carbot in its arena, with its script; now and then somebody moves it.
+std::string recorded(Time until, const std::string& file) {
+    const std::string examples = test::examples("carbot/");
+    FilesRead files;
+    auto robots = got(embed::RobotsRun::open({.world = examples + "arena.world.json"}));
+    session::SimSession& session = robots->buses().common();
+    session.load(examples + "carbot.aesl", got(read_file(examples + "carbot.aesl")));
+    record::RunFile about;
+    about.verb = "sim";
+    about.world = examples + "arena.world.json";
+    about.loads = {examples + "carbot.aesl"};
+    const auto recording = got(
+        record::SimRecording::begin(file, about, files, session, record::Pace::Waits));
+    SplitMix64 random(kSeed);
+    while (session.now() < until) {
+        session.step(5s);
+        const double x = 0.5 + 0.1 * static_cast<double>(random.next() % 5);
+        (void)session.world().move(sim::RobotId{1}, {{x, 0.5}, 1}).ok();
+    }
+    if (!recording->end().ok()) die(file + ": was not written");
+    return got(read_file(file));
+}
+
+double ms_since(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+std::string state_of(record::Rerun& run, Time at) {
+    return record::state_hash(run.check_at(at));
+}
+
+std::vector<Time> random_instants(size_t count, Time end) {
+    SplitMix64 random(kSeed);
+    std::vector<Time> all;
+    for (size_t i = 0; i < count; ++i) {
+        all.emplace_back(static_cast<int64_t>(random.next() % static_cast<uint64_t>(end.count())));
+    }
+    return all;
+}
+
+// The states at these instants, in one straight run.
+std::map<Time, std::string> straight_states(const mcap::Reader& reader, std::vector<Time> at) {
+    std::ranges::sort(at);
+    const auto rerun = got(record::Rerun::open(reader, {}));
+    std::map<Time, std::string> states;
+    size_t next = 0;
+    rerun->each_instant([&](Time now) {
+        for (; next < at.size() && at[next] <= now; ++next) {
+            states[at[next]] = state_of(*rerun, now);
+        }
+    });
+    record::NullTape tape;
+    (void)got(rerun->run(tape));
+    return states;
+}
+
+// PSS: what several processes share counts once.
+double memory_mb(const Keyframes& keyframes) {
+    double kb = 0;
+    for (const auto& [at, process] : keyframes.waiting()) {
+        std::ifstream told(fmt::format("/proc/{}/smaps_rollup", process));
+        for (std::string line; std::getline(told, line);) {
+            if (line.starts_with("Pss:")) kb += std::strtod(line.c_str() + 4, nullptr);
+        }
+    }
+    return kb / 1024;
+}
+
+struct Jumps {
+    double total_ms = 0;
+    double slowest_ms = 0;
+    int other = 0;  // states than those of the straight run
+};
+
+Jumps jump(Keyframes& keyframes, const std::vector<Time>& instants,
+           const std::map<Time, std::string>& expected) {
+    Jumps jumps;
+    for (const Time at : instants) {
+        const auto begin = Clock::now();
+        const Keyframes::Look look = got(keyframes.look(at));
+        const double took = ms_since(begin);
+        jumps.total_ms += took;
+        jumps.slowest_ms = std::max(jumps.slowest_ms, took);
+        if (look.text != expected.at(at)) ++jumps.other;
+    }
+    return jumps;
+}
+
+// True: the figure is no worse than its goal.
+bool tell(const std::string& what, double value, double most, const std::string& unit) {
+    const bool good = value <= most;
+    fmt::print("figure: {}: {:.2f}{} (at most {:g}{}){}\n", what, value, unit, most, unit,
+               good ? "" : "  MISSED");
+    return good;
+}
+
+// The same instants by running again from the beginning: some of them, for the time of one.
+double straight_ms(Keyframes& keyframes, const std::vector<Time>& instants) {
+    constexpr size_t kSome = 10;
+    const auto begin = Clock::now();
+    for (size_t i = 0; i < kSome; ++i) (void)got(keyframes.look_straight(instants[i]));
+    return ms_since(begin) / kSome;
+}
+
+bool look_at(Time length, const std::string& name, size_t jumps_count) {
+    const test::Folder folder;
+    const std::string bytes = recorded(length, (folder / "run.mcap").string());
+    const mcap::Reader reader = got(mcap::Reader::open(bytes, "run.mcap"));
+    const std::vector<Time> instants = random_instants(jumps_count, length);
+    const auto expected = straight_states(reader, instants);
+    const auto keyframes = got(Keyframes::open(reader, state_of));
+    if (!keyframes->why_none().empty()) die(keyframes->why_none());
+    auto begin = Clock::now();
+    (void)got(keyframes->look_straight(length));
+    const double straight = ms_since(begin);
+    begin = Clock::now();
+    (void)got(keyframes->look(length));
+    const double first_way = ms_since(begin);
+    const Jumps jumps = jump(*keyframes, instants, expected);
+    const double mean = jumps.total_ms / static_cast<double>(jumps_count);
+    fmt::print("{}: {} jumps, {} keyframes, a straight run takes {:.0f} ms\n", name, jumps_count,
+               keyframes->waiting().size(), straight);
+    bool good = tell("states that differ from the straight run's", jumps.other, 0, "");
+    good &= tell("the first way to the end, of a straight run", first_way / straight, kFirstWayMax,
+                 "");
+    good &= tell("a jump, of running again from the beginning",
+                 mean / straight_ms(*keyframes, instants), 1.25, "");
+    good &= tell("the slowest jump", jumps.slowest_ms, kJumpMaxMs, " ms");
+    good &= tell("memory of the keyframes (PSS)", memory_mb(*keyframes), kMemoryMaxMb, " MB");
+    return good;
+}
+
+}  // namespace
+
+int main() {
+    const bool minutes = look_at(600s, "ten minutes", kJumps);
+    const bool hour = look_at(3600s, "an hour", kJumpsOfAnHour);
+    return minutes && hour ? 0 : 1;
+}

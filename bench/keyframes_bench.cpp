@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ using record::Keyframes;
 constexpr uint64_t kSeed = 1;
 constexpr int kJumps = 1000;
 constexpr int kJumpsOfAnHour = 100;
+constexpr int kTries = 5;
 constexpr double kFirstWayMax = 1.25;  // of a straight run
 constexpr double kJumpMaxMs = 300;
 constexpr double kMemoryMaxMb = 500;
@@ -45,17 +47,17 @@ T got(Result<T> result) {
     return std::move(result.value());
 }
 
-// A Carbot in its arena, with its script; now and then somebody moves it.
+// A Thymio that explores its arena; now and then somebody moves it.
 std::string recorded(Time until, const std::string& file) {
-    const std::string examples = test::examples("carbot/");
+    const std::string examples = test::examples("thymio/");
     FilesRead files;
     auto robots = got(embed::RobotsRun::open({.world = examples + "arena.world.json"}));
     session::SimSession& session = robots->buses().common();
-    session.load(examples + "carbot.aesl", got(read_file(examples + "carbot.aesl")));
+    session.load(examples + "explore.aesl", got(read_file(examples + "explore.aesl")));
     record::RunFile about;
     about.verb = "sim";
     about.world = examples + "arena.world.json";
-    about.loads = {examples + "carbot.aesl"};
+    about.loads = {examples + "explore.aesl"};
     const auto recording = got(
         record::SimRecording::begin(file, about, files, session, record::Pace::Waits));
     SplitMix64 random(kSeed);
@@ -102,7 +104,7 @@ std::map<Time, std::string> straight_states(const mcap::Reader& reader, std::vec
 }
 
 // PSS: what several processes share counts once.
-double memory_mb(const Keyframes& keyframes) {
+double memory_mb(Keyframes& keyframes) {
     double kb = 0;
     for (const auto& [at, process] : keyframes.waiting()) {
         std::ifstream told(fmt::format("/proc/{}/smaps_rollup", process));
@@ -155,14 +157,18 @@ bool look_at(Time length, const std::string& name, size_t jumps_count) {
     const mcap::Reader reader = got(mcap::Reader::open(bytes, "run.mcap"));
     const std::vector<Time> instants = random_instants(jumps_count, length);
     const auto expected = straight_states(reader, instants);
-    const auto keyframes = got(Keyframes::open(reader, state_of));
-    if (!keyframes->why_none().empty()) die(keyframes->why_none());
-    auto begin = Clock::now();
-    (void)got(keyframes->look_straight(length));
-    const double straight = ms_since(begin);
-    begin = Clock::now();
-    (void)got(keyframes->look(length));
-    const double first_way = ms_since(begin);
+    std::unique_ptr<Keyframes> keyframes;
+    double straight = 1e9, first_way = 1e9;  // the best of some: the computer does other things, too
+    for (int i = 0; i < kTries; ++i) {
+        keyframes = got(Keyframes::open(reader, state_of));
+        if (!keyframes->why_none().empty()) die(keyframes->why_none());
+        auto begin = Clock::now();
+        (void)got(keyframes->look_straight(length));
+        straight = std::min(straight, ms_since(begin));
+        begin = Clock::now();
+        (void)got(keyframes->look(length));
+        first_way = std::min(first_way, ms_since(begin));
+    }
     const Jumps jumps = jump(*keyframes, instants, expected);
     const double mean = jumps.total_ms / static_cast<double>(jumps_count);
     fmt::print("{}: {} jumps, {} keyframes, a straight run takes {:.0f} ms\n", name, jumps_count,

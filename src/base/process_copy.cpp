@@ -200,10 +200,15 @@ CopyProcess& CopyProcess::operator=(CopyProcess&& other) noexcept {
     return *this;
 }
 
+void CopyProcess::kill() const {
+    if (!handle_.is_open()) return;
+    (void)syscall(SYS_pidfd_send_signal, handle_.number(), SIGKILL, nullptr, 0);
+}
+
 void CopyProcess::end() {
+    kill();
     const Descriptor held = std::move(handle_);
     if (!held.is_open()) return;
-    (void)syscall(SYS_pidfd_send_signal, held.number(), SIGKILL, nullptr, 0);
     pollfd ends{held.number(), POLLIN, 0};
     while (poll(&ends, 1, -1) < 0 && errno == EINTR) {
     }

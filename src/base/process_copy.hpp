@@ -82,6 +82,8 @@ public:
     CopyProcess& operator=(CopyProcess&& other) noexcept;
 
     int64_t number() const { return number_; }
+    // It is to end; waits for nothing.
+    void kill() const;
     // Waits until nothing is left of it.
     void end();
 

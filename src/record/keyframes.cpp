@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/seconds.hpp"
 #include "record/causes.hpp"
@@ -17,15 +18,16 @@ constexpr int kAttemptsMax = 3;
 
 // What copies and their supervisor say to each other. Numbers are instants, but of Began.
 enum class Word : uint32_t {
-    GoOn = 1,   // to a copy that waits: another one, with the link that is handed, goes on to there
+    GoOn = 1,   // to a copy that waits: another one, with the link that is handed, goes on to there;
+                // the text has the instants at which it leaves copies on the way
     Tell,       // what there is
-    NotCopied,  // answers to GoOn: the text says why
-    Copied,
-    Told,    // to Tell
-    Began,   // from a copy: its number and its handle
-    IsAt,    // it waits there
-    IsOver,  // the run has ended there
-    Failed,  // the run has failed: the text says how
+    Told,       // the answer
+    Began,      // from a copy: its number and its handle
+    Left,       // it has left a copy on the way; the link to that is handed
+    NotCopied,  // it could not: the text says why
+    IsAt,       // it waits there; the text says what there is
+    IsOver,     // the same, and the run has ended there
+    Failed,     // the run has failed: the text says how
 };
 
 CopyMessage message(Word word, Time at = {}, std::string text = {}) {
@@ -42,70 +44,132 @@ std::string why_threads(size_t threads) {
                        threads);
 }
 
+std::string bytes_of(const std::vector<Time>& instants) {
+    std::string bytes(instants.size() * sizeof(int64_t), '\0');
+    for (size_t i = 0; i < instants.size(); ++i) {
+        const int64_t count = instants[i].count();
+        std::memcpy(bytes.data() + i * sizeof count, &count, sizeof count);
+    }
+    return bytes;
+}
+
+std::vector<Time> instants_in(std::string_view bytes) {
+    std::vector<Time> instants(bytes.size() / sizeof(int64_t));
+    for (size_t i = 0; i < instants.size(); ++i) {
+        int64_t count = 0;
+        std::memcpy(&count, bytes.data() + i * sizeof count, sizeof count);
+        instants[i] = Time(count);
+    }
+    return instants;
+}
+
 // The life of a copy: it runs on to its stop, and waits there for what is wanted of it.
 class RunningCopy {
 public:
     // The first two are borrowed.
-    RunningCopy(Rerun& rerun, const Keyframes::Tell& tell, CopyLink link, Time stop)
-        : rerun_(rerun), tell_(tell), link_(std::move(link)), stop_(stop) {}
+    RunningCopy(Rerun& rerun, const Keyframes::Tell& tell, CopyLink link, const CopyMessage& order)
+        : rerun_(rerun), tell_(tell), link_(std::move(link)) {
+        begin(order);
+    }
 
     [[noreturn]] void run() {
-        begin();
-        rerun_.each_instant([this](Time at) {
-            if (at >= stop_) wait_at(at, Word::IsAt);
-        });
+        rerun_.each_instant([this](Time at) { look(at); });
         NullTape tape;
         const auto ended = rerun_.run(tape);
-        if (ended.ok()) wait_at(ended.value().at, Word::IsOver);
-        (void)link_.send(message(Word::Failed, {}, ended.ok() ? "" : ended.error().what));
+        if (ended.ok()) {
+            const Time at = ended.value().at;
+            wait_at(at, message(Word::IsOver, at, tell_(rerun_, at)));
+        } else {
+            (void)link_.send(message(Word::Failed, {}, ended.error().what));
+        }
         end_copy();
     }
 
 private:
-    void begin() const {
+    void begin(const CopyMessage& order) {
+        stop_ = Time(order.number);
+        leaves_ = instants_in(order.text);
+        std::ranges::reverse(leaves_);
+        introduce();
+    }
+    void introduce() const {
         (void)link_.send({.word = static_cast<uint32_t>(Word::Began),
                           .number = own_number(),
                           .text = {},
                           .handed = own_handle()});
     }
 
-    // Returns in a copy of this one.
-    void wait_at(Time at, Word there) {
-        bool is_heard = link_.send(message(there, at));
+    void look(Time at) {
+        if (at >= stop_) return wait_at(at, message(Word::IsAt, at, tell_(rerun_, at)));
+        if (leaves_.empty() || at < leaves_.back()) return;
+        leaves_.pop_back();
+        leave_copy(at);
+    }
+
+    // It is the copy that waits, so this one loses no time.
+    void leave_copy(Time at) {
+        auto ends = CopyLink::make();
+        if (!ends.ok()) return cannot_leave(ends.error().what);
+        auto& [mine, its] = ends.value();
+        switch (copied(its.descriptor())) {
+            case Side::Copy:
+                mine = CopyLink(Descriptor());
+                link_ = std::move(its);
+                introduce();
+                return wait_at(at, message(Word::IsAt, at));
+            case Side::None: return cannot_leave(why_not());
+            case Side::This: break;
+        }
+        CopyMessage left = message(Word::Left, at);
+        left.handed = std::move(mine).take();
+        (void)link_.send(left);
+    }
+    void cannot_leave(const std::string& why) {
+        leaves_.clear();
+        (void)link_.send(message(Word::NotCopied, {}, why));
+    }
+
+    // Returns in a copy of this one, that goes on.
+    void wait_at(Time at, const CopyMessage& first) {
+        bool is_heard = link_.send(first);
         while (is_heard) {
             std::optional<CopyMessage> asked = link_.receive();
             if (says(asked, Word::GoOn)) {
-                if (is_copied(asked->handed)) {
-                    link_ = CopyLink(std::move(asked->handed));
-                    stop_ = Time(asked->number);
-                    return begin();
+                switch (copied(asked->handed)) {
+                    case Side::Copy:
+                        link_ = CopyLink(std::move(asked->handed));
+                        return begin(*asked);
+                    case Side::None:
+                        is_heard = link_.send(message(Word::NotCopied, {}, why_not()));
+                        break;
+                    case Side::This: break;
                 }
-            } else if (says(asked, Word::Tell)) {
-                is_heard = link_.send(message(Word::Told, at, tell_(rerun_, at)));
             } else {
-                break;
+                is_heard = says(asked, Word::Tell) &&
+                           link_.send(message(Word::Told, at, tell_(rerun_, at)));
             }
         }
         end_copy();
     }
 
-    // True: this is the copy.
-    bool is_copied(const Descriptor& link) {
+    // Where one finds oneself when this process was copied, and where there is no copy.
+    enum class Side : uint8_t { This, Copy, None };
+    Side copied(const Descriptor& link) {
+        if (threads_of_process() > 1) return Side::None;
+        const int64_t copy = copy_again(link);
+        if (copy == 0) link_ = CopyLink(Descriptor());  // of the other process
+        return copy == 0 ? Side::Copy : copy > 0 ? Side::This : Side::None;
+    }
+    static std::string why_not() {
         const size_t threads = threads_of_process();
-        const int64_t copy = threads == 1 ? copy_again(link) : -1;
-        if (copy == 0) {
-            link_ = CopyLink(Descriptor());  // of the other process
-            return true;
-        }
-        const std::string why = threads == 1 ? system_sentence() : why_threads(threads);
-        (void)link_.send(copy > 0 ? message(Word::Copied) : message(Word::NotCopied, {}, why));
-        return false;
+        return threads > 1 ? why_threads(threads) : system_sentence();
     }
 
     Rerun& rerun_;
     const Keyframes::Tell& tell_;
     CopyLink link_;
-    Time stop_;
+    Time stop_{};
+    std::vector<Time> leaves_;  // the next one is the last
 };
 
 }  // namespace
@@ -146,6 +210,7 @@ Status Keyframes::check_is_in(Time at) const {
 
 Result<Keyframes::Look> Keyframes::look(Time at) {
     TRY(check_is_in(at));
+    settle();
     newest_ = std::max(newest_, at);
     for (int i = 0; i < kAttemptsMax && why_none_.empty(); ++i) {
         const auto found = TRY(look_from(nearest(at), at));
@@ -176,24 +241,13 @@ Result<Keyframes::Look> Keyframes::look_straight(Time at) {
 }
 
 Result<std::optional<Keyframes::Look>> Keyframes::look_from(Place from, Time at) {
-    const auto begins_at = from == copies_.end() ? std::nullopt : std::optional(from->first);
-    for (const Time stop : stops(from, at)) {
-        const auto there = TRY(go_on(from, stop));
-        if (!there) {
-            if (from != copies_.end()) copies_.erase(from);
-            return std::optional<Look>();
-        }
-        from = *there;
-        if (from->second.is_over) break;
-    }
-    const bool asked = from->second.link.send(message(Word::Tell));
-    auto told = asked ? from->second.link.receive() : std::nullopt;
-    if (!says(told, Word::Told)) {
-        copies_.erase(from);
-        return std::optional<Look>();
-    }
-    return std::optional(
-        Look{.at = from->first, .text = std::move(told->text), .from = begins_at});
+    const bool begins = from == copies_.end();
+    auto look = !begins && (from->second.is_over || from->first >= at) ? ask(from)
+                                                                       : TRY(go_on(from, at));
+    if (look && !begins) look->from = from->first;
+    // One that was lost on the way may have been so by where it began.
+    if (!look && !begins && why_none_.empty()) copies_.erase(from);
+    return look;
 }
 
 Keyframes::Place Keyframes::nearest(Time at) {
@@ -201,19 +255,16 @@ Keyframes::Place Keyframes::nearest(Time at) {
     return after == copies_.begin() ? copies_.end() : std::prev(after);
 }
 
-std::vector<Time> Keyframes::stops(Place from, Time at) const {
-    const bool begins = from == copies_.end();
-    const Time begin = begins ? Time{} : from->first;
-    if (!begins && (from->second.is_over || begin >= at)) return {};
-    std::vector<Time> stops;
+std::vector<Time> Keyframes::wanted_between(Time from, Time to) const {
+    std::vector<Time> wanted;
     for (const Time one : keyframe_instants(newest_)) {
-        if (one > begin && one < at) stops.push_back(one);
+        if (one > from && one < to) wanted.push_back(one);
     }
-    stops.push_back(at);
-    return stops;
+    return wanted;
 }
 
-std::vector<std::pair<Time, int64_t>> Keyframes::waiting() const {
+std::vector<std::pair<Time, int64_t>> Keyframes::waiting() {
+    settle();
     std::vector<std::pair<Time, int64_t>> all;
     for (const auto& [at, copy] : copies_) all.emplace_back(at, copy.process.number());
     return all;
@@ -221,58 +272,88 @@ std::vector<std::pair<Time, int64_t>> Keyframes::waiting() const {
 
 // ---- copies ----
 
-// One more that is at its stop, or at the end of the run; nothing: it was not made, or was lost.
-Result<std::optional<Keyframes::Place>> Keyframes::go_on(Place from, Time stop) {
-    auto [mine, its] = TRY(CopyLink::make());
-    if (!make_copy(from, std::move(its), stop)) return std::optional<Place>();
-    return await(std::move(mine));
+std::optional<Keyframes::Look> Keyframes::ask(Place place) {
+    const CopyLink& link = place->second.link;
+    auto told = link.send(message(Word::Tell)) ? link.receive() : std::nullopt;
+    if (!says(told, Word::Told)) return std::nullopt;
+    return Look{.at = place->first, .text = std::move(told->text)};
 }
 
-bool Keyframes::make_copy(Place from, CopyLink its, Time stop) {
-    if (from == copies_.end()) {
+Result<std::optional<Keyframes::Look>> Keyframes::go_on(Place from, Time stop) {
+    auto [mine, its] = TRY(CopyLink::make());
+    const bool begins = from == copies_.end();
+    CopyMessage order =
+        message(Word::GoOn, stop, bytes_of(wanted_between(begins ? Time{} : from->first, stop)));
+    if (begins) {
         const size_t threads = threads_of_process();
         const int64_t copy = threads == 1 ? supervision_.copy(its.descriptor()) : -1;
-        if (copy == 0) RunningCopy(*rerun_, tell_, std::move(its), stop).run();
-        if (copy < 0) have_none(threads == 1 ? system_sentence() : why_threads(threads));
-        return copy > 0;
+        if (copy == 0) RunningCopy(*rerun_, tell_, std::move(its), order).run();
+        if (copy < 0) why_none_ = threads == 1 ? system_sentence() : why_threads(threads);
+        its = CopyLink(Descriptor());
+    } else {
+        order.handed = std::move(its).take();
+        (void)from->second.link.send(order);
+        order.handed = Descriptor();
     }
-    CopyMessage order = message(Word::GoOn, stop);
-    order.handed = std::move(its).take();
-    const CopyLink& link = from->second.link;
-    const auto answer = link.send(order) ? link.receive() : std::nullopt;
-    if (says(answer, Word::NotCopied)) have_none(answer->text);
-    return says(answer, Word::Copied);
+    std::optional<CopyMessage> began = mine.receive();
+    if (says(began, Word::Began)) return follow(std::move(mine), std::move(*began));
+    if (!begins) {
+        const auto answer = from->second.link.receive();
+        if (says(answer, Word::NotCopied)) why_none_ = answer->text;
+    }
+    return std::optional<Look>();
 }
 
-Result<std::optional<Keyframes::Place>> Keyframes::await(CopyLink link) {
-    std::optional<CopyMessage> began = link.receive();
-    if (!says(began, Word::Began)) return std::optional<Place>();
-    if (!began->handed.is_open()) {
-        have_none("the system gives no handles of processes (pidfd_open)");
-        return std::optional<Place>();
+// What a copy says until it is at its stop.
+Result<std::optional<Keyframes::Look>> Keyframes::follow(CopyLink link, CopyMessage began) {
+    if (!began.handed.is_open()) {
+        why_none_ = "the system gives no handles of processes (pidfd_open)";
+        return std::optional<Look>();
     }
-    CopyProcess process(began->number, std::move(began->handed));
-    const std::optional<CopyMessage> there = link.receive();
-    if (says(there, Word::Failed)) return Error{Code::Unavailable, there->text};
-    if (!there) return std::optional<Place>();
-    const Time at(there->number);
+    CopyProcess process(began.number, std::move(began.handed));
+    while (std::optional<CopyMessage> said = link.receive()) {
+        const Time at(said->number);
+        if (says(said, Word::Failed)) return Error{Code::Unavailable, said->text};
+        if (says(said, Word::Left)) arriving_.emplace_back(std::move(said->handed));
+        if (says(said, Word::NotCopied)) why_none_ = said->text;
+        const bool is_over = says(said, Word::IsOver);
+        if (!is_over && !says(said, Word::IsAt)) continue;
+        keep(at, {std::move(link), std::move(process), is_over});
+        return std::optional(Look{.at = at, .text = std::move(said->text)});
+    }
+    return std::optional<Look>();
+}
+
+void Keyframes::keep(Time at, Copy copy) {
     copies_.erase(at);
-    const auto [place, made] = copies_.emplace(
-        at, Copy{std::move(link), std::move(process), says(there, Word::IsOver)});
-    return std::optional(place);
+    copies_.emplace(at, std::move(copy));
 }
 
-// Those that there are wait for nobody any more.
-void Keyframes::have_none(std::string why) {
-    why_none_ = std::move(why);
+// Copies that were left on the way are there by now, and those that are not wanted are gone.
+void Keyframes::settle() {
+    ending_.clear();
+    for (CopyLink& link : std::exchange(arriving_, {})) {
+        std::optional<CopyMessage> began = link.receive();
+        if (!says(began, Word::Began) || !began->handed.is_open()) continue;
+        CopyProcess process(began->number, std::move(began->handed));
+        const std::optional<CopyMessage> there = link.receive();
+        if (says(there, Word::IsAt)) {
+            keep(Time(there->number), {std::move(link), std::move(process), false});
+        }
+    }
 }
 
 // What was looked at last is kept, too: one often looks a little further.
 void Keyframes::thin(Time here) {
     const std::vector<Time> wanted = keyframe_instants(newest_);
-    std::erase_if(copies_, [&](const auto& one) {
-        return one.first != here && !std::ranges::binary_search(wanted, one.first);
-    });
+    for (auto one = copies_.begin(); one != copies_.end();) {
+        const bool stays = one->first == here || std::ranges::binary_search(wanted, one->first);
+        if (!stays) {
+            one->second.process.kill();
+            ending_.push_back(std::move(one->second.process));
+        }
+        one = stays ? std::next(one) : copies_.erase(one);
+    }
 }
 
 }  // namespace vagus::record

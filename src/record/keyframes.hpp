@@ -56,7 +56,7 @@ public:
     // There are no keyframes, and why; empty: there are.
     const std::string& why_none() const { return why_none_; }
     // Where copies wait now, and their processes.
-    std::vector<std::pair<Time, int64_t>> waiting() const;
+    std::vector<std::pair<Time, int64_t>> waiting();
 
 private:
     // A copy that waits at an instant.
@@ -72,14 +72,14 @@ private:
     Status check_is_in(Time at) const;
     // The end: none, the run begins at its beginning.
     Place nearest(Time at);
-    // Nothing: a copy was lost on the way, or there are to be none.
+    std::vector<Time> wanted_between(Time from, Time to) const;
+    // These give nothing where a copy was lost on the way, or there are to be none.
     Result<std::optional<Look>> look_from(Place from, Time at);
-    // Of keyframes that are wanted and not there, and the last one.
-    std::vector<Time> stops(Place from, Time at) const;
-    Result<std::optional<Place>> go_on(Place from, Time stop);
-    bool make_copy(Place from, CopyLink its, Time stop);
-    Result<std::optional<Place>> await(CopyLink link);
-    void have_none(std::string why);
+    static std::optional<Look> ask(Place place);
+    Result<std::optional<Look>> go_on(Place from, Time stop);
+    Result<std::optional<Look>> follow(CopyLink link, CopyMessage began);
+    void keep(Time at, Copy copy);
+    void settle();
     void thin(Time here);
 
     const mcap::Reader& reader_;
@@ -87,6 +87,8 @@ private:
     std::unique_ptr<Rerun> rerun_;  // prepared, and never run in this process
     Supervision supervision_;
     std::map<Time, Copy> copies_;
+    std::vector<CopyLink> arriving_;   // of copies that were left on the way, and may not wait yet
+    std::vector<CopyProcess> ending_;  // that were not wanted any more
     Time newest_{};  // that was looked at
     std::string why_none_;
 };

@@ -124,7 +124,7 @@ TEST(ProcessCopy, NoneIsLeftWhenTheFirstProcessIsKilled) {
             (void)its.send({.word = kBegan, .number = one->process.number()});
         }
         (void)second.link.send({.word = kWork});  // one of them does not look at its link
-        (void)its.receive();  // until it is killed
+        (void)its.receive();                      // until it is killed
         end_copy();
     }
     its = CopyLink(Descriptor());

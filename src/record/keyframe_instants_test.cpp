@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 
 TEST(KeyframeInstants, AreFurtherApartTheLongerAgoTheyAre) {
     // 7.5 s apart up to an age of 60 s, 15 s up to 120 s, 30 s up to 240 s.
-    const std::vector<Time> expected = {30s,    60s,    75s,    90s,    105s,    112500ms, 120s,
-                                        127500ms, 135s,   142500ms, 150s,  157500ms, 165s};
+    const std::vector<Time> expected = {30s,      60s,  75s,      90s,  105s,     112500ms, 120s,
+                                        127500ms, 135s, 142500ms, 150s, 157500ms, 165s};
     EXPECT_EQ(keyframe_instants(165s), expected);
     EXPECT_TRUE(keyframe_instants(0s).empty());
     EXPECT_TRUE(keyframe_instants(7499ms).empty());

@@ -18,12 +18,12 @@ constexpr int kAttemptsMax = 3;
 
 // What copies and their supervisor say to each other. Numbers are instants, but of Began.
 enum class Word : uint32_t {
-    GoOn = 1,   // to a copy that waits: another one, with the link that is handed, goes on to there;
-                // the text has the instants at which it leaves copies on the way
-    Tell,       // what there is
-    Told,       // the answer
-    Began,      // from a copy: its number and its handle
-    Left,       // it has left a copy on the way; the link to that is handed
+    GoOn = 1,  // to a copy that waits: another one, with the link that is handed, goes on to there;
+               // the text has the instants at which it leaves copies on the way
+    Tell,      // what there is
+    Told,      // the answer
+    Began,     // from a copy: its number and its handle
+    Left,      // it has left a copy on the way; the link to that is handed
     NotCopied,  // it could not: the text says why
     IsAt,       // it waits there; the text says what there is
     IsOver,     // the same, and the run has ended there
@@ -39,9 +39,10 @@ bool says(const std::optional<CopyMessage>& message, Word word) {
 }
 
 std::string why_threads(size_t threads) {
-    return fmt::format("the process of the run has {} threads, and only one of them would be in a "
-                       "copy of it",
-                       threads);
+    return fmt::format(
+        "the process of the run has {} threads, and only one of them would be in a "
+        "copy of it",
+        threads);
 }
 
 std::string bytes_of(const std::vector<Time>& instants) {
@@ -117,8 +118,10 @@ private:
                 link_ = std::move(its);
                 introduce();
                 return wait_at(at, message(Word::IsAt, at));
-            case Side::None: return cannot_leave(why_not());
-            case Side::This: break;
+            case Side::None:
+                return cannot_leave(why_not());
+            case Side::This:
+                break;
         }
         CopyMessage left = message(Word::Left, at);
         left.handed = std::move(mine).take();
@@ -142,7 +145,8 @@ private:
                     case Side::None:
                         is_heard = link_.send(message(Word::NotCopied, {}, why_not()));
                         break;
-                    case Side::This: break;
+                    case Side::This:
+                        break;
                 }
             } else {
                 is_heard = says(asked, Word::Tell) &&
@@ -177,9 +181,10 @@ private:
 std::string why_not_copied(const RunFile& about) {
     for (const std::string& one : about.toolboxes) {
         if (!one.ends_with(toolbox::kLibraryEnding)) continue;
-        return fmt::format("templates of the plan are in the shared library {}, which may have "
-                           "threads of its own",
-                           one);
+        return fmt::format(
+            "templates of the plan are in the shared library {}, which may have "
+            "threads of its own",
+            one);
     }
     return {};
 }
@@ -242,8 +247,8 @@ Result<Keyframes::Look> Keyframes::look_straight(Time at) {
 
 Result<std::optional<Keyframes::Look>> Keyframes::look_from(Place from, Time at) {
     const bool begins = from == copies_.end();
-    auto look = !begins && (from->second.is_over || from->first >= at) ? ask(from)
-                                                                       : TRY(go_on(from, at));
+    auto look =
+        !begins && (from->second.is_over || from->first >= at) ? ask(from) : TRY(go_on(from, at));
     if (look && !begins) look->from = from->first;
     // One that was lost on the way may have been so by where it began.
     if (!look && !begins && why_none_.empty()) copies_.erase(from);

@@ -45,6 +45,7 @@ public:
     // The reader is borrowed. The Error says why the recording cannot be run again so: it needs a
     // world, which has instants.
     static Result<std::unique_ptr<Keyframes>> open(const mcap::Reader& reader, Tell tell);
+    ~Keyframes() { settle(); }
     Keyframes(const Keyframes&) = delete;
     Keyframes& operator=(const Keyframes&) = delete;
 
@@ -89,7 +90,7 @@ private:
     std::map<Time, Copy> copies_;
     std::vector<CopyLink> arriving_;   // of copies that were left on the way, and may not wait yet
     std::vector<CopyProcess> ending_;  // that were not wanted any more
-    Time newest_{};  // that was looked at
+    Time newest_{};                    // that was looked at
     std::string why_none_;
 };
 

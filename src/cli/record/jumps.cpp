@@ -63,8 +63,8 @@ public:
             if (text.empty()) continue;
             const Status answered = answer(text);
             if (!answered.ok()) {
-                exit_code = complain(fmt::format("line {}: {}", number, answered.error().what),
-                                     kExitUsage);
+                exit_code =
+                    complain(fmt::format("line {}: {}", number, answered.error().what), kExitUsage);
             }
             say_why_none();
         }
@@ -82,9 +82,8 @@ private:
     Status answer(std::string_view text) {
         const auto at = text.size() <= kJumpLineMax ? instant_in(text) : std::nullopt;
         if (!at) {
-            return Error{Code::BadInput,
-                         "expected an instant in seconds, as 82.5, found " +
-                             json_quote(std::string(text.substr(0, kJumpLineMax)))};
+            return Error{Code::BadInput, "expected an instant in seconds, as 82.5, found " +
+                                             json_quote(std::string(text.substr(0, kJumpLineMax)))};
         }
         const Keyframes::Look look = TRY(keyframes_.look(*at));
         print(options_.json ? json_of(look) : text_of(look));
@@ -99,8 +98,8 @@ private:
 }  // namespace
 
 int tell_jumps(const mcap::Reader& reader, const JumpsOptions& options) {
-    const auto keyframes = Keyframes::open(
-        reader, [](record::Rerun& run, Time at) { return run.check_at(at); });
+    const auto keyframes =
+        Keyframes::open(reader, [](record::Rerun& run, Time at) { return run.check_at(at); });
     if (!keyframes.ok()) return complain(keyframes.error(), kExitUsage);
     Answering answering(*keyframes.value(), options);
     answering.say_why_none();

@@ -330,7 +330,8 @@ void add_jumps(CLI::App& verb, ReplayOptions& options) {
         "compares nothing: goes to each instant of this list, back and forth, and tells which "
         "state there is; one instant a line, in seconds; - is the standard input");
     jumps->type_name("FILE|-");
-    for (const char* const other : {"--until", "--with", "--from", "--set", "--reseed", "--record", "--log"}) {
+    for (const char* const other :
+         {"--until", "--with", "--from", "--set", "--reseed", "--record", "--log"}) {
         jumps->excludes(verb.get_option(other));
     }
 }

@@ -2,7 +2,8 @@
 // copies of this process, some of which wait at instants on the way (keyframes). For another
 // instant the nearest one before it is copied again, and the copy runs on from there.
 //
-//     auto keyframes = TRY(Keyframes::open(reader, [](Rerun& run, Time at) { return see(run, at); }));
+//     const auto state = [](Rerun& run, Time at) { return run.check_at(at); };
+//     const auto keyframes = TRY(Keyframes::open(reader, state));
 //     const Keyframes::Look look = TRY(keyframes->look(from_seconds(82.5)));
 //     show(look.text);
 //

@@ -31,10 +31,9 @@ protected:
             .toolboxes = [] { return std::vector<std::string>{}; },
             .real = [this](const std::string& doc) { return (root / doc).string(); },
             .doc_of = [](const std::string& file) { return file; },
-            .new_test =
-                [](const std::string&, const std::string&) {
-                    return Result<std::string>(std::string("P.test.json"));
-                }};
+            .new_test = [](const std::string&, const std::string&) {
+                return Result<std::string>(std::string("P.test.json"));
+            }};
         tries.emplace(desk, files, path.string(), project);
         return *tries;
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -138,6 +139,7 @@ bool tell(const std::string& what, double value, double most, const std::string&
     const bool good = value <= most;
     fmt::print("figure: {}: {:.2f}{} (at most {:g}{}){}\n", what, value, unit, most, unit,
                good ? "" : "  MISSED");
+    (void)std::fflush(stdout);
     return good;
 }
 

@@ -4,10 +4,10 @@
 //     exit_code = tell_jumps(reader, {.list = "-", .json = true});
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "mcap/reader.hpp"
-#include "record/replay.hpp"
 
 namespace vagus::cli {
 

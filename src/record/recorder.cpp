@@ -113,6 +113,10 @@ std::string scene_update(const std::vector<Shape>& shapes, Time at) {
 
 }  // namespace
 
+std::string state_hash(std::string_view check) {
+    return hex(hash_of(check));
+}
+
 // ---- the recorder ----
 
 Recorder::Recorder(Tape& tape, std::string_view run) : tape_(tape) {
@@ -390,10 +394,14 @@ void Recorder::chaos() {
 // ---- checks ----
 
 void Recorder::check(Time at) {
+    tape_.put(check_, at, check_text(at));
+}
+
+std::string Recorder::check_text(Time at) const {
     std::string text = fmt::format(R"({{"t":{},"plan":"{}")", seconds_text(at), hex(plan_hash_));
     if (session_ != nullptr) text += ",\"nodes\":" + nodes_check();
     if (session_ != nullptr && !of_robot_) text += ",\"bodies\":" + bodies_check();
-    tape_.put(check_, at, text + "}");
+    return text + "}";
 }
 
 std::string Recorder::nodes_check() const {

@@ -31,6 +31,9 @@ constexpr Duration kPictureEvery = std::chrono::seconds(10);  // all variables o
 constexpr Duration kPosesEvery = std::chrono::milliseconds(100);
 constexpr Duration kCheckEvery = std::chrono::seconds(1);
 
+// One for all of a check (Recorder::check_text()), as a person compares it: 16 digits.
+std::string state_hash(std::string_view check);
+
 class Recorder {
 public:
     // `run` is the message of /vagus/run. The tape is borrowed.
@@ -63,6 +66,9 @@ public:
 
     // The last check.
     void end(Time at);
+
+    // What a check says that is made now: a hash of the state of each node, the plan, each body.
+    std::string check_text(Time at) const;
 
 private:
     struct Variable {

@@ -33,12 +33,11 @@ std::string names_of_files(const mcap::Reader& reader) {
     return list_of(names);
 }
 
-// The first one that is not earlier.
+}  // namespace
+
 Time instant_of(Time at) {
     return (at + sim::kNodeStep - Duration(1)) / sim::kNodeStep * sim::kNodeStep;
 }
-
-}  // namespace
 
 Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reader,
                                                        const std::string& typed) {
@@ -326,6 +325,7 @@ public:
         } else if ((!until_ || another_way_) && !stopped_) {
             recorder.end(last);
         }
+        leave(recorder, last);
         return Ended{last, std::string(plan::name_of(ended.result)), ended.message};
     }
 
@@ -495,7 +495,6 @@ private:
     std::optional<embed::PlanVersions> versions_;
     std::optional<run::Debugger> debugger_;  // where something asks it
     std::map<uint64_t, Asked> asked_;        // by the debugger's number
-    Recorder* recorder_ = nullptr;           // of this run()
     EndingTape* tape_ = nullptr;
     bool plan_over_ = false;
     bool over_ = false;
@@ -531,10 +530,10 @@ public:
 
     Result<Ended> run(Tape& tape) override {
         Recorder recorder(tape, format_run(about_));
+        recorder_ = &recorder;
         recorder.follow(*session());
-        std::optional<RobotRecorders> robots;
         if (robots_) {
-            robots.emplace(tape, *robots_);
+            recorded_.emplace(tape, *robots_);
             TRY(robots_->start());
         }
         Then then = do_inputs(recorder, Ends::Take);
@@ -550,8 +549,10 @@ public:
         const bool whole = then == Then::Recorded && ends_whole();
         if (whole || (another_way_ && !stopped_)) {
             recorder.end(session()->now());
-            if (robots) robots->end(session()->now());
+            if (recorded_) recorded_->end(session()->now());
         }
+        leave(recorder, session()->now());
+        recorded_.reset();
         return Ended{session()->now(), "", ""};
     }
 
@@ -569,7 +570,12 @@ private:
         return is_of_studio() || !about_.robots.empty();
     }
 
+    std::string check_of_robots(Time at) const override {
+        return recorded_ ? recorded_->check_text(at) : "";
+    }
+
     std::unique_ptr<embed::RobotsRun> robots_;
+    std::optional<RobotRecorders> recorded_;  // during run()
     std::unique_ptr<session::SimSession> own_;
 };
 

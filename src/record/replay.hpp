@@ -52,6 +52,9 @@ struct RerunOptions {
 Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reader,
                                                        const std::string& typed);
 
+// The end of an instant: the first that is not earlier.
+Time instant_of(Time at);
+
 class Rerun {
 public:
     struct Ended {
@@ -83,6 +86,11 @@ public:
     void before_act(std::function<void(const sim::Act&)> told) { told_of_act_ = std::move(told); }
     // From a listener: no more of it is wanted.
     void stop() { stopped_ = true; }
+    // What a check says that is made now (Recorder::check_text()): in each_instant(), or after a
+    // run() that was no Error.
+    std::string check_at(Time at) const {
+        return recorder_ != nullptr ? recorder_->check_text(at) + check_of_robots(at) : last_check_;
+    }
 
     // nullptr for a plan alone. Valid while this is.
     virtual session::SimSession* session() = 0;
@@ -116,6 +124,8 @@ protected:
     // What a debugger of the plan is asked, and a new version of it.
     virtual void ask(const run::Request&) {}
     virtual void take(const PlanFiles&) {}
+    // Of robots that have projects of their own; empty: there are none.
+    virtual std::string check_of_robots(Time) const { return {}; }
     // The input with which such a run ends.
     virtual InputWhat end_of_run() const = 0;
     // Whether the run goes on, was ended by somebody then, is recorded up to here, or is to end.
@@ -133,6 +143,11 @@ protected:
     Then go_another_way(const Change& changed, Recorder& recorder);
     // It ended with its run, which the input done last says; then the last check comes after it.
     bool ends_whole() const;
+    // The run is over, and the recorder goes.
+    void leave(const Recorder& recorder, Time at) {
+        last_check_ = recorder.check_text(at) + check_of_robots(at);
+        recorder_ = nullptr;
+    }
     bool is_of_studio() const { return about_.verb == kStudioVerb; }
     // What came from outside came between two instants, and is done there; else at the end of one.
     virtual bool comes_between_instants() const { return is_of_studio(); }
@@ -150,6 +165,8 @@ protected:
     std::function<void(const sim::Act&)> told_of_act_;
     bool stopped_ = false;
     std::optional<std::string> ended_by_;  // who ended it then
+    Recorder* recorder_ = nullptr;         // of this run(), while it goes on
+    std::string last_check_;               // when it was over
     hub::LinkId outside_;                  // from where frames come again; 0: none came yet
 
 private:

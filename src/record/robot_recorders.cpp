@@ -48,6 +48,12 @@ void RobotRecorders::end(Time at) {
     for (const OfRobot& one : robots_) one.recorder->end(at);
 }
 
+std::string RobotRecorders::check_text(Time at) const {
+    std::string text;
+    for (const OfRobot& one : robots_) text += "\n" + one.recorder->check_text(at);
+    return text;
+}
+
 Result<std::vector<std::string>> recorded_robots(embed::RobotsRun& run) {
     std::vector<std::string> names;
     for (const session::RobotBus& robot : run.buses().robots()) names.push_back(robot.name);

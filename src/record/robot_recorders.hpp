@@ -32,6 +32,8 @@ public:
 
     // The last check of each.
     void end(Time at);
+    // What their checks say that are made now.
+    std::string check_text(Time at) const;
 
 private:
     class Below;

@@ -3,13 +3,15 @@ import json
 import os
 import pathlib
 import re
+import select
+import shutil
 import signal
 import sys
 import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
-from harness import VAGUS, Program, run_vagus, vagus
+from harness import GIVE_UP_AFTER, VAGUS, Program, run_vagus, vagus
 
 EXAMPLES = pathlib.Path(__file__).resolve().parent.parent.parent / "examples"
 NO_DIFFERENCE = re.compile(r"messages compared: no difference$")
@@ -195,6 +197,86 @@ class Recordings(unittest.TestCase):
         self.assertRegex(told, r"carbot is at \d+\.\d+, \d+\.\d+ m")
         self.assertIn("drive is running: token = ", told)
         self.assertRegex(told, r"20\.000000 s again, \d+ messages compared: no difference$")
+
+    # ---- jumps ----
+
+    def jumps(self, *instants, status=0):
+        """What is told of these instants, in their order."""
+        wanted = self.folder / "instants.txt"
+        wanted.write_text("".join(f"{at}\n" for at in instants))
+        lines = run_vagus("replay", self.file, "--jumps", wanted, "--json", status=status).splitlines()
+        return [json.loads(line) for line in lines if line.startswith("{")]
+
+    def state_at(self, at):
+        return json.loads(self.replays("--until", at, "--json"))["state"]
+
+    def test_jumps_find_what_a_straight_run_finds(self):
+        self.follow_wall()
+        told = self.jumps(82.5, 20, 119.9995, 20.0004, 0, 82.5)
+        self.assertEqual([one["t"] for one in told], [82.5, 20, 120, 20.001, 0.001, 82.5])
+        self.assertEqual([one["from"] for one in told], [None, 15, 82.5, 15, None, 82.5])
+        for one in told:
+            self.assertEqual(one["state"], self.state_at(one["t"]))
+            self.assertEqual(one["check"]["t"], one["t"])
+
+    def test_jumps_to_what_is_no_instant_are_complained_of(self):
+        self.follow_wall(max_time=10)
+        self.assertEqual([one["t"] for one in self.jumps("x", 2, 99, "", -1, 1, status=2)], [2, 1])
+        (self.folder / "instants.txt").write_text("1 2\n99\n")
+        told = run_vagus("replay", self.file, "--jumps", self.folder / "instants.txt", status=2)
+        self.assertIn('line 1: expected an instant in seconds, as 82.5, found "1 2"', told)
+        self.assertRegex(told, r"line 2: 99\.000000 s: .*run\.mcap has instants from 0 to 10\.\d+ s")
+        self.assertIn("none: the file cannot be read", run_vagus("replay", self.file, "--jumps", "none", status=2))
+        self.assertIn("--until excludes --jumps",
+                      run_vagus("replay", self.file, "--jumps", "-", "--until", 1, status=2))
+
+    def descendants(self, process):
+        parents = {}
+        for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+            try:
+                parents[int(stat.parent.name)] = int(stat.read_text().rpartition(")")[2].split()[1])
+            except OSError:
+                pass  # it has ended meanwhile
+        found, new = set(), {process}
+        while new:
+            new = {child for child, parent in parents.items() if parent in new} - found
+            found |= new
+        return found
+
+    def test_no_keyframe_is_left_when_the_replay_is_killed(self):
+        self.follow_wall()
+        with vagus("replay", self.file, "--jumps", "-", typing=True) as program:
+            program.type("110")
+            program.wait_line("110.000 s")
+            copies = [os.pidfd_open(one) for one in self.descendants(program.process.pid)]
+            self.assertGreater(len(copies), 5)
+            program.kill()
+            for copy in copies:
+                poll = select.poll()
+                poll.register(copy, select.POLLIN)
+                self.assertTrue(poll.poll(1000 * GIVE_UP_AFTER))
+                os.close(copy)
+
+    def test_where_templates_are_in_a_library_there_are_no_keyframes(self):
+        library = pathlib.Path(VAGUS).resolve().parent.parent / "tests/studio/hanging.so"
+        if not library.exists():
+            self.skipTest(f"{library} is not built")
+        for name in ("follow-wall", "carbot"):
+            shutil.copytree(EXAMPLES / name, self.folder / name, ignore=shutil.ignore_patterns("vagus.json"))
+        shutil.copy(EXAMPLES / "vagus.json", self.folder)
+        # A recording names it by its place beside the folder of its files.
+        with tempfile.TemporaryDirectory(prefix="vagus-library-") as beside:
+            shutil.copy(library, beside)
+            plan = self.folder / "follow-wall/WallFollow.plan.json"
+            run_vagus("plan", "run", plan, "--world", self.folder / "follow-wall/hall.world.json", "--clock", "virtual",
+                      "--quiet", "--max-time", 10, "--set", "walldist=30", "--toolbox", f"{beside}/hanging.so",
+                      "--record", self.file, status=5)
+            (self.folder / "instants.txt").write_text("5\n9\n")
+            told = run_vagus("replay", self.file, "--jumps", self.folder / "instants.txt")
+            self.assertRegex(told, r"each jump runs again from the beginning: templates of the plan are in the shared "
+                                   r"library .*hanging\.so, which may have threads of its own")
+            self.assertEqual(told.count("from the beginning\n") + told.endswith("from the beginning"), 2)
+            self.assertIn(self.state_at(9), told)
 
     def test_a_changed_file_parts_the_runs(self):
         self.follow_wall()

@@ -10,6 +10,7 @@
 #include "base/seconds.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
+#include "cli/record/jumps.hpp"
 #include "cli/verbs.hpp"
 #include "embed/loaded_plan.hpp"
 #include "mcap/writer.hpp"
@@ -34,6 +35,7 @@ struct ReplayOptions {
     std::vector<std::string> set;
     std::optional<uint64_t> reseed;
     std::string record;
+    std::string jumps;
 };
 
 // ---- repair ----
@@ -66,7 +68,8 @@ int repair(const mcap::Reader& reader, const std::string& to) {
 
 // ---- replay ----
 
-void tell_json(const record::CompareTape& tape, Time end) {
+// `state`: of the instant at which it was to end; empty: there is none.
+void tell_json(const record::CompareTape& tape, Time end, const std::string& state) {
     std::string difference = "null";
     if (const auto& found = tape.difference()) {
         difference =
@@ -74,8 +77,9 @@ void tell_json(const record::CompareTape& tape, Time end) {
                         seconds_text(found->at), json_quote(found->topic), json_quote(found->place),
                         json_quote(found->then), json_quote(found->now));
     }
-    print(fmt::format("{{\"t\":{},\"compared\":{},\"difference\":{}}}\n", seconds_text(end),
-                      tape.compared(), difference));
+    print(fmt::format("{{\"t\":{},\"compared\":{},\"difference\":{}{}}}\n", seconds_text(end),
+                      tape.compared(), difference,
+                      state.empty() ? "" : fmt::format(",\"state\":\"{}\"", state)));
 }
 
 void tell(const record::Difference& found) {
@@ -105,10 +109,10 @@ void tell_ends(const mcap::Reader& reader, const record::Rerun::Ended& ended) {
 }
 
 // What there is at the instant at which it was ended.
-void tell_state(record::Rerun& rerun, Time at) {
+void tell_state(record::Rerun& rerun, Time at, const std::string& state) {
     const session::SimSession* const session = rerun.session();
     if (session == nullptr) return;
-    print(fmt::format("at {} s:\n", seconds_text(at)));
+    print(fmt::format("at {} s:\nthe state is {}\n", seconds_text(at), state));
     for (const sim::RobotView& robot : session->world().robots()) {
         print(fmt::format("{} is at {:.3f}, {:.3f} m, {:.1f} deg\n", robot.name, robot.pose.at.x,
                           robot.pose.at.y, robot.pose.angle * 180 / 3.14159265358979));
@@ -234,13 +238,17 @@ public:
         return there_;
     }
 
+    // Of the instant at which it was to end.
+    const std::string& state() const { return state_; }
+
 private:
     void look(Time at) {
         if (!checked_ && points_.settled()) check();
         if (!there_.ok() || is_over_()) rerun_.stop();
         if (at < until_ || std::exchange(told_, true)) return;
         points_.close();
-        if (!options_.json) tell_state(rerun_, at);
+        state_ = record::state_hash(rerun_.check_at(at));
+        if (!options_.json) tell_state(rerun_, at, state_);
     }
     void check() {
         if (!std::exchange(checked_, true)) there_ = points_.check();
@@ -251,15 +259,17 @@ private:
     record::LogPoints& points_;
     std::function<bool()> is_over_;
     Time until_ = Time::max();
+    std::string state_;
     Status there_ = Status::done();
     bool checked_ = false;
     bool told_ = false;
 };
 
 int tell_result(const ReplayOptions& options, const mcap::Reader& reader,
-                const record::CompareTape& tape, const record::Rerun::Ended& ended, Time end) {
+                const record::CompareTape& tape, const record::Rerun::Ended& ended, Time end,
+                const std::string& state) {
     if (options.json) {
-        tell_json(tape, end);
+        tell_json(tape, end, state);
     } else if (tape.difference()) {
         tell(*tape.difference());
     } else {
@@ -290,7 +300,7 @@ int run_again(const ReplayOptions& options, const mcap::Reader& reader,
     const Status written = file.value() ? file.value()->end() : Status::done();
     if (!written.ok()) return complain(written.error());
     const Time end = how.from ? *how.from : std::min(ended.value().at, what.until);
-    return tell_result(options, reader, tape, ended.value(), end);
+    return tell_result(options, reader, tape, ended.value(), end, looker.state());
 }
 
 int replay(const ReplayOptions& options) {
@@ -299,6 +309,9 @@ int replay(const ReplayOptions& options) {
     const auto reader = mcap::Reader::open(file.value().bytes(), options.file);
     if (!reader.ok()) return complain(reader.error(), kExitUsage);
     if (!options.repair.empty()) return repair(reader.value(), options.repair);
+    if (!options.jumps.empty()) {
+        return tell_jumps(reader.value(), {.list = options.jumps, .json = options.json});
+    }
     const auto how = rerun_options(options, reader.value());
     if (!how.ok()) return complain(how.error(), kExitUsage);
     const auto rerun = record::Rerun::open(reader.value(), how.value());
@@ -313,10 +326,23 @@ int replay(const ReplayOptions& options) {
     return run_again(options, reader.value(), how.value(), *rerun.value(), *points.value());
 }
 
+// Nothing is compared and nothing is another way: of the other options none goes with it.
+void add_jumps(CLI::App& verb, ReplayOptions& options) {
+    CLI::Option* const jumps = verb.add_option(
+        "--jumps", options.jumps,
+        "compares nothing: goes to each instant of this list, back and forth, and tells which "
+        "state there is; one instant a line, in seconds; - is the standard input");
+    jumps->type_name("FILE|-");
+    for (const char* const other :
+         {"--until", "--with", "--from", "--set", "--reseed", "--record", "--log"}) {
+        jumps->excludes(verb.get_option(other));
+    }
+}
+
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
-    CLI::App* verb = app.add_subcommand("replay", "runs a recorded run again, and compares");
+    CLI::App* const verb = app.add_subcommand("replay", "runs a recorded run again, and compares");
     auto options = std::make_shared<ReplayOptions>();  // owners: CLI11's options and the callback
     takes_file(*verb->add_option("FILE", options->file, "the recording")->required(), {".mcap"});
     verb->add_option("--until", options->until,
@@ -349,7 +375,9 @@ void add_replay(CLI::App& app, int& exit_code) {
                      "@followWall.leave, @wallTouch.raise) is reached; again for more")
         ->type_name("WHERE VALUES")
         ->allow_extra_args(false);
-    verb->add_flag("--json", options->json, "log lines and result as lines of JSON on stdout");
+    add_jumps(*verb, *options);
+    verb->add_flag("--json", options->json,
+                   "log lines, states and result as lines of JSON on stdout");
     takes_file(*verb->add_option("--repair", options->repair,
                                  "runs nothing: writes what can be read of it as a whole file"),
                {".mcap"});
@@ -363,6 +391,7 @@ void add_replay(CLI::App& app, int& exit_code) {
         "  vagus plan run WallFollow.plan.json --world hall.world.json --record run.mcap\n"
         "  vagus replay run.mcap\n"
         "  vagus replay run.mcap --with carbot.aesl\n"
+        "  echo 82.5 | vagus replay run.mcap --jumps -\n"
         "  vagus replay run.mcap --from 20 --set walldist=40 --record other.mcap\n"
         "  vagus replay run.mcap --log drive:42 \"token, patience\" --log @followWall.enter "
         "walldist");

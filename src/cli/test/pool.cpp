@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/process_copy.hpp"
 #include "net/end_signal.hpp"
 
 namespace vagus::cli {
@@ -30,10 +30,7 @@ struct Running {
 };
 
 // Never returns: the child.
-[[noreturn]] void work(int to, pid_t parent, const std::function<std::string(size_t)>& job,
-                       size_t index) {
-    (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(1);  // it died in between
+[[noreturn]] void work(int to, const std::function<std::string(size_t)>& job, size_t index) {
     const std::string text = job(index);
     for (size_t sent = 0; sent < text.size();) {
         const ssize_t now = write(to, text.data() + sent, text.size() - sent);
@@ -79,11 +76,10 @@ public:
     std::string start(size_t job) {
         int ends[2];
         if (pipe(ends) != 0) return fmt::format("no pipe for its process: {}", strerror(errno));
-        const pid_t parent = getpid();
-        const pid_t child = fork();
+        const auto child = static_cast<pid_t>(copy_of_process());
         if (child == 0) {
             (void)close(ends[0]);
-            work(ends[1], parent, job_, job);
+            work(ends[1], job_, job);
         }
         (void)close(ends[1]);
         if (child < 0) {
@@ -133,13 +129,8 @@ private:
 }  // namespace
 
 bool continue_in_copy(std::string& trouble) {
-    const pid_t parent = getpid();
-    const pid_t child = fork();
-    if (child == 0) {
-        (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
-        if (getppid() != parent) _exit(1);  // it died in between
-        return true;
-    }
+    const auto child = static_cast<pid_t>(copy_of_process());
+    if (child == 0) return true;
     if (child < 0) {
         trouble = fmt::format("no process for it: {}", strerror(errno));
         return false;

@@ -241,7 +241,7 @@ void RealTime::Engine::obey(plan::StartWatch& command) {
                                .path = machine_.path_at(command.level),
                                .of = command.supervisor,
                                .code = library_.make_supervisor(*command.supervisor->of),
-                               .context = WatchContext(options_, inbox_, numbers_.next()),
+                               .context = WatchContext(options_, inbox_, numbers_.next(), command.supervisor->name),
                                .started = now(),
                                .next = now(),
                                .checked_at = now(),
@@ -277,7 +277,7 @@ void RealTime::Engine::obey(plan::StartCode& command) {
     code->activation = command.activation;
     code->actor = library_.make_actor(*command.actor->of);
     const LiveContext::Of of{command.activation, numbers_.next(), *code->actor,
-                             command.actor->of->outputs.size(), options_};
+                             command.actor->of->outputs.size(), options_, command.actor->name};
     code->context =
         std::make_unique<LiveContext>(std::move(command.in), of, inbox_, random_, clock_);
     code->grace = Duration{command.actor->of->grace_ms * 1000};
@@ -368,8 +368,9 @@ void RealTime::Engine::take(Heard& message) {
             watching.events.push_back(message.event);
         }
     }
-    if (!message.own && options_.debugger) options_.debugger->heard();
     if (message.own) return;  // code does not hear what it has said itself
+    if (options_.debugger) options_.debugger->heard();
+    if (options_.on_hear) options_.on_hear(message.event, now());
     for (const auto& [activation, code] : code_) code->context->hear(message.event);
 }
 

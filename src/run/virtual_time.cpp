@@ -495,45 +495,6 @@ void VirtualTime::meet_surroundings() {
     }
 }
 
-// What of it is heard now: all, unless a debugger holds it; what it has let go comes first.
-std::vector<BusEvent> VirtualTime::pass(std::vector<BusEvent> arrived) {
-    std::vector<BusEvent> heard = std::exchange(passing_, {});
-    if (gate_closed_) {
-        hold(std::move(arrived));
-    } else {
-        std::move(arrived.begin(), arrived.end(), std::back_inserter(heard));
-    }
-    return heard;
-}
-
-void VirtualTime::hold(std::vector<BusEvent> arrived) {
-    for (BusEvent& event : arrived) {
-        held_.add({.number = ++last_held_, .after = {}, .event = std::move(event)});
-    }
-}
-
-void VirtualTime::close_gate() {
-    gate_closed_ = true;
-}
-
-void VirtualTime::open_gate() {
-    gate_closed_ = false;
-    for (HeldEvent& one : held_.take_all()) passing_.push_back(std::move(one.event));
-}
-
-// The clock is stopped, and yet something may have arrived: from nodes at this instant, from others
-// on the bus since.
-HeldNow VirtualTime::held() {
-    if (gate_closed_ && options_.surroundings) hold(options_.surroundings->arrived());
-    return held_.now();
-}
-
-bool VirtualTime::let_go(uint64_t number) {
-    auto one = held_.take(number);
-    if (one) passing_.push_back(std::move(one->event));
-    return one.has_value();
-}
-
 void VirtualTime::leave_surroundings() {
     if (std::exchange(met_, false)) options_.surroundings->end();
 }
@@ -570,7 +531,7 @@ bool VirtualTime::advance() {
         options_.debugger->reach_instant(now_);
         return true;
     }
-    now_ = *next;
+    now_ = options_.surroundings ? options_.surroundings->late(*next) : *next;
     return true;
 }
 
@@ -578,6 +539,11 @@ bool VirtualTime::pause_comes_first(Time next) const {
     if (!options_.debugger) return false;
     const std::optional<Time> instant = options_.debugger->instant();
     return instant && *instant <= next;
+}
+
+void VirtualTime::fail(std::string_view why) {
+    machine_.fail_run(why, now_);
+    obey();
 }
 
 // Listeners that hear of these writes may ask for more: those come next time.

@@ -63,18 +63,35 @@ std::string words_json(std::span<const int16_t> words) {
     return text + "]";
 }
 
-std::string format_variables(const std::vector<RecordedVariable>& variables,
-                             std::span<const int16_t> before, std::span<const int16_t> now,
+namespace {
+
+bool is_in(const RecordedVariable& variable, std::span<const int16_t> words) {
+    return variable.size > 0 && size_t{variable.address} + variable.size <= words.size();
+}
+
+}  // namespace
+
+RecordedVariables changed_variables(const RecordedVariables& variables,
+                                    std::span<const int16_t> before,
+                                    std::span<const int16_t> now) {
+    RecordedVariables changed;
+    for (const RecordedVariable& one : variables) {
+        if (!is_in(one, before) || !is_in(one, now)) continue;
+        const bool same = std::ranges::equal(before.subspan(one.address, one.size),
+                                             now.subspan(one.address, one.size));
+        if (!same) changed.push_back(one);
+    }
+    return changed;
+}
+
+std::string format_variables(const RecordedVariables& variables, std::span<const int16_t> now,
                              bool all, Time at) {
     std::string set;
-    for (const RecordedVariable& variable : variables) {
-        if (size_t{variable.address} + variable.size > now.size()) continue;
-        const std::span<const int16_t> words = now.subspan(variable.address, variable.size);
-        if (!all && std::ranges::equal(words, before.subspan(variable.address, variable.size))) {
-            continue;
-        }
-        set += (set.empty() ? "" : ",") + json_quote(variable.name) + ":";
-        set += variable.size == 1 ? std::to_string(words.front()) : words_json(words);
+    for (const RecordedVariable& one : variables) {
+        if (!is_in(one, now)) continue;
+        const std::span<const int16_t> words = now.subspan(one.address, one.size);
+        set += (set.empty() ? "" : ",") + json_quote(one.name) + ":";
+        set += one.size == 1 ? std::to_string(words.front()) : words_json(words);
     }
     return fmt::format(R"({{"t":{},"all":{},"set":{{{}}}}})", seconds_text(at), all, set);
 }

@@ -49,9 +49,12 @@ struct RecordedVariable {
     uint16_t address = 0;
     uint16_t size = 0;
 };
-// Those that are not in `now` as they were before, or all.
-std::string format_variables(const std::vector<RecordedVariable>& variables,
-                             std::span<const int16_t> before, std::span<const int16_t> now,
+using RecordedVariables = std::vector<RecordedVariable>;
+// Those that are not in `now` as they were before.
+RecordedVariables changed_variables(const RecordedVariables& variables,
+                                    std::span<const int16_t> before, std::span<const int16_t> now);
+// `all`: they are all that the node has.
+std::string format_variables(const RecordedVariables& variables, std::span<const int16_t> now,
                              bool all, Time at);
 
 }  // namespace vagus::record

@@ -14,7 +14,7 @@ Result<std::unique_ptr<FileTape>> FileTape::create(const std::string& path, Pace
 
 Result<std::unique_ptr<FileTape>> start_tape(const std::string& path, RunFile& about,
                                              const PackedFiles& files, Pace pace) {
-    for (std::string* const one : {&about.plan, &about.world, &about.answers}) {
+    for (std::string* const one : {&about.plan, &about.world, &about.answers, &about.project}) {
         *one = files.name_of(*one);
     }
     for (std::string& one : about.toolboxes) one = files.name_of(one);

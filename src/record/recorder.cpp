@@ -260,7 +260,7 @@ void Recorder::learn_variables(Node& node) {
     if (target == nullptr || (node.variables && program == node.program)) return;
     node.program = program;
     node.pictured = false;
-    auto variables = std::make_shared<std::vector<RecordedVariable>>();
+    auto variables = std::make_shared<RecordedVariables>();
     uint16_t address = 0;
     for (const aesl::NamedVariable& one : target->variables) {
         variables->push_back({one.name, address, one.size});
@@ -286,7 +286,11 @@ void Recorder::variables(Node& node, Time at, bool all) {
     node.pictured = true;
     tape_.put_later(node.topic, at, bytes,
                     [names = node.variables, before = std::move(before), now = node.words, picture,
-                     at] { return format_variables(*names, before, now, picture, at); });
+                     at] {
+                        const RecordedVariables changed =
+                            picture ? *names : changed_variables(*names, before, now);
+                        return format_variables(changed, now, picture, at);
+                    });
 }
 
 // ---- the world ----

@@ -70,7 +70,7 @@ private:
         uint16_t id = 0;
         std::string label;  // in topics and checks
         uint16_t topic = 0;
-        std::shared_ptr<const std::vector<RecordedVariable>> variables;  // shared with what is worded
+        std::shared_ptr<const RecordedVariables> variables;  // shared with what is worded
         const void* program = nullptr;                           // whose variables these are
         std::vector<int16_t> words;                              // as they were recorded
         bool pictured = false;

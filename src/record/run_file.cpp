@@ -26,7 +26,8 @@ struct TextKey {
 constexpr TextKey kTexts[] = {
     {"kind", &RunFile::kind},         {"verb", &RunFile::verb},   {"plan", &RunFile::plan},
     {"world", &RunFile::world},       {"from", &RunFile::from},   {"seed", &RunFile::seed},
-    {"max_time", &RunFile::max_time}, {"robot", &RunFile::robot}, {"answers", &RunFile::answers}};
+    {"max_time", &RunFile::max_time}, {"robot", &RunFile::robot}, {"answers", &RunFile::answers},
+    {"bus", &RunFile::bus},           {"project", &RunFile::project}};
 struct ListKey {
     std::string_view key;
     std::vector<std::string> RunFile::*at;

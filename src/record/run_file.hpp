@@ -21,14 +21,18 @@
 namespace vagus::record {
 
 constexpr std::string_view kStudioVerb = "studio";
+constexpr std::string_view kNetVerb = "net record";
+constexpr std::string_view kBusKind = "bus";
 
 // Paths are names of attachments.
 struct RunFile {
-    std::string kind = "simulated";         // or "bus"
-    std::string verb = {};                  // "plan run", "sim", kStudioVerb
+    std::string kind = "simulated";         // or kBusKind
+    std::string verb = {};                  // "plan run", "sim", kNetVerb, kStudioVerb
     std::vector<std::string> command = {};  // as it was typed, for people
     std::string plan = {};
     std::string world = {};
+    std::string bus = {};      // a target, for people
+    std::string project = {};  // of a real bus: gives the names of its events
     std::vector<std::string> toolboxes = {};
     std::vector<std::string> set = {};
     std::string from = {};
@@ -39,6 +43,8 @@ struct RunFile {
     std::string chaos = {};  // the list of faults as JSON, with those that were drawn; empty: none
     std::vector<std::string> poses = {};
     std::vector<std::string> loads = {};  // --load of sim
+
+    bool is_of_bus() const { return kind == kBusKind; }
 };
 
 // One line of JSON.

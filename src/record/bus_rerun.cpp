@@ -28,11 +28,14 @@ public:
 
     Status prepare(const mcap::Reader& reader) {
         cut_ = !reader.is_complete();
+        aesl::Project project;
         if (!about_.project.empty()) {
             const std::string text = TRY(read_file(folder_.path_of(about_.project)));
-            project_ = TRY(aesl::parse_project(text, about_.project));
+            project = TRY(aesl::parse_project(text, about_.project));
         }
-        past_ = TRY(PastBus::read(reader, project_.common));
+        names_.emplace(project.common, about_.project);
+        past_ = TRY(PastBus::read(reader, std::move(project), until_.value_or(Time::max())));
+        ended_by_ = past_->ended_by();
         if (about_.plan.empty()) return Status::done();
         std::vector<std::string> toolboxes;
         for (const std::string& one : about_.toolboxes) toolboxes.push_back(folder_.path_of(one));
@@ -42,7 +45,7 @@ public:
             return Error{Code::BadInput, embed::format_findings(plan_->findings())};
         }
         if (!about_.from.empty()) plan_ = TRY(plan_->starting_at(about_.from));
-        TRY(embed::check_names(session::BusNames(project_.common, about_.project), *plan_));
+        TRY(embed::check_names(*names_, *plan_));
         parts_.bus = &nodes_;
         return take_options();
     }
@@ -95,8 +98,7 @@ private:
             how_.max_time = std::min(*how_.max_time, *max);
         }
         how_.surroundings = past_.get();
-        how_.may_emit = [names = session::BusNames(project_.common, about_.project)](
-                            const run::BusEvent& event) { return names.may_emit(event); };
+        how_.may_emit = [this](const run::BusEvent& event) { return names_->may_emit(event); };
         how_.passes_over = [this](const run::Raising& raising) {
             return past_->passes_over(raising) || (passes_ && passes_(raising));
         };
@@ -106,7 +108,7 @@ private:
     toolbox::BusNodes nodes_;
     toolbox::Parts parts_;  // before the library, whose code looks at them
     run::CodeLibrary library_;
-    aesl::Project project_;
+    std::optional<session::BusNames> names_;
     std::optional<embed::LoadedPlan> plan_;
     std::unique_ptr<PastBus> past_;
     run::RunOptions how_;

@@ -42,20 +42,22 @@ bool is_near(Time a, Time b) {
 
 // ---- reading ----
 
-Result<std::unique_ptr<PastBus>> PastBus::read(const mcap::Reader& reader,
-                                               const aesl::CommonDefinitions& common) {
+Result<std::unique_ptr<PastBus>> PastBus::read(const mcap::Reader& reader, aesl::Project project,
+                                               Time until) {
     auto past = std::make_unique<PastBus>();
+    past->project_ = std::move(project);
     mcap::Cursor cursor(reader);
     while (const auto message = cursor.next()) {
         const mcap::Channel* const channel = reader.channel(message->channel);
         if (channel == nullptr) continue;
         const Time at = time_of(message->log_time);
+        if (at > until) continue;
         if (channel->topic == kTraceTopic) {
             past->see_trace(at, message->data);
         } else if (channel->topic == kInputTopic) {
             TRY(past->see_input(at, message->data, reader.name()));
         } else if (channel->topic == kFramesTopic) {
-            past->see_frame(at, message->data, common);
+            past->see_frame(at, message->data);
         } else if (channel->topic == kEventsTopic) {
             past->see_event(message->data);
         } else if (channel->topic == kNodesTopic) {
@@ -77,19 +79,20 @@ void PastBus::see_trace(Time at, std::string_view text) {
 
 Status PastBus::see_input(Time at, std::string_view text, const std::string& name) {
     Input input = TRY(read_input(text, at, name));
+    if (const auto* const aborted = std::get_if<Aborted>(&input.what)) ended_by_ = aborted->by;
     if (!std::holds_alternative<RecordingEnds>(input.what)) {
         items_.push_back({at, ++places_, std::move(input.what)});
     }
     return Status::done();
 }
 
-void PastBus::see_frame(Time at, std::string_view data, const aesl::CommonDefinitions& common) {
+void PastBus::see_frame(Time at, std::string_view data) {
     const auto recorded = read_frame(data);
     if (!recorded || !wire::is_user_event(recorded->frame.type)) return;
     events_[recorded->number] = {.event = {.at = at,
                                            .frame = recorded->number,
                                            .node = recorded->frame.source,
-                                           .name = event_name(common, recorded->frame),
+                                           .name = event_name(project_.common, recorded->frame),
                                            .arguments = words_of(recorded->frame)},
                                  .cause = recorded->cause,
                                  .lines = lines_.size()};
@@ -110,6 +113,22 @@ void PastBus::see_node(std::string_view text) {
     const auto* const tree = std::get_if<JsonValue>(&json);
     if (tree == nullptr) return;
     names_[static_cast<uint16_t>(number_in(*tree, "node"))] = text_in(*tree, "name");
+}
+
+std::string PastBus::name_of(uint16_t node) const {
+    const auto found = names_.find(node);
+    return found != names_.end() ? found->second : "node " + std::to_string(node);
+}
+
+const aesl::Script* PastBus::script_of(uint16_t node) const {
+    std::vector<aesl::NodeName> nodes;
+    for (const auto& [id, name] : names_) nodes.push_back({name, id});
+    const std::vector<int> scripts = aesl::scripts_for(project_, nodes);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].id != node || scripts[i] < 0) continue;
+        return &project_.scripts[static_cast<size_t>(scripts[i])];
+    }
+    return nullptr;
 }
 
 // ---- the run ----

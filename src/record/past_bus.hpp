@@ -2,7 +2,7 @@
 // heard, at the same times and in the same order among its own decisions (decision 0234). No node
 // is there, and what the plan emits goes nowhere.
 //
-//     auto past = TRY(PastBus::read(reader, common));
+//     auto past = TRY(PastBus::read(reader, project));
 //     options.surroundings = past.get();
 //     options.on_trace = [&](const plan::TraceEvent& event) { for (told : past->take(event)) … };
 //     options.passes_over = [&](const run::Raising& raising) { return past->passes_over(raising); };
@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "aesl/project.hpp"
 #include "mcap/reader.hpp"
 #include "record/bus_messages.hpp"
 #include "record/inputs.hpp"
@@ -43,14 +44,22 @@ public:
         size_t lines = 0;    // that the trace had then
     };
 
-    // `common` gives events their names. The Error is of an input that cannot be read.
-    static Result<std::unique_ptr<PastBus>> read(const mcap::Reader& reader,
-                                                 const aesl::CommonDefinitions& common);
+    // The project gives events their names. What came later than `until` is left out. The Error is
+    // of an input that cannot be read.
+    static Result<std::unique_ptr<PastBus>> read(const mcap::Reader& reader, aesl::Project project,
+                                                 Time until = Time::max());
 
     // By the number of the frame.
     const std::map<uint32_t, Event>& events() const { return events_; }
     // Names of nodes by their ids, as they described themselves.
     const std::map<uint16_t, std::string>& node_names() const { return names_; }
+    // "drive", or "node 3" where nobody knows.
+    std::string name_of(uint16_t node) const;
+    const aesl::Project& project() const { return project_; }
+    // That of the project for a node; nullptr without one.
+    const aesl::Script* script_of(uint16_t node) const;
+    // Who ended the run.
+    const std::optional<std::string>& ended_by() const { return ended_by_; }
 
     // What the run begins with. Both are borrowed for the run.
     void join(run::VirtualTime& run, toolbox::BusNodes& nodes);
@@ -89,7 +98,7 @@ private:
     };
     void see_trace(Time at, std::string_view text);
     Status see_input(Time at, std::string_view text, const std::string& name);
-    void see_frame(Time at, std::string_view data, const aesl::CommonDefinitions& common);
+    void see_frame(Time at, std::string_view data);
     void see_event(std::string_view text);
     void see_node(std::string_view text);
     const Line* next_line() const;
@@ -98,6 +107,8 @@ private:
     void apply(const Item& item, std::vector<run::BusEvent>& heard);
     void skip_late(std::vector<Told>& told);
 
+    aesl::Project project_;
+    std::optional<std::string> ended_by_;
     std::vector<Item> items_;
     std::vector<Line> lines_;
     std::map<size_t, std::vector<Told>> late_;  // before the line with that index

@@ -94,8 +94,9 @@ private:
         // A plan that decides otherwise may go on, but nothing is known of that.
         const Time over = cut_ ? end_ + Duration(1) : end_ + kInStepWithin;
         how_.max_time = std::min(over, until_ ? *until_ + Duration(1) : over);
-        if (const auto max = TRY(embed::parse_max_time(about_.max_time))) {
-            how_.max_time = std::min(*how_.max_time, *max);
+        if (!about_.max_time.empty()) {
+            const auto max = TRY(embed::parse_max_time(about_.max_time));
+            how_.max_time = std::min(*how_.max_time, max.value_or(Time::max()));
         }
         how_.surroundings = past_.get();
         how_.may_emit = [this](const run::BusEvent& event) { return names_->may_emit(event); };

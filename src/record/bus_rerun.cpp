@@ -59,9 +59,11 @@ public:
         Time last{};
         run::VirtualTime* running = nullptr;
         how_.on_trace = [&](const plan::TraceEvent& event) {
-            last = event.at;
-            tell(past_->take(event));
-            for (const auto& listener : listeners_) listener(event);
+            const std::vector<PastBus::Told> told = past_->take(event);
+            tell(told);
+            plan::TraceEvent then = event;
+            last = then.at = told.back().at;
+            for (const auto& listener : listeners_) listener(then);
             if (stopped_) running->abort();
         };
         run::VirtualTime run(plan_->graph(), library_, how_);

@@ -51,14 +51,13 @@ Result<std::unique_ptr<PastBus>> PastBus::read(const mcap::Reader& reader, aesl:
         const mcap::Channel* const channel = reader.channel(message->channel);
         if (channel == nullptr) continue;
         const Time at = time_of(message->log_time);
-        if (at > until) continue;
         if (channel->topic == kTraceTopic) {
             past->see_trace(at, message->data);
         } else if (channel->topic == kInputTopic) {
             TRY(past->see_input(at, message->data, reader.name()));
-        } else if (channel->topic == kFramesTopic) {
+        } else if (channel->topic == kFramesTopic && at <= until) {
             past->see_frame(at, message->data);
-        } else if (channel->topic == kEventsTopic) {
+        } else if (channel->topic == kEventsTopic && at <= until) {
             past->see_event(message->data);
         } else if (channel->topic == kNodesTopic) {
             past->see_node(message->data);
@@ -105,7 +104,9 @@ void PastBus::see_event(std::string_view text) {
     const auto* const tree = std::get_if<JsonValue>(&json);
     if (tree == nullptr) return;
     const auto found = events_.find(number_in(*tree, "frame"));
-    if (found != events_.end()) found->second.event.by = text_in(*tree, "by");
+    if (found == events_.end()) return;
+    found->second.event.by = text_in(*tree, "by");
+    emissions_.push_back({++places_, found->first});
 }
 
 void PastBus::see_node(std::string_view text) {
@@ -151,6 +152,20 @@ bool PastBus::comes_before_line(const Item& item) const {
     return line != nullptr && item.place < line->place;
 }
 
+// And before what the plan sent, which its code has yet to send.
+bool PastBus::comes_before_all(const Item& item) const {
+    const bool sends_first =
+        emission_ < emissions_.size() && emissions_[emission_].place < item.place;
+    return comes_before_line(item) && !sends_first;
+}
+
+// What it sends otherwise than it did has no place here.
+void PastBus::emit(Time, const run::BusEvent& event) {
+    if (emission_ >= emissions_.size()) return;
+    const bool is_it = events_.at(emissions_[emission_].frame).event.name == event.name;
+    emission_ = is_it ? emission_ + 1 : emissions_.size();
+}
+
 Time PastBus::next() const {
     if (item_ >= items_.size()) return run::kNever;
     const Item& item = items_[item_];
@@ -166,14 +181,14 @@ Time PastBus::late(Time due) {
     const Line* const line = next_line();
     const bool close = due < heard && heard - due <= kOrderWithin && line != nullptr &&
                        line->at - due <= kOrderWithin;
-    return close && comes_before_line(items_[item_]) ? heard : due;
+    return close && comes_before_all(items_[item_]) ? heard : due;
 }
 
 // With what was heard last, before the plan decided.
 bool PastBus::comes_now(const Item& item) const {
     const Line* const line = next_line();
     if (line == nullptr) return item.at <= last_;
-    if (!comes_before_line(item)) return false;
+    if (!comes_before_all(item)) return false;
     return item.at <= last_ ||
            (item.at - last_ <= kOrderWithin && line->at - last_ <= kOrderWithin);
 }

@@ -33,7 +33,7 @@ namespace vagus::record {
 // A decision that lies so much beside the one recorded is the same: the computer was late.
 constexpr Duration kInStepWithin = std::chrono::milliseconds(250);
 // What was heard and what fell due so close to each other came in the order that was recorded.
-constexpr Duration kOrderWithin = std::chrono::milliseconds(5);
+constexpr Duration kOrderWithin = std::chrono::milliseconds(20);
 
 class PastBus final : public run::Surroundings {
 public:
@@ -44,7 +44,7 @@ public:
         size_t lines = 0;    // that the trace had then
     };
 
-    // The project gives events their names. What came later than `until` is left out. The Error is
+    // The project gives events their names. Events of later than `until` are left out. The Error is
     // of an input that cannot be read.
     static Result<std::unique_ptr<PastBus>> read(const mcap::Reader& reader, aesl::Project project,
                                                  Time until = Time::max());
@@ -82,7 +82,7 @@ public:
     Time next() const override;
     Time late(Time due) override;
     std::vector<run::BusEvent> begin() override;
-    void emit(Time, const run::BusEvent&) override {}
+    void emit(Time at, const run::BusEvent& event) override;
     void end() override {}
 
 private:
@@ -96,6 +96,11 @@ private:
         size_t place = 0;
         std::string text;
     };
+    // What the plan sent, as far as it is on the bus.
+    struct Emission {
+        size_t place = 0;
+        uint32_t frame = 0;
+    };
     void see_trace(Time at, std::string_view text);
     Status see_input(Time at, std::string_view text, const std::string& name);
     void see_frame(Time at, std::string_view data);
@@ -103,6 +108,7 @@ private:
     void see_node(std::string_view text);
     const Line* next_line() const;
     bool comes_before_line(const Item& item) const;
+    bool comes_before_all(const Item& item) const;
     bool comes_now(const Item& item) const;
     void apply(const Item& item, std::vector<run::BusEvent>& heard);
     void skip_late(std::vector<Told>& told);
@@ -111,12 +117,14 @@ private:
     std::optional<std::string> ended_by_;
     std::vector<Item> items_;
     std::vector<Line> lines_;
+    std::vector<Emission> emissions_;
     std::map<size_t, std::vector<Told>> late_;  // before the line with that index
     std::map<uint32_t, Event> events_;
     std::map<uint16_t, std::string> names_;
     size_t places_ = 0;
     size_t item_ = 0;  // the next
     size_t line_ = 0;
+    size_t emission_ = 0;
     Time last_{-1};  // instant that was begun
     std::optional<Time> parted_;
     run::VirtualTime* run_ = nullptr;

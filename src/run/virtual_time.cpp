@@ -206,7 +206,7 @@ void VirtualTime::step() {
     meet_surroundings();
     if (abort_asked_.exchange(false)) {
         machine_.abort(now_);
-    } else if (!take_first_due() && !advance()) {
+    } else if (!waits_for_surroundings() && !take_first_due() && !advance()) {
         timed_out_ = true;
         machine_.abort(now_);
     }
@@ -501,17 +501,35 @@ void VirtualTime::leave_surroundings() {
 
 // ---- time ----
 
-std::optional<Time> VirtualTime::next_due() const {
+Time VirtualTime::own_due() const {
+    if (begin_due_ || over_due_) return now_;
     Time next = kNever;
     for (const auto& watching : watching_) {
-        if (may_check(*watching)) next = std::min(next, watching->next);
+        if (!may_check(*watching)) continue;
+        next = std::min(next, watching->events.empty() ? watching->next : now_);
     }
     if (code_) {
         next = std::min(next, code_->wake);
         if (code_->told) next = std::min(next, code_->grace_ends);
     }
+    return next;
+}
+
+std::optional<Time> VirtualTime::next_due() const {
+    Time next = own_due();
     if (options_.surroundings) next = std::min(next, options_.surroundings->next());
     return next == kNever ? std::nullopt : std::optional(next);
+}
+
+// What is due now is taken later, behind something of the surroundings: the clock moves on to that.
+bool VirtualTime::waits_for_surroundings() {
+    if (!options_.surroundings) return false;
+    const Time at = options_.surroundings->late(now_);
+    if (at <= now_ || own_due() > now_) return false;
+    leave_surroundings();
+    machine_.time_passed();
+    now_ = at;
+    return true;
 }
 
 // Jumps to the next thing due. False: max_time comes first, or nothing can ever fall due; then the

@@ -95,7 +95,9 @@ private:
     std::vector<BusEvent> pass(std::vector<BusEvent> arrived);
     void hold(std::vector<BusEvent> arrived);
     void leave_surroundings();
+    Time own_due() const;
     std::optional<Time> next_due() const;
+    bool waits_for_surroundings();
     bool advance();
     bool pause_comes_first(Time next) const;
     void let_debug();

@@ -25,7 +25,7 @@ if n > 3 then
 callsub tell
 end
 
-onevent buttons
+onevent button.center
 emit far 0
 
 sub tell
@@ -265,7 +265,7 @@ class BusRecordings(unittest.TestCase):
             with self.subTest(words=words):
                 self.assertIn(sentence, self.replays(*words, status=2))
         self.assertIn("is a recording of a real bus, and a test runs in a world",
-                      run_vagus("test", "new", self.file, status=2))
+                      run_vagus("test", "new", self.file, self.folder / "a.test.json", status=2))
         self.assertIn("is of a real bus, whose nodes cannot be continued",
                       run_vagus("why", self.file, "--turning-point", "t > 1", status=2))
 

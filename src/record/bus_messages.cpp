@@ -72,8 +72,7 @@ bool is_in(const RecordedVariable& variable, std::span<const int16_t> words) {
 }  // namespace
 
 RecordedVariables changed_variables(const RecordedVariables& variables,
-                                    std::span<const int16_t> before,
-                                    std::span<const int16_t> now) {
+                                    std::span<const int16_t> before, std::span<const int16_t> now) {
     RecordedVariables changed;
     for (const RecordedVariable& one : variables) {
         if (!is_in(one, before) || !is_in(one, now)) continue;

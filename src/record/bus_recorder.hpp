@@ -36,7 +36,7 @@ public:
 
     struct Passed {
         const wire::Frame& frame;
-        uint32_t cause = 0;     // number of a frame
+        uint32_t cause = 0;        // number of a frame
         std::string_view by = {};  // element of the plan
     };
     // Gives its number, from 1 on.
@@ -59,7 +59,7 @@ private:
     uint16_t described_ = 0;
     uint32_t last_ = 0;
     std::map<debug::NodeId, Node> nodes_;
-    std::set<std::string> attached_;  // files
+    std::set<std::string> attached_;          // files
     std::map<std::string, uint16_t> topics_;  // by name
 };
 

@@ -133,8 +133,9 @@ Result<std::unique_ptr<Rerun>> open_bus_rerun(const mcap::Reader& reader, RunFil
     UnpackedFolder folder = TRY(UnpackedFolder::make());
     for (const mcap::Attachment& one : reader.attachments()) {
         const auto instead = options.with.find(one.name);
-        TRY(folder.add(one.name, instead == options.with.end() ? one.data
-                                                               : std::string_view(instead->second)));
+        TRY(folder.add(one.name, instead == options.with.end()
+                                     ? one.data
+                                     : std::string_view(instead->second)));
     }
     auto made =
         std::make_unique<BusRerun>(std::move(about), std::move(folder), options, end_of(reader));

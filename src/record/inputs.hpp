@@ -84,10 +84,9 @@ struct RecordingEnds {
 };
 
 // Of requests to the debugger: those of does_something().
-using InputWhat =
-    std::variant<sim::Act, wire::Frame, HeldMoment, run::Request, PlanFiles, ScriptLoaded,
-                 ValueGiven, FileTookOver, Reseeded, Heard, NodeChanged, TokensMoved, RunFailed,
-                 Aborted, RecordingEnds>;
+using InputWhat = std::variant<sim::Act, wire::Frame, HeldMoment, run::Request, PlanFiles,
+                               ScriptLoaded, ValueGiven, FileTookOver, Reseeded, Heard, NodeChanged,
+                               TokensMoved, RunFailed, Aborted, RecordingEnds>;
 
 struct Input {
     Time at{};

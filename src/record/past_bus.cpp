@@ -251,7 +251,10 @@ std::vector<PastBus::Told> PastBus::take(const plan::TraceEvent& event) {
     }
     parted_ = std::min(event.at, line->at);
     plan::TraceEvent then = event;
-    if (near) then.at = line->at;
+    if (near) {
+        then.at = line->at;
+        run_->move_clock(line->at);  // all that follows comes later
+    }
     told.push_back({then.at, plan::format_trace(then)});
     return told;
 }

@@ -284,13 +284,13 @@ void Recorder::variables(Node& node, Time at, bool all) {
     const size_t bytes = kBytesOfWord * words.size();
     std::vector<int16_t> before = std::exchange(node.words, {words.begin(), words.end()});
     node.pictured = true;
-    tape_.put_later(node.topic, at, bytes,
-                    [names = node.variables, before = std::move(before), now = node.words, picture,
-                     at] {
-                        const RecordedVariables changed =
-                            picture ? *names : changed_variables(*names, before, now);
-                        return format_variables(changed, now, picture, at);
-                    });
+    tape_.put_later(
+        node.topic, at, bytes,
+        [names = node.variables, before = std::move(before), now = node.words, picture, at] {
+            const RecordedVariables changed =
+                picture ? *names : changed_variables(*names, before, now);
+            return format_variables(changed, now, picture, at);
+        });
 }
 
 // ---- the world ----

@@ -71,8 +71,8 @@ private:
         std::string label;  // in topics and checks
         uint16_t topic = 0;
         std::shared_ptr<const RecordedVariables> variables;  // shared with what is worded
-        const void* program = nullptr;                           // whose variables these are
-        std::vector<int16_t> words;                              // as they were recorded
+        const void* program = nullptr;                       // whose variables these are
+        std::vector<int16_t> words;                          // as they were recorded
         bool pictured = false;
     };
 

@@ -34,7 +34,8 @@ struct Link {
     bool root = false;         // nothing in the run comes before it
     std::string element = {};  // of the plan at that place; empty: none
     std::vector<Loser> lost = {};  // to the event of that element, at the same instant
-    bool guessed = false;  // of a real bus: no frame tells it, but a script has no other place for it
+    bool guessed =
+        false;  // of a real bus: no frame tells it, but a script has no other place for it
     friend bool operator==(const Link&, const Link&) = default;
 };
 using Chain = std::vector<Link>;

@@ -78,9 +78,8 @@ void Walk::frame_of_bus_node(uint32_t number, const Causes::Frame& frame) {
     const std::string node = past.name_of(frame.source);
     const std::string value = words_text(frame.arguments);
     const aesl::Script* const script = past.script_of(frame.source);
-    const Emitters from = script != nullptr
-                              ? emitters_of(*script, past.project().common, frame.event)
-                              : Emitters{};
+    const Emitters from =
+        script != nullptr ? emitters_of(*script, past.project().common, frame.event) : Emitters{};
     const auto place = [&](int line) {
         return fmt::format("{}:{}", rerun_.about().project, script->first_line + line - 1);
     };

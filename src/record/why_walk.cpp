@@ -95,7 +95,8 @@ void Walk::frame(uint32_t number) {
 void Walk::frame_of_plan(const Causes::Frame& frame) {
     if (frame.by.empty()) {
         const char* const who = rerun_.about().verb == kStudioVerb ? "the studio" : "a host";
-        add({frame.at, fmt::format("{} sent {}", who, frame.event), "", words_text(frame.arguments)});
+        add({frame.at, fmt::format("{} sent {}", who, frame.event), "",
+             words_text(frame.arguments)});
         return;
     }
     const auto start = last_line(std::min(frame.line, lines().size()), [&](size_t i) {

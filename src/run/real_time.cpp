@@ -241,7 +241,8 @@ void RealTime::Engine::obey(plan::StartWatch& command) {
                                .path = machine_.path_at(command.level),
                                .of = command.supervisor,
                                .code = library_.make_supervisor(*command.supervisor->of),
-                               .context = WatchContext(options_, inbox_, numbers_.next(), command.supervisor->name),
+                               .context = WatchContext(options_, inbox_, numbers_.next(),
+                                                       command.supervisor->name),
                                .started = now(),
                                .next = now(),
                                .checked_at = now(),
@@ -276,8 +277,9 @@ void RealTime::Engine::obey(plan::StartCode& command) {
     auto code = std::make_shared<Code>();
     code->activation = command.activation;
     code->actor = library_.make_actor(*command.actor->of);
-    const LiveContext::Of of{command.activation, numbers_.next(), *code->actor,
-                             command.actor->of->outputs.size(), options_, command.actor->name};
+    const LiveContext::Of of{command.activation, numbers_.next(),
+                             *code->actor,       command.actor->of->outputs.size(),
+                             options_,           command.actor->name};
     code->context =
         std::make_unique<LiveContext>(std::move(command.in), of, inbox_, random_, clock_);
     code->grace = Duration{command.actor->of->grace_ms * 1000};

@@ -241,14 +241,16 @@ void add_load(CLI::App& net, const SharedCall& call, int& exit_code) {
 
 int record(const Call& call) {
     const FilesRead files;  // from here on: the project
-    return run(call, [&files](NetSession& s, const Call& c) { return net_record(s, c.file, files); });
+    return run(call,
+               [&files](NetSession& s, const Call& c) { return net_record(s, c.file, files); });
 }
 
 void add_record(CLI::App& net, const SharedCall& call, int& exit_code) {
     CLI::App* verb = add_verb(
         net, "record", "records all that goes over the bus, for vagus why and vagus compare",
         "Ends with Ctrl-C, or after --wait seconds. Exit code 1 if the connection is lost, or the "
-        "file cannot\nbe written; what was recorded by then is in it. Nodes are asked who they are, "
+        "file cannot\nbe written; what was recorded by then is in it. Nodes are asked who they "
+        "are, "
         "and for their\nvariables: one node each 0.1 s, each once a second at most. With --project "
         "events and variables\nof scripts have their names.\n"
         "Example:\n  vagus net tcp:127.0.0.1:33333 record monday.mcap --project explore.aesl");

@@ -88,8 +88,7 @@ private:
 
 // Until it is over; the Error is of the bus, or of the file.
 Status follow(NetSession& session, BusFile& file) {
-    const Time end =
-        session.options().wait_s ? session.now() + session.wait_or(0) : Time::max();
+    const Time end = session.options().wait_s ? session.now() + session.wait_or(0) : Time::max();
     Reading reading(session);
     while (!session.interrupted() && session.now() < end) {
         reading.ask(session.now());
